@@ -1,0 +1,66 @@
+#pragma once
+
+/// Triangle meshes that a skeleton bends and morph targets mold.
+
+#include <tweenfall/anim/hierarchy.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// How far each vertex moves when a morph target's weight is 1.
+struct MorphTarget {
+  std::string name;
+  std::vector<Vec3> position_offsets;  ///< one per vertex
+  std::vector<Vec3> normal_offsets;    ///< one per vertex, or empty
+};
+
+/// The joints that pull on a vertex; unused entries have weight 0, weights sum to 1.
+struct Influence {
+  std::array<std::uint32_t, 4> joints{};  ///< indices into the skin's joints
+  std::array<double, 4> weights{};
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Vec3> positions;            ///< in the mesh's own space, m
+  std::vector<Vec3> normals;              ///< unit; one per vertex, or empty
+  std::vector<Vec2> texture_coordinates;  ///< one per vertex, or empty
+  std::vector<std::uint32_t> triangles;   ///< three vertices each, counter-clockwise seen from outside
+  std::vector<Influence> influences;      ///< one per vertex, or empty when not skinned
+  std::vector<MorphTarget> morphs;
+  std::vector<double> rest_weights;  ///< one per morph target
+  Color base_color{Vec4{0.8, 0.8, 0.8, 1}};
+};
+
+/// Which nodes are the joints of a mesh, and where each was when the mesh was bound to it.
+struct Skin {
+  struct InverseBind {
+    Mat3 linear = Mat3::Identity();
+    Vec3 translation{0, 0, 0};
+  };
+  std::vector<std::size_t> joints;         ///< node indices
+  std::vector<InverseBind> inverse_binds;  ///< one per joint
+};
+
+/// A mesh hung on a node, skinned or not.
+struct MeshInstance {
+  std::size_t node = no_node;
+  std::size_t mesh = 0;        ///< index of the mesh
+  std::size_t skin = no_node;  ///< index of the skin; `no_node` for none
+};
+
+/// World positions of a mesh's vertices: morphs first, then skin or node.
+///
+/// @param weights  one per morph target, or empty for the mesh's rest weights
+/// @param skin     null when the mesh follows `node` alone
+/// @param world    world motion of every node
+/// @param out      written, one per vertex, m
+void deform(const Mesh& mesh, std::span<const double> weights, const Skin* skin, std::size_t node,
+            std::span<const WorldMotion> world, std::span<Vec3> out) noexcept;
+
+}  // namespace tweenfall

@@ -1,0 +1,57 @@
+#pragma once
+
+/// Playing: from stage time to clip time, analytically.
+///
+/// A play has no state. Where its clock stands, how fast it runs and which events lie between two
+/// moments follow from the stage time alone, so a stage can be evaluated at any time in any order.
+
+#include <tweenfall/anim/clip.h>
+#include <tweenfall/curves/curve.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// One clip being played.
+struct Play {
+  std::size_t clip = 0;       ///< index of the clip
+  double at = 0;              ///< stage time at which clip time is `start` (0), s
+  double speed = 1;           ///< clip seconds per stage second; 0 pauses, negative runs backwards from the clip's end
+  Curve<double> weight{1.0};  ///< over stage time, 0 to 1; its rate enters the blend
+  std::vector<std::string> mask{};  ///< names or patterns ("arm/*") of the nodes it drives; empty: all
+};
+
+/// Where a play's clock stands.
+struct ClipClock {
+  double time = 0;  ///< clip time after looping, s
+  double rate = 0;  ///< d(clip time)/d(stage time); 0 before the start and after the end: a pose that holds is at rest
+  int cycle = 0;    ///< how many whole plays lie behind, from 0
+  bool started = false;  ///< stage time has reached `at`
+  bool ended = false;    ///< all counted plays are over
+  Side side =
+      Side::out;  ///< the side on which to sample the tracks, so that a clock running backwards arrives from above
+};
+
+/// The clock at a stage time. At a seam `Side::in` is the end of the play before, `Side::out` the start of the next.
+[[nodiscard]] ClipClock clock_at(const Play& play, const Clip& clip, double stage_time, Side side = Side::out) noexcept;
+
+/// An event as it happened on the stage.
+struct FiredEvent {
+  double time = 0;  ///< stage time, s
+  std::string name;
+  std::string data;
+  std::size_t clip = 0;                                        ///< index of the clip
+  enum class Kind { moment, begin, end } kind = Kind::moment;  ///< `begin` and `end` of an interval
+};
+
+/// Events in (from, to] of stage time, in order, each once, also across loops; [from, to] when
+/// `from_start` (a play's first advance), so that an event at 0 fires. Moments outside the plays are silent.
+[[nodiscard]] std::vector<FiredEvent> events_between(const Play& play, const Clip& clip, double from, double to,
+                                                     bool from_start = false);
+
+/// Stage time at which the play is over; infinity for an endless one.
+[[nodiscard]] double end_time(const Play& play, const Clip& clip) noexcept;
+
+}  // namespace tweenfall

@@ -1,0 +1,88 @@
+#pragma once
+
+/// `Curve<T>`: a value that varies over time, and its exact rates.
+///
+/// A curve is immutable, always valid and cheap to copy (copies share their data). It is made
+/// from keys (`keys.h`), from a formula (`functions.h`), or from spans directly (`span.h`), and
+/// evaluated at any finite time: evaluation never throws and never allocates.
+///
+/// Which span owns a knot: the one that leaves it. At a key, `Side::out` (the default) gives
+/// the value and rate that leave, `Side::in` those that arrive; they differ only where the
+/// curve jumps or kinks. Outside its knots a curve continues as `outside` says.
+
+#include <tweenfall/curves/rotation.h>
+#include <tweenfall/curves/span.h>
+#include <tweenfall/curves/values.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace tweenfall {
+
+/// What a curve does before its first and after its last knot.
+enum class Outside {
+  hold,           ///< the end value, at rest
+  linear,         ///< straight on at the end's rate
+  repeat,         ///< the curve again
+  repeat_offset,  ///< the curve again, starting from where it ended
+  pingpong,       ///< the curve backwards, then forwards, ...
+};
+
+template <class T>
+class Curve {
+ public:
+  using Formula = std::function<Sample<T>(double time, Side side)>;
+
+  /// The constant `value`, at every time.
+  explicit Curve(const T& value);
+
+  /// Spans in order of time, each starting where the one before ends.
+  /// @throws std::invalid_argument naming the span: empty list, gap, duration not > 0, non-finite number.
+  explicit Curve(std::span<const typename SpanOf<T>::type> spans);
+
+  /// A formula that is its own derivative-giver; `start` and `end` may be infinite. Must not throw.
+  Curve(Formula formula, double start, double end);
+
+  /// The same curve with other rules outside its knots.
+  [[nodiscard]] Curve with_outside(Outside before, Outside after) const;
+
+  [[nodiscard]] double start() const noexcept;  ///< first knot, s; -infinity for an endless formula, 0 for a constant
+  [[nodiscard]] double end() const noexcept;    ///< last knot, s
+  [[nodiscard]] double duration() const noexcept { return end() - start(); }
+  [[nodiscard]] Outside before() const noexcept;
+  [[nodiscard]] Outside after() const noexcept;
+
+  /// Knots in order, s; empty for a constant or a formula.
+  [[nodiscard]] std::span<const double> knots() const noexcept;
+
+  /// Value, rate and acceleration at any finite time.
+  [[nodiscard]] Sample<T> sample(double time, Side side = Side::out) const noexcept;
+  [[nodiscard]] T value(double time, Side side = Side::out) const noexcept { return sample(time, side).value; }
+  [[nodiscard]] Rate<T> rate(double time, Side side = Side::out) const noexcept { return sample(time, side).rate; }
+
+  /// The spans, as built; empty for a constant or a formula.
+  [[nodiscard]] std::vector<typename SpanOf<T>::type> spans() const;
+
+ private:
+  struct Data;
+  std::shared_ptr<const Data> data_;
+};
+
+extern template class Curve<double>;
+extern template class Curve<Vec2>;
+extern template class Curve<Vec3>;
+extern template class Curve<Vec4>;
+extern template class Curve<Color>;
+extern template class Curve<Quat>;
+
+/// Angles over time as a rotation; the rate is the exact angular velocity.
+/// @param angles  radians in the order's sequence of axes
+[[nodiscard]] Curve<Quat> euler_curve(const Curve<Vec3>& angles, const EulerOrder& order);
+
+/// An angle in radians over time about a fixed axis; turns are not wrapped.
+/// @throws std::invalid_argument for a zero axis.
+[[nodiscard]] Curve<Quat> axis_curve(const Vec3& axis, const Curve<double>& angle);
+
+}  // namespace tweenfall

@@ -1,0 +1,66 @@
+#pragma once
+
+/// Keys: the form in which people write curves.
+///
+/// A key has a time, a value and a word for how the curve *leaves* it: `hold`, `linear`, a
+/// tangent rule (`smooth`, `smooth_clamped`, ...) or an easing shape. A key may instead
+/// state its slopes; then the span is a Hermite cubic, or a Bezier with weighted handles.
+/// Kinds mix key by key on one curve.
+
+#include <tweenfall/curves/color.h>
+#include <tweenfall/curves/curve.h>
+#include <tweenfall/curves/ease.h>
+
+#include <optional>
+#include <span>
+
+namespace tweenfall {
+
+/// A slope given at one side of a key.
+template <class T>
+struct Tangent {
+  enum class Kind { automatic, flat, given };
+  Kind kind = Kind::automatic;  ///< automatic: as the rule `smooth` would choose
+  Rate<T> rate{};               ///< U/s; read when given. For rotations: angular velocity, rad/s
+  double weight = 1.0 / 3.0;    ///< the handle's share of the span, > 0 to 1; 1/3 is the plain Hermite cubic
+};
+
+template <class T>
+struct Key {
+  double time;                         ///< s; strictly increasing along a curve
+  T value;                             ///< rotations need not be normalized
+  Ease ease = Ease::smooth_clamped();  ///< how the curve leaves this key
+  std::optional<Tangent<T>> in{},
+      out{};  ///< slopes; a span is Hermite when the key it leaves has `out` or the one it reaches has `in`
+  std::optional<T> value_in{};  ///< the value arriving, where the curve jumps
+};
+
+/// What automatic tangents assume beyond the first and last key.
+enum class Ends {
+  secant,  ///< the slope of the end's own span ("zero curvature")
+  flat,    ///< zero
+  wrap,    ///< the curve is one period of a loop: neighbors are taken around it
+};
+
+struct KeyOptions {
+  Ends ends = Ends::secant;
+  /// Colors only: the space in which values are mixed.
+  ColorSpace space = ColorSpace::oklab;
+  /// Scales and ratios: interpolate the logarithm, so that 1 to 4 passes 2 half way. Values must be > 0.
+  bool logarithmic = false;
+  /// Rotations: take the long way around between keys instead of the short one.
+  bool long_way = false;
+};
+
+/// The curve through `keys`.
+/// @throws std::invalid_argument naming the key and the value: no keys, times not strictly increasing,
+///         non-finite numbers, a zero quaternion, a weight outside (0, 1], `ease` beside `out` where it conflicts.
+template <class T>
+[[nodiscard]] Curve<T> keyed_curve(std::span<const Key<T>> keys, const KeyOptions& options = {});
+
+template <class T>
+[[nodiscard]] Curve<T> keyed_curve(std::initializer_list<Key<T>> keys, const KeyOptions& options = {}) {
+  return keyed_curve<T>(std::span<const Key<T>>(keys.begin(), keys.size()), options);
+}
+
+}  // namespace tweenfall

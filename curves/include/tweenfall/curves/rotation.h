@@ -1,0 +1,46 @@
+#pragma once
+
+/// Rotations: the exponential and logarithm that tie them to angular velocity, Euler angles
+/// in all twelve orders, and the shortest-arc interpolation between two.
+
+#include <tweenfall/curves/values.h>
+
+namespace tweenfall {
+
+/// Rotation by |v| radians about v. Series near zero; exact identity at 0.
+[[nodiscard]] Quat exp_map(const Vec3& rotation_vector) noexcept;
+
+/// Rotation vector of `q`, the short one: length 0 to pi. Inverse of `exp_map` there.
+[[nodiscard]] Vec3 log_map(const Quat& q) noexcept;
+
+/// Right Jacobian of the exponential: with q(t) = exp(r(t)), the angular velocity in the
+/// rotated (body) axes is J(r) r'. Its inverse goes back, for |r| < 2 pi.
+/// Source: Chirikjian, Stochastic Models, Information Theory, and Lie Groups 2, 2012, eq. 10.86.
+[[nodiscard]] Mat3 right_jacobian(const Vec3& r) noexcept;
+[[nodiscard]] Mat3 right_jacobian_inverse(const Vec3& r) noexcept;
+
+/// `q` or `-q`, whichever is nearer to `reference`.
+[[nodiscard]] Quat hemisphere_aligned(const Quat& q, const Quat& reference) noexcept;
+
+/// Constant-speed shortest arc from `a` (u = 0) to `b` (u = 1); a and b exactly at the ends.
+[[nodiscard]] Quat slerp(const Quat& a, const Quat& b, double u) noexcept;
+
+/// `q` scaled to unit length. @throws std::invalid_argument for a zero or non-finite quaternion.
+[[nodiscard]] Quat normalized(const Quat& q);
+
+/// Axes in the order in which they are applied. Intrinsic (`xyz`): each turn about the
+/// already turned axis, R = X Y Z. Extrinsic: about the fixed axes, R = Z Y X.
+struct EulerOrder {
+  int axes[3] = {0, 1, 2};  ///< 0, 1, 2 for x, y, z; neighbors differ
+  bool intrinsic = true;
+
+  bool operator==(const EulerOrder&) const = default;
+};
+
+/// @param angles  radians, in the order's sequence of axes
+[[nodiscard]] Quat from_euler(const Vec3& angles, const EulerOrder& order = {}) noexcept;
+
+/// Angles in the order's sequence; at gimbal lock the third is 0.
+[[nodiscard]] Vec3 to_euler(const Quat& q, const EulerOrder& order = {}) noexcept;
+
+}  // namespace tweenfall

@@ -1,0 +1,69 @@
+#pragma once
+
+/// The few forms in which every curve ends: a polynomial over a stretch of time, seen
+/// through an optional warp of that stretch.
+///
+/// Tangent rules, easings, Bezier handles and splines are all *builders*: they turn keys into
+/// spans, and the evaluator knows none of them by name. An easing is a straight line seen
+/// through a warp; a Bezier span with weighted handles is a cubic seen through the inverse
+/// of its handles' own cubic in time; bounces and steps are several plain spans.
+
+#include <tweenfall/curves/values.h>
+
+#include <array>
+
+namespace tweenfall {
+
+/// A monotone or oscillating re-timing of a span: s = warp(u), with derivatives.
+struct Warp {
+  struct Result {
+    double s, ds, dds;  ///< position, first and second derivative with respect to u
+  };
+  using Function = Result (*)(double u, const std::array<double, 4>& parameters) noexcept;
+
+  Function function = nullptr;         ///< null: s = u
+  std::array<double, 4> parameters{};  ///< handed to the function unchanged
+
+  bool operator==(const Warp&) const = default;
+};
+
+/// Highest polynomial degree a span can have.
+inline constexpr int max_degree = 5;
+
+/// value(t) = sum of coefficients[i] s^i, with s = warp((t - start) / duration).
+template <class T>
+struct Span {
+  double start = 0;                            ///< s
+  double duration = 1;                         ///< s; > 0
+  int degree = 0;                              ///< 0 to max_degree
+  std::array<T, max_degree + 1> coefficients;  ///< power basis in s; entries above degree are not read
+  T end;                                       ///< value on arrival at start + duration, exactly
+  Warp warp = {};
+};
+
+/// A stretch of rotation.
+/// `exponential`: from * exp(r(s)), r a polynomial of rotation vectors in the first three parts.
+/// `normalized`: the polynomial of four parts (x, y, z, w), scaled to unit length; `from` is not read.
+struct RotationSpan {
+  enum class Form { exponential, normalized };
+
+  double start = 0;
+  double duration = 1;
+  Form form = Form::exponential;
+  int degree = 0;
+  std::array<Vec4, max_degree + 1> coefficients;
+  Quat from{1, 0, 0, 0};
+  Quat end{1, 0, 0, 0};
+  Warp warp = {};
+};
+
+template <class T>
+struct SpanOf {
+  using type = Span<T>;
+};
+template <>
+struct SpanOf<Quat> {
+  using type = RotationSpan;
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,79 @@
+#pragma once
+
+/// The document: JSON that people write, checked once, whole.
+///
+/// Reading gives either a `Document` or a `DocumentError` with every problem in it, each with its
+/// line and column, a pointer, what is wrong and what would be right. A document keeps what its author wrote, so
+/// that writing it back gives the same text, and `stage` makes of it what runs.
+
+#include <tweenfall/importers/model.h>
+#include <tweenfall/physics/stage/description.h>
+
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tweenfall {
+
+/// One thing wrong with a document.
+struct Problem {
+  std::string file;      ///< as given
+  std::size_t line = 0;  ///< from 1; 0 when the whole file is meant
+  std::size_t column = 0;
+  std::string pointer;     ///< JSON pointer, "/clips/drop/..."
+  std::string message;     ///< what is wrong, and the nearest valid name where there is one
+  std::string excerpt;     ///< the line of the file
+  std::size_t length = 1;  ///< how many characters of it are meant
+
+  /// "file:line:column: error: message (at pointer)", then the line and a caret, as compilers print it.
+  [[nodiscard]] std::string text() const;
+};
+
+class DocumentError : public std::runtime_error {
+ public:
+  explicit DocumentError(std::vector<Problem> problems);  ///< at least one
+  [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }
+
+ private:
+  std::vector<Problem> problems_;
+};
+
+struct ReadOptions {
+  bool allow_outside = false;  ///< imports may leave the document's folder
+};
+
+class Document {
+ public:
+  /// @throws DocumentError with all problems.
+  [[nodiscard]] static Document read(const std::filesystem::path& file, const ReadOptions& options = {});
+  /// @param name    stands for the file in problems
+  /// @param folder  imports are relative to it
+  [[nodiscard]] static Document parse(std::string_view text, const std::string& name,
+                                      const std::filesystem::path& folder, const ReadOptions& options = {});
+
+  /// Nodes, clips, bodies and rules, imports included.
+  [[nodiscard]] const StageDescription& stage() const noexcept;
+
+  /// The document as text: two spaces, one key a line, defaults left out. Reading and writing that again gives the same
+  /// text.
+  [[nodiscard]] std::string text() const;
+
+  /// A document of a model's nodes and clips.
+  [[nodiscard]] static Document from_model(const Model& model);
+
+ private:
+  struct Content;
+  explicit Document(std::shared_ptr<const Content> content);
+  std::shared_ptr<const Content> content_;
+};
+
+/// The JSON Schema (draft-07) of the document, as text.
+[[nodiscard]] std::string document_schema();
+
+/// A commented starting document.
+[[nodiscard]] std::string starting_document();
+
+}  // namespace tweenfall

@@ -1,0 +1,43 @@
+#pragma once
+
+/// Models: meshes, nodes, skins and clips from glTF, FBX, BVH, Collada and OBJ files.
+///
+/// glTF keys come from the file itself, so that STEP, LINEAR and CUBICSPLINE keep their kind and
+/// tangents; everything else comes through assimp, with its known faults repaired or stated.
+
+#include <tweenfall/anim/clip.h>
+#include <tweenfall/anim/hierarchy.h>
+#include <tweenfall/anim/mesh.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+struct Model {
+  std::string name;         ///< the file's, without its ending
+  std::vector<Node> nodes;  ///< parents before children; of nodes with one name the second is "name#2"
+  std::vector<Clip> clips;
+  std::vector<Mesh> meshes;
+  std::vector<Skin> skins;
+  std::vector<MeshInstance> instances;
+  std::vector<std::string> repairs;  ///< what was wrong with the file and how it was read all the same, a sentence each
+};
+
+/// A file that could not be loaded; `what()` names it and says why, one problem a line.
+class ModelError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// @throws ModelError; nothing else, whatever the file holds.
+[[nodiscard]] Model load_model(const std::filesystem::path& file);
+
+/// Writes nodes, clips, meshes and skins as binary glTF 2.0. Cubic tracks stay cubic; others are written as what they
+/// are where glTF has the form, else as linear keys `fps` a second.
+/// @throws std::runtime_error when the file cannot be written; it is written whole or not at all.
+void save_glb(const Model& model, const std::filesystem::path& file, double fps = 60);
+
+}  // namespace tweenfall

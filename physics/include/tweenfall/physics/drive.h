@@ -1,0 +1,29 @@
+#pragma once
+
+/// What holds a body to its path: one implicit spring, from infinitely stiff to absent.
+///
+/// Infinite frequency is *keyed*: the body is where its curve says, pushes and is not pushed.
+/// Zero is *free*: physics alone moves it. Between, the body is *driven*: pulled toward its
+/// path. The owner is derived from the drive and stored nowhere else.
+
+#include <limits>
+
+namespace tweenfall {
+
+enum class Owner { keyed, driven, free };
+
+struct Drive {
+  double hz = 0;    ///< undamped frequency of the pull, cycles per second; 0 free, infinity keyed
+  double zeta = 1;  ///< damping ratio; 1 is critical
+  double max_force = std::numeric_limits<double>::infinity();   ///< N
+  double max_torque = std::numeric_limits<double>::infinity();  ///< N m
+
+  [[nodiscard]] static constexpr Drive keyed() { return {.hz = std::numeric_limits<double>::infinity()}; }
+  [[nodiscard]] static constexpr Drive free() { return {.hz = 0}; }
+  [[nodiscard]] constexpr Owner owner() const {
+    return hz == 0 ? Owner::free : hz == std::numeric_limits<double>::infinity() ? Owner::keyed : Owner::driven;
+  }
+  bool operator==(const Drive&) const = default;
+};
+
+}  // namespace tweenfall

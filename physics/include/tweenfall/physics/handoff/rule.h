@@ -1,0 +1,99 @@
+#pragma once
+
+/// Rules of the hand-off: when a body changes owner, to whom, and how.
+///
+/// A rule lives while the body's owner differs from its `to`. Its trigger acts at an exact time:
+/// the step in which it falls is split there.
+
+#include <tweenfall/physics/drive.h>
+
+#include <tweenfall/curves/pose.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tweenfall {
+
+/// Triggers. Instants first, then conditions.
+namespace when {
+struct At {
+  double time = 0;  ///< stage time, s
+};
+struct Marker {
+  std::string name;  ///< an event of a clip that animates the body or an ancestor
+};
+struct Event {
+  std::string name;  ///< an event of any playing clip
+};
+struct ClipEnd {};  ///< the last play that animates the body is over
+struct ContactHit {
+  double impulse = 0;  ///< N s; compared with the impulse that the body would take if it were free
+  double speed = 0;    ///< approach speed, m/s
+  std::string with;    ///< name or pattern of the other node; empty: any
+};
+struct Asleep {
+  double seconds = 0;  ///< continuous stillness of a free body, s
+};
+}  // namespace when
+
+struct When;
+using Trigger = std::variant<when::At, when::Marker, when::Event, when::ClipEnd, when::ContactHit, when::Asleep>;
+
+/// Any of the triggers, or, with `all`, every one: instants latch, conditions must hold.
+struct When {
+  std::vector<Trigger> triggers;
+  bool all = false;
+};
+
+/// What velocity a released body starts with.
+struct TakeOver {
+  enum class Velocity { curve, step, zero, average };
+  Velocity velocity = Velocity::curve;  ///< the curve's own derivative, from the side that was shown
+  double average_over = 0.1;            ///< s, for `average`
+  double scale = 1;                     ///< multiplies it
+  Twist add = {};                       ///< added after
+};
+
+/// How the difference to the path dies away after a hand-back.
+struct Settle {
+  enum class Kind { quintic, half_life, dead_blend };
+  Kind kind = Kind::quintic;
+  double seconds = 0.3;  ///< duration, or half-life
+};
+
+/// Where a recovered body's path takes up again.
+struct HandBack {
+  std::string clip;  ///< empty: the plays that were there
+  enum class Clock { run, hold, restart };
+  Clock clock = Clock::run;  ///< run: as if never released; hold: paused at the release; restart: from the clip's start
+  enum class Anchor { keep, here, ground };
+  Anchor anchor = Anchor::keep;  ///< keep: the path where it was authored; here: moved to the body; ground: moved and
+                                 ///< turned on the ground only
+  Settle settle = {};
+};
+
+/// One line of the hand-off.
+struct Rule {
+  std::vector<std::string> bodies;  ///< names or patterns ("tower/*") of nodes with bodies
+  When when;
+  Drive to = Drive::free();
+  TakeOver take_over = {};
+  HandBack hand_back = {};
+  bool once = true;
+};
+
+enum class Cause { start, at, marker, event, clip_end, contact, asleep, caller };
+
+/// What happened: one change of owner.
+struct HandOff {
+  std::size_t node = 0;
+  Owner from = Owner::keyed, to = Owner::free;
+  double time = 0;  ///< stage time, s
+  Cause cause = Cause::caller;
+  Motion before, after;  ///< just before and after; twists at the center of mass, world axes
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,60 @@
+#pragma once
+
+/// Solid shapes, and what follows from them: volume, mass, center of mass, inertia.
+
+#include <tweenfall/curves/pose.h>
+
+#include <variant>
+
+namespace tweenfall {
+
+struct Sphere {
+  double radius = 0.5;  ///< m; > 0
+};
+struct Box {
+  Vec3 half_extents{0.5, 0.5, 0.5};  ///< m; each > 0
+};
+/// A cylinder with half balls on its ends, along the local y axis.
+struct Capsule {
+  double radius = 0.25;      ///< m; > 0
+  double half_height = 0.5;  ///< half the length of the cylinder part, m; >= 0
+};
+/// Everything behind an infinite plane; only for bodies that never move by themselves.
+struct Plane {
+  Vec3 normal{0, 1, 0};  ///< unit, out of the solid
+  double offset = 0;     ///< points x of the surface have normal . x = offset, m
+};
+
+using Solid = std::variant<Sphere, Box, Capsule, Plane>;
+
+/// A solid and its place on the node that carries it.
+struct Shape {
+  Solid solid = Sphere{};
+  Pose offset = {};  ///< of the solid, relative to the node; scale is not read
+};
+
+struct MassProperties {
+  double mass = 0;              ///< kg
+  Vec3 center{0, 0, 0};         ///< center of mass relative to the node, m
+  Mat3 inertia = Mat3::Zero();  ///< about the center of mass, node axes, kg m^2
+};
+
+/// @throws std::invalid_argument naming the size that is not positive or not finite.
+void validate(const Solid& solid);
+
+[[nodiscard]] double volume(const Solid& solid) noexcept;  ///< m^3; infinity for a plane
+
+/// Mass properties of a uniform solid of the given mass. Sources: closed forms, e.g. Goldstein, Classical Mechanics.
+/// @throws std::invalid_argument for a plane, or mass not > 0.
+[[nodiscard]] MassProperties mass_properties(const Shape& shape, double mass);
+
+/// The same properties about the frame moved by the parallel-axis theorem: inertia about `point` (node frame).
+[[nodiscard]] Mat3 inertia_about(const MassProperties& properties, const Vec3& point) noexcept;
+
+/// Axis-aligned box around a placed shape.
+struct Bounds {
+  Vec3 low, high;
+};
+[[nodiscard]] Bounds bounds(const Shape& shape, const Pose& node) noexcept;
+
+}  // namespace tweenfall

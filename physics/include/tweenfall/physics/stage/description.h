@@ -1,0 +1,66 @@
+#pragma once
+
+/// Everything a stage is made of, as plain values: what a document says, or what a program fills in.
+
+#include <tweenfall/anim/animation.h>
+#include <tweenfall/anim/mesh.h>
+#include <tweenfall/physics/handoff/rule.h>
+#include <tweenfall/physics/world.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+struct BodyDescription {
+  Shape shape = {};
+  std::optional<double> mass{};  ///< kg; absent: density times volume
+  double density = 1000;         ///< kg/m^3
+  double friction = 0.5;
+  double restitution = 0;
+  double rolling_friction = 0;  ///< m
+  double linear_damping = 0;    ///< 1/s
+  double angular_damping = 0;   ///< 1/s
+  bool fixed = false;
+  std::optional<Drive>
+      drive{};    ///< absent: keyed when the node or an ancestor is animated by a playing clip, else free
+  Twist twist{};  ///< initial velocity of a free body at its center of mass, world axes
+};
+
+struct NodeDescription {
+  std::string name;
+  std::size_t parent = no_node;  ///< index into the description's nodes
+  Pose rest = {};
+  std::optional<BodyDescription> body{};
+  std::string group{};
+  std::optional<Color> color{};
+};
+
+struct DragDescription {
+  Drag drag;
+};
+struct SpringDescription {
+  Spring spring;            ///< its handles are not read
+  std::size_t a = no_node;  ///< node with a body
+  std::size_t b = no_node;  ///< node with a body; `no_node`: the world
+};
+using ForceDescription = std::variant<DragDescription, SpringDescription>;
+
+struct StageDescription {
+  std::string name;
+  std::vector<NodeDescription> nodes;
+  std::vector<Clip> clips;
+  std::vector<Play> plays;
+  WorldSettings world = {};
+  double step = 1.0 / 240;  ///< s
+  std::vector<ForceDescription> forces;
+  std::vector<Rule> rules;
+
+  // Only for drawing
+  std::vector<Mesh> meshes;
+  std::vector<Skin> skins;
+  std::vector<MeshInstance> mesh_instances;
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,38 @@
+#pragma once
+
+/// What a stage showed, frame by frame: the one thing that all pictures and files are made from.
+
+#include <tweenfall/physics/stage/stage.h>
+
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// One node through all frames.
+struct NodeRecord {
+  std::string name;
+  std::size_t parent = no_node;
+  std::vector<WorldMotion> world;            ///< one per frame
+  std::vector<Twist> twist;                  ///< at the center of mass, world axes; one per frame
+  std::vector<Owner> owner;                  ///< one per frame
+  std::vector<Color> color;                  ///< one per frame, or empty
+  std::vector<std::vector<double>> weights;  ///< morph weights, one list per frame, or empty
+};
+
+struct Recording {
+  std::string name;
+  std::vector<double> times;  ///< s
+  std::vector<NodeRecord> nodes;
+  std::vector<HandOff> handoffs;
+  std::vector<StageEvent> events;
+};
+
+/// Runs `stage` from its current time to `until`, taking a frame at the start and every 1/fps after, and at `until`.
+[[nodiscard]] Recording record(Stage& stage, double until, double fps);
+
+/// A time at which the stage has shown what it has: the end of its plays, or of its last hand-off plus a while to come
+/// to rest.
+[[nodiscard]] double natural_length(const StageDescription& description);
+
+}  // namespace tweenfall

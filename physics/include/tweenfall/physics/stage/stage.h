@@ -1,0 +1,90 @@
+#pragma once
+
+/// The stage: clips bound to nodes, bodies in a world, hand-offs armed; one timeline for all.
+///
+/// `advance` takes any frame time. Inside, physics runs in fixed steps that are split at the exact
+/// times of triggers; what is read between two steps is interpolated by Hermite cubics of the bodies'
+/// own positions and velocities, and is exact for keyed nodes. `seek` goes to any time, forward or
+/// back, with the same bits as running there from the start.
+///
+/// How a keyed body becomes a free one: at the trigger's instant t the step is split, the body's
+/// pose and twist are its path's at t (from the side that was shown), told about its center of mass, and
+/// from there the world moves it.
+
+#include <tweenfall/physics/handoff/path.h>
+#include <tweenfall/physics/handoff/rule.h>
+#include <tweenfall/physics/stage/description.h>
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tweenfall {
+
+using NodeId = std::size_t;
+
+/// An event of a clip, or a contact that began, as `on_event` and recordings see it.
+struct StageEvent {
+  double time = 0;            ///< stage time, s
+  std::string name;           ///< the clip event's name, or "contact"
+  std::string data;           ///< JSON text given with a clip event
+  std::vector<NodeId> nodes;  ///< of a contact: the two
+  double impulse = 0;         ///< of a contact: N s
+};
+
+class Stage {
+ public:
+  /// @throws std::invalid_argument listing everything that does not fit together.
+  explicit Stage(StageDescription description);
+  ~Stage();
+  Stage(Stage&&) noexcept;
+  Stage& operator=(Stage&&) noexcept;
+
+  // Time
+  void advance(double dt);  ///< @throws std::invalid_argument when dt is negative or not finite
+  void seek(double time);   ///< any time >= 0; calls no callbacks
+  [[nodiscard]] double time() const noexcept;
+  [[nodiscard]] double step() const noexcept;
+
+  // Reading, at `time()`
+  [[nodiscard]] NodeId node(std::string_view name) const;  ///< @throws std::invalid_argument with the nearest name
+  [[nodiscard]] std::span<const Node> nodes() const noexcept;
+  [[nodiscard]] bool contains(NodeId node) const noexcept;
+  [[nodiscard]] bool has_body(NodeId node) const noexcept;
+  [[nodiscard]] WorldMotion world(NodeId node) const;  ///< of the node's origin
+  void world(std::span<WorldMotion> out) const;        ///< of all nodes, in order
+  [[nodiscard]] Twist twist(NodeId node) const;  ///< at the center of mass for a body, else at the origin; world axes
+  [[nodiscard]] Owner owner(NodeId node) const;  ///< a node without a body is keyed
+  [[nodiscard]] NodeLook look(NodeId node) const;
+  [[nodiscard]] Vec3 reaction(NodeId node) const;  ///< sum of contact impulses taken by a keyed or fixed body, N s
+  [[nodiscard]] Path path(NodeId node) const;      ///< where the animation wants the node
+  [[nodiscard]] const StageDescription& description() const noexcept;
+
+  // Hand-off by the caller, at exactly `time()`
+  void release(NodeId node, const TakeOver& settings = {});
+  void recover(NodeId node, const HandBack& settings = {});
+  void arm(Rule rule);
+
+  // Changing the cast while it runs
+  NodeId add(const NodeDescription& node);
+  void remove(NodeId node);  ///< with its descendants
+  void apply_impulse(NodeId node, const Vec3& impulse, const Vec3& point);
+
+  // What happened
+  void on_event(std::function<void(const StageEvent&)> callback);  ///< in order of time; `time()` is the event's inside
+  void on_contact(std::function<void(const StageEvent&)> callback);
+  void on_handoff(std::function<void(const HandOff&)> callback);
+  [[nodiscard]] std::span<const HandOff> handoffs() const noexcept;   ///< up to `time()`
+  [[nodiscard]] std::span<const StageEvent> events() const noexcept;  ///< up to `time()`, contacts included
+
+  [[nodiscard]] std::uint64_t state_hash() const noexcept;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace tweenfall

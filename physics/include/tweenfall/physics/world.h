@@ -1,0 +1,125 @@
+#pragma once
+
+/// The world: rigid bodies, forces, contacts, and one step after another.
+///
+/// The world knows drives and targets, never clips or curves: whoever owns the animation tells
+/// a keyed body where it must be at the end of the step and with which twist, and the world
+/// takes it there exactly, pushing what stands in the way.
+
+#include <tweenfall/physics/contact.h>
+#include <tweenfall/physics/drive.h>
+#include <tweenfall/physics/force.h>
+#include <tweenfall/physics/shape.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// How a free body's state goes through a step.
+enum class Integrator {
+  exact_quadratic,      ///< x += v h + a h^2/2: exact under constant force (the default)
+  semi_implicit_euler,  ///< v += a h, then x += v h
+};
+
+struct WorldSettings {
+  Vec3 gravity{0, -9.81, 0};  ///< m/s^2
+  Integrator integrator = Integrator::exact_quadratic;
+  int iterations = 20;          ///< passes of the contact solver over all contacts of a step
+  double sleep_speed = 0.02;    ///< m/s (and rad/s times size) below which a body counts as still
+  double sleep_after = 0.5;     ///< s of stillness after which a body sleeps; infinity: never
+  double push_out_speed = 0.5;  ///< greatest speed at which overlap is taken apart, m/s
+};
+
+struct BodySettings {
+  Shape shape = {};
+  std::optional<double> mass{};  ///< kg; absent: density times volume
+  double density = 1000;         ///< kg/m^3
+  double friction = 0.5;         ///< Coulomb coefficient; a pair takes sqrt(f1 f2)
+  double restitution = 0;        ///< 0 to 1; a pair takes the larger
+  double rolling_friction = 0;   ///< resistance to rolling, as a length: torque <= length times normal force, m
+  double linear_damping = 0;     ///< 1/s
+  double angular_damping = 0;    ///< 1/s
+  bool fixed = false;            ///< part of the scenery: never moves
+  Drive drive = Drive::free();
+  Motion motion = {};  ///< of the node's origin, world axes
+};
+
+/// A touching pair after a step.
+struct Contact {
+  BodyId a, b;
+  Manifold manifold;
+  double impulse = 0;           ///< sum of normal impulses of the step, N s; >= 0
+  Vec3 total_impulse{0, 0, 0};  ///< on b, friction included, N s
+  double approach_speed = 0;    ///< normal speed at which they met, before the step's impulses, m/s
+  bool began = false;           ///< the pair did not touch in the step before
+};
+
+class World {
+ public:
+  explicit World(const WorldSettings& settings = {});
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  World(const World&);  ///< a copy steps to the same bits as the original
+  World& operator=(const World&);
+
+  // Bodies
+  BodyId add(const BodySettings& body);  ///< @throws std::invalid_argument naming what is wrong
+  void remove(BodyId body);              ///< wakes what it touched. @throws std::invalid_argument for a stale handle
+  [[nodiscard]] bool contains(BodyId body) const noexcept;
+  [[nodiscard]] std::vector<BodyId> bodies() const;
+
+  // State; every call throws std::invalid_argument for a stale handle
+  [[nodiscard]] Motion motion(BodyId body) const;  ///< of the node's origin
+  [[nodiscard]] Twist twist(BodyId body) const;    ///< at the center of mass, world axes
+  [[nodiscard]] const MassProperties& mass(BodyId body) const;
+  [[nodiscard]] const Shape& shape(BodyId body) const;
+  [[nodiscard]] Owner owner(BodyId body) const;
+  [[nodiscard]] Drive drive(BodyId body) const;
+  [[nodiscard]] bool is_fixed(BodyId body) const;
+  [[nodiscard]] double still_for(BodyId body) const;  ///< s of stillness so far
+  [[nodiscard]] bool asleep(BodyId body) const;
+  [[nodiscard]] Vec3 reaction(
+      BodyId body) const;  ///< sum of contact impulses on a keyed or fixed body since it was added, N s
+  [[nodiscard]] double kinetic_energy() const;  ///< of all free bodies, J
+  [[nodiscard]] double time() const noexcept;   ///< sum of the steps, s
+
+  // Changes; each wakes the body
+  /// Moves the body: pose and velocity of the node's origin. Contacts across the jump use this velocity, not the jump.
+  void set_motion(BodyId body, const Motion& motion);
+  /// Hands the body over. Leaving `keyed`, it keeps the pose and the twist of its last target; accumulated impulses are
+  /// cleared.
+  void set_drive(BodyId body, const Drive& drive);
+  /// Where a keyed body shall be at the end of the next step, and its path's own velocity there.
+  void set_target(BodyId body, const Motion& end_of_step);
+  void apply_force(BodyId body, const Vec3& force, const Vec3& point);  ///< N, at a world point, during the next step
+  void apply_torque(BodyId body, const Vec3& torque);                   ///< N m, during the next step
+  void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point);  ///< N s, at once
+  void wake(BodyId body);
+
+  // Forces
+  std::size_t add_force(Force force);  ///< @returns a number for `remove_force`
+  void remove_force(std::size_t number);
+
+  // Time
+  /// Advances by `dt` seconds. The result of n steps depends on their lengths alone, bit for bit.
+  /// @throws std::invalid_argument when dt is not positive and finite
+  void step(double dt);
+
+  /// Pairs that touched in the last step, in a fixed order.
+  [[nodiscard]] std::span<const Contact> contacts() const noexcept;
+
+  /// A number that changes when any bit of any body's state does.
+  [[nodiscard]] std::uint64_t state_hash() const noexcept;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace tweenfall
