@@ -31,6 +31,7 @@ endfunction()
 
 # How everything of ours is compiled: the same bits everywhere, so no contraction of a*b+c and no fast-math.
 function(tweenfall_flags target)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
     $<$<BOOL:${TWEENFALL_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()

@@ -33,7 +33,7 @@ install_missing() {
 
 # build PRESET [TARGET...]: configure when needed, then compile; the compiler's words only when it has some.
 build() {
-  local preset=$1 folder=$cache_folder/$1 log started=$SECONDS
+  local preset=$1 folder=$cache_folder/$1 log
   shift
   mkdir -p "$folder"
   log=$folder/configure.log
@@ -41,28 +41,35 @@ build() {
     (cd "$source_folder" && cmake --preset "$preset") > "$log" 2>&1 < /dev/null ||
       { cat "$log" >&2; fail "cmake could not configure the $preset build"; }
   fi
-  if ninja -C "$folder" -n "$@" | grep -q 'no work to do'; then return 0; fi
-  say "building ($preset) in $folder"
-  if [ -t 2 ]; then
-    ninja -C "$folder" "$@" >&2 < /dev/null || fail "the $preset build failed"
-  else
-    ninja -C "$folder" --quiet "$@" >&2 < /dev/null || fail "the $preset build failed"
-  fi
-  say "built in $((SECONDS - started)) s"
+  ninja -C "$folder" "$@" 2>&1 < /dev/null | show_build "$preset" >&2 || fail "the $preset build failed"
+}
+
+# What ninja says, less what nobody needs: progress on a terminal, else only that it builds and what compilers say.
+show_build() {
+  local line told=
+  while IFS= read -r line; do
+    case $line in
+      *"] Re-checking globbed"* | *"] Re-running CMake"* | "-- "* | "ninja: no work"* | "ninja: Entering"*) ;;
+      "["[0-9]*"/"*"] "*)
+        [ -n "$told" ] || say "building ($1)"
+        told=yes
+        if [ -t 1 ]; then printf '\r\033[K%.79s' "$line"; fi
+        ;;
+      *) printf '%s\n' "$line" ;;
+    esac
+  done
+  if [ -n "$told" ] && [ -t 1 ]; then printf '\r\033[K'; fi
 }
 
 # run_tests PRESET [ARGUMENT...]: ctest; what tests skipped is said before its summary.
 run_tests() {
   local preset=$1
   shift
-  (cd "$source_folder" && ctest --preset "$preset" -j "$(nproc)" "$@" 2>&1 < /dev/null) |
-    awk -v log_file="$cache_folder/$preset/Testing/Temporary/LastTest.log" '
-      /^[0-9]+% tests passed/ { held = 1 }
-      held { summary = summary $0 "\n"; next }
-      { print; fflush() }
-      END {
-        while ((getline line < log_file) > 0)
-          if (match(line, /SKIPPED: .*/) && !seen[text = substr(line, RSTART)]++) print text
-        printf "%s", summary
-      }'
+  (cd "$source_folder" && ctest --preset "$preset" -j "$(nproc)" "$@" 2>&1 < /dev/null) | {
+    local line
+    while IFS= read -r line && [[ $line != *"% tests passed, "* ]]; do printf '%s\n' "$line"; done
+    grep -oh 'SKIPPED: .*' "$cache_folder/$preset/Testing/Temporary/LastTest.log" 2> /dev/null | sort -u || true
+    if [ -n "$line" ]; then printf '%s\n' "$line"; fi
+    cat
+  }
 }
