@@ -1,7 +1,8 @@
 # One module: a static library of every source below src, exported as tweenfall::NAME.
 # Sources are found by globbing, so that adding a kind of thing means adding its files and nothing else.
 #
-# tweenfall_module(NAME PUBLIC what its headers need  PRIVATE what its sources need  PRECOMPILE <headers>)
+# tweenfall_module(NAME PUBLIC what its headers need  PRIVATE what its sources need
+#   PRECOMPILE <headers> that most of its sources include, beside Eigen and the common standard ones)
 function(tweenfall_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE;PRECOMPILE")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp)
@@ -19,7 +20,8 @@ function(tweenfall_module name)
   # one contracted a*b+c there and the same document gives other bits.
   target_compile_options(${target} PUBLIC -ffp-contract=off)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
-  target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILE})
+  target_precompile_headers(${target} PRIVATE
+    <Eigen/Geometry> <algorithm> <functional> <memory> <span> <string> <vector> ${arg_PRECOMPILE})
   tweenfall_flags(${target})
   if(TWEENFALL_INSTALL)
     include(GNUInstallDirs)
