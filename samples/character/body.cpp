@@ -69,23 +69,25 @@ Influence trunk_influence(const Vec3& p) {
 }
 
 void add_trunk(Mesh& mesh) {
-  Loft loft{.around = 28, .rings = 24};
+  Loft loft{.around = 24, .rings = 24};
   const auto section = [&](double y, double z, double width, double front, double back, double roundness = 2.2) {
     loft.sections.push_back({{0, y, z}, width, front, back, roundness});
   };
-  section(0.86, -0.002, 0.112, 0.078, 0.090);
-  section(0.91, -0.004, 0.152, 0.098, 0.118);
-  section(0.96, -0.006, 0.160, 0.100, 0.116);
-  section(1.01, -0.006, 0.150, 0.096, 0.100);
-  section(1.07, -0.004, 0.133, 0.092, 0.088);
-  section(1.13, -0.004, 0.130, 0.090, 0.088);
-  section(1.20, -0.004, 0.144, 0.098, 0.096);
-  section(1.28, -0.006, 0.164, 0.110, 0.104);
-  section(1.345, -0.008, 0.176, 0.108, 0.104);
-  section(1.40, -0.010, 0.160, 0.086, 0.092);
-  section(1.435, -0.010, 0.104, 0.066, 0.074, 2);
-  section(1.462, -0.006, 0.062, 0.054, 0.058, 2);
-  section(1.50, 0.000, 0.050, 0.050, 0.050, 2);
+  section(0.865, -0.004, 0.112, 0.078, 0.094);
+  section(0.90, -0.005, 0.154, 0.098, 0.120);
+  section(0.94, -0.006, 0.168, 0.105, 0.122);
+  section(0.98, -0.006, 0.162, 0.102, 0.110);
+  section(1.03, -0.005, 0.144, 0.096, 0.094);
+  section(1.09, -0.004, 0.130, 0.090, 0.086);
+  section(1.15, -0.004, 0.132, 0.091, 0.090);
+  section(1.22, -0.005, 0.149, 0.100, 0.098);
+  section(1.29, -0.007, 0.168, 0.109, 0.105);
+  section(1.345, -0.009, 0.182, 0.106, 0.104);
+  section(1.385, -0.010, 0.186, 0.090, 0.094);
+  section(1.415, -0.010, 0.158, 0.074, 0.080, 2);
+  section(1.44, -0.008, 0.104, 0.062, 0.068, 2);
+  section(1.468, -0.004, 0.064, 0.053, 0.056, 2);
+  section(1.50, 0.000, 0.051, 0.050, 0.050, 2);
   section(1.56, 0.008, 0.048, 0.048, 0.048, 2);
   loft.start_cap = 0.045;
   loft.end_cap = 0.02;
@@ -110,30 +112,36 @@ Vec3 sculpt_face(const Vec3& p) {
 
 void add_head(Mesh& mesh) {
   const Weighting rigid = [](const Vec3& p) { return along_chain(neck, {{head, 1.51, 0.02}}, p.y()); };
-  Loft egg{.around = 28, .rings = 14};
+  Loft egg{.around = 24, .rings = 12};
   const auto section = [&](double y, double z, double width, double front, double back) {
     egg.sections.push_back({{0, y, z}, width, front, back, 2.15});
   };
-  section(1.515, 0.026, 0.044, 0.054, 0.060);
-  section(1.545, 0.020, 0.062, 0.073, 0.078);
-  section(1.58, 0.015, 0.075, 0.086, 0.094);
-  section(1.62, 0.010, 0.083, 0.093, 0.103);
-  section(1.66, 0.006, 0.084, 0.093, 0.104);
-  section(1.695, 0.003, 0.073, 0.081, 0.091);
+  section(1.512, 0.028, 0.050, 0.056, 0.064);
+  section(1.545, 0.021, 0.069, 0.078, 0.084);
+  section(1.585, 0.015, 0.082, 0.091, 0.100);
+  section(1.63, 0.010, 0.090, 0.099, 0.109);
+  section(1.672, 0.006, 0.090, 0.098, 0.109);
+  section(1.71, 0.003, 0.077, 0.084, 0.094);
   egg.start_cap = 0.014;
-  egg.end_cap = 0.042;
+  egg.end_cap = 0.044;
   add_loft(mesh, egg, rigid, sculpt_face);
 
-  Loft nose{.start_cap = 0.004, .end_cap = 0.009, .around = 8, .rings = 5};
-  nose.sections = {{{0, 1.64, 0.094}, 0.007, 0.008, 0.02},
-                   {{0, 1.615, 0.103}, 0.010, 0.011, 0.02},
-                   {{0, 1.598, 0.109}, 0.014, 0.013, 0.02}};
+  Loft nose{.start_cap = 0.004, .end_cap = 0.009, .around = 8, .rings = 5, .cap_rings = 2};
+  nose.sections = {{{0, 1.642, 0.098}, 0.007, 0.008, 0.02},
+                   {{0, 1.618, 0.109}, 0.010, 0.010, 0.02},
+                   {{0, 1.602, 0.113}, 0.014, 0.012, 0.02}};
   add_loft(mesh, nose, rigid);
   for (const double sign : {1.0, -1.0}) {
-    Loft ear{.side = {0, 0, 1}, .up = {sign, 0, 0}, .start_cap = 0.008, .end_cap = 0.008, .around = 10, .rings = 5};
-    ear.sections = {{{sign * 0.082, 1.585, 0.004}, 0.011, 0.008, 0.012},
-                    {{sign * 0.085, 1.605, -0.002}, 0.017, 0.011, 0.012},
-                    {{sign * 0.086, 1.63, -0.006}, 0.020, 0.012, 0.012}};
+    Loft ear{.side = {0, 0, 1},
+             .up = {sign, 0, 0},
+             .start_cap = 0.008,
+             .end_cap = 0.008,
+             .around = 10,
+             .rings = 5,
+             .cap_rings = 2};
+    ear.sections = {{{sign * 0.088, 1.585, 0.004}, 0.011, 0.008, 0.012},
+                    {{sign * 0.092, 1.607, -0.002}, 0.017, 0.011, 0.012},
+                    {{sign * 0.093, 1.634, -0.006}, 0.020, 0.012, 0.012}};
     add_loft(mesh, ear, rigid);
   }
 }
@@ -152,14 +160,14 @@ void add_arm(Mesh& mesh, Flank flank) {
   };
   // Widths lie along the thumb's side, depths across the palm.
   const Vec3 thumb_side(0, 0, 1);
-  Loft limb{.side = thumb_side, .up = outwards, .start_cap = 0.05, .end_cap = 0.012, .around = 16, .rings = 30};
+  Loft limb{.side = thumb_side, .up = outwards, .start_cap = 0.05, .end_cap = 0.012, .around = 12, .rings = 24};
   const auto section = [&](double length, double out, double width, double front, double back, double roundness = 2) {
     limb.sections.push_back({at(length, out, 0), width, front, back, roundness});
   };
-  section(-0.02, -0.004, 0.060, 0.055, 0.055);
-  section(0.02, -0.002, 0.063, 0.059, 0.058);
-  section(0.08, 0, 0.055, 0.052, 0.050);
-  section(0.15, 0, 0.049, 0.047, 0.045);
+  section(-0.01, -0.008, 0.052, 0.046, 0.046);
+  section(0.025, -0.004, 0.057, 0.052, 0.052);
+  section(0.08, 0, 0.053, 0.050, 0.048);
+  section(0.15, 0, 0.047, 0.046, 0.044);
   section(0.22, 0, 0.042, 0.041, 0.041);
   section(0.255, 0, 0.040, 0.039, 0.039);
   section(0.28, 0, 0.043, 0.042, 0.042);
@@ -175,14 +183,26 @@ void add_arm(Mesh& mesh, Flank flank) {
 
   constexpr double finger_side[] = {0.031, 0.0105, -0.0105, -0.031}, finger_length[] = {0.076, 0.084, 0.08, 0.064};
   for (int i = 0; i < 4; ++i) {
-    Loft finger{.side = thumb_side, .up = outwards, .start_cap = 0.01, .end_cap = 0.009, .around = 8, .rings = 5};
+    Loft finger{.side = thumb_side,
+                .up = outwards,
+                .start_cap = 0.01,
+                .end_cap = 0.009,
+                .around = 6,
+                .rings = 4,
+                .cap_rings = 2};
     const double side = finger_side[i], length = finger_length[i];
     finger.sections = {{at(0.62, -0.003, side), 0.0108, 0.0108, 0.0108},
                        {at(0.62 + 0.5 * length, -0.007, side * 1.02), 0.0104, 0.0104, 0.0104},
                        {at(0.62 + 0.98 * length, -0.022, side * 0.95), 0.0088, 0.0088, 0.0088}};
     add_loft(mesh, finger, weighting);
   }
-  Loft thumb{.side = thumb_side, .up = outwards, .start_cap = 0.012, .end_cap = 0.011, .around = 8, .rings = 6};
+  Loft thumb{.side = thumb_side,
+             .up = outwards,
+             .start_cap = 0.012,
+             .end_cap = 0.011,
+             .around = 6,
+             .rings = 5,
+             .cap_rings = 2};
   thumb.sections = {{at(0.555, -0.004, 0.024), 0.0165, 0.015, 0.015},
                     {at(0.59, -0.012, 0.047), 0.0135, 0.0135, 0.0135},
                     {at(0.632, -0.018, 0.060), 0.0112, 0.0112, 0.0112}};
@@ -195,13 +215,14 @@ void add_leg(Mesh& mesh, Flank flank) {
   const Weighting weighting = [&](const Vec3& p) {
     return along_chain(hips, {{leg.thigh, -0.925, 0.06}, {leg.shin, -0.5, 0.06}, {leg.foot, -0.085, 0.03}}, -p.y());
   };
-  Loft limb{.start_cap = 0.04, .end_cap = 0.03, .around = 18, .rings = 28};
+  Loft limb{.start_cap = 0.04, .end_cap = 0.03, .around = 14, .rings = 23};
   const auto section = [&](double y, double z, double width, double front, double back) {
     limb.sections.push_back({{x, y, z}, width, front, back, 2});
   };
-  section(0.93, 0, 0.066, 0.078, 0.092);
-  section(0.88, 0, 0.080, 0.084, 0.096);
-  section(0.82, 0.002, 0.083, 0.086, 0.088);
+  section(0.93, 0, 0.048, 0.060, 0.066);
+  section(0.90, 0, 0.064, 0.074, 0.086);
+  section(0.865, 0, 0.078, 0.085, 0.095);
+  section(0.82, 0.002, 0.083, 0.087, 0.089);
   section(0.73, 0.004, 0.076, 0.082, 0.076);
   section(0.63, 0.010, 0.064, 0.070, 0.064);
   section(0.55, 0.016, 0.054, 0.058, 0.054);
@@ -219,7 +240,7 @@ void add_foot(Mesh& mesh, Flank flank) {
   const Leg leg = leg_of(flank);
   const double x = bind_position(leg.foot).x(), sign = sign_of(flank);
   const Weighting weighting = [&](const Vec3& p) { return along_chain(leg.foot, {{leg.toes, 0.105, 0.025}}, p.z()); };
-  Loft foot{.up = {0, 1, 0}, .start_cap = 0.02, .end_cap = 0.03, .around = 16, .rings = 14};
+  Loft foot{.up = {0, 1, 0}, .start_cap = 0.02, .end_cap = 0.03, .around = 14, .rings = 11};
   // The lower half is boxy, and as deep as the center is high: a flat sole on the floor.
   const auto section = [&](double z, double out, double width, double top) {
     foot.sections.push_back({{x + sign * out, 0.028, z}, width, top - 0.028, 0.028, 2.9});

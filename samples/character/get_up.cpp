@@ -18,10 +18,10 @@ Curve<Vec3> way_curve(std::initializer_list<Key<Vec3>> keys) {
 
 // The way the motion is told: sit up over both hands, draw the feet in, tip forward into a squat, rise.
 struct Script {
-  Curve<Vec3> hips_way = way_curve({{0, Vec3(0, 0.122, -0.60)},
-                                    {0.12, Vec3(0, 0.122, -0.60)},
-                                    {0.45, Vec3(0, 0.130, -0.57)},
-                                    {0.80, Vec3(0.01, 0.160, -0.46)},
+  Curve<Vec3> hips_way = way_curve({{0, Vec3(0, 0.130, -0.60)},
+                                    {0.12, Vec3(0, 0.130, -0.60)},
+                                    {0.45, Vec3(0, 0.136, -0.57)},
+                                    {0.80, Vec3(0.01, 0.163, -0.46)},
                                     {1.22, Vec3(0.015, 0.36, -0.22)},
                                     {1.60, Vec3(0.005, 0.60, -0.17)},
                                     {2.15, Vec3(0, 0.915, -0.025)},
@@ -37,12 +37,12 @@ struct Script {
       {{0, 0}, {0.05, 0}, {0.35, 30}, {0.80, 8}, {1.22, -26}, {1.60, -24}, {2.15, -4}, {get_up_duration, 0}});
 
   // Feet: ankles and pitch, toes up positive. The right one is drawn in first.
-  Curve<Vec3> right_ankle = way_curve({{0, Vec3(-0.115, 0.080, 0.222)},
-                                       {0.18, Vec3(-0.115, 0.080, 0.222)},
+  Curve<Vec3> right_ankle = way_curve({{0, Vec3(-0.115, 0.096, 0.222)},
+                                       {0.18, Vec3(-0.115, 0.096, 0.222)},
                                        {0.45, Vec3(-0.12, 0.125, 0.10)},
                                        {0.68, bind_position(right_foot)}});
-  Curve<Vec3> left_ankle = way_curve({{0, Vec3(0.115, 0.080, 0.222)},
-                                      {0.32, Vec3(0.115, 0.080, 0.222)},
+  Curve<Vec3> left_ankle = way_curve({{0, Vec3(0.115, 0.096, 0.222)},
+                                      {0.32, Vec3(0.115, 0.096, 0.222)},
                                       {0.60, Vec3(0.12, 0.125, 0.10)},
                                       {0.84, bind_position(left_foot)}});
   Curve<double> right_pitch = angle_curve({{0, 68}, {0.18, 68}, {0.45, 26}, {0.68, 0}});
@@ -51,12 +51,13 @@ struct Script {
   Curve<double> knees_out = angle_curve({{0, 0.25}, {0.7, 0.12}, {1.2, 0.22}, {1.7, 0.1}, {2.3, 0}});
 
   // Hands: flat on the floor beside the hips, then swung forward for balance, then hanging.
-  Vec3 right_wrist{-0.33, 0.036, -0.60}, left_wrist{0.35, 0.036, -0.62};
-  Curve<double> right_holds = angle_curve({{0.70, 1}, {1.12, 0}});
-  Curve<double> left_holds = angle_curve({{0.86, 1}, {1.26, 0}});
-  Curve<double> arms_forward = angle_curve({{0.7, 5}, {1.25, 62}, {1.6, 44}, {2.15, 6}, {get_up_duration, 1}});
+  Curve<Vec3> right_wrist = way_curve({{0.62, Vec3(-0.33, 0.036, -0.60)}, {0.95, Vec3(-0.34, 0.24, -0.34)}});
+  Curve<Vec3> left_wrist = way_curve({{0.74, Vec3(0.35, 0.036, -0.62)}, {1.07, Vec3(0.36, 0.24, -0.36)}});
+  Curve<double> right_holds = angle_curve({{0.66, 1}, {1.0, 0}});
+  Curve<double> left_holds = angle_curve({{0.78, 1}, {1.12, 0}});
+  Curve<double> arms_forward = angle_curve({{0.7, -20}, {1.25, 58}, {1.6, 42}, {2.15, 6}, {get_up_duration, 1}});
   Curve<double> arms_out = angle_curve({{0.7, 24}, {1.25, 16}, {2.15, 10}, {get_up_duration, 9}});
-  Curve<double> elbows = angle_curve({{0.7, 20}, {1.25, 34}, {1.6, 38}, {2.15, 16}, {get_up_duration, 12}});
+  Curve<double> elbows = angle_curve({{0.7, 60}, {0.95, 95}, {1.3, 60}, {1.6, 46}, {2.15, 18}, {get_up_duration, 12}});
 };
 
 const Script& script() {
@@ -83,7 +84,7 @@ void pose_arm(FigurePose& pose, Flank flank, double time) {
   if (holds <= 0) return;
   FigurePose holding = pose;
   const Vec3 elbow(sign_of(flank), 0.25, -0.35);
-  reach_arm(holding, flank, is_left ? s.left_wrist : s.right_wrist, elbow, flat_hand(flank));
+  reach_arm(holding, flank, (is_left ? s.left_wrist : s.right_wrist).value(time), elbow, flat_hand(flank));
   for (const Joint joint : {arm.upper, arm.forearm, arm.hand})
     pose.turns[joint] = slerp(pose.turns[joint], hemisphere_aligned(holding.turns[joint], pose.turns[joint]), holds);
 }

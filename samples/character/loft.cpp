@@ -11,8 +11,6 @@ namespace tweenfall::character {
 
 namespace {
 
-constexpr int cap_rings = 3;
-
 Section mixed(const Section& a, const Section& b, const Section& c, const Section& d, double u) {
   // Uniform Catmull-Rom through b and c.
   const double wa = ((2 - u) * u - 1) * u / 2, wb = ((3 * u - 5) * u * u + 2) / 2;
@@ -45,8 +43,8 @@ std::vector<Section> resampled(const Loft& loft) {
 }
 
 // Quarter of an ellipse from a section outwards: rings that shrink to a pole.
-Section cap_ring(const Section& section, const Vec3& outwards, int step) {
-  const auto [sine, cosine] = elementary::sin_cos(std::numbers::pi / 2 * step / (cap_rings + 1));
+Section cap_ring(const Section& section, const Vec3& outwards, double share) {
+  const auto [sine, cosine] = elementary::sin_cos(std::numbers::pi / 2 * share);
   Section ring = section;
   ring.center += outwards * sine;
   ring.half_width *= cosine;
@@ -109,9 +107,10 @@ void add_loft(Mesh& mesh, const Loft& loft, const Weighting& weighting, const Sc
   const Section first = rings.front(), last = rings.back();
   const Vec3 start = (first.center - rings[1].center).normalized() * loft.start_cap;
   const Vec3 end = (last.center - rings[rings.size() - 2].center).normalized() * loft.end_cap;
-  for (int i = 1; i <= cap_rings; ++i) {
-    rings.insert(rings.begin(), cap_ring(first, start, i));
-    rings.push_back(cap_ring(last, end, i));
+  for (int i = 1; i <= loft.cap_rings; ++i) {
+    const double share = static_cast<double>(i) / (loft.cap_rings + 1);
+    rings.insert(rings.begin(), cap_ring(first, start, share));
+    rings.push_back(cap_ring(last, end, share));
   }
 
   const std::size_t before = mesh.positions.size();

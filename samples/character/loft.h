@@ -26,6 +26,7 @@ struct Loft {
   double end_cap = 0;    ///< and beyond the last
   int around = 16;       ///< vertices on a ring
   int rings = 16;        ///< rings from first section to last; the caps' come on top
+  int cap_rings = 3;     ///< rings on each cap
 };
 
 /// The joints that pull on a point of the bind pose.

@@ -16,7 +16,7 @@ struct JointRow {
 
 // The arm leaves the shoulder at 45 degrees: 0.28 m to the elbow, 0.25 m to the wrist.
 constexpr double diagonal = 0.70710678118654752440;
-constexpr double shoulder_x = 0.182, shoulder_y = 1.395;
+constexpr double shoulder_x = 0.168, shoulder_y = 1.385;
 constexpr double elbow = 0.28 * diagonal, wrist = 0.53 * diagonal;
 
 constexpr std::array<JointRow, joint_count> rows{{
@@ -25,11 +25,11 @@ constexpr std::array<JointRow, joint_count> rows{{
     {"Chest", spine, 0, 1.19, -0.015},
     {"Neck", chest, 0, 1.455, -0.005},
     {"Head", neck, 0, 1.53, 0.005},
-    {"LeftShoulder", chest, 0.035, 1.395, -0.005},
+    {"LeftShoulder", chest, 0.035, 1.385, -0.005},
     {"LeftUpperArm", left_shoulder, shoulder_x, shoulder_y, -0.01},
     {"LeftForearm", left_upper_arm, shoulder_x + elbow, shoulder_y - elbow, -0.01},
     {"LeftHand", left_forearm, shoulder_x + wrist, shoulder_y - wrist, -0.01},
-    {"RightShoulder", chest, -0.035, 1.395, -0.005},
+    {"RightShoulder", chest, -0.035, 1.385, -0.005},
     {"RightUpperArm", right_shoulder, -shoulder_x, shoulder_y, -0.01},
     {"RightForearm", right_upper_arm, -shoulder_x - elbow, shoulder_y - elbow, -0.01},
     {"RightHand", right_forearm, -shoulder_x - wrist, shoulder_y - wrist, -0.01},

@@ -13,10 +13,10 @@ namespace {
 
 // A foot's cycle, in shares of it: the heel strikes at 0, the foot lies flat, the heel leaves, the toes leave, it
 // swings.
-constexpr double flat_from = 0.11, heel_off = 0.34, toe_off = 0.60, toes_straight = 0.76;
+constexpr double flat_from = 0.11, heel_off = 0.34, toe_off = 0.60, toes_straight = 0.84;
 constexpr double heel_strike_ahead = 0.275;  // ankle before the hips at heel strike, m
 constexpr double step_half_width = 0.075, toes_out = 6 * degree;
-constexpr double swing_lift = 0.055;  // m, on top of the straight way of the ankle
+constexpr double swing_lift = 0.07;  // m, on top of the straight way of the ankle
 
 double wrapped(double phase) {
   return phase - std::floor(phase);
@@ -118,7 +118,7 @@ void pose_arm(FigurePose& pose, Flank flank, double phase) {
   hang_arm(pose, flank,
            {.forward = (1 + 25 * swing) * degree,
             .out = (8 - 1.5 * swing) * degree,
-            .inward = (10 + 8 * swing) * degree,
+            .inward = (4 + 4 * swing) * degree,
             .elbow = (27 + 15 * late) * degree});
   const Arm arm = arm_of(flank);
   pose.turns[arm.shoulder] = turn_y(-sign_of(flank) * 4 * degree * swing);
