@@ -1,7 +1,8 @@
 # One module: a static library of every source below src, exported as tweenfall::NAME.
 # Sources are found by globbing, so that adding a kind of thing means adding its files and nothing else.
 #
-# tweenfall_module(NAME PUBLIC what its headers need  PRIVATE what its sources need  PRECOMPILE <headers>)
+# tweenfall_module(NAME PUBLIC what its headers need  PRIVATE what its sources need
+#   PRECOMPILE <headers> that most of its sources include, beside Eigen and the common standard ones)
 function(tweenfall_module name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE;PRECOMPILE")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp)
@@ -19,7 +20,8 @@ function(tweenfall_module name)
   # one contracted a*b+c there and the same document gives other bits.
   target_compile_options(${target} PUBLIC -ffp-contract=off)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
-  target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILE})
+  target_precompile_headers(${target} PRIVATE
+    <Eigen/Geometry> <algorithm> <functional> <memory> <span> <string> <vector> ${arg_PRECOMPILE})
   tweenfall_flags(${target})
   if(TWEENFALL_INSTALL)
     include(GNUInstallDirs)
@@ -32,6 +34,8 @@ endfunction()
 # How everything of ours is compiled: the same bits everywhere, so no contraction of a*b+c and no fast-math.
 function(tweenfall_flags target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers -ffp-contract=off
+  # Settings are aggregates with defaults, so leaving members out is the manner, not a slip.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers
+    -ffp-contract=off
     $<$<BOOL:${TWEENFALL_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()
