@@ -4,7 +4,7 @@
 #include "../model_names.h"
 #include "clips.h"
 #include "meshes.h"
-#include "scene.h"
+#include "trial.h"
 #include "values.h"
 
 #include <map>

@@ -1,4 +1,4 @@
-#include "scene.h"
+#include "trial.h"
 
 #include "memory_files.h"
 
