@@ -21,6 +21,6 @@ endfunction()
 
 # The same bits everywhere: no contraction of a*b+c, no fast-math.
 function(tweenfall_flags target)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -ffp-contract=off
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers -ffp-contract=off
     $<$<BOOL:${TWEENFALL_WARNINGS_AS_ERRORS}>:-Werror>)
 endfunction()

@@ -30,8 +30,14 @@ class Animation {
   /// @throws std::invalid_argument naming all tracks whose node does not exist or whose curve has the wrong type.
   Animation(std::shared_ptr<const Hierarchy> nodes, std::vector<Clip> clips, std::vector<Play> plays);
 
+  /// The same nodes and clips, played otherwise; clips are shared, not copied.
+  [[nodiscard]] Animation with_plays(std::vector<Play> plays) const;
+
+  /// The same clips and plays over other nodes. @throws as the constructor.
+  [[nodiscard]] Animation with_nodes(std::shared_ptr<const Hierarchy> nodes) const;
+
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return *nodes_; }
-  [[nodiscard]] std::span<const Clip> clips() const noexcept { return clips_; }
+  [[nodiscard]] std::span<const Clip> clips() const noexcept { return *clips_; }
   [[nodiscard]] std::span<const Play> plays() const noexcept { return plays_; }
 
   /// Local motion of every node at a stage time. @param local  written, one per node, in order
@@ -49,9 +55,14 @@ class Animation {
   /// Whether some playing clip has a track for the node's position, rotation or scale, or an ancestor's.
   [[nodiscard]] bool animates(std::size_t node) const noexcept;
 
+  /// The same question of one play.
+  [[nodiscard]] bool moved_by(std::size_t node, std::size_t play) const noexcept;
+
  private:
+  void bind(std::vector<Play> plays);
+
   std::shared_ptr<const Hierarchy> nodes_;
-  std::vector<Clip> clips_;
+  std::shared_ptr<const std::vector<Clip>> clips_;
   std::vector<Play> plays_;
   struct Binding;  ///< for each node, the tracks of each play that drive it
   std::shared_ptr<const Binding> binding_;

@@ -38,13 +38,15 @@ struct WorldMotion {
   }
 };
 
+/// World motion of a child from its parent's and its own local motion.
+[[nodiscard]] WorldMotion child_of(const WorldMotion& parent, const Motion& local) noexcept;
+
 class Hierarchy {
  public:
   Hierarchy() = default;
 
-  /// Nodes in any order (parents may come later); they are sorted so that parents come first, otherwise keeping order.
-  /// `parents` refers to positions in `nodes`. @throws std::invalid_argument naming the node: a name twice, a parent
-  /// out of range, a cycle.
+  /// Parents come before their children. @throws std::invalid_argument naming the node: a name twice, or a parent
+  /// that is not an earlier node.
   explicit Hierarchy(std::vector<Node> nodes);
 
   /// Appends a node below an existing parent. @returns its index. @throws as the constructor.
@@ -58,21 +60,29 @@ class Hierarchy {
   /// World motion of every node. @param local  one per node, in order  @param world  written, same size
   void world_motions(std::span<const Motion> local, std::span<WorldMotion> world) const noexcept;
 
-  /// World motion of one node alone, walking its chain of parents.
-  /// @param local_of  called with each index of the chain
+  /// World motion of one node alone, walking its chain of parents; the same bits as `world_motions` gives.
+  /// @param local_of  called with the index of each node of the chain, root first; returns its local Motion
   template <class LocalOf>
   [[nodiscard]] WorldMotion world_motion(std::size_t index, LocalOf&& local_of) const {
-    const std::size_t parent = nodes_[index].parent;
-    if (parent == no_node) return child_of(WorldMotion{}, local_of(index));
-    return child_of(world_motion(parent, local_of), local_of(index));
+    constexpr std::size_t most = 64;  // longer chains are walked in stretches, so that no depth can exhaust the stack
+    std::size_t depth = 0;
+    for (std::size_t i = index; i != no_node; i = nodes_[i].parent) ++depth;
+    WorldMotion world;
+    while (depth > 0) {
+      std::size_t chain[most];
+      const std::size_t count = depth < most ? depth : most;
+      std::size_t node = index;
+      for (std::size_t skip = depth - count; skip > 0; --skip) node = nodes_[node].parent;
+      for (std::size_t i = count; i > 0; --i, node = nodes_[node].parent) chain[i - 1] = node;
+      depth -= count;
+      for (std::size_t i = 0; i < count; ++i) world = child_of(world, local_of(chain[i]));
+    }
+    return world;
   }
 
  private:
   std::vector<Node> nodes_;
   std::unordered_map<std::string, std::size_t> index_;
 };
-
-/// World motion of a child from its parent's and its own local motion.
-[[nodiscard]] WorldMotion child_of(const WorldMotion& parent, const Motion& local) noexcept;
 
 }  // namespace tweenfall

@@ -3,36 +3,19 @@
 /// The path of one body: where its animation wants it, at any time, with exact twist.
 ///
 ///     world(t) = anchor * clip(clock(t)), plus the offset that still settles.
+///
+/// A path has no history: it can be asked for any time in any order.
 
 #include <tweenfall/anim/animation.h>
-#include <tweenfall/curves/settle.h>
 #include <tweenfall/physics/handoff/rule.h>
+#include <tweenfall/physics/handoff/settle_offset.h>
 
-#include <array>
 #include <memory>
 
 namespace tweenfall {
 
-/// The offset that a hand-back leaves, dying away; part of the path, so colliders follow it.
-class SettleOffset {
- public:
-  SettleOffset() = default;  ///< no offset
-
-  /// Starts at `time` from exactly `body`, while the path is at `path`.
-  SettleOffset(const Settle& settle, double time, const Motion& path, const Motion& body);
-
-  /// `path` with the offset of that time applied.
-  [[nodiscard]] Motion apply(double time, const Motion& path) const noexcept;
-  [[nodiscard]] bool active(double time) const noexcept;
-
- private:
-  Settle settle_ = {};
-  double start_ = 0;
-  bool any_ = false;
-  Motion body_ = {};                       ///< for dead_blend: the motion extrapolated
-  std::array<QuinticDecay, 6> quintic_{};  ///< x, y, z, then the rotation vector, world axes
-  std::array<SpringDecay, 6> spring_{};
-};
+/// `world`, carried by the rigid movement that takes its pose and twist to those of `to`; its scale and shear stay.
+[[nodiscard]] WorldMotion carried(const WorldMotion& world, const Motion& to) noexcept;
 
 class Path {
  public:
@@ -41,15 +24,28 @@ class Path {
   /// Pose and twist of the node's origin in the world.
   [[nodiscard]] Motion at(double stage_time, Side side = Side::out) const noexcept;
 
-  /// A path that takes the body over from `body` at `time`: clock and anchor chosen, offset settling.
+  /// The same with scale and shear.
+  [[nodiscard]] WorldMotion world(double stage_time, Side side = Side::out) const noexcept;
+
+  /// The path that takes up from `body` at `time`: clock and anchor as `settings` say, the difference settling.
+  ///
+  /// @param body         motion of the node's origin
+  /// @param released_at  when the body left its path, s; the clock holds from there for `Clock::hold`
+  /// @throws std::invalid_argument when `settings.clip` names no clip.
   [[nodiscard]] Path recovered(double time, const HandBack& settings, const Motion& body, double released_at) const;
 
   [[nodiscard]] const Animation& animation() const noexcept { return *animation_; }
+  [[nodiscard]] std::size_t node() const noexcept { return node_; }
+
+  /// The same path over nodes or plays that have changed.
+  [[nodiscard]] Path rebound(std::shared_ptr<const Animation> animation) const;
 
  private:
+  [[nodiscard]] WorldMotion anchored(double stage_time, Side side) const noexcept;
+
   std::shared_ptr<const Animation> animation_;
   std::size_t node_;
-  Pose anchor_ = {};
+  std::optional<Pose> anchor_;  ///< rigid; none: where it was authored
   SettleOffset settle_;
 };
 

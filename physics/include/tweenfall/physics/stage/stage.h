@@ -44,8 +44,9 @@ class Stage {
   Stage& operator=(Stage&&) noexcept;
 
   // Time
-  void advance(double dt);  ///< @throws std::invalid_argument when dt is negative or not finite
-  void seek(double time);   ///< any time >= 0; calls no callbacks
+  void advance(double dt);       ///< @throws std::invalid_argument when dt is negative or not finite
+  void advance_to(double time);  ///< to exactly `time`. @throws std::invalid_argument when that lies behind
+  void seek(double time);        ///< any time >= 0; calls no callbacks
   [[nodiscard]] double time() const noexcept;
   [[nodiscard]] double step() const noexcept;
 

@@ -1,0 +1,36 @@
+#pragma once
+
+/// The bridge from where a body is to where its path wants it.
+///
+/// At the hand-back, the difference in pose and twist is kept as an offset that dies away as
+/// `Settle` says. It is a part of the path and not a state of the body, so that colliders follow it, and pose and
+/// velocity are continuous at its start and, for the quintic and the dead blend, at its end.
+
+#include <tweenfall/curves/pose.h>
+#include <tweenfall/curves/settle.h>
+#include <tweenfall/physics/handoff/rule.h>
+
+#include <array>
+
+namespace tweenfall {
+
+class SettleOffset {
+ public:
+  SettleOffset() = default;  ///< no offset
+
+  /// Starts at `time` with exactly `body`, while the path is at `path`; both of the node's origin, world axes.
+  SettleOffset(const Settle& settle, double time, const Motion& path, const Motion& body);
+
+  /// `path`, which is the path's motion at `time`, with the offset of that time applied.
+  [[nodiscard]] Motion apply(double time, const Motion& path) const noexcept;
+
+ private:
+  Settle settle_ = {};
+  double start_ = 0;
+  bool any_ = false;
+  Motion body_ = {};                       ///< what the dead blend extrapolates
+  std::array<QuinticDecay, 6> quintic_{};  ///< x, y, z, then the parts of the rotation vector, world axes
+  std::array<SpringDecay, 6> spring_{};
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,101 @@
+#include <tweenfall/physics/stage/recording.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tweenfall {
+
+namespace {
+
+void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& recording) {
+  const auto nodes = stage.nodes();
+  const std::size_t frame = recording.times.size();
+  recording.times.push_back(stage.time());
+  // Nodes that came later lie still where they came in, back to the first frame.
+  world.resize(nodes.size());
+  stage.world(world);
+  for (std::size_t i = recording.nodes.size(); i < nodes.size(); ++i)
+    recording.nodes.push_back({.name = nodes[i].name,
+                               .parent = nodes[i].parent,
+                               .world = std::vector<WorldMotion>(frame, world[i]),
+                               .twist = std::vector<Twist>(frame),
+                               .owner = std::vector<Owner>(frame, Owner::keyed),
+                               .color = {},
+                               .weights = {}});
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    NodeRecord& record = recording.nodes[i];
+    const bool here = stage.contains(i);
+    record.world.push_back(here ? world[i] : record.world.back());
+    record.twist.push_back(here ? stage.twist(i) : Twist{});
+    record.owner.push_back(here ? stage.owner(i) : record.owner.back());
+    if (!here) continue;
+    const NodeLook look = stage.look(i);
+    if (look.color) {
+      record.color.resize(frame, look.color->value);
+      record.color.push_back(look.color->value);
+    }
+    if (!look.weights.empty()) {
+      std::vector<double> weights;
+      for (const Sample<double>& weight : look.weights) weights.push_back(weight.value);
+      record.weights.resize(frame, weights);
+      record.weights.push_back(std::move(weights));
+    }
+  }
+}
+
+}  // namespace
+
+Recording record(Stage& stage, double until, double fps) {
+  if (!(fps > 0) || !std::isfinite(fps))
+    throw std::invalid_argument("frames per second must be above 0, not " + std::to_string(fps));
+  if (!std::isfinite(until)) throw std::invalid_argument("a recording needs an end");
+  Recording recording;
+  recording.name = stage.description().name;
+  std::vector<WorldMotion> world;
+  const double start = stage.time();
+  stage.advance(0);
+  take_frame(stage, world, recording);
+  for (double frame = 1;; ++frame) {
+    double time = start + frame / fps;
+    // A last frame closer than this to the end is the end.
+    const bool last = time >= until - 1e-9;
+    if (last) time = std::max(until, stage.time());
+    if (last && time <= stage.time()) break;
+    stage.advance_to(time);
+    take_frame(stage, world, recording);
+    if (last) break;
+  }
+  for (NodeRecord& node : recording.nodes) {
+    if (!node.color.empty()) node.color.resize(recording.times.size(), node.color.back());
+    if (!node.weights.empty()) node.weights.resize(recording.times.size(), node.weights.back());
+  }
+  recording.handoffs.assign(stage.handoffs().begin(), stage.handoffs().end());
+  recording.events.assign(stage.events().begin(), stage.events().end());
+  return recording;
+}
+
+double natural_length(const StageDescription& description) {
+  constexpr double to_come_to_rest = 3, endless = 4, most = 60;
+  double length = 0;
+  bool simulated = false;
+  for (const Play& play : description.plays) {
+    const Clip& clip = description.clips[play.clip];
+    const double end = end_time(play, clip);
+    if (std::isfinite(end))
+      length = std::max(length, end);
+    else
+      length = std::max(length, play.at + (std::isfinite(clip.duration) ? std::max(endless, clip.duration) : endless));
+  }
+  for (const Rule& rule : description.rules) {
+    simulated = true;
+    for (const Trigger& trigger : rule.when.triggers)
+      if (const auto* at = std::get_if<when::At>(&trigger)) length = std::max(length, at->time);
+  }
+  for (const NodeDescription& node : description.nodes)
+    if (node.body && !node.body->fixed) simulated = true;
+  if (simulated) length += to_come_to_rest;
+  return std::clamp(length, 1.0, most);
+}
+
+}  // namespace tweenfall
