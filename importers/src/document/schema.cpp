@@ -191,7 +191,7 @@ std::string document_schema() {
   add_member(out, "title", json_text("tweenfall document"));
   for (JsonMember& member : root.members) out.members.push_back(std::move(member));
   add_member(out, "definitions", maker.definitions());
-  return write(Shape{}, out);
+  return write(document::Shape{}, out);
 }
 
 }  // namespace tweenfall
