@@ -14,7 +14,8 @@ constexpr std::size_t root_node = 0, body_node = 1, first_joint_node = 2;
 
 void add_nodes(Model& model) {
   model.nodes.push_back({.name = "Character"});
-  model.nodes.push_back({.name = "Body", .parent = root_node});
+  // A skinned mesh follows its joints alone, so the body hangs below nothing.
+  model.nodes.push_back({.name = "Body"});
   const FigurePose rest = standing();
   for (std::size_t j = 0; j < joint_count; ++j) {
     const Joint joint = static_cast<Joint>(j);

@@ -6,8 +6,8 @@
 
 namespace tweenfall::character {
 
-/// Nodes "Character" (the model's root), the 21 joints and "Body" (the mesh); clips "Walk", "WalkForward", "Wave",
-/// "GetUp".
+/// Nodes "Character" (above the 21 joints; move it to move the figure), the joints, and "Body" (the mesh); clips
+/// "Walk", "WalkForward", "Wave", "GetUp".
 [[nodiscard]] Model make_character();
 
 }  // namespace tweenfall::character

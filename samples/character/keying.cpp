@@ -1,6 +1,7 @@
 #include "keying.h"
 
 #include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/quaternion_cubic.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <vector>
@@ -21,44 +22,19 @@ Vec4 parts(const Quat& q) {
   return {q.x(), q.y(), q.z(), q.w()};
 }
 
-struct RotationKey {
-  double time;
-  Vec4 value, rate;
-};
-
-std::vector<RotationKey> rotation_keys(const std::vector<KeyedPose>& poses, Joint joint) {
-  std::vector<RotationKey> keys;
+Curve<Quat> rotation_curve(const std::vector<KeyedPose>& poses, Joint joint) {
+  std::vector<double> times;
+  std::vector<Vec4> values, rates;
   Quat reference = Quat::Identity();
   for (const KeyedPose& pose : poses) {
     reference = hemisphere_aligned(pose.at.turns[joint], reference);
     const Quat before = hemisphere_aligned(pose.before.turns[joint], reference);
     const Quat after = hemisphere_aligned(pose.after.turns[joint], reference);
-    keys.push_back({pose.time, parts(reference), (parts(after) - parts(before)) / (2 * narrow)});
+    times.push_back(pose.time);
+    values.push_back(parts(reference));
+    rates.push_back((parts(after) - parts(before)) / (2 * narrow));
   }
-  return keys;
-}
-
-Curve<Quat> rotation_curve(const std::vector<RotationKey>& keys) {
-  std::vector<RotationSpan> spans;
-  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
-    const RotationKey &from = keys[i], &to = keys[i + 1];
-    const double duration = to.time - from.time;
-    const Vec4 leap = to.value - from.value, rise = duration * from.rate, landing = duration * to.rate;
-    RotationSpan span;
-    span.start = from.time;
-    span.duration = duration;
-    span.form = RotationSpan::Form::normalized;
-    span.degree = 3;
-    span.coefficients.fill(Vec4::Zero());
-    span.coefficients[0] = from.value;
-    span.coefficients[1] = rise;
-    span.coefficients[2] = 3 * leap - 2 * rise - landing;
-    span.coefficients[3] = rise + landing - 2 * leap;
-    span.from = Quat(from.value.w(), from.value.x(), from.value.y(), from.value.z());
-    span.end = Quat(to.value.w(), to.value.x(), to.value.y(), to.value.z());
-    spans.push_back(span);
-  }
-  return Curve<Quat>(spans);
+  return gltf_cubic_rotation(times, rates, values, rates);
 }
 
 Curve<Vec3> hips_curve(const std::vector<KeyedPose>& poses) {
@@ -93,7 +69,9 @@ Clip keyed_clip(const Keying& keying, const PoseOverTime& pose_at) {
     for (FigurePose* pose : {&poses.back().before, &poses.back().at, &poses.back().after}) pose->hips_position += way;
   }
 
-  Clip clip{.name = keying.name, .duration = keying.duration};
+  Clip clip;
+  clip.name = keying.name;
+  clip.duration = keying.duration;
   if (keying.is_cyclic) clip.loop.mode = LoopMode::repeat;
   const FigurePose rest = standing();
   bool hips_move = false;
@@ -103,7 +81,7 @@ Clip keyed_clip(const Keying& keying, const PoseOverTime& pose_at) {
   for (std::size_t j = 0; j < joint_count; ++j) {
     const Joint joint = static_cast<Joint>(j);
     if (leaves(poses, joint, rest.turns[j]))
-      clip.tracks.push_back({name_of(joint), "rotation", rotation_curve(rotation_keys(poses, joint))});
+      clip.tracks.push_back({name_of(joint), "rotation", rotation_curve(poses, joint)});
   }
   return clip;
 }
