@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.25)
 # Turns text files into a source file: cmake -DOUT=page_files.cpp -DPARTS="page.css=a.css;page.js=b.js;page.js=c.js" -P embed.cmake
 # Parts of one name are joined in order. Long texts are cut, because compilers limit the length of a literal;
 # the texts must be plain ASCII, so that no character is cut in two.

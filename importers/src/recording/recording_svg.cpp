@@ -1,0 +1,1 @@
+#include <tweenfall/importers/recording_file.h>
