@@ -69,17 +69,17 @@ Influence trunk_influence(const Vec3& p) {
 }
 
 void add_trunk(Mesh& mesh) {
-  Loft loft{.around = 24, .rings = 24};
+  Loft loft{.around = 24, .rings = 22};
   const auto section = [&](double y, double z, double width, double front, double back, double roundness = 2.2) {
     loft.sections.push_back({{0, y, z}, width, front, back, roundness});
   };
   section(0.865, -0.004, 0.112, 0.078, 0.094);
-  section(0.90, -0.005, 0.154, 0.098, 0.120);
-  section(0.94, -0.006, 0.168, 0.105, 0.122);
-  section(0.98, -0.006, 0.162, 0.102, 0.110);
-  section(1.03, -0.005, 0.144, 0.096, 0.094);
-  section(1.09, -0.004, 0.130, 0.090, 0.086);
-  section(1.15, -0.004, 0.132, 0.091, 0.090);
+  section(0.90, -0.005, 0.158, 0.098, 0.120);
+  section(0.94, -0.006, 0.165, 0.105, 0.122);
+  section(0.98, -0.006, 0.157, 0.102, 0.110);
+  section(1.03, -0.005, 0.139, 0.096, 0.094);
+  section(1.09, -0.004, 0.124, 0.090, 0.086);
+  section(1.15, -0.004, 0.128, 0.091, 0.090);
   section(1.22, -0.005, 0.149, 0.100, 0.098);
   section(1.29, -0.007, 0.168, 0.109, 0.105);
   section(1.345, -0.009, 0.182, 0.106, 0.104);
@@ -87,8 +87,8 @@ void add_trunk(Mesh& mesh) {
   section(1.415, -0.010, 0.158, 0.074, 0.080, 2);
   section(1.44, -0.008, 0.104, 0.062, 0.068, 2);
   section(1.468, -0.004, 0.064, 0.053, 0.056, 2);
-  section(1.50, 0.000, 0.051, 0.050, 0.050, 2);
-  section(1.56, 0.008, 0.048, 0.048, 0.048, 2);
+  section(1.50, 0.000, 0.048, 0.048, 0.048, 2);
+  section(1.56, 0.008, 0.046, 0.046, 0.046, 2);
   loft.start_cap = 0.045;
   loft.end_cap = 0.02;
   add_loft(mesh, loft, trunk_influence);
@@ -112,18 +112,17 @@ Vec3 sculpt_face(const Vec3& p) {
 
 void add_head(Mesh& mesh) {
   const Weighting rigid = [](const Vec3& p) { return along_chain(neck, {{head, 1.51, 0.02}}, p.y()); };
-  Loft egg{.around = 24, .rings = 12};
+  Loft egg{.around = 24, .rings = 10, .cap_rings = 4};
   const auto section = [&](double y, double z, double width, double front, double back) {
     egg.sections.push_back({{0, y, z}, width, front, back, 2.15});
   };
   section(1.512, 0.028, 0.050, 0.056, 0.064);
   section(1.545, 0.021, 0.069, 0.078, 0.084);
   section(1.585, 0.015, 0.082, 0.091, 0.100);
-  section(1.63, 0.010, 0.090, 0.099, 0.109);
-  section(1.672, 0.006, 0.090, 0.098, 0.109);
-  section(1.71, 0.003, 0.077, 0.084, 0.094);
+  section(1.63, 0.008, 0.091, 0.100, 0.110);
+  section(1.655, 0.005, 0.092, 0.100, 0.111);
   egg.start_cap = 0.014;
-  egg.end_cap = 0.044;
+  egg.end_cap = 0.088;
   add_loft(mesh, egg, rigid, sculpt_face);
 
   Loft nose{.start_cap = 0.004, .end_cap = 0.009, .around = 8, .rings = 5, .cap_rings = 2};
@@ -131,7 +130,21 @@ void add_head(Mesh& mesh) {
                    {{0, 1.618, 0.109}, 0.010, 0.010, 0.02},
                    {{0, 1.602, 0.113}, 0.014, 0.012, 0.02}};
   add_loft(mesh, nose, rigid);
+  Loft smile{.side = {0, 0, 1},
+             .up = {0, 1, 0},
+             .start_cap = 0.004,
+             .end_cap = 0.004,
+             .around = 6,
+             .rings = 7,
+             .cap_rings = 1};
+  for (const double x : {-0.03, -0.018, 0.0, 0.018, 0.03})
+    smile.sections.push_back({{x, 1.556 + 14 * x * x, 0.1015 - 8 * x * x}, 0.005, 0.004, 0.004});
+  add_loft(mesh, smile, rigid);
   for (const double sign : {1.0, -1.0}) {
+    Loft eye{.start_cap = 0.008, .end_cap = 0.008, .around = 8, .rings = 3, .cap_rings = 2};
+    for (const double y : {1.629, 1.635, 1.641})
+      eye.sections.push_back({{sign * 0.035, y, 0.083}, 0.0115, 0.0145, 0.01});
+    add_loft(mesh, eye, rigid);
     Loft ear{.side = {0, 0, 1},
              .up = {sign, 0, 0},
              .start_cap = 0.008,
@@ -160,7 +173,7 @@ void add_arm(Mesh& mesh, Flank flank) {
   };
   // Widths lie along the thumb's side, depths across the palm.
   const Vec3 thumb_side(0, 0, 1);
-  Loft limb{.side = thumb_side, .up = outwards, .start_cap = 0.05, .end_cap = 0.012, .around = 12, .rings = 24};
+  Loft limb{.side = thumb_side, .up = outwards, .start_cap = 0.05, .end_cap = 0.012, .around = 12, .rings = 23};
   const auto section = [&](double length, double out, double width, double front, double back, double roundness = 2) {
     limb.sections.push_back({at(length, out, 0), width, front, back, roundness});
   };
@@ -215,13 +228,13 @@ void add_leg(Mesh& mesh, Flank flank) {
   const Weighting weighting = [&](const Vec3& p) {
     return along_chain(hips, {{leg.thigh, -0.925, 0.06}, {leg.shin, -0.5, 0.06}, {leg.foot, -0.085, 0.03}}, -p.y());
   };
-  Loft limb{.start_cap = 0.04, .end_cap = 0.03, .around = 14, .rings = 23};
+  Loft limb{.start_cap = 0.04, .end_cap = 0.03, .around = 14, .rings = 21};
   const auto section = [&](double y, double z, double width, double front, double back) {
     limb.sections.push_back({{x, y, z}, width, front, back, 2});
   };
   section(0.93, 0, 0.048, 0.060, 0.066);
-  section(0.90, 0, 0.064, 0.074, 0.086);
-  section(0.865, 0, 0.078, 0.085, 0.095);
+  section(0.90, 0, 0.072, 0.078, 0.090);
+  section(0.865, 0, 0.080, 0.086, 0.095);
   section(0.82, 0.002, 0.083, 0.087, 0.089);
   section(0.73, 0.004, 0.076, 0.082, 0.076);
   section(0.63, 0.010, 0.064, 0.070, 0.064);
