@@ -23,6 +23,7 @@ struct PointConstraint {
   double rebound = 0;         ///< normal speed wanted at the end of the step, m/s
   double rebound_time = 0;    ///< how long the rebound moves the bodies in this step, s
   double push_impulse = 0;    ///< of the push-out, kg m
+  double speed_before_rebound = 0;  ///< m/s
   double before_rebound = 0;  ///< total normal impulse when the rebound began
 };
 

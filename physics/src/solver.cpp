@@ -335,6 +335,8 @@ void Solver::rebound(std::vector<ContactConstraint>& constraints, Islands& islan
     for (int i = 0; i < constraint.count; ++i) {
       PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       point.before_rebound = point.total_normal;
+      point.speed_before_rebound = constraint.manifold.normal.dot(point_velocity(at(constraint.b), point.arm_b) -
+                                                                  point_velocity(at(constraint.a), point.arm_a));
       if (flags_[island(constraint)])
         point.normal_mass = mass_along(at(constraint.a), at(constraint.b), point, constraint.manifold.normal);
     }
@@ -365,7 +367,11 @@ void Solver::rebound(std::vector<ContactConstraint>& constraints, Islands& islan
     for (int i = 0; i < constraint.count; ++i) {
       const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       // The rebound began inside the step: what is left of the step, it moved.
-      const Vec3 moved = (point.total_normal - point.before_rebound) * point.rebound_time * constraint.manifold.normal;
+      if (!(point.rebound > 0)) continue;
+      // Bodies still closing when it was solved are on the surface already: stopping them moves nothing.
+      const double part = point.rebound / (point.rebound - std::min(0.0, point.speed_before_rebound));
+      const Vec3 moved = (point.total_normal - point.before_rebound) * part * point.rebound_time *
+                         constraint.manifold.normal;
       if (moved == Vec3::Zero()) continue;
       a.push_linear -= a.inverse_mass * moved;
       a.push_angular -= a.inverse_inertia * point.arm_a.cross(moved);
