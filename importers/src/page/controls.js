@@ -23,7 +23,7 @@ function updateReadout() {
   const owner = node.fixed ? "fixed" : ownerOf(node, state.frame);
   const line = (name, values, unit) => `<dt>${name}</dt>` + values.map(value => `<dd>${number(value)}</dd>`).join("") +
     `<dd class="unit">${unit}</dd>`;
-  box.innerHTML = `<h2><span></span><span class="owner" style="background: var(--${owner})">${owner}</span></h2><dl>` +
+  box.innerHTML = `<h2><span></span><span class="owner ${owner}" style="background: var(--${owner})">${owner}</span></h2><dl>` +
     line("position", place, "m") + line("velocity", twist.slice(0, 3), "m/s") + line("angular", twist.slice(3), "rad/s") +
     `<dt>speed</dt><dd>${number(Math.hypot(...twist.slice(0, 3)))}</dd><dd></dd><dd></dd><dd class="unit">m/s</dd></dl>`;
   box.querySelector("h2 span").textContent = node.name;
@@ -38,7 +38,7 @@ function updateControls() {
 }
 
 const toggle = name => change({[name]: !state[name]});
-const frameAll = () => orbit.frame(extent.center, extent.radius * 1.02);
+const frameAll = () => orbit.frame(extent.corners);
 
 function wireControls() {
   element("play").addEventListener("click", () => (state.playing ? pause() : play()));

@@ -28,7 +28,8 @@ function gather(node) {
       panel.high = Math.max(panel.high, value);
     }
     if (panel.title === "angular speed") panel.low = 0;
-    const room = Math.max(1e-3, (panel.high - panel.low) * 0.06, Math.abs(panel.high) * 1e-3);
+    // What hardly changes is shown flat, not its rounding.
+    const room = panel.high - panel.low > 1e-6 * Math.max(1, Math.abs(panel.high)) ? (panel.high - panel.low) * 0.06 : 0.5;
     panel.high += room;
     panel.low -= panel.title === "angular speed" ? 0 : room;
   }

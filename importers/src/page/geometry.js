@@ -64,6 +64,17 @@ function shapeGeometry(shape, planeSize) {
   return planeGeometry(shape.plane, shape.offset, planeSize);
 }
 
+// Lines a step apart in the x-z plane, in pieces of one cell: some drivers drop lines that reach behind the camera.
+function gridGeometry(step, cells) {
+  const positions = [];
+  for (let i = -cells; i <= cells; ++i)
+    for (let k = -cells; k < cells; ++k)
+      positions.push(i * step, 0, k * step, i * step, 0, (k + 1) * step, k * step, 0, i * step, (k + 1) * step, 0, i * step);
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
+  return geometry;
+}
+
 // How far the shape reaches from its node.
 function reachOf(shape) {
   const away = Math.hypot(...shape.position);

@@ -75,11 +75,22 @@ class Orbit {
     if (before > 0 && after > 0) this.zoom(before / after);
   }
 
-  // Looks at a ball from the present side.
-  frame(center, radius) {
-    const half = Math.min(this.camera.fov * Math.PI / 360, Math.atan(Math.tan(this.camera.fov * Math.PI / 360) * this.camera.aspect));
-    this.target.copy(center);
-    this.distance = Math.max(1e-3, radius / Math.sin(half));
+  // Looks at all `points` from the present side, as near as they allow.
+  frame(points) {
+    const high = Math.tan(this.camera.fov * Math.PI / 360), wide = high * this.camera.aspect;
+    this.target.set(0, 0, 0);
+    this.distance = 1;
+    this.apply();
+    const axes = [0, 1, 2].map(i => new THREE.Vector3().setFromMatrixColumn(this.camera.matrix, i));
+    // In the camera's axes, about the target: how far left and right, up and down, and how near things are.
+    const placed = points.map(point => axes.map(axis => axis.dot(point)));
+    const [x, y, z] = [0, 1, 2].map(i => {
+      const values = placed.map(place => place[i]);
+      return (Math.min(...values) + Math.max(...values)) / 2;
+    });
+    axes.forEach((axis, i) => this.target.addScaledVector(axis, [x, y, z][i]));
+    this.distance = 1.06 * Math.max(1e-3, ...placed.map(place => place[2] - z +
+      Math.max(Math.abs(place[0] - x) / wide, Math.abs(place[1] - y) / high)));
     this.apply();
   }
 }

@@ -35,7 +35,9 @@ const extent = (() => {
   }
   const center = new THREE.Vector3(...low.map((value, axis) => (value + high[axis]) / 2));
   const radius = 0.5 * Math.hypot(...low.map((value, axis) => high[axis] - value)) || 1;
-  return {center, radius, low};
+  const corners = [0, 1, 2, 3, 4, 5, 6, 7].map(i =>
+    new THREE.Vector3(...low.map((value, axis) => (i >> axis & 1 ? high[axis] : value))));
+  return {center, radius, low, corners};
 })();
 
 const groups = nodes.map(node => {
@@ -68,9 +70,7 @@ function placeOffset(object, shape) {
 const gridStep = niceStep(2 * extent.radius, 8);
 
 function addGround(parent, normal, offset) {
-  const grid = new THREE.GridHelper(80 * gridStep, 80);
-  grid.material.transparent = true;
-  grid.material.vertexColors = THREE.NoColors;
+  const grid = new THREE.LineSegments(gridGeometry(gridStep, 40), new THREE.LineBasicMaterial({transparent: true}));
   const up = new THREE.Vector3(...normal);
   grid.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), up);
   grid.position.copy(up).multiplyScalar(offset + 0.0008 * extent.radius);
@@ -101,6 +101,7 @@ for (const node of nodes) {
       new THREE.LineBasicMaterial({color: 0x000000, transparent: true, opacity: 0.35}));
     mesh.add(edges);
   }
+  if (node.shape.plane) Object.assign(material, {polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4});
   if (node.shape.plane && node.fixed) {
     grounds.push({material});
     addGround(mesh, node.shape.plane, node.shape.offset);
@@ -136,8 +137,8 @@ linkLines.renderOrder = 2;
 scene.add(linkLines);
 state.skeleton = links.length > 0 && instances.length === 0;
 
-const skyLight = new THREE.HemisphereLight(0xffffff, 0x8d8a85, 0.75);
-const sun = new THREE.DirectionalLight(0xffffff, 0.62);
+const skyLight = new THREE.HemisphereLight(0xffffff, 0x77746f, 0.62);
+const sun = new THREE.DirectionalLight(0xffffff, 0.48);
 sun.position.copy(extent.center).add(new THREE.Vector3(0.5, 1.6, 0.8).multiplyScalar(2 * extent.radius));
 sun.target.position.copy(extent.center);
 sun.castShadow = true;
@@ -164,9 +165,9 @@ function colorAt(node, frame, material) {
 
 function applyColors() {
   for (const word of ["keyed", "driven", "free", "fixed"]) ownerColors[word] = linear(colors[word]).toArray();
-  scene.background = linear(colors.sky);
+  // This release of three.js neither encodes the background nor the fog.
+  scene.background = new THREE.Color(colors.sky);
   scene.fog = new THREE.Fog(scene.background.getHex(), 1, 2);
-  scene.fog.color.copy(scene.background);
   for (const {grid, material} of grounds) {
     if (grid) grid.material.color.copy(linear(colors.grid));
     if (material) material.color.copy(linear(colors.ground));

@@ -34,7 +34,8 @@ function drawRuler() {
     const x = timeToX(k * step, context.width);
     line(context, x, 15, x, 20, colors.quiet);
     context.fillStyle = colors.quiet;
-    context.fillText((k * step).toFixed(digits) + (k * step === 0 ? " s" : ""), x, 2);
+    context.textAlign = x < 20 ? "left" : x > context.width - 20 ? "right" : "center";
+    context.fillText((k * step).toFixed(digits) + (k * step === 0 ? " s" : ""), x < 20 ? 2 : x, 2);
   }
   context.globalAlpha = events.length > 200 ? 0.35 : 0.8;
   for (const event of events) {
@@ -70,7 +71,7 @@ function drawOwners(context, node) {
     context.fillRect(x0, top, Math.max(1, x1 - x0), high);
     context.globalAlpha = 1;
     if (x1 - x0 > 48 && high > 9 && owner !== "fixed") {
-      context.fillStyle = colors.panel;
+      context.fillStyle = owner === "free" ? "#1b1b1b" : colors.panel;
       context.fillText(owner, x0 + 6, top + high / 2 + 0.5);
     }
   };
