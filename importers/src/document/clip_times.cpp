@@ -1,7 +1,7 @@
 #include "document/clip_times.h"
 
-#include "document/times.h"
 #include "document/shape.h"
+#include "document/times.h"
 #include "document/values.h"
 
 #include <algorithm>
@@ -31,7 +31,9 @@ const JsonValue* keys_of(const JsonValue& track) {
   return usable(track, "keys");
 }
 
-bool is_function(const JsonValue& track) { return track.find("oscillator") || track.find("projectile"); }
+bool is_function(const JsonValue& track) {
+  return track.find("oscillator") || track.find("projectile");
+}
 
 }  // namespace
 
@@ -63,7 +65,8 @@ std::optional<double> ClipTimes::seconds(const JsonValue& time, std::optional<do
   double amount = words->amount;
   if (words->unit == TimeInWords::Unit::frames) {
     if (!fps_) {
-      problems.add(time, in_quotes(time.text) + " counts frames; say how many a second has, with \"fps\" in the document");
+      problems.add(time,
+                   in_quotes(time.text) + " counts frames; say how many a second has, with \"fps\" in the document");
       return {};
     }
     amount /= *fps_;

@@ -12,7 +12,8 @@ namespace tweenfall::document {
 
 // Where a key or event keeps its parts; null for what is absent or faulty.
 struct KeyParts {
-  const JsonValue *time = nullptr, *value = nullptr, *ease = nullptr, *in = nullptr, *out = nullptr, *value_in = nullptr;
+  const JsonValue *time = nullptr, *value = nullptr, *ease = nullptr, *in = nullptr, *out = nullptr,
+                  *value_in = nullptr;
 };
 [[nodiscard]] KeyParts key_parts(const JsonValue& key);
 

@@ -47,7 +47,7 @@ struct Grammar {
                    {"tweenfall", store.add(version), "the version", true},
                    {"name", any_text, "", false, "\"\""},
                    {"fps", store.add(frames), "what \"12f\" counts"},
-                   {"import", import_shape(store, values), "", false, "{}"},
+                   {"import", import_shape(store, values), "files whose nodes and clips come in"},
                    {"nodes", map_of(node_shape(store, values), "nodes by name"), ""},
                    {"clips", map_of(clip_shape(store, values), "clips by name"), "", false, "{}"},
                    {"play", rows_of(play_shape(store, values), "a list of plays"), "absent: the only clip"},

@@ -179,8 +179,8 @@ ValueShapes::ValueShapes(ShapeStore& store) {
     shape.foremost_fault = [spelling](const JsonValue& value) -> std::string {
       for (const char* other : {"euler", "quat", "angle"})
         if (other != spelling && value.find(other) && !value.find(spelling))
-          return "rotations of one track are spelled one way; its first key has " + in_quotes(spelling) + ", this one " +
-                 in_quotes(other);
+          return "rotations of one track are spelled one way; its first key has " + in_quotes(spelling) +
+                 ", this one " + in_quotes(other);
       return {};
     };
     return store.add(std::move(shape));

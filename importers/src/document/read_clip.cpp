@@ -15,9 +15,10 @@ using Kind = JsonValue::Kind;
 void read_events(const JsonValue& list, const ClipTimes& times, double duration, Clip& clip, Problems& problems) {
   const auto inside = [&](const JsonValue& time, double seconds) {
     if (seconds >= 0 && seconds <= duration) return;
-    problems.add(time, seconds < 0 ? "an event before the clip's start would never happen; found " + number_text(seconds) + " s"
-                                   : "an event after the clip's end would never happen; " + number_text(seconds) +
-                                         " s is after " + number_text(duration) + " s");
+    problems.add(time, seconds < 0
+                           ? "an event before the clip's start would never happen; found " + number_text(seconds) + " s"
+                           : "an event after the clip's end would never happen; " + number_text(seconds) +
+                                 " s is after " + number_text(duration) + " s");
   };
   std::optional<double> previous;
   for (const JsonValue& item : list.items) {
@@ -66,8 +67,9 @@ Clip read_clip(const JsonMember& member, std::optional<double> fps, Problems& pr
   clip.duration = clip_duration(value, fps);
   const bool endless = std::isinf(clip.duration);
   const bool has_share = clip.duration > 0 && !endless;
-  const ClipTimes times(fps, has_share ? std::optional(clip.duration) : std::nullopt,
-                        endless ? "this clip is endless; give it a \"duration\"" : "this clip has none; give it a \"duration\"");
+  const ClipTimes times(
+      fps, has_share ? std::optional(clip.duration) : std::nullopt,
+      endless ? "this clip is endless; give it a \"duration\"" : "this clip has none; give it a \"duration\"");
 
   if (const JsonValue* loop = usable(value, "loop")) {
     const std::string mode = text_in(*loop, "mode");

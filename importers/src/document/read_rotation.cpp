@@ -14,7 +14,9 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-Vec3 in_radians(const Vec3& angles) { return {radians(angles[0]), radians(angles[1]), radians(angles[2])}; }
+Vec3 in_radians(const Vec3& angles) {
+  return {radians(angles[0]), radians(angles[1]), radians(angles[2])};
+}
 
 // Angular velocity that each angle's rate adds: the axes of the three turns where the angles stand.
 Mat3 turn_axes(const Vec3& angles, const EulerOrder& order) {
@@ -106,9 +108,10 @@ class RotationTrack {
       const Mat3 axes = turn_axes(angles, order);
       const double determinant = axes.col(0).dot(axes.col(1).cross(axes.col(2)));
       if (std::abs(determinant) < 1e-6) {
-        problems_.add(rate,
-                      "at these angles two of the three turns share an axis (gimbal lock), so no rates of the angles give "
-                      "this angular velocity; use \"quat\" or another \"order\"");
+        problems_.add(
+            rate,
+            "at these angles two of the three turns share an axis (gimbal lock), so no rates of the angles give "
+            "this angular velocity; use \"quat\" or another \"order\"");
         return {};
       }
       const Vec3 wanted = in_radians(*velocity);
@@ -145,8 +148,9 @@ class RotationTrack {
       return axis_curve(*axis, with_outside_of(track_, *angle));
     }
     if (many_turns)
-      problems_.add(*many_turns, number_text(many_turns->number) +
-                                     " degrees are more than a turn, which only a track whose keys share one axis can keep");
+      problems_.add(*many_turns,
+                    number_text(many_turns->number) +
+                        " degrees are more than a turn, which only a track whose keys share one axis can keep");
     return in_quaternions(false);
   }
 
@@ -158,8 +162,7 @@ class RotationTrack {
       if (!velocity) return {};
       return in_radians(*velocity);
     };
-    const std::optional<Curve<Quat>> curve =
-        read_keys<Quat>(*list_, times_, reader, {.long_way = long_way}, problems_);
+    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, {.long_way = long_way}, problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
   }

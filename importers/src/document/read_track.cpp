@@ -128,8 +128,8 @@ class TrackReader {
 
   void check_count(const JsonValue* value, std::size_t count) {
     if (!value || !value->is(Kind::list) || value->items.size() == count) return;
-    problems_.add(*value, "the first key has " + std::to_string(count) + " weights, one for each morph target; this has " +
-                              std::to_string(value->items.size()));
+    problems_.add(*value, "the first key has " + std::to_string(count) +
+                              " weights, one for each morph target; this has " + std::to_string(value->items.size()));
   }
 
   template <class T>
@@ -159,14 +159,14 @@ class TrackReader {
         });
       case Kind::text:
         if (text_in(track_, "kind") != "text" && first->text.substr(0, 1) == "#") return color();
-        return stepped<std::string>([](const JsonValue& value) {
-          return value.is(Kind::text) ? std::optional(value.text) : std::nullopt;
-        });
+        return stepped<std::string>(
+            [](const JsonValue& value) { return value.is(Kind::text) ? std::optional(value.text) : std::nullopt; });
       case Kind::list:
         if (first->items.size() == 2) return keyed(reader_of<Vec2>(numbers_of<2>));
         if (first->items.size() == 4) return keyed(reader_of<Vec4>(numbers_of<4>));
         return keyed(reader_of<Vec3>(numbers_of<3>));
-      default: return keyed(reader_of<double>(number_of));
+      default:
+        return keyed(reader_of<double>(number_of));
     }
   }
 

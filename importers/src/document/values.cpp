@@ -10,8 +10,12 @@ namespace tweenfall::document {
 
 using Kind = JsonValue::Kind;
 
-double radians(double degrees) { return degrees * (std::numbers::pi / 180); }
-double degrees(double radians) { return radians * (180 / std::numbers::pi); }
+double radians(double degrees) {
+  return degrees * (std::numbers::pi / 180);
+}
+double degrees(double radians) {
+  return radians * (180 / std::numbers::pi);
+}
 
 const JsonValue* usable(const JsonValue& object, std::string_view name) {
   const JsonValue* value = object.is(Kind::object) ? object.find(name) : nullptr;
