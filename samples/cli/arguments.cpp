@@ -41,8 +41,7 @@ std::optional<std::string> unknown_option(const CLI::App& verb, const std::vecto
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     for (const std::string& name : option->get_snames()) known.push_back("-" + name);
   }
-  for (std::size_t i = 1; i < arguments.size(); ++i) {
-    const std::string& argument = arguments[i];
+  for (const std::string& argument : arguments) {
     if (argument == "--") break;
     if (argument.size() < 2 || argument[0] != '-' || parse_number(argument)) continue;
     const bool is_long = argument[1] == '-';
@@ -165,12 +164,12 @@ int CommandLine::run(const std::vector<std::string>& arguments) {
   } catch (const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     const CLI::App& asked = chosen.empty() ? app : *chosen[0];
-    const std::string help = "\n  " + (chosen.empty() ? "" : "tweenfall ") + asked.get_name() + " --help says more";
-    const std::vector<std::string> from_verb =
-        chosen.empty() ? std::vector<std::string>{""} : std::vector<std::string>{};
-    std::vector<std::string> scanned = from_verb;
-    scanned.insert(scanned.end(), arguments.begin(), arguments.end());
-    if (const auto unknown = unknown_option(asked, scanned)) throw UsageError(*unknown + help);
+    const std::string help =
+        std::string("\n  ") + (chosen.empty() ? "" : "tweenfall ") + asked.get_name() + " --help says more";
+    // The verb itself stands first where there is one.
+    std::vector<std::string> after = arguments;
+    if (!chosen.empty()) after.erase(after.begin());
+    if (const auto unknown = unknown_option(asked, after)) throw UsageError(*unknown + help);
     throw UsageError(error.what() + help);
   }
   return implementation_->runs.find(app.get_subcommands().at(0)->get_name())->second();

@@ -35,7 +35,7 @@ struct TrackSample {
 /// World motion of every node while `clip` alone plays.
 [[nodiscard]] std::vector<WorldMotion> sample_world(const Animation& animation, double time);
 
-/// The nodes and one clip of a stage; nodes that only tracks name are added to the root.
+/// The nodes of a stage with one clip of it playing from 0.
 [[nodiscard]] Animation animation_of(const StageDescription& stage, std::size_t clip);
 
 }  // namespace tweenfall::cli
