@@ -44,7 +44,7 @@ std::size_t node_named(const std::string& name) {
 std::vector<WorldMotion> placed(const Clip* clip, double time) {
   static const Hierarchy hierarchy(stored().nodes);
   std::vector<Motion> local;
-  for (const Node& node : stored().nodes) local.push_back({.pose = node.rest});
+  for (const Node& node : stored().nodes) local.push_back({node.rest, {}, Vec3::Zero()});
   if (clip)
     for (const Track& track : clip->tracks) {
       Motion& motion = local[node_named(track.node)];
@@ -283,8 +283,9 @@ TEST_CASE("the wave lifts the right hand over the head, swings it out three time
     const auto world = placed(&clip, time);
     const Vec3 hand = place_of(world, "RightHand");
     top = std::max(top, hand.y() - place_of(world, "Head").y());
-    const double out = -hand.x();
-    if (hand.y() > 1.5 && now > before && now > out) ++peaks;
+    // Sideways from the elbow, so that the arm's own going up and down does not count.
+    const double out = place_of(world, "RightForearm").x() - hand.x();
+    if (hand.y() > 1.5 && now > 0.1 && now > before && now > out) ++peaks;
     before = now;
     now = out;
   }
