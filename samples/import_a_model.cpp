@@ -8,7 +8,7 @@
 using namespace tweenfall;
 
 int main(int count, char** arguments) {
-  const std::filesystem::path file = count > 1 ? arguments[1] : TWEENFALL_SAMPLE_MODELS "/figure.glb";
+  const std::filesystem::path file = count > 1 ? arguments[1] : TWEENFALL_SAMPLE_DOCUMENTS "/character.glb";
   const Model model = load_model(file);
   std::printf("%s: %zu nodes, %zu meshes, %zu clips\n", model.name.c_str(), model.nodes.size(), model.meshes.size(),
               model.clips.size());

@@ -18,7 +18,7 @@ using tweenfall::test::near;
 namespace {
 
 std::filesystem::path stored_file() {
-  return std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/models/character.glb";
+  return std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/documents/character.glb";
 }
 
 const Model& stored() {
@@ -304,7 +304,7 @@ TEST_CASE("the program under samples makes the stored character again, bit for b
   const std::string made = bytes(again), kept = bytes(stored_file());
   std::filesystem::remove(again);
   CHECK(made.size() > 100000);
-  CHECK_MESSAGE(made == kept, "run `make_character samples/models/character.glb` and commit the result");
+  CHECK_MESSAGE(made == kept, "run `make_character samples/documents/character.glb` and commit the result");
 #else
   MESSAGE("SKIPPED: the samples are not built, so the character is not made again");
 #endif
