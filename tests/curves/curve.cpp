@@ -151,7 +151,7 @@ TEST_CASE("an angle about an axis keeps its turns and its rules outside") {
 }
 
 TEST_CASE("the rates of a vector curve are those of its values for every rule") {
-  for (const std::string& word :
+  for (const std::string word :
        {"smooth", "smooth-clamped", "monotone", "natural", "catmull-rom", "centripetal", "tcb(0.2,0.3,-0.4)", "ease",
         "sine-in-out", "expo-out", "circ-in", "back-in-out", "elastic-out(1,0.3)", "bounce-in", "spring(0.3s,0.5)",
         "spring(0.4s,1)", "spring(0.4s,1.7)"}) {

@@ -11,7 +11,7 @@ using namespace tweenfall;
 
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 Tangent<double> given(double rate, double weight = 1.0 / 3) {
   return {Tangent<double>::Kind::given, rate, weight};
@@ -283,8 +283,8 @@ TEST_CASE("keys that cannot be a curve are refused with index, time and value") 
   refused({}, "at least one key");
   refused({{0, 1}, {0, 2}}, "key 1 (time 0 s, value 2) must come after the key before it, at 0 s");
   refused({{0, 1}, {-1, 2}}, "key 1 (time -1 s");
-  refused({{0, nan}}, "key 0");
-  refused({{nan, 1}}, "finite time");
+  refused({{0, not_a_number}}, "key 0");
+  refused({{not_a_number, 1}}, "finite time");
   refused({{0, 1, Ease::linear(), {}, given(1)}, {1, 2}}, "one of them decides");
   refused({{0, 1, Ease::smooth_clamped(), {}, given(1, 1.5)}, {1, 2}}, "weight 1.5");
   refused({{0, 1, Ease::smooth_clamped(), {}, given(1, 0)}, {1, 2}}, "weight 0");
