@@ -17,6 +17,7 @@ struct SolverBody {
   bool pressed = false;  ///< an impulse reached it in this sub-step
   bool round = false;    ///< a ball: no contact can rock it
   Vec3 lag;              ///< from the velocity at the end of the sub-step to its mean, m/s
+  double roundness = 0;  ///< m
   double inverse_mass = 0;
   Mat3 inverse_inertia = Mat3::Zero();
   Vec3 center, start_center;
