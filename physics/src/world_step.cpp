@@ -40,8 +40,8 @@ void adopt(ContactConstraint& constraint, const Body& a, const Prediction& at_a,
     point.start_arm_b = from.position - at_b.center;
     point.start_gap = -from.penetration;
     if (constraint.impact_time == 0) continue;
-    point.start_arm_a = (back_a * point.start_arm_a).eval();
-    point.start_arm_b = (back_b * point.start_arm_b).eval();
+    point.start_arm_a = carried(back_a, point.start_arm_a, a.roundness * manifold.normal);
+    point.start_arm_b = carried(back_b, point.start_arm_b, -b.roundness * manifold.normal);
     point.start_gap += manifold.normal.dot((b.center + point.start_arm_b) - (a.center + point.start_arm_a));
   }
 }

@@ -27,9 +27,13 @@ struct Scene {
 };
 
 /// TWEENFALL_SCENES, or ../shared/scenes.
-inline std::filesystem::path scenes_folder() { return detail::folder("TWEENFALL_SCENES", "../shared/scenes"); }
+inline std::filesystem::path scenes_folder() {
+  return detail::folder("TWEENFALL_SCENES", "../shared/scenes");
+}
 
-inline Vec3 vector_from(const nlohmann::json& json) { return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()}; }
+inline Vec3 vector_from(const nlohmann::json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
 
 /// Nothing, said loudly, when the file is absent. Joints and hulls are not read.
 inline std::optional<Scene> load_scene(const std::string& name, double restitution_scale = 1) {
