@@ -47,7 +47,7 @@ TEST_CASE("odd but valid files load, and malformed ones give an error that names
     if (name.find("VALID") != std::string::npos) {
       CHECK(error == "");
     } else {
-      MESSAGE(error);
+      CAPTURE(error);
       CHECK(error.find(name) != std::string::npos);
       CHECK(error.size() > name.size() + 20);
     }

@@ -67,17 +67,23 @@ class Posed {
   std::vector<std::vector<double>> looks_;
 };
 
-/// Largest difference over the sixteen elements of a column-major matrix, over max(1, largest element).
-inline double world_error(const WorldMotion& actual, const nlohmann::json& expected) {
-  double largest = 1, difference = 0;
+/// A column-major matrix of sixteen numbers.
+inline WorldMotion world_of(const nlohmann::json& matrix) {
+  WorldMotion world;
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 3; ++row) {
-      const double wanted = expected[static_cast<std::size_t>(4 * column + row)].get<double>();
-      const double got = column < 3 ? actual.linear(row, column) : actual.motion.pose.position[row];
-      largest = std::max(largest, std::abs(wanted));
-      difference = std::max(difference, std::isfinite(got) ? std::abs(got - wanted) : 1e30);
+      const double number = matrix[static_cast<std::size_t>(4 * column + row)].get<double>();
+      (column < 3 ? world.linear(row, column) : world.motion.pose.position[row]) = number;
     }
-  return difference / largest;
+  return world;
+}
+
+/// Largest difference over the elements of two placements, over max(1, largest element expected).
+inline double world_error(const WorldMotion& actual, const WorldMotion& expected) {
+  const Vec3 &got = actual.motion.pose.position, &wanted = expected.motion.pose.position;
+  if (!got.allFinite() || !actual.linear.allFinite()) return 1e30;
+  const double size = std::max({1.0, expected.linear.cwiseAbs().maxCoeff(), wanted.cwiseAbs().maxCoeff()});
+  return std::max((actual.linear - expected.linear).cwiseAbs().maxCoeff(), (got - wanted).cwiseAbs().maxCoeff()) / size;
 }
 
 inline Vec3 point_of(const nlohmann::json& list) {
