@@ -31,12 +31,12 @@ struct Building {
   StageDescription stage{};
   std::optional<double> fps{};
 
-  bool names_are_free = false;                  // neither nodes nor imports: tracks name what they like
-  std::map<std::string, std::size_t> nodes{};   // index of each node
+  bool names_are_free = false;                 // neither nodes nor imports: tracks name what they like
+  std::map<std::string, std::size_t> nodes{};  // index of each node
   std::map<std::string, std::size_t> clips{};
-  std::set<std::string> imports{};              // their names here
-  std::set<std::string> failed_imports{};       // their nodes and clips are not known to be missing
-  std::vector<std::string> clips_of_others{};   // clips of imports without nodes: their tracks name nodes of this file
+  std::set<std::string> imports{};             // their names here
+  std::set<std::string> failed_imports{};      // their nodes and clips are not known to be missing
+  std::vector<std::string> clips_of_others{};  // clips of imports without nodes: their tracks name nodes of this file
 
   [[nodiscard]] std::vector<std::string> node_names() const;
   [[nodiscard]] std::vector<std::string> body_names() const;

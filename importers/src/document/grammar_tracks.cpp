@@ -174,7 +174,7 @@ class TrackShapes {
                              {kind_field("vector", false)},
                              {{"oscillator", oscillator(values_.vector, "the value's unit"), "swings"},
                               {"projectile", projectile(), "a thrown body's way"}}};
-    const TrackKind color{"user-color", values_.color, values_.vector_4, {kind_field("color", false), space()}};
+    const TrackKind color{"user-color", values_.color, values_.vector_4, {kind_field("color", false), space(), hue()}};
     const TrackKind truth{"switch", values_.boolean, nullptr, {kind_field("switch", false)}};
     const TrackKind text{"text", store_.add(plain_text), nullptr};
     const TrackKind said_text{"said-text", store_.add(any_text), nullptr, {kind_field("text", true)}};
@@ -207,6 +207,7 @@ class TrackShapes {
                     {"before", outside_, ""},
                     {"after", outside_, ""},
                     {"space", values_.any, ""},
+                    {"hue", values_.any, ""},
                     {"oscillator", values_.any, ""},
                     {"projectile", values_.any, ""}}));
     shape.select = [made, unknown](const JsonValue& value) -> const Shape* {
@@ -255,8 +256,14 @@ class TrackShapes {
     return {"relative", values_.boolean, "compose with the node's value instead of replacing it", false, "false"};
   }
   Field space() {
-    if (!space_) space_ = store_.add(words_of("a color space", {"linear", "srgb", "oklab"}));
+    if (!space_)
+      space_ = store_.add(words_of("a color space", {"oklab", "linear", "srgb", "oklch", "hsl", "lab", "lch"}));
     return {"space", space_, "where colors are mixed", false, "\"oklab\""};
+  }
+  Field hue() {
+    if (!hue_)
+      hue_ = store_.add(words_of("which way around the hue goes", {"shorter", "longer", "increasing", "decreasing"}));
+    return {"hue", hue_, "which way around, in spaces with a hue", false, "\"shorter\""};
   }
   Field mix() {
     return {"mix", store_.add(words_of("a way to mix", {"linear", "log"})), "log: ratios are interpolated", false,
@@ -283,6 +290,7 @@ class TrackShapes {
   const Shape* share_ = nullptr;
   const Shape* projectile_ = nullptr;
   const Shape* space_ = nullptr;
+  const Shape* hue_ = nullptr;
 };
 
 const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
@@ -290,20 +298,21 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   Shape tracks = object_of("tracks by name", {});
   tracks.definition = "tracks";
   tracks.one_a_line = true;
-  tracks.endings = {{".position", make.either({"position",
-                                               values.vector,
-                                               values.vector,
-                                               {make.relative()},
-                                               {{"oscillator", make.oscillator(values.vector, "m"), "swings"},
-                                                {"projectile", make.projectile(), "a thrown body's way"}}})},
-                    {".rotation", make.rotation()},
-                    {".scale", make.either({"scale",
-                                            values.scale,
-                                            values.scale,
-                                            {make.relative(), make.mix()},
-                                            {{"oscillator", make.oscillator(values.vector, "factors"), "swings"}}})},
-                    {".color", make.either({"color", values.color, values.vector_4, {make.relative(), make.space()}})},
-                    {".weights", make.either({"weights", values.numbers, values.numbers, {make.relative()}})}};
+  tracks.endings = {
+      {".position", make.either({"position",
+                                 values.vector,
+                                 values.vector,
+                                 {make.relative()},
+                                 {{"oscillator", make.oscillator(values.vector, "m"), "swings"},
+                                  {"projectile", make.projectile(), "a thrown body's way"}}})},
+      {".rotation", make.rotation()},
+      {".scale", make.either({"scale",
+                              values.scale,
+                              values.scale,
+                              {make.relative(), make.mix()},
+                              {{"oscillator", make.oscillator(values.vector, "factors"), "swings"}}})},
+      {".color", make.either({"color", values.color, values.vector_4, {make.relative(), make.space(), make.hue()}})},
+      {".weights", make.either({"weights", values.numbers, values.numbers, {make.relative()}})}};
   tracks.others = make.user();
   tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
   tracks.name_fault = [](std::string_view name) -> std::string {

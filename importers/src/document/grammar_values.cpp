@@ -61,7 +61,13 @@ const Shape* ease_shape(ShapeStore& store) {
     }
   }
   if (!calls.empty()) shape.pattern = "^(" + pattern + ")\\(.*\\)$";
-  shape.fits = [](std::string_view text) { return Ease::named(text).has_value(); };
+  // The spellings that the schema knows: words as they are, calls without spaces before their bracket.
+  shape.fits = [calls](std::string_view text) {
+    const std::size_t bracket = text.find('(');
+    return bracket != std::string_view::npos &&
+           std::find(calls.begin(), calls.end(), text.substr(0, bracket)) != calls.end() &&
+           Ease::named(text).has_value();
+  };
   shape.why = [calls](std::string_view text) -> std::string {
     const std::size_t bracket = text.find('(');
     if (bracket == std::string_view::npos) return {};

@@ -91,7 +91,21 @@ class TrackReader {
   std::optional<TrackCurve> color() {
     KeyOptions options;
     const std::string space = text_in(track_, "space", "oklab");
-    options.space = space == "linear" ? ColorSpace::linear : space == "srgb" ? ColorSpace::srgb : ColorSpace::oklab;
+    static constexpr std::pair<std::string_view, ColorSpace> spaces[] = {
+        {"linear", ColorSpace::linear}, {"srgb", ColorSpace::srgb}, {"oklab", ColorSpace::oklab},
+        {"oklch", ColorSpace::oklch},   {"hsl", ColorSpace::hsl},   {"lab", ColorSpace::lab},
+        {"lch", ColorSpace::lch}};
+    for (const auto& [word, meant] : spaces)
+      if (space == word) options.space = meant;
+    if (const JsonValue* hue = usable(track_, "hue")) {
+      options.hue = hue->text == "longer"       ? HueRule::longer
+                    : hue->text == "increasing" ? HueRule::increasing
+                    : hue->text == "decreasing" ? HueRule::decreasing
+                                                : HueRule::shorter;
+      if (hue_index(options.space) < 0)
+        problems_.add(*hue,
+                      "the space " + in_quotes(space) + " has no hue; spaces with one are \"oklch\", \"hsl\", \"lch\"");
+    }
     KeyReader<Color> reader;
     reader.value = [](const JsonValue& value) { return color_of(value); };
     reader.rate = [](const JsonValue& rate, const Color&) { return numbers_of<4>(rate); };

@@ -56,7 +56,7 @@ struct Shape {
   // text: one of `words`, or anything of `pattern` (ECMA 262); no limit when both are empty
   std::vector<std::string> words{};
   std::string pattern{};
-  std::function<bool(std::string_view)> fits{};  // what the pattern says
+  std::function<bool(std::string_view)> fits{};        // what the pattern says
   std::function<std::string(std::string_view)> why{};  // why a text does not fit, where more can be said; or nothing
   std::vector<std::string> hints{};                    // words to suggest beside `words`
 
