@@ -85,6 +85,15 @@ export class Page {
     return this.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(1))))");
   }
 
+  // Whether the expression comes true within a generous while.
+  async until(expression) {
+    for (let tries = 0; tries < 200; ++tries) {
+      if (await this.evaluate(expression)) return true;
+      await new Promise(resolve => setTimeout(resolve, 100));
+    }
+    return false;
+  }
+
   // What is on the screen, as PNG bytes.
   async screenshot() {
     await this.drawn();

@@ -17,7 +17,7 @@ int main(int count, char** arguments) {
     std::filesystem::create_directories(folder);
     const tweenfall::StageDescription stage = tweenfall::test::example_stage();
     const tweenfall::Recording recording = tweenfall::test::example_recording();
-    for (const char* name : {"example.html", "example.json"})
+    for (const char* name : {"example.html", "example.json", "example.svg"})
       tweenfall::save_recording(recording, stage, folder / name);
   } catch (const std::exception& problem) {
     std::cerr << problem.what() << "\n";

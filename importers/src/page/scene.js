@@ -5,6 +5,8 @@ const camera = new THREE.PerspectiveCamera(38, 1, 0.01, 1000);
 const view = document.getElementById("view");
 let renderer = null;
 try {
+  // Asked first, because three.js complains aloud.
+  if (!document.createElement("canvas").getContext("webgl")) throw new Error("no WebGL");
   renderer = new THREE.WebGLRenderer({canvas: document.getElementById("scene"), antialias: true});
   renderer.gammaOutput = true;
   renderer.gammaFactor = 2.2;

@@ -36,7 +36,7 @@ const pause = () => change({playing: false});
 let lastTick = 0;
 function tick(now) {
   if (state.playing && lastTick) {
-    let time = playTime + Math.min(0.1, (now - lastTick) / 1000) * state.speed;
+    let time = playTime + Math.min(0.25, (now - lastTick) / 1000) * state.speed;
     if (time >= endTime) {
       if (state.loop && duration > 0) time = startTime + (time - endTime) % duration;
       else change({playing: false});
