@@ -20,9 +20,9 @@ namespace tweenfall {
 template <class T>
 struct Tangent {
   enum class Kind { automatic, flat, given };
-  Kind kind = Kind::automatic;  ///< automatic: as the rule `smooth` would choose
-  Rate<T> rate{};               ///< U/s; read when given. For rotations: angular velocity, rad/s
-  double weight = 1.0 / 3.0;    ///< the handle's share of the span, > 0 to 1; 1/3 is the plain Hermite cubic
+  Kind kind = Kind::automatic;     ///< automatic: as the rule `smooth` would choose
+  Rate<T> rate = zero<Rate<T>>();  ///< U/s; read when given. For rotations: angular velocity, rad/s
+  double weight = 1.0 / 3.0;       ///< the handle's share of the span, > 0 to 1; 1/3 is the plain Hermite cubic
 };
 
 template <class T>
