@@ -183,8 +183,9 @@ TEST_CASE("FBX rest poses match ufbx, and clips do as far as assimp can read the
     const Model model = load_model(file);
     CHECK(model.clips.size() == (*truth)["animations"].size());
     Comparison comparison(model, *truth, false);
-    for (const std::string& node : comparison.missing()) MESSAGE("not found: " << node);
-    CHECK(comparison.missing().empty());
+    // The authoring program's own cameras, which assimp leaves out, are no part of the scene.
+    for (const std::string& node : comparison.missing())
+      CHECK_MESSAGE((node.starts_with("Producer ") || node == "Camera Switcher"), "not found: " << node);
     const Errors errors = comparison.run(true);
     CAPTURE(errors.where);
     CHECK(errors.rest <= tolerance_of(*truth, "world"));
