@@ -117,6 +117,7 @@ TEST_CASE("glTF cubic rotations agree with three.js") {
   const auto file = test::read_json(test::vectors_folder() / "gltf_animation.json");
   for (const auto& c : file["cases"]) {
     if (c["input"]["interpolation"] != "CUBICSPLINE") continue;
+    if (!c["value"].contains("rotation_xyzw")) continue;
     CAPTURE(c["name"].get<std::string>());
     const std::vector<double> times = c["input"]["times"];
     const auto& flat = c["input"]["outputs"]["rotation"];
@@ -125,7 +126,7 @@ TEST_CASE("glTF cubic rotations agree with three.js") {
       for (std::size_t part = 0; part < 3; ++part) parts[part].push_back(quat(flat, 12 * i + 4 * part).coeffs());
     const Curve<Quat> curve = gltf_cubic_rotation(times, parts[0], parts[1], parts[2]);
     for (std::size_t k = 0; k < c["t"].size(); ++k)
-      CHECK(test::near(curve.value(c["t"][k]), quat(c["value"]["rotation"][k]), 1e-5));
+      CHECK(test::near(curve.value(c["t"][k]), quat(c["value"]["rotation_xyzw"][k]), 1e-5));
     // Its angular velocity is that of its values.
     const double t = 0.3 * times[0] + 0.7 * times[1], h = 1e-4;
     const Quat here = curve.value(t);
@@ -160,7 +161,8 @@ TEST_CASE("Catmull-Rom, Kochanek-Bartels and natural splines agree with the spli
     for (const auto& c : file["cases"]) {
       const auto& input = c["input"];
       CAPTURE(c["name"].get<std::string>());
-      const std::string kind = input["kind"], end = input["end"];
+      const std::string kind = input["kind"];
+      const std::string end = input["end"].is_string() ? input["end"].get<std::string>() : "clamped";
       // Clamped ends are stated tangents, which a run of these rules does not take.
       if (end == "clamped") continue;
       const std::vector<double> grid = input["grid"];
