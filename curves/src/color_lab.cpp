@@ -4,13 +4,9 @@ namespace tweenfall::color_spaces {
 namespace {
 
 // Source: W3C, "CSS Color Module Level 4", 10 and 17: Rec. 709 primaries, Bradford adaptation to white D50.
-constexpr Matrix xyz65_of_linear = {{{506752.0 / 1228815, 87881.0 / 245763, 12673.0 / 70218},
-                                     {87098.0 / 409605, 175762.0 / 245763, 12673.0 / 175545},
-                                     {7918.0 / 409605, 87881.0 / 737289, 1001167.0 / 1053270}}};
-constexpr Matrix xyz50_of_xyz65 = {{{1.0479297925449969, 0.022946870601609652, -0.05019226628920524},
-                                    {0.02962780877005599, 0.9904344267538799, -0.017073799063418826},
-                                    {-0.009243040646204504, 0.015055191490298152, 0.7518742814281371}}};
-constexpr Matrix xyz_of_linear = multiplied(xyz50_of_xyz65, xyz65_of_linear);
+constexpr Matrix xyz_of_linear = {{{0.436065742824811, 0.3851514688337912, 0.14307845442264197},
+                                   {0.22249319175623702, 0.7168870538238823, 0.06061979053616537},
+                                   {0.013923904500943465, 0.09708128566574634, 0.7140993584005155}}};
 constexpr Matrix linear_of_xyz = inverted(xyz_of_linear);
 constexpr double white[3] = {0.3457 / 0.3585, 1, (1 - 0.3457 - 0.3585) / 0.3585};
 constexpr double epsilon = 216.0 / 24389, kappa = 24389.0 / 27;

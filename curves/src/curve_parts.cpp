@@ -67,7 +67,7 @@ void add_play(std::vector<CurvePart>& result, const Curve<double>& curve, const 
 void add_outside(std::vector<CurvePart>& result, const Curve<double>& curve, const std::vector<Span<double>>& spans,
                  double from, double to, bool early) {
   const Outside rule = early ? curve.before() : curve.after();
-  const Sample<double> end = early ? curve.sample(curve.start(), Side::out) : curve.sample(curve.end(), Side::in);
+  const Sample<double> end = early ? curve.sample(curve.start(), Side::in) : curve.sample(curve.end(), Side::out);
   if (rule == Outside::hold) {
     result.push_back({from, to, {end.value}});
   } else if (rule == Outside::linear) {

@@ -35,8 +35,8 @@ TEST_CASE("columns count characters, and the caret stands below tabs and letters
   const std::string said =
       faults_of("{\"tweenfall\": 1,\n\t\"name\": \"\xc3\xa4\xe2\x82\xac\", \"fps\": 0}", "wide.json", {});
   CHECK(said ==
-        "wide.json:2:22: error: expected frames per second above 0, found 0 (at /fps)\n 2 | \t\"name\": "
-        "\"\xc3\xa4\xe2\x82\xac\", \"fps\": 0}\n   | \t                    ^\n");
+        "wide.json:2:23: error: expected frames per second above 0, found 0 (at /fps)\n 2 | \t\"name\": "
+        "\"\xc3\xa4\xe2\x82\xac\", \"fps\": 0}\n   | \t                     ^\n");
 }
 
 TEST_CASE("a very long line is shown around the place, and the caret stands there") {

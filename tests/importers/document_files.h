@@ -37,6 +37,7 @@ inline std::string faults_of(const std::string& text, const std::string& name, c
     REQUIRE(!error.problems().empty());
     std::string out = error.what();
     // Problems of imported files name them with their folder.
+    if (folder.empty()) return out + "\n";
     const std::string prefix = folder.generic_string() + "/";
     for (std::size_t at; (at = out.find(prefix)) != std::string::npos;) out.erase(at, prefix.size());
     return out + "\n";

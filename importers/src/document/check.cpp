@@ -100,6 +100,7 @@ class Checker {
         return;
       }
     }
+    std::vector<std::string> meant;  // fields that a misspelled name is near to
     for (JsonMember& member : value.members) {
       if (is_free_name(member.name)) continue;
       const Shape* expected = shape.member(member.name);
@@ -107,6 +108,7 @@ class Checker {
         problems_.add_name(member,
                            "unknown field " + in_quotes(member.name) + suggestion(member.name, shape.field_names()));
         member.value.kind = Kind::faulty;
+        meant.push_back(nearest_name(member.name, shape.field_names()));
         continue;
       }
       if (shape.name_fault && !shape.field(member.name)) {
@@ -119,14 +121,14 @@ class Checker {
       this->value(*expected, member.value);
     }
     for (const Field& field : shape.fields)
-      if (field.required && !value.find(field.name))
+      if (field.required && !value.find(field.name) && std::find(meant.begin(), meant.end(), field.name) == meant.end())
         problems_.add(value, "expected " + what + "; " + in_quotes(field.name) + " is missing");
     for (const Together& rule : shape.together) together(rule, what, value);
   }
 
   void together(const Together& rule, const std::string& what, JsonValue& value) {
-    const JsonMember* first = nullptr;
-    const JsonMember* second = nullptr;
+    JsonMember* first = nullptr;
+    JsonMember* second = nullptr;
     for (JsonMember& member : value.members) {
       if (std::find(rule.names.begin(), rule.names.end(), member.name) == rule.names.end()) continue;
       (first ? second : first) = &member;
@@ -137,8 +139,10 @@ class Checker {
         problems_.add_name(*first, in_quotes(rule.names[0]) + " needs " + in_quotes(rule.names[1]) + " beside it");
       return;
     }
-    if (second)
+    if (second) {
       problems_.add_name(*second, in_quotes(second->name) + " beside " + in_quotes(first->name) + "; give one of them");
+      second->value.kind = Kind::faulty;
+    }
     if (!first && rule.rule == Together::Rule::exactly_one) {
       std::string names;
       for (const std::string& name : rule.names) names += (names.empty() ? "" : ", ") + in_quotes(name);

@@ -23,6 +23,11 @@ Document Document::read(const std::filesystem::path& file, const ReadOptions& op
 Document Document::parse(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                          const ReadOptions& options) {
   document::Reading reading{options, {}, 0};
+  // So that a file cannot import itself, also when its text was read by the caller.
+  std::error_code fault;
+  const std::filesystem::path own =
+      std::filesystem::weakly_canonical(folder / std::filesystem::path(name).filename(), fault);
+  if (!fault) reading.open.push_back(own);
   return Document(std::make_shared<const Content>(Content{document::read_document(text, name, folder, reading)}));
 }
 

@@ -54,6 +54,20 @@ JsonValue rate_json(const Rate<T>& rate) {
   }
 }
 
+double difference(const Quat& a, const Quat& b) {
+  return std::min((a.coeffs() - b.coeffs()).cwiseAbs().maxCoeff(), (a.coeffs() + b.coeffs()).cwiseAbs().maxCoeff());
+}
+double difference(const Color& a, const Color& b) {
+  return (a.rgba - b.rgba).cwiseAbs().maxCoeff();
+}
+double difference(double a, double b) {
+  return std::abs(a - b);
+}
+template <class Vector>
+double difference(const Vector& a, const Vector& b) {
+  return (a - b).cwiseAbs().maxCoeff();
+}
+
 // How a stretch of a curve is said in a document.
 enum class Stretch { hold, linear, cubic };
 
@@ -81,8 +95,33 @@ bool is_cubic(const RotationSpan&) {
 }
 
 // Stretches that no key can say are cut so fine that cubics with their exact rates pass for them.
-constexpr int cuts_of_a_span = 16;
+constexpr int fewest_cuts = 4, most_cuts = 256;
 constexpr double cuts_a_second = 60;
+constexpr double allowed_miss = 1e-7;  // of a value, or a quaternion's part
+
+// How far the cubic between two times is from the curve in its middle.
+template <class T>
+double miss(const Curve<T>& curve, double start, double end) {
+  const auto key = [&](double time, Side side) {
+    Key<T> out{.time = time, .value = curve.value(time, side)};
+    out.in = out.out = Tangent<T>{Tangent<T>::Kind::given, curve.rate(time, side)};
+    return out;
+  };
+  const Curve<T> cubic = keyed_curve<T>({key(start, Side::out), key(end, Side::in)});
+  const double middle = start + (end - start) / 2;
+  return difference(cubic.value(middle), curve.value(middle));
+}
+
+template <class T>
+int cuts_of(const Curve<T>& curve, double start, double end) {
+  for (int count = fewest_cuts; count < most_cuts; count *= 2) {
+    double worst = 0;
+    for (int i = 0; i < count; ++i)
+      worst = std::max(worst, miss(curve, start + (end - start) * i / count, start + (end - start) * (i + 1) / count));
+    if (worst < allowed_miss) return count;
+  }
+  return most_cuts;
+}
 
 template <class T>
 std::vector<Piece> pieces_of(const Curve<T>& curve) {
@@ -101,7 +140,7 @@ std::vector<Piece> pieces_of(const Curve<T>& curve) {
     else if (is_cubic(span))
       out.push_back({span.start, end, Stretch::cubic});
     else
-      cut(span.start, end, cuts_of_a_span);
+      cut(span.start, end, cuts_of(curve, span.start, end));
   }
   if (spans.empty() && std::isfinite(curve.start()) && std::isfinite(curve.end()) && curve.end() > curve.start())
     cut(curve.start(), curve.end(), std::max(1, static_cast<int>(std::ceil(curve.duration() * cuts_a_second))));
@@ -117,8 +156,7 @@ std::vector<Piece> pieces_of(const Curve<T>& curve) {
 }
 
 bool same_value(const Quat& a, const Quat& b) {
-  return std::min((a.coeffs() - b.coeffs()).cwiseAbs().maxCoeff(), (a.coeffs() + b.coeffs()).cwiseAbs().maxCoeff()) <
-         1e-12;
+  return difference(a, b) < 1e-12;
 }
 bool same_value(const Color& a, const Color& b) {
   return a == b;

@@ -29,7 +29,7 @@ struct Grammar {
     };
     Shape version;
     version.kind = Shape::Kind::number;
-    version.what = "version 1; this is what this reader reads";
+    version.what = "1, the version that this reader reads";
     version.low = version.high = document_version;
     Shape text;
     text.kind = Shape::Kind::text;
@@ -48,8 +48,8 @@ struct Grammar {
                    {"name", any_text, "", false, "\"\""},
                    {"fps", store.add(frames), "what \"12f\" counts"},
                    {"import", import_shape(store, values), "files whose nodes and clips come in"},
-                   {"nodes", map_of(node_shape(store, values), "nodes by name"), ""},
-                   {"clips", map_of(clip_shape(store, values), "clips by name"), "", false, "{}"},
+                   {"nodes", map_of(node_shape(store, values), "an object with nodes by name"), ""},
+                   {"clips", map_of(clip_shape(store, values), "an object with clips by name"), "", false, "{}"},
                    {"play", rows_of(play_shape(store, values), "a list of plays"), "absent: the only clip"},
                    {"world", world_shape(store, values), "", false, "{}"},
                    {"handoff", rows_of(rule_shape(store, values), "a list of rules"), "", false, "[]"}});

@@ -252,7 +252,7 @@ const Shape* rule_shape(ShapeStore& store, const ValueShapes& values) {
 }
 
 const Shape* import_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape import = object_of("files by the name they get here", {});
+  Shape import = object_of("an object with files by the name they get here", {});
   import.definition = "import";
   import.one_a_line = true;
   import.others = values.name;

@@ -295,7 +295,7 @@ class TrackShapes {
 
 const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   TrackShapes make(store, values);
-  Shape tracks = object_of("tracks by name", {});
+  Shape tracks = object_of("an object with tracks by name", {});
   tracks.definition = "tracks";
   tracks.one_a_line = true;
   tracks.endings = {

@@ -22,6 +22,9 @@ class Problems {
   [[nodiscard]] bool empty() const { return faults_.empty() && foreign_.empty(); }
   [[nodiscard]] std::size_t size() const { return faults_.size() + foreign_.size(); }
 
+  // So many that suggestions, which look at all names, are no longer worth their time.
+  [[nodiscard]] bool crowded() const { return size() > 500; }
+
   // In order of the text; `root` gives the pointers.
   [[nodiscard]] std::vector<Problem> located(const std::string& file, std::string_view text,
                                              const JsonValue& root) const;

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <type_traits>
 
 namespace tweenfall::document {
 
@@ -23,6 +24,7 @@ template <class T>
 std::optional<Tangent<T>> read_tangent(const JsonValue* tangent, const T& value, const KeyReader<T>& reader) {
   if (!tangent) return {};
   Tangent<T> out;
+  if constexpr (!std::is_same_v<Rate<T>, double>) out.rate.setZero();
   if (tangent->is(JsonValue::Kind::text)) {
     out.kind = tangent->text == "flat" ? Tangent<T>::Kind::flat : Tangent<T>::Kind::automatic;
     return out;

@@ -43,12 +43,14 @@ struct OwnNodes {
 
 std::vector<std::string> Building::node_names() const {
   std::vector<std::string> names;
+  if (problems.crowded()) return names;
   for (const NodeDescription& node : stage.nodes) names.push_back(node.name);
   return names;
 }
 
 std::vector<std::string> Building::body_names() const {
   std::vector<std::string> names;
+  if (problems.crowded()) return names;
   for (const NodeDescription& node : stage.nodes)
     if (node.body) names.push_back(node.name);
   return names;
@@ -56,6 +58,7 @@ std::vector<std::string> Building::body_names() const {
 
 std::vector<std::string> Building::clip_names() const {
   std::vector<std::string> names;
+  if (problems.crowded()) return names;
   for (const Clip& clip : stage.clips) names.push_back(clip.name);
   return names;
 }
@@ -116,7 +119,8 @@ void read_nodes(Building& building) {
     if (found != own.index.end())
       parent[i] = found->second;
     else if (building.nodes.count(given->text) == 0 && !building.excused(given->text))
-      problems.add(*given, "there is no node " + in_quotes(given->text) + suggestion(given->text, names));
+      problems.add(*given, "there is no node " + in_quotes(given->text) +
+                               suggestion(given->text, problems.crowded() ? std::vector<std::string>{} : names));
   }
 
   enum class State { waiting, open, placed };

@@ -124,13 +124,14 @@ class RuleReader {
     if (const JsonValue* at = usable(value, "at")) {
       const ClipTimes times(building_.fps, {}, "stage time has none");
       if (const std::optional<double> seconds = times.seconds(*at, {}, problems_)) {
-        when.triggers.push_back(when::At{*seconds});
+        when.triggers.emplace_back(when::At{*seconds});
         instants_.push_back({at, *seconds});
       }
     }
-    if (const JsonValue* marker = usable(value, "marker")) when.triggers.push_back(when::Marker{known_event(*marker)});
-    if (const JsonValue* event = usable(value, "event")) when.triggers.push_back(when::Event{known_event(*event)});
-    if (usable(value, "clip_end")) when.triggers.push_back(when::ClipEnd{});
+    if (const JsonValue* marker = usable(value, "marker"))
+      when.triggers.emplace_back(when::Marker{known_event(*marker)});
+    if (const JsonValue* event = usable(value, "event")) when.triggers.emplace_back(when::Event{known_event(*event)});
+    if (usable(value, "clip_end")) when.triggers.emplace_back(when::ClipEnd{});
     if (const JsonValue* contact = usable(value, "contact")) {
       when::ContactHit hit{number_in(*contact, "impulse", 0), number_in(*contact, "speed", 0),
                            text_in(*contact, "with")};
@@ -142,9 +143,9 @@ class RuleReader {
           problems_.add(*with, "no node with a body is called " + in_quotes(with->text) +
                                    suggestion(with->text, building_.body_names()));
       }
-      when.triggers.push_back(std::move(hit));
+      when.triggers.emplace_back(std::move(hit));
     }
-    if (const JsonValue* asleep = usable(value, "asleep")) when.triggers.push_back(when::Asleep{asleep->number});
+    if (const JsonValue* asleep = usable(value, "asleep")) when.triggers.emplace_back(when::Asleep{asleep->number});
   }
 
   std::string known_event(const JsonValue& name) {
