@@ -162,7 +162,7 @@ TEST_CASE("of several clips one must be named, and the message names them") {
   CHECK(ran.err.find("down") != std::string::npos);
   const json found = sampled(folder, "- --at 0 --clip down", two);
   CHECK(found["clip"] == "down");
-  CHECK(found["tracks"]["a.y"]["value"] == json{1.0});
+  CHECK(found["tracks"]["a.y"]["value"] == json::array({1.0}));
 }
 
 TEST_CASE("a pattern chooses tracks, and the table shows them with their times") {
