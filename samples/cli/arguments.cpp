@@ -73,7 +73,7 @@ void Arguments::word(const char* name, std::string& value, std::vector<std::stri
           [&value, name, choices](const std::string& text) {
             if (std::find(choices.begin(), choices.end(), text) == choices.end())
               throw CLI::ValidationError(name, "there is no \"" + text + "\"" + did_you_mean(text, choices) +
-                                                   "; it is one of " + listed(choices));
+                                                   "\n  it is one of " + listed(choices));
             value = text;
           },
           says)
@@ -133,7 +133,6 @@ CommandLine::CommandLine(std::span<const Verb> verbs) : implementation_(std::mak
   app.set_help_flag("-h,--help", "print this help");
   app.get_formatter()->column_width(34);
   app.get_formatter()->label("SUBCOMMAND", "VERB");
-  app.get_formatter()->label("Subcommands", "Verbs");
   app.get_formatter()->label("REQUIRED", "");
   app.require_subcommand(1);
   app.footer(
@@ -141,6 +140,7 @@ CommandLine::CommandLine(std::span<const Verb> verbs) : implementation_(std::mak
       "usage.");
   for (const Verb& verb : verbs) {
     CLI::App& sub = *app.add_subcommand(verb.name, verb.summary);
+    sub.group("Verbs");
     sub.footer(std::string("Example:\n  ") + verb.example);
     Arguments arguments(&sub);
     implementation_->names.emplace_back(verb.name);
@@ -156,7 +156,7 @@ int CommandLine::run(const std::vector<std::string>& arguments) {
   if (!arguments.empty() && !arguments[0].starts_with('-') &&
       std::find(names.begin(), names.end(), arguments[0]) == names.end())
     throw UsageError("there is no verb \"" + arguments[0] + "\"" + did_you_mean(arguments[0], names) +
-                     "; the verbs are " + listed(names));
+                     "\n  the verbs are " + listed(names));
   try {
     app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
   } catch (const CLI::Success& success) {

@@ -120,7 +120,7 @@ std::string bodies_table(const StageDescription& stage, const std::string& file)
                brief(node.body->restitution), owner_text(node, made.owner(i) == Owner::keyed)});
   }
   if (table.empty()) return "";
-  return "bodies; gravity " + brief(stage.world.gravity) + " m/s^2, step " + brief(stage.step) + " s, " +
+  return "bodies; gravity " + brief(stage.world.gravity) + " m/s^2, " + brief(1 / stage.step) + " steps a second, " +
          counted(stage.rules.size(), "hand-off rule") + "\n" + table.text(styled_output());
 }
 

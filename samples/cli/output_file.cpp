@@ -17,7 +17,9 @@ namespace tweenfall::cli {
 
 void require_output(const std::string& output, const std::string& input, std::span<const std::string> endings) {
   if (output == "-") return;
-  const std::string ending = std::filesystem::path(output).extension().string();
+  std::string ending = std::filesystem::path(output).extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
     throw UsageError("the name of the file to write, \"" + output + "\", must end in " + listed(endings));
   std::error_code error;

@@ -40,7 +40,7 @@ std::size_t clip_called(const StageDescription& stage, const std::string& name, 
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   if (names.empty()) throw Faults({file + ": error: there is no clip in it"});
-  throw UsageError("there is no clip \"" + name + "\" in " + file + did_you_mean(name, names) + " It has " +
+  throw UsageError("there is no clip \"" + name + "\" in " + file + did_you_mean(name, names) + "\n  it has " +
                    listed(names));
 }
 

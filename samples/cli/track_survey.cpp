@@ -46,7 +46,9 @@ double size(const Vector& value) {
 /// Greatest speed in a stretch without knots: looked for on a fine grid, then narrowed by thirds around the best.
 template <class T>
 void search_speed(const Curve<T>& curve, double from, double to, TrackSurvey& found) {
-  constexpr int grid = 32, rounds = 40;
+  // A span between keys turns a few times at most; a formula may swing often.
+  const int grid = curve.knots().empty() ? 2000 : 32;
+  constexpr int rounds = 40;
   const auto try_at = [&](double time, Side side) {
     const double speed = length(curve.rate(time, side));
     if (speed > found.top_speed) {

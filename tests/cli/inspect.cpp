@@ -80,6 +80,6 @@ TEST_CASE("a model is inspected: its clips, joints and skinned mesh") {
   const Folder folder;
   const Ran ran = folder.run("inspect '" + fox.string() + "'");
   CHECK_MESSAGE(ran.code == 0, ran.err);
-  for (const char* part : {"3 clips", "Survey", "Walk", "Run", "skinned mesh, 576 triangles"})
+  for (const std::string part : {"3 clips", "Survey", "Walk", "Run", "skinned mesh, 576 triangles"})
     CHECK_MESSAGE(ran.out.find(part) != std::string::npos, part);
 }

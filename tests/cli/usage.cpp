@@ -51,7 +51,7 @@ TEST_CASE("the version is printed") {
 
 TEST_CASE("wrong usage ends with 2, says what was probably meant, and prints no result") {
   struct Case {
-    const char *arguments, *says;
+    std::string arguments, says;
   };
   const Folder folder;
   folder.write("ball.json", ball_document);
@@ -81,7 +81,7 @@ TEST_CASE("wrong usage ends with 2, says what was probably meant, and prints no 
            {"plot ball.json -o ball.png", ".svg"},
            {"view ball.json -o ball.svg", ".html"},
            {"import ball.json -o other.json", "no model"},
-           {"completion fsh", "did you mean fish?"},
+           {"completion fihs", "did you mean fish?"},
        }) {
     CAPTURE(wrong.arguments);
     const Ran ran = folder.run(wrong.arguments);
