@@ -2,6 +2,7 @@
 
 #include "document/content.h"
 #include "document/nearest_name.h"
+#include "document/parents_first.h"
 #include "document/shape.h"
 #include "document/values.h"
 
@@ -31,6 +32,35 @@ NodeDescription new_node(const JsonMember& member, Problems& problems) {
   if (const JsonValue* scale = usable(value, "scale")) node.rest.scale = scale_of(*scale).value_or(Vec3(1, 1, 1));
   read_look_and_body(value, node, problems);
   return node;
+}
+
+// The root of an import that is given a parent here.
+struct HungNode {
+  std::size_t node;
+  const JsonValue* parent;
+};
+
+void hang(const std::vector<HungNode>& hung, Building& building) {
+  std::vector<NodeDescription>& nodes = building.stage.nodes;
+  for (const auto& [node, parent] : hung) {
+    const auto found = building.nodes.find(parent->text);
+    if (nodes[node].parent != no_node) {
+      building.problems.add(*parent, "only the root of an import can be given a parent; " +
+                                         in_quotes(nodes[node].name) + " hangs on " +
+                                         in_quotes(nodes[nodes[node].parent].name) + " in its file");
+    } else if (found == building.nodes.end()) {
+      if (!building.excused(parent->text))
+        building.problems.add(
+            *parent, "there is no node " + in_quotes(parent->text) + suggestion(parent->text, building.node_names()));
+    } else {
+      std::size_t at = found->second;
+      while (at != no_node && at != node) at = nodes[at].parent;
+      if (at == node)
+        building.problems.add(*parent, in_quotes(nodes[node].name) + " would hang on itself");
+      else
+        nodes[node].parent = found->second;
+    }
+  }
 }
 
 // Own nodes may name parents that come later; the stage wants parents first.
@@ -83,15 +113,17 @@ void read_nodes(Building& building) {
   if (!nodes) return;
   Problems& problems = building.problems;
   OwnNodes own;
+  std::vector<HungNode> hung;
   for (const JsonMember& member : nodes->members) {
     if (is_free_name(member.name)) continue;
     if (const auto known = building.nodes.find(member.name); known != building.nodes.end()) {
       // A node of an import: what it is in its file stays, and this adds to it.
-      for (const char* given : {"parent", "position", "rotation", "scale"})
+      for (const char* given : {"position", "rotation", "scale"})
         if (const JsonValue* value = usable(member.value, given))
-          problems.add(*value,
-                       in_quotes(given) +
-                           " of an imported node is its file's; only \"body\", \"color\" and \"group\" can be added");
+          problems.add(*value, in_quotes(given) +
+                                   " of an imported node is its file's; only \"body\", \"color\" and \"group\" can be "
+                                   "added, and to a root a \"parent\"");
+      if (const JsonValue* parent = usable(member.value, "parent")) hung.push_back({known->second, parent});
       read_look_and_body(member.value, building.stage.nodes[known->second], problems);
       continue;
     }
@@ -152,6 +184,8 @@ void read_nodes(Building& building) {
       state[*link] = State::placed;
     }
   }
+  hang(hung, building);
+  parents_first(building);
 }
 
 }  // namespace tweenfall::document
