@@ -352,15 +352,25 @@ const JsonValue* JsonValue::find(std::string_view name) const {
   return nullptr;
 }
 
+namespace {
+
+JsonValue faulty() {
+  JsonValue value;
+  value.kind = Kind::faulty;
+  return value;
+}
+
+}  // namespace
+
 JsonValue parse_json(std::string_view text, std::vector<JsonFault>& faults) {
   if (text.size() > largest_text) {
     faults.push_back({0, 1, "the text is larger than " + std::to_string(largest_text >> 20) + " MiB"});
-    return {.kind = Kind::faulty};
+    return faulty();
   }
   try {
     return Parser(text, faults).whole();
   } catch (const Stop&) {
-    return {.kind = Kind::faulty};
+    return faulty();
   }
 }
 

@@ -23,7 +23,7 @@ struct JsonValue {
   std::size_t length = 0;  // bytes
   std::string text{};
   std::vector<JsonValue> items{};
-  std::vector<JsonMember> members{};  // in the order of the text
+  std::vector<JsonMember> members;  // in the order of the text
 
   [[nodiscard]] bool is(Kind other) const { return kind == other; }
   [[nodiscard]] const JsonValue* find(std::string_view name) const;  // null when absent or not an object
