@@ -93,7 +93,12 @@ void Arguments::text(const char* option, const char* kind, std::optional<std::st
 }
 
 void Arguments::texts(const char* option, const char* kind, std::vector<std::string>& values, const char* says) {
-  app_of(implementation_).add_option(option, values, says)->type_name(kind)->expected(1)->take_all();
+  app_of(implementation_)
+      .add_option(option, values, says)
+      ->type_name(kind)
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 void Arguments::number(const char* option, const char* kind, std::optional<double>& value, const char* says) {
@@ -118,7 +123,8 @@ void Arguments::numbers(const char* option, const char* kind, std::vector<double
           says)
       ->type_name(kind)
       ->expected(1)
-      ->take_all();
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 struct CommandLine::Implementation {
@@ -178,7 +184,7 @@ int CommandLine::run(const std::vector<std::string>& arguments) {
 std::vector<OptionName> CommandLine::options(std::string_view verb) const {
   std::vector<OptionName> names;
   for (const CLI::Option* option : implementation_->app.get_subcommand(std::string(verb))->get_options()) {
-    const bool takes_value = option->get_type_size() != 0;
+    const bool takes_value = option->get_expected_min() > 0;
     for (const std::string& name : option->get_snames())
       names.push_back({"-" + name, option->get_description(), takes_value});
     for (const std::string& name : option->get_lnames())

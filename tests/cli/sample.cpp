@@ -171,6 +171,9 @@ TEST_CASE("a pattern chooses tracks, and the table shows them with their times")
   folder.write("ball.json", ball_document);
   const json found = sampled(folder, "ball.json --at 0 --track 'ball.*'");
   CHECK(found["tracks"].size() == 3);
+  const json two = sampled(folder, "--track ball.position --at 0,1 --track pivot.rotation --at 2 ball.json");
+  CHECK(two["tracks"].size() == 2);
+  CHECK(two["times"] == json{0.0, 1.0, 2.0});
   const Ran table = folder.run("sample ball.json --at 0.5 --track ball.position --rates");
   CHECK(table.code == 0);
   CHECK(table.out.find("ball.position (vector)") != std::string::npos);

@@ -81,6 +81,7 @@ TEST_CASE("wrong usage ends with 2, says what was probably meant, and prints no 
            {"plot ball.json -o ball.png", ".svg"},
            {"view ball.json -o ball.svg", ".html"},
            {"import ball.json -o other.json", "no model"},
+           {"sample ball.json --at 0 other.json", "other.json"},
            {"completion fihs", "did you mean fish?"},
        }) {
     CAPTURE(wrong.arguments);
@@ -104,6 +105,13 @@ TEST_CASE("the completion of bash is a script that bash takes and that completes
   const std::string line = "cd '" + folder.path().string() + "' && bash ask.bash > answer 2>&1";
   CHECK(std::system(line.c_str()) == 0);
   CHECK(folder.read("answer") == "sample\n--rates\n");
+}
+
+TEST_CASE("fish is told which options take a value") {
+  const Folder folder;
+  const std::string fish = folder.run("completion fish").out;
+  CHECK(holds(fish, "-l clip -r -d"));
+  CHECK(holds(fish, "-l rates -d"));
 }
 
 TEST_CASE("the completions of zsh and fish name every verb") {
