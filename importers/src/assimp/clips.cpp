@@ -3,6 +3,8 @@
 #include "../model_names.h"
 #include "values.h"
 
+#include <assimp/scene.h>
+
 #include <tweenfall/curves/keys.h>
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include "../model_bytes.h"
 
 #include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -41,9 +42,21 @@ class MemoryStream : public Assimp::IOStream {
   std::size_t at_ = 0;
 };
 
-}  // namespace
+class MemoryFiles : public Assimp::IOSystem {
+ public:
+  MemoryFiles(const std::string& bytes, const std::filesystem::path& file) : bytes_(bytes), file_(file) {}
 
-MemoryFiles::MemoryFiles(const std::string& bytes, const std::filesystem::path& file) : bytes_(bytes), file_(file) {}
+  bool Exists(const char* path) const override;
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* path, const char* mode) override;
+  void Close(Assimp::IOStream* stream) override;
+
+ private:
+  [[nodiscard]] bool is_beside(const std::filesystem::path& path) const;
+
+  const std::string& bytes_;
+  std::filesystem::path file_;
+};
 
 bool MemoryFiles::is_beside(const std::filesystem::path& path) const {
   // A hostile file must not be able to read the rest of the disk.
@@ -66,6 +79,12 @@ Assimp::IOStream* MemoryFiles::Open(const char* path, const char* mode) {
 
 void MemoryFiles::Close(Assimp::IOStream* stream) {
   delete stream;
+}
+
+}  // namespace
+
+std::unique_ptr<Assimp::IOSystem> memory_files(const std::string& bytes, const std::filesystem::path& file) {
+  return std::make_unique<MemoryFiles>(bytes, file);
 }
 
 }  // namespace tweenfall
