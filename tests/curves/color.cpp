@@ -26,9 +26,13 @@ TEST_CASE("coordinates agree with culori") {
       for (const auto& [name, space] : names) {
         CAPTURE(name);
         const Vec4 found = to_space(from_srgb(s[0], s[1], s[2]), space);
+        // culori sets a and b of a gray to 0 by hand (convertRgbToLab.js); the matrices of CSS leave 8e-6 there.
+        const bool gray = s[0] == s[1] && s[1] == s[2];
         for (std::size_t i = 0; i < 3; ++i)
           CHECK(test::near(found[static_cast<int>(i)], c["value"][name][i].get<double>(),
-                           space == ColorSpace::lab ? 2e-6 : 1e-7));
+                           space != ColorSpace::lab ? 1e-7
+                           : gray && i > 0          ? 5e-6
+                                                    : 2e-6));
       }
     }
 }
