@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace tweenfall {
@@ -15,7 +16,9 @@ double reach(const Solid& solid) {
   return 0;
 }
 
-bool is_plane(const BodyDescription& body) { return std::holds_alternative<Plane>(body.shape.solid); }
+bool is_plane(const BodyDescription& body) {
+  return std::holds_alternative<Plane>(body.shape.solid);
+}
 
 /// Points of one shape on a node, in the node's space.
 std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
@@ -33,7 +36,8 @@ std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
     for (int i = 0; i < 8; ++i)
       points.push_back(box->half_extents.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
   }
-  for (Vec3& point : points) point = transform_point({shape.offset.position, shape.offset.rotation, Vec3(1, 1, 1)}, point);
+  for (Vec3& point : points)
+    point = transform_point({shape.offset.position, shape.offset.rotation, Vec3(1, 1, 1)}, point);
   return points;
 }
 
@@ -72,25 +76,29 @@ std::vector<const NodeDescription*> descriptions(const Recording& recording, con
 SideView side_view(const Recording& recording, const StageDescription& stage, double left, double top, double width,
                    double height) {
   const std::vector<const NodeDescription*> described = descriptions(recording, stage);
-  std::vector<double> parts[3];
-  double room = 0;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  double low[3] = {infinite, infinite, infinite}, high[3] = {-infinite, -infinite, -infinite};
   for (std::size_t i = 0; i < recording.nodes.size(); ++i) {
     const NodeDescription* node = described[i];
+    double room = 0;
     if (node && node->body) {
       if (is_plane(*node->body)) continue;
-      if (!node->body->fixed) room = std::max(room, reach(node->body->shape.solid));
+      room = reach(node->body->shape.solid);
     }
-    for (const WorldMotion& world : recording.nodes[i].world)
-      for (int axis = 0; axis < 3; ++axis) parts[axis].push_back(world.motion.pose.position[axis]);
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> places;
+      for (const WorldMotion& world : recording.nodes[i].world) places.push_back(world.motion.pose.position[axis]);
+      if (places.empty()) continue;
+      std::sort(places.begin(), places.end());
+      low[axis] = std::min(low[axis], places[places.size() / 50] - room);
+      high[axis] = std::max(high[axis], places[places.size() - 1 - places.size() / 50] + room);
+    }
   }
-  double low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double>& values = parts[axis];
-    if (values.empty()) continue;
-    std::sort(values.begin(), values.end());
-    low[axis] = values[values.size() / 50] - room;
-    high[axis] = values[values.size() - 1 - values.size() / 50] + room;
-  }
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(low[axis] <= high[axis])) {
+      low[axis] = -1;
+      high[axis] = 1;
+    }
   SideView view;
   view.across = high[2] - low[2] > 1.5 * (high[0] - low[0]) ? 2 : 0;
   const double wide = std::max(1e-6, high[view.across] - low[view.across]) * 1.08;
@@ -139,23 +147,28 @@ std::vector<Figure> figures(const Recording& recording, const StageDescription& 
     drawn[node] = true;
   }
 
-  // What is left are joints: a line from each to its parent, one figure for each root.
+  // A skin is drawn as its bones, those with colliders included; what is left of the nodes, as a line to each parent.
+  std::vector<bool> joint(recording.nodes.size(), false);
+  for (const Skin& skin : stage.skins)
+    for (const std::size_t each : skin.joints)
+      if (const std::size_t node = recorded(each); node != no_node) joint[node] = true;
   std::vector<std::size_t> root(recording.nodes.size());
   std::map<std::size_t, std::vector<std::size_t>> tree;
   for (std::size_t i = 0; i < recording.nodes.size(); ++i) {
     const std::size_t parent = recording.nodes[i].parent;
-    const bool joined = parent != no_node && !drawn[i] && !drawn[parent];
-    root[i] = joined ? root[parent] : i;
-    if (joined) tree[root[i]].push_back(i);
+    root[i] = i;
+    if (parent == no_node || joint[i] != joint[parent] || (!joint[i] && (drawn[i] || drawn[parent]))) continue;
+    root[i] = root[parent];
+    tree[root[i]].push_back(i);
   }
-  for (const auto& [top, joints] : tree) {
+  for (const auto& [top, ends] : tree) {
     Figure figure;
     figure.kind = Figure::Kind::bones;
     figure.node = top;
     for (std::size_t frame = 0; frame < recording.times.size(); ++frame) {
       std::vector<Vec2>& placed = figure.points.emplace_back();
-      for (const std::size_t joint : joints)
-        for (const std::size_t end : {recording.nodes[joint].parent, joint})
+      for (const std::size_t each : ends)
+        for (const std::size_t end : {recording.nodes[each].parent, each})
           placed.push_back(view.place(recording.nodes[end].world[frame].motion.pose.position));
     }
     list.push_back(std::move(figure));
