@@ -12,7 +12,7 @@ int main() {
       "ball.json", ".");
   tweenfall::Stage stage(document.stage());
   stage.advance(0.5);
-  const tweenfall::Vec3 position = stage.world(stage.node("ball")).pose.position;
+  const tweenfall::Vec3 position = stage.world(stage.node("ball")).motion.pose.position;
   std::printf("%a %a %a\n", position.x(), position.y(), position.z());
   return std::abs(position.y() - (5.0 - 0.5 * 9.81 * 0.25)) < 1e-9 ? 0 : 1;
 }

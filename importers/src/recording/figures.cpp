@@ -60,6 +60,13 @@ void place(Figure& figure, const NodeRecord& node, const std::vector<Vec3>& poin
   }
 }
 
+bool ever_apart(const Recording& recording, std::size_t a, std::size_t b) {
+  for (std::size_t frame = 0; frame < recording.times.size(); ++frame)
+    if (recording.nodes[a].world[frame].motion.pose.position != recording.nodes[b].world[frame].motion.pose.position)
+      return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<const NodeDescription*> descriptions(const Recording& recording, const StageDescription& stage) {
@@ -159,7 +166,8 @@ std::vector<Figure> figures(const Recording& recording, const StageDescription& 
     root[i] = i;
     if (parent == no_node || joint[i] != joint[parent] || (!joint[i] && (drawn[i] || drawn[parent]))) continue;
     root[i] = root[parent];
-    tree[root[i]].push_back(i);
+    // A node put exactly on its parent has no length to draw.
+    if (ever_apart(recording, i, parent)) tree[root[i]].push_back(i);
   }
   for (const auto& [top, ends] : tree) {
     Figure figure;
