@@ -97,12 +97,13 @@ Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
 }  // namespace
 
 template <class T>
-Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end) {
+Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final) {
   check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
   d.start = spans.front().start;
   d.end = end;
+  if (final) d.final.push_back(*final);
   if (!std::isfinite(end - d.start))
     throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
   d.knots.reserve(spans.size() + 1);
@@ -219,6 +220,11 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
       (time < d.end || (time == d.end && side == Side::in)))
     return sample_inside<T>(d, time, side);
   const bool early = time < d.start || (time == d.start && side == Side::in);
+  if (!early && !d.final.empty() && (d.after == Outside::hold || d.after == Outside::linear)) {
+    Sample<T> leaving = sample_inside<T>(d, d.end, Side::in);
+    leaving.value = d.final[0];
+    return d.after == Outside::hold ? at_rest<T>(leaving.value) : straight_on(leaving, time - d.end);
+  }
   return sample_outside<T>(early ? d.before : d.after, d.start, d.end, time, side,
                            [&d](double t, Side s) { return sample_inside<T>(d, t, s); });
 }
@@ -253,7 +259,7 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
 
 #define TWEENFALL_CURVE(T) \
   template class Curve<T>; \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double);
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*);
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)
 TWEENFALL_CURVE(Vec3)

@@ -42,6 +42,7 @@ struct Curve<T>::Data {
   std::vector<typename Stored<T>::type> pool;
   std::vector<T> ends;      // values on arrival, one a segment
   std::vector<T> starts;    // rotations only: what the exponential multiplies
+  std::vector<T> final;     // one value: what leaves the last knot, where that is not what arrives
   std::vector<Warp> warps;  // empty, or one a segment
 
   // Where to look for a time: entry b counts the knots in buckets below b, buckets being equal shares of the duration.
@@ -85,7 +86,7 @@ struct CurveAccess {
 
   /// A curve of checked spans with its last knot given to the bit.
   template <class T>
-  static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end);
+  static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final = nullptr);
 
   /// A curve that another one is made into: it answers at all times, `rebuilt` makes it anew with other rules outside.
   template <class T>

@@ -44,10 +44,6 @@ void check_keys(std::span<const Key<T>> keys) {
     check_tangent(keys, i, key.out, "out");
     if (key.out && key.ease.rule() != Ease::Rule::smooth_clamped)
       refuse_key(keys, i, "has both the ease \"" + key.ease.name() + "\" and an \"out\" tangent; one of them decides");
-    if (i + 1 < keys.size() && keys[i + 1].in && key.ease.rule() != Ease::Rule::smooth_clamped)
-      refuse_key(keys, i,
-                 "has the ease \"" + key.ease.name() +
-                     "\", but the next key states with \"in\" how the span arrives; one of them decides");
     if (key.value_in && i == 0)
       refuse_key(keys, i, "is the first, so nothing arrives and it cannot have an arriving value");
     if (key.value_in && keys[i - 1].ease.rule() == Ease::Rule::hold && !keys[i - 1].out && !key.in)

@@ -33,14 +33,14 @@ class KeyPins {
   /// The exact value where `time` is that of a key, else null. Beyond the ends, where the curve rests, the end's.
   [[nodiscard]] const T* at(double time, Side side, Outside before, Outside after) const noexcept {
     if (time < times_.front()) return before == Outside::hold ? &leaving_.front() : nullptr;
-    if (time > times_.back()) return after == Outside::hold && arrives_.back() ? &arriving_.back() : nullptr;
+    if (time > times_.back()) return after == Outside::hold ? &leaving_.back() : nullptr;
     const auto found = std::lower_bound(times_.begin(), times_.end(), time);
     if (*found != time) return nullptr;
     const std::size_t i = static_cast<std::size_t>(found - times_.begin());
     if (i == 0 && side == Side::in && before != Outside::hold && before != Outside::linear) return nullptr;
     if (i + 1 == times_.size() && i > 0) {
       if (side == Side::out && after != Outside::hold && after != Outside::linear) return nullptr;
-      return arrives_[i] ? &arriving_[i] : nullptr;
+      if (side == Side::out) return &leaving_[i];
     }
     if (side == Side::in && i > 0) return arrives_[i] ? &arriving_[i] : nullptr;
     return leaves_[i] ? &leaving_[i] : nullptr;

@@ -46,6 +46,8 @@ struct KeyOptions {
   Ends ends = Ends::secant;
   /// Colors only: the space in which values are mixed.
   ColorSpace space = ColorSpace::oklab;
+  /// Colors only, in spaces with a hue: which way around it goes.
+  HueRule hue = HueRule::shorter;
   /// Scales and ratios: interpolate the logarithm, so that 1 to 4 passes 2 half way. Values must be > 0.
   bool logarithmic = false;
   /// Rotations: take the long way around between keys instead of the short one.
