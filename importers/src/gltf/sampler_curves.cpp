@@ -1,9 +1,9 @@
 #include "sampler_curves.h"
 
 #include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/quaternion_cubic.h>
 
-#include <stdexcept>
-#include <string>
+#include <type_traits>
 
 namespace tweenfall::gltf {
 
@@ -13,9 +13,35 @@ Quat quaternion(const double* parts) {
   return Quat(parts[3], parts[0], parts[1], parts[2]);
 }
 
+/// Values that hold until the next key. The last one is in force from its own time on, where a curve ends.
+template <class T>
+Curve<T> step_curve(const std::vector<double>& times, const std::vector<T>& values) {
+  if (times.size() == 1) return Curve<T>(values[0]);
+  std::vector<typename SpanOf<T>::type> spans(times.size() - 1);
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    auto& span = spans[i];
+    span.start = times[i];
+    span.duration = times[i + 1] - times[i];
+    span.degree = 0;
+    if constexpr (std::is_same_v<T, Quat>) {
+      span.coefficients.fill(Vec4(0, 0, 0, 0));
+      span.from = values[i];
+    } else {
+      span.coefficients.fill(values[i]);
+    }
+    span.end = i + 1 < spans.size() ? values[i] : values[i + 1];
+  }
+  return Curve<T>(std::span<const typename SpanOf<T>::type>(spans));
+}
+
 template <class T, class ReadPart>
 Curve<T> curve_of(const Sampler& sampler, ReadPart read) {
-  const Ease ease = sampler.interpolation == Interpolation::step ? Ease::hold() : Ease::linear();
+  if (sampler.interpolation == Interpolation::step) {
+    std::vector<T> values;
+    for (std::size_t i = 0; i < sampler.times.size(); ++i) values.push_back(read(sampler.value(i)));
+    return step_curve<T>(sampler.times, values);
+  }
+  const Ease straight = Ease::linear();
   std::vector<Key<T>> keys;
   keys.reserve(sampler.times.size());
   for (std::size_t i = 0; i < sampler.times.size(); ++i) {
@@ -25,40 +51,30 @@ Curve<T> curve_of(const Sampler& sampler, ReadPart read) {
       if (i + 1 < sampler.times.size())
         key.out = Tangent<T>{.kind = Tangent<T>::Kind::given, .rate = read(sampler.out(i))};
     } else {
-      key.ease = ease;
+      key.ease = straight;
     }
     keys.push_back(std::move(key));
   }
   return keyed_curve<T>(std::span<const Key<T>>(keys));
 }
 
-/// CUBICSPLINE rotations mix the four parts as plain numbers and scale the result to unit length.
-/// Source: glTF 2.0 specification, appendix C.5.
+Curve<Quat> curve_of_turns(const Sampler& sampler) {
+  const Ease straight = Ease::linear();
+  std::vector<Key<Quat>> keys;
+  for (std::size_t i = 0; i < sampler.times.size(); ++i)
+    keys.push_back({.time = sampler.times[i], .value = quaternion(sampler.value(i)), .ease = straight});
+  return keyed_curve<Quat>(std::span<const Key<Quat>>(keys));
+}
+
 Curve<Quat> cubic_rotation(const Sampler& sampler) {
   const auto vector = [](const double* parts) { return Vec4(parts[0], parts[1], parts[2], parts[3]); };
-  for (std::size_t i = 0; i < sampler.times.size(); ++i)
-    if (vector(sampler.value(i)).norm() < 1e-6)
-      throw std::invalid_argument("key " + std::to_string(i) + " is a zero quaternion");
-  if (sampler.times.size() == 1) return Curve<Quat>(normalized(quaternion(sampler.value(0))));
-  std::vector<RotationSpan> spans;
-  for (std::size_t i = 0; i + 1 < sampler.times.size(); ++i) {
-    RotationSpan span;
-    span.start = sampler.times[i];
-    span.duration = sampler.times[i + 1] - sampler.times[i];
-    span.form = RotationSpan::Form::normalized;
-    span.degree = 3;
-    const Vec4 from = vector(sampler.value(i)), to = vector(sampler.value(i + 1));
-    const Vec4 leave = span.duration * vector(sampler.out(i)), arrive = span.duration * vector(sampler.in(i + 1));
-    span.coefficients.fill(Vec4(0, 0, 0, 0));
-    span.coefficients[0] = from;
-    span.coefficients[1] = leave;
-    span.coefficients[2] = 3 * (to - from) - 2 * leave - arrive;
-    span.coefficients[3] = 2 * (from - to) + leave + arrive;
-    span.from = normalized(quaternion(sampler.value(i)));
-    span.end = normalized(quaternion(sampler.value(i + 1)));
-    spans.push_back(span);
+  std::vector<Vec4> in, values, out;
+  for (std::size_t i = 0; i < sampler.times.size(); ++i) {
+    in.push_back(vector(sampler.in(i)));
+    values.push_back(vector(sampler.value(i)));
+    out.push_back(vector(sampler.out(i)));
   }
-  return Curve<Quat>(std::span<const RotationSpan>(spans));
+  return gltf_cubic_rotation(sampler.times, in, values, out);
 }
 
 }  // namespace
@@ -69,11 +85,12 @@ Curve<Vec3> vector_curve(const Sampler& sampler) {
 
 Curve<Quat> rotation_curve(const Sampler& sampler) {
   if (sampler.interpolation == Interpolation::cubic) return cubic_rotation(sampler);
-  std::vector<Key<Quat>> keys;
-  const Ease ease = sampler.interpolation == Interpolation::step ? Ease::hold() : Ease::linear();
-  for (std::size_t i = 0; i < sampler.times.size(); ++i)
-    keys.push_back({.time = sampler.times[i], .value = quaternion(sampler.value(i)), .ease = ease});
-  return keyed_curve<Quat>(std::span<const Key<Quat>>(keys));
+  if (sampler.interpolation == Interpolation::step) {
+    std::vector<Quat> values;
+    for (std::size_t i = 0; i < sampler.times.size(); ++i) values.push_back(normalized(quaternion(sampler.value(i))));
+    return step_curve<Quat>(sampler.times, values);
+  }
+  return curve_of_turns(sampler);
 }
 
 WeightCurves weight_curves(const Sampler& sampler) {
