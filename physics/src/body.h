@@ -11,6 +11,7 @@ struct Body {
   MassProperties mass;                  ///< kept while keyed; the solver masks it
   Mat3 inverse_inertia = Mat3::Zero();  ///< node axes
   bool spherical = false;               ///< the same moment about every axis: spin feels no gyroscopic torque
+  double roundness = 0;                 ///< radius with which the surface rolls: of a ball or a capsule, m
   double radius = 0;                    ///< farthest point from the center of mass, m; infinite for a plane
   double friction = 0;
   double restitution = 0;
@@ -43,5 +44,11 @@ struct Body {
   /// Sets the node's motion from center of mass, rotation and twist.
   void follow_center(const Quat& rotation);
 };
+
+/// An arm to a contact after its body turned: the solid's core turns along, the round skin over it stays below.
+/// @param skin  from the core to the contact, m
+[[nodiscard]] inline Vec3 carried(const Quat& turn, const Vec3& arm, const Vec3& skin) {
+  return turn * (arm - skin) + skin;
+}
 
 }  // namespace tweenfall

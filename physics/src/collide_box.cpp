@@ -79,15 +79,16 @@ struct Polygon {
 };
 
 /// Keeps what lies behind the plane. New corners are named by the plane and the edge it cut.
-Polygon cut(const Polygon& polygon, const Vec3& normal, double offset, std::uint32_t plane) {
+Polygon cut(const Polygon& polygon, const Vec3& normal, double offset, std::uint32_t plane, double tolerance) {
   Polygon result;
   for (std::size_t i = 0; i < polygon.count; ++i) {
     const ClipVertex& from = polygon.vertices[i];
     const ClipVertex& to = polygon.vertices[(i + 1) % polygon.count];
     const double at_from = normal.dot(from.position) - offset;
     const double at_to = normal.dot(to.position) - offset;
-    if (at_from <= 0) result.add(from.position, from.feature);
-    if ((at_from < 0 && at_to > 0) || (at_from > 0 && at_to < 0)) {
+    // A corner on the plane stays the same corner on whichever side rounding puts it.
+    if (at_from <= tolerance) result.add(from.position, from.feature);
+    if ((at_from < -tolerance && at_to > tolerance) || (at_from > tolerance && at_to < -tolerance)) {
       const Vec3 position = from.position + (to.position - from.position) * (at_from / (at_from - at_to));
       const std::uint32_t low = std::min(from.feature, to.feature) & 0xffu;
       const std::uint32_t high = std::max(from.feature, to.feature) & 0xffu;
@@ -151,12 +152,13 @@ void clip_faces(Manifold& manifold, const Box& reference, const Placed& at_refer
   polygon.add(middle + along_u - along_v, face | 1u);
   polygon.add(middle + along_u + along_v, face | 2u);
   polygon.add(middle - along_u + along_v, face | 3u);
+  const double tolerance = 1e-4 * reference.half_extents.minCoeff();
   for (int step = 1; step <= 2; ++step) {
     const int i = (axis + step) % 3;
     const Vec3 out = at_reference.axes.col(i);
     const double at = out.dot(at_reference.center);
-    polygon = cut(polygon, out, at + reference.half_extents[i], static_cast<std::uint32_t>(2 * i));
-    polygon = cut(polygon, -out, -at + reference.half_extents[i], static_cast<std::uint32_t>(2 * i + 1));
+    polygon = cut(polygon, out, at + reference.half_extents[i], static_cast<std::uint32_t>(2 * i), tolerance);
+    polygon = cut(polygon, -out, -at + reference.half_extents[i], static_cast<std::uint32_t>(2 * i + 1), tolerance);
   }
   const double surface = normal.dot(at_reference.center) + reference.half_extents[axis];
   std::array<Candidate, 12> candidates;

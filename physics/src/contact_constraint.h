@@ -19,11 +19,12 @@ struct PointConstraint {
   Vec3 friction_impulse{0, 0, 0};  ///< of one sub-step, world, N s
   double total_normal = 0;         ///< of the whole step
   Vec3 total_friction{0, 0, 0};
-  double approach = 0;        ///< closing speed where they meet, m/s
-  double rebound = 0;         ///< normal speed wanted at the end of the step, m/s
-  double rebound_time = 0;    ///< how long the rebound moves the bodies in this step, s
-  double push_impulse = 0;    ///< of the push-out, kg m
-  double before_rebound = 0;  ///< total normal impulse when the rebound began
+  double approach = 0;              ///< closing speed where they meet, m/s
+  double rebound = 0;               ///< normal speed wanted at the end of the step, m/s
+  double rebound_time = 0;          ///< how long the rebound moves the bodies in this step, s
+  double push_impulse = 0;          ///< of the push-out, kg m
+  double speed_before_rebound = 0;  ///< m/s
+  double before_rebound = 0;        ///< total normal impulse when the rebound began
 };
 
 /// A pair in contact, kept from step to step.

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "drive_law.h"
 #include "keyed_step.h"
@@ -13,8 +14,13 @@ namespace tweenfall {
 
 namespace {
 
+/// Frequency of soft contacts times the sub-step, and their damping ratio.
+constexpr double soft_cycles = 0.125;
+constexpr double soft_damping = 10;
 /// Sub-steps in a step; the passes are shared out among them.
-constexpr int sub_steps = 4;
+constexpr int sub_steps = 8;
+/// Up to this many contacts every sub-step may take all passes: few contacts are solved to the end.
+constexpr std::size_t few = 24;
 /// A change of velocity that no longer matters, m/s.
 constexpr double settled = 1e-14;
 
@@ -103,9 +109,9 @@ void solve_rolling(SolverBody& a, SolverBody& b, Vec3& impulse, double limit) {
 
 /// Step of one normal row toward relative speed `wanted`, total impulse not negative.
 double solve_normal(SolverBody& a, SolverBody& b, const PointConstraint& point, double& impulse, double wanted,
-                    const Vec3& normal) {
+                    const Vec3& normal, double firm = 1, double giving = 0) {
   const double speed = normal.dot(point_velocity(b, point.arm_b) - point_velocity(a, point.arm_a));
-  const double next = std::max(0.0, impulse - point.normal_mass * (speed - wanted));
+  const double next = std::max(0.0, (1 - giving) * impulse - firm * point.normal_mass * (speed - wanted));
   const double change = next - impulse;
   impulse = next;
   if (change != 0) {
@@ -126,7 +132,9 @@ void Solver::gather(const std::vector<Body>& bodies, std::vector<ContactConstrai
     const Body& body = bodies[index];
     SolverBody entry;
     entry.index = index;
+    entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
     entry.movable = !body.immovable() && !body.asleep;
+    entry.roundness = body.roundness;
     entry.center = entry.start_center = body.center;
     entry.rotation = entry.start_rotation = body.motion.pose.rotation;
     entry.turn = Quat::Identity();
@@ -158,6 +166,9 @@ void Solver::foresee(const std::vector<Load>& loads, ContactConstraint& constrai
   const Vec3& normal = constraint.manifold.normal;
   // Closing acceleration, free of contacts.
   const double pull = normal.dot(loads[constraint.a].acceleration - loads[constraint.b].acceleration);
+  // Two bodies that fall together do not close, but what lies under them makes them tremble all the same.
+  const double weight = std::max(std::abs(normal.dot(loads[constraint.a].acceleration)),
+                                 std::abs(normal.dot(loads[constraint.b].acceleration)));
   constraint.impact = false;
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
@@ -178,7 +189,7 @@ void Solver::foresee(const std::vector<Load>& loads, ContactConstraint& constrai
     }
     point.approach = std::max(0.0, speed);
     // Slower than what gravity makes of a step or two, a rebound would only be a tremble.
-    if (point.approach <= std::max(1e-7, 2 * std::abs(pull) * dt)) continue;
+    if (point.approach <= std::max(1e-7, 2 * weight * dt)) continue;
     constraint.impact = true;
     const double left = dt - time;
     const double back = constraint.restitution * point.approach;
@@ -197,8 +208,8 @@ void Solver::refresh(ContactConstraint& constraint) const {
   const Vec3 drift = (b.center - b.start_center) - (a.center - a.start_center);
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-    point.arm_a = a.turn * point.start_arm_a;
-    point.arm_b = b.turn * point.start_arm_b;
+    point.arm_a = carried(a.turn, point.start_arm_a, a.roundness * normal);
+    point.arm_b = carried(b.turn, point.start_arm_b, -b.roundness * normal);
     const Vec3 swing = (point.arm_b - point.start_arm_b) - (point.arm_a - point.start_arm_a);
     point.gap = point.start_gap + normal.dot(drift + swing);
   }
@@ -238,7 +249,7 @@ void Solver::warm_start(ContactConstraint& constraint, double ratio) {
   b.angular += b.inverse_inertia * constraint.rolling_impulse;
 }
 
-double Solver::solve_contact(ContactConstraint& constraint, double h) {
+double Solver::solve_contact(ContactConstraint& constraint, const Softness& softness, double h) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
   const Vec3& normal = constraint.manifold.normal;
@@ -259,8 +270,10 @@ double Solver::solve_contact(ContactConstraint& constraint, double h) {
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
     // A gap may close within the sub-step, but not further.
-    const double wanted = point.gap > 0 ? -point.gap / h : 0;
-    change = std::max(change, solve_normal(a, b, point, point.normal_impulse, wanted, normal));
+    const bool soft = point.gap <= 0 && !constraint.impact;
+    const double wanted = point.gap > 0 ? -point.gap / h : std::min(-softness.rate * point.gap, softness.speed);
+    change = std::max(change, solve_normal(a, b, point, point.normal_impulse, wanted, normal, soft ? softness.firm : 1,
+                                           soft ? softness.giving : 0));
   }
   return change;
 }
@@ -288,24 +301,34 @@ double Solver::solve_drive(const std::vector<Body>& bodies, SolverBody& entry, d
   return change;
 }
 
-double Solver::pass(std::vector<ContactConstraint>& constraints, double h, bool backward) {
+double Solver::pass(std::vector<ContactConstraint>& constraints, const Softness& softness, double h, bool backward) {
   double change = 0;
   const std::size_t count = constraints.size();
   for (std::size_t i = 0; i < count; ++i)
-    change = std::max(change, solve_contact(constraints[backward ? count - 1 - i : i], h));
+    change = std::max(change, solve_contact(constraints[backward ? count - 1 - i : i], softness, h));
   return change;
+}
+
+void Solver::add_totals(std::vector<ContactConstraint>& constraints) {
+  for (ContactConstraint& constraint : constraints) {
+    for (int i = 0; i < constraint.count; ++i) {
+      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      point.total_normal += point.normal_impulse;
+      point.total_friction += point.friction_impulse;
+    }
+    constraint.total_rolling += constraint.rolling_impulse;
+  }
 }
 
 void Solver::end_sub_step(double h) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     SolverBody& entry = bodies_[i];
-    // Under steady forces the mean velocity is exact; where the velocity jumps, the one after the jump counts.
-    Vec3 linear = entry.linear;
+    // Under steady forces the mean velocity is exact. Where a contact holds the body, the velocity after the
+    // impulses counts: a mean would leave every tremble undamped.
+    const Vec3 linear = entry.linear + entry.lag;
     Vec3 angular = entry.angular;
-    if (entry.movable && !(entry.impact && entry.pressed)) {
-      linear = 0.5 * (linear + before_linear_[i]);
+    if (entry.movable && (!entry.pressed || (entry.round && !entry.impact)))
       angular = 0.5 * (angular + before_angular_[i]);
-    }
     entry.center += linear * h;
     if (angular == Vec3::Zero()) continue;
     const Quat turn = exp_map(angular * h);
@@ -335,6 +358,8 @@ void Solver::rebound(std::vector<ContactConstraint>& constraints, Islands& islan
     for (int i = 0; i < constraint.count; ++i) {
       PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       point.before_rebound = point.total_normal;
+      point.speed_before_rebound = constraint.manifold.normal.dot(point_velocity(at(constraint.b), point.arm_b) -
+                                                                  point_velocity(at(constraint.a), point.arm_a));
       if (flags_[island(constraint)])
         point.normal_mass = mass_along(at(constraint.a), at(constraint.b), point, constraint.manifold.normal);
     }
@@ -365,7 +390,11 @@ void Solver::rebound(std::vector<ContactConstraint>& constraints, Islands& islan
     for (int i = 0; i < constraint.count; ++i) {
       const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       // The rebound began inside the step: what is left of the step, it moved.
-      const Vec3 moved = (point.total_normal - point.before_rebound) * point.rebound_time * constraint.manifold.normal;
+      if (!(point.rebound > 0)) continue;
+      // Bodies still closing when it was solved are on the surface already: stopping them moves nothing.
+      const double part = point.rebound / (point.rebound - std::min(0.0, point.speed_before_rebound));
+      const Vec3 moved =
+          (point.total_normal - point.before_rebound) * part * point.rebound_time * constraint.manifold.normal;
       if (moved == Vec3::Zero()) continue;
       a.push_linear -= a.inverse_mass * moved;
       a.push_angular -= a.inverse_inertia * point.arm_a.cross(moved);
@@ -387,7 +416,15 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
     at(constraint.b).impact = true;
   }
   const double h = dt / sub_steps;
-  const int passes = std::max(1, settings.iterations / sub_steps);
+  const bool thorough = constraints.size() <= few;
+  const int share = thorough ? settings.iterations : settings.iterations / sub_steps;
+  const int relaxing = std::max(1, share / 2);
+  const int passes = std::max(1, share - relaxing);
+  const double turn = 2 * std::numbers::pi * soft_cycles;
+  const double stiffness = turn * (2 * soft_damping + turn);
+  const Softness hard;
+  const Softness soft{turn / (h * (2 * soft_damping + turn)), settings.push_out_speed, stiffness / (1 + stiffness),
+                      1 / (1 + stiffness)};
   double ratio = last_sub_step_ > 0 ? h / last_sub_step_ : 1;
   last_sub_step_ = h;
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
@@ -397,29 +434,41 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
       warm_start(constraint, ratio);
     }
     ratio = 1;
-    for (int k = 0; k < passes; ++k) {
-      double change = 0;
-      for (SolverBody& body : bodies_) {
-        if (k == 0) body.drive_impulse = body.drive_angular_impulse = Vec3::Zero();
-        change = std::max(change, solve_drive(bodies, body, h, dt - (sub_step + 1) * h));
+    const double remaining = dt - (sub_step + 1) * h;
+    for (SolverBody& body : bodies_) body.drive_impulse = body.drive_angular_impulse = Vec3::Zero();
+    const auto run = [&](const Softness& softness, int count) {
+      for (int k = 0; k < count; ++k) {
+        double change = 0;
+        for (SolverBody& body : bodies_) change = std::max(change, solve_drive(bodies, body, h, remaining));
+        change = std::max(change, pass(constraints, softness, h, k % 2 == 1));
+        if (change < settled) break;
       }
-      change = std::max(change, pass(constraints, h, k % 2 == 1));
-      if (change < settled) break;
-    }
+    };
+    run(soft, passes);
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      bodies_[i].lag = bodies_[i].movable ? Vec3(0.5 * (before_linear_[i] - bodies_[i].linear)) : Vec3(0, 0, 0);
     for (ContactConstraint& constraint : constraints) {
       for (int i = 0; i < constraint.count; ++i) {
         PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
         if (point.normal_impulse == 0) continue;
-        point.total_normal += point.normal_impulse;
-        point.total_friction += point.friction_impulse;
-        for (SolverBody* body : {&at(constraint.a), &at(constraint.b)}) body->pressed = body->touched = true;
+        const double grip = constraint.friction * point.normal_impulse;
+        const bool slides = point.friction_impulse.squaredNorm() >= 0.999 * grip * grip;
+        for (SolverBody* body : {&at(constraint.a), &at(constraint.b)}) {
+          body->pressed = body->touched = true;
+          if (slides || body->round)
+            body->lag -= constraint.manifold.normal * constraint.manifold.normal.dot(body->lag);
+          else
+            body->lag = Vec3::Zero();
+        }
       }
-      constraint.total_rolling += constraint.rolling_impulse;
     }
+    for (SolverBody& body : bodies_)
+      if (body.impact && body.pressed) body.lag = Vec3::Zero();
     end_sub_step(h);
+    run(hard, relaxing);
+    add_totals(constraints);
   }
   rebound(constraints, islands, settings.iterations);
-  push_out(constraints, settings, dt);
 
   for (SolverBody& entry : bodies_) {
     if (!entry.movable || !entry.touched) continue;

@@ -15,6 +15,9 @@ struct SolverBody {
   bool impact = false;   ///< meets something in this step: its velocity jumps
   bool touched = false;  ///< an impulse reached it in this step
   bool pressed = false;  ///< an impulse reached it in this sub-step
+  bool round = false;    ///< a ball: no contact can rock it
+  Vec3 lag;              ///< from the velocity at the end of the sub-step to its mean, m/s
+  double roundness = 0;  ///< m
   double inverse_mass = 0;
   Mat3 inverse_inertia = Mat3::Zero();
   Vec3 center, start_center;
@@ -25,10 +28,19 @@ struct SolverBody {
   Vec3 drive_impulse, drive_angular_impulse;
 };
 
-/// Sequential impulses in sub-steps. Velocities are solved without any correction of positions;
-/// rebound follows after, from the approach speed; overlap is taken apart on positions alone.
+/// How an overlapping contact gives way while positions are corrected.
+struct Softness {
+  double rate = 0;    ///< share of the overlap that is taken apart, 1/s
+  double speed = 0;   ///< at most, m/s
+  double firm = 1;    ///< share of the speed error met by a pass
+  double giving = 0;  ///< share of the impulse let go by a pass
+};
+
+/// Sequential impulses in sub-steps. Overlap is taken apart by soft contacts that move positions; hard passes then
+/// take the speed of that away again, so that it moves bodies and gives them no energy. Rebound follows last, from the
+/// approach speed.
 /// Sources: Catto, Fast and Simple Physics using Sequential Impulses, GDC 2006; Macklin and others,
-/// Small Steps in Physics Simulation, SCA 2019.
+/// Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024 (soft contacts and relaxation).
 class Solver {
  public:
   /// Moves all bodies that `constraints` touch by `dt`; fills in the constraints' impulses.
@@ -44,12 +56,12 @@ class Solver {
                       double h);
   void refresh(ContactConstraint& constraint) const;
   void warm_start(ContactConstraint& constraint, double ratio);
-  double pass(std::vector<ContactConstraint>& constraints, double h, bool backward);
-  double solve_contact(ContactConstraint& constraint, double h);
+  double pass(std::vector<ContactConstraint>& constraints, const Softness& softness, double h, bool backward);
+  double solve_contact(ContactConstraint& constraint, const Softness& softness, double h);
   double solve_drive(const std::vector<Body>& bodies, SolverBody& body, double h, double remaining);
+  void add_totals(std::vector<ContactConstraint>& constraints);
   void end_sub_step(double h);
   void rebound(std::vector<ContactConstraint>& constraints, Islands& islands, int passes);
-  void push_out(std::vector<ContactConstraint>& constraints, const WorldSettings& settings, double dt);
   SolverBody& at(std::uint32_t index) { return bodies_[slots_[index]]; }
   const SolverBody& at(std::uint32_t index) const { return bodies_[slots_[index]]; }
 

@@ -156,6 +156,8 @@ BodyId World::add(const BodySettings& settings) {
       body.inverse_inertia = 1 / first * Mat3::Identity();
     }
   }
+  if (const auto* sphere = std::get_if<Sphere>(&settings.shape.solid)) body.roundness = sphere->radius;
+  if (const auto* capsule = std::get_if<Capsule>(&settings.shape.solid)) body.roundness = capsule->radius;
   body.radius = radius_of(settings.shape.solid);
   body.friction = settings.friction;
   body.restitution = settings.restitution;

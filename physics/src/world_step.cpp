@@ -40,22 +40,37 @@ void adopt(ContactConstraint& constraint, const Body& a, const Prediction& at_a,
     point.start_arm_b = from.position - at_b.center;
     point.start_gap = -from.penetration;
     if (constraint.impact_time == 0) continue;
-    point.start_arm_a = (back_a * point.start_arm_a).eval();
-    point.start_arm_b = (back_b * point.start_arm_b).eval();
+    point.start_arm_a = carried(back_a, point.start_arm_a, a.roundness * manifold.normal);
+    point.start_arm_b = carried(back_b, point.start_arm_b, -b.roundness * manifold.normal);
     point.start_gap += manifold.normal.dot((b.center + point.start_arm_b) - (a.center + point.start_arm_a));
   }
 }
 
-void inherit(ContactConstraint& constraint, const ContactConstraint& old) {
+/// Hands the impulses of the step before on: to points of the same features, then to what is left nearby.
+void inherit(ContactConstraint& constraint, const ContactConstraint& old, double nearby) {
   constraint.rolling_impulse = old.rolling_impulse;
-  for (int i = 0; i < constraint.count; ++i) {
-    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-    for (int k = 0; k < old.count; ++k) {
-      const PointConstraint& before = old.points[static_cast<std::size_t>(k)];
-      if (before.feature != point.feature) continue;
-      point.normal_impulse = before.normal_impulse;
-      point.friction_impulse = before.friction_impulse;
+  std::array<bool, 4> given{}, taken{};
+  const auto hand_on = [&](std::size_t from, std::size_t to) {
+    constraint.points[to].normal_impulse = old.points[from].normal_impulse;
+    constraint.points[to].friction_impulse = old.points[from].friction_impulse;
+    given[from] = taken[to] = true;
+  };
+  const auto count = static_cast<std::size_t>(constraint.count);
+  const auto old_count = static_cast<std::size_t>(old.count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < old_count; ++k)
+      if (!given[k] && !taken[i] && old.points[k].feature == constraint.points[i].feature) hand_on(k, i);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (taken[i]) continue;
+    std::size_t best = old_count;
+    double least = nearby;
+    for (std::size_t k = 0; k < old_count; ++k) {
+      const double away = (old.points[k].start_arm_b - constraint.points[i].start_arm_b).norm();
+      if (given[k] || away >= least) continue;
+      least = away;
+      best = k;
     }
+    if (best < old_count) hand_on(best, i);
   }
 }
 
@@ -105,7 +120,7 @@ void World::Implementation::find_constraints(double dt) {
     constraint.restitution = std::max(a.restitution, b.restitution);
     constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
     constraint.began = !(old && old->touching);
-    if (old) inherit(constraint, *old);
+    if (old) inherit(constraint, *old, 0.05 * std::min(a.radius, b.radius));
     active.push_back(constraint);
   }
   retain_before(std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max());
