@@ -2,89 +2,80 @@
 
 #include <tweenfall/curves/elementary.h>
 
-#include <cmath>
 #include <numbers>
 
 namespace tweenfall {
 
 namespace {
 
-constexpr int around = 24;  // corners of a circle
-constexpr int down = 12;    // rings from pole to pole; even, so that one is the equator
-constexpr double plane_size = 20;
+constexpr std::uint32_t sectors = 32, rings = 16;
 
-void add_quad(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-  for (const std::uint32_t corner : {a, b, c, a, c, d}) mesh.triangles.push_back(corner);
-}
-
-/// A ball drawn apart at its equator by a cylinder; `half_height` 0 is the ball itself.
+/// Two half balls on a cylinder along y; a ball when it has no length.
 void add_round(Mesh& mesh, double radius, double half_height) {
-  const auto add_ring = [&](double polar, double shift) {
-    const auto [sin_polar, cos_polar] = elementary::sin_cos(polar);
-    for (int i = 0; i <= around; ++i) {
-      const auto [sin_turn, cos_turn] = elementary::sin_cos(2 * std::numbers::pi * i / around);
-      const Vec3 normal(sin_polar * cos_turn, cos_polar, sin_polar * sin_turn);
+  for (std::uint32_t ring = 0; ring <= rings + 1; ++ring) {
+    // The equator is there twice, once for each half.
+    const std::uint32_t parallel = ring <= rings / 2 ? ring : ring - 1;
+    const auto down = elementary::sin_cos(std::numbers::pi * parallel / rings);
+    const double lift = ring <= rings / 2 ? half_height : -half_height;
+    for (std::uint32_t sector = 0; sector <= sectors; ++sector) {
+      const auto around = elementary::sin_cos(2 * std::numbers::pi * (sector % sectors) / sectors);
+      const Vec3 normal(down.sin * around.cos, down.cos, down.sin * around.sin);
       mesh.normals.push_back(normal);
-      mesh.positions.push_back(radius * normal + Vec3(0, shift, 0));
-    }
-  };
-  int rings = 0;
-  for (int ring = 0; ring <= down; ++ring) {
-    const double polar = std::numbers::pi * ring / down;
-    add_ring(polar, ring <= down / 2 ? half_height : -half_height);
-    ++rings;
-    if (ring == down / 2 && half_height > 0) {
-      add_ring(polar, -half_height);
-      ++rings;
+      mesh.positions.push_back(normal * radius + Vec3(0, lift, 0));
     }
   }
-  constexpr std::uint32_t stride = around + 1;
-  for (std::uint32_t ring = 0; ring + 1 < static_cast<std::uint32_t>(rings); ++ring)
-    for (std::uint32_t i = 0; i < around; ++i) {
-      const std::uint32_t corner = ring * stride + i;
-      add_quad(mesh, corner, corner + 1, corner + stride + 1, corner + stride);
+  for (std::uint32_t ring = 0; ring <= rings; ++ring) {
+    if (ring == rings / 2 && half_height == 0) continue;
+    for (std::uint32_t sector = 0; sector < sectors; ++sector) {
+      const std::uint32_t a = ring * (sectors + 1) + sector, b = a + sectors + 1;
+      if (ring > 0) mesh.triangles.insert(mesh.triangles.end(), {a, a + 1, b + 1});
+      if (ring < rings) mesh.triangles.insert(mesh.triangles.end(), {a, b + 1, b});
     }
+  }
 }
 
-/// A rectangle around `center`, seen counter-clockwise from where `normal` points.
-void add_face(Mesh& mesh, const Vec3& center, const Vec3& right, const Vec3& up, const Vec3& normal) {
-  const std::uint32_t first = static_cast<std::uint32_t>(mesh.positions.size());
-  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-    mesh.positions.push_back(center + x * right + y * up);
+/// A rectangle around `center`; the normal is `u` x `v`.
+void add_rectangle(Mesh& mesh, const Vec3& center, const Vec3& u, const Vec3& v) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const Vec3 normal = u.cross(v).normalized();
+  for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+    mesh.positions.push_back(center + u * a + v * b);
     mesh.normals.push_back(normal);
   }
-  add_quad(mesh, first, first + 1, first + 2, first + 3);
+  mesh.triangles.insert(mesh.triangles.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
 }
 
-void add_solid(Mesh& mesh, const Sphere& sphere) {
-  add_round(mesh, sphere.radius, 0);
-}
-void add_solid(Mesh& mesh, const Capsule& capsule) {
-  add_round(mesh, capsule.radius, capsule.half_height);
-}
-void add_solid(Mesh& mesh, const Box& box) {
+void add_box(Mesh& mesh, const Vec3& half) {
   for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {-1.0, 1.0}) {
-      const int next = (axis + 1) % 3, last = (axis + 2) % 3;
-      Vec3 normal(0, 0, 0), right(0, 0, 0), up(0, 0, 0);
-      normal[axis] = sign;
-      right[next] = sign * box.half_extents[next];
-      up[last] = box.half_extents[last];
-      add_face(mesh, box.half_extents[axis] * normal, right, up, normal);
+    for (const double side : {-1.0, 1.0}) {
+      Vec3 out(0, 0, 0), u(0, 0, 0), v(0, 0, 0);
+      out[axis] = side * half[axis];
+      u[(axis + 1) % 3] = half[(axis + 1) % 3];
+      v[(axis + 2) % 3] = side * half[(axis + 2) % 3];
+      add_rectangle(mesh, out, u, v);
     }
 }
-void add_solid(Mesh& mesh, const Plane& plane) {
-  const Vec3 beside = std::abs(plane.normal.x()) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
-  const Vec3 right = plane.normal.cross(beside).normalized(), up = plane.normal.cross(right);
-  add_face(mesh, plane.offset * plane.normal, plane_size / 2 * right, plane_size / 2 * up, plane.normal);
+
+void add_plane(Mesh& mesh, const Plane& plane) {
+  const Vec3 other = plane.normal.x() * plane.normal.x() < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+  const Vec3 u = other.cross(plane.normal).normalized();
+  add_rectangle(mesh, plane.normal * plane.offset, u * 10, plane.normal.cross(u) * 10);
 }
 
 }  // namespace
 
 Mesh shape_mesh(const Shape& shape) {
   Mesh mesh;
-  std::visit([&](const auto& solid) { add_solid(mesh, solid); }, shape.solid);
-  for (Vec3& position : mesh.positions) position = shape.offset.position + shape.offset.rotation * position;
+  if (const auto* sphere = std::get_if<Sphere>(&shape.solid)) {
+    add_round(mesh, sphere->radius, 0);
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape.solid)) {
+    add_round(mesh, capsule->radius, capsule->half_height);
+  } else if (const auto* box = std::get_if<Box>(&shape.solid)) {
+    add_box(mesh, box->half_extents);
+  } else if (const auto* plane = std::get_if<Plane>(&shape.solid)) {
+    add_plane(mesh, *plane);
+  }
+  for (Vec3& position : mesh.positions) position = shape.offset.rotation * position + shape.offset.position;
   for (Vec3& normal : mesh.normals) normal = shape.offset.rotation * normal;
   return mesh;
 }

@@ -1,14 +1,14 @@
 #pragma once
 
-// The surface of a solid as triangles, for files that draw bodies.
+// Solids as triangles.
 
 #include <tweenfall/anim/mesh.h>
 #include <tweenfall/physics/shape.h>
 
 namespace tweenfall {
 
-/// Triangles of the shape in its node's space, counter-clockwise seen from outside, with normals. A plane becomes a
-/// square of 20 m.
+/// The surface of `shape` in its node's space, with normals; a plane as a square of 20 m around its nearest point to the
+/// origin.
 [[nodiscard]] Mesh shape_mesh(const Shape& shape);
 
 }  // namespace tweenfall
