@@ -67,7 +67,8 @@ bool jumps(const TrackPoint& in, const TrackPoint& out) {
   return false;
 }
 
-void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<double>& corners, double from, double until) {
+void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<double>& corners, double from,
+               double until) {
   std::vector<double> times = corners;
   for (int i = 0; i <= points_across; ++i) times.push_back(from + (until - from) * i / points_across);
   std::sort(times.begin(), times.end());
@@ -117,9 +118,9 @@ void add_events(PlottedTrack& plotted, const Shown& shown, const Recording* reco
     return;
   }
   for (const StageEvent& event : recording->events) {
-    const bool ours = event.nodes.empty() ||
-                      std::any_of(event.nodes.begin(), event.nodes.end(),
-                                  [&](NodeId node) { return recording->nodes[node].name == plotted.track->node; });
+    const bool ours = event.nodes.empty() || std::any_of(event.nodes.begin(), event.nodes.end(), [&](NodeId node) {
+                        return recording->nodes[node].name == plotted.track->node;
+                      });
     if (ours) plotted.moments.push_back({event.time, event.name, false});
   }
 }
@@ -153,14 +154,16 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
       PlottedTrack plotted;
       plotted.track = &track;
       plotted.title = track.name() + (clips.size() > 1 ? " in " + shown.clip->name : "");
-      add_curve(plotted, shown, corner_times(stage, shown, track, result.from, result.until), result.from, result.until);
+      add_curve(plotted, shown, corner_times(stage, shown, track, result.from, result.until), result.from,
+                result.until);
       add_events(plotted, shown, recording);
       if (recording) add_recorded(plotted, *recording);
       result.tracks.push_back(std::move(plotted));
     }
   }
   if (!missing.empty())
-    throw std::invalid_argument("there is no track \"" + missing.front() + "\"" + (names.empty() ? "" : "; there are: " + names));
+    throw std::invalid_argument("there is no track \"" + missing.front() + "\"" +
+                                (names.empty() ? "" : "; there are: " + names));
   if (result.tracks.empty()) throw std::invalid_argument("there are no tracks to plot");
   return result;
 }
