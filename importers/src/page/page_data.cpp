@@ -1,9 +1,11 @@
 #include "page/page_data.h"
 
+#include <tweenfall/importers/number_text.h>
+
+#include "json/json_string.h"
 #include "page/page_meshes.h"
 #include "recording/base64.h"
 #include "recording/key_lanes.h"
-#include "recording/number_text.h"
 #include "recording/words.h"
 
 #include <map>
@@ -106,7 +108,8 @@ std::string node_json(const NodeRecord& node, const NodeDescription* description
     const std::size_t count = node.weights.front().size();
     numbers.clear();
     for (const std::vector<double>& weights : node.weights)
-      for (std::size_t i = 0; i < count; ++i) numbers.push_back(i < weights.size() ? static_cast<float>(weights[i]) : 0);
+      for (std::size_t i = 0; i < count; ++i)
+        numbers.push_back(i < weights.size() ? static_cast<float>(weights[i]) : 0);
     drop_repeats(numbers, count);
     out += ",\"weightCount\":" + std::to_string(count);
     append_quoted(out, "weights", base64(numbers));

@@ -1,7 +1,9 @@
 #include "page/page_meshes.h"
 
+#include <tweenfall/importers/number_text.h>
+
+#include "json/json_string.h"
 #include "recording/base64.h"
-#include "recording/number_text.h"
 
 #include <cstdint>
 #include <vector>
@@ -91,8 +93,9 @@ void append_page_meshes(std::string& out, const StageDescription& stage,
     if (instance.mesh >= stage.meshes.size()) continue;
     if (!first) out += ',';
     first = false;
-    out += "{\"node\":" + recorded(instance.node) + ",\"mesh\":" + std::to_string(instance.mesh) + ",\"skin\":" +
-           (instance.skin < stage.skins.size() ? std::to_string(instance.skin) : std::string("-1")) + "}";
+    out += "{\"node\":" + recorded(instance.node) + ",\"mesh\":" + std::to_string(instance.mesh) +
+           ",\"skin\":" + (instance.skin < stage.skins.size() ? std::to_string(instance.skin) : std::string("-1")) +
+           "}";
   }
   out += ']';
 }
