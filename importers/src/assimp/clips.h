@@ -6,10 +6,10 @@
 
 #include <tweenfall/importers/model.h>
 
-#include <assimp/scene.h>
-
 #include <map>
 #include <string>
+
+struct aiScene;
 
 namespace tweenfall {
 

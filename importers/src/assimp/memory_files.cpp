@@ -3,6 +3,7 @@
 #include "../model_bytes.h"
 
 #include <assimp/IOStream.hpp>
+#include <assimp/IOSystem.hpp>
 
 #include <algorithm>
 #include <cstring>
@@ -41,31 +42,42 @@ class MemoryStream : public Assimp::IOStream {
   std::size_t at_ = 0;
 };
 
+class MemoryFiles : public Assimp::IOSystem {
+ public:
+  MemoryFiles(const std::string& bytes, const std::filesystem::path& file) : bytes_(bytes), file_(file) {}
+
+  bool Exists(const char* path) const override {
+    std::error_code failed;
+    return path == file_.string() || (is_beside(path) && std::filesystem::is_regular_file(path, failed));
+  }
+
+  char getOsSeparator() const override { return '/'; }
+
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    if (std::strchr(mode, 'w') || std::strchr(mode, 'a')) return nullptr;
+    if (path == file_.string()) return new MemoryStream(std::string_view(bytes_));
+    if (!is_beside(path)) return nullptr;
+    std::string reason;
+    auto bytes = model_bytes(path, reason);
+    return bytes ? new MemoryStream(std::move(*bytes)) : nullptr;
+  }
+
+  void Close(Assimp::IOStream* stream) override { delete stream; }
+
+ private:
+  [[nodiscard]] bool is_beside(const std::filesystem::path& path) const {
+    // A hostile file must not be able to read the rest of the disk.
+    return path.parent_path().lexically_normal() == file_.parent_path().lexically_normal() && path.filename() != "..";
+  }
+
+  const std::string& bytes_;
+  std::filesystem::path file_;
+};
+
 }  // namespace
 
-MemoryFiles::MemoryFiles(const std::string& bytes, const std::filesystem::path& file) : bytes_(bytes), file_(file) {}
-
-bool MemoryFiles::is_beside(const std::filesystem::path& path) const {
-  // A hostile file must not be able to read the rest of the disk.
-  return path.parent_path().lexically_normal() == file_.parent_path().lexically_normal() && path.filename() != "..";
-}
-
-bool MemoryFiles::Exists(const char* path) const {
-  std::error_code failed;
-  return path == file_.string() || (is_beside(path) && std::filesystem::is_regular_file(path, failed));
-}
-
-Assimp::IOStream* MemoryFiles::Open(const char* path, const char* mode) {
-  if (std::strchr(mode, 'w') || std::strchr(mode, 'a')) return nullptr;
-  if (path == file_.string()) return new MemoryStream(std::string_view(bytes_));
-  if (!is_beside(path)) return nullptr;
-  std::string reason;
-  auto bytes = model_bytes(path, reason);
-  return bytes ? new MemoryStream(std::move(*bytes)) : nullptr;
-}
-
-void MemoryFiles::Close(Assimp::IOStream* stream) {
-  delete stream;
+std::unique_ptr<Assimp::IOSystem> memory_files(const std::string& bytes, const std::filesystem::path& file) {
+  return std::make_unique<MemoryFiles>(bytes, file);
 }
 
 }  // namespace tweenfall

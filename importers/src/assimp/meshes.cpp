@@ -3,6 +3,8 @@
 #include "../model_influences.h"
 #include "values.h"
 
+#include <assimp/scene.h>
+
 #include <cmath>
 
 namespace tweenfall {

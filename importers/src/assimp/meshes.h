@@ -6,11 +6,11 @@
 
 #include <tweenfall/importers/model.h>
 
-#include <assimp/scene.h>
-
 #include <map>
 #include <string>
 #include <vector>
+
+struct aiScene;
 
 namespace tweenfall {
 

@@ -7,6 +7,9 @@
 #include "trial.h"
 #include "values.h"
 
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
 #include <map>
 
 namespace tweenfall {

@@ -6,6 +6,9 @@
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/IOSystem.hpp>
+#include <assimp/Importer.hpp>
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -77,7 +80,7 @@ std::string how_it_ended(int status) {
 
 const aiScene& import_scene(Assimp::Importer& importer, const std::string& bytes, const std::filesystem::path& file,
                             ColladaNames names) {
-  importer.SetIOHandler(new MemoryFiles(bytes, file));
+  importer.SetIOHandler(memory_files(bytes, file).release());
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, names == ColladaNames::names);
   const unsigned steps =

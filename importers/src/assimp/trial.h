@@ -3,11 +3,13 @@
 // A file handed to assimp, first in a process of its own: assimp's assertions are compiled in, and a malformed file can
 // end the process or overflow its stack. What survives there is read again here.
 
-#include <assimp/scene.h>
-#include <assimp/Importer.hpp>
-
 #include <filesystem>
 #include <string>
+
+struct aiScene;
+namespace Assimp {
+class Importer;
+}
 
 namespace tweenfall {
 

@@ -1,24 +1,25 @@
 #pragma once
 
-// assimp's value types as ours.
+// assimp's value types as ours. Templates, so that assimp's headers stay in the sources that read scenes.
 
 #include <tweenfall/curves/values.h>
-
-#include <assimp/types.h>
 
 #include <string>
 
 namespace tweenfall {
 
-inline Vec3 vector_of(const aiVector3D& v) {
+template <class AssimpVector>
+Vec3 vector_of(const AssimpVector& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
-inline Quat quaternion_of(const aiQuaternion& q) {
+template <class AssimpQuaternion>
+Quat quaternion_of(const AssimpQuaternion& q) {
   return Quat(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z));
 }
 
-inline Mat3 linear_of(const aiMatrix4x4& m) {
+template <class AssimpMatrix>
+Mat3 linear_of(const AssimpMatrix& m) {
   Mat3 out;
   for (unsigned row = 0; row < 3; ++row)
     for (unsigned column = 0; column < 3; ++column)
@@ -26,11 +27,13 @@ inline Mat3 linear_of(const aiMatrix4x4& m) {
   return out;
 }
 
-inline Vec3 translation_of(const aiMatrix4x4& m) {
+template <class AssimpMatrix>
+Vec3 translation_of(const AssimpMatrix& m) {
   return {static_cast<double>(m.a4), static_cast<double>(m.b4), static_cast<double>(m.c4)};
 }
 
-inline std::string text_of(const aiString& text) {
+template <class AssimpString>
+std::string text_of(const AssimpString& text) {
   return std::string(text.C_Str());
 }
 
