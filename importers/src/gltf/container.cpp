@@ -230,10 +230,9 @@ Container open_container(std::string_view bytes, const std::filesystem::path& fi
   container.document = parse_json(chunks.json, faults, rules);
   for (const JsonFault& fault : faults) tell(fault, container, problems);
   if (!faults.empty()) return container;
-  if (!container.document.is(JsonValue::Kind::object)) {
-    problems.add("", "must hold a JSON object");
-    return container;
-  }
+  // What is no object, or too large a one, reads as empty, and all that is missing from it would be told too.
+  const Fields root(container.document, "", problems);
+  if (problems.any()) return container;
   check_header(container, problems);
   read_buffers(container, file, chunks.binary, problems);
   return container;
