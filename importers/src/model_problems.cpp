@@ -16,10 +16,17 @@ std::string line(const std::string& place, const std::string& what) {
 }  // namespace
 
 void ModelProblems::add(const std::string& place, const std::string& what) {
+  keep({place, what, std::nullopt});
+}
+
+void ModelProblems::add(const TextPlace& place, const std::string& what) {
+  keep({"", what, place});
+}
+
+void ModelProblems::keep(Fault fault) {
   ++count_;
   if (faults_.size() >= most_told) return;
-  const std::string text = line(place, what);
-  if (told_.insert(text).second) faults_.push_back(text);
+  if (told_.insert(line(fault.place, fault.what)).second) faults_.push_back(std::move(fault));
 }
 
 void ModelProblems::repair(const std::string& place, const std::string& what) {
@@ -34,10 +41,15 @@ std::vector<std::string> ModelProblems::repairs() const {
   return all;
 }
 
-void ModelProblems::throw_if_any(const std::filesystem::path& file) const {
+void ModelProblems::throw_if_any(const std::filesystem::path& file, const Where& where) const {
   if (!any()) return;
   std::string text;
-  for (const std::string& fault : faults_) text += (text.empty() ? "" : "\n") + file.string() + ": error: " + fault;
+  for (const Fault& fault : faults_) {
+    const std::optional<TextPlace> at = fault.at || !where ? fault.at : where(fault.place);
+    text += (text.empty() ? "" : "\n") + file.string();
+    if (at) text += ":" + std::to_string(at->line) + ":" + std::to_string(at->column);
+    text += ": error: " + line(fault.place, fault.what);
+  }
   if (faults_.size() >= most_told && count_ > faults_.size()) text += "\n... and more";
   throw ModelError(text);
 }

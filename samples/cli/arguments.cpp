@@ -1,7 +1,8 @@
 #include "arguments.h"
 
-#include "nearest_name.h"
-#include "number_text.h"
+#include "did_you_mean.h"
+
+#include <tweenfall/importers/number_text.h>
 
 #include <CLI/CLI.hpp>
 

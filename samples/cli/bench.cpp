@@ -1,6 +1,5 @@
 // tweenfall bench: how fast sampling and stepping are on this machine.
 
-#include "number_text.h"
 #include "table.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -8,6 +7,7 @@
 #include <tweenfall/anim/animation.h>
 #include <tweenfall/curves/keys.h>
 #include <tweenfall/curves/rotation.h>
+#include <tweenfall/importers/number_text.h>
 #include <tweenfall/physics/world.h>
 
 #include <chrono>
@@ -75,10 +75,10 @@ Run bench(Arguments&) {
     const auto row = [&](const std::string& what, double seconds, double things, const std::string& unit) {
       const double each = seconds / things;
       table.row({what,
-                 each < 1e-6   ? brief(each * 1e9) + " ns"
-                 : each < 1e-3 ? brief(each * 1e6) + " us"
-                               : brief(each * 1e3) + " ms",
-                 brief(1 / each) + " " + unit});
+                 each < 1e-6   ? brief_text(each * 1e9) + " ns"
+                 : each < 1e-3 ? brief_text(each * 1e6) + " us"
+                               : brief_text(each * 1e3) + " ms",
+                 brief_text(1 / each) + " " + unit});
     };
 
     std::vector<Key<Vec3>> keys;

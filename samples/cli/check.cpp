@@ -1,13 +1,15 @@
 // tweenfall check: every problem of every file, with its place.
 
+#include "counted.h"
 #include "faults.h"
 #include "json_text.h"
-#include "number_text.h"
 #include "stage_file.h"
 #include "terminal.h"
 #include "verbs.h"
 
 #include <tweenfall/importers/document.h>
+
+#include <charconv>
 
 namespace tweenfall::cli {
 
@@ -42,6 +44,27 @@ std::string summary_of(const StageDescription& stage) {
   return text;
 }
 
+/// A line "FILE: error: ..." or "FILE:LINE:COLUMN: error: ..." taken apart; any other is the message.
+Problem problem_of(const std::string& text, const std::string& file) {
+  Problem problem;
+  problem.file = file;
+  problem.message = text;
+  const std::string mark = ": error: ";
+  const std::size_t at = text.find(mark, file.size());
+  if (!text.starts_with(file) || at == std::string::npos) return problem;
+  const char* const end = text.data() + at;
+  std::size_t line = 0, column = 0;
+  if (at > file.size()) {
+    if (text[file.size()] != ':') return problem;
+    const auto first = std::from_chars(text.data() + file.size() + 1, end, line);
+    if (first.ptr == end || *first.ptr != ':' || std::from_chars(first.ptr + 1, end, column).ptr != end) return problem;
+  }
+  problem.line = line;
+  problem.column = column;
+  problem.message = text.substr(at + mark.size());
+  return problem;
+}
+
 Finding check_file(const std::string& file) {
   Finding finding;
   try {
@@ -54,12 +77,7 @@ Finding check_file(const std::string& file) {
     for (const Problem& problem : error.problems()) finding.jsons.push_back(problem_json(problem));
   } catch (const std::exception& error) {
     finding.texts = faults_of(error, file);
-    for (const std::string& text : finding.texts) {
-      Problem problem;
-      problem.file = file;
-      problem.message = text.starts_with(file + ": error: ") ? text.substr(file.size() + 9) : text;
-      finding.jsons.push_back(problem_json(problem));
-    }
+    for (const std::string& text : finding.texts) finding.jsons.push_back(problem_json(problem_of(text, file)));
   }
   return finding;
 }

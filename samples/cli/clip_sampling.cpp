@@ -1,9 +1,8 @@
 #include "clip_sampling.h"
 
 #include "arguments.h"
+#include "did_you_mean.h"
 #include "json_text.h"
-#include "nearest_name.h"
-#include "number_text.h"
 
 #include <tweenfall/curves/rotation.h>
 
@@ -133,12 +132,12 @@ TrackSample sample_track(const Clip& clip, const Track& track, double time) {
 std::string value_json(const TrackCurve& curve, const TrackSample& sample) {
   if (std::holds_alternative<StepCurve<std::string>>(curve)) return json_string(sample.text);
   if (std::holds_alternative<StepCurve<bool>>(curve)) return sample.value[0] != 0 ? "true" : "false";
-  if (std::holds_alternative<Curve<double>>(curve)) return exact(sample.value[0]);
+  if (std::holds_alternative<Curve<double>>(curve)) return json_number(sample.value[0]);
   return json_array(sample.value);
 }
 
 std::string rate_json(const TrackCurve& curve, const TrackSample& sample) {
-  return std::holds_alternative<Curve<double>>(curve) ? exact(sample.rate[0]) : json_array(sample.rate);
+  return std::holds_alternative<Curve<double>>(curve) ? json_number(sample.rate[0]) : json_array(sample.rate);
 }
 
 std::vector<WorldMotion> sample_world(const Animation& animation, double time) {

@@ -1,6 +1,6 @@
 #include "faults.h"
 
-#include "number_text.h"
+#include "counted.h"
 #include "terminal.h"
 
 #include <tweenfall/importers/document.h>

@@ -1,7 +1,8 @@
 #include "frame_times.h"
 
 #include "arguments.h"
-#include "number_text.h"
+
+#include <tweenfall/importers/number_text.h>
 
 #include <cmath>
 
@@ -10,10 +11,11 @@ namespace tweenfall::cli {
 void require_frames(double fps, double until) {
   constexpr double most_fps = 100000, most_frames = 1e6;
   if (!(fps > 0) || fps > most_fps)
-    throw UsageError("--fps must be above 0 and at most " + brief(most_fps) + ", not " + brief(fps));
-  if (!(until >= 0)) throw UsageError("--until must be 0 or later, not " + brief(until));
+    throw UsageError("--fps must be above 0 and at most " + brief_text(most_fps) + ", not " + brief_text(fps));
+  if (!(until >= 0)) throw UsageError("--until must be 0 or later, not " + brief_text(until));
   if (until * fps > most_frames)
-    throw UsageError(brief(until) + " s at " + brief(fps) + " frames a second are more than a million frames");
+    throw UsageError(brief_text(until) + " s at " + brief_text(fps) +
+                     " frames a second are more than a million frames");
 }
 
 std::vector<double> frame_times(double until, double fps) {

@@ -1,8 +1,8 @@
 // tweenfall import: a model's nodes and clips as a document.
 
+#include "counted.h"
+#include "did_you_mean.h"
 #include "faults.h"
-#include "nearest_name.h"
-#include "number_text.h"
 #include "output_file.h"
 #include "stage_file.h"
 #include "terminal.h"

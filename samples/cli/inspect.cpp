@@ -1,12 +1,14 @@
 // tweenfall inspect: what is in a document or a model, in tables.
 
 #include "clip_sampling.h"
-#include "number_text.h"
+#include "counted.h"
 #include "stage_file.h"
 #include "table.h"
 #include "terminal.h"
 #include "track_survey.h"
 #include "verbs.h"
+
+#include <tweenfall/importers/number_text.h>
 
 #include <algorithm>
 
@@ -17,26 +19,26 @@ namespace {
 std::string loop_text(const Loop& loop) {
   constexpr const char* modes[] = {"once", "repeat", "repeat-offset", "pingpong"};
   std::string text = modes[static_cast<int>(loop.mode)];
-  if (loop.mode != LoopMode::once && loop.count > 0) text += " x " + brief(loop.count);
+  if (loop.mode != LoopMode::once && loop.count > 0) text += " x " + brief_text(loop.count);
   return text;
 }
 
 std::string times_text(const std::vector<double>& times) {
   constexpr std::size_t most = 4;
   std::string text;
-  for (std::size_t i = 0; i < times.size() && i < most; ++i) text += (i > 0 ? ", " : "at ") + brief(times[i]);
+  for (std::size_t i = 0; i < times.size() && i < most; ++i) text += (i > 0 ? ", " : "at ") + brief_text(times[i]);
   if (times.size() > most) text += " and " + std::to_string(times.size() - most) + " more";
   return text;
 }
 
 std::string shape_text(const Shape& shape) {
   struct Words {
-    std::string operator()(const Sphere& sphere) const { return "sphere, radius " + brief(sphere.radius); }
-    std::string operator()(const Box& box) const { return "box, half " + brief(box.half_extents); }
+    std::string operator()(const Sphere& sphere) const { return "sphere, radius " + brief_text(sphere.radius); }
+    std::string operator()(const Box& box) const { return "box, half " + brief_text(box.half_extents); }
     std::string operator()(const Capsule& capsule) const {
-      return "capsule, radius " + brief(capsule.radius) + ", half height " + brief(capsule.half_height);
+      return "capsule, radius " + brief_text(capsule.radius) + ", half height " + brief_text(capsule.half_height);
     }
-    std::string operator()(const Plane& plane) const { return "plane, normal " + brief(plane.normal); }
+    std::string operator()(const Plane& plane) const { return "plane, normal " + brief_text(plane.normal); }
   };
   return std::visit(Words{}, shape.solid);
 }
@@ -53,8 +55,8 @@ std::string nodes_table(const StageDescription& stage) {
                counted(mesh.triangles.size() / 3, "triangle");
       if (!mesh.morphs.empty()) shown += ", " + counted(mesh.morphs.size(), "morph");
     }
-    table.row(
-        {node.name, node.parent == no_node ? "" : stage.nodes[node.parent].name, brief(node.rest.position), shown});
+    table.row({node.name, node.parent == no_node ? "" : stage.nodes[node.parent].name, brief_text(node.rest.position),
+               shown});
   }
   return table.text(styled_output());
 }
@@ -69,10 +71,10 @@ std::string clips_table(const StageDescription& stage) {
     std::string plays;
     for (const Play& play : stage.plays) {
       if (play.clip != i) continue;
-      plays += (plays.empty() ? "from " : ", from ") + brief(play.at) + " s";
-      if (play.speed != 1) plays += " at " + brief(play.speed) + " x";
+      plays += (plays.empty() ? "from " : ", from ") + brief_text(play.at) + " s";
+      if (play.speed != 1) plays += " at " + brief_text(play.speed) + " x";
     }
-    table.row({clip.name, brief(clip.duration), loop_text(clip.loop), std::to_string(clip.tracks.size()),
+    table.row({clip.name, brief_text(clip.duration), loop_text(clip.loop), std::to_string(clip.tracks.size()),
                std::to_string(keys), std::to_string(clip.events.size()), plays});
   }
   return table.text(styled_output());
@@ -86,8 +88,8 @@ std::string tracks_table(const Clip& clip) {
     const bool is_formula = found.keys == 0;
     const bool is_step = track.curve.index() >= 7;
     table.row({track.name(), kind_of(track.curve), is_formula ? "formula" : std::to_string(found.keys),
-               is_formula ? "" : brief(found.from), is_formula ? "" : brief(found.to),
-               is_step ? "" : brief(found.top_speed), is_step ? "" : brief(found.top_speed_at),
+               is_formula ? "" : brief_text(found.from), is_formula ? "" : brief_text(found.to),
+               is_step ? "" : brief_text(found.top_speed), is_step ? "" : brief_text(found.top_speed_at),
                times_text(found.value_jumps), times_text(found.slope_jumps)});
   }
   return table.text(styled_output());
@@ -96,7 +98,7 @@ std::string tracks_table(const Clip& clip) {
 std::string events_table(const Clip& clip) {
   Table table("events of " + clip.name, {">time, s", ">to, s", "name", "data"});
   for (const ClipEvent& event : clip.events)
-    table.row({brief(event.from), event.is_interval() ? brief(event.to) : "", event.name, event.data});
+    table.row({brief_text(event.from), event.is_interval() ? brief_text(event.to) : "", event.name, event.data});
   return table.empty() ? "" : table.text(styled_output());
 }
 
@@ -105,7 +107,7 @@ std::string owner_text(const NodeDescription& node, bool animated) {
   if (node.body->fixed) return "static";
   if (!node.body->drive) return animated ? "keyed" : "free";
   const Drive& drive = *node.body->drive;
-  if (drive.owner() == Owner::driven) return "driven, " + brief(drive.hz) + " Hz";
+  if (drive.owner() == Owner::driven) return "driven, " + brief_text(drive.hz) + " Hz";
   return drive.owner() == Owner::keyed ? "keyed" : "free";
 }
 
@@ -116,12 +118,13 @@ std::string bodies_table(const StageDescription& stage, const std::string& file)
     const NodeDescription& node = stage.nodes[i];
     if (!node.body) continue;
     const double mass = node.body->mass.value_or(node.body->density * volume(node.body->shape.solid));
-    table.row({node.name, shape_text(node.body->shape), node.body->fixed ? "" : brief(mass), brief(node.body->friction),
-               brief(node.body->restitution), owner_text(node, made.owner(i) == Owner::keyed)});
+    table.row({node.name, shape_text(node.body->shape), node.body->fixed ? "" : brief_text(mass),
+               brief_text(node.body->friction), brief_text(node.body->restitution),
+               owner_text(node, made.owner(i) == Owner::keyed)});
   }
   if (table.empty()) return "";
-  return "bodies; gravity " + brief(stage.world.gravity) + " m/s^2, " + brief(1 / stage.step) + " steps a second, " +
-         counted(stage.rules.size(), "hand-off rule") + "\n" + table.text(styled_output());
+  return "bodies; gravity " + brief_text(stage.world.gravity) + " m/s^2, " + brief_text(1 / stage.step) +
+         " steps a second, " + counted(stage.rules.size(), "hand-off rule") + "\n" + table.text(styled_output());
 }
 
 int inspect_file(const std::string& file) {

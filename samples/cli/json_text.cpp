@@ -1,6 +1,8 @@
 #include "json_text.h"
 
-#include "number_text.h"
+#include <tweenfall/importers/number_text.h>
+
+#include <cmath>
 
 namespace tweenfall::cli {
 
@@ -47,11 +49,15 @@ std::string json_string(std::string_view text) {
   return out + '"';
 }
 
+std::string json_number(double number) {
+  return std::isfinite(number) ? number_text(number) : "null";
+}
+
 std::string json_array(std::span<const double> numbers) {
   std::string out = "[";
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (i > 0) out += ',';
-    out += exact(numbers[i]);
+    out += json_number(numbers[i]);
   }
   return out + "]";
 }

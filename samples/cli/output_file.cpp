@@ -1,17 +1,13 @@
 #include "output_file.h"
 
 #include "arguments.h"
-#include "nearest_name.h"
+#include "did_you_mean.h"
 #include "terminal.h"
 
-#include <unistd.h>
+#include <tweenfall/importers/whole_file.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
 namespace tweenfall::cli {
 
@@ -29,21 +25,7 @@ void require_output(const std::string& output, const std::string& input, std::sp
 
 void write_output(const std::string& file, std::string_view content) {
   if (file == "-") return print(content);
-  // A device or pipe cannot be replaced by a new file.
-  const bool special = std::filesystem::exists(file) && !std::filesystem::is_regular_file(file);
-  const std::string target = special ? file : file + ".part" + std::to_string(getpid());
-  const auto fail = [&] {
-    const int reason = errno;
-    if (!special) std::remove(target.c_str());
-    throw std::runtime_error("cannot write " + file + ": " + std::strerror(reason));
-  };
-  {
-    std::ofstream stream(target, std::ios::binary);
-    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-    stream.flush();
-    if (!stream) fail();
-  }
-  if (!special && std::rename(target.c_str(), file.c_str()) != 0) fail();
+  write_whole_file(file, content);
 }
 
 void say_written(const std::string& file, std::string_view shows, bool stdout_is_taken) {

@@ -1,7 +1,7 @@
 // tweenfall plot: curves as SVG, with what physics made of them.
 
 #include "clip_sampling.h"
-#include "number_text.h"
+#include "counted.h"
 #include "output_file.h"
 #include "stage_run.h"
 #include "terminal.h"

@@ -1,13 +1,13 @@
 // tweenfall run: the stage with physics, as a recording or a summary.
 
 #include "frame_times.h"
-#include "number_text.h"
 #include "output_file.h"
 #include "stage_run.h"
 #include "table.h"
 #include "terminal.h"
 #include "verbs.h"
 
+#include <tweenfall/importers/number_text.h>
 #include <tweenfall/importers/recording_file.h>
 
 namespace tweenfall::cli {
@@ -33,8 +33,8 @@ const char* word(Cause cause) {
 std::string handoffs_table(const Recording& recording) {
   Table table("hand-offs", {">time, s", "body", "from", "to", "cause", "velocity before, m/s", "after, m/s"});
   for (const HandOff& handoff : recording.handoffs)
-    table.row({brief(handoff.time), recording.nodes[handoff.node].name, word(handoff.from), word(handoff.to),
-               word(handoff.cause), brief(handoff.before.twist.linear), brief(handoff.after.twist.linear)});
+    table.row({brief_text(handoff.time), recording.nodes[handoff.node].name, word(handoff.from), word(handoff.to),
+               word(handoff.cause), brief_text(handoff.before.twist.linear), brief_text(handoff.after.twist.linear)});
   if (table.empty()) table.note("none");
   return table.text(styled_output());
 }
@@ -46,7 +46,7 @@ std::string events_table(const Recording& recording) {
     const StageEvent& event = recording.events[i];
     std::string nodes;
     for (const NodeId node : event.nodes) nodes += (nodes.empty() ? "" : ", ") + recording.nodes[node].name;
-    table.row({brief(event.time), event.name, nodes, event.nodes.empty() ? "" : brief(event.impulse)});
+    table.row({brief_text(event.time), event.name, nodes, event.nodes.empty() ? "" : brief_text(event.impulse)});
   }
   if (table.empty()) table.note("none");
   if (recording.events.size() > most)
@@ -56,13 +56,14 @@ std::string events_table(const Recording& recording) {
 
 std::string ends_table(const Recording& recording, const StageDescription& stage) {
   constexpr std::size_t most = 40;
-  Table table("bodies at " + brief(recording.times.back()) + " s", {"body", "owner", "position, m", ">speed, m/s"});
+  Table table("bodies at " + brief_text(recording.times.back()) + " s",
+              {"body", "owner", "position, m", ">speed, m/s"});
   std::size_t bodies = 0;
   for (std::size_t i = 0; i < stage.nodes.size(); ++i) {
     if (!stage.nodes[i].body || stage.nodes[i].body->fixed || ++bodies > most) continue;
     const NodeRecord& node = recording.nodes[i];
-    table.row({node.name, word(node.owner.back()), brief(node.world.back().motion.pose.position),
-               brief(node.twist.back().linear.norm())});
+    table.row({node.name, word(node.owner.back()), brief_text(node.world.back().motion.pose.position),
+               brief_text(node.twist.back().linear.norm())});
   }
   if (bodies > most) table.note("and " + std::to_string(bodies - most) + " more; --json has them all");
   return table.empty() ? "" : table.text(styled_output());

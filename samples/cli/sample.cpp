@@ -4,11 +4,12 @@
 #include "faults.h"
 #include "frame_times.h"
 #include "json_text.h"
-#include "number_text.h"
 #include "stage_file.h"
 #include "table.h"
 #include "terminal.h"
 #include "verbs.h"
+
+#include <tweenfall/importers/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -88,7 +89,7 @@ std::string samples_json(const Clip& clip, const std::vector<std::size_t>& track
 
 std::string numbers_text(const std::vector<double>& numbers) {
   std::string out;
-  for (const double number : numbers) out += (out.empty() ? "" : "  ") + brief(number);
+  for (const double number : numbers) out += (out.empty() ? "" : "  ") + brief_text(number);
   return out;
 }
 
@@ -108,7 +109,7 @@ std::string samples_tables(const Clip& clip, const std::vector<std::size_t>& tra
     Table table(track.name() + " (" + kind_of(track.curve) + ")", head);
     for (const double time : times) {
       const TrackSample sample = sample_track(clip, track, time);
-      table.row({brief(time), value_text(track.curve, sample), numbers_text(sample.rate)});
+      table.row({brief_text(time), value_text(track.curve, sample), numbers_text(sample.rate)});
     }
     out += table.text(styled_output());
   }
@@ -118,7 +119,8 @@ std::string samples_tables(const Clip& clip, const std::vector<std::size_t>& tra
     for (const double time : times) {
       const Pose pose = world->world(i, time).motion.pose;
       const Quat& q = pose.rotation;
-      table.row({brief(time), brief(pose.position), numbers_text({q.x(), q.y(), q.z(), q.w()}), brief(pose.scale)});
+      table.row({brief_text(time), brief_text(pose.position), numbers_text({q.x(), q.y(), q.z(), q.w()}),
+                 brief_text(pose.scale)});
     }
     out += table.text(styled_output());
   }

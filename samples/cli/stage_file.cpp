@@ -1,8 +1,8 @@
 #include "stage_file.h"
 
 #include "arguments.h"
+#include "did_you_mean.h"
 #include "faults.h"
-#include "nearest_name.h"
 #include "terminal.h"
 
 #include <tweenfall/importers/document.h>

@@ -1,16 +1,18 @@
 #include "stage_run.h"
 
+#include "counted.h"
 #include "faults.h"
 #include "frame_times.h"
-#include "number_text.h"
 #include "terminal.h"
+
+#include <tweenfall/importers/number_text.h>
 
 namespace tweenfall::cli {
 
 Recording run_stage(const StageDescription& description, const RunOptions& options) {
   const double until = options.until.value_or(natural_length(description));
   require_frames(options.fps, until);
-  const Progress progress("running " + options.file + " to " + brief(until) + " s");
+  const Progress progress("running " + options.file + " to " + brief_text(until) + " s");
   Stage stage = make_stage(description, options.file);
   try {
     return record(stage, until, options.fps);
@@ -20,8 +22,8 @@ Recording run_stage(const StageDescription& description, const RunOptions& optio
 }
 
 std::string summary_of(const Recording& recording, double fps) {
-  std::string text = counted(recording.nodes.size(), "node") + " over " + brief(recording.times.back()) + " s at " +
-                     brief(fps) + " frames a second";
+  std::string text = counted(recording.nodes.size(), "node") + " over " + brief_text(recording.times.back()) +
+                     " s at " + brief_text(fps) + " frames a second";
   if (!recording.handoffs.empty()) text += ", " + counted(recording.handoffs.size(), "hand-off");
   if (!recording.events.empty()) text += ", " + counted(recording.events.size(), "event");
   return text;

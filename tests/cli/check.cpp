@@ -76,6 +76,18 @@ TEST_CASE("check --json lists every problem of every file with line, column and 
   CHECK(found["files"][2]["valid"] == false);
 }
 
+TEST_CASE("check --json gives the line and column of a fault in a model that is text") {
+  const Folder folder;
+  folder.write("bad.gltf", "{\"asset\": {\"version\": \"2.0\"},\n  \"nodes\": [{\"mesh\": 4}]}");
+  const Ran ran = folder.run("check --json bad.gltf");
+  CHECK(ran.code == 1);
+  const json problem = json::parse(ran.out)["files"][0]["problems"][0];
+  CHECK(problem["file"] == "bad.gltf");
+  CHECK(problem["line"] == 2);
+  CHECK(problem["column"] == 22);
+  CHECK(problem["message"] == "/nodes/0/mesh: index 4 points past the end; there are 0");
+}
+
 TEST_CASE("files that are missing, empty, folders or not JSON end with 1 and a message that names them") {
   const Folder folder;
   folder.write("empty.json", "");

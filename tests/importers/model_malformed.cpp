@@ -83,6 +83,36 @@ TEST_CASE("all faults of a file are listed at once, each with its place") {
     CHECK_MESSAGE(error.find(place) != std::string::npos, place, " is not in:\n", error);
 }
 
+TEST_CASE("a fault of a text file is told with the line and column of what is wrong, also when it is no JSON") {
+  const ScratchFolder folder("lines");
+  struct Case {
+    const char *text, *says;
+  };
+  for (const Case& each : std::initializer_list<Case>{
+           {"{\"asset\": {\"version\": \"2.0\"},\n  \"nodes\": [{},\n    {\"mesh\": 4}]}",
+            ":3:14: error: /nodes/1/mesh: index 4 points past the end; there are 0"},
+           {"{\"asset\": {\"version\": \"2.0\"},\n  \"accessors\": [{\"count\": 1}], \"nodes\": 7}",
+            ":2:41: error: /nodes: must be a list, not a number"},
+           {"{\"asset\": {}}", ":1:11: error: /asset/version: is missing; glTF 2.0 can be read"},
+           {"{\"asset\": {\"version\": \"2.0\"}\n \"nodes\": []}",
+            ":2:2: error: is not valid JSON: expected ',' or '}' after the value, found '\"'"},
+           {"{\"asset\": // none\n {}}", ":1:11: error: is not valid JSON: expected a value, found '/'"}}) {
+    const auto file = folder.file("lines.gltf", each.text);
+    const std::string error = outcome(file);
+    CHECK_MESSAGE(error.find(file.string() + each.says) != std::string::npos, error);
+  }
+}
+
+TEST_CASE("JSON that other readers take is taken: a name given twice, zeros after the end, any extras") {
+  const ScratchFolder folder("lenient");
+  const auto name_of = [&](const std::string& text) {
+    return load_model(folder.file("lenient.gltf", text)).nodes.at(0).name;
+  };
+  CHECK(name_of(R"({"asset": {"version": "2.0"}, "nodes": [{"name": "first", "name": "second"}]})") == "second");
+  CHECK(name_of(R"({"asset": {"version": "2.0"}, "nodes": [{"name": "a"}]})" + std::string(3, '\0')) == "a");
+  CHECK(name_of(R"({"asset": {"version": "2.0"}, "nodes": [{"name": "a"}], "meshes": [{"extras": 3}]})") == "a");
+}
+
 TEST_CASE("files that are missing, folders, or of an unknown kind are errors") {
   const ScratchFolder folder("kinds");
   CHECK(outcome(folder / "nothing.glb").find("no such file") != std::string::npos);

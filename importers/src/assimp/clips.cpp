@@ -7,6 +7,8 @@
 
 #include <tweenfall/curves/keys.h>
 
+#include <assimp/scene.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>

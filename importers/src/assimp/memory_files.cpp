@@ -46,40 +46,33 @@ class MemoryFiles : public Assimp::IOSystem {
  public:
   MemoryFiles(const std::string& bytes, const std::filesystem::path& file) : bytes_(bytes), file_(file) {}
 
-  bool Exists(const char* path) const override;
+  bool Exists(const char* path) const override {
+    std::error_code failed;
+    return path == file_.string() || (is_beside(path) && std::filesystem::is_regular_file(path, failed));
+  }
+
   char getOsSeparator() const override { return '/'; }
-  Assimp::IOStream* Open(const char* path, const char* mode) override;
-  void Close(Assimp::IOStream* stream) override;
+
+  Assimp::IOStream* Open(const char* path, const char* mode) override {
+    if (std::strchr(mode, 'w') || std::strchr(mode, 'a')) return nullptr;
+    if (path == file_.string()) return new MemoryStream(std::string_view(bytes_));
+    if (!is_beside(path)) return nullptr;
+    std::string reason;
+    auto bytes = model_bytes(path, reason);
+    return bytes ? new MemoryStream(std::move(*bytes)) : nullptr;
+  }
+
+  void Close(Assimp::IOStream* stream) override { delete stream; }
 
  private:
-  [[nodiscard]] bool is_beside(const std::filesystem::path& path) const;
+  [[nodiscard]] bool is_beside(const std::filesystem::path& path) const {
+    // A hostile file must not be able to read the rest of the disk.
+    return path.parent_path().lexically_normal() == file_.parent_path().lexically_normal() && path.filename() != "..";
+  }
 
   const std::string& bytes_;
   std::filesystem::path file_;
 };
-
-bool MemoryFiles::is_beside(const std::filesystem::path& path) const {
-  // A hostile file must not be able to read the rest of the disk.
-  return path.parent_path().lexically_normal() == file_.parent_path().lexically_normal() && path.filename() != "..";
-}
-
-bool MemoryFiles::Exists(const char* path) const {
-  std::error_code failed;
-  return path == file_.string() || (is_beside(path) && std::filesystem::is_regular_file(path, failed));
-}
-
-Assimp::IOStream* MemoryFiles::Open(const char* path, const char* mode) {
-  if (std::strchr(mode, 'w') || std::strchr(mode, 'a')) return nullptr;
-  if (path == file_.string()) return new MemoryStream(std::string_view(bytes_));
-  if (!is_beside(path)) return nullptr;
-  std::string reason;
-  auto bytes = model_bytes(path, reason);
-  return bytes ? new MemoryStream(std::move(*bytes)) : nullptr;
-}
-
-void MemoryFiles::Close(Assimp::IOStream* stream) {
-  delete stream;
-}
 
 }  // namespace
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// assimp's value types as ours; templates, so that no header needs to include assimp's.
+// assimp's value types as ours. Templates, so that assimp's headers stay in the sources that read scenes.
 
 #include <tweenfall/curves/values.h>
 
@@ -32,8 +32,8 @@ Vec3 translation_of(const AssimpMatrix& m) {
   return {static_cast<double>(m.a4), static_cast<double>(m.b4), static_cast<double>(m.c4)};
 }
 
-template <class AssimpText>
-std::string text_of(const AssimpText& text) {
+template <class AssimpString>
+std::string text_of(const AssimpString& text) {
   return std::string(text.C_Str());
 }
 

@@ -1,6 +1,9 @@
 #include "document/check.h"
 
-#include "document/nearest_name.h"
+#include <tweenfall/anim/nearest_name.h>
+#include <tweenfall/importers/number_text.h>
+
+#include "document/suggestion.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "document/clip_times.h"
 
+#include <tweenfall/importers/number_text.h>
+
 #include "document/shape.h"
 #include "document/times.h"
 #include "document/values.h"

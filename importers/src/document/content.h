@@ -4,8 +4,8 @@
 
 #include <tweenfall/importers/document.h>
 
-#include "document/json_text.h"
 #include "document/problems.h"
+#include "json/json_text.h"
 
 #include <filesystem>
 #include <map>

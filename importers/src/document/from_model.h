@@ -4,7 +4,7 @@
 
 #include <tweenfall/importers/model.h>
 
-#include "document/json_text.h"
+#include "json/json_text.h"
 
 namespace tweenfall::document {
 

@@ -1,3 +1,5 @@
+#include <tweenfall/importers/number_text.h>
+
 #include "document/grammar_parts.h"
 
 #include <utility>

@@ -1,7 +1,7 @@
 #include <tweenfall/curves/ease.h>
 
 #include "document/grammar_parts.h"
-#include "document/nearest_name.h"
+#include "document/suggestion.h"
 #include "document/times.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include <tweenfall/importers/document.h>
 
-#include "document/json_text.h"
+#include "json/json_text.h"
 
 #include <string>
 #include <vector>

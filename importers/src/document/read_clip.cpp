@@ -1,3 +1,5 @@
+#include <tweenfall/importers/number_text.h>
+
 #include "document/read_track.h"
 #include "document/shape.h"
 #include "document/values.h"

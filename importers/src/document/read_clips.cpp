@@ -1,7 +1,7 @@
 #include "document/content.h"
-#include "document/nearest_name.h"
 #include "document/read_track.h"
 #include "document/shape.h"
+#include "document/suggestion.h"
 #include "document/values.h"
 
 #include <cmath>

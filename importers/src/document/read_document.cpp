@@ -1,3 +1,5 @@
+#include <tweenfall/importers/number_text.h>
+
 #include "document/check.h"
 #include "document/content.h"
 #include "document/grammar.h"

@@ -4,7 +4,7 @@
 
 #include <tweenfall/curves/curve.h>
 
-#include "document/json_text.h"
+#include "json/json_text.h"
 
 #include <optional>
 

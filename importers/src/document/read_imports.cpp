@@ -1,7 +1,7 @@
+#include <tweenfall/anim/nearest_name.h>
 #include <tweenfall/importers/model.h>
 
 #include "document/content.h"
-#include "document/nearest_name.h"
 #include "document/shape.h"
 #include "document/values.h"
 

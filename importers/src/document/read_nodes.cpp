@@ -1,9 +1,9 @@
 #include <tweenfall/anim/animation.h>
 
 #include "document/content.h"
-#include "document/nearest_name.h"
 #include "document/parents_first.h"
 #include "document/shape.h"
+#include "document/suggestion.h"
 #include "document/values.h"
 
 #include <algorithm>

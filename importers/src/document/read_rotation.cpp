@@ -1,6 +1,7 @@
 #include "document/read_rotation.h"
 
 #include <tweenfall/curves/elementary.h>
+#include <tweenfall/importers/number_text.h>
 
 #include "document/read_functions.h"
 #include "document/read_keys.h"

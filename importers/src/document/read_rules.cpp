@@ -1,8 +1,10 @@
 #include <tweenfall/anim/animation.h>
 
+#include <tweenfall/importers/number_text.h>
+
 #include "document/clip_times.h"
 #include "document/content.h"
-#include "document/nearest_name.h"
+#include "document/suggestion.h"
 #include "document/values.h"
 
 #include <algorithm>

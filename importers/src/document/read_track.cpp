@@ -1,5 +1,7 @@
 #include "document/read_track.h"
 
+#include <tweenfall/importers/number_text.h>
+
 #include "document/read_functions.h"
 #include "document/read_keys.h"
 #include "document/read_rotation.h"

@@ -1,5 +1,5 @@
 #include "document/content.h"
-#include "document/nearest_name.h"
+#include "document/suggestion.h"
 #include "document/values.h"
 
 #include <charconv>

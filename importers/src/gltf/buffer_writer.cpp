@@ -22,13 +22,8 @@ std::size_t BufferWriter::add(const std::vector<Number>& numbers, int component,
   const std::size_t offset = bytes_.size(), length = numbers.size() * sizeof(Number);
   bytes_.resize(offset + length);
   if (length) std::memcpy(bytes_.data() + offset, numbers.data(), length);
-  nlohmann::json view{{"buffer", 0}, {"byteOffset", offset}, {"byteLength", length}};
-  if (target) view["target"] = target;
-  views_.push_back(std::move(view));
-  accessors_.push_back({{"bufferView", views_.size() - 1},
-                        {"componentType", component},
-                        {"count", numbers.size() / parts_of(type)},
-                        {"type", type}});
+  views_.push_back({offset, length, target});
+  accessors_.push_back({component, numbers.size() / parts_of(type), type, {}, {}});
   return accessors_.size() - 1;
 }
 
@@ -49,8 +44,8 @@ std::size_t BufferWriter::add_floats(const std::vector<double>& numbers, const s
       low[i % parts] = std::min(low[i % parts], floats[i]);
       high[i % parts] = std::max(high[i % parts], floats[i]);
     }
-    accessors_.back()["min"] = low;
-    accessors_.back()["max"] = high;
+    accessors_.back().low = std::move(low);
+    accessors_.back().high = std::move(high);
   }
   return accessor;
 }
@@ -79,12 +74,8 @@ std::size_t BufferWriter::add_times(const std::vector<double>& times) {
   return accessor;
 }
 
-void BufferWriter::finish(nlohmann::json& document) {
-  if (accessors_.empty()) return;
+void BufferWriter::finish() {
   bytes_.resize((bytes_.size() + 3) / 4 * 4);
-  document["buffers"] = nlohmann::json::array({{{"byteLength", bytes_.size()}}});
-  document["bufferViews"] = std::move(views_);
-  document["accessors"] = std::move(accessors_);
 }
 
 }  // namespace tweenfall::gltf

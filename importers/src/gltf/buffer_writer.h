@@ -4,14 +4,26 @@
 
 #include "format.h"
 
-#include <nlohmann/json.hpp>
-
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace tweenfall::gltf {
+
+/// A stretch of the buffer.
+struct BufferView {
+  std::size_t offset = 0, length = 0;  ///< bytes
+  int target = 0;                      ///< a `BufferTarget`, or 0 for none
+};
+
+/// The whole of the view with its own index, as elements.
+struct Accessor {
+  int component = 0;  ///< a `ComponentType`
+  std::size_t count = 0;
+  std::string type;
+  std::vector<float> low, high;  ///< bounds of each part, or empty
+};
 
 class BufferWriter {
  public:
@@ -27,18 +39,20 @@ class BufferWriter {
   /// As `add_floats` of strictly increasing times with bounds; equal lists share one accessor.
   std::size_t add_times(const std::vector<double>& times);
 
-  [[nodiscard]] const std::vector<unsigned char>& bytes() const { return bytes_; }
+  /// Fills up to a multiple of four bytes, as a chunk of a binary file needs it; the last call.
+  void finish();
 
-  /// Puts "buffers", "bufferViews" and "accessors" into the document.
-  void finish(nlohmann::json& document);
+  [[nodiscard]] const std::vector<unsigned char>& bytes() const { return bytes_; }
+  [[nodiscard]] const std::vector<BufferView>& views() const { return views_; }
+  [[nodiscard]] const std::vector<Accessor>& accessors() const { return accessors_; }
 
  private:
   template <class Number>
   std::size_t add(const std::vector<Number>& numbers, int component, const std::string& type, int target);
 
   std::vector<unsigned char> bytes_;
-  nlohmann::json views_ = nlohmann::json::array();
-  nlohmann::json accessors_ = nlohmann::json::array();
+  std::vector<BufferView> views_;
+  std::vector<Accessor> accessors_;  ///< one for each view
   std::map<std::vector<double>, std::size_t> times_;
 };
 

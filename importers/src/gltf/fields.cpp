@@ -6,45 +6,70 @@ namespace tweenfall::gltf {
 
 namespace {
 
-const nlohmann::json no_object = nlohmann::json::object();
-const nlohmann::json no_list = nlohmann::json::array();
+using Kind = JsonValue::Kind;
 
-std::optional<std::size_t> whole_number(const nlohmann::json& value) {
-  if (value.is_number_unsigned()) return value.get<std::size_t>();
-  if (!value.is_number_float()) return std::nullopt;
-  const double number = value.get<double>();
-  if (!(number >= 0 && number < 1e15) || std::floor(number) != number) return std::nullopt;
+const JsonValue no_object{.kind = Kind::object};
+const std::vector<JsonValue> no_list;
+
+/// Fields are looked for one by one, again for each element of a list beside them.
+constexpr std::size_t most_members = 1000;
+
+const char* kind_of(const JsonValue& value) {
+  switch (value.kind) {
+    case Kind::boolean:
+      return "a boolean";
+    case Kind::number:
+      return "a number";
+    case Kind::text:
+      return "a string";
+    case Kind::list:
+      return "a list";
+    case Kind::object:
+      return "an object";
+    default:
+      return "null";
+  }
+}
+
+std::string shown(const JsonValue& value) {
+  return value.is(Kind::list) || value.is(Kind::object) ? kind_of(value) : on_one_line(value).substr(0, 40);
+}
+
+std::optional<std::size_t> whole_number(const JsonValue& value) {
+  constexpr double exact_below = 9007199254740992;  // 2^53
+  const double number = value.number;
+  if (!value.is(Kind::number) || !(number >= 0 && number < exact_below) || std::floor(number) != number)
+    return std::nullopt;
   return static_cast<std::size_t>(number);
 }
 
 }  // namespace
 
-Fields::Fields(const nlohmann::json& object, std::string place, ModelProblems& problems)
+Fields::Fields(const JsonValue& object, std::string place, ModelProblems& problems)
     : object_(&object), place_(std::move(place)), problems_(&problems) {
-  if (object.is_object()) return;
-  problems.add(place_, std::string("must be an object, not ") + object.type_name());
+  if (object.is(Kind::object) && object.members.size() <= most_members) return;
+  problems.add(place_, object.is(Kind::object) ? "has " + std::to_string(object.members.size()) + " members; at most " +
+                                                     std::to_string(most_members) + " can be read"
+                                               : std::string("must be an object, not ") + kind_of(object));
   object_ = &no_object;
 }
 
-const nlohmann::json* Fields::find(const char* name) const {
-  const auto found = object_->find(name);
-  return found == object_->end() ? nullptr : &*found;
-}
-
 std::optional<std::size_t> Fields::whole(const char* name) const {
-  const nlohmann::json* value = find(name);
+  const JsonValue* value = find(name);
   if (!value) return std::nullopt;
   const auto number = whole_number(*value);
   if (!number)
-    problems_->add(place_of(name), "must be a whole number of at least 0, not " + value->dump().substr(0, 40));
+    problems_->add(place_of(name), "must be a whole number of at least 0" +
+                                       std::string(value->number > 1e15 ? " and below 2^53" : "") + ", not " +
+                                       shown(*value));
   return number;
 }
 
-std::optional<std::size_t> Fields::index_value(const nlohmann::json& value, const std::string& place,
+std::optional<std::size_t> Fields::index_value(const JsonValue& value, const std::string& place,
                                                std::size_t count) const {
   const auto number = whole_number(value);
   if (!number) {
-    problems_->add(place, "must be an index, not " + value.dump().substr(0, 40));
+    problems_->add(place, "must be an index, not " + shown(value));
     return std::nullopt;
   }
   if (*number < count) return number;
@@ -54,7 +79,7 @@ std::optional<std::size_t> Fields::index_value(const nlohmann::json& value, cons
 }
 
 std::optional<std::size_t> Fields::index(const char* name, std::size_t count) const {
-  const nlohmann::json* value = find(name);
+  const JsonValue* value = find(name);
   return value ? index_value(*value, place_of(name), count) : std::nullopt;
 }
 
@@ -64,26 +89,26 @@ std::optional<std::size_t> Fields::required_index(const char* name, std::size_t 
 }
 
 std::string Fields::text(const char* name, const std::string& otherwise) const {
-  const nlohmann::json* value = find(name);
+  const JsonValue* value = find(name);
   if (!value) return otherwise;
-  if (value->is_string()) return value->get<std::string>();
-  problems_->add(place_of(name), std::string("must be a string, not ") + value->type_name());
+  if (value->is(Kind::text)) return value->text;
+  problems_->add(place_of(name), std::string("must be a string, not ") + kind_of(*value));
   return otherwise;
 }
 
 bool Fields::flag(const char* name) const {
-  const nlohmann::json* value = find(name);
-  if (value && !value->is_boolean())
-    problems_->add(place_of(name), std::string("must be true or false, not ") + value->type_name());
-  return value && value->is_boolean() && value->get<bool>();
+  const JsonValue* value = find(name);
+  if (value && !value->is(Kind::boolean))
+    problems_->add(place_of(name), std::string("must be true or false, not ") + kind_of(*value));
+  return value && value->boolean;
 }
 
 std::vector<double> Fields::numbers(const char* name, std::size_t count) const {
   std::vector<double> all;
-  if (!find(name)) return all;
-  const nlohmann::json& values = list(name);
-  for (const nlohmann::json& value : values)
-    if (value.is_number() && std::isfinite(value.get<double>())) all.push_back(value.get<double>());
+  if (!has(name)) return all;
+  const std::vector<JsonValue>& values = list(name);
+  for (const JsonValue& value : values)
+    if (value.is(Kind::number)) all.push_back(value.number);
   if (all.size() == values.size() && (count == 0 || all.size() == count)) return all;
   const std::string wanted = count ? std::to_string(count) + " finite numbers" : "finite numbers";
   problems_->add(place_of(name), "must be a list of " + wanted);
@@ -92,23 +117,23 @@ std::vector<double> Fields::numbers(const char* name, std::size_t count) const {
 
 std::vector<std::size_t> Fields::indices(const char* name, std::size_t limit) const {
   std::vector<std::size_t> all;
-  const nlohmann::json& values = list(name);
+  const std::vector<JsonValue>& values = list(name);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (const auto number = index_value(values[i], place_of(name) + "/" + std::to_string(i), limit))
       all.push_back(*number);
   return all;
 }
 
-const nlohmann::json& Fields::list(const char* name) const {
-  const nlohmann::json* value = find(name);
+const std::vector<JsonValue>& Fields::list(const char* name) const {
+  const JsonValue* value = find(name);
   if (!value) return no_list;
-  if (value->is_array()) return *value;
-  problems_->add(place_of(name), std::string("must be a list, not ") + value->type_name());
+  if (value->is(Kind::list)) return value->items;
+  problems_->add(place_of(name), std::string("must be a list, not ") + kind_of(*value));
   return no_list;
 }
 
 Fields Fields::inside(const char* name) const {
-  const nlohmann::json* value = find(name);
+  const JsonValue* value = find(name);
   return {value ? *value : no_object, place_of(name), *problems_};
 }
 

@@ -2,9 +2,8 @@
 
 // Typed access to the fields of a glTF document: a field of the wrong type is a problem with its place, not a crash.
 
+#include "../json/json_text.h"
 #include "../model_problems.h"
-
-#include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>
@@ -15,11 +14,14 @@ namespace tweenfall::gltf {
 class Fields {
  public:
   /// @param object  must be an object; anything else is a problem and reads as empty
-  Fields(const nlohmann::json& object, std::string place, ModelProblems& problems);
+  Fields(const JsonValue& object, std::string place, ModelProblems& problems);
 
   [[nodiscard]] const std::string& place() const { return place_; }
   [[nodiscard]] std::string place_of(const std::string& name) const { return place_ + "/" + name; }
-  [[nodiscard]] bool has(const char* name) const { return object_->contains(name); }
+  [[nodiscard]] bool has(const char* name) const { return find(name) != nullptr; }
+
+  /// The field as it stands, of whatever type; null when absent.
+  [[nodiscard]] const JsonValue* find(const char* name) const { return object_->find(name); }
 
   /// A whole number >= 0; empty when absent or wrong.
   [[nodiscard]] std::optional<std::size_t> whole(const char* name) const;
@@ -34,7 +36,7 @@ class Fields {
   /// A list of indices below `limit`; wrong ones are problems and left out.
   [[nodiscard]] std::vector<std::size_t> indices(const char* name, std::size_t limit) const;
   /// A list; an empty one when absent or wrong.
-  [[nodiscard]] const nlohmann::json& list(const char* name) const;
+  [[nodiscard]] const std::vector<JsonValue>& list(const char* name) const;
   /// An object inside; an empty one when absent.
   [[nodiscard]] Fields inside(const char* name) const;
   /// An object of a list.
@@ -43,11 +45,9 @@ class Fields {
   [[nodiscard]] ModelProblems& problems() const { return *problems_; }
 
  private:
-  [[nodiscard]] const nlohmann::json* find(const char* name) const;
-  std::optional<std::size_t> index_value(const nlohmann::json& value, const std::string& place,
-                                         std::size_t count) const;
+  std::optional<std::size_t> index_value(const JsonValue& value, const std::string& place, std::size_t count) const;
 
-  const nlohmann::json* object_;
+  const JsonValue* object_;
   std::string place_;
   ModelProblems* problems_;
 };

@@ -8,8 +8,6 @@ namespace tweenfall::gltf {
 
 namespace {
 
-using nlohmann::json;
-
 std::vector<double> flat(const std::vector<Vec3>& vectors, std::size_t count) {
   std::vector<double> all;
   all.reserve(3 * count);
@@ -59,7 +57,7 @@ Influence tidy(const Influence& influence, std::size_t joint_count) {
   return out;
 }
 
-void write_influences(const Mesh& mesh, std::size_t joint_count, json& attributes, BufferWriter& buffer) {
+void write_influences(const Mesh& mesh, std::size_t joint_count, Attributes& attributes, BufferWriter& buffer) {
   std::vector<std::uint32_t> joints;
   std::vector<double> weights;
   for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
@@ -73,8 +71,7 @@ void write_influences(const Mesh& mesh, std::size_t joint_count, json& attribute
 
 class MeshWriter {
  public:
-  MeshWriter(const Model& model, json& document, BufferWriter& buffer)
-      : model_(model), document_(document), buffer_(buffer) {}
+  MeshWriter(const Model& model, BufferWriter& buffer) : model_(model), buffer_(buffer) {}
 
   /// Meshes that one node can wear as one glTF mesh.
   struct Group {
@@ -82,7 +79,7 @@ class MeshWriter {
     std::vector<std::size_t> meshes;
   };
 
-  void write() {
+  WrittenMeshes write() {
     std::map<std::size_t, std::vector<Group>> worn;
     for (const MeshInstance& instance : model_.instances) {
       const Mesh& mesh = model_.meshes[instance.mesh];
@@ -101,85 +98,84 @@ class MeshWriter {
     }
     for (const auto& [node, groups] : worn)
       for (std::size_t i = 0; i < groups.size(); ++i) dress(i == 0 ? node : child_of(node, i + 1), groups[i]);
+    return std::move(out_);
   }
 
  private:
   std::size_t child_of(std::size_t node, std::size_t number) {
-    json& nodes = document_["nodes"];
-    nodes.push_back({{"name", model_.nodes[node].name + "/mesh" + std::to_string(number)}});
-    nodes[node]["children"].push_back(nodes.size() - 1);
-    return nodes.size() - 1;
+    out_.extra_nodes.push_back({node, model_.nodes[node].name + "/mesh" + std::to_string(number)});
+    return model_.nodes.size() + out_.extra_nodes.size() - 1;
   }
 
   void dress(std::size_t node, const Group& group) {
     const auto key = std::make_pair(group.skin, group.meshes);
     auto known = written_.find(key);
     if (known == written_.end()) known = written_.emplace(key, add_mesh(group)).first;
-    document_["nodes"][node]["mesh"] = known->second;
-    if (group.skin != no_node) document_["nodes"][node]["skin"] = group.skin;
+    Worn& worn = out_.worn[node];
+    worn.mesh = known->second;
+    if (group.skin != no_node) worn.skin = group.skin;
   }
 
   std::size_t add_mesh(const Group& group) {
     const Mesh& first = model_.meshes[group.meshes.front()];
-    json mesh{{"name", first.name}};
-    for (const std::size_t index : group.meshes) mesh["primitives"].push_back(primitive(index, group.skin));
+    WrittenMesh mesh;
+    mesh.name = first.name;
+    for (const std::size_t index : group.meshes) mesh.primitives.push_back(primitive(index, group.skin));
     if (!first.morphs.empty()) {
-      std::vector<double> weights = first.rest_weights;
-      weights.resize(first.morphs.size(), 0);
-      mesh["weights"] = weights;
-      for (const MorphTarget& target : first.morphs) mesh["extras"]["targetNames"].push_back(target.name);
+      mesh.weights = first.rest_weights;
+      mesh.weights.resize(first.morphs.size(), 0);
+      for (const MorphTarget& target : first.morphs) mesh.target_names.push_back(target.name);
     }
-    document_["meshes"].push_back(std::move(mesh));
-    return document_["meshes"].size() - 1;
+    out_.meshes.push_back(std::move(mesh));
+    return out_.meshes.size() - 1;
   }
 
-  json primitive(std::size_t index, std::size_t skin) {
+  WrittenPrimitive primitive(std::size_t index, std::size_t skin) {
     const Mesh& mesh = model_.meshes[index];
     const std::size_t count = mesh.positions.size();
-    json attributes{{"POSITION", buffer_.add_floats(flat(mesh.positions, count), "VEC3", true, vertex_target)}};
+    WrittenPrimitive out;
+    out.attributes["POSITION"] = buffer_.add_floats(flat(mesh.positions, count), "VEC3", true, vertex_target);
     if (!mesh.normals.empty())
-      attributes["NORMAL"] = buffer_.add_floats(flat_units(mesh.normals, count), "VEC3", false, vertex_target);
+      out.attributes["NORMAL"] = buffer_.add_floats(flat_units(mesh.normals, count), "VEC3", false, vertex_target);
     if (!mesh.texture_coordinates.empty()) {
       std::vector<double> all;
       for (const Vec2& v : mesh.texture_coordinates) all.insert(all.end(), {v[0], v[1]});
       all.resize(2 * count, 0);
-      attributes["TEXCOORD_0"] = buffer_.add_floats(all, "VEC2", false, vertex_target);
+      out.attributes["TEXCOORD_0"] = buffer_.add_floats(all, "VEC2", false, vertex_target);
     }
-    if (skin != no_node) write_influences(mesh, model_.skins[skin].joints.size(), attributes, buffer_);
-    json out{{"attributes", std::move(attributes)},
-             {"indices", buffer_.add_indices(mesh.triangles, count)},
-             {"material", material(mesh.base_color)}};
+    if (skin != no_node) write_influences(mesh, model_.skins[skin].joints.size(), out.attributes, buffer_);
+    out.indices = buffer_.add_indices(mesh.triangles, count);
+    out.material = material(mesh.base_color);
     for (const MorphTarget& target : mesh.morphs) {
-      json offsets{{"POSITION", buffer_.add_floats(flat(target.position_offsets, count), "VEC3", true, vertex_target)}};
+      Attributes offsets;
+      offsets["POSITION"] = buffer_.add_floats(flat(target.position_offsets, count), "VEC3", true, vertex_target);
       if (!target.normal_offsets.empty() && !mesh.normals.empty())
         offsets["NORMAL"] = buffer_.add_floats(flat(target.normal_offsets, count), "VEC3", false, vertex_target);
-      out["targets"].push_back(std::move(offsets));
+      out.targets.push_back(std::move(offsets));
     }
     return out;
   }
 
   std::size_t material(const Color& color) {
-    std::vector<double> rgba(4);
+    std::array<double, 4> rgba;
     for (int i = 0; i < 4; ++i) rgba[static_cast<std::size_t>(i)] = std::clamp(color.rgba[i], 0.0, 1.0);
     const auto known = materials_.find(rgba);
     if (known != materials_.end()) return known->second;
-    json out{{"pbrMetallicRoughness", {{"baseColorFactor", rgba}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}}}};
-    if (rgba[3] < 1) out["alphaMode"] = "BLEND";
-    document_["materials"].push_back(std::move(out));
-    return materials_[rgba] = document_["materials"].size() - 1;
+    out_.materials.push_back(rgba);
+    return materials_[rgba] = out_.materials.size() - 1;
   }
 
   const Model& model_;
-  json& document_;
   BufferWriter& buffer_;
   std::map<std::pair<std::size_t, std::vector<std::size_t>>, std::size_t> written_;
-  std::map<std::vector<double>, std::size_t> materials_;
+  std::map<std::array<double, 4>, std::size_t> materials_;
+  WrittenMeshes out_;
 };
 
 }  // namespace
 
-void write_meshes(const Model& model, json& document, BufferWriter& buffer) {
-  MeshWriter(model, document, buffer).write();
+WrittenMeshes write_meshes(const Model& model, BufferWriter& buffer) {
+  return MeshWriter(model, buffer).write();
 }
 
 }  // namespace tweenfall::gltf

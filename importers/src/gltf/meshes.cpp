@@ -151,10 +151,11 @@ class MeshReader {
 
   static std::vector<std::string> target_names(const Fields& mesh) {
     std::vector<std::string> names;
-    const Fields extras = mesh.inside("extras");
-    if (extras.has("targetNames"))
-      for (const auto& name : extras.list("targetNames"))
-        names.push_back(name.is_string() ? name.get<std::string>() : "");
+    // Extras may hold anything; these names are a custom of the large modeling programs.
+    const JsonValue* extras = mesh.find("extras");
+    const JsonValue* list = extras ? extras->find("targetNames") : nullptr;
+    if (list)
+      for (const JsonValue& name : list->items) names.push_back(name.text);
     return names;
   }
 

@@ -111,7 +111,8 @@ void tell_of_textures(const Fields& root) {
 Model read(std::string_view bytes, const std::filesystem::path& file, ModelProblems& problems) {
   const Container container = open_container(bytes, file, problems);
   // In a broken shell everything would be reported as a fault of its own.
-  problems.throw_if_any(file);
+  const auto where = [&](const std::string& place) { return place_in(container, place); };
+  problems.throw_if_any(file, where);
   const Fields root(container.document, "", problems);
   Accessors accessors(container, problems);
   std::vector<FileNode> nodes = read_nodes(root);
@@ -122,7 +123,7 @@ Model read(std::string_view bytes, const std::filesystem::path& file, ModelProbl
   tell_of_textures(root);
   Assembly assembly(std::move(nodes), std::move(meshes), std::move(skins), problems);
   assembly.check();
-  problems.throw_if_any(file);
+  problems.throw_if_any(file, where);
   assembly.put_into(model);
   return model;
 }

@@ -3,9 +3,11 @@
 #include "buffer_writer.h"
 #include "mesh_writer.h"
 #include "sampler_keys.h"
-#include "whole_file.h"
 
 #include <tweenfall/importers/model.h>
+#include <tweenfall/importers/whole_file.h>
+
+#include <nlohmann/json.hpp>
 
 #include <map>
 #include <set>
@@ -47,6 +49,44 @@ void write_nodes(const Model& model, json& document) {
     document["nodes"] = std::move(nodes);
     document["scenes"][0]["nodes"] = std::move(roots);
   }
+}
+
+json primitive_json(const gltf::WrittenPrimitive& primitive) {
+  json out{{"attributes", primitive.attributes}, {"indices", primitive.indices}, {"material", primitive.material}};
+  if (!primitive.targets.empty()) out["targets"] = primitive.targets;
+  return out;
+}
+
+json mesh_json(const gltf::WrittenMesh& mesh) {
+  json out{{"name", mesh.name}};
+  for (const gltf::WrittenPrimitive& primitive : mesh.primitives)
+    out["primitives"].push_back(primitive_json(primitive));
+  if (mesh.target_names.empty()) return out;
+  out["weights"] = mesh.weights;
+  out["extras"]["targetNames"] = mesh.target_names;
+  return out;
+}
+
+json material_json(const std::array<double, 4>& rgba) {
+  json out{{"pbrMetallicRoughness", {{"baseColorFactor", rgba}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}}}};
+  if (rgba[3] < 1) out["alphaMode"] = "BLEND";
+  return out;
+}
+
+void write_meshes(const Model& model, json& document, gltf::BufferWriter& buffer) {
+  const gltf::WrittenMeshes written = gltf::write_meshes(model, buffer);
+  for (const gltf::ExtraNode& extra : written.extra_nodes) {
+    json& nodes = document["nodes"];
+    nodes[extra.parent]["children"].push_back(nodes.size());
+    nodes.push_back({{"name", extra.name}});
+  }
+  for (const auto& [node, worn] : written.worn) {
+    json& wearer = document["nodes"][node];
+    wearer["mesh"] = worn.mesh;
+    if (worn.skin) wearer["skin"] = *worn.skin;
+  }
+  for (const gltf::WrittenMesh& mesh : written.meshes) document["meshes"].push_back(mesh_json(mesh));
+  for (const auto& rgba : written.materials) document["materials"].push_back(material_json(rgba));
 }
 
 json inverse_bind_accessor(const Skin& skin, gltf::BufferWriter& buffer) {
@@ -119,6 +159,23 @@ void write_animations(const Model& model, json& document, gltf::BufferWriter& bu
   }
 }
 
+void write_buffer(gltf::BufferWriter& buffer, json& document) {
+  buffer.finish();
+  for (std::size_t i = 0; i < buffer.accessors().size(); ++i) {
+    const gltf::BufferView& view = buffer.views()[i];
+    json& view_json = document["bufferViews"].emplace_back(
+        json{{"buffer", 0}, {"byteOffset", view.offset}, {"byteLength", view.length}});
+    if (view.target) view_json["target"] = view.target;
+    const gltf::Accessor& accessor = buffer.accessors()[i];
+    json& accessor_json = document["accessors"].emplace_back(json{
+        {"bufferView", i}, {"componentType", accessor.component}, {"count", accessor.count}, {"type", accessor.type}});
+    if (accessor.low.empty()) continue;
+    accessor_json["min"] = accessor.low;
+    accessor_json["max"] = accessor.high;
+  }
+  if (!buffer.accessors().empty()) document["buffers"] = json::array({{{"byteLength", buffer.bytes().size()}}});
+}
+
 void append_word(std::string& out, std::uint32_t word) {
   for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<char>(word >> shift & 0xFF));
 }
@@ -147,18 +204,20 @@ std::string container(const json& document, const std::vector<unsigned char>& bi
 
 void save_glb(const Model& model, const std::filesystem::path& file, double fps) {
   if (!(fps > 0)) throw std::runtime_error("frames a second must be above 0, not " + std::to_string(fps));
+  std::string content;
   try {
     json document{{"asset", {{"version", "2.0"}, {"generator", "tweenfall"}}}};
     gltf::BufferWriter buffer;
     write_nodes(model, document);
-    gltf::write_meshes(model, document, buffer);
+    write_meshes(model, document, buffer);
     write_skins(model, document, buffer);
     write_animations(model, document, buffer, fps);
-    buffer.finish(document);
-    gltf::write_whole(file, container(document, buffer.bytes()));
+    write_buffer(buffer, document);
+    content = container(document, buffer.bytes());
   } catch (const std::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }
+  write_whole_file(file, content);
 }
 
 }  // namespace tweenfall

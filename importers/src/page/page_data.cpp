@@ -1,9 +1,11 @@
 #include "page/page_data.h"
 
+#include <tweenfall/importers/number_text.h>
+
+#include "json/json_string.h"
 #include "page/page_meshes.h"
 #include "recording/base64.h"
 #include "recording/key_lanes.h"
-#include "recording/number_text.h"
 #include "recording/words.h"
 
 #include <map>

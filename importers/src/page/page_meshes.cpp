@@ -1,7 +1,9 @@
 #include "page/page_meshes.h"
 
+#include <tweenfall/importers/number_text.h>
+
+#include "json/json_string.h"
 #include "recording/base64.h"
-#include "recording/number_text.h"
 
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 #include "plot/svg_writer.h"
 
-#include "recording/number_text.h"
+#include <tweenfall/importers/number_text.h>
 
 namespace tweenfall {
 

@@ -1,6 +1,6 @@
 #include "recording/check.h"
 
-#include "recording/number_text.h"
+#include <tweenfall/importers/number_text.h>
 
 #include <cmath>
 #include <stdexcept>

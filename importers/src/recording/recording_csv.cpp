@@ -1,7 +1,8 @@
 #include <tweenfall/importers/recording_file.h>
 
+#include <tweenfall/importers/number_text.h>
+
 #include "recording/check.h"
-#include "recording/number_text.h"
 #include "recording/words.h"
 
 namespace tweenfall {

@@ -1,10 +1,11 @@
 #include <tweenfall/importers/recording_file.h>
 
+#include <tweenfall/importers/number_text.h>
+
 #include "plot/svg_writer.h"
 #include "recording/check.h"
 #include "recording/figures.h"
 #include "recording/keyframes.h"
-#include "recording/number_text.h"
 #include "recording/words.h"
 
 #include <algorithm>

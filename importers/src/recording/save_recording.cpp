@@ -1,7 +1,8 @@
 #include <tweenfall/importers/recording_file.h>
 
+#include <tweenfall/importers/whole_file.h>
+
 #include "recording/recording_model.h"
-#include "recording/whole_file.h"
 
 #include <algorithm>
 #include <stdexcept>

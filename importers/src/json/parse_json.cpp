@@ -1,13 +1,12 @@
-#include "document/json_text.h"
+#include "json/json_text.h"
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
-#include <unordered_set>
+#include <unordered_map>
 #include <utility>
 
-namespace tweenfall::document {
+namespace tweenfall {
 
 namespace {
 
@@ -15,9 +14,34 @@ using Kind = JsonValue::Kind;
 
 struct Stop {};  // thrown at a syntax error, after it was noted
 
+// The members of one object by name. Most objects are so small that looking through them is fastest.
+class MemberNames {
+ public:
+  explicit MemberNames(std::vector<JsonMember>& members) : members_(members) {}
+
+  // The member of this name that is there already; null when none is.
+  JsonMember* find(const std::string& name) {
+    constexpr std::size_t most_looked_through = 16;
+    if (members_.size() <= most_looked_through) {
+      for (JsonMember& member : members_)
+        if (member.name == name) return &member;
+      return nullptr;
+    }
+    for (; indexed_ < members_.size(); ++indexed_) index_.emplace(members_[indexed_].name, indexed_);
+    const auto found = index_.find(name);
+    return found == index_.end() ? nullptr : &members_[found->second];
+  }
+
+ private:
+  std::vector<JsonMember>& members_;
+  std::unordered_map<std::string, std::size_t> index_;
+  std::size_t indexed_ = 0;
+};
+
 class Parser {
  public:
-  Parser(std::string_view text, std::vector<JsonFault>& faults) : text_(text), faults_(faults) {}
+  Parser(std::string_view text, std::vector<JsonFault>& faults, const JsonRules& rules)
+      : text_(text), faults_(faults), rules_(rules) {}
 
   JsonValue whole() {
     if (text_.substr(0, 3) == "\xef\xbb\xbf") at_ = 3;
@@ -57,9 +81,11 @@ class Parser {
       const char c = text_[at_];
       if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
         ++at_;
-      } else if (c == '/' && text_.substr(at_, 2) == "//") {
+      } else if (c != '/' || !rules_.comments) {
+        break;
+      } else if (text_.substr(at_, 2) == "//") {
         at_ = std::min(text_.find('\n', at_), text_.size());
-      } else if (c == '/' && text_.substr(at_, 2) == "/*") {
+      } else if (text_.substr(at_, 2) == "/*") {
         const std::size_t end = text_.find("*/", at_ + 2);
         if (end == std::string_view::npos) stop("this comment has no end; expected \"*/\"");
         at_ = end + 2;
@@ -96,7 +122,7 @@ class Parser {
 
   void read_object(JsonValue& value, std::size_t depth) {
     value.kind = Kind::object;
-    std::unordered_set<std::string> seen;
+    MemberNames names(value.members);
     ++at_;
     skip_space();
     if (next() == '}') {
@@ -114,8 +140,11 @@ class Parser {
       ++at_;
       skip_space();
       member.value = read_value(depth + 1);
-      if (seen.insert(member.name).second)
+      JsonMember* const first = names.find(member.name);
+      if (!first)
         value.members.push_back(std::move(member));
+      else if (rules_.names_twice)
+        *first = std::move(member);
       else
         note(member.name_offset, member.name_length,
              in_quotes(member.name) + " is given twice in one object; keep one of them");
@@ -311,6 +340,11 @@ class Parser {
     ++at_;
   }
 
+  static bool is_plain(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte >= 0x20 && byte < 0x80 && c != '"' && c != '\\';
+  }
+
   std::string read_text() {
     const std::size_t from = at_++;
     std::string out;
@@ -331,8 +365,9 @@ class Parser {
       } else if (static_cast<unsigned char>(c) >= 0x80) {
         read_utf8(out);
       } else {
-        out.push_back(c);
-        ++at_;
+        const std::size_t plain = at_;
+        while (!done() && is_plain(text_[at_])) ++at_;
+        out.append(text_.substr(plain, at_ - plain));
       }
     }
     ++at_;
@@ -341,16 +376,11 @@ class Parser {
 
   std::string_view text_;
   std::vector<JsonFault>& faults_;
+  const JsonRules& rules_;
   std::size_t at_ = 0;
 };
 
 }  // namespace
-
-const JsonValue* JsonValue::find(std::string_view name) const {
-  for (const JsonMember& member : members)
-    if (member.name == name) return &member.value;
-  return nullptr;
-}
 
 namespace {
 
@@ -362,135 +392,27 @@ JsonValue faulty() {
 
 }  // namespace
 
-JsonValue parse_json(std::string_view text, std::vector<JsonFault>& faults) {
-  if (text.size() > largest_text) {
-    faults.push_back({0, 1, "the text is larger than " + std::to_string(largest_text >> 20) + " MiB"});
+JsonValue parse_json(std::string_view text, std::vector<JsonFault>& faults, const JsonRules& rules) {
+  if (text.size() > rules.largest) {
+    faults.push_back({0, 1, "the text is larger than " + std::to_string(rules.largest >> 20) + " MiB"});
     return faulty();
   }
   try {
-    return Parser(text, faults).whole();
+    return Parser(text, faults, rules).whole();
   } catch (const Stop&) {
     return faulty();
   }
 }
 
-JsonValue json_number(double number) {
-  JsonValue value;
-  value.kind = Kind::number;
-  value.number = number;
-  return value;
+TextPlace place_in(std::string_view text, std::size_t offset) {
+  const std::size_t mark = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;
+  const std::string_view before = text.substr(0, offset);
+  const std::size_t line_end = before.rfind('\n');
+  const std::size_t line_start = line_end == std::string_view::npos ? std::min(mark, before.size()) : line_end + 1;
+  const std::string_view on_line = before.substr(line_start);
+  const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
+  return {1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')),
+          1 + static_cast<std::size_t>(std::count_if(on_line.begin(), on_line.end(), starts_character))};
 }
 
-JsonValue json_text(std::string text) {
-  JsonValue value;
-  value.kind = Kind::text;
-  value.text = std::move(text);
-  return value;
-}
-
-JsonValue json_boolean(bool boolean) {
-  JsonValue value;
-  value.kind = Kind::boolean;
-  value.boolean = boolean;
-  return value;
-}
-
-JsonValue json_list(std::vector<JsonValue> items) {
-  JsonValue value;
-  value.kind = Kind::list;
-  value.items = std::move(items);
-  return value;
-}
-
-JsonValue json_object(std::vector<JsonMember> members) {
-  JsonValue value;
-  value.kind = Kind::object;
-  value.members = std::move(members);
-  return value;
-}
-
-void add_member(JsonValue& object, std::string name, JsonValue value) {
-  object.members.push_back({std::move(name), 0, 0, std::move(value)});
-}
-
-bool same(const JsonValue& a, const JsonValue& b) {
-  if (a.kind != b.kind) return false;
-  switch (a.kind) {
-    case Kind::null:
-    case Kind::faulty:
-      return true;
-    case Kind::boolean:
-      return a.boolean == b.boolean;
-    case Kind::number:
-      return a.number == b.number;
-    case Kind::text:
-      return a.text == b.text;
-    case Kind::list:
-      return std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same);
-    case Kind::object:
-      break;
-  }
-  if (a.members.size() != b.members.size()) return false;
-  return std::all_of(a.members.begin(), a.members.end(), [&](const JsonMember& member) {
-    const JsonValue* other = b.find(member.name);
-    return other && same(member.value, *other);
-  });
-}
-
-std::string number_text(double number) {
-  char buffer[32];
-  const auto result = std::to_chars(buffer, buffer + sizeof buffer, number);
-  return {buffer, result.ptr};
-}
-
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    static constexpr std::string_view plain = "\"\\\b\f\n\r\t", names = "\"\\bfnrt";
-    const std::size_t which = plain.find(c);
-    if (which != std::string_view::npos) {
-      out += '\\';
-      out += names[which];
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      static constexpr char digits[] = "0123456789abcdef";
-      out += "\\u00";
-      out += digits[(c >> 4) & 15];
-      out += digits[c & 15];
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
-
-std::string on_one_line(const JsonValue& value) {
-  switch (value.kind) {
-    case Kind::null:
-    case Kind::faulty:
-      return "null";
-    case Kind::boolean:
-      return value.boolean ? "true" : "false";
-    case Kind::number:
-      return number_text(value.number);
-    case Kind::text:
-      return in_quotes(value.text);
-    case Kind::list: {
-      std::string out = "[";
-      for (const JsonValue& item : value.items) {
-        if (out.size() > 1) out += ", ";
-        out += on_one_line(item);
-      }
-      return out + "]";
-    }
-    case Kind::object:
-      break;
-  }
-  std::string out = "{";
-  for (const JsonMember& member : value.members) {
-    if (out.size() > 1) out += ", ";
-    out += in_quotes(member.name) + ": " + on_one_line(member.value);
-  }
-  return out + "}";
-}
-
-}  // namespace tweenfall::document
+}  // namespace tweenfall

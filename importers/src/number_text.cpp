@@ -1,14 +1,15 @@
-#include "recording/number_text.h"
+#include <tweenfall/importers/number_text.h>
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace tweenfall {
 
 std::string number_text(double number) {
-  std::array<char, 32> digits;
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), number);
-  return std::string(digits.data(), result.ptr);
+  std::string text;
+  append_number(text, number);
+  return text;
 }
 
 std::string short_text(double number, int decimals) {
@@ -22,6 +23,19 @@ std::string short_text(double number, int decimals) {
     if (text.back() == '.') text.pop_back();
   }
   return text == "-0" ? "0" : text;
+}
+
+std::string brief_text(double number) {
+  if (std::isinf(number)) return number > 0 ? "endless" : "-endless";
+  if (std::abs(number) < 1e-12) return "0";
+  std::array<char, 32> digits;
+  const auto result =
+      std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::general, 5);
+  return {digits.data(), result.ptr};
+}
+
+std::string brief_text(const Vec3& vector) {
+  return brief_text(vector.x()) + " " + brief_text(vector.y()) + " " + brief_text(vector.z());
 }
 
 void append_number(std::string& out, double number) {
@@ -46,25 +60,12 @@ void append_rotation(std::string& out, const Quat& rotation) {
   out += ']';
 }
 
-void append_json_string(std::string& out, const std::string& text) {
-  static constexpr char hex[] = "0123456789abcdef";
-  out += '"';
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (c == '\n') {
-      out += "\\n";
-    } else if (code < 0x20 || c == '<' || code == 0x7f) {
-      out += "\\u00";
-      out += hex[code >> 4];
-      out += hex[code & 15];
-    } else {
-      out += c;
-    }
-  }
-  out += '"';
+std::optional<double> parse_number(std::string_view text) noexcept {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
+  return number;
 }
 
 }  // namespace tweenfall

@@ -1,4 +1,4 @@
-#include "recording/whole_file.h"
+#include <tweenfall/importers/whole_file.h>
 
 #include <unistd.h>
 #include <atomic>
@@ -37,7 +37,8 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
 
   static std::atomic<unsigned> counter{0};
   // Through a link to what it points at, so that the link stays.
-  const fs::path target = fs::exists(status) ? fs::canonical(file) : file;
+  const fs::path target = fs::exists(status) ? fs::canonical(file, error) : file;
+  if (target.empty()) fail(file, error.message());
   fs::path beside = target;
   beside += ".part-" + std::to_string(getpid()) + "-" + std::to_string(counter++);
   try {

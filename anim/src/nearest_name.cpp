@@ -1,10 +1,9 @@
-#include "document/nearest_name.h"
-
-#include "document/json_text.h"
+#include <tweenfall/anim/nearest_name.h>
 
 #include <algorithm>
+#include <vector>
 
-namespace tweenfall::document {
+namespace tweenfall {
 
 namespace {
 
@@ -15,6 +14,10 @@ bool alike(char a, char b) {
   const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
   const auto plain = [&](char c) { return c == '-' || c == ' ' ? '_' : lower(c); };
   return plain(a) == plain(b);
+}
+
+bool goes_on(std::string_view name, std::string_view start) {
+  return name.size() > start.size() && std::equal(start.begin(), start.end(), name.begin(), alike);
 }
 
 }  // namespace
@@ -36,31 +39,22 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
-std::string nearest_name(std::string_view wrong, const std::vector<std::string>& names) {
+std::string nearest_name(std::string_view wrong, std::span<const std::string> names) {
   if (wrong.size() > longest_compared) return {};
+  names = names.first(std::min(names.size(), most_compared));
   std::string best;
   std::size_t fewest = std::max<std::size_t>(1, wrong.size() / 3) + 1;
-  for (std::size_t i = 0; i < std::min(names.size(), most_compared); ++i) {
-    const std::string& name = names[i];
+  for (const std::string& name : names) {
     if (name.size() > longest_compared) continue;
     const std::size_t edits = edit_distance(wrong, name);
-    if (edits < fewest) {
-      fewest = edits;
-      best = name;
-    }
+    if (edits >= fewest) continue;
+    fewest = edits;
+    best = name;
   }
+  if (!best.empty() || wrong.size() < 2) return best;
+  for (const std::string& name : names)
+    if (name.size() <= longest_compared && goes_on(name, wrong)) return name;
   return best;
 }
 
-std::string suggestion(std::string_view wrong, const std::vector<std::string>& names) {
-  const std::string nearest = nearest_name(wrong, names);
-  if (!nearest.empty()) return "; did you mean " + in_quotes(nearest) + "?";
-  if (names.empty()) return {};
-  constexpr std::size_t most = 24;
-  std::string out = "; available: ";
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) out += (i ? ", " : "") + in_quotes(names[i]);
-  if (names.size() > most) out += " and " + std::to_string(names.size() - most) + " more";
-  return out;
-}
-
-}  // namespace tweenfall::document
+}  // namespace tweenfall

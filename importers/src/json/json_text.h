@@ -1,14 +1,14 @@
 #pragma once
 
-// JSON text as a tree that remembers where each value stands. Comments are accepted and dropped; what can be read past
-// is read past, so that one fault does not hide the others.
+// JSON text as a tree that remembers where each value stands. What can be read past is read past, so that one fault
+// does not hide the others.
 
 #include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace tweenfall::document {
+namespace tweenfall {
 
 struct JsonMember;
 
@@ -44,8 +44,23 @@ struct JsonFault {
 inline constexpr std::size_t deepest_nesting = 200;
 inline constexpr std::size_t largest_text = std::size_t{1} << 28;  // bytes
 
+// What a text may hold beyond plain JSON, and how much.
+struct JsonRules {
+  bool comments = true;  // accepted and dropped
+  // Of a name given twice in one object the last value counts; else it is a fault and the first does.
+  bool names_twice = false;
+  std::size_t largest = largest_text;
+};
+
 // The tree of `text`. Syntax errors end the reading; members given twice and numbers that are none do not.
-[[nodiscard]] JsonValue parse_json(std::string_view text, std::vector<JsonFault>& faults);
+[[nodiscard]] JsonValue parse_json(std::string_view text, std::vector<JsonFault>& faults, const JsonRules& rules = {});
+
+// Where a byte of a text stands.
+struct TextPlace {
+  std::size_t line = 1, column = 1;  // in characters
+};
+
+[[nodiscard]] TextPlace place_in(std::string_view text, std::size_t offset);
 
 // Making trees
 [[nodiscard]] JsonValue json_number(double number);
@@ -59,8 +74,7 @@ void add_member(JsonValue& object, std::string name, JsonValue value);
 [[nodiscard]] bool same(const JsonValue& a, const JsonValue& b);
 
 // Writing on one line
-[[nodiscard]] std::string number_text(double number);  // shortest that reads back to the same bits
 [[nodiscard]] std::string in_quotes(std::string_view text);
 [[nodiscard]] std::string on_one_line(const JsonValue& value);
 
-}  // namespace tweenfall::document
+}  // namespace tweenfall
