@@ -1,6 +1,6 @@
 #include "plot/plot_panel.h"
 
-#include "recording/number_text.h"
+#include <tweenfall/importers/number_text.h>
 
 namespace tweenfall {
 

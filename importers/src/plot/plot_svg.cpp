@@ -1,8 +1,8 @@
 #include <tweenfall/importers/plot.h>
 
+#include <tweenfall/importers/number_text.h>
 #include "plot/plot_panel.h"
 #include "plot/plotted_track.h"
-#include "recording/number_text.h"
 #include "recording/words.h"
 
 #include <algorithm>
