@@ -1,8 +1,8 @@
 #pragma once
 
-// A small stage whose motion is known in closed form, recorded without any simulation, so that what files and pages show can
-// be held against formulas: a pendulum that is let go and then bounces, a box that is carried, driven and dropped, a
-// capsule that rolls free, and a skinned strip that waves.
+// A small stage whose motion is known in closed form, recorded without any simulation, so that what files and pages
+// show can be held against formulas: a pendulum that is let go and then bounces, a box that is carried, driven and
+// dropped, a capsule that rolls free, and a skinned strip that waves.
 
 #include <tweenfall/curves/functions.h>
 #include <tweenfall/curves/keys.h>
@@ -17,8 +17,8 @@ inline constexpr double release_time = 0.75;
 inline constexpr double example_length = 3;
 inline constexpr double example_gravity = 9.81;
 
-/// Height and rate of a ball of radius `radius` thrown from height `from` at `speed` upward, which keeps half its speed at each
-/// bounce on the floor at 0.
+/// Height and rate of a ball of radius `radius` thrown from height `from` at `speed` upward, which keeps half its speed
+/// at each bounce on the floor at 0.
 struct Height {
   double value, rate;
 };
@@ -86,7 +86,9 @@ inline Moment example_moment(std::size_t node, double t) {
       const Height y = bounced(lift, t < 1.6 ? 0 : 0.5, 0.25, fall);
       return {placed({x + fall * 0.5, t < 1.6 ? lift : y.value, -0.8}, turned(0.6 * t, Vec3(0, 1, 0)),
                      {Vec3(t < 1.6 ? 1 : 0.5, t < 1.6 ? 0.5 : y.rate, 0), Vec3(0, 0.6, 0)}),
-              t < 1 ? Owner::keyed : t < 1.6 ? Owner::driven : Owner::free};
+              t < 1     ? Owner::keyed
+              : t < 1.6 ? Owner::driven
+                        : Owner::free};
     }
     case 4: {  // capsule, rolling along z
       const double v = -0.5;

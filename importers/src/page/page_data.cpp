@@ -106,7 +106,8 @@ std::string node_json(const NodeRecord& node, const NodeDescription* description
     const std::size_t count = node.weights.front().size();
     numbers.clear();
     for (const std::vector<double>& weights : node.weights)
-      for (std::size_t i = 0; i < count; ++i) numbers.push_back(i < weights.size() ? static_cast<float>(weights[i]) : 0);
+      for (std::size_t i = 0; i < count; ++i)
+        numbers.push_back(i < weights.size() ? static_cast<float>(weights[i]) : 0);
     drop_repeats(numbers, count);
     out += ",\"weightCount\":" + std::to_string(count);
     append_quoted(out, "weights", base64(numbers));

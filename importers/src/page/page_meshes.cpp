@@ -91,8 +91,9 @@ void append_page_meshes(std::string& out, const StageDescription& stage,
     if (instance.mesh >= stage.meshes.size()) continue;
     if (!first) out += ',';
     first = false;
-    out += "{\"node\":" + recorded(instance.node) + ",\"mesh\":" + std::to_string(instance.mesh) + ",\"skin\":" +
-           (instance.skin < stage.skins.size() ? std::to_string(instance.skin) : std::string("-1")) + "}";
+    out += "{\"node\":" + recorded(instance.node) + ",\"mesh\":" + std::to_string(instance.mesh) +
+           ",\"skin\":" + (instance.skin < stage.skins.size() ? std::to_string(instance.skin) : std::string("-1")) +
+           "}";
   }
   out += ']';
 }

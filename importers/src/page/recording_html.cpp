@@ -29,7 +29,8 @@ std::string html_text(const std::string& text) {
 
 std::string recording_html(const Recording& recording, const StageDescription& stage) {
   check_recording(recording);
-  if (recording.times.empty()) throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to show");
+  if (recording.times.empty())
+    throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to show");
   const std::string three = page::part("three.js");
   if (three.empty())
     throw std::runtime_error(

@@ -27,22 +27,32 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
   const std::vector<double> levels = ticks(panel.value, static_cast<int>((bottom - top) / 28));
   for (const double level : levels) {
     const double y = panel.value.place(level);
-    svg.leaf("path", {{"d", "M" + px(left) + " " + px(y) + "H" + px(right)}, {"stroke", level == 0 ? "#b5b5b0" : "#e9e8e5"}});
-    svg.text("text", {{"x", px(left - 6)}, {"y", px(y + 3.5)}, {"font-size", "10"}, {"text-anchor", "end"}, {"fill", "#6d7178"}},
-             short_text(level, tick_decimals(levels)));
+    svg.leaf("path",
+             {{"d", "M" + px(left) + " " + px(y) + "H" + px(right)}, {"stroke", level == 0 ? "#b5b5b0" : "#e9e8e5"}});
+    svg.text(
+        "text",
+        {{"x", px(left - 6)}, {"y", px(y + 3.5)}, {"font-size", "10"}, {"text-anchor", "end"}, {"fill", "#6d7178"}},
+        short_text(level, tick_decimals(levels)));
   }
   const std::vector<double> moments = ticks(panel.time, static_cast<int>((right - left) / 70));
   for (const double moment : moments) {
     const double x = panel.time.place(moment);
     svg.leaf("path", {{"d", "M" + px(x) + " " + px(bottom) + "V" + px(bottom - 4)}, {"stroke", "#b5b5b0"}});
     if (time_labels)
-      svg.text("text", {{"x", px(x)}, {"y", px(bottom + 14)}, {"font-size", "10"}, {"text-anchor", "middle"}, {"fill", "#6d7178"}},
-               short_text(moment, tick_decimals(moments)) + " s");
+      svg.text(
+          "text",
+          {{"x", px(x)}, {"y", px(bottom + 14)}, {"font-size", "10"}, {"text-anchor", "middle"}, {"fill", "#6d7178"}},
+          short_text(moment, tick_decimals(moments)) + " s");
   }
   svg.text("text", {{"x", px(left)}, {"y", px(top - 6)}, {"font-weight", "600"}, {"fill", "#23262b"}}, panel.title);
   double x = right;
   for (std::size_t i = panel.names.size(); i-- > 0;) {
-    svg.text("text", {{"x", px(x)}, {"y", px(top - 6)}, {"font-weight", "600"}, {"text-anchor", "end"}, {"fill", component_color(panel.names[i])}},
+    svg.text("text",
+             {{"x", px(x)},
+              {"y", px(top - 6)},
+              {"font-weight", "600"},
+              {"text-anchor", "end"},
+              {"fill", component_color(panel.names[i])}},
              panel.names[i]);
     x -= 8 + 7 * static_cast<double>(panel.names[i].size());
   }

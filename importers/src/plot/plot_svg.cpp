@@ -15,7 +15,9 @@ namespace {
 constexpr double picture_width = 860, left = 58, right = 844;
 constexpr double head = 34, title_room = 26, value_height = 150, rate_height = 90, between = 24, below = 28;
 
-bool has_rates(const PlottedTrack& plotted) { return !rate_names(plotted.track->curve).empty(); }
+bool has_rates(const PlottedTrack& plotted) {
+  return !rate_names(plotted.track->curve).empty();
+}
 
 double block_height(const PlottedTrack& plotted) {
   return title_room + value_height + (has_rates(plotted) ? between + rate_height : 0) + below;
@@ -39,7 +41,7 @@ Axis value_axis(const PlottedTrack& plotted, Shows shows, double top, double hei
 
 /// Dots at the keys, and the slopes with which the curve arrives and leaves.
 void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
-  constexpr double handle = 16;  // px
+  constexpr double handle = 20;  // px
   const double across = (panel.time.to - panel.time.from) / (panel.time.high - panel.time.low);
   const double up = (panel.value.to - panel.value.from) / (panel.value.high - panel.value.low);
   const bool slopes = !std::holds_alternative<Curve<Quat>>(plotted.track->curve);
@@ -52,7 +54,12 @@ void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) 
         const Vec2 way(across, up * side.rates[i]);
         const Vec2 tip = way * ((arrives ? -handle : handle) / way.norm());
         const double y = panel.value.place(side.values[i]);
-        svg.leaf("path", {{"class", "tangent"}, {"d", "M" + px(x) + " " + px(y) + "l" + px(tip.x()) + " " + px(tip.y())}, {"stroke", "#8b9098"}});
+        svg.leaf("path", {{"class", "tangent"},
+                          {"d", "M" + px(x) + " " + px(y) + "l" + px(tip.x()) + " " + px(tip.y())},
+                          {"stroke", "#8b9098"}});
+        svg.leaf(
+            "circle",
+            {{"class", "handle"}, {"cx", px(x + tip.x())}, {"cy", px(y + tip.y())}, {"r", "2"}, {"fill", "#8b9098"}});
       }
       const double y = panel.value.place(key.out.values[i]);
       svg.leaf("path", {{"class", "key"},
@@ -71,17 +78,22 @@ void draw_moments(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotte
                       {"stroke-width", moment.handoff ? "1.8" : "1"},
                       {"stroke-dasharray", moment.handoff ? "none" : "2 3"}});
     if (named)
-      svg.text("text", {{"x", px(x + 4)},
-                        {"y", px(moment.handoff ? panel.value.to + 12 : panel.value.from - 5)},
-                        {"font-size", "10"},
-                        {"fill", moment.handoff ? "#a85f00" : "#6d7178"}},
+      svg.text("text",
+               {{"x", px(x + 4)},
+                {"y", px(moment.handoff ? panel.value.to + 12 : panel.value.from - 5)},
+                {"font-size", "10"},
+                {"fill", moment.handoff ? "#a85f00" : "#6d7178"}},
                moment.name);
   }
 }
 
 void draw_texts(SvgWriter& svg, const Panel& panel, const StepCurve<std::string>& curve) {
   for (const auto& [time, text] : curve.steps())
-    svg.text("text", {{"x", px(panel.time.place(time) + 4)}, {"y", px((panel.value.from + panel.value.to) / 2)}, {"fill", "#23262b"}}, text);
+    svg.text("text",
+             {{"x", px(panel.time.place(time) + 4)},
+              {"y", px((panel.value.from + panel.value.to) / 2)},
+              {"fill", "#23262b"}},
+             text);
 }
 
 void draw_block(SvgWriter& svg, const PlottedTrack& plotted, double from, double until, double top) {

@@ -47,9 +47,9 @@ std::vector<Shown> shown_clips(const StageDescription& stage, bool recorded, con
   return shown;
 }
 
-/// Where a curve must be sampled from both sides: its keys, as often as they are passed.
-std::vector<double> corner_times(const StageDescription& stage, const Shown& shown, const Track& track, double from,
-                                 double until) {
+/// Times of the keys, as often as they are passed.
+std::vector<double> passed_keys(const StageDescription& stage, const Shown& shown, const Track& track, double from,
+                                double until) {
   std::vector<double> times;
   if (!shown.play) {
     for (const double time : key_times(track.curve))
@@ -67,21 +67,40 @@ bool jumps(const TrackPoint& in, const TrackPoint& out) {
   return false;
 }
 
-void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<double>& corners, double from, double until) {
+/// Stage times at which a looping play starts over: there even a formula jumps.
+std::vector<double> seams(const Shown& shown, double from, double until) {
+  std::vector<double> times;
+  if (!shown.play || shown.clip->loop.mode == LoopMode::once || !(shown.clip->duration > 0) || shown.play->speed == 0)
+    return times;
+  const double length = shown.clip->duration / std::abs(shown.play->speed);
+  for (double cycle = 1; times.size() < 1000; ++cycle) {
+    const double time = shown.play->at + cycle * length;
+    if (!(time < until)) break;
+    if (time > from) times.push_back(time);
+  }
+  return times;
+}
+
+void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<double>& keys, double from, double until) {
+  std::vector<double> corners = seams(shown, from, until);
+  corners.insert(corners.end(), keys.begin(), keys.end());
+  std::sort(corners.begin(), corners.end());
   std::vector<double> times = corners;
   for (int i = 0; i <= points_across; ++i) times.push_back(from + (until - from) * i / points_across);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   for (const double time : times) {
-    const bool corner = std::binary_search(corners.begin(), corners.end(), time);
+    const bool corner = std::binary_search(corners.begin(), corners.end(), time) && time > from;
     if (corner) plotted.curve.push_back(shown.at(*plotted.track, time, Side::in));
+    // A key at the very end is arrived at; what would follow is not on the plot.
+    if (corner && time == until) continue;
     plotted.curve.push_back(shown.at(*plotted.track, time, Side::out));
     if (corner) plotted.curve.back().starts = jumps(plotted.curve[plotted.curve.size() - 2], plotted.curve.back());
   }
   if (plotted.curve.front().values.size() > 16) return;  // keys of so many curves would hide them
-  for (const double time : corners)
+  for (const double time : keys)
     plotted.keys.push_back({time, shown.at(*plotted.track, time, Side::in), shown.at(*plotted.track, time, Side::out),
-                            time == corners.front(), time == corners.back()});
+                            time == keys.front(), time == keys.back()});
 }
 
 bool is_below(const Recording& recording, std::size_t node, const std::string& name) {
@@ -117,9 +136,9 @@ void add_events(PlottedTrack& plotted, const Shown& shown, const Recording* reco
     return;
   }
   for (const StageEvent& event : recording->events) {
-    const bool ours = event.nodes.empty() ||
-                      std::any_of(event.nodes.begin(), event.nodes.end(),
-                                  [&](NodeId node) { return recording->nodes[node].name == plotted.track->node; });
+    const bool ours = event.nodes.empty() || std::any_of(event.nodes.begin(), event.nodes.end(), [&](NodeId node) {
+                        return recording->nodes[node].name == plotted.track->node;
+                      });
     if (ours) plotted.moments.push_back({event.time, event.name, false});
   }
 }
@@ -153,14 +172,15 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
       PlottedTrack plotted;
       plotted.track = &track;
       plotted.title = track.name() + (clips.size() > 1 ? " in " + shown.clip->name : "");
-      add_curve(plotted, shown, corner_times(stage, shown, track, result.from, result.until), result.from, result.until);
+      add_curve(plotted, shown, passed_keys(stage, shown, track, result.from, result.until), result.from, result.until);
       add_events(plotted, shown, recording);
       if (recording) add_recorded(plotted, *recording);
       result.tracks.push_back(std::move(plotted));
     }
   }
   if (!missing.empty())
-    throw std::invalid_argument("there is no track \"" + missing.front() + "\"" + (names.empty() ? "" : "; there are: " + names));
+    throw std::invalid_argument("there is no track \"" + missing.front() + "\"" +
+                                (names.empty() ? "" : "; there are: " + names));
   if (result.tracks.empty()) throw std::invalid_argument("there are no tracks to plot");
   return result;
 }

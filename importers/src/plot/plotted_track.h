@@ -35,7 +35,8 @@ struct PlottedStage {
   std::vector<PlottedTrack> tracks;
 };
 
-/// @throws std::invalid_argument naming what exists, for a clip or a track that does not, or when there is nothing to plot.
+/// @throws std::invalid_argument naming what exists, for a clip or a track that does not, or when there is nothing to
+/// plot.
 [[nodiscard]] PlottedStage plotted_tracks(const StageDescription& stage, const Recording* recording,
                                           const PlotOptions& options);
 

@@ -78,8 +78,12 @@ std::string SvgWriter::finish() {
   return std::move(out_);
 }
 
-std::string px(double value) { return short_text(value, 2); }
+std::string px(double value) {
+  return short_text(value, 2);
+}
 
-std::string px(double x, double y) { return px(x) + "," + px(y); }
+std::string px(double x, double y) {
+  return px(x) + "," + px(y);
+}
 
 }  // namespace tweenfall

@@ -6,9 +6,15 @@ namespace tweenfall {
 
 namespace {
 
-std::vector<double> parts(double value) { return {value}; }
-std::vector<double> parts(const Color& color) { return {color.rgba[0], color.rgba[1], color.rgba[2], color.rgba[3]}; }
-std::vector<double> parts(const Quat& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+std::vector<double> parts(double value) {
+  return {value};
+}
+std::vector<double> parts(const Color& color) {
+  return {color.rgba[0], color.rgba[1], color.rgba[2], color.rgba[3]};
+}
+std::vector<double> parts(const Quat& q) {
+  return {q.x(), q.y(), q.z(), q.w()};
+}
 template <int Size>
 std::vector<double> parts(const Eigen::Matrix<double, Size, 1, Eigen::DontAlign>& vector) {
   return {vector.data(), vector.data() + Size};
@@ -35,14 +41,17 @@ TrackPoint sample(const StepCurve<bool>& curve, double time, Side side) {
   return {time, {curve.value(time, side) ? 1.0 : 0.0}, {}, false};
 }
 
-TrackPoint sample(const StepCurve<std::string>&, double time, Side) { return {time, {}, {}, false}; }
+TrackPoint sample(const StepCurve<std::string>&, double time, Side) {
+  return {time, {}, {}, false};
+}
 
 }  // namespace
 
 std::vector<std::string> component_names(const TrackCurve& curve) {
   if (std::holds_alternative<Curve<Vec2>>(curve)) return {"x", "y"};
   if (std::holds_alternative<Curve<Vec3>>(curve)) return {"x", "y", "z"};
-  if (std::holds_alternative<Curve<Vec4>>(curve) || std::holds_alternative<Curve<Quat>>(curve)) return {"x", "y", "z", "w"};
+  if (std::holds_alternative<Curve<Vec4>>(curve) || std::holds_alternative<Curve<Quat>>(curve))
+    return {"x", "y", "z", "w"};
   if (std::holds_alternative<Curve<Color>>(curve)) return {"r", "g", "b", "a"};
   if (std::holds_alternative<StepCurve<std::string>>(curve)) return {};
   if (const auto* weights = std::get_if<WeightCurves>(&curve)) {

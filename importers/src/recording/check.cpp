@@ -16,8 +16,8 @@ namespace {
 
 void check_length(const Recording& recording, const NodeRecord& node, std::size_t length, const char* list) {
   if (length != recording.times.size())
-    fail(recording, "node \"" + node.name + "\" has " + std::to_string(length) + " entries in " + list + ", but there are " +
-                        std::to_string(recording.times.size()) + " times");
+    fail(recording, "node \"" + node.name + "\" has " + std::to_string(length) + " entries in " + list +
+                        ", but there are " + std::to_string(recording.times.size()) + " times");
 }
 
 void check_node(const Recording& recording, std::size_t index) {
@@ -44,7 +44,8 @@ void check_node(const Recording& recording, std::size_t index) {
 
 void check_recording(const Recording& recording) {
   for (std::size_t frame = 0; frame < recording.times.size(); ++frame) {
-    if (!std::isfinite(recording.times[frame])) fail(recording, "the time of frame " + std::to_string(frame) + " is not finite");
+    if (!std::isfinite(recording.times[frame]))
+      fail(recording, "the time of frame " + std::to_string(frame) + " is not finite");
     if (frame > 0 && recording.times[frame] <= recording.times[frame - 1])
       fail(recording, "times must increase; " + number_text(recording.times[frame]) + " s is not after " +
                           number_text(recording.times[frame - 1]) + " s");
@@ -58,7 +59,8 @@ void check_recording(const Recording& recording) {
     for (const NodeId node : event.nodes)
       if (node >= recording.nodes.size())
         fail(recording, "event \"" + event.name + "\" at " + number_text(event.time) + " s names node " +
-                            std::to_string(node) + ", but there are " + std::to_string(recording.nodes.size()) + " nodes");
+                            std::to_string(node) + ", but there are " + std::to_string(recording.nodes.size()) +
+                            " nodes");
 }
 
 }  // namespace tweenfall

@@ -15,7 +15,9 @@ double reach(const Solid& solid) {
   return 0;
 }
 
-bool is_plane(const BodyDescription& body) { return std::holds_alternative<Plane>(body.shape.solid); }
+bool is_plane(const BodyDescription& body) {
+  return std::holds_alternative<Plane>(body.shape.solid);
+}
 
 /// Points of one shape on a node, in the node's space.
 std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
@@ -33,7 +35,8 @@ std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
     for (int i = 0; i < 8; ++i)
       points.push_back(box->half_extents.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
   }
-  for (Vec3& point : points) point = transform_point({shape.offset.position, shape.offset.rotation, Vec3(1, 1, 1)}, point);
+  for (Vec3& point : points)
+    point = transform_point({shape.offset.position, shape.offset.rotation, Vec3(1, 1, 1)}, point);
   return points;
 }
 

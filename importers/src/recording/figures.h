@@ -11,10 +11,10 @@ namespace tweenfall {
 
 /// From the world to the picture.
 struct SideView {
-  int across = 0;              ///< the world axis that runs to the right: 0 (seen from +z) or 2 (seen from -x)
-  double scale = 1;            ///< px/m
-  double left = 0, top = 0;    ///< px
-  double low = 0, high = 0;    ///< world coordinates at the picture's left edge and at its upper edge, m
+  int across = 0;                ///< the world axis that runs to the right: 0 (seen from +z) or 2 (seen from -x)
+  double scale = 1;              ///< px/m
+  double left = 0, top = 0;      ///< px
+  double low = 0, high = 0;      ///< world coordinates at the picture's left edge and at its upper edge, m
   double width = 0, height = 0;  ///< px
 
   [[nodiscard]] Vec2 place(const Vec3& point) const {
@@ -41,8 +41,8 @@ struct Figure {
   std::vector<std::vector<Vec2>> points;  ///< [frame][point], px
 };
 
-/// Bodies that are not planes, meshes without skin as their boxes, and one stick figure for each skin and for each tree of
-/// nodes without bodies and meshes.
+/// Bodies that are not planes, meshes without skin as their boxes, and one stick figure for each skin and for each tree
+/// of nodes without bodies and meshes.
 [[nodiscard]] std::vector<Figure> figures(const Recording& recording, const StageDescription& stage,
                                           const SideView& view);
 

@@ -8,7 +8,7 @@
 
 namespace tweenfall {
 
-/// Shortest text that reads back to the same double; "-0" keeps its sign. Finite numbers only.
+/// Shortest text that reads back to the same double; minus zero is "-0.0". Finite numbers only.
 [[nodiscard]] std::string number_text(double number);
 
 /// Rounded to `decimals` places, trailing zeros and the point dropped; never "-0".

@@ -19,9 +19,15 @@ Color owner_color(Owner owner, bool fixed) {
   return owner == Owner::driven ? Color{Vec4(0.64, 0.05, 0.25, 1)} : Color{Vec4(0.83, 0.3, 0.01, 1)};
 }
 
-bool same(const Vec3& a, const Vec3& b) { return a == b; }
-bool same(const Quat& a, const Quat& b) { return a.coeffs() == b.coeffs(); }
-bool same(double a, double b) { return a == b; }
+bool same(const Vec3& a, const Vec3& b) {
+  return a == b;
+}
+bool same(const Quat& a, const Quat& b) {
+  return a.coeffs() == b.coeffs();
+}
+bool same(double a, double b) {
+  return a == b;
+}
 
 /// Keys a frame, joined by straight lines; of values that stay, the first and the last.
 template <class T, class ValueAt>
@@ -29,8 +35,8 @@ Curve<T> baked(const std::vector<double>& times, ValueAt value_at) {
   std::vector<Key<T>> keys;
   for (std::size_t frame = 0; frame < times.size(); ++frame) {
     const T value = value_at(frame);
-    const bool between = frame > 0 && frame + 1 < times.size() && same(value, value_at(frame - 1)) &&
-                         same(value, value_at(frame + 1));
+    const bool between =
+        frame > 0 && frame + 1 < times.size() && same(value, value_at(frame - 1)) && same(value, value_at(frame + 1));
     if (!between) keys.push_back({times[frame], value, Ease::linear()});
   }
   if (keys.size() == 2 && same(keys[0].value, keys[1].value)) keys.pop_back();
@@ -48,7 +54,8 @@ void add_tracks(Clip& clip, const NodeRecord& node, const std::vector<double>& t
   if (node.weights.empty() || node.weights.front().empty()) return;
   WeightCurves weights;
   for (std::size_t k = 0; k < node.weights.front().size(); ++k)
-    weights.push_back(baked<double>(times, [&](std::size_t i) { return k < node.weights[i].size() ? node.weights[i][k] : 0; }));
+    weights.push_back(
+        baked<double>(times, [&](std::size_t i) { return k < node.weights[i].size() ? node.weights[i][k] : 0; }));
   clip.tracks.push_back({node.name, "weights", std::move(weights)});
 }
 
@@ -75,7 +82,8 @@ void add_meshes(Model& model, const StageDescription& stage, std::vector<bool>& 
   for (MeshInstance instance : stage.mesh_instances) {
     instance.node = recorded(instance.node);
     const bool skinned = instance.skin < model.skins.size();
-    if (instance.node == no_node || instance.mesh >= model.meshes.size() || (skinned && !whole[instance.skin])) continue;
+    if (instance.node == no_node || instance.mesh >= model.meshes.size() || (skinned && !whole[instance.skin]))
+      continue;
     model.instances.push_back(instance);
     dressed[instance.node] = true;
     if (skinned)
@@ -87,7 +95,8 @@ void add_meshes(Model& model, const StageDescription& stage, std::vector<bool>& 
 
 Model recording_model(const Recording& recording, const StageDescription& stage) {
   check_recording(recording);
-  if (recording.times.empty()) throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to write");
+  if (recording.times.empty())
+    throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to write");
   Model model;
   model.name = recording.name.empty() ? stage.name : recording.name;
   Clip clip;

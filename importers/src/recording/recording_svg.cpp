@@ -39,23 +39,26 @@ struct Drawing {
   SvgWriter svg;
 
   [[nodiscard]] double share(double time) const { return (time - start) / (length + rest); }
+  /// Coordinates are as exact as the keyframes are.
+  [[nodiscard]] int decimals() const { return tolerance < 1 ? 1 : 0; }
+  [[nodiscard]] std::string number(double value) const { return short_text(value, decimals()); }
+  [[nodiscard]] std::string place(const Vec2& at) const { return number(at.x()) + " " + number(at.y()); }
   [[nodiscard]] std::string duration() const { return short_text(length + rest, 4) + "s"; }
   [[nodiscard]] double lane_x(double time) const {
     return lane_left + (length > 0 ? (time - start) / length : 0) * (picture_width - margin - lane_left);
   }
 };
 
-std::string place_text(const Vec2& place) { return short_text(place.x(), 1) + " " + short_text(place.y(), 1); }
-
 /// The path of one frame of a figure; the same commands in each frame, so that they can be mixed.
-std::string path_text(const Figure& figure, const std::vector<Vec2>& points) {
+std::string path_text(const Drawing& drawing, const Figure& figure, const std::vector<Vec2>& points) {
   static constexpr int box_order[] = {0, 1, 3, 2, 0, 4, 5, 1, 5, 7, 3, 7, 6, 2, 6, 4};
   std::string text;
   if (figure.kind == Figure::Kind::box) {
-    for (const int corner : box_order) text += (text.empty() ? "M" : "L") + place_text(points[static_cast<std::size_t>(corner)]);
+    for (const int corner : box_order)
+      text += (text.empty() ? "M" : "L") + drawing.place(points[static_cast<std::size_t>(corner)]);
     return text;
   }
-  for (std::size_t i = 0; i < points.size(); ++i) text += (i % 2 == 0 ? "M" : "L") + place_text(points[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) text += (i % 2 == 0 ? "M" : "L") + drawing.place(points[i]);
   return text;
 }
 
@@ -118,7 +121,8 @@ void draw_ground(Drawing& drawing, const StageDescription& stage) {
     const double far = 4 * (view.width + view.height);
     const Vec2 a = on - far * along, b = on + far * along, c = b - far * out, d = a - far * out;
     drawing.svg.leaf("path", {{"class", "ground"},
-                              {"d", "M" + place_text(a) + "L" + place_text(b) + "L" + place_text(c) + "L" + place_text(d) + "Z"}});
+                              {"d", "M" + drawing.place(a) + "L" + drawing.place(b) + "L" + drawing.place(c) + "L" +
+                                        drawing.place(d) + "Z"}});
   }
 }
 
@@ -140,10 +144,10 @@ void draw_trail(Drawing& drawing, const Figure& figure) {
   for (std::size_t run = 0; run < changes.size(); ++run) {
     const std::size_t first = changes[run];
     const std::size_t last = run + 1 < changes.size() ? changes[run + 1] : drawing.recording.times.size() - 1;
-    std::string path = "M" + place_text(middles[first][0]);
+    std::string path = "M" + drawing.place(middles[first][0]);
     for (const std::size_t frame : kept)
-      if (frame > first && frame < last) path += "L" + place_text(middles[frame][0]);
-    path += "L" + place_text(middles[last][0]);
+      if (frame > first && frame < last) path += "L" + drawing.place(middles[frame][0]);
+    path += "L" + drawing.place(middles[last][0]);
     drawing.svg.leaf("path", {{"fill", "none"},
                               {"stroke", owner_color(node.owner[first])},
                               {"stroke-width", "1.5"},
@@ -161,20 +165,23 @@ void draw_figure(Drawing& drawing, const Figure& figure) {
   drawing.svg.open("g", {{"stroke", color},
                          {"fill", color},
                          {"fill-opacity", "0.3"},
-                         {"stroke-width", stick ? px(2 * figure.radius) : figure.kind == Figure::Kind::bones ? "3" : "2"},
+                         {"stroke-width", stick                                ? px(2 * figure.radius)
+                                          : figure.kind == Figure::Kind::bones ? "3"
+                                                                               : "2"},
                          {"stroke-opacity", stick ? "0.7" : "1"},
                          {"stroke-linejoin", "round"},
                          {"stroke-linecap", "round"}});
   drawing.svg.text("title", {}, node.name);
   if (const auto changes = changes_of_owner(node); changes.size() > 1 && !figure.fixed) {
-    const Series colors = series(drawing, changes, [&](std::size_t frame) { return std::string(owner_color(node.owner[frame])); });
+    const Series colors =
+        series(drawing, changes, [&](std::size_t frame) { return std::string(owner_color(node.owner[frame])); });
     animate(drawing, "stroke", colors, true);
     animate(drawing, "fill", colors, true);
   }
-  const auto path = [&](std::size_t frame) { return path_text(figure, figure.points[frame]); };
+  const auto path = [&](std::size_t frame) { return path_text(drawing, figure, figure.points[frame]); };
   if (figure.kind == Figure::Kind::ball) {
-    const auto x = [&](std::size_t frame) { return short_text(figure.points[frame][0].x(), 1); };
-    const auto y = [&](std::size_t frame) { return short_text(figure.points[frame][0].y(), 1); };
+    const auto x = [&](std::size_t frame) { return drawing.number(figure.points[frame][0].x()); };
+    const auto y = [&](std::size_t frame) { return drawing.number(figure.points[frame][0].y()); };
     drawing.svg.open("circle", {{"r", px(figure.radius)}, {"cx", x(0)}, {"cy", y(0)}});
     if (!still) animate(drawing, "cx", series(drawing, kept, x));
     if (!still) animate(drawing, "cy", series(drawing, kept, y));
@@ -209,20 +216,22 @@ void draw_lane(Drawing& drawing, std::size_t index, double top) {
   const std::vector<std::size_t> changes = changes_of_owner(node);
   for (std::size_t run = 0; run < changes.size(); ++run) {
     const double from = drawing.lane_x(run == 0 ? drawing.start : exact(changes[run]));
-    const double to = drawing.lane_x(run + 1 < changes.size() ? exact(changes[run + 1]) : drawing.start + drawing.length);
+    const double to =
+        drawing.lane_x(run + 1 < changes.size() ? exact(changes[run + 1]) : drawing.start + drawing.length);
     drawing.svg.leaf("rect", {{"x", px(from)},
                               {"y", px(top + 3)},
                               {"width", px(std::max(0.5, to - from))},
                               {"height", px(lane_height - 7)},
                               {"fill", owner_color(node.owner[changes[run]])}});
     if (run > 0)
-      drawing.svg.leaf("path", {{"class", "ink"},
-                                {"d", "M" + px(from) + " " + px(top + lane_height - 1) + "l-4 5h8Z"}});
+      drawing.svg.leaf("path",
+                       {{"class", "ink"}, {"d", "M" + px(from) + " " + px(top + lane_height - 1) + "l-4 5h8Z"}});
   }
 }
 
 void draw_time_bar(Drawing& drawing, const std::vector<std::size_t>& lanes, double top) {
-  for (std::size_t i = 0; i < lanes.size(); ++i) draw_lane(drawing, lanes[i], top + static_cast<double>(i) * (lane_height + 4));
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    draw_lane(drawing, lanes[i], top + static_cast<double>(i) * (lane_height + 4));
   const double bottom = top + static_cast<double>(lanes.size()) * (lane_height + 4) + 4;
   drawing.svg.leaf("path", {{"class", "line"},
                             {"fill", "none"},
@@ -238,26 +247,27 @@ void draw_time_bar(Drawing& drawing, const std::vector<std::size_t>& lanes, doub
                         {"text-anchor", "middle"}},
                        event.name);
   const std::string from = px(drawing.lane_x(drawing.start)), to = px(drawing.lane_x(drawing.start + drawing.length));
-  drawing.svg.open("rect", {{"class", "ink"},
-                            {"x", from},
-                            {"y", px(top - 2)},
-                            {"width", "1.5"},
-                            {"height", px(bottom - top + 5)}});
+  drawing.svg.open(
+      "rect", {{"class", "ink"}, {"x", from}, {"y", px(top - 2)}, {"width", "1.5"}, {"height", px(bottom - top + 5)}});
   const std::string end = short_text(drawing.length / (drawing.length + rest), 5);
   animate(drawing, "x", {from + ";" + to + ";" + to, "0;" + end + ";1"});
   drawing.svg.close();
 }
 
 void draw_head(Drawing& drawing, const std::string& name) {
-  drawing.svg.text("text", {{"class", "ink"}, {"x", px(margin)}, {"y", "22"}, {"font-size", "14"}, {"font-weight", "600"}}, name);
+  drawing.svg.text(
+      "text", {{"class", "ink"}, {"x", px(margin)}, {"y", "22"}, {"font-size", "14"}, {"font-weight", "600"}}, name);
   double x = picture_width - margin;
   for (const Owner owner : {Owner::free, Owner::driven, Owner::keyed}) {
-    const bool shown = std::any_of(drawing.recording.nodes.begin(), drawing.recording.nodes.end(), [&](const NodeRecord& node) {
-      return std::find(node.owner.begin(), node.owner.end(), owner) != node.owner.end();
-    });
+    const bool shown =
+        std::any_of(drawing.recording.nodes.begin(), drawing.recording.nodes.end(), [&](const NodeRecord& node) {
+          return std::find(node.owner.begin(), node.owner.end(), owner) != node.owner.end();
+        });
     if (!shown) continue;
     x -= 64;
-    drawing.svg.leaf("rect", {{"x", px(x)}, {"y", "12"}, {"width", "11"}, {"height", "11"}, {"rx", "2"}, {"fill", owner_color(owner)}});
+    drawing.svg.leaf(
+        "rect",
+        {{"x", px(x)}, {"y", "12"}, {"width", "11"}, {"height", "11"}, {"rx", "2"}, {"fill", owner_color(owner)}});
     drawing.svg.text("text", {{"class", "quiet"}, {"x", px(x + 16)}, {"y", "22"}}, owner_word(owner));
   }
 }
@@ -267,7 +277,11 @@ std::string draw(const Recording& recording, const StageDescription& stage, doub
   const SideView view = side_view(recording, stage, margin, head, picture_width - 2 * margin, most_height);
   const double bar = head + view.height + 10;
   const double height = bar + static_cast<double>(lanes.size()) * (lane_height + 4) + 28;
-  Drawing drawing{recording, view, tolerance, recording.times.front(), recording.times.back() - recording.times.front(),
+  Drawing drawing{recording,
+                  view,
+                  tolerance,
+                  recording.times.front(),
+                  recording.times.back() - recording.times.front(),
                   SvgWriter(picture_width, height)};
   SvgWriter& svg = drawing.svg;
   svg.comment("tweenfall: keyframes within " + short_text(tolerance, 2) + " px of the recording");
@@ -275,7 +289,9 @@ std::string draw(const Recording& recording, const StageDescription& stage, doub
   svg.leaf("rect", {{"class", "paper"}, {"width", "100%"}, {"height", "100%"}, {"rx", "8"}});
   draw_head(drawing, recording.name.empty() ? stage.name : recording.name);
   svg.open("clipPath", {{"id", "view"}});
-  svg.leaf("rect", {{"x", px(view.left)}, {"y", px(view.top)}, {"width", px(view.width)}, {"height", px(view.height)}, {"rx", "4"}});
+  svg.leaf(
+      "rect",
+      {{"x", px(view.left)}, {"y", px(view.top)}, {"width", px(view.width)}, {"height", px(view.height)}, {"rx", "4"}});
   svg.close();
   svg.open("g", {{"clip-path", "url(#view)"}});
   draw_ground(drawing, stage);
@@ -291,11 +307,12 @@ std::string draw(const Recording& recording, const StageDescription& stage, doub
 
 std::string recording_svg(const Recording& recording, const StageDescription& stage) {
   check_recording(recording);
-  if (recording.times.empty()) throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to show");
+  if (recording.times.empty())
+    throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to show");
   // As exact as the size allows.
   for (double tolerance = 0.4;; tolerance *= 2) {
     std::string text = draw(recording, stage, tolerance);
-    if (text.size() <= most_bytes || tolerance > 10) return text;
+    if (text.size() <= most_bytes || tolerance > 20) return text;
   }
 }
 

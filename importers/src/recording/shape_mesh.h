@@ -7,8 +7,8 @@
 
 namespace tweenfall {
 
-/// The surface of `shape` in its node's space, with normals; a plane as a square of 20 m around its nearest point to the
-/// origin.
+/// The surface of `shape` in its node's space, with normals; a plane as a square of 20 m around its nearest point to
+/// the origin.
 [[nodiscard]] Mesh shape_mesh(const Shape& shape);
 
 }  // namespace tweenfall
