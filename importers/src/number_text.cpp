@@ -42,6 +42,8 @@ void append_number(std::string& out, double number) {
   std::array<char, 32> digits;
   const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), number);
   out.append(digits.data(), result.ptr);
+  // Many readers take "-0" for a whole number, which has no sign.
+  if (number == 0 && digits[0] == '-') out += ".0";
 }
 
 void append_vector(std::string& out, const Vec3& vector) {

@@ -1,10 +1,12 @@
-// Writes the example's page and its recording as JSON: write_page FOLDER
+// Writes the example as a page and in every other form, to be tested and looked at: write_page FOLDER
 
+#include <tweenfall/importers/plot.h>
 #include <tweenfall/importers/recording_file.h>
 
 #include "page/example_stage.h"
 
 #include <exception>
+#include <fstream>
 #include <iostream>
 
 int main(int count, char** arguments) {
@@ -17,8 +19,9 @@ int main(int count, char** arguments) {
     std::filesystem::create_directories(folder);
     const tweenfall::StageDescription stage = tweenfall::test::example_stage();
     const tweenfall::Recording recording = tweenfall::test::example_recording();
-    for (const char* name : {"example.html", "example.json", "example.svg"})
+    for (const char* name : {"example.html", "example.json", "example.svg", "example.csv", "example.glb"})
       tweenfall::save_recording(recording, stage, folder / name);
+    std::ofstream(folder / "example_plot.svg") << tweenfall::plot_svg(stage, &recording);
   } catch (const std::exception& problem) {
     std::cerr << problem.what() << "\n";
     return 1;

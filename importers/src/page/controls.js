@@ -3,6 +3,7 @@
 const element = id => document.getElementById(id);
 
 function showLegend() {
+  if (!nodes.some(node => node.hasBody && !node.fixed)) return;
   const words = ["keyed", "driven", "free", "fixed"].filter(word => word === "fixed"
     ? nodes.some(node => node.fixed && !node.shape.plane)
     : word !== "driven" || nodes.some(node => node.runs.some(run => run[1] === "driven")));

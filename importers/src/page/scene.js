@@ -138,6 +138,8 @@ linkLines.frustumCulled = false;
 linkLines.renderOrder = 2;
 scene.add(linkLines);
 state.skeleton = links.length > 0 && instances.length === 0;
+// Where nothing can change hands, owners' colors say nothing.
+state.byOwner = nodes.some(node => node.hasBody && !node.fixed);
 
 const skyLight = new THREE.HemisphereLight(0xffffff, 0x77746f, 0.62);
 const sun = new THREE.DirectionalLight(0xffffff, 0.48);

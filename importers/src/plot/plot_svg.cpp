@@ -41,7 +41,7 @@ Axis value_axis(const PlottedTrack& plotted, Shows shows, double top, double hei
 
 /// Dots at the keys, and the slopes with which the curve arrives and leaves.
 void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
-  constexpr double handle = 16;  // px
+  constexpr double handle = 20;  // px
   const double across = (panel.time.to - panel.time.from) / (panel.time.high - panel.time.low);
   const double up = (panel.value.to - panel.value.from) / (panel.value.high - panel.value.low);
   const bool slopes = !std::holds_alternative<Curve<Quat>>(plotted.track->curve);
@@ -57,6 +57,12 @@ void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) 
         svg.leaf("path", {{"class", "tangent"},
                           {"d", "M" + px(x) + " " + px(y) + "l" + px(tip.x()) + " " + px(tip.y())},
                           {"stroke", "#8b9098"}});
+<<<<<<< HEAD
+=======
+        svg.leaf(
+            "circle",
+            {{"class", "handle"}, {"cx", px(x + tip.x())}, {"cy", px(y + tip.y())}, {"r", "2"}, {"fill", "#8b9098"}});
+>>>>>>> refs/heads/viewer
       }
       const double y = panel.value.place(key.out.values[i]);
       svg.leaf("path", {{"class", "key"},

@@ -47,9 +47,9 @@ std::vector<Shown> shown_clips(const StageDescription& stage, bool recorded, con
   return shown;
 }
 
-/// Where a curve must be sampled from both sides: its keys, as often as they are passed.
-std::vector<double> corner_times(const StageDescription& stage, const Shown& shown, const Track& track, double from,
-                                 double until) {
+/// Times of the keys, as often as they are passed.
+std::vector<double> passed_keys(const StageDescription& stage, const Shown& shown, const Track& track, double from,
+                                double until) {
   std::vector<double> times;
   if (!shown.play) {
     for (const double time : key_times(track.curve))
@@ -67,22 +67,45 @@ bool jumps(const TrackPoint& in, const TrackPoint& out) {
   return false;
 }
 
+<<<<<<< HEAD
 void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<double>& corners, double from,
                double until) {
+=======
+/// Stage times at which a looping play starts over: there even a formula jumps.
+std::vector<double> seams(const Shown& shown, double from, double until) {
+  std::vector<double> times;
+  if (!shown.play || shown.clip->loop.mode == LoopMode::once || !(shown.clip->duration > 0) || shown.play->speed == 0)
+    return times;
+  const double length = shown.clip->duration / std::abs(shown.play->speed);
+  for (double cycle = 1; times.size() < 1000; ++cycle) {
+    const double time = shown.play->at + cycle * length;
+    if (!(time < until)) break;
+    if (time > from) times.push_back(time);
+  }
+  return times;
+}
+
+void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<double>& keys, double from, double until) {
+  std::vector<double> corners = seams(shown, from, until);
+  corners.insert(corners.end(), keys.begin(), keys.end());
+  std::sort(corners.begin(), corners.end());
+>>>>>>> refs/heads/viewer
   std::vector<double> times = corners;
   for (int i = 0; i <= points_across; ++i) times.push_back(from + (until - from) * i / points_across);
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   for (const double time : times) {
-    const bool corner = std::binary_search(corners.begin(), corners.end(), time);
+    const bool corner = std::binary_search(corners.begin(), corners.end(), time) && time > from;
     if (corner) plotted.curve.push_back(shown.at(*plotted.track, time, Side::in));
+    // A key at the very end is arrived at; what would follow is not on the plot.
+    if (corner && time == until) continue;
     plotted.curve.push_back(shown.at(*plotted.track, time, Side::out));
     if (corner) plotted.curve.back().starts = jumps(plotted.curve[plotted.curve.size() - 2], plotted.curve.back());
   }
   if (plotted.curve.front().values.size() > 16) return;  // keys of so many curves would hide them
-  for (const double time : corners)
+  for (const double time : keys)
     plotted.keys.push_back({time, shown.at(*plotted.track, time, Side::in), shown.at(*plotted.track, time, Side::out),
-                            time == corners.front(), time == corners.back()});
+                            time == keys.front(), time == keys.back()});
 }
 
 bool is_below(const Recording& recording, std::size_t node, const std::string& name) {
@@ -154,8 +177,12 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
       PlottedTrack plotted;
       plotted.track = &track;
       plotted.title = track.name() + (clips.size() > 1 ? " in " + shown.clip->name : "");
+<<<<<<< HEAD
       add_curve(plotted, shown, corner_times(stage, shown, track, result.from, result.until), result.from,
                 result.until);
+=======
+      add_curve(plotted, shown, passed_keys(stage, shown, track, result.from, result.until), result.from, result.until);
+>>>>>>> refs/heads/viewer
       add_events(plotted, shown, recording);
       if (recording) add_recorded(plotted, *recording);
       result.tracks.push_back(std::move(plotted));

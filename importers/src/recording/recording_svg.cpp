@@ -40,26 +40,37 @@ struct Drawing {
   SvgWriter svg;
 
   [[nodiscard]] double share(double time) const { return (time - start) / (length + rest); }
+  /// Coordinates are as exact as the keyframes are.
+  [[nodiscard]] int decimals() const { return tolerance < 1 ? 1 : 0; }
+  [[nodiscard]] std::string number(double value) const { return short_text(value, decimals()); }
+  [[nodiscard]] std::string place(const Vec2& at) const { return number(at.x()) + " " + number(at.y()); }
   [[nodiscard]] std::string duration() const { return short_text(length + rest, 4) + "s"; }
   [[nodiscard]] double lane_x(double time) const {
     return lane_left + (length > 0 ? (time - start) / length : 0) * (picture_width - margin - lane_left);
   }
 };
 
+<<<<<<< HEAD
 std::string place_text(const Vec2& place) {
   return short_text(place.x(), 1) + " " + short_text(place.y(), 1);
 }
 
+=======
+>>>>>>> refs/heads/viewer
 /// The path of one frame of a figure; the same commands in each frame, so that they can be mixed.
-std::string path_text(const Figure& figure, const std::vector<Vec2>& points) {
+std::string path_text(const Drawing& drawing, const Figure& figure, const std::vector<Vec2>& points) {
   static constexpr int box_order[] = {0, 1, 3, 2, 0, 4, 5, 1, 5, 7, 3, 7, 6, 2, 6, 4};
   std::string text;
   if (figure.kind == Figure::Kind::box) {
     for (const int corner : box_order)
+<<<<<<< HEAD
       text += (text.empty() ? "M" : "L") + place_text(points[static_cast<std::size_t>(corner)]);
+=======
+      text += (text.empty() ? "M" : "L") + drawing.place(points[static_cast<std::size_t>(corner)]);
+>>>>>>> refs/heads/viewer
     return text;
   }
-  for (std::size_t i = 0; i < points.size(); ++i) text += (i % 2 == 0 ? "M" : "L") + place_text(points[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) text += (i % 2 == 0 ? "M" : "L") + drawing.place(points[i]);
   return text;
 }
 
@@ -121,9 +132,15 @@ void draw_ground(Drawing& drawing, const StageDescription& stage) {
     // Large enough to reach beyond every corner of the picture.
     const double far = 4 * (view.width + view.height);
     const Vec2 a = on - far * along, b = on + far * along, c = b - far * out, d = a - far * out;
+<<<<<<< HEAD
     drawing.svg.leaf(
         "path", {{"class", "ground"},
                  {"d", "M" + place_text(a) + "L" + place_text(b) + "L" + place_text(c) + "L" + place_text(d) + "Z"}});
+=======
+    drawing.svg.leaf("path", {{"class", "ground"},
+                              {"d", "M" + drawing.place(a) + "L" + drawing.place(b) + "L" + drawing.place(c) + "L" +
+                                        drawing.place(d) + "Z"}});
+>>>>>>> refs/heads/viewer
   }
 }
 
@@ -145,10 +162,10 @@ void draw_trail(Drawing& drawing, const Figure& figure) {
   for (std::size_t run = 0; run < changes.size(); ++run) {
     const std::size_t first = changes[run];
     const std::size_t last = run + 1 < changes.size() ? changes[run + 1] : drawing.recording.times.size() - 1;
-    std::string path = "M" + place_text(middles[first][0]);
+    std::string path = "M" + drawing.place(middles[first][0]);
     for (const std::size_t frame : kept)
-      if (frame > first && frame < last) path += "L" + place_text(middles[frame][0]);
-    path += "L" + place_text(middles[last][0]);
+      if (frame > first && frame < last) path += "L" + drawing.place(middles[frame][0]);
+    path += "L" + drawing.place(middles[last][0]);
     drawing.svg.leaf("path", {{"fill", "none"},
                               {"stroke", owner_color(node.owner[first])},
                               {"stroke-width", "1.5"},
@@ -179,10 +196,10 @@ void draw_figure(Drawing& drawing, const Figure& figure) {
     animate(drawing, "stroke", colors, true);
     animate(drawing, "fill", colors, true);
   }
-  const auto path = [&](std::size_t frame) { return path_text(figure, figure.points[frame]); };
+  const auto path = [&](std::size_t frame) { return path_text(drawing, figure, figure.points[frame]); };
   if (figure.kind == Figure::Kind::ball) {
-    const auto x = [&](std::size_t frame) { return short_text(figure.points[frame][0].x(), 1); };
-    const auto y = [&](std::size_t frame) { return short_text(figure.points[frame][0].y(), 1); };
+    const auto x = [&](std::size_t frame) { return drawing.number(figure.points[frame][0].x()); };
+    const auto y = [&](std::size_t frame) { return drawing.number(figure.points[frame][0].y()); };
     drawing.svg.open("circle", {{"r", px(figure.radius)}, {"cx", x(0)}, {"cy", y(0)}});
     if (!still) animate(drawing, "cx", series(drawing, kept, x));
     if (!still) animate(drawing, "cy", series(drawing, kept, y));
@@ -316,7 +333,7 @@ std::string recording_svg(const Recording& recording, const StageDescription& st
   // As exact as the size allows.
   for (double tolerance = 0.4;; tolerance *= 2) {
     std::string text = draw(recording, stage, tolerance);
-    if (text.size() <= most_bytes || tolerance > 10) return text;
+    if (text.size() <= most_bytes || tolerance > 20) return text;
   }
 }
 
