@@ -57,12 +57,9 @@ void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) 
         svg.leaf("path", {{"class", "tangent"},
                           {"d", "M" + px(x) + " " + px(y) + "l" + px(tip.x()) + " " + px(tip.y())},
                           {"stroke", "#8b9098"}});
-<<<<<<< HEAD
-=======
         svg.leaf(
             "circle",
             {{"class", "handle"}, {"cx", px(x + tip.x())}, {"cy", px(y + tip.y())}, {"r", "2"}, {"fill", "#8b9098"}});
->>>>>>> refs/heads/viewer
       }
       const double y = panel.value.place(key.out.values[i]);
       svg.leaf("path", {{"class", "key"},

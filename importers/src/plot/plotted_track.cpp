@@ -67,10 +67,6 @@ bool jumps(const TrackPoint& in, const TrackPoint& out) {
   return false;
 }
 
-<<<<<<< HEAD
-void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<double>& corners, double from,
-               double until) {
-=======
 /// Stage times at which a looping play starts over: there even a formula jumps.
 std::vector<double> seams(const Shown& shown, double from, double until) {
   std::vector<double> times;
@@ -89,7 +85,6 @@ void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<doub
   std::vector<double> corners = seams(shown, from, until);
   corners.insert(corners.end(), keys.begin(), keys.end());
   std::sort(corners.begin(), corners.end());
->>>>>>> refs/heads/viewer
   std::vector<double> times = corners;
   for (int i = 0; i <= points_across; ++i) times.push_back(from + (until - from) * i / points_across);
   std::sort(times.begin(), times.end());
@@ -177,12 +172,7 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
       PlottedTrack plotted;
       plotted.track = &track;
       plotted.title = track.name() + (clips.size() > 1 ? " in " + shown.clip->name : "");
-<<<<<<< HEAD
-      add_curve(plotted, shown, corner_times(stage, shown, track, result.from, result.until), result.from,
-                result.until);
-=======
       add_curve(plotted, shown, passed_keys(stage, shown, track, result.from, result.until), result.from, result.until);
->>>>>>> refs/heads/viewer
       add_events(plotted, shown, recording);
       if (recording) add_recorded(plotted, *recording);
       result.tracks.push_back(std::move(plotted));

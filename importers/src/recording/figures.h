@@ -42,11 +42,7 @@ struct Figure {
 };
 
 /// Bodies that are not planes, meshes without skin as their boxes, and one stick figure for each skin and for each tree
-<<<<<<< HEAD
 /// of other nodes without bodies and meshes.
-=======
-/// of nodes without bodies and meshes.
->>>>>>> refs/heads/viewer
 [[nodiscard]] std::vector<Figure> figures(const Recording& recording, const StageDescription& stage,
                                           const SideView& view);
 

@@ -50,24 +50,13 @@ struct Drawing {
   }
 };
 
-<<<<<<< HEAD
-std::string place_text(const Vec2& place) {
-  return short_text(place.x(), 1) + " " + short_text(place.y(), 1);
-}
-
-=======
->>>>>>> refs/heads/viewer
 /// The path of one frame of a figure; the same commands in each frame, so that they can be mixed.
 std::string path_text(const Drawing& drawing, const Figure& figure, const std::vector<Vec2>& points) {
   static constexpr int box_order[] = {0, 1, 3, 2, 0, 4, 5, 1, 5, 7, 3, 7, 6, 2, 6, 4};
   std::string text;
   if (figure.kind == Figure::Kind::box) {
     for (const int corner : box_order)
-<<<<<<< HEAD
-      text += (text.empty() ? "M" : "L") + place_text(points[static_cast<std::size_t>(corner)]);
-=======
       text += (text.empty() ? "M" : "L") + drawing.place(points[static_cast<std::size_t>(corner)]);
->>>>>>> refs/heads/viewer
     return text;
   }
   for (std::size_t i = 0; i < points.size(); ++i) text += (i % 2 == 0 ? "M" : "L") + drawing.place(points[i]);
@@ -132,15 +121,9 @@ void draw_ground(Drawing& drawing, const StageDescription& stage) {
     // Large enough to reach beyond every corner of the picture.
     const double far = 4 * (view.width + view.height);
     const Vec2 a = on - far * along, b = on + far * along, c = b - far * out, d = a - far * out;
-<<<<<<< HEAD
-    drawing.svg.leaf(
-        "path", {{"class", "ground"},
-                 {"d", "M" + place_text(a) + "L" + place_text(b) + "L" + place_text(c) + "L" + place_text(d) + "Z"}});
-=======
     drawing.svg.leaf("path", {{"class", "ground"},
                               {"d", "M" + drawing.place(a) + "L" + drawing.place(b) + "L" + drawing.place(c) + "L" +
                                         drawing.place(d) + "Z"}});
->>>>>>> refs/heads/viewer
   }
 }
 
