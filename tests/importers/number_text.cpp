@@ -31,7 +31,7 @@ TEST_CASE("the text of a number reads back to the same bits") {
 TEST_CASE("the text of a number is the shortest") {
   CHECK(number_text(0.1) == "0.1");
   CHECK(number_text(0.1 + 0.2) == "0.30000000000000004");
-  CHECK(number_text(-0.0) == "-0");
+  CHECK(number_text(-0.0) == "-0.0");
   CHECK(number_text(1e300) == "1e+300");
 }
 
