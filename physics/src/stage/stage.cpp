@@ -1,31 +1,13 @@
 #include "state.h"
 
+#include <tweenfall/anim/nearest_name.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
 namespace tweenfall {
-
-namespace {
-
-/// Letters to insert, delete or change to make one word the other. Source: Levenshtein 1966.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row.back();
-}
-
-}  // namespace
 
 /// The world is simulated to the first step boundary at or after `now`. `before` is the boundary left of it, and what
 /// the caller reads lies between the two. A change by the caller goes into `commands` and the step is taken again from
@@ -192,15 +174,10 @@ double Stage::step() const noexcept {
 NodeId Stage::node(std::string_view name) const {
   const StageState& state = implementation_->current();
   if (const auto found = state.nodes->find(name); found && state.present[*found]) return *found;
-  std::string nearest;
-  std::size_t least = name.size() + 1;
-  for (NodeId i = 0; i < state.nodes->size(); ++i) {
-    const std::size_t distance = edit_distance(name, (*state.nodes)[i].name);
-    if (state.present[i] && distance < least) {
-      least = distance;
-      nearest = (*state.nodes)[i].name;
-    }
-  }
+  std::vector<std::string> names;
+  for (NodeId i = 0; i < state.nodes->size(); ++i)
+    if (state.present[i]) names.push_back((*state.nodes)[i].name);
+  const std::string nearest = nearest_name(name, names);
   throw std::invalid_argument("there is no node \"" + std::string(name) + "\"" +
                               (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
 }

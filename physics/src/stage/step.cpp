@@ -7,8 +7,6 @@ namespace tweenfall {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// More splits than this in one step are handled together at its end.
 constexpr std::size_t most_splits = 256;
 /// Freeing one struck body may strike the next; this many passes are made over them.

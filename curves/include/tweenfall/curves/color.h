@@ -9,10 +9,29 @@
 
 namespace tweenfall {
 
-enum class ColorSpace { linear, srgb, oklab };
+/// The spaces and their coordinates. Colors outside the gamut keep their coordinates: nothing is clipped.
+enum class ColorSpace {
+  linear,  ///< red, green, blue, proportional to light
+  srgb,    ///< red, green, blue as in files, 0 to 1; odd below zero
+  oklab,   ///< lightness 0 to 1, a, b. Source: Ottosson, "A perceptual color space for image processing", 2020
+  oklch,   ///< lightness, chroma, hue in radians
+  hsl,     ///< hue in radians, saturation, lightness 0 to 1
+  lab,     ///< CIE lightness 0 to 100, a, b, for white D50. Source: W3C, "CSS Color Module Level 4", 10
+  lch,     ///< lightness 0 to 100, chroma, hue in radians
+};
+
+/// Which way around the hue goes between two colors. Source: W3C, "CSS Color Module Level 4", 12.4.
+enum class HueRule { shorter, longer, increasing, decreasing };
+
+/// Index of the coordinate that is a hue, or -1. It is an angle: not premultiplied, and free where a color is gray.
+[[nodiscard]] int hue_index(ColorSpace space) noexcept;
 
 /// Coordinates of a color in `space`, alpha last, not premultiplied.
+/// The hue of a gray is 0.
 [[nodiscard]] Vec4 to_space(const Color& color, ColorSpace space) noexcept;
+
+/// The same with first and second derivatives carried along.
+[[nodiscard]] Sample<Vec4> to_space(const Sample<Color>& color, ColorSpace space) noexcept;
 
 /// Back to a linear color, with first and second derivatives of the coordinates carried along.
 [[nodiscard]] Sample<Color> from_space(const Sample<Vec4>& coordinates, ColorSpace space) noexcept;

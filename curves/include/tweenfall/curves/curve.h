@@ -30,6 +30,8 @@ enum class Outside {
   pingpong,       ///< the curve backwards, then forwards, ...
 };
 
+struct CurveAccess;
+
 template <class T>
 class Curve {
  public:
@@ -54,7 +56,8 @@ class Curve {
   [[nodiscard]] Outside before() const noexcept;
   [[nodiscard]] Outside after() const noexcept;
 
-  /// Knots in order, s; empty for a constant or a formula.
+  /// Knots in order, s; empty for a constant or a formula. A curve seen through a conversion (a color mixed in
+  /// another space, a logarithmic scale, angles as a rotation) has the knots of the curve it is made of.
   [[nodiscard]] std::span<const double> knots() const noexcept;
 
   /// Value, rate and acceleration at any finite time.
@@ -62,11 +65,13 @@ class Curve {
   [[nodiscard]] T value(double time, Side side = Side::out) const noexcept { return sample(time, side).value; }
   [[nodiscard]] Rate<T> rate(double time, Side side = Side::out) const noexcept { return sample(time, side).rate; }
 
-  /// The spans, as built; empty for a constant or a formula.
+  /// The spans, as built; empty for a constant, a formula or a curve seen through a conversion.
   [[nodiscard]] std::vector<typename SpanOf<T>::type> spans() const;
 
  private:
+  friend struct CurveAccess;
   struct Data;
+  explicit Curve(std::shared_ptr<const Data> data);
   std::shared_ptr<const Data> data_;
 };
 

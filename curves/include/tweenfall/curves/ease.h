@@ -5,6 +5,7 @@
 
 #include <tweenfall/curves/span.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,10 +13,18 @@
 
 namespace tweenfall {
 
+struct SlopeProblem;
+
 class Ease {
  public:
-  /// Rules that make slopes from neighbors.
-  enum class Rule { hold, linear, smooth, smooth_clamped, shape };
+  /// What a key's ease means to the builder: no motion, a straight way, slopes from the neighboring keys
+  /// (`smooth`, `smooth_clamped`, and `slopes` for all others), or a shape.
+  enum class Rule { hold, linear, smooth, smooth_clamped, slopes, shape };
+
+  /// Makes slopes from neighboring keys; the problem is private to the library.
+  using SlopeRule = void (*)(const SlopeProblem& problem);
+  /// Makes a shape for a span of `duration` seconds, where it depends on that.
+  using ShapeRule = std::vector<Span<double>> (*)(double duration, const std::array<double, 4>& parameters);
 
   /// One piece of a shape: on [from, to] of the span (fractions 0 to 1) the progress is the
   /// polynomial `coefficients` of the local position, through `warp`.
@@ -27,6 +36,24 @@ class Ease {
   [[nodiscard]] static Ease smooth();
   /// As smooth, but zero at a local extreme and limited so that no span leaves its two values, per component.
   [[nodiscard]] static Ease smooth_clamped();
+  /// Monotone between monotone data, per component. Source: Fritsch and Butland, 1984 ("pchip").
+  [[nodiscard]] static Ease monotone();
+  /// Continuous acceleration over a run of such keys, zero at its ends. For rotations this is exact for the
+  /// rotation vectors of the spans, hence only nearly so for the angular acceleration.
+  [[nodiscard]] static Ease natural();
+  /// Catmull-Rom with the keys' own times: slope = the secants, each weighted by the other's duration.
+  [[nodiscard]] static Ease catmull_rom();
+  /// Catmull-Rom shaped by the square roots of the distances, at the keys' own times: no cusps or loops in a path.
+  [[nodiscard]] static Ease centripetal();
+  /// Kochanek and Bartels, 1984: tension, continuity and bias at this key; 0, 0, 0 is catmull_rom. Any finite numbers.
+  [[nodiscard]] static Ease tcb(double tension, double continuity, double bias);
+  /// An exact damped spring let go at this key towards the next: undamped period in seconds, damping ratio.
+  /// What is left of its motion at the next key is taken away smoothly over the span.
+  /// @throws std::invalid_argument unless period > 0 and damping_ratio >= 0.
+  [[nodiscard]] static Ease spring(double period, double damping_ratio);
+  /// CSS cubic-bezier. @throws std::invalid_argument unless x1 and x2 lie in 0 to 1.
+  [[nodiscard]] static Ease bezier(double x1, double y1, double x2, double y2);
+
   /// A progress curve over the unit interval, in pieces; (0, 0) to (1, 1) unless it means to jump.
   [[nodiscard]] static Ease shape(std::string name, std::vector<Piece> pieces);
 
@@ -39,16 +66,26 @@ class Ease {
 
   [[nodiscard]] Rule rule() const noexcept { return rule_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }  ///< as `named` would read it back
+  /// The pieces of a shape over the unit interval; for a spring those of a span of one second.
   [[nodiscard]] const std::vector<Piece>& pieces() const noexcept { return pieces_; }
+  /// The pieces for a span of `duration` seconds.
+  [[nodiscard]] std::vector<Piece> pieces_for(double duration) const;
+  [[nodiscard]] SlopeRule slope_rule() const noexcept { return slope_rule_; }
+  [[nodiscard]] const std::array<double, 4>& parameters() const noexcept { return parameters_; }
+
+  bool operator==(const Ease& other) const noexcept { return name_ == other.name_; }
 
   /// Progress at `u` in 0 to 1 of a shape, with derivatives in u. Precondition: rule() == Rule::shape.
   [[nodiscard]] Sample<double> progress(double u, Side side = Side::out) const noexcept;
 
  private:
-  Ease(Rule rule, std::string name, std::vector<Piece> pieces);
+  Ease(Rule rule, std::string name, SlopeRule slope_rule = nullptr, const std::array<double, 4>& parameters = {});
 
   Rule rule_;
   std::string name_;
+  SlopeRule slope_rule_ = nullptr;
+  ShapeRule shape_rule_ = nullptr;
+  std::array<double, 4> parameters_{};
   std::vector<Piece> pieces_;
 };
 

@@ -20,9 +20,9 @@ namespace tweenfall {
 template <class T>
 struct Tangent {
   enum class Kind { automatic, flat, given };
-  Kind kind = Kind::automatic;  ///< automatic: as the rule `smooth` would choose
-  Rate<T> rate{};               ///< U/s; read when given. For rotations: angular velocity, rad/s
-  double weight = 1.0 / 3.0;    ///< the handle's share of the span, > 0 to 1; 1/3 is the plain Hermite cubic
+  Kind kind = Kind::automatic;     ///< automatic: as the rule `smooth` would choose
+  Rate<T> rate = zero<Rate<T>>();  ///< U/s; read when given. For rotations: angular velocity, rad/s
+  double weight = 1.0 / 3.0;       ///< the handle's share of the span, > 0 to 1; 1/3 is the plain Hermite cubic
 };
 
 template <class T>
@@ -46,6 +46,8 @@ struct KeyOptions {
   Ends ends = Ends::secant;
   /// Colors only: the space in which values are mixed.
   ColorSpace space = ColorSpace::oklab;
+  /// Colors only, in spaces with a hue: which way around it goes.
+  HueRule hue = HueRule::shorter;
   /// Scales and ratios: interpolate the logarithm, so that 1 to 4 passes 2 half way. Values must be > 0.
   bool logarithmic = false;
   /// Rotations: take the long way around between keys instead of the short one.

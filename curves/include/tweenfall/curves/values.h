@@ -14,6 +14,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <type_traits>
+
 namespace tweenfall {
 
 using Vec2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
@@ -47,6 +49,15 @@ struct RateOf<Color> {
 };
 template <class T>
 using Rate = typename RateOf<T>::type;
+
+/// The zero of numbers and of vectors, which a default-constructed vector is not.
+template <class T>
+[[nodiscard]] T zero() noexcept {
+  if constexpr (std::is_arithmetic_v<T>)
+    return T{0};
+  else
+    return T::Zero();
+}
 
 /// What evaluation returns.
 template <class T>

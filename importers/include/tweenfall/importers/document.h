@@ -23,10 +23,11 @@ struct Problem {
   std::string file;      ///< as given
   std::size_t line = 0;  ///< from 1; 0 when the whole file is meant
   std::size_t column = 0;
-  std::string pointer;     ///< JSON pointer, "/clips/drop/..."
-  std::string message;     ///< what is wrong, and the nearest valid name where there is one
-  std::string excerpt;     ///< the line of the file
-  std::size_t length = 1;  ///< how many characters of it are meant
+  std::string pointer;             ///< JSON pointer, "/clips/drop/..."
+  std::string message;             ///< what is wrong, and the nearest valid name where there is one
+  std::string excerpt;             ///< the line of the file, or of a very long one what stands around the place
+  std::size_t excerpt_column = 1;  ///< column of the excerpt's first character
+  std::size_t length = 1;          ///< how many bytes are meant
 
   /// "file:line:column: error: message (at pointer)", then the line and a caret, as compilers print it.
   [[nodiscard]] std::string text() const;

@@ -2,8 +2,10 @@
 
 /// Models: meshes, nodes, skins and clips from glTF, FBX, BVH, Collada and OBJ files.
 ///
-/// glTF keys come from the file itself, so that STEP, LINEAR and CUBICSPLINE keep their kind and
-/// tangents; everything else comes through assimp, with its known faults repaired or stated.
+/// glTF and BVH are read from the file itself, so that STEP, LINEAR and CUBICSPLINE keys keep their
+/// kind and tangents and frames their exact times. FBX, Collada and OBJ come through assimp, in the
+/// file's own units; their keys are joined by straight lines, and FBX tangents, holds and layers are
+/// lost. A malformed file can end assimp's process, so a child process tries each such file first.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/hierarchy.h>
@@ -26,7 +28,8 @@ struct Model {
   std::vector<std::string> repairs;  ///< what was wrong with the file and how it was read all the same, a sentence each
 };
 
-/// A file that could not be loaded; `what()` names it and says why, one problem a line.
+/// A file that could not be loaded; `what()` names it and says why, one problem a line, with the line and column in a
+/// glTF file that is text.
 class ModelError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -35,9 +38,11 @@ class ModelError : public std::runtime_error {
 /// @throws ModelError; nothing else, whatever the file holds.
 [[nodiscard]] Model load_model(const std::filesystem::path& file);
 
-/// Writes nodes, clips, meshes and skins as binary glTF 2.0. Cubic tracks stay cubic; others are written as what they
-/// are where glTF has the form, else as linear keys `fps` a second.
-/// @throws std::runtime_error when the file cannot be written; it is written whole or not at all.
+/// Writes nodes, clips, meshes and skins as binary glTF 2.0. Step, linear and cubic tracks stay what they are where
+/// glTF has the form, others become linear keys `fps` a second. Left out, since glTF has no form for them: tracks of
+/// colors and of the user's properties, events, loops, and meshes without triangles.
+/// @throws std::runtime_error when the file cannot be written, a clip has no end, or a number exceeds 32-bit floats;
+///         the file is written whole or not at all.
 void save_glb(const Model& model, const std::filesystem::path& file, double fps = 60);
 
 }  // namespace tweenfall

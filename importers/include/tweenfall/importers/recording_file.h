@@ -9,14 +9,27 @@
 
 namespace tweenfall {
 
+// All of these throw std::invalid_argument naming the node and the time when the recording does not hold together:
+// lists of different lengths, numbers that are not finite, times that do not increase, nodes that are not there.
+
+/// One object: "times", "nodes" (position, rotation x y z w, velocity and angular velocity at the center of mass,
+/// owner), "handoffs", "events". Numbers have the fewest digits that read back to the same bits; minus zero is -0.0.
 [[nodiscard]] std::string recording_json(const Recording& recording);
+
+/// One row for each time and node, times outermost, under a header row. Columns: time (s), node, owner (keyed, driven,
+/// free), position_x to _z (m, of the node's origin), rotation_x to _w, velocity_x to _z (m/s, at the center of mass),
+/// angular_velocity_x to _z (rad/s); world axes. Quoting as RFC 4180.
 [[nodiscard]] std::string recording_csv(const Recording& recording);
 
-/// A moving picture of the recording as animated SVG, seen from the side.
+/// A moving picture of the recording as animated SVG (SMIL, no script), seen from the side: bodies as outlines in the
+/// color of their owner, skeletons as stick figures, trails, and a time bar with the hand-offs. Keyframes are within
+/// 0.4 px of the recording; where that makes more than 280 kB, the error is doubled until it fits, 25.6 px at most. A
+/// comment in the file states the error.
 [[nodiscard]] std::string recording_svg(const Recording& recording, const StageDescription& stage);
 
 /// One self-contained page: 3-D view, play, scrub, step back, timeline with key lanes, curves of the chosen node,
-/// owners in color.
+/// owners in color. A program can drive it through `window.tweenfall`; "#t=0.8&node=ball" opens it at that time.
+/// @throws std::runtime_error when the library was built without three.js.
 [[nodiscard]] std::string recording_html(const Recording& recording, const StageDescription& stage);
 
 /// By the ending of `file`: .json, .csv, .svg, .html or .glb. Written whole or not at all.

@@ -34,7 +34,8 @@ struct Spring {
   double damping = 0;      ///< N s/m, along the spring
 };
 
-/// A force field: force in N on a body, from its mass and the motion of its center of mass.
+/// A force field: force in N on a body, from its mass and the motion of its center of mass. A world with a field keeps
+/// its bodies awake, for a field may change.
 using Field = std::function<Vec3(double mass, const Vec3& position, const Vec3& velocity, double time)>;
 
 using Force = std::variant<Drag, Spring, Field>;

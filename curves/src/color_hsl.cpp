@@ -1,0 +1,54 @@
+#include <algorithm>
+
+#include "color_spaces.h"
+
+namespace tweenfall::color_spaces {
+namespace {
+
+constexpr double sixth = 0x1.921fb54442d18p+2 / 6;
+
+}  // namespace
+
+// Source: W3C, "CSS Color Module Level 4", 7.
+Triple srgb_to_hsl(const Triple& c) noexcept {
+  std::size_t high = 0, low = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (c[i].v > c[high].v) high = i;
+    if (c[i].v < c[low].v) low = i;
+  }
+  const Jet lightness = (c[high] + c[low]) * 0.5;
+  const Jet range = c[high] - c[low];
+  if (!(range.v > 1e-9)) return {constant(0), constant(0), lightness};
+  const Jet room = lightness.v < 0.5 ? lightness * 2 : (lightness + -1.0) * -2.0;
+  const Jet saturation = room.v == 0 ? constant(0) : range * reciprocal(room);
+  const Jet within = (c[(high + 1) % 3] - c[(high + 2) % 3]) * reciprocal(range);
+  Jet hue = (within + 2.0 * static_cast<double>(high)) * sixth;
+  if (hue.v < 0) hue.v += 6 * sixth;
+  return {hue, saturation, lightness};
+}
+
+Triple hsl_to_srgb(const Triple& hsl) noexcept {
+  const Jet& lightness = hsl[2];
+  const Jet amount = hsl[1] * (lightness.v < 0.5 ? lightness : (lightness + -1.0) * -1.0);
+  const Jet sextant = hsl[0] * (1 / sixth);
+  Triple result;
+  constexpr double phases[3] = {0, 4, 2};
+  for (std::size_t i = 0; i < 3; ++i) {
+    // A trapezoid around the circle: up for one sixth, level for two, down for one, low for two.
+    Jet k = sextant + phases[i];
+    k.v -= 6 * std::floor(k.v / 6);
+    Jet wave = constant(-1);
+    if (k.v < 1)
+      wave = constant(1);
+    else if (k.v < 2)
+      wave = (k + -2.0) * -1.0 * 2 + -1.0;
+    else if (k.v >= 4 && k.v < 5)
+      wave = (k + -4.0) * 2 + -1.0;
+    else if (k.v >= 5)
+      wave = constant(1);
+    result[i] = lightness + amount * wave;
+  }
+  return result;
+}
+
+}  // namespace tweenfall::color_spaces

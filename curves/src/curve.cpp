@@ -1,0 +1,271 @@
+#include <tweenfall/curves/curve.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "curve_data.h"
+#include "outside.h"
+#include "polynomial.h"
+#include "rotation_span.h"
+
+namespace tweenfall {
+namespace {
+
+[[noreturn]] void refuse(std::size_t index, double start, const std::string& what) {
+  throw std::invalid_argument("span " + std::to_string(index) + " (at " + text_of(start) + " s) " + what);
+}
+
+template <class SpanType>
+void check(std::span<const SpanType> spans) {
+  if (spans.empty()) throw std::invalid_argument("a curve needs at least one span; none were given");
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const SpanType& s = spans[i];
+    if (!std::isfinite(s.start)) refuse(i, s.start, "must start at a finite time");
+    if (!(s.duration > 0) || !std::isfinite(s.duration))
+      refuse(i, s.start, "must have a finite duration > 0 s; it is " + text_of(s.duration));
+    if (s.degree < 0 || s.degree > max_degree)
+      refuse(i, s.start,
+             "must have a degree from 0 to " + std::to_string(max_degree) + "; it is " + std::to_string(s.degree));
+    for (int k = 0; k <= s.degree; ++k)
+      if (!all_finite(s.coefficients[static_cast<std::size_t>(k)]))
+        refuse(i, s.start,
+               "has a non-finite number in coefficient " + std::to_string(k) + ": " +
+                   text_of(s.coefficients[static_cast<std::size_t>(k)]));
+    if (!all_finite(s.end)) refuse(i, s.start, "has a non-finite end value " + text_of(s.end));
+    if (i == 0) continue;
+    const double expected = spans[i - 1].start + spans[i - 1].duration;
+    // Durations are differences of times, so the sum may be off by the rounding of both.
+    const double slack = 4e-16 * (std::abs(s.start) + std::abs(spans[i - 1].start));
+    if (!(s.start > spans[i - 1].start) || std::abs(s.start - expected) > slack)
+      refuse(i, s.start, "must start where the one before ends, at " + text_of(expected) + " s");
+  }
+}
+
+template <class T>
+Sample<T> with_rates(const T& value, const T& first, const T& second, double inverse) noexcept {
+  return {value, first * inverse, second * (inverse * inverse)};
+}
+
+// Derivatives in the polynomial's own variable, to derivatives in the position u of the span.
+template <class V>
+void through(const Warp::Result& w, Polynomial<V>& p) noexcept {
+  p.second = p.second * (w.ds * w.ds) + p.first * w.dds;
+  p.first = p.first * w.ds;
+}
+
+template <class T, class Data>
+Sample<T> sample_segment(const Data& d, std::size_t i, double u) noexcept {
+  const Segment& s = d.segments[i];
+  Polynomial<typename Stored<T>::type> p;
+  if (s.warped) {
+    const Warp& warp = d.warps[i];
+    const Warp::Result w = warp.function(u, warp.parameters);
+    p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
+    through(w, p);
+  } else {
+    p = evaluate_polynomial(&d.pool[s.first], s.degree, u);
+  }
+  if constexpr (std::is_same_v<T, Quat>) {
+    Sample<Quat> result = s.normalized ? sample_normalized(p, d.ends[i]) : sample_exponential(d.starts[i], p);
+    result.rate *= s.inverse;
+    result.acceleration *= s.inverse * s.inverse;
+    return result;
+  } else if constexpr (std::is_same_v<T, Color>) {
+    const Sample<Vec4> v = with_rates(p.value, p.first, p.second, s.inverse);
+    return {Color{v.value}, v.rate, v.acceleration};
+  } else {
+    return with_rates<T>(p.value, p.first, p.second, s.inverse);
+  }
+}
+
+// From the first knot to the last.
+template <class T, class Data>
+Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
+  if (d.segments.empty()) return d.formula(time, side);
+  std::size_t i = time < d.end ? d.locate(time) : d.segments.size();
+  const bool at_knot = i == d.segments.size() || time == d.knots[i];
+  if (at_knot && i > 0 && (side == Side::in || i == d.segments.size())) {
+    Sample<T> arrival = sample_segment<T>(d, i - 1, 1);
+    arrival.value = d.ends[i - 1];
+    return arrival;
+  }
+  const Segment& s = d.segments[i];
+  if (!at_knot) return sample_segment<T>(d, i, std::min((time - s.start) / s.duration, 1.0));
+  return sample_segment<T>(d, i, 0);
+}
+
+}  // namespace
+
+template <class T>
+Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final) {
+  check(spans);
+  auto data = std::make_shared<typename Curve<T>::Data>();
+  typename Curve<T>::Data& d = *data;
+  d.start = spans.front().start;
+  d.end = end;
+  if (final) d.final.push_back(*final);
+  if (!std::isfinite(end - d.start))
+    throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
+  d.knots.reserve(spans.size() + 1);
+  for (const auto& s : spans) d.knots.push_back(s.start);
+  d.knots.push_back(end);
+  for (const auto& s : spans)
+    if (s.warp.function) {
+      d.warps.resize(spans.size());
+      break;
+    }
+  d.segments.reserve(spans.size());
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const auto& s = spans[i];
+    const double duration = d.knots[i + 1] - d.knots[i];
+    Segment segment{s.start,
+                    duration,
+                    1 / duration,
+                    static_cast<std::uint32_t>(d.pool.size()),
+                    static_cast<std::int16_t>(s.degree),
+                    false,
+                    s.warp.function != nullptr};
+    for (int k = 0; k <= s.degree; ++k) {
+      const auto& c = s.coefficients[static_cast<std::size_t>(k)];
+      if constexpr (std::is_same_v<T, Color>)
+        d.pool.push_back(c.rgba);
+      else
+        d.pool.push_back(c);
+    }
+    if constexpr (std::is_same_v<T, Quat>) {
+      segment.normalized = s.form == RotationSpan::Form::normalized;
+      d.starts.push_back(s.from);
+    }
+    d.ends.push_back(s.end);
+    d.segments.push_back(segment);
+    if (segment.warped) d.warps[i] = s.warp;
+  }
+  if (spans.size() > 1) {
+    const std::size_t count = spans.size();
+    d.bucket_scale = static_cast<double>(count) / (d.end - d.start);
+    d.buckets.assign(count + 1, 0);
+    for (std::size_t i = 0; i < count; ++i) ++d.buckets[d.bucket(d.knots[i]) + 1];
+    for (std::size_t b = 1; b <= count; ++b) d.buckets[b] += d.buckets[b - 1];
+  }
+  return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
+}
+
+template <class T>
+Curve<T>::Curve(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+
+template <class T>
+Curve<T>::Curve(const T& value) {
+  if (!all_finite(value)) throw std::invalid_argument("a constant must be finite; it is " + text_of(value));
+  auto data = std::make_shared<Data>();
+  data->formula = [value](double, Side) { return at_rest<T>(value); };
+  data_ = std::move(data);
+}
+
+template <class T>
+Curve<T>::Curve(std::span<const typename SpanOf<T>::type> spans)
+    : data_(CurveAccess::from_spans<T>(spans, spans.empty() ? 0 : spans.back().start + spans.back().duration).data_) {}
+
+template <class T>
+Curve<T>::Curve(Formula formula, double start, double end) {
+  if (!formula) throw std::invalid_argument("a curve needs a formula; an empty function was given");
+  if (!(start <= end))
+    throw std::invalid_argument("a formula's end, " + text_of(end) + " s, must not lie before its start, " +
+                                text_of(start) + " s");
+  auto data = std::make_shared<Data>();
+  data->formula = std::move(formula);
+  data->start = start;
+  data->end = end;
+  data_ = std::move(data);
+}
+
+template <class T>
+Curve<T> Curve<T>::with_outside(Outside before, Outside after) const {
+  if (data_->rebuilt) return data_->rebuilt(before, after);
+  auto data = std::make_shared<Data>(*data_);
+  data->before = before;
+  data->after = after;
+  return Curve(std::shared_ptr<const Data>(std::move(data)));
+}
+
+template <class T>
+double Curve<T>::start() const noexcept {
+  return data_->start;
+}
+
+template <class T>
+double Curve<T>::end() const noexcept {
+  return data_->end;
+}
+
+template <class T>
+Outside Curve<T>::before() const noexcept {
+  return data_->before;
+}
+
+template <class T>
+Outside Curve<T>::after() const noexcept {
+  return data_->after;
+}
+
+template <class T>
+std::span<const double> Curve<T>::knots() const noexcept {
+  return data_->knots;
+}
+
+template <class T>
+Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
+  const Data& d = *data_;
+  if (d.rebuilt) return d.formula(time, side);
+  if ((time > d.start || (time == d.start && side == Side::out)) &&
+      (time < d.end || (time == d.end && side == Side::in)))
+    return sample_inside<T>(d, time, side);
+  const bool early = time < d.start || (time == d.start && side == Side::in);
+  if (!early && !d.final.empty() && (d.after == Outside::hold || d.after == Outside::linear)) {
+    Sample<T> leaving = sample_inside<T>(d, d.end, Side::in);
+    leaving.value = d.final[0];
+    return d.after == Outside::hold ? at_rest<T>(leaving.value) : straight_on(leaving, time - d.end);
+  }
+  return sample_outside<T>(early ? d.before : d.after, d.start, d.end, time, side,
+                           [&d](double t, Side s) { return sample_inside<T>(d, t, s); });
+}
+
+template <class T>
+std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
+  const Data& d = *data_;
+  std::vector<typename SpanOf<T>::type> result;
+  result.reserve(d.segments.size());
+  for (std::size_t i = 0; i < d.segments.size(); ++i) {
+    const Segment& s = d.segments[i];
+    typename SpanOf<T>::type span{};
+    span.start = s.start;
+    span.duration = s.duration;
+    span.degree = s.degree;
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(s.degree); ++k) {
+      if constexpr (std::is_same_v<T, Color>)
+        span.coefficients[k].rgba = d.pool[s.first + k];
+      else
+        span.coefficients[k] = d.pool[s.first + k];
+    }
+    if constexpr (std::is_same_v<T, Quat>) {
+      span.form = s.normalized ? RotationSpan::Form::normalized : RotationSpan::Form::exponential;
+      span.from = d.starts[i];
+    }
+    span.end = d.ends[i];
+    if (s.warped) span.warp = d.warps[i];
+    result.push_back(span);
+  }
+  return result;
+}
+
+#define TWEENFALL_CURVE(T) \
+  template class Curve<T>; \
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*);
+TWEENFALL_CURVE(double)
+TWEENFALL_CURVE(Vec2)
+TWEENFALL_CURVE(Vec3)
+TWEENFALL_CURVE(Vec4)
+TWEENFALL_CURVE(Color)
+TWEENFALL_CURVE(Quat)
+#undef TWEENFALL_CURVE
+
+}  // namespace tweenfall

@@ -1,0 +1,108 @@
+#pragma once
+
+// What a curve stores: spans laid out for reading in one sweep, or a formula.
+
+#include <tweenfall/curves/curve.h>
+
+#include <cstdint>
+
+#include "components.h"
+
+namespace tweenfall {
+
+// Coefficients are kept in this type.
+template <class T>
+struct Stored {
+  using type = T;
+};
+template <>
+struct Stored<Color> {
+  using type = Vec4;
+};
+template <>
+struct Stored<Quat> {
+  using type = Vec4;
+};
+
+struct Segment {
+  double start, duration, inverse;
+  std::uint32_t first;  // index of coefficient 0 in the pool
+  std::int16_t degree;
+  bool normalized;  // rotations only
+  bool warped;
+};
+
+template <class T>
+struct Curve<T>::Data {
+  Outside before = Outside::hold, after = Outside::hold;
+  double start = 0, end = 0;
+
+  std::vector<double> knots;
+  std::vector<Segment> segments;
+  std::vector<typename Stored<T>::type> pool;
+  std::vector<T> ends;      // values on arrival, one a segment
+  std::vector<T> starts;    // rotations only: what the exponential multiplies
+  std::vector<T> final;     // one value: what leaves the last knot, where that is not what arrives
+  std::vector<Warp> warps;  // empty, or one a segment
+
+  // Where to look for a time: entry b counts the knots in buckets below b, buckets being equal shares of the duration.
+  std::vector<std::uint32_t> buckets;
+  double bucket_scale = 0;
+
+  Formula formula;  // empty where there are spans
+  // Set where the formula answers at every time by itself and its own curve must be told of new rules.
+  std::function<Curve(Outside, Outside)> rebuilt;
+
+  [[nodiscard]] std::size_t bucket(double time) const noexcept {
+    const double b = (time - start) * bucket_scale;
+    const std::size_t last = buckets.size() - 2;
+    return b < static_cast<double>(last) ? static_cast<std::size_t>(b) : last;
+  }
+
+  // Index of the segment that leaves the last knot at or before `time`, for start <= time < end.
+  [[nodiscard]] std::size_t locate(double time) const noexcept {
+    if (segments.size() == 1) return 0;
+    const std::size_t b = bucket(time);
+    std::size_t low = buckets[b], high = buckets[b + 1];  // knots below the bucket, and up to its end
+    while (high - low > 4) {
+      const std::size_t middle = (low + high) / 2;
+      (knots[middle] <= time ? low : high) = knots[middle] <= time ? middle + 1 : middle;
+    }
+    while (low < high && knots[low] <= time) ++low;
+    return low - 1;
+  }
+};
+
+struct CurveAccess {
+  /// `value` at all times, with one knot at `time`.
+  template <class T>
+  static Curve<T> one_key(const T& value, double time) {
+    auto data = std::make_shared<typename Curve<T>::Data>();
+    data->formula = [value](double, Side) { return Sample<T>{value, zero_rate<Rate<T>>(), zero_rate<Rate<T>>()}; };
+    data->start = data->end = time;
+    data->knots = {time};
+    return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
+  }
+
+  /// A curve of checked spans with its last knot given to the bit.
+  template <class T>
+  static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final = nullptr);
+
+  /// A curve that another one is made into: it answers at all times, `rebuilt` makes it anew with other rules outside.
+  template <class T>
+  static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end,
+                               std::span<const double> knots, Outside before, Outside after,
+                               std::function<Curve<T>(Outside, Outside)> rebuilt) {
+    auto data = std::make_shared<typename Curve<T>::Data>();
+    data->formula = std::move(formula);
+    data->start = start;
+    data->end = end;
+    data->knots.assign(knots.begin(), knots.end());
+    data->before = before;
+    data->after = after;
+    data->rebuilt = std::move(rebuilt);
+    return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
+  }
+};
+
+}  // namespace tweenfall

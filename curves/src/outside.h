@@ -1,0 +1,81 @@
+#pragma once
+
+// How a curve goes on beyond its knots, for every type of value.
+
+#include <tweenfall/curves/curve.h>
+#include <tweenfall/curves/rotation.h>
+
+#include <cmath>
+
+#include "components.h"
+
+namespace tweenfall {
+
+template <class T>
+Sample<T> at_rest(const T& value) noexcept {
+  return {value, zero_rate<Rate<T>>(), zero_rate<Rate<T>>()};
+}
+
+// `from`, continued for `seconds` at its rate.
+template <class T>
+Sample<T> straight_on(const Sample<T>& from, double seconds) noexcept {
+  if constexpr (std::is_same_v<T, Quat>) {
+    const Quat turn = exp_map(seconds * from.rate);
+    return {turn * from.value, from.rate, Vec3::Zero()};
+  } else if constexpr (std::is_same_v<T, Color>) {
+    return {Color{from.value.rgba + seconds * from.rate}, from.rate, Vec4::Zero()};
+  } else {
+    return {from.value + seconds * from.rate, from.rate, zero_rate<Rate<T>>()};
+  }
+}
+
+// `sample` of a later play of a curve that leads from `start` to `end`, each play starting where the last ended.
+template <class T>
+Sample<T> offset_by_plays(const Sample<T>& sample, const T& start, const T& end, double plays) noexcept {
+  if constexpr (std::is_same_v<T, Quat>) {
+    const Quat turn = exp_map(plays * log_map(end * start.conjugate()));
+    return {turn * sample.value, turn * sample.rate, turn * sample.acceleration};
+  } else if constexpr (std::is_same_v<T, Color>) {
+    return {Color{sample.value.rgba + plays * (end.rgba - start.rgba)}, sample.rate, sample.acceleration};
+  } else {
+    return {sample.value + plays * (end - start), sample.rate, sample.acceleration};
+  }
+}
+
+// Beyond the ends by `rule`; `inside(time, side)` answers from start to end.
+template <class T, class Inside>
+Sample<T> sample_outside(Outside rule, double start, double end, double time, Side side,
+                         const Inside& inside) noexcept {
+  const bool early = time < start || (time == start && side == Side::in);
+  const double duration = end - start;
+  if (rule == Outside::hold || !(duration > 0))
+    return at_rest<T>(early ? inside(start, Side::out).value : inside(end, Side::in).value);
+  if (rule == Outside::linear)
+    return early ? straight_on(inside(start, Side::out), time - start) : straight_on(inside(end, Side::in), time - end);
+
+  // time = start + plays * duration + local, 0 <= local < duration; the remainder is exact.
+  double local = std::fmod(time - start, duration);
+  if (local < 0) local += duration;
+  double plays = std::floor((time - start - local) / duration + 0.5);
+  if (local >= duration) {
+    local = 0;
+    plays += 1;
+  }
+  // Arriving at a seam is the end of the play before.
+  const bool arriving = local == 0 && side == Side::in;
+  if (arriving) {
+    local = duration;
+    plays -= 1;
+  }
+  const bool backward = rule == Outside::pingpong && std::fmod(plays, 2) != 0;
+  if (backward) {
+    Sample<T> s = inside(local == 0 ? end : end - local, side == Side::in ? Side::out : Side::in);
+    s.rate = -s.rate;
+    return s;
+  }
+  const Sample<T> s = inside(arriving ? end : start + local, side);
+  if (rule != Outside::repeat_offset) return s;
+  return offset_by_plays(s, inside(start, Side::out).value, inside(end, Side::in).value, plays);
+}
+
+}  // namespace tweenfall

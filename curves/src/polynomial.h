@@ -1,0 +1,32 @@
+#pragma once
+
+// A polynomial in power basis and its first two derivatives, by Horner's rule.
+
+#include "components.h"
+
+namespace tweenfall {
+
+template <class V>
+struct Polynomial {
+  V value, first, second;
+};
+
+template <class V>
+inline Polynomial<V> evaluate_polynomial(const V* c, int degree, double s) noexcept {
+  if (degree == 3) {
+    const V cubic_s = s * c[3];
+    const V a = c[2] + cubic_s;
+    const V b = a + cubic_s;
+    const V as = s * a;
+    return {c[0] + s * (c[1] + as), (c[1] + as) + s * b, 2 * (b + cubic_s)};
+  }
+  V value = c[degree], first = zero_rate<V>(), half_second = zero_rate<V>();
+  for (int i = degree - 1; i >= 0; --i) {
+    half_second = half_second * s + first;
+    first = first * s + value;
+    value = value * s + c[i];
+  }
+  return {value, first, 2 * half_second};
+}
+
+}  // namespace tweenfall

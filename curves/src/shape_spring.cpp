@@ -1,0 +1,64 @@
+#include <tweenfall/curves/elementary.h>
+
+#include <cmath>
+
+#include "shapes.h"
+
+namespace tweenfall::shapes {
+namespace {
+
+struct Response {
+  double value, first, second;
+};
+
+// Step response of x'' + 2 z w x' + w^2 (x - 1) = 0 from rest at 0, at phase w t, derivatives with respect to it.
+Response step_response(double phase, double z) noexcept {
+  double position, velocity;  // of the distance to the goal, which starts at 1
+  if (z < 1) {
+    const double d = std::sqrt((1 - z) * (1 + z));
+    const elementary::SinCos turn = elementary::sin_cos(d * phase);
+    const double e = elementary::exp(-z * phase);
+    // sin(d p)/d tends to p where the damping is nearly critical.
+    const double k = d * phase < 1e-8 ? phase : turn.sin / d;
+    position = e * (turn.cos + z * k);
+    velocity = -e * k;
+  } else {
+    const double d = std::sqrt((z - 1) * (z + 1));
+    if (d * phase < 1e-8) {
+      const double e = elementary::exp(-z * phase);
+      position = e * (1 + z * phase);
+      velocity = -e * phase;
+    } else {
+      // The slow root by its product with the fast one, which does not cancel.
+      const double fast = z + d, slow = 1 / fast;
+      const double es = elementary::exp(-slow * phase), ef = elementary::exp(-fast * phase);
+      position = (fast * es - slow * ef) / (2 * d);
+      velocity = (ef - es) / (2 * d);
+    }
+  }
+  return {1 - position, -velocity, position + 2 * z * velocity};
+}
+
+// The response over the span, plus what is left at its end, taken away by a smooth step.
+// Parameters: frequency in radians a span, damping ratio, what is left.
+Warp::Result sprung(double u, const std::array<double, 4>& parameters) noexcept {
+  const double w = parameters[0], left = parameters[2];
+  const Response r = step_response(w * u, parameters[1]);
+  return {r.value + left * u * u * (3 - 2 * u), w * r.first + left * 6 * u * (1 - u),
+          w * w * r.second + left * (6 - 12 * u)};
+}
+
+}  // namespace
+
+Pieces spring(double duration, const std::array<double, 4>& parameters) {
+  constexpr double turn = 0x1.921fb54442d18p+2;
+  const double w = turn * duration / parameters[0];
+  Span<double> p{};
+  p.degree = 1;
+  p.coefficients = {0, 1, 0, 0, 0, 0};
+  p.end = 1;
+  p.warp = {&sprung, {w, parameters[1], 1 - step_response(w, parameters[1]).value, 0}};
+  return {p};
+}
+
+}  // namespace tweenfall::shapes

@@ -1,0 +1,58 @@
+#pragma once
+
+// Rules that choose slopes at keys from the neighboring spans, for any number of components at once.
+
+#include <tweenfall/curves/keys.h>
+
+#include <array>
+#include <cstddef>
+
+namespace tweenfall {
+
+/// One run of consecutive spans whose slopes a rule is asked for, within all spans of a curve.
+struct SlopeProblem {
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  std::size_t spans;        ///< of the whole curve; there is one key more
+  std::size_t first, last;  ///< the run: spans first to last - 1
+  std::size_t dimensions;
+  const double* durations;  ///< s, one a span
+  const double* secants;    ///< U/s, `dimensions` a span
+  Ends ends;
+  const Ease* const* eases;  ///< one a key
+  double* leaving;           ///< result, U/s, `dimensions` a span: slope at its start
+  double* arriving;          ///< result: slope at its end
+
+  [[nodiscard]] double secant(std::size_t span, std::size_t c) const noexcept { return secants[span * dimensions + c]; }
+
+  /// The span that arrives at a key and the one that leaves it, `none` at an end that does not wrap.
+  [[nodiscard]] std::size_t before(std::size_t key) const noexcept {
+    return key > 0 ? key - 1 : ends == Ends::wrap ? spans - 1 : none;
+  }
+  [[nodiscard]] std::size_t after(std::size_t key) const noexcept {
+    return key < spans ? key : ends == Ends::wrap ? 0 : none;
+  }
+
+  /// For rules with one slope a key: `slope(key, component)`.
+  template <class Slope>
+  void for_each_key(const Slope& slope) const {
+    for (std::size_t i = first; i < last; ++i)
+      for (std::size_t c = 0; c < dimensions; ++c) {
+        leaving[i * dimensions + c] = i > first ? arriving[(i - 1) * dimensions + c] : slope(i, c);
+        arriving[i * dimensions + c] = slope(i + 1, c);
+      }
+  }
+
+  /// For rules that leave the ends of the curve open: flat, or such that the second derivative is zero there.
+  void finish_open_ends() const;
+};
+
+void slopes_smooth(const SlopeProblem& problem);
+void slopes_smooth_clamped(const SlopeProblem& problem);
+void slopes_monotone(const SlopeProblem& problem);
+void slopes_natural(const SlopeProblem& problem);
+void slopes_catmull_rom(const SlopeProblem& problem);
+void slopes_centripetal(const SlopeProblem& problem);
+void slopes_tcb(const SlopeProblem& problem);
+
+}  // namespace tweenfall

@@ -1,0 +1,13 @@
+#pragma once
+
+// The position on a Bezier span at a given time: the inverse of the handles' own cubic in time.
+
+#include <tweenfall/curves/span.h>
+
+namespace tweenfall {
+
+/// Warp with parameters {x1, x2}: the handles' times as shares of the span, both in 0 to 1, so that
+/// time never runs backwards. Where the tangent is vertical the slope is limited to a million.
+[[nodiscard]] Warp time_bezier_warp(double x1, double x2);
+
+}  // namespace tweenfall

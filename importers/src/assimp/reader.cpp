@@ -1,0 +1,104 @@
+#include "reader.h"
+
+#include "../model_matrix.h"
+#include "../model_names.h"
+#include "clips.h"
+#include "meshes.h"
+#include "trial.h"
+#include "values.h"
+
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+
+#include <map>
+
+namespace tweenfall {
+
+namespace {
+
+/// A node of assimp's with the place of its parent in our list.
+struct Waiting {
+  const aiNode* node;
+  std::size_t parent;
+};
+
+/// All nodes, parents first; a list instead of recursion, since a file can nest deeper than the stack.
+std::vector<Waiting> flattened(const aiNode& root) {
+  std::vector<Waiting> all{{&root, no_node}};
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (unsigned child = 0; child < all[i].node->mNumChildren; ++child)
+      all.push_back({all[i].node->mChildren[child], i});
+  return all;
+}
+
+bool has_double_names(const std::vector<Waiting>& nodes) {
+  std::map<std::string, int> count;
+  for (const Waiting& each : nodes)
+    if (++count[text_of(each.node->mName)] > 1) return true;
+  return false;
+}
+
+Pose rest_of(const aiNode& node, const std::string& name, ModelProblems& problems) {
+  const Mat3 linear = linear_of(node.mTransformation);
+  const Vec3 translation = translation_of(node.mTransformation);
+  if (!linear.allFinite() || !translation.allFinite()) {
+    problems.add("node \"" + name + "\"", "its placement is not finite");
+    return {};
+  }
+  const TakenApart parts = take_apart(linear, translation);
+  if (parts.shear > 1e-4)
+    problems.repair("node \"" + name + "\"", "its placement holds shear, which was dropped; it moved points by up to " +
+                                                 std::to_string(parts.shear) + " of their distance");
+  return parts.pose;
+}
+
+std::string without_leading_space(const std::string& bytes) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  return first == std::string::npos ? std::string() : bytes.substr(first);
+}
+
+}  // namespace
+
+Model read_with_assimp(const std::string& given, const std::filesystem::path& file, ModelProblems& problems) {
+  std::string ending = file.extension().string();
+  const bool collada = ending == ".dae" || ending == ".DAE";
+  // assimp looks for "<?xml" at the very start.
+  const std::string bytes = collada ? without_leading_space(given) : given;
+  if (bytes.empty()) throw ModelError(file.string() + ": error: is empty");
+  try_import(bytes, file);
+  Assimp::Importer importer;
+  const aiScene* scene = &import_scene(importer, bytes, file, ColladaNames::names);
+  std::vector<Waiting> waiting = flattened(*scene->mRootNode);
+  if (collada && has_double_names(waiting)) {
+    scene = &import_scene(importer, bytes, file, ColladaNames::ids);
+    waiting = flattened(*scene->mRootNode);
+    problems.repair("", "several nodes have one name; all are called by their ids instead");
+  }
+
+  Model model;
+  UniqueNames names;
+  std::map<std::string, std::size_t> first_named;
+  for (const Waiting& each : waiting) {
+    const std::string name = text_of(each.node->mName);
+    first_named.emplace(name, model.nodes.size());
+    Node node;
+    node.name = names.unique(name.empty() ? "node_" + std::to_string(model.nodes.size()) : name);
+    node.parent = each.parent;
+    node.rest = rest_of(*each.node, node.name, problems);
+    model.nodes.push_back(std::move(node));
+  }
+  SceneMeshes meshes = scene_meshes(*scene, first_named, problems);
+  for (std::size_t i = 0; i < waiting.size(); ++i)
+    for (unsigned k = 0; k < waiting[i].node->mNumMeshes; ++k) {
+      const std::size_t mesh = waiting[i].node->mMeshes[k];
+      if (mesh < meshes.meshes.size() && !meshes.meshes[mesh].triangles.empty())
+        model.instances.push_back({i, mesh, meshes.skin_of[mesh]});
+    }
+  model.meshes = std::move(meshes.meshes);
+  model.skins = std::move(meshes.skins);
+  model.clips = scene_clips(*scene, model, first_named, problems);
+  problems.throw_if_any(file);
+  return model;
+}
+
+}  // namespace tweenfall

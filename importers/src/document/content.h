@@ -1,0 +1,73 @@
+#pragma once
+
+// One document being read: what its parts share while they fill in the stage's description.
+
+#include <tweenfall/importers/document.h>
+
+#include "document/problems.h"
+#include "json/json_text.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tweenfall::document {
+
+// What all files of one reading share.
+struct Reading {
+  ReadOptions options;
+  std::vector<std::filesystem::path> open;  // the files on the way here, the outermost first
+  int files = 0;                            // read so far
+};
+
+struct Building {
+  const JsonValue& root;
+  std::filesystem::path folder;
+  Reading& reading;
+  Problems& problems;
+  StageDescription stage{};
+  std::optional<double> fps{};
+
+  bool names_are_free = false;                 // neither nodes nor imports: tracks name what they like
+  std::map<std::string, std::size_t> nodes{};  // index of each node
+  std::map<std::string, std::size_t> clips{};
+  std::set<std::string> imports{};             // their names here
+  std::set<std::string> failed_imports{};      // their nodes and clips are not known to be missing
+  std::vector<std::string> clips_of_others{};  // clips of imports without nodes: their tracks name nodes of this file
+
+  [[nodiscard]] std::vector<std::string> node_names() const;
+  [[nodiscard]] std::vector<std::string> body_names() const;
+  [[nodiscard]] std::vector<std::string> clip_names() const;
+  // Whether a name that is not there may be in an import that failed.
+  [[nodiscard]] bool excused(const std::string& name) const;
+  // Nodes of a name, or of a pattern with '*'.
+  [[nodiscard]] std::vector<std::size_t> nodes_named(const std::string& name_or_pattern) const;
+};
+
+// A document's tree and what it means.
+struct ReadDocument {
+  JsonValue root;
+  StageDescription stage;
+  bool names_are_free = false;
+};
+
+// @throws DocumentError
+[[nodiscard]] ReadDocument read_document(std::string_view text, const std::string& name,
+                                         const std::filesystem::path& folder, Reading& reading);
+[[nodiscard]] ReadDocument read_document_file(const std::filesystem::path& file, Reading& reading);
+
+// The parts, in the order in which they must be read
+void read_imports(Building& building);
+void read_nodes(Building& building);
+void read_clips(Building& building);
+void read_plays(Building& building);
+void read_world(Building& building);
+void read_rules(Building& building);
+
+[[nodiscard]] BodyDescription read_body(const JsonValue& body, Problems& problems);
+[[nodiscard]] Drive read_drive(const JsonValue& drive);
+
+}  // namespace tweenfall::document

@@ -1,0 +1,47 @@
+#include <tweenfall/importers/document.h>
+
+#include "document/content.h"
+#include "document/from_model.h"
+#include "document/grammar.h"
+#include "document/write.h"
+
+#include <utility>
+
+namespace tweenfall {
+
+struct Document::Content {
+  document::ReadDocument document;
+};
+
+Document::Document(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
+
+Document Document::read(const std::filesystem::path& file, const ReadOptions& options) {
+  document::Reading reading{options, {}, 0};
+  return Document(std::make_shared<const Content>(Content{document::read_document_file(file, reading)}));
+}
+
+Document Document::parse(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+                         const ReadOptions& options) {
+  document::Reading reading{options, {}, 0};
+  // So that a file cannot import itself, also when its text was read by the caller.
+  std::error_code fault;
+  const std::filesystem::path own =
+      std::filesystem::weakly_canonical(folder / std::filesystem::path(name).filename(), fault);
+  if (!fault) reading.open.push_back(own);
+  return Document(std::make_shared<const Content>(Content{document::read_document(text, name, folder, reading)}));
+}
+
+const StageDescription& Document::stage() const noexcept {
+  return content_->document.stage;
+}
+
+std::string Document::text() const {
+  return document::write(document::document_shape(), content_->document.root);
+}
+
+Document Document::from_model(const Model& model) {
+  const std::string text = document::write(document::document_shape(), document::tree_of(model));
+  return parse(text, model.name, {});
+}
+
+}  // namespace tweenfall

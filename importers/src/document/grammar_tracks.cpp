@@ -1,0 +1,369 @@
+#include <tweenfall/importers/number_text.h>
+
+#include "document/grammar_parts.h"
+
+#include <utility>
+
+namespace tweenfall::document {
+
+namespace {
+
+// The value of the first key of a track, wherever it is; null when there is none.
+const JsonValue* first_key_value(const JsonValue& track) {
+  const JsonValue* keys = track.is(JsonValue::Kind::object) ? track.find("keys") : &track;
+  if (!keys || keys->items.empty()) return nullptr;
+  const JsonValue& key = keys->items.front();
+  if (key.is(JsonValue::Kind::list)) return key.items.size() > 1 ? &key.items[1] : nullptr;
+  return key.find("v");
+}
+
+// What the tracks of one kind of value look like, with its options.
+struct TrackKind {
+  std::string name;  // of its definitions
+  const Shape* value = nullptr;
+  const Shape* rate = nullptr;  // null: the value switches, and has neither ease nor tangents
+  std::vector<Field> options{};
+  std::vector<Field> functions{};
+};
+
+class TrackShapes {
+ public:
+  TrackShapes(ShapeStore& store, const ValueShapes& values) : store_(store), values_(values) {
+    outside_ = store_.add(
+        words_of("what happens outside the keys", {"hold", "linear", "repeat", "repeat-offset", "pingpong"}));
+  }
+
+  const Shape* keys(const TrackKind& kind) {
+    const Shape* tangent = nullptr;
+    if (kind.rate) {
+      Shape handle = object_of("a tangent with \"rate\" and \"weight\"",
+                               {{"rate", kind.rate, "value per second", true},
+                                {"weight", share(), "the handle's share of the span", false, number_text(1.0 / 3.0)}});
+      Shape shape = choice_of("a tangent: \"auto\", \"flat\", a rate in value per second, or {\"rate\", \"weight\"}",
+                              {store_.add(words_of("", {"auto", "flat"})), kind.rate, store_.add(handle)});
+      shape.definition = "tangent-" + kind.name;
+      tangent = store_.add(std::move(shape));
+    }
+    Shape row;
+    row.kind = Shape::Kind::tuple;
+    row.what = kind.rate ? "a key: [time, value], [time, value, ease] or {\"t\", \"v\", ...}"
+                         : "a key: [time, value] or {\"t\", \"v\"}";
+    row.parts = {values_.key_time, kind.value};
+    if (kind.rate) row.parts.push_back(values_.ease);
+    row.fewest = 2;
+    row.on_one_line = true;
+    Shape full = object_of(row.what, {{"t", values_.key_time, "time", true}, {"v", kind.value, "value", true}});
+    if (kind.rate) {
+      full.fields.push_back({"ease", values_.ease, "how the curve leaves the key", false, "\"smooth-clamped\""});
+      full.fields.push_back({"in", tangent, "slope on arrival"});
+      full.fields.push_back({"out", tangent, "slope on leaving"});
+      full.fields.push_back({"v_in", kind.value, "value on arrival, where the curve jumps"});
+      full.together = {at_most_one({"ease", "out"})};
+    }
+    full.on_one_line = true;
+    Shape key = choice_of(row.what, {store_.add(row), store_.add(full)});
+    key.definition = "key-" + kind.name;
+    Shape list = list_of(store_.add(std::move(key)), "a list of keys");
+    list.definition = "keys-" + kind.name;
+    list.one_a_line = true;
+    return store_.add(std::move(list));
+  }
+
+  const Shape* object(const TrackKind& kind, const Shape* keys) {
+    Shape shape = object_of("a track: a list of keys, or an object with \"keys\"", kind.options);
+    shape.definition = "track-" + kind.name;
+    if (kind.rate) {
+      shape.fields.push_back({"before", outside_, "before the first key", false, "\"hold\""});
+      shape.fields.push_back({"after", outside_, "after the last key", false, "\"hold\""});
+    }
+    std::vector<std::string> sources = {"keys"};
+    shape.fields.push_back({"keys", keys, "the keys, in order of time"});
+    for (const Field& function : kind.functions) {
+      shape.fields.push_back(function);
+      sources.push_back(function.name);
+      // A function has no outside.
+      shape.together.push_back(at_most_one({"before", function.name}));
+      shape.together.push_back(at_most_one({"after", function.name}));
+    }
+    shape.together.insert(shape.together.begin(), exactly_one(std::move(sources)));
+    return store_.add(std::move(shape));
+  }
+
+  const Shape* oscillator(const Shape* value, const std::string& unit) {
+    return store_.add(
+        object_of("an oscillator: {\"amplitude\", \"hz\", \"phase\", \"damping\", \"center\"}",
+                  {{"amplitude", value, unit, true},
+                   {"hz", values_.not_negative, "cycles per second", true},
+                   {"phase", values_.number, "degrees", false, "0"},
+                   {"damping", values_.not_negative, "rate of decay, 1/s", false, "0"},
+                   {"center", value, unit + ", added", false, value == values_.number ? "0" : "[0, 0, 0]"}}));
+  }
+
+  const Shape* projectile() {
+    if (!projectile_)
+      projectile_ = store_.add(object_of("a projectile: {\"from\", \"velocity\", \"gravity\"}",
+                                         {{"from", values_.vector, "m", false, "[0, 0, 0]"},
+                                          {"velocity", values_.vector, "m/s at time 0", true},
+                                          {"gravity", values_.vector, "m/s^2", false, "[0, -9.81, 0]"}}));
+    return projectile_;
+  }
+
+  // Keys alone, or an object: tracks of one kind only.
+  const Shape* either(const TrackKind& kind) {
+    const Shape* list = keys(kind);
+    return store_.add(choice_of("a track: a list of keys, or an object with \"keys\"", {list, object(kind, list)}));
+  }
+
+  const Shape* rotation() {
+    const Shape* turn = store_.add(words_of("which way around", {"short", "long"}));
+    const TrackKind euler{
+        "euler", values_.euler, values_.vector, {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}}};
+    const TrackKind quaternion{
+        "quat", values_.quaternion, values_.vector, {relative(), {"turn", turn, "way around", false, "\"short\""}}};
+    const TrackKind axis_angle{"axis-angle", values_.axis_angle, values_.vector, {relative()}};
+    const TrackKind degrees{"degrees",
+                            values_.number,
+                            values_.number,
+                            {{"axis", values_.axis, "what the degrees turn about", true}, relative()},
+                            {{"oscillator", oscillator(values_.number, "degrees"), "swings"}}};
+    struct Spelled {
+      const Shape *list, *object;
+    };
+    const auto made = [&](const TrackKind& kind) {
+      const Shape* list = keys(kind);
+      return Spelled{list, object(kind, list)};
+    };
+    const Spelled in_euler = made(euler), in_quat = made(quaternion), in_axis_angle = made(axis_angle);
+    const Shape* in_degrees = object(degrees, keys(degrees));
+    Shape shape = choice_of("a track of rotations: a list of keys, or an object with \"keys\"",
+                            {in_euler.list, in_euler.object, in_quat.list, in_quat.object, in_axis_angle.list,
+                             in_axis_angle.object, in_degrees});
+    shape.select = [=](const JsonValue& value) -> const Shape* {
+      const bool list = value.is(JsonValue::Kind::list);
+      if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
+      if (!list && (value.find("axis") || value.find("oscillator"))) return in_degrees;
+      const JsonValue* first = first_key_value(value);
+      const Spelled& spelled = first && first->find("quat")    ? in_quat
+                               : first && first->find("angle") ? in_axis_angle
+                                                               : in_euler;
+      return list ? spelled.list : spelled.object;
+    };
+    return store_.add(std::move(shape));
+  }
+
+  // Names of the user's: the kind is said, else that of the first value.
+  const Shape* user() {
+    const auto kind_field = [&](const std::string& kind, bool required) {
+      return Field{"kind", store_.add(words_of("the kind " + in_quotes(kind), {kind})), "kind of value", required};
+    };
+    Shape plain_text;
+    plain_text.kind = Shape::Kind::text;
+    plain_text.what = "a text; one that starts with '#' needs \"kind\": \"text\" on the track";
+    plain_text.pattern = "^(?!#)";
+    plain_text.fits = [](std::string_view text) { return text.substr(0, 1) != "#"; };
+    Shape any_text;
+    any_text.kind = Shape::Kind::text;
+    any_text.what = "a text";
+
+    const TrackKind number{"number",
+                           values_.number,
+                           values_.number,
+                           {kind_field("number", false)},
+                           {{"oscillator", oscillator(values_.number, "the value's unit"), "swings"}}};
+    const TrackKind swinging{"swinging-vector",
+                             values_.vector,
+                             values_.vector,
+                             {kind_field("vector", false)},
+                             {{"oscillator", oscillator(values_.vector, "the value's unit"), "swings"},
+                              {"projectile", projectile(), "a thrown body's way"}}};
+    const TrackKind color{"user-color", values_.color, values_.vector_4, {kind_field("color", false), space(), hue()}};
+    const TrackKind truth{"switch", values_.boolean, nullptr, {kind_field("switch", false)}};
+    const TrackKind text{"text", store_.add(plain_text), nullptr};
+    const TrackKind said_text{"said-text", store_.add(any_text), nullptr, {kind_field("text", true)}};
+    struct Made {
+      std::string kind;
+      const Shape *list, *object;
+    };
+    std::vector<Made> made;
+    Shape shape = choice_of("a track: a list of keys, or an object with \"keys\"", {});
+    const auto add = [&](const std::string& kind, const TrackKind& what) {
+      const Shape* list = keys(what);
+      made.push_back({kind, list, object(what, list)});
+      if (what.name != "said-text") shape.alternatives.push_back(list);
+      shape.alternatives.push_back(made.back().object);
+    };
+    add("number", number);
+    add("vector-2", {"vector-2", values_.vector_2, values_.vector_2, {kind_field("vector", false)}});
+    add("vector-3", swinging);
+    add("vector-4", {"vector-4", values_.vector_4, values_.vector_4, {kind_field("vector", false)}});
+    add("color", color);
+    add("switch", truth);
+    add("text", text);
+    add("said-text", said_text);
+
+    // Stands in where the kind's word is none.
+    const Shape* unknown = store_.add(object_of(
+        "a track", {{"kind", store_.add(words_of("a kind of value", {"number", "vector", "color", "switch", "text"})),
+                     "kind of value"},
+                    {"keys", values_.any, ""},
+                    {"before", outside_, ""},
+                    {"after", outside_, ""},
+                    {"space", values_.any, ""},
+                    {"hue", values_.any, ""},
+                    {"oscillator", values_.any, ""},
+                    {"projectile", values_.any, ""}}));
+    shape.select = [made, unknown](const JsonValue& value) -> const Shape* {
+      const bool list = value.is(JsonValue::Kind::list);
+      if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
+      const JsonValue* first = first_key_value(value);
+      const JsonValue* oscillator = value.find("oscillator");
+      const JsonValue* amplitude = oscillator ? oscillator->find("amplitude") : nullptr;
+      std::string kind;
+      if (const JsonValue* said = value.find("kind")) {
+        kind = said->is(JsonValue::Kind::text) ? said->text : "";
+        if (kind == "text") kind = "said-text";
+      } else if (first) {
+        switch (first->kind) {
+          case JsonValue::Kind::number:
+            kind = "number";
+            break;
+          case JsonValue::Kind::boolean:
+            kind = "switch";
+            break;
+          case JsonValue::Kind::text:
+            kind = first->text.substr(0, 1) == "#" ? "color" : "text";
+            break;
+          case JsonValue::Kind::list:
+            kind = "vector";
+            break;
+          default:
+            kind = "number";
+            break;
+        }
+      } else {
+        kind = (amplitude && amplitude->is(JsonValue::Kind::list)) || value.find("projectile") ? "vector" : "number";
+      }
+      if (kind == "vector") {
+        const std::size_t size = first ? first->items.size() : 3;
+        kind = size == 2 ? "vector-2" : size == 4 ? "vector-4" : "vector-3";
+      }
+      for (const Made& each : made)
+        if (each.kind == kind) return list ? each.list : each.object;
+      return unknown;
+    };
+    return store_.add(std::move(shape));
+  }
+
+  Field relative() const {
+    return {"relative", values_.boolean, "compose with the node's value instead of replacing it", false, "false"};
+  }
+  Field space() {
+    if (!space_)
+      space_ = store_.add(words_of("a color space", {"oklab", "linear", "srgb", "oklch", "hsl", "lab", "lch"}));
+    return {"space", space_, "where colors are mixed", false, "\"oklab\""};
+  }
+  Field hue() {
+    if (!hue_)
+      hue_ = store_.add(words_of("which way around the hue goes", {"shorter", "longer", "increasing", "decreasing"}));
+    return {"hue", hue_, "which way around, in spaces with a hue", false, "\"shorter\""};
+  }
+  Field mix() {
+    return {"mix", store_.add(words_of("a way to mix", {"linear", "log"})), "log: ratios are interpolated", false,
+            "\"linear\""};
+  }
+
+ private:
+  const Shape* share() {
+    if (!share_) {
+      Shape shape;
+      shape.kind = Shape::Kind::number;
+      shape.what = "a share of the span, above 0 and at most 1";
+      shape.low = 0;
+      shape.above_low = true;
+      shape.high = 1;
+      share_ = store_.add(std::move(shape));
+    }
+    return share_;
+  }
+
+  ShapeStore& store_;
+  const ValueShapes& values_;
+  const Shape* outside_ = nullptr;
+  const Shape* share_ = nullptr;
+  const Shape* projectile_ = nullptr;
+  const Shape* space_ = nullptr;
+  const Shape* hue_ = nullptr;
+};
+
+const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
+  TrackShapes make(store, values);
+  Shape tracks = object_of("an object with tracks by name", {});
+  tracks.definition = "tracks";
+  tracks.one_a_line = true;
+  tracks.endings = {
+      {".position", make.either({"position",
+                                 values.vector,
+                                 values.vector,
+                                 {make.relative()},
+                                 {{"oscillator", make.oscillator(values.vector, "m"), "swings"},
+                                  {"projectile", make.projectile(), "a thrown body's way"}}})},
+      {".rotation", make.rotation()},
+      {".scale", make.either({"scale",
+                              values.scale,
+                              values.scale,
+                              {make.relative(), make.mix()},
+                              {{"oscillator", make.oscillator(values.vector, "factors"), "swings"}}})},
+      {".color", make.either({"color", values.color, values.vector_4, {make.relative(), make.space(), make.hue()}})},
+      {".weights", make.either({"weights", values.numbers, values.numbers, {make.relative()}})}};
+  tracks.others = make.user();
+  tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
+  tracks.name_fault = [](std::string_view name) -> std::string {
+    const std::size_t dot = name.rfind('.');
+    if (dot != std::string_view::npos && dot > 0 && dot + 1 < name.size()) return {};
+    return "a track is named \"node.property\", such as \"ball.position\"; found " + in_quotes(name);
+  };
+  return store.add(std::move(tracks));
+}
+
+const Shape* event_shape(ShapeStore& store, const ValueShapes& values) {
+  Shape row;
+  row.kind = Shape::Kind::tuple;
+  row.what = "an event: [time, name], [time, name, data] or {\"from\", \"to\", \"name\"}";
+  row.parts = {values.key_time, values.name, values.any};
+  row.fewest = 2;
+  row.on_one_line = true;
+  Shape span = object_of(row.what, {{"from", values.key_time, "clip time", true},
+                                    {"to", values.key_time, "clip time", true},
+                                    {"name", values.name, "", true},
+                                    {"data", values.any, "given with the event"}});
+  span.on_one_line = true;
+  Shape either = choice_of(row.what, {store.add(row), store.add(span)});
+  either.definition = "event";
+  return store.add(std::move(either));
+}
+
+}  // namespace
+
+const Shape* weight_keys_shape(ShapeStore& store, const ValueShapes& values) {
+  return TrackShapes(store, values).keys({"weight", values.number, values.number});
+}
+
+const Shape* clip_shape(ShapeStore& store, const ValueShapes& values) {
+  Shape loop =
+      object_of("a loop: {\"mode\", \"count\"}",
+                {{"mode", store.add(words_of("a way to loop", {"repeat", "repeat-offset", "pingpong"})), "", true},
+                 {"count", values.positive, "number of plays; absent: without end"}});
+  loop.on_one_line = true;
+  Shape events = list_of(event_shape(store, values), "a list of events", 0);
+  events.one_a_line = true;
+  Shape clip = object_of("a clip: {\"duration\", \"loop\", \"tracks\", \"events\"}",
+                         {{"duration", values.length_of_time, "absent: the latest key or event"},
+                          {"loop", store.add(std::move(loop)), "absent: once"},
+                          {"tracks", tracks_shape(store, values), "", false, "{}"},
+                          {"events", store.add(std::move(events)), "", false, "[]"}});
+  clip.definition = "clip";
+  clip.one_a_line = true;
+  return store.add(std::move(clip));
+}
+
+}  // namespace tweenfall::document

@@ -1,0 +1,183 @@
+#include "document/read_rotation.h"
+
+#include <tweenfall/curves/elementary.h>
+#include <tweenfall/importers/number_text.h>
+
+#include "document/read_functions.h"
+#include "document/read_keys.h"
+#include "document/values.h"
+
+#include <cmath>
+
+namespace tweenfall::document {
+
+namespace {
+
+using Kind = JsonValue::Kind;
+
+Vec3 in_radians(const Vec3& angles) {
+  return {radians(angles[0]), radians(angles[1]), radians(angles[2])};
+}
+
+// Angular velocity that each angle's rate adds: the axes of the three turns where the angles stand.
+Mat3 turn_axes(const Vec3& angles, const EulerOrder& order) {
+  Mat3 axes;
+  Quat before(1, 0, 0, 0);
+  for (int i = 0; i < 3; ++i) {
+    // Extrinsic turns are the intrinsic ones in reverse.
+    const int which = order.intrinsic ? i : 2 - i;
+    Vec3 axis(0, 0, 0);
+    axis[order.axes[which]] = 1;
+    axes.col(which) = before.toRotationMatrix() * axis;
+    const elementary::SinCos half = elementary::sin_cos(angles[which] / 2);
+    before = before * Quat(half.cos, half.sin * axis[0], half.sin * axis[1], half.sin * axis[2]);
+  }
+  return axes;
+}
+
+class RotationTrack {
+ public:
+  RotationTrack(const JsonValue& track, const ClipTimes& times, Problems& problems)
+      : track_(track),
+        list_(track.is(Kind::list) ? &track : usable(track, "keys")),
+        times_(times),
+        problems_(problems) {}
+
+  std::optional<Curve<Quat>> read() {
+    if (usable(track_, "axis")) return about_axis();
+    if (!list_ || list_->items.empty()) return {};
+    const JsonValue* first = key_parts(list_->items.front()).value;
+    if (!first) {
+      (void)times_.of_keys(*list_, problems_);
+      return {};
+    }
+    if (first->find("euler")) return in_euler();
+    if (first->find("angle")) return in_axis_angle();
+    return in_quaternions(text_in(track_, "turn") == "long");
+  }
+
+ private:
+  std::optional<Curve<Quat>> about_axis() {
+    const std::optional<Vec3> axis = axis_of(*usable(track_, "axis"), problems_);
+    std::optional<Curve<double>> angle;
+    if (const JsonValue* function = usable(track_, "oscillator"))
+      angle = read_oscillator(*function, radians(1));
+    else if (list_)
+      angle = degrees_curve([](const JsonValue& value) { return &value; }, {});
+    if (!axis || !angle) return {};
+    return axis_curve(*axis, with_outside_of(track_, *angle));
+  }
+
+  // The unwrapped angle about one axis. Rates are degrees per second, or angular velocities along `axis`.
+  std::optional<Curve<double>> degrees_curve(const std::function<const JsonValue*(const JsonValue&)>& angle_in,
+                                             const std::optional<Vec3>& axis) {
+    KeyReader<double> reader;
+    reader.value = [&](const JsonValue& value) -> std::optional<double> {
+      const JsonValue* angle = angle_in(value);
+      if (!angle || !angle->is(Kind::number)) return {};
+      return radians(angle->number);
+    };
+    reader.rate = [&](const JsonValue& rate, double) -> std::optional<double> {
+      if (rate.is(Kind::number)) return radians(rate.number);
+      const std::optional<Vec3> given = vector_of(rate);
+      if (!given || !axis) return {};
+      const double along = given->dot(*axis);
+      const Vec3 across = *given - along * *axis;
+      if (across.norm() > 1e-9 * given->norm()) {
+        problems_.add(rate, "all keys turn about one axis, and this rate turns about another");
+        return {};
+      }
+      return radians(along);
+    };
+    return read_keys<double>(*list_, times_, reader, {}, problems_);
+  }
+
+  std::optional<Curve<Quat>> in_euler() {
+    const EulerOrder order = order_of(text_in(track_, "order", "XYZ"));
+    KeyReader<Vec3> reader;
+    reader.value = [](const JsonValue& value) -> std::optional<Vec3> {
+      const JsonValue* euler = usable(value, "euler");
+      const std::optional<Vec3> angles = euler ? vector_of(*euler) : std::nullopt;
+      if (!angles) return {};
+      return in_radians(*angles);
+    };
+    reader.rate = [&](const JsonValue& rate, const Vec3& angles) -> std::optional<Vec3> {
+      const std::optional<Vec3> velocity = vector_of(rate);
+      if (!velocity) return {};
+      if (velocity->isZero(0)) return Vec3(0, 0, 0);
+      // Cramer's rule: the three axes are unit vectors, so the determinant says how near to a gimbal lock this is.
+      const Mat3 axes = turn_axes(angles, order);
+      const double determinant = axes.col(0).dot(axes.col(1).cross(axes.col(2)));
+      if (std::abs(determinant) < 1e-6) {
+        problems_.add(
+            rate,
+            "at these angles two of the three turns share an axis (gimbal lock), so no rates of the angles give "
+            "this angular velocity; use \"quat\" or another \"order\"");
+        return {};
+      }
+      const Vec3 wanted = in_radians(*velocity);
+      const Vec3 rates(wanted.dot(axes.col(1).cross(axes.col(2))) / determinant,
+                       axes.col(0).dot(wanted.cross(axes.col(2))) / determinant,
+                       axes.col(0).dot(axes.col(1).cross(wanted)) / determinant);
+      return rates;
+    };
+    const std::optional<Curve<Vec3>> angles = read_keys<Vec3>(*list_, times_, reader, {}, problems_);
+    if (!angles) return {};
+    return euler_curve(with_outside_of(track_, *angles), order);
+  }
+
+  // Turns about one axis keep their full turns; about different ones they are rotations like any other.
+  std::optional<Curve<Quat>> in_axis_angle() {
+    const JsonValue* first = usable(*key_parts(list_->items.front()).value, "axis");
+    std::optional<Vec3> axis = first ? axis_of(*first, problems_) : std::nullopt;
+    bool one_axis = axis.has_value();
+    const JsonValue* many_turns = nullptr;
+    for (const JsonValue& key : list_->items) {
+      const KeyParts parts = key_parts(key);
+      for (const JsonValue* value : {parts.value, parts.value_in}) {
+        const JsonValue* other = value ? usable(*value, "axis") : nullptr;
+        Problems unheard;
+        const std::optional<Vec3> unit = other ? axis_of(*other, unheard) : std::nullopt;
+        if (one_axis && unit && !((*unit - *axis).norm() < 1e-12)) one_axis = false;
+        if (value && std::abs(number_in(*value, "angle", 0)) > 360) many_turns = usable(*value, "angle");
+      }
+    }
+    if (one_axis) {
+      const std::optional<Curve<double>> angle =
+          degrees_curve([](const JsonValue& value) { return usable(value, "angle"); }, axis);
+      if (!angle) return {};
+      return axis_curve(*axis, with_outside_of(track_, *angle));
+    }
+    if (many_turns)
+      problems_.add(*many_turns,
+                    number_text(many_turns->number) +
+                        " degrees are more than a turn, which only a track whose keys share one axis can keep");
+    return in_quaternions(false);
+  }
+
+  std::optional<Curve<Quat>> in_quaternions(bool long_way) {
+    KeyReader<Quat> reader;
+    reader.value = [&](const JsonValue& value) { return rotation_of(value, {}, problems_); };
+    reader.rate = [](const JsonValue& rate, const Quat&) -> std::optional<Vec3> {
+      const std::optional<Vec3> velocity = vector_of(rate);
+      if (!velocity) return {};
+      return in_radians(*velocity);
+    };
+    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, {.long_way = long_way}, problems_);
+    if (!curve) return {};
+    return with_outside_of(track_, *curve);
+  }
+
+  const JsonValue& track_;
+  const JsonValue* list_;
+  const ClipTimes& times_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+std::optional<Curve<Quat>> read_rotation_track(const JsonValue& track, const ClipTimes& times, Problems& problems) {
+  return RotationTrack(track, times, problems).read();
+}
+
+}  // namespace tweenfall::document

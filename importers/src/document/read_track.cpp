@@ -1,0 +1,218 @@
+#include "document/read_track.h"
+
+#include <tweenfall/importers/number_text.h>
+
+#include "document/read_functions.h"
+#include "document/read_keys.h"
+#include "document/read_rotation.h"
+#include "document/values.h"
+
+#include <utility>
+
+namespace tweenfall::document {
+
+namespace {
+
+using Kind = JsonValue::Kind;
+
+template <int size>
+using Vector = Eigen::Matrix<double, size, 1, Eigen::DontAlign>;
+
+template <int size>
+std::optional<Vector<size>> numbers_of(const JsonValue& value) {
+  if (!value.is(Kind::list) || value.items.size() != static_cast<std::size_t>(size)) return {};
+  Vector<size> out;
+  for (int i = 0; i < size; ++i) {
+    const JsonValue& item = value.items[static_cast<std::size_t>(i)];
+    if (!item.is(Kind::number)) return {};
+    out[i] = item.number;
+  }
+  return out;
+}
+
+std::optional<double> number_of(const JsonValue& value) {
+  return value.is(Kind::number) ? std::optional(value.number) : std::nullopt;
+}
+
+template <class T>
+KeyReader<T> reader_of(std::optional<T> (*read)(const JsonValue&)) {
+  return {[read](const JsonValue& value) { return read(value); },
+          [read](const JsonValue& rate, const T&) { return read(rate); }};
+}
+
+class TrackReader {
+ public:
+  TrackReader(const JsonValue& track, const ClipTimes& times, Problems& problems)
+      : track_(track),
+        list_(track.is(Kind::list) ? &track : usable(track, "keys")),
+        times_(times),
+        problems_(problems) {}
+
+  std::optional<TrackCurve> read(const std::string& property) {
+    if (property == "rotation") return made(read_rotation_track(track_, times_, problems_));
+    if (const JsonValue* function = usable(track_, "projectile")) return TrackCurve(read_projectile(*function));
+    if (const JsonValue* function = usable(track_, "oscillator")) {
+      const JsonValue* amplitude = usable(*function, "amplitude");
+      if (amplitude && amplitude->is(Kind::list)) return TrackCurve(read_vector_oscillator(*function));
+      return TrackCurve(read_oscillator(*function, 1));
+    }
+    if (!list_ || list_->items.empty()) return {};
+    if (property == "position") return keyed(reader_of<Vec3>(vector_of));
+    if (property == "scale") return scale();
+    if (property == "color") return color();
+    if (property == "weights") return weights();
+    return user();
+  }
+
+ private:
+  template <class T>
+  static std::optional<TrackCurve> made(const std::optional<T>& curve) {
+    return curve ? std::optional<TrackCurve>(*curve) : std::nullopt;
+  }
+
+  template <class T>
+  std::optional<TrackCurve> keyed(const KeyReader<T>& reader, const KeyOptions& options = {}) {
+    const std::optional<Curve<T>> curve = read_keys<T>(*list_, times_, reader, options, problems_);
+    if (!curve) return {};
+    return TrackCurve(with_outside_of(track_, *curve));
+  }
+
+  std::optional<TrackCurve> scale() {
+    const bool logarithmic = text_in(track_, "mix") == "log";
+    if (!logarithmic) return keyed(reader_of<Vec3>(scale_of));
+    KeyReader<Vec3> reader = reader_of<Vec3>(scale_of);
+    reader.value = [this](const JsonValue& value) -> std::optional<Vec3> {
+      const std::optional<Vec3> factors = scale_of(value);
+      if (!factors || factors->minCoeff() > 0) return factors;
+      problems_.add(value, "scales mixed by their logarithm are above 0, found " + on_one_line(value));
+      return {};
+    };
+    return keyed(reader, {.logarithmic = true});
+  }
+
+  std::optional<TrackCurve> color() {
+    KeyOptions options;
+    const std::string space = text_in(track_, "space", "oklab");
+    static constexpr std::pair<std::string_view, ColorSpace> spaces[] = {
+        {"linear", ColorSpace::linear}, {"srgb", ColorSpace::srgb}, {"oklab", ColorSpace::oklab},
+        {"oklch", ColorSpace::oklch},   {"hsl", ColorSpace::hsl},   {"lab", ColorSpace::lab},
+        {"lch", ColorSpace::lch}};
+    for (const auto& [word, meant] : spaces)
+      if (space == word) options.space = meant;
+    if (const JsonValue* hue = usable(track_, "hue")) {
+      options.hue = hue->text == "longer"       ? HueRule::longer
+                    : hue->text == "increasing" ? HueRule::increasing
+                    : hue->text == "decreasing" ? HueRule::decreasing
+                                                : HueRule::shorter;
+      if (hue_index(options.space) < 0)
+        problems_.add(*hue,
+                      "the space " + in_quotes(space) + " has no hue; spaces with one are \"oklch\", \"hsl\", \"lch\"");
+    }
+    KeyReader<Color> reader;
+    reader.value = [](const JsonValue& value) { return color_of(value); };
+    reader.rate = [](const JsonValue& rate, const Color&) { return numbers_of<4>(rate); };
+    return keyed(reader, options);
+  }
+
+  // One curve for each morph target.
+  std::optional<TrackCurve> weights() {
+    const JsonValue* first = key_parts(list_->items.front()).value;
+    const std::size_t count = first ? first->items.size() : 0;
+    const std::size_t problems_before = problems_.size();
+    for (const JsonValue& key : list_->items) {
+      const KeyParts parts = key_parts(key);
+      for (const JsonValue* value : {parts.value, parts.value_in}) check_count(value, count);
+      for (const JsonValue* tangent : {parts.in, parts.out})
+        check_count(tangent && tangent->is(Kind::object) ? usable(*tangent, "rate") : tangent, count);
+    }
+    if (problems_.size() != problems_before || count == 0) {
+      (void)times_.of_keys(*list_, problems_);
+      return {};
+    }
+    WeightCurves curves;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto part = [i](const JsonValue& value) -> std::optional<double> {
+        return i < value.items.size() ? number_of(value.items[i]) : std::nullopt;
+      };
+      const KeyReader<double> reader{part, [part](const JsonValue& rate, double) { return part(rate); }};
+      const std::optional<Curve<double>> curve = read_keys<double>(*list_, times_, reader, {}, problems_);
+      if (!curve) return {};
+      curves.push_back(with_outside_of(track_, *curve));
+    }
+    return TrackCurve(std::move(curves));
+  }
+
+  void check_count(const JsonValue* value, std::size_t count) {
+    if (!value || !value->is(Kind::list) || value->items.size() == count) return;
+    problems_.add(*value, "the first key has " + std::to_string(count) +
+                              " weights, one for each morph target; this has " + std::to_string(value->items.size()));
+  }
+
+  template <class T>
+  std::optional<TrackCurve> stepped(std::optional<T> (*value_of)(const JsonValue&)) {
+    const std::size_t problems_before = problems_.size();
+    const std::vector<std::optional<double>> seconds = times_.of_keys(*list_, problems_);
+    std::vector<std::pair<double, T>> steps;
+    for (std::size_t i = 0; i < list_->items.size(); ++i) {
+      const KeyParts parts = key_parts(list_->items[i]);
+      const std::optional<T> value = parts.value ? value_of(*parts.value) : std::nullopt;
+      if (value && seconds[i]) steps.emplace_back(*seconds[i], *value);
+    }
+    if (steps.size() != list_->items.size() || problems_.size() != problems_before) return {};
+    return TrackCurve(StepCurve<T>(std::move(steps)));
+  }
+
+  std::optional<TrackCurve> user() {
+    const JsonValue* first = key_parts(list_->items.front()).value;
+    if (!first) {
+      (void)times_.of_keys(*list_, problems_);
+      return {};
+    }
+    switch (first->kind) {
+      case Kind::boolean:
+        return stepped<bool>([](const JsonValue& value) {
+          return value.is(Kind::boolean) ? std::optional(value.boolean) : std::nullopt;
+        });
+      case Kind::text:
+        if (text_in(track_, "kind") != "text" && first->text.substr(0, 1) == "#") return color();
+        return stepped<std::string>(
+            [](const JsonValue& value) { return value.is(Kind::text) ? std::optional(value.text) : std::nullopt; });
+      case Kind::list:
+        if (first->items.size() == 2) return keyed(reader_of<Vec2>(numbers_of<2>));
+        if (first->items.size() == 4) return keyed(reader_of<Vec4>(numbers_of<4>));
+        return keyed(reader_of<Vec3>(numbers_of<3>));
+      default:
+        return keyed(reader_of<double>(number_of));
+    }
+  }
+
+  const JsonValue& track_;
+  const JsonValue* list_;
+  const ClipTimes& times_;
+  Problems& problems_;
+};
+
+}  // namespace
+
+std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times, Problems& problems) {
+  const std::size_t dot = track.name.rfind('.');
+  if (dot == std::string::npos || track.value.is(Kind::faulty)) return {};
+  const std::string property = track.name.substr(dot + 1);
+  std::optional<TrackCurve> curve = TrackReader(track.value, times, problems).read(property);
+  if (!curve) return {};
+  return Track{track.name.substr(0, dot), property, std::move(*curve), flag_in(track.value, "relative", false)};
+}
+
+std::optional<Curve<double>> read_weight(const JsonValue& keys, std::optional<double> fps, Problems& problems) {
+  const ClipTimes times(fps, {}, "the weight of a play runs in stage time, which has none");
+  KeyReader<double> reader = reader_of<double>(number_of);
+  reader.value = [&](const JsonValue& value) -> std::optional<double> {
+    const std::optional<double> weight = number_of(value);
+    if (!weight || (*weight >= 0 && *weight <= 1)) return weight;
+    problems.add(value, "expected a weight from 0 to 1, found " + number_text(*weight));
+    return {};
+  };
+  return read_keys<double>(keys, times, reader, {}, problems);
+}
+
+}  // namespace tweenfall::document

@@ -1,0 +1,108 @@
+#pragma once
+
+// What JSON a place of a document may hold. One table of shapes (grammar.h) drives the reader's checks, its "did you
+// mean", the writer's layout and defaults, and the JSON Schema, so that the four cannot disagree.
+
+#include "json/json_text.h"
+
+#include <deque>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace tweenfall::document {
+
+struct Shape;
+
+struct Field {
+  std::string name;
+  const Shape* shape = nullptr;
+  std::string help{};
+  bool required = false;
+  std::string standard{};  // JSON text of what its absence means; a member that says this is not written
+};
+
+// A rule about members standing together.
+struct Together {
+  enum class Rule { exactly_one, at_most_one, first_needs_second };
+  Rule rule;
+  std::vector<std::string> names;
+};
+
+// Shapes of members whose names are the author's, by the names' ending.
+struct Ending {
+  std::string ending;
+  const Shape* shape = nullptr;
+};
+
+struct Shape {
+  enum class Kind { any, number, boolean, text, list, tuple, object, choice };
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t no_limit = static_cast<std::size_t>(-1);
+
+  Kind kind = Kind::any;
+  std::string what{};        // "a mass in kg, above 0": completes "expected ..."
+  std::string definition{};  // its name in the schema; empty: written out where it is used
+
+  // number
+  double low = -infinite, high = infinite;
+  bool above_low = false;  // low itself is out
+  bool whole = false;
+
+  // boolean
+  bool only_true = false;
+
+  // text: one of `words`, or anything of `pattern` (ECMA 262); no limit when both are empty
+  std::vector<std::string> words{};
+  std::string pattern{};
+  std::function<bool(std::string_view)> fits{};        // what the pattern says
+  std::function<std::string(std::string_view)> why{};  // why a text does not fit, where more can be said; or nothing
+  std::vector<std::string> hints{};                    // words to suggest beside `words`
+
+  // list
+  const Shape* element = nullptr;
+  std::size_t fewest = 0, most = no_limit;
+
+  // tuple: the first `fewest` are required
+  std::vector<const Shape*> parts{};
+
+  // object
+  std::vector<Field> fields{};
+  std::vector<Together> together{};
+  std::vector<Ending> endings{};                              // names of the author's
+  const Shape* others = nullptr;                              // all other names of the author's; null: there are none
+  std::string name_pattern{};                                 // what names of the author's must match
+  std::function<std::string(std::string_view)> name_fault{};  // what is wrong with such a name, or nothing
+  std::function<std::string(const JsonValue&)> foremost_fault{};  // a fault that makes all others noise, or nothing
+
+  // choice: the first alternative of the value's kind, or the one that `select` names
+  std::vector<const Shape*> alternatives{};
+  std::function<const Shape*(const JsonValue&)> select{};
+
+  // Writing
+  bool one_a_line = false;   // each member or item on its own line, however short
+  bool on_one_line = false;  // never broken
+
+  [[nodiscard]] const Field* field(std::string_view name) const;
+  [[nodiscard]] const Shape* member(std::string_view name) const;  // shape of a member's value; null: no such name
+  [[nodiscard]] std::vector<std::string> field_names() const;
+};
+
+// Names that start with "//" or "x-" are the author's own and never looked at.
+[[nodiscard]] bool is_free_name(std::string_view name);
+
+// The alternative that holds for a value (through choices in choices); null when the value's kind fits none.
+[[nodiscard]] const Shape* resolved(const Shape& shape, const JsonValue& value);
+
+// Shapes live as long as the store.
+class ShapeStore {
+ public:
+  const Shape* add(Shape shape);
+  Shape* reserve();  // for shapes that must be known before they are made
+
+ private:
+  std::deque<Shape> shapes_;
+};
+
+}  // namespace tweenfall::document

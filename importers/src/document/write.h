@@ -1,0 +1,15 @@
+#pragma once
+
+// A document's tree as text.
+
+#include "document/shape.h"
+
+#include <string>
+
+namespace tweenfall::document {
+
+// Two spaces, one key a line, what says the default left out, one way to say a thing. Comments are gone. Writing what
+// was read from this text gives this text.
+[[nodiscard]] std::string write(const Shape& shape, const JsonValue& value);
+
+}  // namespace tweenfall::document

@@ -1,0 +1,53 @@
+#pragma once
+
+// Accessors: typed lists of numbers in the buffers, decoded and checked.
+
+#include "container.h"
+
+#include <initializer_list>
+#include <optional>
+
+namespace tweenfall::gltf {
+
+/// What a reader of an accessor asks of its numbers.
+enum class Wanted {
+  reals,    ///< floats, or integers with "normalized"
+  any,      ///< the same, or plain integers
+  indices,  ///< unsigned integers
+};
+
+struct Decoded {
+  std::size_t count = 0;  ///< elements
+  std::size_t parts = 1;  ///< numbers in each
+  std::vector<double> numbers;
+
+  [[nodiscard]] const double* at(std::size_t element) const { return numbers.data() + element * parts; }
+};
+
+class Accessors {
+ public:
+  Accessors(const Container& container, ModelProblems& problems);
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+
+  /// The accessor's numbers, all finite; empty after a problem.
+  /// @param user   place of what refers to it
+  /// @param types  the allowed ones of "SCALAR", "VEC2", "VEC3", "VEC4", "MAT4"
+  [[nodiscard]] std::optional<Decoded> read(std::size_t accessor, const std::string& user,
+                                            std::initializer_list<const char*> types, Wanted wanted);
+
+ private:
+  struct Source;
+  std::optional<Source> source(const Fields& fields, const char* offset_name, std::size_t count,
+                               std::size_t element_size) const;
+  bool afford(const Fields& accessor, std::size_t numbers);
+  bool decode_sparse(const Fields& accessor, int component, bool normalized, Decoded& decoded);
+
+  const Container& container_;
+  ModelProblems& problems_;
+  Fields root_;
+  std::size_t count_;
+  std::size_t budget_;  ///< numbers that may still be decoded
+};
+
+}  // namespace tweenfall::gltf

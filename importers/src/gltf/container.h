@@ -1,0 +1,32 @@
+#pragma once
+
+// The outer shell of a glTF file: its JSON and the bytes of its buffers.
+
+#include "../model_problems.h"
+#include "fields.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tweenfall::gltf {
+
+struct Container {
+  JsonValue document;
+  std::string_view text;             ///< what `document` was read from, for places in it; empty in binary files
+  std::vector<std::string> buffers;  ///< exactly "byteLength" bytes each; empty where there was a problem
+  std::size_t file_size = 0;         ///< bytes of the file and everything it names
+};
+
+/// Takes apart the bytes of a .glb or .gltf, which must outlive what is returned. Whatever is wrong goes to `problems`.
+/// @param file  where it came from; buffers in files of their own must lie in its folder or below
+[[nodiscard]] Container open_container(std::string_view bytes, const std::filesystem::path& file,
+                                       ModelProblems& problems);
+
+/// Where the value at a place such as "/nodes/0/mesh" stands in the text, or the innermost one around it that is there;
+/// empty for places that are none and for binary files.
+[[nodiscard]] std::optional<TextPlace> place_in(const Container& container, std::string_view place);
+
+}  // namespace tweenfall::gltf

@@ -1,0 +1,25 @@
+#pragma once
+
+// Meshes, materials' base colors and skins of a glTF document.
+
+#include "accessors.h"
+
+#include <tweenfall/anim/mesh.h>
+
+#include <vector>
+
+namespace tweenfall::gltf {
+
+/// A mesh as the file has it: one of ours for each primitive made of triangles.
+struct FileMesh {
+  std::vector<Mesh> primitives;
+  std::size_t morphs = 0;                 ///< targets of every primitive
+  std::vector<std::size_t> joint_counts;  ///< for each primitive, one more than the largest joint that pulls
+};
+
+[[nodiscard]] std::vector<FileMesh> read_meshes(const Fields& root, Accessors& accessors);
+
+/// Skins whose joints are indices of the file's nodes.
+[[nodiscard]] std::vector<Skin> read_skins(const Fields& root, Accessors& accessors);
+
+}  // namespace tweenfall::gltf

@@ -1,0 +1,18 @@
+#pragma once
+
+// A placement given as a matrix, taken apart.
+
+#include <tweenfall/curves/pose.h>
+
+namespace tweenfall {
+
+struct TakenApart {
+  Pose pose;
+  double shear = 0;  ///< largest element of matrix - pose, relative to the largest of the matrix; 0 for none
+};
+
+/// Position, rotation and scale whose product is the matrix, or nearly so where it holds shear. A mirroring matrix gets
+/// a negative x scale.
+[[nodiscard]] TakenApart take_apart(const Mat3& linear, const Vec3& translation) noexcept;
+
+}  // namespace tweenfall

@@ -1,0 +1,48 @@
+#pragma once
+
+// What is wrong with a model file, gathered so that one reading reports everything.
+
+#include "json/json_text.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+class ModelProblems {
+ public:
+  /// A fault for which the file cannot be loaded. @param place  where in the file, or empty
+  void add(const std::string& place, const std::string& what);
+  void add(const TextPlace& place, const std::string& what);
+
+  /// A fault that was mended, in a sentence that says how.
+  void repair(const std::string& place, const std::string& what);
+
+  [[nodiscard]] bool any() const { return count_ > 0; }
+  [[nodiscard]] std::vector<std::string> repairs() const;
+
+  /// The line and column of a place, where they are known.
+  using Where = std::function<std::optional<TextPlace>(const std::string& place)>;
+
+  /// @throws ModelError listing the faults, when there are any.
+  void throw_if_any(const std::filesystem::path& file, const Where& where = {}) const;
+
+ private:
+  struct Fault {
+    std::string place, what;
+    std::optional<TextPlace> at;
+  };
+
+  void keep(Fault fault);
+
+  std::vector<Fault> faults_;
+  std::vector<std::string> repairs_;
+  std::set<std::string> told_;
+  std::size_t count_ = 0, repair_count_ = 0;
+};
+
+}  // namespace tweenfall

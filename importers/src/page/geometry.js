@@ -1,0 +1,85 @@
+// Shapes of bodies as triangles. Round shapes carry a pattern of shades, so that one sees them turn.
+
+const shade = 0.8;
+
+// A surface of revolution about y through `profile`, a list of [radius, height, normal radius, normal height], from
+// the top down. Sectors alternate in shade above and below the middle.
+function revolved(profile, sectors) {
+  const positions = [], normals = [], shades = [];
+  const push = (point, angle, tone) => {
+    const c = Math.cos(angle), s = Math.sin(angle);
+    positions.push(point[0] * c, point[1], point[0] * s);
+    normals.push(point[2] * c, point[3], point[2] * s);
+    shades.push(tone, tone, tone);
+  };
+  for (let ring = 0; ring + 1 < profile.length; ++ring) {
+    const upper = profile[ring], lower = profile[ring + 1];
+    for (let sector = 0; sector < sectors; ++sector) {
+      const a = 2 * Math.PI * sector / sectors, b = 2 * Math.PI * (sector + 1) / sectors;
+      const quarter = Math.floor(4 * sector / sectors) + (upper[1] + lower[1] > 0 ? 0 : 1);
+      const tone = quarter % 2 ? shade : 1;
+      for (const [point, angle] of [[upper, a], [upper, b], [lower, b], [upper, a], [lower, b], [lower, a]])
+        push(point, angle, tone);
+    }
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
+  geometry.setAttribute("normal", new THREE.Float32BufferAttribute(normals, 3));
+  geometry.setAttribute("color", new THREE.Float32BufferAttribute(shades, 3));
+  return geometry;
+}
+
+function capsuleGeometry(radius, halfHeight, rings = 16, sectors = 32) {
+  const profile = [];
+  for (let i = 0; i <= rings; ++i) {
+    const angle = Math.PI * i / rings, s = Math.sin(angle), c = Math.cos(angle);
+    profile.push([radius * s, radius * c + (i <= rings / 2 ? halfHeight : -halfHeight), s, c]);
+    if (2 * i === rings && halfHeight > 0) profile.push([radius, 0, 1, 0], [radius, -halfHeight, 1, 0]);
+  }
+  return revolved(profile, sectors);
+}
+
+function boxGeometry(half) {
+  const geometry = new THREE.BoxBufferGeometry(2 * half[0], 2 * half[1], 2 * half[2]);
+  const count = geometry.attributes.position.count;
+  geometry.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(3 * count).fill(1), 3));
+  return geometry;
+}
+
+function planeGeometry(normal, offset, size) {
+  const geometry = new THREE.PlaneBufferGeometry(size, size);
+  const count = geometry.attributes.position.count;
+  geometry.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(3 * count).fill(1), 3));
+  const up = new THREE.Vector3(...normal);
+  geometry.applyMatrix(new THREE.Matrix4().makeRotationFromQuaternion(
+    new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), up)));
+  geometry.translate(...up.multiplyScalar(offset).toArray());
+  return geometry;
+}
+
+function shapeGeometry(shape, planeSize) {
+  if (shape.sphere !== undefined) return capsuleGeometry(shape.sphere, 0);
+  if (shape.box) return boxGeometry(shape.box);
+  if (shape.capsule) return capsuleGeometry(shape.capsule[0], shape.capsule[1]);
+  return planeGeometry(shape.plane, shape.offset, planeSize);
+}
+
+// Lines a step apart in the x-z plane, in pieces of one cell: some drivers drop lines that reach behind the camera.
+function gridGeometry(step, cells) {
+  const positions = [];
+  for (let i = -cells; i <= cells; ++i)
+    for (let k = -cells; k < cells; ++k)
+      positions.push(i * step, 0, k * step, i * step, 0, (k + 1) * step, k * step, 0, i * step, (k + 1) * step, 0, i * step);
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
+  return geometry;
+}
+
+// How far the shape reaches from its node.
+function reachOf(shape) {
+  const away = Math.hypot(...shape.position);
+  if (shape.sphere !== undefined) return away + shape.sphere;
+  if (shape.box) return away + Math.hypot(...shape.box);
+  if (shape.capsule) return away + shape.capsule[0] + shape.capsule[1];
+  return 0;
+}

@@ -1,0 +1,188 @@
+#include "page/page_data.h"
+
+#include <tweenfall/importers/number_text.h>
+
+#include "json/json_string.h"
+#include "page/page_meshes.h"
+#include "recording/base64.h"
+#include "recording/key_lanes.h"
+#include "recording/words.h"
+
+#include <map>
+
+namespace tweenfall {
+
+namespace {
+
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
+
+void append_matrix(std::vector<float>& out, const WorldMotion& world) {
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) out.push_back(static_cast<float>(world.linear(row, column)));
+  for (int row = 0; row < 3; ++row) out.push_back(static_cast<float>(world.motion.pose.position[row]));
+}
+
+/// One frame alone when all frames are alike, so that what stands still costs nothing.
+void drop_repeats(std::vector<float>& values, std::size_t stride) {
+  for (std::size_t i = stride; i < values.size(); ++i)
+    if (values[i] != values[i - stride]) return;
+  if (values.size() > stride) values.resize(stride);
+}
+
+void append_quoted(std::string& out, const char* name, const std::string& text) {
+  ((((out += ",\"") += name) += "\":\"") += text) += '"';
+}
+
+std::string shape_json(const Shape& shape) {
+  std::string out = "{";
+  std::visit(Overloaded{[&](const Sphere& s) { out += "\"sphere\":" + number_text(s.radius); },
+                        [&](const Box& b) {
+                          out += "\"box\":";
+                          append_vector(out, b.half_extents);
+                        },
+                        [&](const Capsule& c) {
+                          out += "\"capsule\":[" + number_text(c.radius) + "," + number_text(c.half_height) + "]";
+                        },
+                        [&](const Plane& p) {
+                          out += "\"plane\":";
+                          append_vector(out, p.normal);
+                          out += ",\"offset\":" + number_text(p.offset);
+                        }},
+             shape.solid);
+  out += ",\"position\":";
+  append_vector(out, shape.offset.position);
+  out += ",\"rotation\":";
+  append_rotation(out, shape.offset.rotation);
+  return out + "}";
+}
+
+/// Owners as runs: [[first frame, word], ...].
+std::string owner_runs(const std::vector<Owner>& owners) {
+  std::string out = "[";
+  for (std::size_t frame = 0; frame < owners.size(); ++frame) {
+    if (frame > 0 && owners[frame] == owners[frame - 1]) continue;
+    if (frame > 0) out += ',';
+    out += "[" + std::to_string(frame) + ",\"" + owner_word(owners[frame]) + "\"]";
+  }
+  return out + "]";
+}
+
+std::string color_json(const Color& color) {
+  std::string out = "[";
+  for (int i = 0; i < 4; ++i) (i > 0 ? out += ',' : out) += short_text(color.rgba[i], 4);
+  return out + "]";
+}
+
+std::string node_json(const NodeRecord& node, const NodeDescription* description) {
+  std::string out = "{\"name\":";
+  append_json_string(out, node.name);
+  out += ",\"parent\":" + (node.parent == no_node ? std::string("-1") : std::to_string(node.parent));
+  out += ",\"owner\":" + owner_runs(node.owner);
+
+  std::vector<float> numbers;
+  for (const WorldMotion& world : node.world) append_matrix(numbers, world);
+  drop_repeats(numbers, 12);
+  append_quoted(out, "matrices", base64(numbers));
+  numbers.clear();
+  for (const Twist& twist : node.twist) {
+    for (int i = 0; i < 3; ++i) numbers.push_back(static_cast<float>(twist.linear[i]));
+    for (int i = 0; i < 3; ++i) numbers.push_back(static_cast<float>(twist.angular[i]));
+  }
+  drop_repeats(numbers, 6);
+  append_quoted(out, "twists", base64(numbers));
+  if (!node.color.empty()) {
+    numbers.clear();
+    for (const Color& color : node.color)
+      for (int i = 0; i < 4; ++i) numbers.push_back(static_cast<float>(color.rgba[i]));
+    drop_repeats(numbers, 4);
+    append_quoted(out, "colors", base64(numbers));
+  } else if (description && description->color) {
+    out += ",\"color\":" + color_json(*description->color);
+  }
+  if (!node.weights.empty() && !node.weights.front().empty()) {
+    const std::size_t count = node.weights.front().size();
+    numbers.clear();
+    for (const std::vector<double>& weights : node.weights)
+      for (std::size_t i = 0; i < count; ++i)
+        numbers.push_back(i < weights.size() ? static_cast<float>(weights[i]) : 0);
+    drop_repeats(numbers, count);
+    out += ",\"weightCount\":" + std::to_string(count);
+    append_quoted(out, "weights", base64(numbers));
+  }
+  if (description && description->body) {
+    out += ",\"shape\":" + shape_json(description->body->shape);
+    if (description->body->fixed) out += ",\"fixed\":true";
+  }
+  return out + "}";
+}
+
+std::string lane_json(const KeyLane& lane, std::size_t node) {
+  std::string out = "{\"node\":" + std::to_string(node) + ",\"property\":";
+  append_json_string(out, lane.property);
+  append_quoted(out, "times", base64(std::span<const double>(lane.times)));
+  return out + "}";
+}
+
+std::string handoff_json(const HandOff& handoff) {
+  std::string out = "{\"time\":" + number_text(handoff.time) + ",\"node\":" + std::to_string(handoff.node);
+  append_quoted(out, "from", owner_word(handoff.from));
+  append_quoted(out, "to", owner_word(handoff.to));
+  append_quoted(out, "cause", cause_word(handoff.cause));
+  return out + "}";
+}
+
+std::string event_json(const StageEvent& event) {
+  std::string out = "{\"time\":" + number_text(event.time) + ",\"name\":";
+  append_json_string(out, event.name);
+  out += ",\"nodes\":[";
+  for (std::size_t i = 0; i < event.nodes.size(); ++i) out += (i > 0 ? "," : "") + std::to_string(event.nodes[i]);
+  return out + "],\"impulse\":" + short_text(event.impulse, 6) + "}";
+}
+
+template <class List, class ToJson>
+void append_items(std::string& out, const char* name, const List& list, ToJson to_json) {
+  ((out += ",\n\"") += name) += "\":[";
+  bool first = true;
+  for (const auto& item : list) {
+    const std::string text = to_json(item);
+    if (text.empty()) continue;
+    if (!first) out += ",\n";
+    out += text;
+    first = false;
+  }
+  out += ']';
+}
+
+}  // namespace
+
+std::string page_data(const Recording& recording, const StageDescription& stage) {
+  std::map<std::string, std::size_t> node_of;
+  for (std::size_t i = 0; i < recording.nodes.size(); ++i) node_of.emplace(recording.nodes[i].name, i);
+  std::map<std::string, const NodeDescription*> description_of;
+  for (const NodeDescription& node : stage.nodes) description_of.emplace(node.name, &node);
+
+  std::string out = "{\"name\":";
+  append_json_string(out, recording.name.empty() ? stage.name : recording.name);
+  append_quoted(out, "times", base64(std::span<const double>(recording.times)));
+  append_items(out, "nodes", recording.nodes, [&](const NodeRecord& node) {
+    const auto found = description_of.find(node.name);
+    return node_json(node, found == description_of.end() ? nullptr : found->second);
+  });
+  const double from = recording.times.empty() ? 0 : recording.times.front();
+  const double until = recording.times.empty() ? 0 : recording.times.back();
+  append_items(out, "lanes", key_lanes(stage, from, until), [&](const KeyLane& lane) {
+    const auto found = node_of.find(lane.node);
+    return found == node_of.end() ? std::string() : lane_json(lane, found->second);
+  });
+  append_items(out, "handoffs", recording.handoffs, handoff_json);
+  append_items(out, "events", recording.events, event_json);
+  append_page_meshes(out, stage, node_of);
+  return out + "}";
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,35 @@
+#pragma once
+
+// One frame of a plot: axes with ticks, curves through points.
+
+#include "plot/axis.h"
+#include "plot/svg_writer.h"
+#include "plot/track_values.h"
+
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// Whether a panel shows the values of points or their rates.
+enum class Shows { values, rates };
+
+[[nodiscard]] const std::vector<double>& numbers(const TrackPoint& point, Shows shows);
+
+/// Color of a component by its name.
+[[nodiscard]] const char* component_color(const std::string& name);
+
+struct Panel {
+  Axis time, value;
+  Shows shows = Shows::values;
+  std::string title;
+  std::vector<std::string> names;  ///< of the components
+};
+
+/// Frame, ticks, title and the names of the components in their colors.
+void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels);
+
+/// A line through the points for each component.
+void draw_curves(SvgWriter& svg, const Panel& panel, const std::vector<TrackPoint>& points, bool dashed);
+
+}  // namespace tweenfall

@@ -1,0 +1,188 @@
+#include "plot/plotted_track.h"
+
+#include "recording/check.h"
+#include "recording/key_lanes.h"
+#include "recording/words.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace tweenfall {
+
+namespace {
+
+constexpr int points_across = 400;
+
+/// A clip on the plot's axis: through its play when there is a recording, else as it is.
+struct Shown {
+  const Clip* clip;
+  const Play* play;
+
+  [[nodiscard]] TrackPoint at(const Track& track, double time, Side side) const {
+    if (!play) return sample_track(track.curve, time, side);
+    const ClipClock clock = clock_at(*play, *clip, time, side);
+    TrackPoint point = sample_track(track.curve, clock.time, clock.side);
+    point.time = time;
+    for (double& rate : point.rates) rate *= clock.rate;
+    return point;
+  }
+};
+
+std::vector<Shown> shown_clips(const StageDescription& stage, bool recorded, const std::string& name) {
+  std::vector<Shown> shown;
+  std::string names;
+  for (const Clip& clip : stage.clips) {
+    names += (names.empty() ? "" : ", ") + clip.name;
+    const Play* play = nullptr;
+    for (const Play& candidate : stage.plays)
+      if (!play && candidate.clip < stage.clips.size() && &stage.clips[candidate.clip] == &clip) play = &candidate;
+    const bool wanted = name.empty() ? play || stage.clips.size() == 1 : clip.name == name;
+    if (wanted) shown.push_back({&clip, recorded ? play : nullptr});
+  }
+  if (shown.empty() && !name.empty())
+    throw std::invalid_argument("there is no clip \"" + name + "\"" + (names.empty() ? "" : "; there are: " + names));
+  if (shown.empty() && !names.empty())
+    throw std::invalid_argument("no clip plays; say which one to plot, of: " + names);
+  return shown;
+}
+
+/// Times of the keys, as often as they are passed.
+std::vector<double> passed_keys(const StageDescription& stage, const Shown& shown, const Track& track, double from,
+                                double until) {
+  std::vector<double> times;
+  if (!shown.play) {
+    for (const double time : key_times(track.curve))
+      if (time >= from && time <= until) times.push_back(time);
+    return times;
+  }
+  for (const KeyLane& lane : key_lanes(stage, from, until))
+    if (lane.node == track.node && lane.property == track.property) times = lane.times;
+  return times;
+}
+
+bool jumps(const TrackPoint& in, const TrackPoint& out) {
+  for (std::size_t i = 0; i < in.values.size(); ++i)
+    if (std::abs(in.values[i] - out.values[i]) > 1e-9 * std::max(1.0, std::abs(in.values[i]))) return true;
+  return false;
+}
+
+/// Stage times at which a looping play starts over: there even a formula jumps.
+std::vector<double> seams(const Shown& shown, double from, double until) {
+  std::vector<double> times;
+  if (!shown.play || shown.clip->loop.mode == LoopMode::once || !(shown.clip->duration > 0) || shown.play->speed == 0)
+    return times;
+  const double length = shown.clip->duration / std::abs(shown.play->speed);
+  for (double cycle = 1; times.size() < 1000; ++cycle) {
+    const double time = shown.play->at + cycle * length;
+    if (!(time < until)) break;
+    if (time > from) times.push_back(time);
+  }
+  return times;
+}
+
+void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<double>& keys, double from, double until) {
+  std::vector<double> corners = seams(shown, from, until);
+  corners.insert(corners.end(), keys.begin(), keys.end());
+  std::sort(corners.begin(), corners.end());
+  std::vector<double> times = corners;
+  for (int i = 0; i <= points_across; ++i) times.push_back(from + (until - from) * i / points_across);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  for (const double time : times) {
+    const bool corner = std::binary_search(corners.begin(), corners.end(), time) && time > from;
+    if (corner) plotted.curve.push_back(shown.at(*plotted.track, time, Side::in));
+    // A key at the very end is arrived at; what would follow is not on the plot.
+    if (corner && time == until) continue;
+    plotted.curve.push_back(shown.at(*plotted.track, time, Side::out));
+    if (corner) plotted.curve.back().starts = jumps(plotted.curve[plotted.curve.size() - 2], plotted.curve.back());
+  }
+  if (plotted.curve.front().values.size() > 16) return;  // keys of so many curves would hide them
+  for (const double time : keys)
+    plotted.keys.push_back({time, shown.at(*plotted.track, time, Side::in), shown.at(*plotted.track, time, Side::out),
+                            time == keys.front(), time == keys.back()});
+}
+
+bool is_below(const Recording& recording, std::size_t node, const std::string& name) {
+  for (; node != no_node; node = recording.nodes[node].parent)
+    if (recording.nodes[node].name == name) return true;
+  return false;
+}
+
+void add_recorded(PlottedTrack& plotted, const Recording& recording) {
+  for (const HandOff& handoff : recording.handoffs)
+    if (handoff.cause != Cause::start && is_below(recording, handoff.node, plotted.track->node))
+      plotted.moments.push_back(
+          {handoff.time, recording.nodes[handoff.node].name + " " + owner_word(handoff.to), true});
+  const auto found = std::find_if(recording.nodes.begin(), recording.nodes.end(),
+                                  [&](const NodeRecord& node) { return node.name == plotted.track->node; });
+  if (found == recording.nodes.end()) return;
+  const auto node = static_cast<std::size_t>(found - recording.nodes.begin());
+  for (std::size_t first = 0; first < found->owner.size();) {
+    std::size_t last = first;
+    while (last + 1 < found->owner.size() && found->owner[last + 1] == found->owner[first]) ++last;
+    if (found->owner[first] != Owner::keyed) {
+      std::vector<TrackPoint> points =
+          recorded_track(recording, node, property_named(plotted.track->property), first, last);
+      if (!points.empty()) plotted.simulated.push_back(std::move(points));
+    }
+    first = last + 1;
+  }
+}
+
+void add_events(PlottedTrack& plotted, const Shown& shown, const Recording* recording) {
+  if (!recording) {
+    for (const ClipEvent& event : shown.clip->events) plotted.moments.push_back({event.from, event.name, false});
+    return;
+  }
+  for (const StageEvent& event : recording->events) {
+    const bool ours = event.nodes.empty() || std::any_of(event.nodes.begin(), event.nodes.end(), [&](NodeId node) {
+                        return recording->nodes[node].name == plotted.track->node;
+                      });
+    if (ours) plotted.moments.push_back({event.time, event.name, false});
+  }
+}
+
+}  // namespace
+
+PlottedStage plotted_tracks(const StageDescription& stage, const Recording* recording, const PlotOptions& options) {
+  if (recording) check_recording(*recording);
+  PlottedStage result;
+  const std::vector<Shown> clips = shown_clips(stage, recording != nullptr, options.clip);
+  if (recording && !recording->times.empty()) {
+    result.from = recording->times.front();
+    result.until = recording->times.back();
+  } else {
+    result.until = 0;
+    for (const Shown& shown : clips)
+      if (std::isfinite(shown.clip->duration)) result.until = std::max(result.until, shown.clip->duration);
+  }
+  // A formula has no end, a single moment no length: show ten seconds, or one.
+  if (!(result.until > result.from)) result.until = result.from + (recording ? 1 : 10);
+
+  std::vector<std::string> missing = options.tracks;
+  std::string names;
+  for (const Shown& shown : clips) {
+    for (const Track& track : shown.clip->tracks) {
+      names += (names.empty() ? "" : ", ") + track.name();
+      if (!options.tracks.empty()) {
+        if (std::find(options.tracks.begin(), options.tracks.end(), track.name()) == options.tracks.end()) continue;
+        missing.erase(std::remove(missing.begin(), missing.end(), track.name()), missing.end());
+      }
+      PlottedTrack plotted;
+      plotted.track = &track;
+      plotted.title = track.name() + (clips.size() > 1 ? " in " + shown.clip->name : "");
+      add_curve(plotted, shown, passed_keys(stage, shown, track, result.from, result.until), result.from, result.until);
+      add_events(plotted, shown, recording);
+      if (recording) add_recorded(plotted, *recording);
+      result.tracks.push_back(std::move(plotted));
+    }
+  }
+  if (!missing.empty())
+    throw std::invalid_argument("there is no track \"" + missing.front() + "\"" +
+                                (names.empty() ? "" : "; there are: " + names));
+  if (result.tracks.empty()) throw std::invalid_argument("there are no tracks to plot");
+  return result;
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,43 @@
+#pragma once
+
+// What a plot shows of each track, gathered before anything is drawn.
+
+#include "plot/track_values.h"
+
+#include <tweenfall/importers/plot.h>
+
+namespace tweenfall {
+
+struct PlottedKey {
+  double time = 0;
+  TrackPoint in, out;
+  bool first = false, last = false;  ///< no curve before or after
+};
+
+/// A line across the panels.
+struct PlottedMoment {
+  double time = 0;
+  std::string name;
+  bool handoff = false;
+};
+
+struct PlottedTrack {
+  const Track* track = nullptr;
+  std::string title;
+  std::vector<TrackPoint> curve;
+  std::vector<PlottedKey> keys;
+  std::vector<PlottedMoment> moments;
+  std::vector<std::vector<TrackPoint>> simulated;  ///< each a stretch in which the body was not keyed
+};
+
+struct PlottedStage {
+  double from = 0, until = 1;  ///< s: stage time when there is a recording, else clip time
+  std::vector<PlottedTrack> tracks;
+};
+
+/// @throws std::invalid_argument naming what exists, for a clip or a track that does not, or when there is nothing to
+/// plot.
+[[nodiscard]] PlottedStage plotted_tracks(const StageDescription& stage, const Recording* recording,
+                                          const PlotOptions& options);
+
+}  // namespace tweenfall

@@ -1,0 +1,33 @@
+#pragma once
+
+// Any track as rows of numbers: one component a row, values and rates over time.
+
+#include <tweenfall/physics/stage/recording.h>
+
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// One moment of a track; components in the order of `component_names`.
+struct TrackPoint {
+  double time = 0;             ///< on the plot's axis, s
+  std::vector<double> values;  ///< rotations as x, y, z, w, colors as linear r, g, b, a
+  std::vector<double> rates;   ///< per second; rotations: angular velocity x, y, z, rad/s
+  bool starts = false;         ///< the curve jumps here: no line from the point before
+};
+
+/// Names of a track's values; of its rates, which differ for rotations. Texts have none.
+[[nodiscard]] std::vector<std::string> component_names(const TrackCurve& curve);
+[[nodiscard]] std::vector<std::string> rate_names(const TrackCurve& curve);
+
+/// Value and rate at one clip time.
+[[nodiscard]] TrackPoint sample_track(const TrackCurve& curve, double clip_time, Side side);
+
+/// What is left of the motion of a recorded node, relative to its parent, as a track of `property` would say it; empty
+/// for properties other than position and rotation.
+/// @param first, last  frames, both included
+[[nodiscard]] std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t node, Property property,
+                                                     std::size_t first, std::size_t last);
+
+}  // namespace tweenfall

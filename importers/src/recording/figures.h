@@ -1,0 +1,53 @@
+#pragma once
+
+// What a side view draws of a recording: figures of a few points each, placed in the picture for every frame.
+
+#include <tweenfall/physics/stage/recording.h>
+
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// From the world to the picture.
+struct SideView {
+  int across = 0;                ///< the world axis that runs to the right: 0 (seen from +z) or 2 (seen from -x)
+  double scale = 1;              ///< px/m
+  double left = 0, top = 0;      ///< px
+  double low = 0, high = 0;      ///< world coordinates at the picture's left edge and at its upper edge, m
+  double width = 0, height = 0;  ///< px
+
+  [[nodiscard]] Vec2 place(const Vec3& point) const {
+    return {left + (point[across] - low) * scale, top + (high - point.y()) * scale};
+  }
+};
+
+/// A view that holds what moves, for most of the time, in at most `width` by `height` px with the upper left corner at
+/// (left, top). Where a node is for less than a fiftieth of the time does not count.
+[[nodiscard]] SideView side_view(const Recording& recording, const StageDescription& stage, double left, double top,
+                                 double width, double height);
+
+struct Figure {
+  enum class Kind {
+    ball,   ///< points: center, and one of its surface that shows how it turns; radius
+    stick,  ///< points: two; drawn as thick as 2 radius with round ends
+    box,    ///< points: eight corners
+    bones,  ///< points: pairs, a line each
+  };
+  Kind kind = Kind::box;
+  std::size_t node = no_node;  ///< whose owner colors it
+  double radius = 0;           ///< px
+  bool fixed = false;
+  std::vector<std::vector<Vec2>> points;  ///< [frame][point], px
+};
+
+/// Bodies that are not planes, meshes without skin as their boxes, and one stick figure for each skin and for each tree
+/// of other nodes without bodies and meshes.
+[[nodiscard]] std::vector<Figure> figures(const Recording& recording, const StageDescription& stage,
+                                          const SideView& view);
+
+/// The description of each recorded node, null for one that the stage does not have.
+[[nodiscard]] std::vector<const NodeDescription*> descriptions(const Recording& recording,
+                                                               const StageDescription& stage);
+
+}  // namespace tweenfall

@@ -1,0 +1,93 @@
+#include "recording/key_lanes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <type_traits>
+
+namespace tweenfall {
+
+namespace {
+
+constexpr std::size_t most_keys = 20000;
+
+template <class T>
+std::vector<double> times_of(const Curve<T>& curve) {
+  const std::span<const double> knots = curve.knots();
+  return {knots.begin(), knots.end()};
+}
+
+template <class T>
+std::vector<double> times_of(const StepCurve<T>& curve) {
+  std::vector<double> times;
+  for (const auto& step : curve.steps()) times.push_back(step.first);
+  return times;
+}
+
+std::vector<double> times_of(const WeightCurves& curves) {
+  std::vector<double> times;
+  for (const Curve<double>& curve : curves) {
+    const std::span<const double> knots = curve.knots();
+    times.insert(times.end(), knots.begin(), knots.end());
+  }
+  return times;
+}
+
+void sort_and_unite(std::vector<double>& times) {
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+}
+
+bool drives(const Play& play, const std::string& node) {
+  return play.mask.empty() || std::any_of(play.mask.begin(), play.mask.end(),
+                                          [&](const std::string& pattern) { return matches(pattern, node); });
+}
+
+/// Adds the stage times at which `play` passes the clip times `keys`.
+void add_passes(const Play& play, const Clip& clip, const std::vector<double>& keys, double from, double until,
+                std::vector<double>& out) {
+  const double speed = std::abs(play.speed);
+  if (keys.empty() || speed == 0) return;
+  const double length = clip.duration;
+  const bool cycles = clip.loop.mode != LoopMode::once && std::isfinite(length) && length > 0;
+  const double plays = !cycles ? 1 : clip.loop.count > 0 ? clip.loop.count : HUGE_VAL;
+  for (double cycle = 0; cycle < plays && out.size() < most_keys; ++cycle) {
+    if (play.at + (cycles ? cycle * length : 0) / speed > until) return;
+    const bool odd = std::fmod(cycle, 2) == 1;
+    const bool backwards = (play.speed < 0) != (clip.loop.mode == LoopMode::pingpong && odd);
+    for (const double key : keys) {
+      if (key < 0 || (std::isfinite(length) && key > length)) continue;
+      const double passed = (cycles ? cycle * length : 0) + (backwards && std::isfinite(length) ? length - key : key);
+      if (cycles && passed > plays * length) continue;
+      const double time = play.at + passed / speed;
+      if (time >= from && time <= until && out.size() < most_keys) out.push_back(time);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> key_times(const TrackCurve& curve) {
+  std::vector<double> times = std::visit([](const auto& held) { return times_of(held); }, curve);
+  sort_and_unite(times);
+  return times;
+}
+
+std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, double until) {
+  std::vector<KeyLane> lanes;
+  std::map<std::string, std::size_t> lane_of;
+  for (const Play& play : stage.plays) {
+    if (play.clip >= stage.clips.size()) continue;
+    const Clip& clip = stage.clips[play.clip];
+    for (const Track& track : clip.tracks) {
+      if (!drives(play, track.node)) continue;
+      const auto [place, is_new] = lane_of.try_emplace(track.name(), lanes.size());
+      if (is_new) lanes.push_back({track.node, track.property, {}});
+      add_passes(play, clip, key_times(track.curve), from, until, lanes[place->second].times);
+    }
+  }
+  for (KeyLane& lane : lanes) sort_and_unite(lane.times);
+  return lanes;
+}
+
+}  // namespace tweenfall

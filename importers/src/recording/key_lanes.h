@@ -1,0 +1,25 @@
+#pragma once
+
+// The keys of what plays on a stage, at the stage times at which they are passed.
+
+#include <tweenfall/physics/stage/description.h>
+
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// One animated track.
+struct KeyLane {
+  std::string node, property;
+  std::vector<double> times;  ///< stage time of each key passed, s, increasing; empty for a formula
+};
+
+/// A lane for each track that a play drives, in order of the plays; a track in two plays has one lane with the keys of
+/// both. Keys of loops are there once for each time around, between `from` and `until`; a lane holds 20,000 at most.
+[[nodiscard]] std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, double until);
+
+/// Times of a track's keys in clip time, s.
+[[nodiscard]] std::vector<double> key_times(const TrackCurve& curve);
+
+}  // namespace tweenfall

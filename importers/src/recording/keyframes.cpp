@@ -1,0 +1,40 @@
+#include "recording/keyframes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tweenfall {
+
+std::vector<std::size_t> key_frames(const std::vector<double>& times, const std::vector<std::vector<Vec2>>& points,
+                                    double tolerance) {
+  std::vector<std::size_t> kept;
+  if (times.empty()) return kept;
+  kept = {0, times.size() - 1};
+  std::vector<std::pair<std::size_t, std::size_t>> stretches{{0, times.size() - 1}};
+  while (!stretches.empty()) {
+    const auto [first, last] = stretches.back();
+    stretches.pop_back();
+    double worst = tolerance * tolerance;
+    std::size_t split = first;
+    for (std::size_t frame = first + 1; frame < last; ++frame) {
+      const double u = (times[frame] - times[first]) / (times[last] - times[first]);
+      for (std::size_t i = 0; i < points[frame].size(); ++i) {
+        const Vec2 straight = points[first][i] + u * (points[last][i] - points[first][i]);
+        const double away = (points[frame][i] - straight).squaredNorm();
+        if (away > worst) {
+          worst = away;
+          split = frame;
+        }
+      }
+    }
+    if (split == first) continue;
+    kept.push_back(split);
+    stretches.emplace_back(first, split);
+    stretches.emplace_back(split, last);
+  }
+  std::sort(kept.begin(), kept.end());
+  kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+  return kept;
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,19 @@
+#pragma once
+
+// The few frames from which the others follow by straight lines.
+
+#include <tweenfall/curves/values.h>
+
+#include <vector>
+
+namespace tweenfall {
+
+/// Indices of the frames to keep, first and last among them: between two of them in a row, every point of every frame
+/// lies within `tolerance` of the straight line in time.
+///
+/// Source: the splitting of D. Douglas and T. Peucker, 1973, with the distance at equal times in place of that to the
+/// line.
+[[nodiscard]] std::vector<std::size_t> key_frames(const std::vector<double>& times,
+                                                  const std::vector<std::vector<Vec2>>& points, double tolerance);
+
+}  // namespace tweenfall

@@ -1,0 +1,54 @@
+#include <tweenfall/importers/recording_file.h>
+
+#include <tweenfall/importers/number_text.h>
+
+#include "recording/check.h"
+#include "recording/words.h"
+
+namespace tweenfall {
+
+namespace {
+
+/// A field as RFC 4180 has it: quoted when it holds a comma, a quote or a line break.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+template <class Values>
+void append_columns(std::string& out, const Values& values, int count) {
+  for (int i = 0; i < count; ++i) {
+    out += ',';
+    append_number(out, values[i]);
+  }
+}
+
+}  // namespace
+
+std::string recording_csv(const Recording& recording) {
+  check_recording(recording);
+  std::string out =
+      "time,node,owner,position_x,position_y,position_z,rotation_x,rotation_y,rotation_z,rotation_w,"
+      "velocity_x,velocity_y,velocity_z,angular_velocity_x,angular_velocity_y,angular_velocity_z\n";
+  for (std::size_t frame = 0; frame < recording.times.size(); ++frame) {
+    for (const NodeRecord& node : recording.nodes) {
+      append_number(out, recording.times[frame]);
+      ((out += ',') += field(node.name)) += ',';
+      out += owner_word(node.owner[frame]);
+      const Pose& pose = node.world[frame].motion.pose;
+      append_columns(out, pose.position, 3);
+      append_columns(out, pose.rotation.coeffs(), 4);
+      append_columns(out, node.twist[frame].linear, 3);
+      append_columns(out, node.twist[frame].angular, 3);
+      out += '\n';
+    }
+  }
+  return out;
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,118 @@
+#include <tweenfall/importers/recording_file.h>
+
+#include <tweenfall/importers/number_text.h>
+
+#include "json/json_string.h"
+#include "recording/check.h"
+#include "recording/words.h"
+
+namespace tweenfall {
+
+namespace {
+
+/// "[a,b,...]" of what `append` adds for each index.
+template <class Append>
+void append_list(std::string& out, std::size_t size, Append append) {
+  out += '[';
+  for (std::size_t i = 0; i < size; ++i) {
+    if (i > 0) out += ',';
+    append(i);
+  }
+  out += ']';
+}
+
+void append_word(std::string& out, const char* word) {
+  out += '"';
+  out += word;
+  out += '"';
+}
+
+void append_node(std::string& out, const NodeRecord& node) {
+  const std::size_t frames = node.world.size();
+  append_json_string(out, node.name);
+  out += ": {\n   \"position\": ";
+  append_list(out, frames, [&](std::size_t i) { append_vector(out, node.world[i].motion.pose.position); });
+  out += ",\n   \"rotation\": ";
+  append_list(out, frames, [&](std::size_t i) { append_rotation(out, node.world[i].motion.pose.rotation); });
+  out += ",\n   \"velocity\": ";
+  append_list(out, frames, [&](std::size_t i) { append_vector(out, node.twist[i].linear); });
+  out += ",\n   \"angular_velocity\": ";
+  append_list(out, frames, [&](std::size_t i) { append_vector(out, node.twist[i].angular); });
+  out += ",\n   \"owner\": ";
+  append_list(out, frames, [&](std::size_t i) { append_word(out, owner_word(node.owner[i])); });
+  out += "}";
+}
+
+void append_twist(std::string& out, const Twist& twist) {
+  out += "{\"linear\": ";
+  append_vector(out, twist.linear);
+  out += ", \"angular\": ";
+  append_vector(out, twist.angular);
+  out += "}";
+}
+
+void append_handoff(std::string& out, const Recording& recording, const HandOff& handoff) {
+  out += "{\"time\": ";
+  append_number(out, handoff.time);
+  out += ", \"body\": ";
+  append_json_string(out, recording.nodes[handoff.node].name);
+  out += ", \"from\": ";
+  append_word(out, owner_word(handoff.from));
+  out += ", \"to\": ";
+  append_word(out, owner_word(handoff.to));
+  out += ", \"cause\": ";
+  append_word(out, cause_word(handoff.cause));
+  out += ",\n   \"before\": ";
+  append_twist(out, handoff.before.twist);
+  out += ", \"after\": ";
+  append_twist(out, handoff.after.twist);
+  out += "}";
+}
+
+void append_event(std::string& out, const Recording& recording, const StageEvent& event) {
+  out += "{\"time\": ";
+  append_number(out, event.time);
+  out += ", \"name\": ";
+  append_json_string(out, event.name);
+  if (!event.data.empty()) (out += ", \"data\": ") += event.data;
+  if (!event.nodes.empty()) {
+    out += ", \"nodes\": ";
+    append_list(out, event.nodes.size(),
+                [&](std::size_t i) { append_json_string(out, recording.nodes[event.nodes[i]].name); });
+    out += ", \"impulse\": ";
+    append_number(out, event.impulse);
+  }
+  out += "}";
+}
+
+/// "[" or "{", the items each on a line of its own, and the closing bracket.
+template <class Append>
+void append_lines(std::string& out, char open, char close, std::size_t size, Append append) {
+  out += open;
+  for (std::size_t i = 0; i < size; ++i) {
+    out += i == 0 ? "\n  " : ",\n  ";
+    append(i);
+  }
+  if (size > 0) out += "\n ";
+  out += close;
+}
+
+}  // namespace
+
+std::string recording_json(const Recording& recording) {
+  check_recording(recording);
+  std::string out = "{\"times\": ";
+  append_list(out, recording.times.size(), [&](std::size_t i) { append_number(out, recording.times[i]); });
+  out += ",\n \"nodes\": ";
+  append_lines(out, '{', '}', recording.nodes.size(), [&](std::size_t i) { append_node(out, recording.nodes[i]); });
+  out += ",\n \"handoffs\": ";
+  append_lines(out, '[', ']', recording.handoffs.size(),
+               [&](std::size_t i) { append_handoff(out, recording, recording.handoffs[i]); });
+  out += ",\n \"events\": ";
+  append_lines(out, '[', ']', recording.events.size(),
+               [&](std::size_t i) { append_event(out, recording, recording.events[i]); });
+  out += "}\n";
+  return out;
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,83 @@
+#include "recording/shape_mesh.h"
+
+#include <tweenfall/curves/elementary.h>
+
+#include <numbers>
+
+namespace tweenfall {
+
+namespace {
+
+constexpr std::uint32_t sectors = 32, rings = 16;
+
+/// Two half balls on a cylinder along y; a ball when it has no length.
+void add_round(Mesh& mesh, double radius, double half_height) {
+  for (std::uint32_t ring = 0; ring <= rings + 1; ++ring) {
+    // The equator is there twice, once for each half.
+    const std::uint32_t parallel = ring <= rings / 2 ? ring : ring - 1;
+    const auto down = elementary::sin_cos(std::numbers::pi * parallel / rings);
+    const double lift = ring <= rings / 2 ? half_height : -half_height;
+    for (std::uint32_t sector = 0; sector <= sectors; ++sector) {
+      const auto around = elementary::sin_cos(2 * std::numbers::pi * (sector % sectors) / sectors);
+      const Vec3 normal(down.sin * around.cos, down.cos, down.sin * around.sin);
+      mesh.normals.push_back(normal);
+      mesh.positions.push_back(normal * radius + Vec3(0, lift, 0));
+    }
+  }
+  for (std::uint32_t ring = 0; ring <= rings; ++ring) {
+    if (ring == rings / 2 && half_height == 0) continue;
+    for (std::uint32_t sector = 0; sector < sectors; ++sector) {
+      const std::uint32_t a = ring * (sectors + 1) + sector, b = a + sectors + 1;
+      if (ring > 0) mesh.triangles.insert(mesh.triangles.end(), {a, a + 1, b + 1});
+      if (ring < rings) mesh.triangles.insert(mesh.triangles.end(), {a, b + 1, b});
+    }
+  }
+}
+
+/// A rectangle around `center`; the normal is `u` x `v`.
+void add_rectangle(Mesh& mesh, const Vec3& center, const Vec3& u, const Vec3& v) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  const Vec3 normal = u.cross(v).normalized();
+  for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+    mesh.positions.push_back(center + u * a + v * b);
+    mesh.normals.push_back(normal);
+  }
+  mesh.triangles.insert(mesh.triangles.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+}
+
+void add_box(Mesh& mesh, const Vec3& half) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      Vec3 out(0, 0, 0), u(0, 0, 0), v(0, 0, 0);
+      out[axis] = side * half[axis];
+      u[(axis + 1) % 3] = half[(axis + 1) % 3];
+      v[(axis + 2) % 3] = side * half[(axis + 2) % 3];
+      add_rectangle(mesh, out, u, v);
+    }
+}
+
+void add_plane(Mesh& mesh, const Plane& plane) {
+  const Vec3 other = plane.normal.x() * plane.normal.x() < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+  const Vec3 u = other.cross(plane.normal).normalized();
+  add_rectangle(mesh, plane.normal * plane.offset, u * 10, plane.normal.cross(u) * 10);
+}
+
+}  // namespace
+
+Mesh shape_mesh(const Shape& shape) {
+  Mesh mesh;
+  if (const auto* sphere = std::get_if<Sphere>(&shape.solid)) {
+    add_round(mesh, sphere->radius, 0);
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape.solid)) {
+    add_round(mesh, capsule->radius, capsule->half_height);
+  } else if (const auto* box = std::get_if<Box>(&shape.solid)) {
+    add_box(mesh, box->half_extents);
+  } else if (const auto* plane = std::get_if<Plane>(&shape.solid)) {
+    add_plane(mesh, *plane);
+  }
+  for (Vec3& position : mesh.positions) position = shape.offset.rotation * position + shape.offset.position;
+  for (Vec3& normal : mesh.normals) normal = shape.offset.rotation * normal;
+  return mesh;
+}
+
+}  // namespace tweenfall

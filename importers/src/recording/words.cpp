@@ -1,0 +1,39 @@
+#include "recording/words.h"
+
+namespace tweenfall {
+
+const char* owner_word(Owner owner) noexcept {
+  switch (owner) {
+    case Owner::keyed:
+      return "keyed";
+    case Owner::driven:
+      return "driven";
+    case Owner::free:
+      break;
+  }
+  return "free";
+}
+
+const char* cause_word(Cause cause) noexcept {
+  switch (cause) {
+    case Cause::start:
+      return "start";
+    case Cause::at:
+      return "at";
+    case Cause::marker:
+      return "marker";
+    case Cause::event:
+      return "event";
+    case Cause::clip_end:
+      return "clip-end";
+    case Cause::contact:
+      return "contact";
+    case Cause::asleep:
+      return "asleep";
+    case Cause::caller:
+      break;
+  }
+  return "caller";
+}
+
+}  // namespace tweenfall

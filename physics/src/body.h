@@ -1,0 +1,54 @@
+#pragma once
+
+#include <tweenfall/physics/world.h>
+
+namespace tweenfall {
+
+/// Everything the world knows about one body. Plain values: a copy of it steps to the same bits.
+struct Body {
+  // Fixed when added
+  Shape shape;
+  MassProperties mass;                  ///< kept while keyed; the solver masks it
+  Mat3 inverse_inertia = Mat3::Zero();  ///< node axes
+  bool spherical = false;               ///< the same moment about every axis: spin feels no gyroscopic torque
+  double roundness = 0;                 ///< radius with which the surface rolls: of a ball or a capsule, m
+  double radius = 0;                    ///< farthest point from the center of mass, m; infinite for a plane
+  double friction = 0;
+  double restitution = 0;
+  double rolling_friction = 0;
+  double linear_damping = 0;
+  double angular_damping = 0;
+  bool fixed = false;
+
+  // State
+  bool alive = false;
+  std::uint32_t generation = 0;
+  Drive drive;
+  Motion motion;            ///< of the node's origin, exactly as told while keyed
+  Vec3 center{0, 0, 0};     ///< center of mass, world
+  Twist twist;              ///< at the center of mass
+  bool has_target = false;  ///< a target was set since the last step
+  Motion target;            ///< of the node's origin at the end of the step
+  Vec3 force{0, 0, 0};      ///< accumulated for the next step, N
+  Vec3 torque{0, 0, 0};     ///< N m
+  Vec3 reaction{0, 0, 0};   ///< N s
+  double still_for = 0;     ///< s
+  bool asleep = false;
+
+  [[nodiscard]] bool immovable() const { return fixed || drive.owner() == Owner::keyed; }
+  [[nodiscard]] Mat3 world_inertia(const Quat& rotation) const;
+  [[nodiscard]] Mat3 world_inverse_inertia(const Quat& rotation) const;
+
+  /// Sets center and twist at the center of mass from the node's motion.
+  void follow_motion();
+  /// Sets the node's motion from center of mass, rotation and twist.
+  void follow_center(const Quat& rotation);
+};
+
+/// An arm to a contact after its body turned: the solid's core turns along, the round skin over it stays below.
+/// @param skin  from the core to the contact, m
+[[nodiscard]] inline Vec3 carried(const Quat& turn, const Vec3& arm, const Vec3& skin) {
+  return turn * (arm - skin) + skin;
+}
+
+}  // namespace tweenfall

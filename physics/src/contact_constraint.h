@@ -1,0 +1,48 @@
+#pragma once
+
+#include <tweenfall/physics/world.h>
+
+#include <array>
+#include <cstdint>
+
+namespace tweenfall {
+
+/// One point of a contact through a step.
+struct PointConstraint {
+  std::uint32_t feature = 0;
+  Vec3 start_arm_a{0, 0, 0}, start_arm_b{0, 0, 0};  ///< from the centers of mass at the start of the step, world, m
+  double start_gap = 0;                             ///< along the normal at the start of the step, m
+  Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};              ///< in the current sub-step
+  double gap = 0;
+  double normal_mass = 0;
+  double normal_impulse = 0;       ///< of one sub-step, kept for the next, N s
+  Vec3 friction_impulse{0, 0, 0};  ///< of one sub-step, world, N s
+  double total_normal = 0;         ///< of the whole step
+  Vec3 total_friction{0, 0, 0};
+  double approach = 0;              ///< closing speed where they meet, m/s
+  double rebound = 0;               ///< normal speed wanted at the end of the step, m/s
+  double rebound_time = 0;          ///< how long the rebound moves the bodies in this step, s
+  double push_impulse = 0;          ///< of the push-out, kg m
+  double speed_before_rebound = 0;  ///< m/s
+  double before_rebound = 0;        ///< total normal impulse when the rebound began
+};
+
+/// A pair in contact, kept from step to step.
+struct ContactConstraint {
+  std::uint32_t a = 0, b = 0;  ///< indices of the bodies, a < b
+  Manifold manifold;
+  std::array<PointConstraint, 4> points{};
+  int count = 0;
+  double friction = 0;
+  double restitution = 0;
+  double rolling_friction = 0;
+  Vec3 rolling_impulse{0, 0, 0};
+  Vec3 total_rolling{0, 0, 0};
+  bool touching = false;  ///< an impulse passed or the shapes overlap
+  bool began = false;
+  bool impact = false;     ///< some point meets fast enough to rebound
+  double impact_time = 0;  ///< s after the start of the step
+  Contact seen;            ///< what the caller gets to see
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace tweenfall {
+
+/// Bodies that touch each other, directly or through others.
+class Islands {
+ public:
+  void reset(std::size_t count);
+  void join(std::uint32_t a, std::uint32_t b);
+  [[nodiscard]] std::uint32_t of(std::uint32_t body);  ///< the smallest index of its island
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <tweenfall/physics/shape.h>
+
+namespace tweenfall {
+
+/// Where a solid is in the world, ready for arithmetic.
+struct Placed {
+  Vec3 center;
+  Mat3 axes;  ///< columns: the solid's own axes
+};
+
+[[nodiscard]] inline Placed place(const Shape& shape, const Pose& node) noexcept {
+  const Quat rotation = node.rotation * shape.offset.rotation;
+  return {node.position + node.rotation * shape.offset.position, rotation.toRotationMatrix()};
+}
+
+}  // namespace tweenfall

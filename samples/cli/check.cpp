@@ -1,0 +1,112 @@
+// tweenfall check: every problem of every file, with its place.
+
+#include "counted.h"
+#include "faults.h"
+#include "json_text.h"
+#include "stage_file.h"
+#include "terminal.h"
+#include "verbs.h"
+
+#include <tweenfall/importers/document.h>
+
+#include <charconv>
+
+namespace tweenfall::cli {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> files;
+  bool json = false;
+};
+
+/// What was found in one file.
+struct Finding {
+  std::string summary;             ///< of a file without problems
+  std::vector<std::string> texts;  ///< a problem each, as people read it
+  std::vector<std::string> jsons;  ///< the same, as JSON objects
+};
+
+std::string problem_json(const Problem& problem) {
+  return "{\"file\": " + json_string(problem.file) + ", \"line\": " + std::to_string(problem.line) +
+         ", \"column\": " + std::to_string(problem.column) + ", \"length\": " + std::to_string(problem.length) +
+         ", \"pointer\": " + json_string(problem.pointer) + ", \"message\": " + json_string(problem.message) + "}";
+}
+
+std::string summary_of(const StageDescription& stage) {
+  std::size_t tracks = 0, bodies = 0;
+  for (const Clip& clip : stage.clips) tracks += clip.tracks.size();
+  for (const NodeDescription& node : stage.nodes) bodies += node.body ? 1 : 0;
+  std::string text = counted(stage.nodes.size(), "node") + ", " + counted(stage.clips.size(), "clip") + ", " +
+                     counted(tracks, "track");
+  if (bodies > 0) text += ", " + counted(bodies, "body", "bodies");
+  if (!stage.rules.empty()) text += ", " + counted(stage.rules.size(), "hand-off rule");
+  return text;
+}
+
+/// A line "FILE: error: ..." or "FILE:LINE:COLUMN: error: ..." taken apart; any other is the message.
+Problem problem_of(const std::string& text, const std::string& file) {
+  Problem problem;
+  problem.file = file;
+  problem.message = text;
+  const std::string mark = ": error: ";
+  const std::size_t at = text.find(mark, file.size());
+  if (!text.starts_with(file) || at == std::string::npos) return problem;
+  const char* const end = text.data() + at;
+  std::size_t line = 0, column = 0;
+  if (at > file.size()) {
+    if (text[file.size()] != ':') return problem;
+    const auto first = std::from_chars(text.data() + file.size() + 1, end, line);
+    if (first.ptr == end || *first.ptr != ':' || std::from_chars(first.ptr + 1, end, column).ptr != end) return problem;
+  }
+  problem.line = line;
+  problem.column = column;
+  problem.message = text.substr(at + mark.size());
+  return problem;
+}
+
+Finding check_file(const std::string& file) {
+  Finding finding;
+  try {
+    const StageFile read = read_stage_file(file);
+    // What a document alone cannot tell: whether its parts make a stage that can be stepped.
+    static_cast<void>(make_stage(read.stage, file));
+    finding.summary = summary_of(read.stage);
+  } catch (const DocumentError& error) {
+    finding.texts = faults_of(error, file);
+    for (const Problem& problem : error.problems()) finding.jsons.push_back(problem_json(problem));
+  } catch (const std::exception& error) {
+    finding.texts = faults_of(error, file);
+    for (const std::string& text : finding.texts) finding.jsons.push_back(problem_json(problem_of(text, file)));
+  }
+  return finding;
+}
+
+int check_files(const Options& options) {
+  std::vector<std::string> problems, files;
+  for (const std::string& file : options.files) {
+    const Finding finding = check_file(file);
+    problems.insert(problems.end(), finding.texts.begin(), finding.texts.end());
+    files.push_back("{\"file\": " + json_string(file) + ", \"valid\": " + (finding.texts.empty() ? "true" : "false") +
+                    ", \"problems\": " + json_array(finding.jsons) + "}");
+    if (options.json) continue;
+    if (finding.texts.empty()) print(file + ": valid; " + finding.summary + "\n");
+    for (const std::string& text : finding.texts) say(text);
+  }
+  if (options.json)
+    print("{\"files\": " + json_array(files) + ", \"problems\": " + std::to_string(problems.size()) + "}\n");
+  else if (!problems.empty())
+    say(counted(problems.size(), "problem"));
+  return problems.empty() ? 0 : 1;
+}
+
+}  // namespace
+
+Run check(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  arguments.files("FILE", options->files, "documents and models; - is a document on standard input");
+  arguments.flag("--json", options->json, "one JSON object for tools, on standard output");
+  return [options] { return check_files(*options); };
+}
+
+}  // namespace tweenfall::cli

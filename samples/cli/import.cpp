@@ -1,0 +1,46 @@
+// tweenfall import: a model's nodes and clips as a document.
+
+#include "counted.h"
+#include "did_you_mean.h"
+#include "faults.h"
+#include "output_file.h"
+#include "stage_file.h"
+#include "terminal.h"
+#include "verbs.h"
+
+#include <tweenfall/importers/document.h>
+#include <tweenfall/importers/model.h>
+
+namespace tweenfall::cli {
+
+namespace {
+
+struct Options {
+  std::string file, output = "-";
+};
+
+int import_file(const Options& options) {
+  require_output(options.output, options.file, std::vector<std::string>{".json"});
+  if (!is_model_name(options.file))
+    throw UsageError("\"" + options.file + "\" is no model; those end in .glb, .gltf, .fbx, .bvh, .dae or .obj");
+  const Model model = load_model(options.file);
+  for (const std::string& repair : model.repairs) say(options.file + ": note: " + repair);
+  write_output(options.output, Document::from_model(model).text());
+  std::vector<std::string> names;
+  for (const Clip& clip : model.clips) names.push_back(clip.name);
+  std::string shows = counted(model.nodes.size(), "node") + " and " + counted(names.size(), "clip");
+  if (!names.empty()) shows += " (" + listed(names) + ")";
+  say_written(options.output, shows + " of " + options.file);
+  return 0;
+}
+
+}  // namespace
+
+Run import_model(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  arguments.file("MODEL", options->file, "a .glb, .gltf, .fbx, .bvh, .dae or .obj file");
+  arguments.output(options->output, "OUT.json", "where to write; standard output without it");
+  return [options] { return import_file(*options); };
+}
+
+}  // namespace tweenfall::cli

@@ -1,0 +1,101 @@
+// tweenfall plot: curves as SVG, with what physics made of them.
+
+#include "clip_sampling.h"
+#include "counted.h"
+#include "output_file.h"
+#include "stage_run.h"
+#include "terminal.h"
+#include "verbs.h"
+
+#include <tweenfall/importers/plot.h>
+
+#include <algorithm>
+
+namespace tweenfall::cli {
+
+namespace {
+
+struct Options : RunOptions {
+  std::string output;
+  std::vector<std::string> tracks;
+};
+
+/// The clips that a plot shows: the one asked for, else the only one, else all that play.
+std::vector<std::size_t> shown_clips(const StageDescription& stage, const Options& options) {
+  if (options.clip || stage.clips.size() < 2 || stage.plays.empty())
+    return {choose_clip(stage, options.clip, options.file)};
+  std::vector<std::size_t> clips;
+  for (const Play& play : stage.plays)
+    if (std::find(clips.begin(), clips.end(), play.clip) == clips.end()) clips.push_back(play.clip);
+  return clips;
+}
+
+/// Patterns become names, so that a plot of nothing is refused here.
+std::vector<std::string> chosen_tracks(const StageDescription& stage, const std::vector<std::size_t>& clips,
+                                       const std::vector<std::string>& patterns) {
+  std::vector<std::string> names;
+  std::optional<UsageError> unknown;
+  for (const std::string& pattern : patterns) {
+    bool found = false;
+    for (const std::size_t clip : clips) {
+      try {
+        for (const std::size_t track : choose_tracks(stage.clips[clip], {pattern})) {
+          const std::string name = stage.clips[clip].tracks[track].name();
+          if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        }
+        found = true;
+      } catch (const UsageError& error) {
+        unknown = error;
+      }
+    }
+    if (!found) throw *unknown;
+  }
+  return names;
+}
+
+int plot_file(const Options& options) {
+  require_output(options.output, options.file, std::vector<std::string>{".svg"});
+  const StageFile read = read_stage_file(options.file);
+  const StageDescription& stage = read.stage;
+  const std::vector<std::size_t> clips = shown_clips(stage, options);
+  PlotOptions plotted{.tracks = chosen_tracks(stage, clips, options.tracks), .clip = options.clip.value_or("")};
+
+  // Only a clip that plays on a stage with bodies has a continuation to show.
+  const bool has_bodies =
+      std::any_of(stage.nodes.begin(), stage.nodes.end(), [](const auto& node) { return !!node.body; });
+  const bool plays = std::any_of(stage.plays.begin(), stage.plays.end(), [&](const Play& play) {
+    return std::find(clips.begin(), clips.end(), play.clip) != clips.end();
+  });
+  std::optional<Recording> recording;
+  if (has_bodies && plays) recording = run_stage(stage, options);
+
+  write_output(options.output, plot_svg(stage, recording ? &*recording : nullptr, plotted));
+  std::size_t tracks = plotted.tracks.size();
+  std::string names;
+  for (const std::size_t clip : clips) {
+    if (plotted.tracks.empty()) tracks += stage.clips[clip].tracks.size();
+    names += (names.empty() ? "" : ", ") + stage.clips[clip].name;
+  }
+  std::string shows = counted(tracks, "track") + " of " + names + ": values with keys and tangents, rates below";
+  if (recording && !recording->handoffs.empty())
+    shows += "; " + counted(recording->handoffs.size(), "hand-off") + " and the simulated motion after";
+  say_written(options.output, shows);
+  return 0;
+}
+
+}  // namespace
+
+Run plot(Arguments& arguments) {
+  auto options = std::make_shared<Options>();
+  options->output = "-";
+  options->fps = 120;
+  arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
+  arguments.output(options->output, "OUT.svg", "where to write; standard output without it");
+  arguments.texts("--track", "NAME", options->tracks,
+                  "only this track, or those of a pattern like \"arm.*\"; again for more");
+  arguments.text("--clip", "NAME", options->clip, "this clip; else the only one, or all that play");
+  arguments.number("--until", "T", options->until, "simulate to stage time T, s");
+  return [options] { return plot_file(*options); };
+}
+
+}  // namespace tweenfall::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+/// What the command says, and how: results on stdout, messages on stderr, color on a terminal only.
+
+#include <atomic>
+#include <string>
+#include <string_view>
+#include <thread>
+
+namespace tweenfall::cli {
+
+/// Whether stdout or stderr is a terminal that wants color; false when NO_COLOR is set.
+[[nodiscard]] bool styled_output();
+[[nodiscard]] bool styled_messages();
+
+/// Results. @throws std::runtime_error when stdout takes no more.
+void print(std::string_view text);
+
+/// A line on stderr; "error:" in it is colored.
+void say(std::string_view text);
+
+/// While it lives: what is going on and for how long, on one line of a terminal, from the second second on.
+class Progress {
+ public:
+  explicit Progress(std::string what);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+ private:
+  std::atomic<bool> over_ = false;
+  std::thread thread_;
+};
+
+}  // namespace tweenfall::cli

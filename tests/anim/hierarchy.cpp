@@ -1,0 +1,92 @@
+#include "support.h"
+
+#include <tweenfall/anim/hierarchy.h>
+#include <tweenfall/curves/rotation.h>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// A local motion that is a smooth function of time, and different for each seed.
+Motion moving(std::uint64_t seed, double time) {
+  Random random(seed);
+  const Vec3 drift = random.vector(2), spin = random.vector(3), stretch = random.vector(0.4);
+  const Quat start = random.rotation();
+  Motion motion;
+  motion.pose.position = random.vector(1) + time * drift;
+  motion.pose.rotation = exp_map(time * spin) * start;
+  motion.pose.scale = Vec3(1, 1, 1) + time * stretch;
+  motion.twist = {drift, spin};
+  motion.scale_rate = stretch;
+  return motion;
+}
+
+Hierarchy chain(std::size_t length) {
+  std::vector<Node> nodes;
+  for (std::size_t i = 0; i < length; ++i) nodes.push_back({"link" + std::to_string(i), i == 0 ? no_node : i - 1, {}});
+  return Hierarchy(std::move(nodes));
+}
+
+WorldMotion tip(const Hierarchy& nodes, double time) {
+  return nodes.world_motion(nodes.size() - 1, [&](std::size_t i) { return moving(i + 1, time); });
+}
+
+}  // namespace
+
+TEST_CASE("the world matrix of a chain is the product of its local matrices") {
+  const Hierarchy nodes = chain(5);
+  Eigen::Affine3d product = Eigen::Affine3d::Identity();
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Motion local = moving(i + 1, 0.3);
+    product = product * Eigen::Translation3d(local.pose.position) * Eigen::Quaterniond(local.pose.rotation) *
+              Eigen::Scaling(Eigen::Vector3d(local.pose.scale));
+  }
+  const WorldMotion world = tip(nodes, 0.3);
+  CHECK(near(world.linear, product.linear(), 1e-13));
+  CHECK(near(world.motion.pose.position, product.translation(), 1e-13));
+}
+
+TEST_CASE("rates of a turning, sliding and stretching chain equal a five-point stencil of its poses") {
+  const Hierarchy nodes = chain(5);
+  const double time = 0.2, h = 1e-3;
+  const WorldMotion world = tip(nodes, time);
+  const auto stencil = [&](auto read) {
+    return ((8 * (read(tip(nodes, time + h)) - read(tip(nodes, time - h))) -
+             (read(tip(nodes, time + 2 * h)) - read(tip(nodes, time - 2 * h)))) /
+            (12 * h))
+        .eval();
+  };
+  const Vec3 velocity = stencil([](const WorldMotion& w) { return w.motion.pose.position; });
+  const Mat3 linear_rate = stencil([](const WorldMotion& w) { return w.linear; });
+  CHECK(near(world.motion.twist.linear, velocity, 1e-9));
+  CHECK(near(world.linear_rate, linear_rate, 1e-9));
+  const Vec3 local(0.3, -0.2, 0.5);
+  const Vec3 point_velocity = stencil([&](const WorldMotion& w) { return w.point(local); });
+  CHECK(near(world.point_velocity(local), point_velocity, 1e-9));
+
+  const Quat before = tip(nodes, time - h).motion.pose.rotation, after = tip(nodes, time + h).motion.pose.rotation;
+  const Vec3 turned = log_map(after * before.conjugate()) / (2 * h);
+  CHECK(near(world.motion.twist.angular, turned, 1e-4));  // the difference is the coarser one
+}
+
+TEST_CASE("one node's chain and the whole tree give the same bits") {
+  const Hierarchy nodes = chain(200);  // longer than one stretch
+  std::vector<Motion> local;
+  for (std::size_t i = 0; i < nodes.size(); ++i) local.push_back(moving(i + 1, 0.01));
+  std::vector<WorldMotion> world(nodes.size());
+  nodes.world_motions(local, world);
+  for (const std::size_t node : {std::size_t{0}, std::size_t{63}, std::size_t{64}, std::size_t{65}, std::size_t{199}}) {
+    const WorldMotion alone = nodes.world_motion(node, [&](std::size_t i) { return local[i]; });
+    CHECK(alone.motion.pose.position == world[node].motion.pose.position);
+    CHECK(alone.linear_rate == world[node].linear_rate);
+  }
+}
+
+TEST_CASE("a hierarchy refuses a name twice and a parent that comes later") {
+  CHECK_THROWS_WITH_AS(Hierarchy({{"a", no_node, {}}, {"a", no_node, {}}}), "two nodes are named \"a\"",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Hierarchy({{"a", 1, {}}, {"b", no_node, {}}}),
+                       "node \"a\" (number 0) has parent number 1; a parent must come before its children",
+                       std::invalid_argument);
+}

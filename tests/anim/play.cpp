@@ -1,0 +1,124 @@
+#include "support.h"
+
+#include <tweenfall/anim/play.h>
+
+#include <limits>
+
+using namespace tweenfall;
+
+namespace {
+
+Clip two_seconds(LoopMode mode, double count = 0) {
+  Clip clip;
+  clip.name = "clip";
+  clip.duration = 2;
+  clip.loop = {mode, count};
+  clip.events = {{.from = 0, .to = 0, .name = "start", .data = {}},
+                 {.from = 0.5, .to = 0.5, .name = "half", .data = {}},
+                 {.from = 1, .to = 1.5, .name = "loud", .data = {}},
+                 {.from = 2, .to = 2, .name = "end", .data = {}}};
+  return clip;
+}
+
+std::string told(const std::vector<FiredEvent>& events) {
+  std::string text;
+  for (const FiredEvent& event : events) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%g:", event.time);
+    text += number + event.name;
+    if (event.kind == FiredEvent::Kind::begin) text += "(";
+    if (event.kind == FiredEvent::Kind::end) text += ")";
+    text += ' ';
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a clip played once runs from its start, then holds its end at rest") {
+  const Clip clip = two_seconds(LoopMode::once);
+  const Play play{.clip = 0, .at = 1};
+  CHECK_FALSE(clock_at(play, clip, 0.5).started);
+  CHECK(clock_at(play, clip, 0.5).rate == 0);
+  CHECK(clock_at(play, clip, 1.0, Side::in).rate == 0);
+  CHECK(clock_at(play, clip, 1.0).rate == 1);
+  CHECK(clock_at(play, clip, 2.25).time == 1.25);
+  CHECK(clock_at(play, clip, 3.0, Side::in).rate == 1);  // what arrives at the end still moves
+  CHECK(clock_at(play, clip, 3.0).rate == 0);
+  CHECK(clock_at(play, clip, 9.0).time == 2);
+  CHECK(clock_at(play, clip, 9.0).ended);
+  CHECK(end_time(play, clip) == 3);
+}
+
+TEST_CASE("at the seam of a loop the arriving side is the end and the leaving side the start") {
+  const Clip clip = two_seconds(LoopMode::repeat);
+  const Play play{};
+  const ClipClock in = clock_at(play, clip, 4.0, Side::in), out = clock_at(play, clip, 4.0, Side::out);
+  CHECK(in.time == 2);
+  CHECK(in.cycle == 1);
+  CHECK(in.side == Side::in);
+  CHECK(out.time == 0);
+  CHECK(out.cycle == 2);
+  CHECK(out.side == Side::out);
+}
+
+TEST_CASE("a counted loop ends after its plays, fractions included") {
+  const Clip clip = two_seconds(LoopMode::repeat, 1.5);
+  const Play play{};
+  CHECK(end_time(play, clip) == 3);
+  CHECK(clock_at(play, clip, 10).time == 1);
+  CHECK(clock_at(play, two_seconds(LoopMode::repeat, 2), 10).time == 2);
+}
+
+TEST_CASE("ping-pong runs every other play backwards") {
+  const Clip clip = two_seconds(LoopMode::pingpong);
+  const Play play{};
+  CHECK(clock_at(play, clip, 2.5).time == 1.5);
+  CHECK(clock_at(play, clip, 2.5).rate == -1);
+  CHECK(clock_at(play, clip, 4.5).time == 0.5);
+  CHECK(clock_at(play, clip, 4.5).rate == 1);
+}
+
+TEST_CASE("speed multiplies the rate, and a negative one runs from the end") {
+  const Clip clip = two_seconds(LoopMode::once);
+  CHECK(clock_at({.speed = 0.5}, clip, 1).time == 0.5);
+  CHECK(clock_at({.speed = 0.5}, clip, 1).rate == 0.5);
+  CHECK(clock_at({.speed = 0}, clip, 1).rate == 0);
+  const ClipClock back = clock_at({.speed = -1}, clip, 0.5);
+  CHECK(back.time == 1.5);
+  CHECK(back.rate == -1);
+  CHECK(back.side == Side::in);  // a clock that runs backwards leaves a key on its earlier side
+  CHECK(clock_at({.speed = -1}, clip, 5).time == 0);
+  CHECK(clock_at({.speed = -1}, clip, 5).rate == 0);
+}
+
+TEST_CASE("each event fires once however the time is cut, the first at 0 included") {
+  const Clip clip = two_seconds(LoopMode::repeat, 2);
+  const Play play{.at = 1};
+  const std::string whole = told(events_between(play, clip, 0, 10, true));
+  CHECK(whole == "1:start 1.5:half 2:loud( 2.5:loud) 3:end 3:start 3.5:half 4:loud( 4.5:loud) 5:end ");
+  for (const double piece : {0.01, 0.1, 0.25, 0.5, 0.7, 3.0}) {
+    std::string pieces;
+    double from = 0;
+    for (int i = 1; from < 10; ++i) {
+      const double to = i * piece;
+      pieces += told(events_between(play, clip, from, to, i == 1));
+      from = to;
+    }
+    CHECK(pieces == whole);
+  }
+}
+
+TEST_CASE("backwards, events fire on the way down and intervals begin at their end") {
+  const Clip clip = two_seconds(LoopMode::once);
+  CHECK(told(events_between({.speed = -1}, clip, 0, 3, true)) == "0:end 0.5:loud( 1:loud) 1.5:half 2:start ");
+}
+
+TEST_CASE("an endless clip of functions has an endless clock") {
+  Clip clip;
+  clip.duration = std::numeric_limits<double>::infinity();
+  const Play play{.speed = 2};
+  CHECK(clock_at(play, clip, 100).time == 200);
+  CHECK(clock_at(play, clip, 100).rate == 2);
+  CHECK(end_time(play, clip) == std::numeric_limits<double>::infinity());
+}

@@ -1,0 +1,125 @@
+#include "command.h"
+
+using namespace tweenfall::test;
+using nlohmann::json;
+
+namespace {
+
+/// Lines of a text.
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> found;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) found.push_back(line);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("a key out of order is told with its place, its line and a caret below the number") {
+  const Folder folder;
+  folder.write("drop.json", faulty_document);
+  const Ran ran = folder.run("check drop.json");
+  CHECK(ran.code == 1);
+  CHECK(ran.out.empty());
+  const std::vector<std::string> said = lines(ran.err);
+  REQUIRE(said.size() == 4);
+  CHECK(said[0] ==
+        "drop.json:6:11: error: key times must increase; 0.5 s is not after the key before it, 0.8 s "
+        "(at /clips/drop/tracks/ball.position/2/t)");
+  CHECK(said[1] == " 6 |     {\"t\": 0.5, \"v\": [0, 3, 0]}");
+  CHECK(said[2] == "   |           ^");
+  CHECK(said[3] == "1 problem");
+}
+
+TEST_CASE("two files are checked at once, the good one is said to be valid, and the problems of both are counted") {
+  const Folder folder;
+  folder.write("ball.json", ball_document);
+  folder.write("drop.json", faulty_document);
+  folder.write("other.json", R"({"tweenfall": 1, "clps": {}})");
+  const Ran ran = folder.run("check drop.json ball.json other.json");
+  CHECK(ran.code == 1);
+  CHECK(ran.out.starts_with("ball.json: valid; 2 nodes, 1 clip, 4 tracks"));
+  CHECK(ran.err.find("drop.json:6:11: error:") != std::string::npos);
+  CHECK(ran.err.find("other.json:1:") != std::string::npos);
+  CHECK(ran.err.find("clips") != std::string::npos);
+  CHECK(ran.err.ends_with("\n2 problems\n"));
+}
+
+TEST_CASE("a valid document ends with 0 and nothing on stderr, from a file and through a pipe") {
+  const Folder folder;
+  folder.write("ball.json", ball_document);
+  const Ran file = folder.run("check ball.json");
+  CHECK(file.code == 0);
+  CHECK(file.err.empty());
+  const Ran piped = folder.run("check -", ball_document);
+  CHECK(piped.code == 0);
+  CHECK(piped.err.empty());
+  CHECK(folder.run("check -", faulty_document).code == 1);
+}
+
+TEST_CASE("check --json lists every problem of every file with line, column and pointer") {
+  const Folder folder;
+  folder.write("ball.json", ball_document);
+  folder.write("drop.json", faulty_document);
+  const Ran ran = folder.run("check --json ball.json drop.json none.json");
+  CHECK(ran.code == 1);
+  CHECK(ran.err.empty());
+  const json found = json::parse(ran.out);
+  REQUIRE(found["files"].size() == 3);
+  CHECK(found["problems"] == 2);
+  CHECK(found["files"][0] == json{{"file", "ball.json"}, {"valid", true}, {"problems", json::array()}});
+  const json problem = found["files"][1]["problems"][0];
+  CHECK(problem["file"] == "drop.json");
+  CHECK(problem["line"] == 6);
+  CHECK(problem["column"] == 11);
+  CHECK(problem["pointer"] == "/clips/drop/tracks/ball.position/2/t");
+  CHECK(found["files"][2]["valid"] == false);
+}
+
+TEST_CASE("check --json gives the line and column of a fault in a model that is text") {
+  const Folder folder;
+  folder.write("bad.gltf", "{\"asset\": {\"version\": \"2.0\"},\n  \"nodes\": [{\"mesh\": 4}]}");
+  const Ran ran = folder.run("check --json bad.gltf");
+  CHECK(ran.code == 1);
+  const json problem = json::parse(ran.out)["files"][0]["problems"][0];
+  CHECK(problem["file"] == "bad.gltf");
+  CHECK(problem["line"] == 2);
+  CHECK(problem["column"] == 22);
+  CHECK(problem["message"] == "/nodes/0/mesh: index 4 points past the end; there are 0");
+}
+
+TEST_CASE("files that are missing, empty, folders or not JSON end with 1 and a message that names them") {
+  const Folder folder;
+  folder.write("empty.json", "");
+  folder.write("noise.json", std::string("\0\xff{[\n", 5));
+  folder.write("noise.glb", "glTF, not really");
+  std::filesystem::create_directory(folder.path() / "folder.json");
+  for (const std::string name :
+       {"missing.json", "empty.json", "noise.json", "noise.glb", "missing.glb", "folder.json"}) {
+    for (const std::string verb : {"check ", "inspect ", "run ", "sample --at 0 "}) {
+      CAPTURE(verb);
+      CAPTURE(name);
+      const Ran ran = folder.run(verb + name);
+      CHECK(ran.code == 1);
+      CHECK(ran.out.empty());
+      CHECK(ran.err.find(name) != std::string::npos);
+    }
+  }
+}
+
+TEST_CASE("hostile models end with 1 and a message, repaired ones with 0, and those called valid load") {
+  const std::filesystem::path models = models_folder() / "malformed";
+  if (!std::filesystem::is_directory(models)) {
+    MESSAGE("SKIPPED: malformed models, no folder " << models.string());
+    return;
+  }
+  const Folder folder;
+  for (const auto& entry : std::filesystem::directory_iterator(models)) {
+    const std::string name = entry.path().string();
+    CAPTURE(name);
+    const Ran ran = folder.run("check '" + name + "'");
+    CHECK((ran.code == 0 || ran.code == 1));
+    if (name.find("_VALID") != std::string::npos) CHECK(ran.code == 0);
+    if (ran.code == 1) CHECK(ran.err.find(name) != std::string::npos);
+  }
+}

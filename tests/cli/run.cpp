@@ -1,0 +1,123 @@
+#include "command.h"
+
+#include <tweenfall/importers/document.h>
+#include <tweenfall/physics/stage/recording.h>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+using nlohmann::json;
+
+namespace {
+
+Vec3 vector(const json& list) {
+  REQUIRE(list.size() == 3);
+  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+}
+
+}  // namespace
+
+TEST_CASE("a thrown ball is keyed, then free with the clip's own velocity, and falls as a projectile") {
+  const Folder folder;
+  folder.write("thrown.json", thrown_document);
+  const Ran ran = folder.run("run thrown.json --until 0.9 --fps 10 --json");
+  REQUIRE_MESSAGE(ran.code == 0, ran.err);
+  const json found = json::parse(ran.out);
+  REQUIRE(found["times"].size() == 10);
+  const json& ball = found["nodes"]["ball"];
+  CHECK(ball["owner"][0] == "keyed");
+  CHECK(ball["owner"][9] == "free");
+  const double fallen = found["times"][9].get<double>() - 0.5;
+  CHECK(near(vector(ball["position"][9]), Vec3(1.5 + 3 * fallen, 2 - 9.81 / 2 * fallen * fallen, 0), 1e-9));
+  CHECK(near(vector(ball["velocity"][9]), Vec3(3, -9.81 * fallen, 0), 1e-9));
+  REQUIRE(found["handoffs"].size() == 1);
+  const json& handoff = found["handoffs"][0];
+  CHECK(handoff["time"] == 0.5);
+  CHECK(handoff["body"] == "ball");
+  CHECK(handoff["from"] == "keyed");
+  CHECK(handoff["to"] == "free");
+  CHECK(handoff["cause"] == "at");
+  CHECK(near(vector(handoff["after"]["linear"]), Vec3(3, 0, 0), 1e-9));
+  CHECK(found["events"].is_array());
+}
+
+TEST_CASE("what run prints is the library's recording, bit for bit, also through a pipe") {
+  const Folder folder;
+  const Ran ran = folder.run("run - --until 2 --fps 30 --json", thrown_document);
+  REQUIRE(ran.code == 0);
+  const json found = json::parse(ran.out);
+  Stage stage(Document::parse(thrown_document, "thrown.json", folder.path()).stage());
+  const Recording expected = record(stage, 2, 30);
+  CHECK(found["times"] == json(expected.times));
+  for (const NodeRecord& node : expected.nodes)
+    for (std::size_t i = 0; i < expected.times.size(); ++i) {
+      CHECK(vector(found["nodes"][node.name]["position"][i]) == node.world[i].motion.pose.position);
+      CHECK(vector(found["nodes"][node.name]["velocity"][i]) == node.twist[i].linear);
+    }
+}
+
+TEST_CASE("each ending gives a file of its kind and one line that says what it shows") {
+  const Folder folder;
+  folder.write("thrown.json", thrown_document);
+  struct Kind {
+    std::string name, begins;
+  };
+  for (const Kind& kind : std::initializer_list<Kind>{
+           {"out.json", "{"}, {"out.svg", "<"}, {"out.html", "<!"}, {"out.glb", "glTF"}, {"out.csv", ""}}) {
+    CAPTURE(kind.name);
+    const Ran ran = folder.run("run thrown.json --until 1 --fps 20 -o " + kind.name);
+    CHECK_MESSAGE(ran.code == 0, ran.err);
+    CHECK(ran.out.starts_with("wrote " + kind.name + ": 2 nodes over 1 s"));
+    CHECK(std::count(ran.out.begin(), ran.out.end(), '\n') == 1);
+    CHECK(folder.read(kind.name).size() > 100);
+    CHECK(folder.read(kind.name).starts_with(kind.begins));
+  }
+  CHECK(folder.names().size() == 6);
+}
+
+TEST_CASE("without a file to write, run tells of the hand-off and of the contact with the floor") {
+  const Folder folder;
+  folder.write("thrown.json", thrown_document);
+  const Ran ran = folder.run("run thrown.json --until 2");
+  CHECK(ran.code == 0);
+  CHECK(ran.err.empty());
+  for (const std::string part : {"thrown:", "hand-offs", "keyed", "free", "contact", "floor, ball"})
+    CHECK_MESSAGE(ran.out.find(part) != std::string::npos, part << " in " << ran.out);
+}
+
+TEST_CASE("a failing run leaves what was there as it was, and writes nothing beside it") {
+  const Folder folder;
+  folder.write("bad.json", faulty_document);
+  for (const std::string arguments :
+       {"run bad.json -o out.html", "view bad.json -o out.html", "plot bad.json -o out.svg",
+        "run missing.json -o out.json", "import missing.glb -o out.json"}) {
+    CAPTURE(arguments);
+    for (const char* name : {"out.html", "out.svg", "out.json"}) folder.write(name, "precious");
+    CHECK(folder.run(arguments).code == 1);
+    CHECK(folder.names() == std::vector<std::string>{"bad.json", "out.html", "out.json", "out.svg"});
+    for (const char* name : {"out.html", "out.svg", "out.json"}) CHECK(folder.read(name) == "precious");
+  }
+}
+
+TEST_CASE("a file that cannot be written is named, with exit code 1") {
+  const Folder folder;
+  folder.write("thrown.json", thrown_document);
+  for (const std::string arguments :
+       {"run thrown.json --until 0.1 -o none/out.json", "plot thrown.json -o none/out.svg",
+        "view thrown.json --until 0.1 -o none/out.html", "new none/out.json"}) {
+    CAPTURE(arguments);
+    const Ran ran = folder.run(arguments);
+    CHECK(ran.code == 1);
+    CHECK(ran.err.find("none/out.") != std::string::npos);
+  }
+  CHECK(folder.names() == std::vector<std::string>{"thrown.json"});
+}
+
+TEST_CASE("a clip that is named plays alone") {
+  const Folder folder;
+  const std::string two = R"({"tweenfall": 1, "clips": {
+    "up": {"tracks": {"a.position": [[0, [0, 0, 0], "linear"], [1, [0, 1, 0]]]}},
+    "down": {"tracks": {"a.position": [[0, [0, 0, 0], "linear"], [1, [0, -1, 0]]]}}}})";
+  const Ran ran = folder.run("run - --clip down --until 1 --fps 2 --json", two);
+  REQUIRE(ran.code == 0);
+  CHECK(near(vector(json::parse(ran.out)["nodes"]["a"]["position"][1]), Vec3(0, -0.5, 0), 1e-12));
+}

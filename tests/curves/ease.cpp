@@ -1,0 +1,139 @@
+#include <tweenfall/curves/ease.h>
+
+#include <map>
+
+#include "support.h"
+
+using namespace tweenfall;
+
+namespace {
+
+// The document's word for one of d3's functions; empty where there is none.
+std::string word_of(const nlohmann::json& input) {
+  static const std::map<std::string, std::string> families = {
+      {"Quad", "quad"},   {"Cubic", "cubic"}, {"Sin", "sine"},        {"Exp", "expo"},
+      {"Circle", "circ"}, {"Back", "back"},   {"Elastic", "elastic"}, {"Bounce", "bounce"}};
+  std::string name = input["fn"].get<std::string>().substr(4);
+  std::string flow;
+  for (const auto& [suffix, spelled] :
+       {std::pair<std::string, std::string>{"InOut", "-in-out"}, {"In", "-in"}, {"Out", "-out"}})
+    if (flow.empty() && name.size() > suffix.size() && name.substr(name.size() - suffix.size()) == suffix) {
+      flow = spelled;
+      name = name.substr(0, name.size() - suffix.size());
+    }
+  if (flow.empty()) flow = name == "Elastic" || name == "Bounce" ? "-out" : "-in-out";
+  const auto found = families.find(name);
+  if (found == families.end()) return "";
+  std::string word = found->second + flow;
+  if (input.contains("overshoot")) word += "(" + input["overshoot"].dump() + ")";
+  if (input.contains("amplitude")) word += "(" + input["amplitude"].dump() + "," + input["period"].dump() + ")";
+  return word;
+}
+
+void check_progress(const Ease& ease, const nlohmann::json& c, double tolerance) {
+  for (std::size_t i = 0; i < c["t"].size(); ++i) {
+    CAPTURE(c["t"][i].get<double>());
+    CHECK(std::abs(ease.progress(c["t"][i]).value - c["value"][i].get<double>()) <= tolerance);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("the Penner families agree with d3-ease") {
+  int checked = 0;
+  for (const auto& file : test::vector_family("easing_d3"))
+    for (const auto& c : file["cases"]) {
+      const std::string name = c["name"], word = word_of(c["input"]);
+      CAPTURE(name);
+      // Powers other than the named four, and d3's own linear, have no word.
+      if (word.empty()) continue;
+      const bool tuned = name.find("_s") != std::string::npos;
+      if (tuned && !c["input"].contains("overshoot")) continue;
+      CAPTURE(word);
+      const auto ease = Ease::named(word);
+      REQUIRE(ease.has_value());
+      check_progress(*ease, c, 1e-12);
+      ++checked;
+    }
+  CHECK(checked > 0);
+}
+
+TEST_CASE("steps and Beziers agree with Chromium") {
+  int checked = 0;
+  for (const auto& file : test::vector_family("css_easing"))
+    for (const auto& c : file["cases"]) {
+      const std::string name = c["name"];
+      std::string css = c["input"]["css"];
+      CAPTURE(css);
+      if (css.rfind("linear(", 0) == 0) continue;  // no word of the document
+      if (css == "step-start") css = "steps(1,jump-start)";
+      if (css == "step-end") css = "steps(1,jump-end)";
+      if (css.rfind("cubic-", 0) == 0) css = css.substr(6);
+      for (const std::string edge : {"start", "end"}) {
+        const std::size_t at = css.find(", " + edge);
+        if (css.rfind("steps", 0) == 0 && at != std::string::npos) css = css.substr(0, at) + ",jump-" + edge + ")";
+      }
+      if (css == "linear") continue;  // a rule, not a shape
+      const auto ease = Ease::named(css);
+      REQUIRE(ease.has_value());
+      const bool steep = name == "bezier_steep" || name == "bezier_start_vertical";
+      check_progress(*ease, c, steep ? 1e-4 : 2e-6);
+      ++checked;
+    }
+  CHECK(checked > 0);
+}
+
+TEST_CASE("Beziers agree with bezier-easing") {
+  for (const auto& file : test::vector_family("easing_bezier"))
+    for (const auto& c : file["cases"]) {
+      const auto& in = c["input"];
+      CAPTURE(c["name"].get<std::string>());
+      // That program's own root search stops early, most where the tangent is steep.
+      check_progress(Ease::bezier(in["x1"], in["y1"], in["x2"], in["y2"]), c, 2e-5);
+    }
+}
+
+TEST_CASE("every plain word is known, and its name reads back as the same ease") {
+  for (const std::string& form : Ease::names()) {
+    CAPTURE(form);
+    std::string word = form.substr(0, form.find('('));
+    if (form == "bezier(x1,y1,x2,y2)") word = "bezier(0.4, 0, 0.2, 1)";
+    if (form == "steps(count,jump)") word = "steps(4,jump-end)";
+    if (form == "spring(period,damping)") word = "spring(0.3s,0.5)";
+    if (form == "tcb(tension,continuity,bias)") word = "tcb(0,0.5,-1)";
+    const auto ease = Ease::named(word);
+    REQUIRE(ease.has_value());
+    const auto again = Ease::named(ease->name());
+    REQUIRE(again.has_value());
+    CHECK(*again == *ease);
+  }
+}
+
+TEST_CASE("a word that is none, or a number out of range, is refused with a reason") {
+  const auto reason = [](const char* word) {
+    std::string text;
+    CHECK_FALSE(Ease::named(word, &text).has_value());
+    return text;
+  };
+  CHECK(reason("wobble").find("\"wobble\"") != std::string::npos);
+  CHECK(reason("bezier(2,0,0,1)").find("0 to 1") != std::string::npos);
+  CHECK(reason("bezier(0,0,1)").find("3 values were given") != std::string::npos);
+  CHECK(reason("steps(1.5,jump-end)").find("whole number") != std::string::npos);
+  CHECK(reason("steps(1,jump-none)").find("from 2") != std::string::npos);
+  CHECK(reason("steps(3,sideways)").find("jump-start") != std::string::npos);
+  CHECK(reason("back-in(x)").find("not a number") != std::string::npos);
+  CHECK(reason("quad-in(2)").find("takes no numbers") != std::string::npos);
+  CHECK(reason("spring(0s,1)").find("period") != std::string::npos);
+  CHECK(reason("").find("no ease") != std::string::npos);
+}
+
+TEST_CASE("a spring follows its differential equation once what is left over is negligible") {
+  const Ease ease = Ease::spring(0.1, 0.5);
+  const double w = 2 * std::acos(-1.0) / 0.1;
+  for (const double t : {0.01, 0.05, 0.2, 0.6}) {
+    const Sample<double> s = ease.progress(t);
+    CHECK(std::abs(s.acceleration + 2 * 0.5 * w * s.rate + w * w * (s.value - 1)) < 1e-8);
+  }
+  CHECK(ease.progress(0).value == 0);
+  CHECK(ease.progress(1, Side::in).value == 1);
+}

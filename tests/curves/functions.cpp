@@ -1,0 +1,30 @@
+#include <tweenfall/curves/functions.h>
+
+#include <stdexcept>
+
+#include "support.h"
+
+using namespace tweenfall;
+
+TEST_CASE("a projectile is where the textbook says, at any time") {
+  const Curve<Vec3> c = projectile({.from = {0, 2, 0}, .velocity = {3, 10, 0}, .gravity = {0, -10, 0}});
+  CHECK(c.value(1) == Vec3(3, 7, 0));
+  CHECK(c.value(2) == Vec3(6, 2, 0));
+  CHECK(c.rate(2) == Vec3(3, -10, 0));
+  CHECK(c.sample(-4).acceleration == Vec3(0, -10, 0));
+  CHECK_THROWS_AS(static_cast<void>(projectile({.from = {0, std::nan(""), 0}})), std::invalid_argument);
+}
+
+TEST_CASE("an oscillator solves the damped wave's equation") {
+  const Oscillator o{.amplitude = 2, .hz = 0.5, .phase = 0.3, .damping = 0.4, .center = 1};
+  const Curve<double> c = oscillator(o);
+  const double w = 2 * std::acos(-1.0) * 0.5;
+  for (const double t : {0.0, 0.7, 3.1}) {
+    const Sample<double> s = c.sample(t);
+    CHECK(s.value == doctest::Approx(1 + 2 * std::cos(w * t + 0.3) * std::exp(-0.4 * t)));
+    CHECK(std::abs(s.acceleration + 2 * 0.4 * s.rate + (w * w + 0.16) * (s.value - 1)) < 1e-12);
+    const double h = 1e-4;
+    CHECK(s.rate == doctest::Approx((c.value(t + h) - c.value(t - h)) / (2 * h)).epsilon(1e-6));
+  }
+  CHECK_THROWS_WITH_AS(static_cast<void>(oscillator({.damping = -1})), doctest::Contains("-1"), std::invalid_argument);
+}

@@ -1,0 +1,112 @@
+#include <tweenfall/curves/rotation.h>
+
+#include <stdexcept>
+
+#include "support.h"
+
+using namespace tweenfall;
+
+namespace {
+
+Quat quat(const nlohmann::json& j) {
+  return Quat(j[3].get<double>(), j[0].get<double>(), j[1].get<double>(), j[2].get<double>());
+}
+Vec3 vec(const nlohmann::json& j) {
+  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
+}
+
+}  // namespace
+
+TEST_CASE("slerp agrees with scipy") {
+  for (const auto& file : test::vector_family("rotation_slerp"))
+    for (const auto& c : file["cases"]) {
+      CAPTURE(c["name"].get<std::string>());
+      const auto& times = c["input"]["times"];
+      const auto& keys = c["input"]["q_xyzw"];
+      for (std::size_t k = 0; k < c["t"].size(); ++k) {
+        const double t = c["t"][k];
+        std::size_t i = 0;
+        while (i + 2 < times.size() && t > times[i + 1].get<double>()) ++i;
+        const double t0 = times[i], t1 = times[i + 1];
+        const Quat q = slerp(normalized(quat(keys[i])), normalized(quat(keys[i + 1])), (t - t0) / (t1 - t0));
+        CHECK(test::near(q, quat(c["q_xyzw"][k]), 1e-10));
+      }
+    }
+}
+
+TEST_CASE("the exponential and logarithm agree with scipy") {
+  for (const auto& file : test::vector_family("rotation_exp"))
+    for (const auto& c : file["cases"]) {
+      CAPTURE(c["name"].get<std::string>());
+      const Vec3 r = vec(c["input"]["rotvec"]);
+      const Quat q = exp_map(r);
+      CHECK(test::near(q, quat(c["q_xyzw"]), 1e-12));
+      // Half a turn either way around is one rotation.
+      const Vec3 back = log_map(q);
+      CHECK((test::near(back, r, 1e-11) || (r.norm() > 3.14159265 && test::near(Vec3(-back), r, 1e-11))));
+    }
+}
+
+TEST_CASE("Euler angles agree with scipy in all orders, turning and fixed axes") {
+  constexpr double degree = 0x1.921fb54442d18p+1 / 180;
+  for (const auto& file : test::vector_family("rotation_euler"))
+    for (const auto& c : file["cases"]) {
+      CAPTURE(c["name"].get<std::string>());
+      const std::string letters = c["input"]["order"];
+      EulerOrder order;
+      for (std::size_t i = 0; i < 3; ++i) order.axes[i] = letters[i] - 'X';
+      const Vec3 angles = degree * vec(c["input"]["degrees"]);
+      for (const bool intrinsic : {true, false}) {
+        order.intrinsic = intrinsic;
+        const Quat expected = quat(c[intrinsic ? "intrinsic_q_xyzw" : "extrinsic_q_xyzw"]);
+        CHECK(test::near(from_euler(angles, order), expected, 1e-12));
+        // Angles are not unique; the rotation they stand for is. At gimbal lock half the digits go.
+        const Vec3 found = to_euler(normalized(expected), order);
+        CHECK(test::near(from_euler(found, order), expected, 3e-7));
+      }
+    }
+}
+
+TEST_CASE("Euler angles come back as they went in, away from gimbal lock") {
+  test::Random random(3);
+  const int orders[12][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0},
+                             {0, 1, 0}, {0, 2, 0}, {1, 0, 1}, {1, 2, 1}, {2, 0, 2}, {2, 1, 2}};
+  for (const auto& axes : orders)
+    for (const bool intrinsic : {true, false})
+      for (int i = 0; i < 20; ++i) {
+        const EulerOrder order{{axes[0], axes[1], axes[2]}, intrinsic};
+        const bool proper = axes[0] == axes[2];
+        const Vec3 angles(random.between(-3, 3), proper ? random.between(0.1, 3) : random.between(-1.5, 1.5),
+                          random.between(-3, 3));
+        CHECK(test::near(to_euler(from_euler(angles, order), order), angles, 1e-12));
+      }
+}
+
+TEST_CASE("at gimbal lock the third Euler angle is zero and the rotation is kept") {
+  constexpr double quarter = 0x1.921fb54442d18p+0;
+  for (const bool intrinsic : {true, false})
+    for (const double sign : {-1.0, 1.0}) {
+      const EulerOrder order{{0, 1, 2}, intrinsic};
+      const Quat q = from_euler({0.4, sign * quarter, -0.9}, order);
+      const Vec3 angles = to_euler(q, order);
+      CHECK(angles[2] == 0);
+      CHECK(test::near(from_euler(angles, order), q, 1e-7));
+    }
+}
+
+TEST_CASE("the right Jacobian takes the rate of a rotation vector to the body's angular velocity") {
+  test::Random random(4);
+  for (const double size : {1e-9, 1e-3, 0.5, 1.0, 3.0, 5.0}) {
+    const Vec3 r = random.vector(size), rate = random.vector(1);
+    const double h = 1e-4;
+    const auto turned = [&](double t) { return log_map(exp_map(r).conjugate() * exp_map(r + t * rate)); };
+    const Vec3 stencil = (8 * (turned(h) - turned(-h)) - (turned(2 * h) - turned(-2 * h))) / (12 * h);
+    CHECK(test::near(Vec3(right_jacobian(r) * rate), stencil, 1e-10));
+    CHECK(test::near(Mat3(right_jacobian(r) * right_jacobian_inverse(r)), Mat3(Mat3::Identity()), 1e-12));
+  }
+}
+
+TEST_CASE("a zero quaternion is refused with its numbers") {
+  CHECK_THROWS_WITH_AS(static_cast<void>(normalized(Quat(0, 0, 0, 0))), doctest::Contains("w 0.0"),
+                       std::invalid_argument);
+}

@@ -1,0 +1,155 @@
+#include <tweenfall/importers/recording_file.h>
+
+#include "page/example_stage.h"
+#include "support.h"
+
+#include <sstream>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
+  return found;
+}
+
+/// The attribute's value in the first element after `from`.
+std::string attribute(const std::string& text, std::size_t from, const std::string& name) {
+  const std::size_t at = text.find(" " + name + "=\"", from) + name.size() + 3;
+  return text.substr(at, text.find('"', at) - at);
+}
+
+std::vector<double> list(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ';');) numbers.push_back(std::stod(part));
+  return numbers;
+}
+
+/// A ball that is thrown along a parabola, 2 s.
+struct Throw {
+  StageDescription stage;
+  Recording recording;
+  Throw() {
+    NodeDescription node{.name = "ball"};
+    node.body = BodyDescription{};
+    node.body->shape.solid = Sphere{0.1};
+    stage.nodes.push_back(node);
+    NodeRecord record{.name = "ball"};
+    for (int frame = 0; frame <= 120; ++frame) {
+      const double t = frame / 60.0;
+      recording.times.push_back(t);
+      record.world.push_back(placed({t, 10 * t - 4.905 * t * t, 0}, Quat(1, 0, 0, 0), {}));
+      record.twist.push_back({Vec3(1, 10 - 9.81 * t, 0), Vec3(0, 0, 0)});
+      record.owner.push_back(Owner::free);
+    }
+    recording.nodes.push_back(record);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the moving picture's keyframes follow a parabola within the error it states") {
+  const Throw thrown;
+  const std::string svg = recording_svg(thrown.recording, thrown.stage);
+  const std::size_t circle = svg.find("<circle");
+  REQUIRE(circle != std::string::npos);
+  const std::size_t cx = svg.find("attributeName=\"cx\"", circle), cy = svg.find("attributeName=\"cy\"", circle);
+  const std::vector<double> shares = list(attribute(svg, cx, "keyTimes"));
+  const std::vector<double> x = list(attribute(svg, cx, "values")), y = list(attribute(svg, cy, "values"));
+  const double length = std::stod(attribute(svg, cx, "dur"));
+  REQUIRE(shares.size() == x.size());
+  REQUIRE(shares.size() == y.size());
+  REQUIRE(shares.size() > 5);
+  CHECK(shares.front() == 0);
+  CHECK(shares.back() == 1);
+  // The horizontal way is one meter a second, which gives the scale.
+  const double scale = (x[x.size() - 2] - x.front()) / 2;
+  REQUIRE(scale > 10);
+  std::size_t key = 0;
+  for (int frame = 0; frame <= 120; ++frame) {
+    const double t = frame / 60.0;
+    while (key + 2 < shares.size() && shares[key + 1] * length < t) ++key;
+    const double u = std::clamp((t / length - shares[key]) / (shares[key + 1] - shares[key]), 0.0, 1.0);
+    const double height = y.front() - (y[key] + u * (y[key + 1] - y[key]));
+    // 0.4 px stated, 0.05 px of rounding at either end, and of the scale.
+    CHECK(std::abs(height - scale * (10 * t - 4.905 * t * t)) < 0.4 + 0.3);
+  }
+}
+
+TEST_CASE("the moving picture is small, the same each time, and shows all that moves and changes hands") {
+  const Recording recording = example_recording();
+  const std::string svg = recording_svg(recording, example_stage());
+  CHECK(svg.size() < 60000);
+  CHECK(svg == recording_svg(recording, example_stage()));
+  for (const char* name : {"bob", "crate", "roller"})
+    CHECK(count(svg, "<title>" + std::string(name) + "</title>") == 1);
+  CHECK(count(svg, "<script") == 0);
+  CHECK(count(svg, "http") == 1);                   // the name space alone
+  CHECK(count(svg, "calcMode=\"discrete\"") == 4);  // fill and stroke of the two that change hands
+}
+
+TEST_CASE("a picture of many tumbling boxes stays under 300 kB") {
+  StageDescription stage;
+  Recording recording;
+  for (int frame = 0; frame <= 600; ++frame) recording.times.push_back(frame / 60.0);
+  Random random(7);
+  for (int box = 0; box < 60; ++box) {
+    NodeDescription node{.name = "box" + std::to_string(box)};
+    node.body = BodyDescription{};
+    node.body->shape.solid = Box{};
+    stage.nodes.push_back(node);
+    NodeRecord record{.name = node.name};
+    const Vec3 axis = random.vector(1).normalized(), from = random.vector(5);
+    const double rate = random.between(2, 8);
+    for (const double time : recording.times) {
+      record.world.push_back(placed(from, turned(rate * time, axis), {}));
+      record.twist.emplace_back();
+      record.owner.push_back(Owner::free);
+    }
+    recording.nodes.push_back(std::move(record));
+  }
+  CHECK(recording_svg(recording, stage).size() < 300000);
+}
+
+TEST_CASE("a page is one file that holds its data and asks for nothing") {
+  std::string html;
+  try {
+    html = recording_html(example_recording(), example_stage());
+  } catch (const std::runtime_error& problem) {
+    // Built without three.js: then the page says so.
+    CHECK(std::string(problem.what()).find("libjs-three") != std::string::npos);
+    MESSAGE("SKIPPED: the page, this build has no three.js inside");
+    return;
+  }
+  CHECK(html == recording_html(example_recording(), example_stage()));
+  CHECK(count(html, " src=") == 0);
+  CHECK(count(html, "<link") == 0);
+  CHECK(count(html, "</script>") == 3);
+  CHECK(html.find("{{") == std::string::npos);
+  const std::size_t start = html.find("id=\"data\">") + 10;
+  const nlohmann::json data = nlohmann::json::parse(html.substr(start, html.find("</script>", start) - start));
+  CHECK(data["nodes"].size() == 8);
+  CHECK(data["lanes"].size() == 4);
+  CHECK(data["nodes"][3]["owner"] == nlohmann::json::parse(R"([[0, "keyed"], [60, "driven"], [96, "free"]])"));
+  CHECK(data["nodes"][0]["matrices"].get<std::string>().size() == 64);  // what stands still has one matrix: 48 bytes
+}
+
+TEST_CASE("a name cannot break out of the page") {
+  Recording recording = example_recording(10);
+  recording.name = "</script><script>alert(1)</script>";
+  recording.nodes[2].name = "</script><b>";
+  std::string html;
+  try {
+    html = recording_html(recording, example_stage());
+  } catch (const std::runtime_error&) {
+    MESSAGE("SKIPPED: the page, this build has no three.js inside");
+    return;
+  }
+  CHECK(count(html, "</script>") == 3);
+  CHECK(html.find("<script>alert") == std::string::npos);
+  CHECK(html.find("&lt;/script>&lt;script>alert(1)") != std::string::npos);
+}

@@ -1,0 +1,116 @@
+#include <tweenfall/importers/recording_file.h>
+
+#include "page/example_stage.h"
+#include "support.h"
+
+#include <cstring>
+#include <sstream>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+nlohmann::json example_json() {
+  return nlohmann::json::parse(recording_json(example_recording()));
+}
+
+std::uint64_t bits(double number) {
+  std::uint64_t result = 0;
+  static_assert(sizeof result == sizeof number);
+  std::memcpy(&result, &number, sizeof result);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a recording as JSON reads back to the same bits") {
+  Recording recording = example_recording();
+  recording.nodes[2].twist[3].linear = Vec3(-0.0, 5e-324, 1.7976931348623157e308);
+  recording.nodes[2].twist[4].linear = Vec3(0.1, 1e-7, 123456789.123456789);
+  const nlohmann::json json = nlohmann::json::parse(recording_json(recording));
+  REQUIRE(json["times"].size() == recording.times.size());
+  for (std::size_t frame = 0; frame < recording.times.size(); ++frame) {
+    CHECK(bits(json["times"][frame].get<double>()) == bits(recording.times[frame]));
+    for (const NodeRecord& node : recording.nodes) {
+      const nlohmann::json& written = json["nodes"][node.name];
+      const Pose& pose = node.world[frame].motion.pose;
+      for (int i = 0; i < 3; ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        CHECK(bits(written["position"][frame][at].get<double>()) == bits(pose.position[i]));
+        CHECK(bits(written["velocity"][frame][at].get<double>()) == bits(node.twist[frame].linear[i]));
+        CHECK(bits(written["angular_velocity"][frame][at].get<double>()) == bits(node.twist[frame].angular[i]));
+      }
+      for (int i = 0; i < 4; ++i)
+        CHECK(bits(written["rotation"][frame][static_cast<std::size_t>(i)].get<double>()) ==
+              bits(pose.rotation.coeffs()[i]));
+    }
+  }
+}
+
+TEST_CASE("a recording as JSON names owners, hand-offs and events as the format says") {
+  const nlohmann::json json = example_json();
+  CHECK(json.size() == 4);
+  const nlohmann::json& owners = json["nodes"]["crate"]["owner"];
+  CHECK(owners[0] == "keyed");
+  CHECK(owners[70] == "driven");
+  CHECK(owners[120] == "free");
+  REQUIRE(json["handoffs"].size() == 3);
+  const nlohmann::json& handoff = json["handoffs"][0];
+  CHECK(handoff["time"] == release_time);
+  CHECK(handoff["body"] == "bob");
+  CHECK(handoff["from"] == "keyed");
+  CHECK(handoff["to"] == "free");
+  CHECK(handoff["cause"] == "event");
+  CHECK(handoff["before"]["linear"].size() == 3);
+  CHECK(handoff["after"]["angular"].size() == 3);
+  CHECK(json["events"][0] == nlohmann::json::parse(R"({"time": 0.75, "name": "let go"})"));
+  CHECK(json["events"][1] ==
+        nlohmann::json::parse(R"({"time": 1.2, "name": "contact", "nodes": ["bob", "floor"], "impulse": 0.125})"));
+}
+
+TEST_CASE("names with quotes, line breaks and angle brackets survive JSON and CSV") {
+  Recording recording = example_recording(10);
+  recording.nodes[2].name = "a \"b\", <c>\n\\d";
+  CHECK(nlohmann::json::parse(recording_json(recording))["nodes"].contains("a \"b\", <c>\n\\d"));
+  CHECK(recording_csv(recording).find(",\"a \"\"b\"\", <c>\n\\d\",") != std::string::npos);
+}
+
+TEST_CASE("a recording as CSV has a row for each time and node under a header of as many columns") {
+  const Recording recording = example_recording(20);
+  std::istringstream lines(recording_csv(recording));
+  std::string line;
+  std::getline(lines, line);
+  CHECK(line.substr(0, 27) == "time,node,owner,position_x,");
+  std::size_t rows = 0;
+  while (std::getline(lines, line)) {
+    CHECK(std::count(line.begin(), line.end(), ',') == 15);
+    const std::size_t frame = rows / recording.nodes.size(), node = rows % recording.nodes.size();
+    std::istringstream fields(line);
+    std::vector<std::string> row;
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+    REQUIRE(row.size() == 16);
+    CHECK(std::stod(row[0]) == recording.times[frame]);
+    CHECK(row[1] == recording.nodes[node].name);
+    CHECK(std::stod(row[4]) == recording.nodes[node].world[frame].motion.pose.position.y());
+    CHECK(std::stod(row[10]) == recording.nodes[node].twist[frame].linear.x());
+    ++rows;
+  }
+  CHECK(rows == recording.times.size() * recording.nodes.size());
+}
+
+TEST_CASE("a recording that went astray is refused with the node and the time") {
+  Recording recording = example_recording(20);
+  recording.nodes[3].world[10].motion.pose.position.y() = std::nan("");
+  CHECK_THROWS_WITH_AS(recording_json(recording),
+                       doctest::Contains("node \"crate\" is not at a finite place or speed at 0.5 s"),
+                       std::invalid_argument);
+  recording = example_recording(20);
+  recording.nodes[2].owner.pop_back();
+  CHECK_THROWS_WITH_AS(recording_csv(recording), doctest::Contains("60 entries in owner, but there are 61 times"),
+                       std::invalid_argument);
+  recording = example_recording(20);
+  recording.events[1].nodes[1] = 99;
+  CHECK_THROWS_WITH_AS(recording_html(recording, example_stage()), doctest::Contains("names node 99"),
+                       std::invalid_argument);
+}

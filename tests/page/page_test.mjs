@@ -1,0 +1,215 @@
+// What the page shows, held against the recording as JSON: page_test.mjs FOLDER with example.html and example.json.
+
+import {readFileSync, writeFileSync} from "node:fs";
+import {join, resolve} from "node:path";
+import {pathToFileURL} from "node:url";
+import {findBrowser, Page} from "./browser.mjs";
+import {readPng} from "./png.mjs";
+
+const browser = findBrowser();
+if (!browser) {
+  console.error("SKIPPED: the page: no Chromium is installed (Debian: chromium)");
+  process.exit(77);
+}
+const folder = resolve(process.argv[2]);
+const recording = JSON.parse(readFileSync(join(folder, "example.json"), "utf8"));
+const address = pathToFileURL(join(folder, "example.html")).href;
+
+let failed = 0, checked = 0;
+function check(holds, sentence) {
+  ++checked;
+  if (holds) return;
+  ++failed;
+  console.error("FAILED: " + sentence);
+}
+const equal = (actual, expected, sentence) =>
+  check(Object.is(actual, expected), `${sentence}: ${JSON.stringify(actual)} should be ${JSON.stringify(expected)}`);
+const farthest = (a, b) => (a.length === b.length ? Math.max(...a.map((value, i) => Math.abs(value - b[i]))) : Infinity);
+// Places travel as single precision.
+const near = (actual, expected, sentence, tolerance = 2e-6) =>
+  check(farthest(actual, expected) <= tolerance * Math.max(1, ...expected.map(Math.abs)),
+    `${sentence}: off by ${farthest(actual, expected)}`);
+
+// Column-major matrix of a position and a rotation x, y, z, w.
+function matrixOf([px, py, pz], [x, y, z, w]) {
+  return [1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0,
+    2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0,
+    2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0, px, py, pz, 1];
+}
+
+const hueOf = ([r, g, b]) => {
+  const most = Math.max(r, g, b), range = most - Math.min(r, g, b);
+  if (!range) return NaN;
+  const sixth = most === r ? (g - b) / range : most === g ? 2 + (b - r) / range : 4 + (r - g) / range;
+  return (sixth * 60 + 360) % 360;
+};
+const hueDistance = (a, b) => Math.min(Math.abs(a - b), 360 - Math.abs(a - b));
+const rgbOf = css => [1, 3, 5].map(at => parseInt(css.slice(at, at + 2), 16));
+
+const moves = ["bob", "crate", "roller"];
+
+async function showsTheRecording(page) {
+  near(await page.evaluate("tweenfall.times"), recording.times, "the page has the recording's times", 0);
+  for (const time of [0, 0.4, 0.76, 1.2, 1.7, 2.5, 3]) {
+    await page.evaluate(`tweenfall.seek(${time})`);
+    const frame = await page.evaluate("tweenfall.frame");
+    check(Math.abs(recording.times[frame] - time) <= 1 / 120 + 1e-9, `seek(${time}) shows the nearest frame`);
+    for (const [name, node] of Object.entries(recording.nodes)) {
+      near(await page.evaluate(`tweenfall.worldMatrixOf(${JSON.stringify(name)})`),
+        matrixOf(node.position[frame], node.rotation[frame]), `${name} is drawn where it was recorded at ${time} s`);
+      near(await page.evaluate(`tweenfall.twistOf(${JSON.stringify(name)})`),
+        [...node.velocity[frame], ...node.angular_velocity[frame]], `${name} moves as recorded at ${time} s`);
+      equal(await page.evaluate(`tweenfall.ownerOf(${JSON.stringify(name)})`), node.owner[frame],
+        `owner of ${name} at ${time} s`);
+    }
+  }
+}
+
+async function bendsTheMesh(page) {
+  // The last row of the strip hangs on the third joint alone, 0.5 m above it.
+  await page.evaluate("tweenfall.seek(0.4)");
+  const frame = await page.evaluate("tweenfall.frame"), joint = recording.nodes["reed/2"];
+  const m = matrixOf(joint.position[frame], joint.rotation[frame]);
+  const expected = [-0.14, 0.14].flatMap(x => [0, 1, 2].map(i => m[i] * x + m[4 + i] * 0.5 + m[12 + i]));
+  near((await page.evaluate("tweenfall.verticesOf(0)")).slice(-6), expected, "the skinned strip's end follows its joint");
+}
+
+async function paintsOwners(page) {
+  await page.evaluate("tweenfall.choose('floor')");
+  for (const time of [0.3, 1.3, 2]) {
+    await page.evaluate(`tweenfall.seek(${time})`);
+    const picture = readPng(await page.screenshot());
+    for (const name of moves) {
+      const place = await page.evaluate(`tweenfall.screenPositionOf("${name}")`);
+      const owner = recording.nodes[name].owner[await page.evaluate("tweenfall.frame")];
+      const pixel = picture.at(place.x, place.y), wanted = rgbOf(await page.evaluate(`tweenfall.colorOf("${owner}")`));
+      check(hueDistance(hueOf(pixel), hueOf(wanted)) < 14,
+        `${name} is painted as ${owner} at ${time} s: pixel ${pixel}, owner's color ${wanted}`);
+    }
+  }
+  // With their own colors the bodies, which have none, are gray.
+  await page.evaluate("tweenfall.set({byOwner: false})");
+  const picture = readPng(await page.screenshot()), place = await page.evaluate("tweenfall.screenPositionOf('roller')");
+  const pixel = picture.at(place.x, place.y);
+  check(Math.max(...pixel) - Math.min(...pixel) < 12, `without owners' colors the roller is gray: ${pixel}`);
+  await page.evaluate("tweenfall.set({byOwner: true})");
+}
+
+async function stepsAndPlays(page) {
+  await page.evaluate("tweenfall.seek(1)");
+  const start = await page.evaluate("tweenfall.frame");
+  await page.evaluate("tweenfall.step(-1)");
+  equal(await page.evaluate("tweenfall.frame"), start - 1, "step(-1) goes back one frame");
+  await page.key("ArrowRight");
+  await page.key("ArrowRight");
+  equal(await page.evaluate("tweenfall.frame"), start + 1, "the right arrow goes forward one frame");
+  await page.evaluate("document.getElementById('back').click()");
+  equal(await page.evaluate("tweenfall.frame"), start, "the button goes back one frame");
+  await page.key("End");
+  equal(await page.evaluate("tweenfall.frame"), recording.times.length - 1, "End goes to the last frame");
+  await page.evaluate("tweenfall.step(1)");
+  equal(await page.evaluate("tweenfall.frame"), recording.times.length - 1, "there is nothing after the last frame");
+  await page.key("Home");
+  equal(await page.evaluate("tweenfall.frame"), 0, "Home goes to the first frame");
+  await page.key(" ");
+  equal(await page.evaluate("tweenfall.playing"), true, "space plays");
+  check(await page.until("tweenfall.frame > 0"), "playing moves time on");
+  await page.key(" ");
+  equal(await page.evaluate("tweenfall.playing"), false, "space pauses");
+}
+
+async function scrubs(page) {
+  const box = await page.evaluate("(({left, top, width, height}) => ({left, top, width, height}))" +
+    "(document.querySelector('#ruler .strip').getBoundingClientRect())");
+  const xOf = time => box.left + 10 + time / 3 * (box.width - 20), y = box.top + box.height / 2;
+  await page.drag(xOf(0.5), y, xOf(2.25), y);
+  near([await page.evaluate("tweenfall.time")], [2.25], "dragging along the timeline moves time there", 0.01);
+  const curves = await page.evaluate("(({left, top, width, height}) => ({left, top, width, height}))" +
+    "(document.getElementById('curves').getBoundingClientRect())");
+  await page.click(curves.left + 46 + (curves.width - 56) / 2, curves.top + curves.height / 2);
+  near([await page.evaluate("tweenfall.time")], [1.5], "a click into the curves moves time there", 0.01);
+}
+
+async function showsKeys(page) {
+  const lanes = await page.evaluate("tweenfall.lanes");
+  equal(await page.evaluate("document.querySelectorAll('#rows .lane').length"), 4, "one lane an animated track");
+  const keysOf = name => lanes.find(lane => lane.name === name)?.keys ?? [];
+  // The clip of 1.5 s plays twice; its last key is the next play's first.
+  near(keysOf("crate.position"), [0, 0.5, 1.5, 2, 3], "keys of a loop stand at each time around", 0);
+  near(keysOf("reed/1.rotation"), [0, 0.375, 1.125, 1.5, 1.875, 2.625, 3], "keys of a rotation", 0);
+  equal(keysOf("pivot.rotation").length, 0, "a formula has no keys");
+  equal(await page.evaluate("tweenfall.handoffs.length"), recording.handoffs.length, "hand-offs on the timeline");
+}
+
+async function chooses(page) {
+  await page.evaluate("tweenfall.seek(1.3)");
+  for (const name of moves) {
+    const place = await page.evaluate(`tweenfall.screenPositionOf("${name}")`);
+    await page.click(place.x, place.y);
+    equal(await page.evaluate("tweenfall.chosen"), name, "a click in the view chooses the body there");
+    equal(await page.evaluate("document.querySelector('#readout h2 span').textContent"), name, "numbers of the chosen");
+  }
+  await page.evaluate("[...document.querySelectorAll('#rows .label')].find(row => row.title === 'bob').click()");
+  equal(await page.evaluate("tweenfall.chosen"), "bob", "a click in the list chooses");
+  const [positions, velocities] = await page.evaluate("tweenfall.curvesOf('bob')");
+  const node = recording.nodes.bob;
+  for (const axis of [0, 1, 2]) {
+    near(positions[axis], node.position.map(place => place[axis]), "the curves show the recorded positions");
+    near(velocities[axis], node.velocity.map(rate => rate[axis]), "the curves show the recorded velocities");
+  }
+  const place = () => page.evaluate("tweenfall.screenPositionOf('bob')");
+  const before = await place(), view = {x: 300, y: 400};
+  await page.drag(view.x, view.y, view.x + 120, view.y);
+  const after = await place();
+  check(Math.hypot(after.x - before.x, after.y - before.y) > 10, "a drag in the view turns it");
+  await page.key("f");
+}
+
+async function fitsTheWindow(page, width, height) {
+  await page.send("Emulation.setDeviceMetricsOverride", {width, height, deviceScaleFactor: 1, mobile: false});
+  check(await page.until(`innerWidth === ${width} && innerHeight === ${height}`), "the window takes its size");
+  await page.drawn();
+  const boxes = await page.evaluate("['header', '#view', '#curves', '#transport', '#timeline'].map(name => " +
+    "{const b = document.querySelector(name).getBoundingClientRect(); return [b.left, b.top, b.right, b.bottom]})");
+  for (const [left, top, right, bottom] of boxes)
+    check(left >= 0 && top >= 0 && right <= width + 0.5 && bottom <= height + 0.5 && right - left > 150 && bottom - top > 20,
+      `all parts are inside ${width} by ${height}: ${[left, top, right, bottom]}`);
+  const over = await page.evaluate("['header', '#transport'].map(name => {const e = document.querySelector(name);" +
+    "return e.scrollWidth - e.clientWidth})");
+  check(Math.max(...over) <= 0, `the bars fit into ${width} px: ${over} px too long`);
+}
+
+async function run(title, options, test) {
+  const page = await Page.open(browser, address, options);
+  try {
+    await test(page);
+    check(page.problems.length === 0, `${title}: the page reports no errors: ${page.problems}`);
+    check(page.requests.every(url => url === address), `${title}: the page asks for nothing else: ${page.requests}`);
+  } catch (problem) {
+    check(false, `${title}: ${problem.stack}`);
+    writeFileSync(join(folder, "failed.png"), await page.screenshot().catch(() => ""));
+  }
+  await page.close();
+}
+
+await run("with WebGL", {}, async page => {
+  check(await page.evaluate("tweenfall.ready"), "the page is ready once it is loaded");
+  check(await page.evaluate("tweenfall.webgl"), "the browser draws WebGL");
+  for (const test of [showsTheRecording, bendsTheMesh, paintsOwners, stepsAndPlays, scrubs, showsKeys, chooses])
+    await test(page);
+  await fitsTheWindow(page, 800, 600);
+  await fitsTheWindow(page, 1280, 800);
+});
+
+await run("without WebGL", {flags: ["--disable-3d-apis"]}, async page => {
+  equal(await page.evaluate("tweenfall.webgl"), false, "the page knows that there is no WebGL");
+  equal(await page.evaluate("document.getElementById('no-webgl').hidden"), false, "it says so");
+  await page.key("End");
+  equal(await page.evaluate("tweenfall.frame"), recording.times.length - 1, "the timeline works without WebGL");
+  await scrubs(page);
+  near(await page.evaluate("tweenfall.worldMatrixOf('bob')"),
+    matrixOf(recording.nodes.bob.position[90], recording.nodes.bob.rotation[90]), "places are known without WebGL");
+});
+
+console.log(`${checked} checks, ${failed} failed`);
+process.exit(failed ? 1 : 0);

@@ -1,0 +1,115 @@
+#include "scene.h"
+
+using namespace tweenfall;
+using test::near;
+
+TEST_CASE("a dropped ball rises to e^2 times its height at every bounce") {
+  for (const auto& [name, e] :
+       {std::pair{"bounce_e0.0", 0.0}, {"bounce_e0.5", 0.5}, {"bounce_e0.8", 0.8}, {"bounce_e1.0", 1.0}})
+    for (const double dt : {1.0 / 240, 1.0 / 60}) {
+      auto scene = test::load_scene(name);
+      if (!scene) return;
+      scene->dt = dt;
+      const BodyId ball = scene->bodies.back();
+      double apex = 0;
+      bool bounced = false, falling = false;
+      for (int i = 0; i < static_cast<int>(2.2 / dt) && !(bounced && falling); ++i) {
+        scene->step();
+        const Motion motion = scene->world.motion(ball);
+        const double speed = motion.twist.linear.y();
+        if (speed > 0) bounced = true;
+        falling = bounced && speed <= 0;
+        if (bounced) apex = motion.pose.position.y() + speed * speed / (2 * 9.81);
+        CHECK(motion.pose.position.y() > 0.5 - 1e-3);
+      }
+      if (e > 0) CHECK(near(apex, 0.5 + 4.5 * e * e, 1e-6));
+      if (e == 0) CHECK(!bounced);
+    }
+}
+
+TEST_CASE("a keyed wall gives a free ball (1 + e) V - e v") {
+  for (const double e : {0.0, 0.5, 1.0}) {
+    WorldSettings settings;
+    settings.gravity = Vec3::Zero();
+    World world(settings);
+    BodySettings wall;
+    wall.shape.solid = Box{Vec3(0.5, 0.5, 0.5)};
+    wall.drive = Drive::keyed();
+    wall.restitution = e;
+    const BodyId pusher = world.add(wall);
+    BodySettings ball;
+    ball.shape.solid = Sphere{0.25};
+    ball.friction = 0;
+    ball.motion.pose.position = Vec3(1, 0, 0);
+    ball.motion.twist.linear = Vec3(-0.5, 0, 0);
+    const BodyId body = world.add(ball);
+    for (int i = 1; i <= 240; ++i) {
+      Motion target;
+      target.pose.position = Vec3(3.0 * i / 240, 0, 0);
+      target.twist.linear = Vec3(3, 0, 0);
+      world.set_target(pusher, target);
+      world.step(1.0 / 240);
+      CHECK(world.motion(pusher).pose.position == target.pose.position);
+      CHECK(world.twist(pusher).linear == target.twist.linear);
+    }
+    CHECK(near(world.twist(body).linear.x(), (1 + e) * 3 + e * 0.5, 1e-6));
+    const double gained = world.mass(body).mass * (world.twist(body).linear.x() + 0.5);
+    CHECK(near(-world.reaction(pusher).x(), gained, 1e-9));
+  }
+}
+
+TEST_CASE("balls that meet off center keep momentum and energy when elastic, and keep the speed along the contact") {
+  WorldSettings settings;
+  settings.gravity = Vec3::Zero();
+  World world(settings);
+  BodySettings ball;
+  ball.shape.solid = Sphere{0.5};
+  ball.friction = 0;
+  ball.restitution = 1;
+  ball.mass = 2;
+  ball.motion.twist.linear = Vec3(4, 0, 0);
+  const BodyId a = world.add(ball);
+  ball.mass = 3;
+  ball.motion.pose.position = Vec3(2.013, 0.6, 0);
+  ball.motion.twist.linear = Vec3(-1, 0, 0);
+  const BodyId b = world.add(ball);
+  const double energy = world.kinetic_energy();
+  for (int i = 0; i < 60; ++i) world.step(1.0 / 60);
+  const Vec3 va = world.twist(a).linear, vb = world.twist(b).linear;
+  CHECK(near(Vec3(2 * va + 3 * vb), Vec3(5, 0, 0), 1e-12));
+  CHECK(near(world.kinetic_energy(), energy, 1e-9));
+  // They touch with centers 1 apart, 0.6 across: the normal is (0.8, 0.6). j = 2 * 5 * 0.8 / (1/2 + 1/3).
+  const double impulse = 8 / (0.5 + 1.0 / 3);
+  CHECK(near(va, Vec3(4 - 0.8 * impulse / 2, -0.6 * impulse / 2, 0), 1e-6));
+  CHECK(near(vb, Vec3(-1 + 0.8 * impulse / 3, 0.6 * impulse / 3, 0), 1e-6));
+}
+
+TEST_CASE("a fast ball does not pass a thin wall") {
+  WorldSettings settings;
+  settings.gravity = Vec3::Zero();
+  World world(settings);
+  BodySettings wall;
+  wall.shape.solid = Box{Vec3(0.005, 1, 1)};
+  wall.fixed = true;
+  world.add(wall);
+  BodySettings bullet;
+  bullet.shape.solid = Sphere{0.01};
+  bullet.motion.pose.position = Vec3(-3.3, 0, 0);
+  bullet.motion.twist.linear = Vec3(300, 0, 0);
+  const BodyId body = world.add(bullet);
+  for (int i = 0; i < 10; ++i) world.step(1.0 / 60);
+  CHECK(near(world.motion(body).pose.position.x(), -0.015, 1e-4));
+}
+
+TEST_CASE("a row of balls never gains energy and keeps its momentum") {
+  auto scene = test::load_scene("newton_cradle");
+  if (!scene) return;
+  const double energy = scene->world.kinetic_energy();
+  for (int i = 0; i < scene->steps; ++i) {
+    scene->step();
+    CHECK(scene->world.kinetic_energy() <= energy * (1 + 1e-12));
+  }
+  double momentum = 0;
+  for (const BodyId body : scene->bodies) momentum += scene->world.twist(body).linear.x();
+  CHECK(near(momentum, 3.0, 1e-12));
+}

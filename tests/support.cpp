@@ -1,0 +1,1 @@
+#include "support.h"  // which thereby is seen to compile alone
