@@ -70,8 +70,9 @@ TEST_CASE("a keyed wall gives a free ball (1 + e) V - e v") {
 }
 
 TEST_CASE("a keyed hammer at 3 m/s sends a resting ball off at 3.0, 4.5 and 6.0 m/s") {
-  for (const auto& [e, speed] : {std::pair{0.0, 3.0}, std::pair{0.5, 4.5}, std::pair{1.0, 6.0}})
+  for (const auto& pair : {std::pair{0.0, 3.0}, std::pair{0.5, 4.5}, std::pair{1.0, 6.0}})
     for (const double dt : {1.0 / 240, 1.0 / 60}) {
+      const double e = pair.first, speed = pair.second;
       CAPTURE(e);
       CAPTURE(dt);
       World world;
