@@ -245,19 +245,16 @@ Motion Animation::sample_node(std::size_t node, double stage_time, Side side) co
     const Play& play = plays_[layer.play];
     const Clip& clip = (*clips_)[play.clip];
     const Layered layered{clip, clock_at(play, clip, stage_time, side)};
-    if (!layered.clock.started) {
-      apply(uncovered(layer.tracks, below), layered, rest, motion);
-      cover(below, layer.tracks);
-      continue;
-    }
+    const NodeTracks tracks = layered.clock.started ? layer.tracks : uncovered(layer.tracks, below);
     cover(below, layer.tracks);
+    if (!tracks.moves()) continue;
     const Sample<double> weight = play.weight.sample(stage_time, side);
     Motion over = motion;
-    apply(layer.tracks, layered, rest, over);
+    apply(tracks, layered, rest, over);
     if (weight.value == 1 && weight.rate == 0)
       motion = over;
     else
-      take_driven(layer.tracks, mix(motion, over, weight.value, weight.rate), motion);
+      take_driven(tracks, mix(motion, over, weight.value, weight.rate), motion);
   }
   return motion;
 }

@@ -16,16 +16,16 @@ struct SolverBody {
   bool touched = false;  ///< an impulse reached it in this step
   bool pressed = false;  ///< an impulse reached it in this sub-step
   bool round = false;    ///< a ball: no contact can rock it
-  Vec3 lag;              ///< from the velocity at the end of the sub-step to its mean, m/s
+  Vec3 lag{0, 0, 0};     ///< from the velocity at the end of the sub-step to its mean, m/s
   double roundness = 0;  ///< m
   double inverse_mass = 0;
   Mat3 inverse_inertia = Mat3::Zero();
-  Vec3 center, start_center;
-  Quat rotation, start_rotation;
-  Quat turn;  ///< from the start of the step to now
-  Vec3 linear, angular;
-  Vec3 push_linear, push_angular;  ///< of the push-out, m and rad
-  Vec3 drive_impulse, drive_angular_impulse;
+  Vec3 center{0, 0, 0}, start_center{0, 0, 0};
+  Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
+  Quat turn{1, 0, 0, 0};  ///< from the start of the step to now
+  Vec3 linear{0, 0, 0}, angular{0, 0, 0};
+  Vec3 push_linear{0, 0, 0}, push_angular{0, 0, 0};  ///< of the push-out, m and rad
+  Vec3 drive_impulse{0, 0, 0}, drive_angular_impulse{0, 0, 0};
 };
 
 /// How an overlapping contact gives way while positions are corrected.

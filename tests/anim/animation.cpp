@@ -132,3 +132,16 @@ TEST_CASE("patterns match as people expect") {
   CHECK_FALSE(matches("arm/*", "leg/left"));
   CHECK_FALSE(matches("arm", "arm2"));
 }
+
+TEST_CASE("before a play starts its first frame holds, with the weight it has then") {
+  const auto fade = keyed_curve<double>({{.time = 1, .value = 0.0, .ease = Ease::linear()}, {.time = 2, .value = 1.0}});
+  Clip clip;
+  clip.name = "up";
+  clip.duration = 1;
+  clip.tracks = {{"hat", "position", Curve<Vec3>(Vec3(0, 4, 0))}};
+  const Animation faded(arm(), {clip}, {{.clip = 0, .at = 1, .weight = fade}});
+  CHECK(near(faded.sample_node(3, 0.5).pose.position, Vec3(0, 2, 0), 1e-15));
+  CHECK(near(faded.sample_node(3, 1.5).pose.position, Vec3(0, 3, 0), 1e-15));
+  const Animation whole(arm(), {clip}, {{.clip = 0, .at = 1}});
+  CHECK(near(whole.sample_node(3, 0.5).pose.position, Vec3(0, 4, 0), 1e-15));
+}

@@ -122,3 +122,19 @@ TEST_CASE("an endless clip of functions has an endless clock") {
   CHECK(clock_at(play, clip, 100).rate == 2);
   CHECK(end_time(play, clip) == std::numeric_limits<double>::infinity());
 }
+
+TEST_CASE("an event at the turn of a ping-pong is told once") {
+  Clip clip;
+  clip.duration = 1;
+  clip.loop = {LoopMode::pingpong, 3};
+  clip.events = {{.from = 0, .to = 0, .name = "low", .data = {}}, {.from = 1, .to = 1, .name = "high", .data = {}}};
+  CHECK(told(events_between({}, clip, 0, 5, true)) == "0:low 1:high 2:low 3:high ");
+}
+
+TEST_CASE("a loop too short to count tells nothing rather than hanging") {
+  Clip clip;
+  clip.duration = 1e-9;
+  clip.loop = {LoopMode::repeat, 0};
+  clip.events = {{.from = 0, .to = 0, .name = "blur", .data = {}}};
+  CHECK(events_between({}, clip, 0, 1, true).empty());
+}

@@ -23,8 +23,10 @@ TEST_CASE("coordinates agree with culori") {
     for (const auto& c : file["cases"]) {
       CAPTURE(c["name"].get<std::string>());
       const std::vector<double> s = c["input"]["srgb"];
-      for (const auto& [name, space] : names) {
-        CAPTURE(name);
+      for (const auto& entry : names) {
+        const char* name = entry.first;
+        const ColorSpace space = entry.second;
+        CAPTURE(std::string(name));
         const Vec4 found = to_space(from_srgb(s[0], s[1], s[2]), space);
         // culori sets a and b of a gray to 0 by hand (convertRgbToLab.js); the matrices of CSS leave 8e-6 there.
         const bool gray = s[0] == s[1] && s[1] == s[2];

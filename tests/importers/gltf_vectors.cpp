@@ -25,7 +25,9 @@ void check_case(const nlohmann::json& one, const ScratchFolder& folder) {
   REQUIRE(model.clips.size() == 1);
   const auto& times = one["t"];
   const bool linear = one["input"]["interpolation"] == "LINEAR";
-  for (const auto& [path, values] : one["value"].items()) {
+  for (const auto& entry : one["value"].items()) {
+    const std::string path = entry.key();
+    const auto& values = entry.value();
     CAPTURE(path);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const double time = times[i].get<double>();

@@ -47,26 +47,28 @@ TEST_CASE("semi-implicit Euler ends g dt^2 n (n + 1) / 2 below, as its series sa
 }
 
 TEST_CASE("a tumbling box keeps its energy and its angular momentum, and flips") {
-  auto scene = test::load_scene("dzhanibekov");
-  if (!scene) return;
-  const BodyId body = scene->bodies.back();
-  const auto momentum = [&] {
-    const Motion motion = scene->world.motion(body);
-    const Mat3 axes = motion.pose.rotation.toRotationMatrix();
-    return Vec3(axes * scene->world.mass(body).inertia * axes.transpose() * motion.twist.angular);
-  };
-  const double energy = scene->world.kinetic_energy();
-  const Vec3 start = momentum();
-  double worst = 0, lowest = 1e9;
-  for (int i = 0; i < scene->steps; ++i) {
-    scene->step();
-    worst = std::max(worst, std::abs(scene->world.kinetic_energy() / energy - 1));
-    const Motion motion = scene->world.motion(body);
-    lowest = std::min(lowest, (motion.pose.rotation.conjugate() * motion.twist.angular).z());
+  for (test::Scene& scene : test::scenes("dzhanibekov")) {
+    CAPTURE(scene.file["name"].get<std::string>());
+    const BodyId body = scene.bodies.back();
+    const auto momentum = [&] {
+      const Motion motion = scene.world.motion(body);
+      const Mat3 axes = motion.pose.rotation.toRotationMatrix();
+      return Vec3(axes * scene.world.mass(body).inertia * axes.transpose() * motion.twist.angular);
+    };
+    const double turning = scene.world.motion(body).twist.angular.z();
+    const double energy = scene.world.kinetic_energy();
+    const Vec3 start = momentum();
+    double worst = 0, lowest = 1e9;
+    for (int i = 0; i < scene.steps; ++i) {
+      scene.step();
+      worst = std::max(worst, std::abs(scene.world.kinetic_energy() / energy - 1));
+      const Motion motion = scene.world.motion(body);
+      lowest = std::min(lowest, (motion.pose.rotation.conjugate() * motion.twist.angular).z());
+    }
+    CHECK(worst < 1e-4);
+    CHECK((momentum() - start).norm() < 1e-9 * start.norm());
+    CHECK(lowest < -0.98 * turning);
   }
-  CHECK(worst < 1e-4);
-  CHECK((momentum() - start).norm() < 1e-9 * start.norm());
-  CHECK(lowest < -4.9);
 }
 
 TEST_CASE("a mass on a spring swings with period 2 pi sqrt(m / k) and keeps its energy") {

@@ -160,8 +160,38 @@ TEST_CASE("a driven body sags by g / w^2, lags by 2 z v / w, and not at all when
   }
 }
 
-TEST_CASE("a very stiff drive is off by zeta a h / w, and frequency 0 is free to the bit") {
+TEST_CASE("a drive of frequency 0 gives the bits of a free body, through flight and contact") {
+  World worlds[2];
+  BodyId bodies[2];
+  for (int i = 0; i < 2; ++i) {
+    World& world = worlds[i];
+    world.add({.shape = {Plane{}}, .fixed = true});
+    BodySettings box;
+    box.shape = {Box{Vec3(0.3, 0.2, 0.4)}};
+    box.shape.offset.position = Vec3(0.1, 0, 0.05);
+    box.restitution = 0.4;
+    // The number of damping says nothing without a frequency.
+    box.drive = i == 0 ? Drive::free() : Drive{.hz = 0, .zeta = 0.7};
+    box.motion = at(Vec3(0, 2, 0), Vec3(1, 0.5, 0));
+    box.motion.twist.angular = Vec3(3, -2, 1);
+    bodies[i] = world.add(box);
+  }
+  for (int step = 1; step <= 300; ++step) {
+    Motion shown[2];
+    for (int i = 0; i < 2; ++i) {
+      worlds[i].step(1.0 / 120);
+      shown[i] = worlds[i].motion(bodies[i]);
+    }
+    CHECK(shown[0].pose.position == shown[1].pose.position);
+    CHECK(shown[0].pose.rotation.coeffs() == shown[1].pose.rotation.coeffs());
+    CHECK(shown[0].twist.linear == shown[1].twist.linear);
+    CHECK(shown[0].twist.angular == shown[1].twist.angular);
+  }
+}
+
+TEST_CASE("a very stiff drive is off by zeta a h / w within 2 %") {
   for (const double hz : {1e3, 1e6, 1e9}) {
+    CAPTURE(hz);
     WorldSettings settings;
     settings.gravity = Vec3::Zero();
     World world(settings);
@@ -169,13 +199,16 @@ TEST_CASE("a very stiff drive is off by zeta a h / w, and frequency 0 is free to
     ball.drive = {.hz = hz};
     const BodyId body = world.add(ball);
     const double h = 1.0 / 60, a = 11.8;
+    // It comes to rest at the origin, so that the place it is read at has more digits than the error. It leads, for
+    // the step's end is reached with the speed that is wanted there.
+    double error = 0;
     for (int i = 1; i <= 120; ++i) {
-      const double t = i * h;
+      const double t = (i - 120) * h;
       world.set_target(body, at(Vec3(0.5 * a * t * t, 0, 0), Vec3(a * t, 0, 0)));
       world.step(h);
+      error = world.motion(body).pose.position.x() - 0.5 * a * t * t;
     }
-    const double error = std::abs(world.motion(body).pose.position.x() - 0.5 * a * 4);
     const double expected = a * h / (2 * 3.14159265358979323846 * hz);
-    CHECK(error < 1.3 * expected + 1e-13);
+    CHECK(std::abs(error / expected - 1) < 0.02);
   }
 }

@@ -35,26 +35,46 @@ TEST_CASE("a stack of ten boxes stands for ten seconds within a centimeter, then
   }
 }
 
-TEST_CASE("a pyramid of twenty rows stands for five seconds") {
-  auto scene = test::load_scene("pyramid20");
-  if (!scene) return;
-  const Vec3 start = scene->world.motion(scene->bodies.back()).pose.position;
-  for (int i = 0; i < scene->steps; ++i) scene->step();
-  CHECK((scene->world.motion(scene->bodies.back()).pose.position - start).norm() < 0.02);
+TEST_CASE("a pyramid of boxes stands, and its top stays where it was") {
+  for (const std::string name : {"pyramid_small", "pyramid20"}) {
+    if (name == "pyramid20" && !std::filesystem::is_directory(test::scenes_folder())) {
+      MESSAGE("SKIPPED: scene " << name << ", no folder " << test::scenes_folder().string());
+      continue;
+    }
+    for (test::Scene& scene : test::scenes(name)) {
+      CAPTURE(scene.file["name"].get<std::string>());
+      const Vec3 start = scene.world.motion(scene.bodies.back()).pose.position;
+      for (int i = 0; i < scene.steps; ++i) scene.step();
+      CHECK((scene.world.motion(scene.bodies.back()).pose.position - start).norm() < 0.02);
+    }
+  }
 }
 
 TEST_CASE("a box on a slope slides with g (sin a - mu cos a) below the friction angle's tangent, and stays above it") {
-  if (auto scene = test::load_scene("slope_mu0.3")) {
-    for (int i = 0; i < scene->steps; ++i) scene->step();
-    CHECK(near(scene->world.twist(scene->bodies.back()).linear.norm(), 4.71257, 1e-4 / 4.71257));
+  bool slid = false, stayed = false;
+  for (test::Scene& scene : test::scenes("slope_mu")) {
+    CAPTURE(scene.file["name"].get<std::string>());
+    const BodyId box = scene.bodies.back();
+    const double friction = scene.file["bodies"].back()["friction"];
+    const double gravity = test::vector_from(scene.file["gravity"]).norm();
+    const Vec3 normal = scene.world.motion(scene.bodies.front()).pose.rotation * Vec3(0, 1, 0);
+    const double cosine = normal.y(), sine = std::sqrt(1 - cosine * cosine);
+    if (friction < sine / cosine) {
+      for (int i = 0; i < scene.steps; ++i) scene.step();
+      const double expected = gravity * (sine - friction * cosine) * scene.steps * scene.dt;
+      CHECK(std::abs(scene.world.twist(box).linear.norm() - expected) < 1e-4);
+      slid = true;
+    } else {
+      // It may settle into its contact first.
+      for (int i = 0; i < 31; ++i) scene.step();
+      const Vec3 settled = scene.world.motion(box).pose.position;
+      for (int i = 0; i < scene.steps; ++i) scene.step();
+      CHECK((scene.world.motion(box).pose.position - settled).norm() < 1e-6);
+      stayed = true;
+    }
   }
-  if (auto scene = test::load_scene("slope_mu0.8")) {
-    scene->step();
-    for (int i = 0; i < 30; ++i) scene->step();
-    const Vec3 settled = scene->world.motion(scene->bodies.back()).pose.position;
-    for (int i = 0; i < scene->steps; ++i) scene->step();
-    CHECK((scene->world.motion(scene->bodies.back()).pose.position - settled).norm() < 1e-6);
-  }
+  CHECK(slid);
+  CHECK(stayed);
 }
 
 TEST_CASE("a ball rolls down a slope with 5/7 g sin a") {

@@ -13,6 +13,7 @@ namespace tweenfall::test {
 
 /// A scene's world before its first step.
 struct Scene {
+  nlohmann::json file;
   World world;
   double dt = 0;
   int steps = 0;
@@ -35,19 +36,13 @@ inline Vec3 vector_from(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-/// Nothing, said loudly, when the file is absent. Joints and hulls are not read.
-inline std::optional<Scene> load_scene(const std::string& name, double restitution_scale = 1) {
-  std::filesystem::path file = data_folder() / "scenes" / (name + ".json");
-  if (!std::filesystem::exists(file)) file = scenes_folder() / (name + ".json");
-  if (!std::filesystem::exists(file)) {
-    MESSAGE("SKIPPED: scene " << name << ", no file " << file.string());
-    return std::nullopt;
-  }
-  const nlohmann::json json = read_json(file);
+/// Joints and hulls are not read.
+inline Scene scene_from(const nlohmann::json& json) {
+  const std::string name = json.at("name");
   WorldSettings settings;
   settings.gravity = vector_from(json.at("gravity"));
   settings.sleep_after = std::numeric_limits<double>::infinity();
-  Scene scene{World(settings), json.at("dt").get<double>(), json.at("steps").get<int>(), {}, {}, {0, 0, 0}};
+  Scene scene{json, World(settings), json.at("dt").get<double>(), json.at("steps").get<int>(), {}, {}, {0, 0, 0}};
   const bool multiply = json.value("friction_combine", "") == "multiply";
   for (const auto& body : json.at("bodies")) {
     const auto& shape = json.at("shapes").at(body.at("shape").get<std::size_t>());
@@ -71,7 +66,7 @@ inline std::optional<Scene> load_scene(const std::string& name, double restituti
     const double friction = body.value("friction", 0.5);
     // A pair takes the root of the product: of the squares, the product itself.
     entry.friction = multiply ? friction * friction : friction;
-    entry.restitution = body.value("restitution", 0.0) * restitution_scale;
+    entry.restitution = body.value("restitution", 0.0);
     entry.linear_damping = json.value("linear_damping", 0.0);
     entry.angular_damping = json.value("angular_damping", 0.0);
     if (body.contains("linear_velocity")) entry.motion.twist.linear = vector_from(body.at("linear_velocity"));
@@ -83,6 +78,25 @@ inline std::optional<Scene> load_scene(const std::string& name, double restituti
     scene.push = vector_from(json.at("force").at("value"));
   }
   return scene;
+}
+
+/// The scenes whose names begin so, of tests/data and of the scenes folder; said loudly when that one is absent.
+inline std::vector<Scene> scenes(const std::string& beginning) {
+  std::vector<std::filesystem::path> found;
+  for (const auto& folder : {data_folder() / "scenes", scenes_folder()}) {
+    if (!std::filesystem::is_directory(folder)) {
+      MESSAGE("SKIPPED: scenes " << beginning << "..., no folder " << folder.string());
+      continue;
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".json" && entry.path().filename().string().rfind(beginning, 0) == 0)
+        found.push_back(entry.path());
+  }
+  std::sort(found.begin(), found.end());
+  CHECK_MESSAGE(!found.empty(), "no scene " << beginning << "... anywhere");
+  std::vector<Scene> result;
+  for (const auto& path : found) result.push_back(scene_from(read_json(path)));
+  return result;
 }
 
 }  // namespace tweenfall::test

@@ -313,8 +313,8 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
                               values.scale,
                               {make.relative(), make.mix()},
                               {{"oscillator", make.oscillator(values.vector, "factors"), "swings"}}})},
-      {".color", make.either({"color", values.color, values.vector_4, {make.relative(), make.space(), make.hue()}})},
-      {".weights", make.either({"weights", values.numbers, values.numbers, {make.relative()}})}};
+      {".color", make.either({"color", values.color, values.vector_4, {make.space(), make.hue()}})},
+      {".weights", make.either({"weights", values.numbers, values.numbers, {}})}};
   tracks.others = make.user();
   tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
   tracks.name_fault = [](std::string_view name) -> std::string {

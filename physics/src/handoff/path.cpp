@@ -1,6 +1,7 @@
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/physics/handoff/path.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -46,10 +47,11 @@ WorldMotion carried(const WorldMotion& world, const Motion& to) noexcept {
   return result;
 }
 
-Path::Path(std::shared_ptr<const Animation> animation, std::size_t node)
-    : animation_(std::move(animation)), node_(node) {}
+Path::Path(std::shared_ptr<const Animation> animation, std::size_t node, double since)
+    : animation_(std::move(animation)), node_(node), since_(since) {}
 
 WorldMotion Path::anchored(double stage_time, Side side) const noexcept {
+  if (stage_time <= since_) side = Side::out;
   const WorldMotion authored = animation_->world(node_, stage_time, side);
   if (!anchor_) return authored;
   Motion moved = authored.motion;
@@ -76,7 +78,7 @@ Path Path::rebound(std::shared_ptr<const Animation> animation) const {
 }
 
 Path Path::recovered(double time, const HandBack& settings, const Motion& body, double released_at) const {
-  Path path(animation_, node_);
+  Path path(animation_, node_, time);
   std::vector<Play> plays(animation_->plays().begin(), animation_->plays().end());
 
   if (!settings.clip.empty()) {
@@ -91,10 +93,19 @@ Path Path::recovered(double time, const HandBack& settings, const Motion& body, 
       play.at = time;
       plays.push_back(std::move(play));
     }
+    // Asked for by name, the clip is followed wholly, however it was faded or masked.
+    for (Play& play : plays) {
+      play.weight = Curve<double>(1.0);
+      play.mask.clear();
+      if (play.at > time) play.at = time;
+    }
   }
+  double first = time;
+  for (const Play& play : plays) first = std::min(first, play.at);
   for (Play& play : plays) {
     if (settings.clock == HandBack::Clock::hold) play.at += time - released_at;
-    if (settings.clock == HandBack::Clock::restart) play.at = time;
+    if (settings.clock == HandBack::Clock::restart)
+      play.at += time - first;  // all together: what overlapped still does
   }
   if (!settings.clip.empty() || settings.clock != HandBack::Clock::run)
     path.animation_ = std::make_shared<const Animation>(animation_->with_plays(std::move(plays)));

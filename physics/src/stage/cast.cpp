@@ -15,7 +15,7 @@ Motion about_origin(Motion motion, const Twist& at_center, const Vec3& center) {
 
 /// Puts the description's body on its node.
 void add_body(StageState& state, NodeId node, const BodyDescription& body) {
-  Path path(state.animation, node);
+  Path path(state.animation, node, state.time);
   const WorldMotion start = path.world(state.time);
   BodySettings settings{.shape = body.shape,
                         .mass = body.mass,
@@ -58,13 +58,19 @@ void arm_on(StageState& state, std::size_t rule, std::size_t body) {
 void validate(const Rule& rule) {
   if (rule.when.triggers.empty()) throw std::invalid_argument("a hand-off rule needs a trigger");
   if (rule.to.hz < 0 || std::isnan(rule.to.hz)) throw std::invalid_argument("a drive's hz must be 0 or more");
+  if (!(rule.hand_back.settle.seconds > 0) || !std::isfinite(rule.hand_back.settle.seconds))
+    throw std::invalid_argument("a settle needs a time above 0 s");
+  if (!(rule.take_over.average_over > 0) || !std::isfinite(rule.take_over.average_over))
+    throw std::invalid_argument("a velocity is averaged over a time above 0 s");
 }
 
 }  // namespace
 
 StageState initial_state(const StageDescription& description) {
-  if (!(description.step > 0) || !std::isfinite(description.step))
-    throw std::invalid_argument("the stage's step must be above 0 s, not " + std::to_string(description.step));
+  constexpr double least_step = 1e-6;
+  if (!(description.step >= least_step) || !std::isfinite(description.step))
+    throw std::invalid_argument("the stage's step must be a microsecond or more, not " +
+                                std::to_string(description.step) + " s");
   StageState state{.world = World(description.world)};
   std::vector<Node> nodes;
   for (const NodeDescription& node : description.nodes) nodes.push_back({node.name, node.parent, node.rest});
@@ -73,8 +79,19 @@ StageState initial_state(const StageDescription& description) {
   state.jumps = clip_jumps(state.animation->clips());
   state.present.assign(state.nodes->size(), 1);
   state.body_of.assign(state.nodes->size(), no_body);
-  for (NodeId node = 0; node < description.nodes.size(); ++node)
-    if (description.nodes[node].body) add_body(state, node, *description.nodes[node].body);
+  for (NodeId node = 0; node < description.nodes.size(); ++node) {
+    const NodeDescription& described = description.nodes[node];
+    state.colors.push_back(described.color);
+    if (!described.body) continue;
+    if (described.body->fixed && state.animation->animates(node))
+      throw std::invalid_argument("\"" + described.name +
+                                  "\" is static, but a playing clip moves it; leave out \"static\" and it is keyed");
+    try {
+      add_body(state, node, *described.body);
+    } catch (const std::invalid_argument& fault) {
+      throw std::invalid_argument("the body of \"" + described.name + "\": " + fault.what());
+    }
+  }
 
   for (const ForceDescription& force : description.forces) {
     if (const auto* drag = std::get_if<DragDescription>(&force)) state.world.add_force(drag->drag);
@@ -141,6 +158,7 @@ NodeId add_node(StageState& state, const NodeDescription& node) {
   nodes.push_back({node.name, node.parent, node.rest});
   rebind(state, std::move(nodes));
   state.present.push_back(1);
+  state.colors.push_back(node.color);
   state.body_of.push_back(no_body);
   const NodeId id = state.present.size() - 1;
   if (node.body) add_body(state, id, *node.body);

@@ -24,6 +24,15 @@ void collect(const Curve<T>& curve, const Clip& clip, bool accumulates, std::vec
   for (const double knot : curve.knots())
     if (knot > 0 && knot < clip.duration && differ(curve.value(knot, Side::in), curve.value(knot, Side::out)))
       add(knot);
+  // A track that repeats within its clip jumps at each of its own seams.
+  const double length = curve.duration();
+  if (std::isfinite(length) && length > 0 && differ(curve.value(curve.end(), Side::in), curve.value(curve.start()))) {
+    constexpr int most = 1000;
+    if (curve.after() == Outside::repeat)
+      for (int k = 0; k < most && curve.end() + k * length < clip.duration; ++k) add(curve.end() + k * length);
+    if (curve.before() == Outside::repeat)
+      for (int k = 0; k < most && curve.start() - k * length > 0; ++k) add(curve.start() - k * length);
+  }
   const bool wraps = clip.loop.mode == LoopMode::repeat || (clip.loop.mode == LoopMode::repeat_offset && !accumulates);
   if (wraps && std::isfinite(clip.duration) &&
       differ(curve.value(clip.duration, Side::in), curve.value(0.0, Side::out)))
@@ -62,6 +71,9 @@ double next_jump(const StageState& state, const Animation& animation, double fro
   for (const Play& play : animation.plays()) {
     // Where a play begins it may replace what was below it.
     if (play.at > from && play.at <= to) first = std::min(first, play.at);
+    for (const double knot : play.weight.knots())
+      if (knot > from && knot <= to && play.weight.value(knot, Side::in) != play.weight.value(knot))
+        first = std::min(first, knot);
     const std::vector<FiredEvent> jumps = events_between(play, (*state.jumps)[play.clip], from, to);
     if (!jumps.empty()) first = std::min(first, jumps.front().time);
   }

@@ -67,9 +67,8 @@ void change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
                   .after = {}};
 
   if (handoff.from == Owner::keyed) {
-    // The motion shown up to now is the one that arrives; at the very start there is none, so the one that leaves.
-    const Side side = state.time > 0 ? Side::in : Side::out;
-    body.shown = body.path.world(state.time, side);
+    // The motion shown up to now is the one that arrives.
+    body.shown = body.path.world(state.time, Side::in);
     body.released_at = state.time;
     Motion motion = body.shown.motion;
     motion.pose.scale = Vec3(1, 1, 1);

@@ -76,11 +76,11 @@ const StagedBody& body_in_force(const StageState& from, const StageState& to, st
   return time >= to.time || body >= from.bodies.size() ? to.bodies[body] : from.bodies[body];
 }
 
-/// Local motion of a node without a body: below a body that has its own clock, it keeps that clock.
-Motion local_motion(const StageState& state, NodeId node, double time) {
+/// What a node without a body follows: below a body that has its own clock, it keeps that clock.
+const Animation& animation_of(const StageState& state, NodeId node) {
   for (NodeId i = node; i != no_node; i = (*state.nodes)[i].parent)
-    if (const StagedBody* body = state.body(i)) return body->path.animation().sample_node(node, time);
-  return state.animation->sample_node(node, time);
+    if (const StagedBody* body = state.body(i)) return body->path.animation();
+  return *state.animation;
 }
 
 }  // namespace
@@ -104,13 +104,16 @@ Twist body_twist(const StageState& from, const StageState& to, std::size_t index
 
 void stage_world(const StageState& from, const StageState& to, double time, std::span<WorldMotion> out) {
   const StageState& state = time >= to.time ? to : from;
+  std::vector<const Animation*> animations(out.size(), state.animation.get());
   for (NodeId node = 0; node < out.size(); ++node) {
     if (state.body_of[node] != no_body) {
       out[node] = body_world(from, to, state.body_of[node], time);
+      animations[node] = &state.bodies[state.body_of[node]].path.animation();
       continue;
     }
     const std::size_t parent = (*state.nodes)[node].parent;
-    out[node] = child_of(parent == no_node ? WorldMotion{} : out[parent], local_motion(state, node, time));
+    if (parent != no_node) animations[node] = animations[parent];
+    out[node] = child_of(parent == no_node ? WorldMotion{} : out[parent], animations[node]->sample_node(node, time));
   }
 }
 
@@ -123,7 +126,8 @@ WorldMotion node_world(const StageState& from, const StageState& to, NodeId node
     i = (*state.nodes)[i].parent;
   }
   WorldMotion world = i == no_node ? WorldMotion{} : body_world(from, to, state.body_of[i], time);
-  for (auto it = below.rbegin(); it != below.rend(); ++it) world = child_of(world, local_motion(state, *it, time));
+  const Animation& animation = animation_of(state, node);
+  for (auto it = below.rbegin(); it != below.rend(); ++it) world = child_of(world, animation.sample_node(*it, time));
   return world;
 }
 

@@ -27,7 +27,7 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
     NodeRecord& record = recording.nodes[i];
     const bool here = stage.contains(i);
     record.world.push_back(here ? world[i] : record.world.back());
-    record.twist.push_back(here ? stage.twist(i) : Twist{});
+    record.twist.push_back(!here ? Twist{} : stage.has_body(i) ? stage.twist(i) : world[i].motion.twist);
     record.owner.push_back(here ? stage.owner(i) : record.owner.back());
     if (!here) continue;
     const NodeLook look = stage.look(i);
@@ -76,7 +76,7 @@ Recording record(Stage& stage, double until, double fps) {
 }
 
 double natural_length(const StageDescription& description) {
-  constexpr double to_come_to_rest = 3, endless = 4, most = 60;
+  constexpr double to_come_to_rest = 3, endless = 4, most = 600;
   double length = 0;
   bool simulated = false;
   for (const Play& play : description.plays) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 namespace tweenfall {
 
@@ -36,6 +37,7 @@ struct Stage::Implementation {
   void take(double step) {
     splits.clear();
     take_step(state, step, commands, splits, happenings);
+    std::ranges::stable_sort(happenings, {}, &Happening::time);
   }
 
   void next_step() {
@@ -53,22 +55,25 @@ struct Stage::Implementation {
   }
 
   void tell(bool aloud, double until) {
-    const bool outer = !telling;
-    telling = true;
+    struct Telling {
+      bool& flag;
+      const bool before = std::exchange(flag, true);
+      ~Telling() { flag = before; }
+    } guard{telling};
     while (told < happenings.size() && happenings[told].time <= until) {
       const Happening happening = happenings[told++];
       now = std::max(now, happening.time);
       if (const auto* handoff = std::get_if<HandOff>(&happening.what)) {
         handoffs.push_back(*handoff);
-        if (aloud && handoff_callback) handoff_callback(*handoff);
+        const auto callback = handoff_callback;  // a copy: it may put another in its place
+        if (aloud && callback) callback(*handoff);
       } else {
         const StageEvent& event = std::get<StageEvent>(happening.what);
         events.push_back(event);
-        const auto& callback = event.nodes.empty() ? event_callback : contact_callback;
+        const auto callback = event.nodes.empty() ? event_callback : contact_callback;
         if (aloud && callback) callback(event);
       }
     }
-    if (outer) telling = false;
   }
 
   void run_to(double target, bool aloud) {
@@ -82,6 +87,7 @@ struct Stage::Implementation {
 
   /// Makes a change at exactly `now`. When it cannot be made, nothing has changed.
   void command(std::function<void(StageState&, std::vector<Happening>&)> run) {
+    const std::vector<Command> kept = commands;
     // A change made in the past begins another future.
     std::erase_if(commands, [&](const Command& other) { return other.time > now; });
     // What lies at `before` is settled; a change there comes right after it.
@@ -90,7 +96,7 @@ struct Stage::Implementation {
     try {
       retake();
     } catch (...) {
-      commands.pop_back();
+      commands = kept;
       retake();
       throw;
     }
@@ -225,10 +231,10 @@ Owner Stage::owner(NodeId node) const {
 
 NodeLook Stage::look(NodeId node) const {
   implementation_->require(node);
-  NodeLook look = implementation_->current().animation->look(node, time());
-  const auto& nodes = implementation_->description.nodes;
-  if (!look.color && node < nodes.size() && nodes[node].color)
-    look.color = Sample<Color>{*nodes[node].color, Vec4(0, 0, 0, 0), Vec4(0, 0, 0, 0)};
+  const StageState& state = implementation_->current();
+  NodeLook look = state.animation->look(node, time());
+  if (!look.color && state.colors[node])
+    look.color = Sample<Color>{*state.colors[node], Vec4(0, 0, 0, 0), Vec4(0, 0, 0, 0)};
   return look;
 }
 

@@ -46,6 +46,7 @@ struct StageState {
   std::shared_ptr<const Animation> animation;
   std::shared_ptr<const std::vector<Clip>> jumps;  ///< see clip_jumps
   std::vector<char> present;                       ///< by node
+  std::vector<std::optional<Color>> colors;        ///< by node, where none is animated
   std::vector<StagedBody> bodies;
   std::vector<std::size_t> body_of;  ///< by node; `no_body` for none
   std::vector<NodeId> node_of;       ///< by index of the world's body
@@ -80,8 +81,8 @@ void change_owner(StageState& state, std::size_t body, const Drive& to, Cause ca
 [[nodiscard]] double next_instant(const StageState& state, double from, double to);
 /// Fires the rules whose triggers lie in (from, state.time]; contact triggers are pulled by latching them before.
 void fire_rules(StageState& state, double from, double step, std::vector<Happening>& happenings);
-/// Whether `rule` has a contact trigger that an impulse of this size and speed from `other` pulls.
-[[nodiscard]] bool struck(const Rule& rule, double impulse, double speed, std::string_view other);
+/// Whether an impulse of this size and approach speed from `other` pulls the trigger.
+[[nodiscard]] bool struck(const when::ContactHit& hit, double impulse, double speed, std::string_view other);
 
 // step.cpp: one fixed step
 /// Takes `state` to the end of its next step, split where it must be; every state at a split goes to `splits`.

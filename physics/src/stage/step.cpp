@@ -9,8 +9,6 @@ namespace {
 
 /// More splits than this in one step are handled together at its end.
 constexpr std::size_t most_splits = 256;
-/// Freeing one struck body may strike the next; this many passes are made over them.
-constexpr int most_passes = 8;
 
 Motion rigid(Motion motion) {
   motion.pose.scale = Vec3(1, 1, 1);
@@ -40,20 +38,18 @@ void set_targets(StageState& state, double end) {
   state.jumped = false;
 }
 
-/// The hardest blow on `body` in the last step.
-struct Blow {
-  double impulse = 0, speed = 0;
-  std::string_view other;
-};
-std::optional<Blow> pulled_by(const StageState& state, const Rule& rule, BodyId body) {
-  std::optional<Blow> hardest;
-  for (const Contact& contact : state.world.contacts()) {
-    if (contact.a != body && contact.b != body) continue;
-    const Blow blow{contact.impulse, contact.approach_speed, name_of(state, contact.a == body ? contact.b : contact.a)};
-    if (struck(rule, blow.impulse, blow.speed, blow.other) && (!hardest || blow.impulse > hardest->impulse))
-      hardest = blow;
-  }
-  return hardest;
+/// Whether a contact of the last step pulls the trigger on `body`.
+bool pulled(const StageState& state, const Trigger& trigger, BodyId body) {
+  const auto* hit = std::get_if<when::ContactHit>(&trigger);
+  return hit && std::ranges::any_of(state.world.contacts(), [&](const Contact& contact) {
+           if (contact.a != body && contact.b != body) return false;
+           return struck(*hit, contact.impulse, contact.approach_speed,
+                         name_of(state, contact.a == body ? contact.b : contact.a));
+         });
+}
+
+bool any_pulled(const StageState& state, const Rule& rule, BodyId body) {
+  return std::ranges::any_of(rule.when.triggers, [&](const Trigger& t) { return pulled(state, t, body); });
 }
 
 bool has_contact_trigger(const Rule& rule) {
@@ -61,9 +57,22 @@ bool has_contact_trigger(const Rule& rule) {
                              [](const Trigger& t) { return std::holds_alternative<when::ContactHit>(t); });
 }
 
+/// Remembers which of the rule's contact triggers were pulled; whether that is enough for it to fire.
+bool latch(ArmedRule& armed, const Rule& rule, const StageState& state) {
+  const BodyId body = state.bodies[armed.body].id;
+  bool any = false;
+  for (std::size_t t = 0; t < rule.when.triggers.size(); ++t)
+    if (pulled(state, rule.when.triggers[t], body)) {
+      armed.latched[t] = 1;
+      any = true;
+    }
+  return any && (!rule.when.all || std::ranges::all_of(armed.latched, [](char latched) { return latched != 0; }));
+}
+
 /// Moves the world to `end`. A keyed body that is struck hard enough, judged by the impulse that it would take if it
 /// were free, is freed at the start of the piece and the piece is solved again: otherwise what struck it would bounce
-/// off an infinite mass and the difference in momentum would vanish.
+/// off an infinite mass and the difference in momentum would vanish. Freeing one may strike the next, so this goes on
+/// until no more are freed; each rule frees its body once.
 void move_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
   const double length = end - state.time;
   set_targets(state, end);
@@ -74,46 +83,45 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
     return;
   }
 
-  const World before = state.world;
+  World start = state.world;  // at the start of the piece, with whoever has been freed there
   state.world.step(length);
-  for (int pass = 0; pass < most_passes; ++pass) {
-    bool freed = false;
-    for (std::size_t i = 0; i < state.armed.size(); ++i) {
-      ArmedRule& armed = state.armed[i];
-      const Rule rule = state.rules[armed.rule];
-      const StagedBody& body = state.bodies[armed.body];
-      if (armed.done || !has_contact_trigger(rule) || state.world.drive(body.id) == rule.to) continue;
-      if (!pulled_by(state, rule, body.id)) continue;
-      if (state.world.owner(body.id) == Owner::keyed) {
-        StageState trial = state;
-        trial.world = before;
-        std::vector<Happening> tried;
-        change_owner(trial, armed.body, rule.to, Cause::contact, rule.take_over, rule.hand_back, step, tried);
-        trial.world.step(length);
-        if (!pulled_by(trial, rule, trial.bodies[armed.body].id)) continue;
-        if (rule.when.all || rule.when.triggers.size() > 1) {
-          for (std::size_t t = 0; t < rule.when.triggers.size(); ++t)
-            if (std::holds_alternative<when::ContactHit>(rule.when.triggers[t])) armed.latched[t] = 1;
-          if (rule.when.all) continue;
-        }
-        // Kept, and the next blow is judged from here.
-        trial.armed[i].done = rule.once;
-        std::ranges::fill(trial.armed[i].latched, 0);
-        happenings.insert(happenings.end(), tried.begin(), tried.end());
-        state = std::move(trial);
-        freed = true;
-        break;
+  std::vector<char> judged(state.armed.size(), 0);
+  for (bool freed = true; freed;) {
+    freed = false;
+    for (std::size_t i = 0; i < state.armed.size() && !freed; ++i) {
+      const Rule& rule = state.rules[state.armed[i].rule];
+      const BodyId body = state.bodies[state.armed[i].body].id;
+      if (judged[i] || state.armed[i].done || !has_contact_trigger(rule) || state.world.drive(body) == rule.to)
+        continue;
+      if (!any_pulled(state, rule, body)) continue;
+      if (state.world.owner(body) != Owner::keyed) {
+        static_cast<void>(latch(state.armed[i], rule, state));  // fired at the end of the piece, with all others
+        continue;
       }
-      for (std::size_t t = 0; t < rule.when.triggers.size(); ++t)
-        if (std::holds_alternative<when::ContactHit>(rule.when.triggers[t])) armed.latched[t] = 1;
+      StageState trial = state;
+      trial.world = start;
+      std::vector<Happening> tried;
+      change_owner(trial, state.armed[i].body, rule.to, Cause::contact, rule.take_over, rule.hand_back, step, tried);
+      World trial_start = trial.world;
+      trial.world.step(length);
+      if (!latch(trial.armed[i], rule, trial)) {
+        state.armed[i].latched = trial.armed[i].latched;  // of an `all`: this one has come, others have not
+        continue;
+      }
+      trial.armed[i].done = rule.once;
+      std::ranges::fill(trial.armed[i].latched, 0);
+      happenings.insert(happenings.end(), tried.begin(), tried.end());
+      state = std::move(trial);
+      start = std::move(trial_start);
+      judged[i] = 1;
+      freed = true;
     }
-    if (!freed) return;
   }
 }
 
 void report_contacts(const StageState& state, std::vector<Happening>& happenings) {
   for (const Contact& contact : state.world.contacts()) {
-    if (!contact.began) continue;
+    if (!contact.began || !(contact.impulse > 0)) continue;
     StageEvent event;
     event.time = state.time;
     event.name = "contact";
@@ -168,6 +176,9 @@ void take_step(StageState& state, double step, std::span<const Command> commands
     move_world(state, to, step, happenings);
     state.time = to;
     report_contacts(state, happenings);
+    // What is read before a change by the caller must not know of it.
+    const auto due = [&](const Command& command) { return command.time > from && command.time <= to; };
+    if (std::ranges::any_of(commands, due)) splits.push_back(state);
     handle_instant(state, from, step, commands, happenings);
     if (to < end) splits.push_back(state);
   }

@@ -90,12 +90,8 @@ std::optional<Cause> fires(const StageState& state, ArmedRule& armed, double fro
 
 }  // namespace
 
-bool struck(const Rule& rule, double impulse, double speed, std::string_view other) {
-  for (const Trigger& trigger : rule.when.triggers)
-    if (const auto* hit = std::get_if<when::ContactHit>(&trigger))
-      if (impulse >= hit->impulse && speed >= hit->speed && (hit->with.empty() || matches(hit->with, other)))
-        return true;
-  return false;
+bool struck(const when::ContactHit& hit, double impulse, double speed, std::string_view other) {
+  return impulse > 0 && impulse >= hit.impulse && speed >= hit.speed && (hit.with.empty() || matches(hit.with, other));
 }
 
 double next_instant(const StageState& state, double from, double to) {

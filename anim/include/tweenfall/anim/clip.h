@@ -34,7 +34,8 @@ struct Clip {
   std::vector<ClipEvent> events;  ///< in order of `from`
 };
 
-/// Largest finite knot or event over all tracks and events, s; infinity when every track is an endless formula.
+/// Largest finite knot or event over all tracks and events, s; infinity where there is none of either, but an endless
+/// formula.
 [[nodiscard]] double natural_duration(const Clip& clip) noexcept;
 
 }  // namespace tweenfall

@@ -19,7 +19,9 @@ namespace tweenfall {
 
 class Path {
  public:
-  Path(std::shared_ptr<const Animation> animation, std::size_t node);
+  /// @param since  when the body came to this path, s: nothing of it was shown before, so there even `Side::in` is what
+  /// leaves
+  Path(std::shared_ptr<const Animation> animation, std::size_t node, double since = 0);
 
   /// Pose and twist of the node's origin in the world.
   [[nodiscard]] Motion at(double stage_time, Side side = Side::out) const noexcept;
@@ -45,6 +47,7 @@ class Path {
 
   std::shared_ptr<const Animation> animation_;
   std::size_t node_;
+  double since_;
   std::optional<Pose> anchor_;  ///< rigid; none: where it was authored
   SettleOffset settle_;
 };

@@ -31,8 +31,8 @@ struct Recording {
 /// Runs `stage` from its current time to `until`, taking a frame at the start and every 1/fps after, and at `until`.
 [[nodiscard]] Recording record(Stage& stage, double until, double fps);
 
-/// A time at which the stage has shown what it has: the end of its plays, or of its last hand-off plus a while to come
-/// to rest.
+/// A time at which the stage has shown what it has: the end of its plays or its last timed hand-off, and a while for
+/// bodies to come to rest; 4 s of what has no end, 600 s at most.
 [[nodiscard]] double natural_length(const StageDescription& description);
 
 }  // namespace tweenfall

@@ -51,8 +51,8 @@ class Stage {
   [[nodiscard]] double step() const noexcept;
 
   // Reading, at `time()`
-  [[nodiscard]] NodeId node(std::string_view name) const;  ///< @throws std::invalid_argument with the nearest name
-  [[nodiscard]] std::span<const Node> nodes() const noexcept;
+  [[nodiscard]] NodeId node(std::string_view name) const;      ///< @throws std::invalid_argument with the nearest name
+  [[nodiscard]] std::span<const Node> nodes() const noexcept;  ///< valid until the stage is changed, as all spans here
   [[nodiscard]] bool contains(NodeId node) const noexcept;
   [[nodiscard]] bool has_body(NodeId node) const noexcept;
   [[nodiscard]] WorldMotion world(NodeId node) const;  ///< of the node's origin
@@ -81,6 +81,7 @@ class Stage {
   [[nodiscard]] std::span<const HandOff> handoffs() const noexcept;   ///< up to `time()`
   [[nodiscard]] std::span<const StageEvent> events() const noexcept;  ///< up to `time()`, contacts included
 
+  /// A number that changes when any bit of any body does, at the end of the step that `time()` lies in.
   [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
  private:
