@@ -7,6 +7,7 @@
 #include "terminal.h"
 #include "verbs.h"
 
+#include <tweenfall/anim/nearest_name.h>
 #include <tweenfall/importers/document.h>
 
 #include <charconv>
@@ -25,6 +26,7 @@ struct Finding {
   std::string summary;             ///< of a file without problems
   std::vector<std::string> texts;  ///< a problem each, as people read it
   std::vector<std::string> jsons;  ///< the same, as JSON objects
+  std::vector<std::string> notes;  ///< what is no fault, a line each
 };
 
 std::string problem_json(const Problem& problem) {
@@ -42,6 +44,22 @@ std::string summary_of(const StageDescription& stage) {
   if (bodies > 0) text += ", " + counted(bodies, "body", "bodies");
   if (!stage.rules.empty()) text += ", " + counted(stage.rules.size(), "hand-off rule");
   return text;
+}
+
+/// Tracks of the user's own whose names are nearly those of ours; they are right, but perhaps not what was meant.
+std::vector<std::string> notes_on(const StageDescription& stage, const std::string& file) {
+  const std::string ours[] = {"position", "rotation", "scale", "color", "weights"};
+  std::vector<std::string> notes;
+  for (const Clip& clip : stage.clips)
+    for (const Track& track : clip.tracks) {
+      if (property_named(track.property) != Property::user) continue;
+      const std::string meant = nearest_name(track.property, ours);
+      if (!meant.empty())
+        notes.push_back(file + ": note: \"" + track.name() +
+                        "\" is a property of your own, which moves nothing; did you mean \"" + track.node + "." +
+                        meant + "\"?");
+    }
+  return notes;
 }
 
 /// A line "FILE: error: ..." or "FILE:LINE:COLUMN: error: ..." taken apart; any other is the message.
@@ -72,6 +90,7 @@ Finding check_file(const std::string& file) {
     // What a document alone cannot tell: whether its parts make a stage that can be stepped.
     static_cast<void>(make_stage(read.stage, file));
     finding.summary = summary_of(read.stage);
+    finding.notes = notes_on(read.stage, file);
   } catch (const DocumentError& error) {
     finding.texts = faults_of(error, file);
     for (const Problem& problem : error.problems()) finding.jsons.push_back(problem_json(problem));
@@ -92,6 +111,7 @@ int check_files(const Options& options) {
     if (options.json) continue;
     if (finding.texts.empty()) print(file + ": valid; " + finding.summary + "\n");
     for (const std::string& text : finding.texts) say(text);
+    for (const std::string& note : finding.notes) say(note);
   }
   if (options.json)
     print("{\"files\": " + json_array(files) + ", \"problems\": " + std::to_string(problems.size()) + "}\n");
