@@ -300,21 +300,20 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   Shape tracks = object_of("an object with tracks by name", {});
   tracks.definition = "tracks";
   tracks.one_a_line = true;
-  tracks.endings = {
-      {".position", make.either({"position",
-                                 values.vector,
-                                 values.vector,
-                                 {make.relative()},
-                                 {{"oscillator", make.oscillator(values.vector, "m"), "swings"},
-                                  {"projectile", make.projectile(), "a thrown body's way"}}})},
-      {".rotation", make.rotation()},
-      {".scale", make.either({"scale",
-                              values.scale,
-                              values.scale,
-                              {make.relative(), make.mix()},
-                              {{"oscillator", make.oscillator(values.vector, "factors"), "swings"}}})},
-      {".color", make.either({"color", values.color, values.vector_4, {make.space(), make.hue()}})},
-      {".weights", make.either({"weights", values.numbers, values.numbers, {}})}};
+  tracks.endings = {{".position", make.either({"position",
+                                               values.vector,
+                                               values.vector,
+                                               {make.relative()},
+                                               {{"oscillator", make.oscillator(values.vector, "m"), "swings"},
+                                                {"projectile", make.projectile(), "a thrown body's way"}}})},
+                    {".rotation", make.rotation()},
+                    {".scale", make.either({"scale",
+                                            values.scale,
+                                            values.scale,
+                                            {make.relative(), make.mix()},
+                                            {{"oscillator", make.oscillator(values.vector, "factors"), "swings"}}})},
+                    {".color", make.either({"color", values.color, values.vector_4, {make.space(), make.hue()}})},
+                    {".weights", make.either({"weights", values.numbers, values.numbers, {}})}};
   tracks.others = make.user();
   tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
   tracks.name_fault = [](std::string_view name) -> std::string {
