@@ -38,14 +38,12 @@ Triple hsl_to_srgb(const Triple& hsl) noexcept {
     Jet k = sextant + phases[i];
     k.v -= 6 * std::floor(k.v / 6);
     Jet wave = constant(-1);
-    if (k.v < 1)
+    if (k.v >= 5 || k.v < 1)
       wave = constant(1);
     else if (k.v < 2)
       wave = (k + -2.0) * -1.0 * 2 + -1.0;
-    else if (k.v >= 4 && k.v < 5)
+    else if (k.v >= 4)
       wave = (k + -4.0) * 2 + -1.0;
-    else if (k.v >= 5)
-      wave = constant(1);
     result[i] = lightness + amount * wave;
   }
   return result;

@@ -90,8 +90,7 @@ Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
     return arrival;
   }
   const Segment& s = d.segments[i];
-  if (!at_knot) return sample_segment<T>(d, i, std::min((time - s.start) / s.duration, 1.0));
-  return sample_segment<T>(d, i, 0);
+  return sample_segment<T>(d, i, s.position(time));
 }
 
 }  // namespace
@@ -142,10 +141,10 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   }
   if (spans.size() > 1) {
     const std::size_t count = spans.size();
-    d.bucket_scale = static_cast<double>(count) / (d.end - d.start);
-    d.buckets.assign(count + 1, 0);
+    d.bucket_scale = static_cast<double>(2 * count) / (d.end - d.start);
+    d.buckets.assign(2 * count + 1, 0);
     for (std::size_t i = 0; i < count; ++i) ++d.buckets[d.bucket(d.knots[i]) + 1];
-    for (std::size_t b = 1; b <= count; ++b) d.buckets[b] += d.buckets[b - 1];
+    for (std::size_t b = 1; b < d.buckets.size(); ++b) d.buckets[b] += d.buckets[b - 1];
   }
   return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
 }
@@ -227,6 +226,19 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
   }
   return sample_outside<T>(early ? d.before : d.after, d.start, d.end, time, side,
                            [&d](double t, Side s) { return sample_inside<T>(d, t, s); });
+}
+
+template <class T>
+T Curve<T>::value(double time, Side side) const noexcept {
+  if constexpr (std::is_same_v<T, double>) {
+    // The most frequent question of all, without the work for rates.
+    const Data& d = *data_;
+    if (time >= d.start && time < d.end && side == Side::out && d.warps.empty() && !d.segments.empty()) {
+      const Segment& s = d.segments[d.locate(time)];
+      return polynomial_value(&d.pool[s.first], s.degree, s.position(time));
+    }
+  }
+  return sample(time, side).value;
 }
 
 template <class T>

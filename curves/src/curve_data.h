@@ -4,6 +4,7 @@
 
 #include <tweenfall/curves/curve.h>
 
+#include <algorithm>
 #include <cstdint>
 
 #include "components.h"
@@ -30,6 +31,9 @@ struct Segment {
   std::int16_t degree;
   bool normalized;  // rotations only
   bool warped;
+
+  // Where in the segment `time` lies, 0 to 1.
+  [[nodiscard]] double position(double time) const noexcept { return std::min((time - start) * inverse, 1.0); }
 };
 
 template <class T>
@@ -46,6 +50,7 @@ struct Curve<T>::Data {
   std::vector<Warp> warps;  // empty, or one a segment
 
   // Where to look for a time: entry b counts the knots in buckets below b, buckets being equal shares of the duration.
+  // Two a span, so that where keys are spread evenly no bucket has more than one.
   std::vector<std::uint32_t> buckets;
   double bucket_scale = 0;
 
@@ -64,6 +69,8 @@ struct Curve<T>::Data {
     if (segments.size() == 1) return 0;
     const std::size_t b = bucket(time);
     std::size_t low = buckets[b], high = buckets[b + 1];  // knots below the bucket, and up to its end
+    // Without a branch that depends on the time; a knot beyond the bucket is later than `time` anyway.
+    if (high - low <= 1) return low + (knots[low] <= time ? 1 : 0) - 1;
     while (high - low > 4) {
       const std::size_t middle = (low + high) / 2;
       (knots[middle] <= time ? low : high) = knots[middle] <= time ? middle + 1 : middle;
@@ -74,6 +81,11 @@ struct Curve<T>::Data {
 };
 
 struct CurveAccess {
+  template <class T>
+  static const auto& data(const Curve<T>& curve) {
+    return *curve.data_;
+  }
+
   /// `value` at all times, with one knot at `time`.
   template <class T>
   static Curve<T> one_key(const T& value, double time) {

@@ -6,6 +6,22 @@
 
 namespace tweenfall {
 
+// The value alone: the same bits as `evaluate_polynomial` gives it.
+template <class V>
+inline V polynomial_value(const V* c, int degree, double s) noexcept {
+  if (degree == 3) return c[0] + s * (c[1] + s * (c[2] + s * c[3]));
+  V value = c[degree];
+  for (int i = degree - 1; i >= 0; --i) value = c[i] + s * value;
+  return value;
+}
+
+// The derivative of c0 + c1 s + c2 s^2 + c3 s^3.
+template <class V>
+inline V cubic_rate(const V& c1, const V& c2, const V& c3, double s) noexcept {
+  const V a = c2 + s * c3;
+  return (c1 + s * a) + s * (a + s * c3);
+}
+
 template <class V>
 struct Polynomial {
   V value, first, second;

@@ -62,7 +62,7 @@ class Curve {
 
   /// Value, rate and acceleration at any finite time.
   [[nodiscard]] Sample<T> sample(double time, Side side = Side::out) const noexcept;
-  [[nodiscard]] T value(double time, Side side = Side::out) const noexcept { return sample(time, side).value; }
+  [[nodiscard]] T value(double time, Side side = Side::out) const noexcept;
   [[nodiscard]] Rate<T> rate(double time, Side side = Side::out) const noexcept { return sample(time, side).rate; }
 
   /// The spans, as built; empty for a constant, a formula or a curve seen through a conversion.
