@@ -22,13 +22,22 @@ struct Word {
 
 constexpr Word plain_words[] = {
     {"hold", &Ease::hold},
+    {"step-next", &Ease::step_next},
     {"linear", &Ease::linear},
     {"smooth", &Ease::smooth},
     {"smooth-clamped", &Ease::smooth_clamped},
     {"monotone", &Ease::monotone},
+    {"akima", &Ease::akima},
+    {"makima", &Ease::makima},
     {"natural", &Ease::natural},
+    {"clamped", &Ease::clamped},
+    {"periodic", &Ease::periodic},
+    {"not-a-knot", &Ease::not_a_knot},
     {"catmull-rom", &Ease::catmull_rom},
+    {"catmull-rom-monotone", &Ease::catmull_rom_monotone},
+    {"uniform", &Ease::uniform},
     {"centripetal", &Ease::centripetal},
+    {"chordal", &Ease::chordal},
 };
 
 // CSS names with their handles. Source: W3C, "CSS Easing Functions Level 1".
@@ -68,8 +77,9 @@ struct FlowWord {
 };
 constexpr FlowWord flows[] = {{"-in", Flow::in}, {"-out", Flow::out}, {"-in-out", Flow::in_out}};
 
-constexpr std::string_view call_forms[] = {"bezier(x1,y1,x2,y2)", "steps(count,jump)", "spring(period,damping)",
-                                           "tcb(tension,continuity,bias)"};
+constexpr std::string_view call_forms[] = {"bezier(x1,y1,x2,y2)",    "steps(count,jump)",
+                                           "spring(period,damping)", "tcb(tension,continuity,bias)",
+                                           "natural(start,end)",     "clamped(start,end)"};
 constexpr std::string_view jumps[] = {"jump-start", "jump-end", "jump-none", "jump-both"};
 
 std::string_view trimmed(std::string_view text) {
@@ -180,6 +190,12 @@ Ease parsed(std::string_view text) {
   } else if (call.name == "spring") {
     call.expect(2, 2, "spring(period,damping), as spring(0.3s,0.5)");
     return Ease::spring(call.number(0, "s"), call.number(1));
+  } else if (call.name == "natural") {
+    call.expect(2, 2, "natural(start,end), second derivatives at the ends");
+    return Ease::natural(call.number(0), call.number(1));
+  } else if (call.name == "clamped") {
+    call.expect(2, 2, "clamped(start,end), slopes at the ends");
+    return Ease::clamped(call.number(0), call.number(1));
   } else if (call.name == "tcb") {
     call.expect(3, 3, "tcb(tension,continuity,bias)");
     return Ease::tcb(call.number(0), call.number(1), call.number(2));
