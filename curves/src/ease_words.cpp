@@ -189,23 +189,23 @@ Ease stepped(const Call& call) {
 // An output, and up to two percentages before or after it.
 shapes::LinearStop linear_stop(std::string_view text) {
   std::optional<double> output;
-  std::vector<double> inputs;
+  std::vector<double> percents;
   std::string_view rest = text;
   while (!rest.empty()) {
     std::string_view part = rest.substr(0, rest.find(' '));
     rest = trimmed(rest.substr(part.size()));
     const bool percent = part.back() == '%';
     const std::optional<double> number = number_in(percent ? part.substr(0, part.size() - 1) : part);
-    const bool expected = percent ? inputs.size() < 2 : !output;
+    const bool expected = percent ? percents.size() < 2 : !output;
     if (!number || !expected)
       refuse(quoted(text) + " in linear(...) must be a number with none, one or two percentages, as 0.5 25% 75%");
     if (percent)
-      inputs.push_back(*number / 100);
+      percents.push_back(*number);
     else
       output = number;
   }
   if (!output) refuse(quoted(text) + " in linear(...) has no output, as the 0.5 of 0.5 25%");
-  return {*output, inputs};
+  return {*output, percents};
 }
 
 Ease linear_stops(const Call& call) {
@@ -215,7 +215,7 @@ Ease linear_stops(const Call& call) {
   for (const std::string_view argument : call.arguments) {
     stops.push_back(linear_stop(argument));
     name += (name.empty() ? "linear(" : ",") + number_text(stops.back().output);
-    for (const double input : stops.back().inputs) name += " " + number_text(input * 100) + "%";
+    for (const double percent : stops.back().percents) name += " " + number_text(percent) + "%";
   }
   return Ease::shape(name + ")", shapes::linear(stops));
 }

@@ -21,8 +21,8 @@ std::vector<Point> placed(const std::vector<LinearStop>& stops) {
     points.push_back({largest, output});
   };
   for (std::size_t i = 0; i < stops.size(); ++i) {
-    for (const double input : stops[i].inputs) add(input, stops[i].output);
-    if (!stops[i].inputs.empty()) continue;
+    for (const double percent : stops[i].percents) add(percent / 100, stops[i].output);
+    if (!stops[i].percents.empty()) continue;
     if (i == 0)
       add(0, stops[i].output);
     else if (i + 1 == stops.size())

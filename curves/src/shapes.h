@@ -46,10 +46,10 @@ Warp::Result reversed(double u, const std::array<double, 4>& parameters) noexcep
 [[nodiscard]] Pieces bezier(double x1, double y1, double x2, double y2);
 /// @param jump  "jump-start", "jump-end", "jump-none", "jump-both"
 [[nodiscard]] Pieces steps(int count, std::string_view jump);
-/// A stop of CSS linear(): an output, and none, one or two inputs (fractions, not percent) at which it stands.
+/// A stop of CSS linear(): an output, and none, one or two inputs in percent at which it stands.
 struct LinearStop {
   double output;
-  std::vector<double> inputs{};
+  std::vector<double> percents{};
 };
 /// @param stops  one or more
 [[nodiscard]] Pieces linear(const std::vector<LinearStop>& stops);
