@@ -230,6 +230,34 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
 }
 
 template <class T>
+std::optional<typename Curve<T>::Derivatives> Curve<T>::derivatives(double time, Side side) const noexcept {
+  const Data& d = *data_;
+  if constexpr (std::is_same_v<T, Quat>) {
+    return std::nullopt;
+  } else {
+    if (d.segments.empty() || !(time >= d.start && time <= d.end)) return std::nullopt;
+    std::size_t i = time < d.end ? d.locate(time) : d.segments.size() - 1;
+    if (side == Side::in && i > 0 && time == d.knots[i]) --i;
+    const Segment& s = d.segments[i];
+    if (s.warped) return std::nullopt;
+    const double u = time == d.knots[i + 1] ? 1 : std::min((time - s.start) / s.duration, 1.0);
+    Derivatives result;
+    double scale = 1;
+    for (int order = 1; order <= max_degree; ++order) {
+      Rate<T> sum = zero<Rate<T>>();
+      for (int k = s.degree; k >= order; --k) {
+        double factor = 1;
+        for (int j = 0; j < order; ++j) factor *= k - j;
+        sum = u * sum + factor * d.pool[s.first + static_cast<std::size_t>(k)];
+      }
+      scale *= s.inverse;
+      result[static_cast<std::size_t>(order - 1)] = scale * sum;
+    }
+    return result;
+  }
+}
+
+template <class T>
 std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
   const Data& d = *data_;
   std::vector<typename SpanOf<T>::type> result;
