@@ -97,13 +97,15 @@ Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
 }  // namespace
 
 template <class T>
-Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final) {
+Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final,
+                                 const T* initial) {
   check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
   d.start = spans.front().start;
   d.end = end;
   if (final) d.final.push_back(*final);
+  if (initial) d.initial.push_back(*initial);
   if (!std::isfinite(end - d.start))
     throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
   d.knots.reserve(spans.size() + 1);
@@ -225,6 +227,11 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
     leaving.value = d.final[0];
     return d.after == Outside::hold ? at_rest<T>(leaving.value) : straight_on(leaving, time - d.end);
   }
+  if (early && !d.initial.empty() && (d.before == Outside::hold || d.before == Outside::linear)) {
+    Sample<T> arriving = sample_inside<T>(d, d.start, Side::out);
+    arriving.value = d.initial[0];
+    return d.before == Outside::hold ? at_rest<T>(arriving.value) : straight_on(arriving, time - d.start);
+  }
   return sample_outside<T>(early ? d.before : d.after, d.start, d.end, time, side,
                            [&d](double t, Side s) { return sample_inside<T>(d, t, s); });
 }
@@ -287,7 +294,7 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
 
 #define TWEENFALL_CURVE(T) \
   template class Curve<T>; \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*);
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*, const T*);
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)
 TWEENFALL_CURVE(Vec3)

@@ -28,6 +28,8 @@ void slopes_catmull_rom_monotone(const SlopeProblem& p) {
       limit(p.leaving[i * p.dimensions + c], p.before(i));
       limit(p.arriving[i * p.dimensions + c], p.after(i + 1));
     }
+  // From limited neighbors these lie within the limits themselves.
+  p.finish_open_ends();
 }
 
 }  // namespace tweenfall
