@@ -97,15 +97,13 @@ Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
 }  // namespace
 
 template <class T>
-Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final,
-                                 const T* initial) {
+Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final) {
   check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
   d.start = spans.front().start;
   d.end = end;
   if (final) d.final.push_back(*final);
-  if (initial) d.initial.push_back(*initial);
   if (!std::isfinite(end - d.start))
     throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
   d.knots.reserve(spans.size() + 1);
@@ -227,41 +225,8 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
     leaving.value = d.final[0];
     return d.after == Outside::hold ? at_rest<T>(leaving.value) : straight_on(leaving, time - d.end);
   }
-  if (early && !d.initial.empty() && (d.before == Outside::hold || d.before == Outside::linear)) {
-    Sample<T> arriving = sample_inside<T>(d, d.start, Side::out);
-    arriving.value = d.initial[0];
-    return d.before == Outside::hold ? at_rest<T>(arriving.value) : straight_on(arriving, time - d.start);
-  }
   return sample_outside<T>(early ? d.before : d.after, d.start, d.end, time, side,
                            [&d](double t, Side s) { return sample_inside<T>(d, t, s); });
-}
-
-template <class T>
-std::optional<typename Curve<T>::Derivatives> Curve<T>::derivatives(double time, Side side) const noexcept {
-  const Data& d = *data_;
-  if constexpr (std::is_same_v<T, Quat>) {
-    return std::nullopt;
-  } else {
-    if (d.segments.empty() || !(time >= d.start && time <= d.end)) return std::nullopt;
-    std::size_t i = time < d.end ? d.locate(time) : d.segments.size() - 1;
-    if (side == Side::in && i > 0 && time == d.knots[i]) --i;
-    const Segment& s = d.segments[i];
-    if (s.warped) return std::nullopt;
-    const double u = time == d.knots[i + 1] ? 1 : std::min((time - s.start) / s.duration, 1.0);
-    Derivatives result;
-    double scale = 1;
-    for (int order = 1; order <= max_degree; ++order) {
-      Rate<T> sum = zero<Rate<T>>();
-      for (int k = s.degree; k >= order; --k) {
-        double factor = 1;
-        for (int j = 0; j < order; ++j) factor *= k - j;
-        sum = u * sum + factor * d.pool[s.first + static_cast<std::size_t>(k)];
-      }
-      scale *= s.inverse;
-      result[static_cast<std::size_t>(order - 1)] = scale * sum;
-    }
-    return result;
-  }
 }
 
 template <class T>
@@ -294,7 +259,7 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
 
 #define TWEENFALL_CURVE(T) \
   template class Curve<T>; \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*, const T*);
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*);
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)
 TWEENFALL_CURVE(Vec3)

@@ -108,7 +108,7 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
       spans.push_back(span);
     }
   }
-  return CurveAccess::from_spans<T>(spans, keys.back().time, &keys.back().value, &keys.front().value);
+  return CurveAccess::from_spans<T>(spans, keys.back().time, &keys.back().value);
 }
 
 }  // namespace

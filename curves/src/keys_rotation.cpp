@@ -132,7 +132,7 @@ Curve<Quat> rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& op
     spans.push_back(span);
   }
   const Quat final = hemisphere_aligned(unit(keys, keys.size() - 1, keys.back().value), stretches.back().to);
-  return CurveAccess::from_spans<Quat>(spans, keys.back().time, &final, &stretches.front().from);
+  return CurveAccess::from_spans<Quat>(spans, keys.back().time, &final);
 }
 
 }  // namespace tweenfall

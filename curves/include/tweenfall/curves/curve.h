@@ -14,10 +14,8 @@
 #include <tweenfall/curves/span.h>
 #include <tweenfall/curves/values.h>
 
-#include <array>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -66,11 +64,6 @@ class Curve {
   [[nodiscard]] Sample<T> sample(double time, Side side = Side::out) const noexcept;
   [[nodiscard]] T value(double time, Side side = Side::out) const noexcept { return sample(time, side).value; }
   [[nodiscard]] Rate<T> rate(double time, Side side = Side::out) const noexcept { return sample(time, side).rate; }
-
-  /// Derivatives of order 1 to max_degree (rate, acceleration, jerk, ...), U/s^order. From the first knot to the last,
-  /// empty elsewhere; empty too for rotations, formulas, and spans seen through a warp.
-  using Derivatives = std::array<Rate<T>, max_degree>;
-  [[nodiscard]] std::optional<Derivatives> derivatives(double time, Side side = Side::out) const noexcept;
 
   /// The spans, as built; empty for a constant, a formula or a curve seen through a conversion.
   [[nodiscard]] std::vector<typename SpanOf<T>::type> spans() const;
