@@ -139,6 +139,12 @@ Ease Ease::shape(std::string name, std::vector<Piece> pieces) {
   return ease;
 }
 
+Ease Ease::scaled(double factor) const {
+  const double start = parameters_[0] * factor, end = parameters_[1] * factor;
+  if (slope_rule_ == &slopes_natural_given) return natural(start, end);
+  return slope_rule_ == &slopes_clamped && (start != 0 || end != 0) ? clamped(start, end) : *this;
+}
+
 std::vector<Ease::Piece> Ease::pieces_for(double duration) const {
   return shape_rule_ ? shape_rule_(duration, parameters_) : pieces_;
 }

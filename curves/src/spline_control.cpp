@@ -1,5 +1,7 @@
 #include <tweenfall/curves/splines.h>
 
+#include <algorithm>
+
 #include "curve_data.h"
 #include "spline_check.h"
 
@@ -16,6 +18,12 @@ void power_from_control(T* c, int degree) {
     binomial = binomial * (degree - i + 1) / i;
     c[i] = binomial * c[i];
   }
+}
+
+void check_count(std::size_t degree, std::size_t control) {
+  if (control <= degree)
+    refuse_spline("of degree " + std::to_string(degree) + " needs " + std::to_string(degree + 1) +
+                  " control points or more; " + std::to_string(control) + " were given");
 }
 
 void check_degree(std::size_t degree) {
@@ -66,9 +74,7 @@ template <class T>
 Curve<T> b_spline(int degree, std::span<const double> knots, std::span<const T> control) {
   check_degree(degree < 0 ? 0 : static_cast<std::size_t>(degree));
   const std::size_t p = static_cast<std::size_t>(degree), n = control.size();
-  if (n <= p)
-    refuse_spline("of degree " + std::to_string(degree) + " needs " + std::to_string(p + 1) +
-                  " control points or more; " + std::to_string(n) + " were given");
+  check_count(p, n);
   check_spline_list(control, n, "control point");
   check_spline_list(knots, n + p + 1, "knot");
   for (std::size_t i = 1; i < knots.size(); ++i) {
@@ -96,6 +102,19 @@ Curve<T> b_spline(int degree, std::span<const double> knots, std::span<const T> 
     spans.push_back(span);
   }
   return CurveAccess::from_spans<T>(spans, knots[n]);
+}
+
+std::vector<double> clamped_knots(int degree, std::size_t control, double start, double end) {
+  check_degree(degree < 0 ? 0 : static_cast<std::size_t>(degree));
+  const std::size_t p = static_cast<std::size_t>(degree);
+  check_count(p, control);
+  check_spline_times(std::array{start, end});
+  std::vector<double> knots(control + p + 1, start);
+  const std::size_t stretches = control - p;
+  for (std::size_t i = 1; i < stretches; ++i)
+    knots[p + i] = start + static_cast<double>(i) / static_cast<double>(stretches) * (end - start);
+  std::fill(knots.begin() + static_cast<std::ptrdiff_t>(control), knots.end(), end);
+  return knots;
 }
 
 #define TWEENFALL_SPLINE(T)                                                        \

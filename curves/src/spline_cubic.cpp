@@ -25,6 +25,8 @@ struct Frame {
       if (ends.closed && end->kind != SplineEnd<T>::Kind::automatic)
         refuse_spline("that is closed has no ends to state");
     }
+    durations.reserve(times.size() - 1);
+    secants.reserve(durations.capacity() * static_cast<std::size_t>(dimensions<T>));
     for (std::size_t i = 0; i + 1 < times.size(); ++i) {
       durations.push_back(times[i + 1] - times[i]);
       for (int c = 0; c < dimensions<T>; ++c)

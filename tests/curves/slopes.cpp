@@ -310,3 +310,10 @@ TEST_CASE("a museum of nasty keys under every rule: finite, and met at every key
         CHECK(finite);
       }
 }
+
+TEST_CASE("an ease in another unit states its slopes in it, and any other ease is itself") {
+  CHECK(Ease::clamped(90, -45).scaled(0.5) == Ease::clamped(45, -22.5));
+  CHECK(Ease::natural(2, 0).scaled(3) == Ease::natural(6, 0));
+  for (const Ease& ease : {Ease::clamped(), Ease::natural(), Ease::tcb(0.1, 0.2, 0.3), Ease::spring(0.3, 0.5)})
+    CHECK(ease.scaled(2) == ease);
+}

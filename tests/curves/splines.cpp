@@ -288,6 +288,21 @@ TEST_CASE("a spline's given ends are met") {
   CHECK(test::near(one.sample(2, Side::in).acceleration, -6, 1e-13));
 }
 
+TEST_CASE("a B-spline on clamped knots begins and ends at its control points, along its first and last legs") {
+  const std::vector<Vec2> control = {{0, 1}, {2, 5}, {3, -1}, {4, 4}, {7, 0}};
+  for (int degree = 1; degree <= 4; ++degree) {
+    const Curve<Vec2> curve = b_spline<Vec2>(degree, clamped_knots(degree, control.size(), -1, 3), control);
+    CHECK(curve.start() == -1);
+    CHECK(curve.end() == 3);
+    CHECK(curve.value(-1) == control.front());
+    CHECK(curve.value(3, Side::in) == control.back());
+    const double first = degree * (control.size() - static_cast<std::size_t>(degree)) / 4.0;
+    CHECK(test::near(curve.rate(-1), Vec2(first * (control[1] - control[0])), 1e-13));
+    CHECK(test::near(curve.rate(3, Side::in), Vec2(first * (control[4] - control[3])), 1e-13));
+  }
+  CHECK(clamped_knots(2, 4, 0, 1) == std::vector<double>{0, 0, 0, 0.5, 1, 1, 1});
+}
+
 TEST_CASE("data that is no spline is refused with index and value") {
   const std::vector<double> t = {0, 1, 2}, v = {5, 6, 7}, backwards = {0, 2, 1}, endless = {0, 1, HUGE_VAL},
                             two = {1, 2};
@@ -304,6 +319,8 @@ TEST_CASE("data that is no spline is refused with index and value") {
   refused([&] { (void)cubic_spline<double>(t, v, Ease::akima(), {SplineEnd<double>::not_a_knot()}); }, "knot");
   refused([&] { (void)bezier_spline<double>(t, v); }, "needs 2 control values here; 3 were given");
   refused([&] { (void)b_spline<double>(3, t, v); }, "needs 4 control points or more; 3 were given");
+  refused([&] { (void)clamped_knots(3, 3, 0, 1); }, "needs 4 control points or more; 3 were given");
+  refused([&] { (void)clamped_knots(3, 5, 1, 0); }, "number 1, 0 s, does not come after 1 s");
   refused([&] { (void)b_spline<double>(1, t, v); }, "needs 5 knots here; 3 were given");
   const std::vector<double> thrice = {0, 0, 1, 1, 1, 1}, four = {1, 2, 3, 4}, turned = {0, 0, 2, 1, 3, 3};
   refused([&] { (void)b_spline<double>(1, thrice, four); }, "2 times at most; 1 stands more often");

@@ -87,6 +87,10 @@ class Ease {
   /// All the words and call forms that `named` knows, in the order the documentation lists them.
   [[nodiscard]] static std::vector<std::string> names();
 
+  /// The same where the ease states slopes or accelerations, as clamped(a,b) does: they times `factor`, for values that
+  /// are converted to another unit.
+  [[nodiscard]] Ease scaled(double factor) const;
+
   [[nodiscard]] Rule rule() const noexcept { return rule_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }  ///< as `named` would read it back
   /// The pieces of a shape over the unit interval; for a spring those of a span of one second.

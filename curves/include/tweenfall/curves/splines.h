@@ -93,4 +93,9 @@ template <class T>
 template <class T>
 [[nodiscard]] Curve<T> b_spline(int degree, std::span<const double> knots, std::span<const T> control);
 
+/// A full knot vector for `control` points with evenly spaced knots, on which a B-spline begins at the first point at
+/// time `start` and ends at the last at time `end`.
+/// @throws std::invalid_argument unless control > degree >= 1 and end > start.
+[[nodiscard]] std::vector<double> clamped_knots(int degree, std::size_t control, double start, double end);
+
 }  // namespace tweenfall
