@@ -60,8 +60,8 @@ Span<double> straight(const Point& a, const Point& b, double from, double to) {
 
 }  // namespace
 
-// Source: W3C, "CSS Easing Functions Level 2", 29 August 2024, section 2.2: outside the points the line through the
-// first two, or the last two, goes on.
+// Source: W3C, "CSS Easing Functions Level 2", output of a linear easing function: outside the points the line through
+// the first two, or the last two, goes on; where these share an input, the second one's output holds.
 Pieces linear(const std::vector<LinearStop>& stops) {
   std::vector<Point> points = placed(stops);
   if (points.size() == 1) points.push_back(points[0]);
