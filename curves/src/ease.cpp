@@ -10,12 +10,25 @@
 #include "slope_rule.h"
 
 namespace tweenfall {
+namespace {
+
+void check_ends(const char* what, double start, double end) {
+  for (const double v : {start, end})
+    if (!std::isfinite(v))
+      throw std::invalid_argument(std::string("the ") + what + " at the ends must be finite; one is " + text_of(v));
+}
+
+}  // namespace
 
 Ease::Ease(Rule of, std::string as, SlopeRule slopes, const std::array<double, 4>& numbers)
     : rule_(of), name_(std::move(as)), slope_rule_(slopes), parameters_(numbers) {}
 
 Ease Ease::hold() {
   return {Rule::hold, "hold"};
+}
+
+Ease Ease::step_next() {
+  return shape("step-next", shapes::steps(1, "jump-start"));
 }
 
 Ease Ease::linear() {
@@ -34,16 +47,58 @@ Ease Ease::monotone() {
   return {Rule::slopes, "monotone", &slopes_monotone};
 }
 
+Ease Ease::akima() {
+  return {Rule::slopes, "akima", &slopes_akima};
+}
+
+Ease Ease::makima() {
+  return {Rule::slopes, "makima", &slopes_makima};
+}
+
 Ease Ease::natural() {
   return {Rule::slopes, "natural", &slopes_natural};
+}
+
+Ease Ease::natural(double start, double end) {
+  check_ends("second derivatives", start, end);
+  return {Rule::slopes, call_text("natural", {start, end}), &slopes_natural_given, {start, end, 0, 0}};
+}
+
+Ease Ease::clamped() {
+  return {Rule::slopes, "clamped", &slopes_clamped};
+}
+
+Ease Ease::clamped(double start, double end) {
+  check_ends("slopes", start, end);
+  return {Rule::slopes, call_text("clamped", {start, end}), &slopes_clamped, {start, end, 0, 0}};
+}
+
+Ease Ease::periodic() {
+  return {Rule::slopes, "periodic", &slopes_periodic};
+}
+
+Ease Ease::not_a_knot() {
+  return {Rule::slopes, "not-a-knot", &slopes_not_a_knot};
 }
 
 Ease Ease::catmull_rom() {
   return {Rule::slopes, "catmull-rom", &slopes_catmull_rom};
 }
 
+Ease Ease::catmull_rom_monotone() {
+  return {Rule::slopes, "catmull-rom-monotone", &slopes_catmull_rom_monotone};
+}
+
+Ease Ease::uniform() {
+  return {Rule::slopes, "uniform", &slopes_uniform};
+}
+
 Ease Ease::centripetal() {
   return {Rule::slopes, "centripetal", &slopes_centripetal};
+}
+
+Ease Ease::chordal() {
+  return {Rule::slopes, "chordal", &slopes_chordal};
 }
 
 Ease Ease::tcb(double tension, double continuity, double bias) {
@@ -82,6 +137,12 @@ Ease Ease::shape(std::string name, std::vector<Piece> pieces) {
   Ease ease{Rule::shape, std::move(name)};
   ease.pieces_ = std::move(pieces);
   return ease;
+}
+
+Ease Ease::scaled(double factor) const {
+  const double start = parameters_[0] * factor, end = parameters_[1] * factor;
+  if (slope_rule_ == &slopes_natural_given) return natural(start, end);
+  return slope_rule_ == &slopes_clamped && (start != 0 || end != 0) ? clamped(start, end) : *this;
 }
 
 std::vector<Ease::Piece> Ease::pieces_for(double duration) const {

@@ -151,10 +151,37 @@ TEST_CASE("an angle about an axis keeps its turns and its rules outside") {
 }
 
 TEST_CASE("the rates of a vector curve are those of its values for every rule") {
-  for (const std::string word :
-       {"smooth", "smooth-clamped", "monotone", "natural", "catmull-rom", "centripetal", "tcb(0.2,0.3,-0.4)", "ease",
-        "sine-in-out", "expo-out", "circ-in", "back-in-out", "elastic-out(1,0.3)", "bounce-in", "spring(0.3s,0.5)",
-        "spring(0.4s,1)", "spring(0.4s,1.7)"}) {
+  for (const std::string word : {"smooth",
+                                 "smooth-clamped",
+                                 "monotone",
+                                 "natural",
+                                 "catmull-rom",
+                                 "centripetal",
+                                 "tcb(0.2,0.3,-0.4)",
+                                 "ease",
+                                 "sine-in-out",
+                                 "expo-out",
+                                 "circ-in",
+                                 "back-in-out",
+                                 "elastic-out(1,0.3)",
+                                 "bounce-in",
+                                 "spring(0.3s,0.5)",
+                                 "spring(0.4s,1)",
+                                 "spring(0.4s,1.7)",
+                                 "akima",
+                                 "makima",
+                                 "natural(1,-2)",
+                                 "clamped",
+                                 "clamped(1,-2)",
+                                 "periodic",
+                                 "not-a-knot",
+                                 "catmull-rom-monotone",
+                                 "uniform",
+                                 "chordal",
+                                 "poly-in-out(2.7)",
+                                 "poly-out(0.7)",
+                                 "linear(0, 0.5 25% 75%, 1)",
+                                 "step-next"}) {
     CAPTURE(word);
     const Ease ease = Ease::named(word).value();
     const Curve<Vec3> c = keyed_curve<Vec3>(

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "support.h"
+#include "stated.h"
 
 using namespace tweenfall;
 
@@ -27,4 +27,48 @@ TEST_CASE("an oscillator solves the damped wave's equation") {
     CHECK(s.rate == doctest::Approx((c.value(t + h) - c.value(t - h)) / (2 * h)).epsilon(1e-6));
   }
   CHECK_THROWS_WITH_AS(static_cast<void>(oscillator({.damping = -1})), doctest::Contains("-1"), std::invalid_argument);
+}
+
+TEST_CASE("a damped spring agrees with scipy's matrix exponential") {
+  for (const auto& file : test::vector_family("spring"))
+    for (const auto& c : file["cases"]) {
+      CAPTURE(c["name"].get<std::string>());
+      const auto& in = c["input"];
+      const double w = in["angular_frequency"], z = in["damping_ratio"], turn = 2 * std::acos(-1.0);
+      const double goal = in["goal"], goal_velocity = in["goal_velocity"];
+      const DampedSpring settings{.hz = w / turn,
+                                  .damping_ratio = z,
+                                  .position = in["position"],
+                                  .velocity = in["velocity"],
+                                  .goal = goal,
+                                  .goal_velocity = goal_velocity};
+      const Curve<double> spring = damped_spring(settings);
+      const double size =
+          test::tolerance(file) * std::max(std::abs(settings.position - goal), std::abs(settings.velocity) / w);
+      for (std::size_t i = 0; i < c["t"].size(); ++i) {
+        const double t = c["t"][i];
+        CAPTURE(t);
+        const Sample<double> s = spring.sample(t);
+        CHECK(std::abs(s.value - c["value"][i].get<double>()) <= size);
+        CHECK(std::abs(s.rate - c["velocity"][i].get<double>()) <= size * w);
+        CHECK(std::abs(s.acceleration + 2 * z * w * s.rate + w * w * (s.value - goal - goal_velocity * t)) <=
+              size * w * w);
+      }
+    }
+}
+
+TEST_CASE("a spring near critical damping moves as the critical one") {
+  const auto at = [](double damping_ratio, double t) {
+    return damped_spring({.hz = 2, .damping_ratio = damping_ratio, .position = 1, .velocity = -3}).value(t);
+  };
+  for (const double off : {1e-15, 1e-12, 1e-9, 1e-7, 1e-5})
+    for (const double t : {-0.2, 0.01, 0.1, 0.5, 2.0}) {
+      CAPTURE(off);
+      CAPTURE(t);
+      CHECK(std::abs(at(1 + off, t) - at(1, t)) < 100 * off + 1e-12);
+      CHECK(std::abs(at(1 - off, t) - at(1, t)) < 100 * off + 1e-12);
+    }
+  CHECK_THROWS_WITH_AS(static_cast<void>(damped_spring({.hz = 0})), doctest::Contains("hz"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(static_cast<void>(damped_spring({.damping_ratio = -1})), doctest::Contains("-1"),
+                       std::invalid_argument);
 }

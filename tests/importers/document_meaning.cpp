@@ -228,6 +228,24 @@ TEST_CASE("every field reaches the stage's description") {
   }
 }
 
+TEST_CASE("runs of one rule know their ends, and slopes in an ease are in the track's unit") {
+  const Document document = good("runs");
+  const Clip& clip = document.stage().clips.at(0);
+  const Curve<double>& height = curve<double>(clip, "wheel.height");
+  const Sample<double> arriving = height.sample(4, Side::in), leaving = height.sample(0);
+  CHECK(near(arriving.rate, leaving.rate, 1e-12));
+  CHECK(near(arriving.acceleration, leaving.acceleration, 1e-12));
+  CHECK(near(curve<Quat>(clip, "wheel.rotation").rate(0), Vec3(0, 0, 90 * degree), 1e-12));
+  CHECK(near(curve<Quat>(clip, "wheel.rotation").rate(2, Side::in), Vec3(0, 0, -45 * degree), 1e-12));
+  CHECK(near(curve<Vec3>(clip, "wheel.position").rate(0), Vec3(0, 0, 0), 1e-15));
+  CHECK(near(curve<Vec3>(clip, "wheel.position").rate(3, Side::in), Vec3(0, 0, 0), 1e-12));
+  const Curve<double>& glow = curve<double>(clip, "wheel.glow");
+  CHECK(near(glow.value(0.5), 2, 1e-15));
+  CHECK(glow.value(1, Side::in) == 4);
+  CHECK(glow.value(1) == 5);
+  CHECK(near(glow.value(2.25), 5 - 5 * 0.125, 1e-14));
+}
+
 TEST_CASE("tracks of every kind are read as their kind") {
   const Document document = good("everything");
   const Clip& clip = document.stage().clips.at(0);

@@ -18,6 +18,7 @@ template <class T>
 struct KeyReader {
   std::function<std::optional<T>(const JsonValue&)> value;
   std::function<std::optional<Rate<T>>(const JsonValue& rate, const T& value)> rate;
+  double unit = 1;  // what slopes written in an ease are multiplied by
 };
 
 template <class T>
@@ -54,7 +55,7 @@ std::optional<Curve<T>> read_keys(const JsonValue& list, const ClipTimes& times,
     if (!value || !seconds[i]) continue;
     Key<T> key{.time = *seconds[i], .value = *value};
     if (parts.ease)
-      if (const std::optional<Ease> ease = Ease::named(parts.ease->text)) key.ease = *ease;
+      if (const std::optional<Ease> ease = Ease::named(parts.ease->text)) key.ease = ease->scaled(reader.unit);
     key.in = read_tangent(parts.in, parts.value_in ? reader.value(*parts.value_in).value_or(*value) : *value, reader);
     key.out = read_tangent(parts.out, *value, reader);
     if (parts.value_in) key.value_in = reader.value(*parts.value_in);

@@ -89,7 +89,8 @@ class RotationTrack {
       }
       return radians(along);
     };
-    return read_keys<double>(*list_, times_, reader, {}, problems_);
+    reader.unit = radians(1);
+    return read_keys<double>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
   }
 
   std::optional<Curve<Quat>> in_euler() {
@@ -121,7 +122,9 @@ class RotationTrack {
                        axes.col(0).dot(axes.col(1).cross(wanted)) / determinant);
       return rates;
     };
-    const std::optional<Curve<Vec3>> angles = read_keys<Vec3>(*list_, times_, reader, {}, problems_);
+    reader.unit = radians(1);
+    const std::optional<Curve<Vec3>> angles =
+        read_keys<Vec3>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
     if (!angles) return {};
     return euler_curve(with_outside_of(track_, *angles), order);
   }
@@ -163,7 +166,9 @@ class RotationTrack {
       if (!velocity) return {};
       return in_radians(*velocity);
     };
-    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, {.long_way = long_way}, problems_);
+    reader.unit = radians(1);
+    const KeyOptions options{.ends = ends_of(track_), .long_way = long_way};
+    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, options, problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
   }

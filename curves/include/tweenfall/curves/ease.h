@@ -31,6 +31,9 @@ class Ease {
   using Piece = Span<double>;
 
   [[nodiscard]] static Ease hold();
+  /// The next key's value right after this key: it arrives with its own value (Side::in) and leaves with the next
+  /// one's.
+  [[nodiscard]] static Ease step_next();
   [[nodiscard]] static Ease linear();
   /// Slope at a key = plain mean of the two neighboring secants; at an end the end's own secant.
   [[nodiscard]] static Ease smooth();
@@ -38,13 +41,33 @@ class Ease {
   [[nodiscard]] static Ease smooth_clamped();
   /// Monotone between monotone data, per component. Source: Fritsch and Butland, 1984 ("pchip").
   [[nodiscard]] static Ease monotone();
+  /// Slopes that keep aloof from outliers. Source: Akima, 1970.
+  [[nodiscard]] static Ease akima();
+  /// As akima, but flat stretches stay flat and no step overshoots much ("modified Akima").
+  [[nodiscard]] static Ease makima();
   /// Continuous acceleration over a run of such keys, zero at its ends. For rotations this is exact for the
   /// rotation vectors of the spans, hence only nearly so for the angular acceleration.
   [[nodiscard]] static Ease natural();
+  /// The same with given accelerations at the ends of the run, U/s^2, for every component; the first key's start and
+  /// the last span's end count.
+  [[nodiscard]] static Ease natural(double start, double end);
+  /// Continuous acceleration with the run's ends at rest, or at given slopes, U/s, for every component.
+  [[nodiscard]] static Ease clamped();
+  [[nodiscard]] static Ease clamped(double start, double end);
+  /// Continuous acceleration, the run being one period: its end has the slope and acceleration of its start.
+  [[nodiscard]] static Ease periodic();
+  /// Continuous acceleration, the first two spans of the run being one cubic, and the last two.
+  [[nodiscard]] static Ease not_a_knot();
   /// Catmull-Rom with the keys' own times: slope = the secants, each weighted by the other's duration.
   [[nodiscard]] static Ease catmull_rom();
-  /// Catmull-Rom shaped by the square roots of the distances, at the keys' own times: no cusps or loops in a path.
+  /// Catmull-Rom, zero at a local extreme and at most three times the smaller secant, per component.
+  /// Source: Dougherty, Edelman, Hyman, 1989, equation 4.2.
+  [[nodiscard]] static Ease catmull_rom_monotone();
+  /// Catmull-Rom shaped as if every span took the same time, by the square roots of the distances (no cusps or loops in
+  /// a path), or by the distances, at the keys' own times: the direction at a key is one, the speed each span's own.
+  [[nodiscard]] static Ease uniform();
   [[nodiscard]] static Ease centripetal();
+  [[nodiscard]] static Ease chordal();
   /// Kochanek and Bartels, 1984: tension, continuity and bias at this key; 0, 0, 0 is catmull_rom. Any finite numbers.
   [[nodiscard]] static Ease tcb(double tension, double continuity, double bias);
   /// An exact damped spring let go at this key towards the next: undamped period in seconds, damping ratio.
@@ -63,6 +86,10 @@ class Ease {
 
   /// All the words and call forms that `named` knows, in the order the documentation lists them.
   [[nodiscard]] static std::vector<std::string> names();
+
+  /// The same where the ease states slopes or accelerations, as clamped(a,b) does: they times `factor`, for values that
+  /// are converted to another unit.
+  [[nodiscard]] Ease scaled(double factor) const;
 
   [[nodiscard]] Rule rule() const noexcept { return rule_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }  ///< as `named` would read it back
