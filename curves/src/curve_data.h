@@ -28,8 +28,8 @@ struct Segment {
   double start, duration, inverse;
   std::uint32_t first;  // index of coefficient 0 in the pool
   std::int16_t degree;
-  bool normalized;  // rotations only
   bool warped;
+  RotationSpan::Form form;  // rotations only
 };
 
 template <class T>
@@ -44,6 +44,7 @@ struct Curve<T>::Data {
   std::vector<T> starts;    // rotations only: what the exponential multiplies
   std::vector<T> final;     // one value: what leaves the last knot, where that is not what arrives
   std::vector<Warp> warps;  // empty, or one a segment
+  std::vector<Vec3> spins;  // rotations only: empty, or one a segment
 
   // Where to look for a time: entry b counts the knots in buckets below b, buckets being equal shares of the duration.
   std::vector<std::uint32_t> buckets;

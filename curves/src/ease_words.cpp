@@ -29,6 +29,9 @@ constexpr Word plain_words[] = {
     {"natural", &Ease::natural},
     {"catmull-rom", &Ease::catmull_rom},
     {"centripetal", &Ease::centripetal},
+    {"nlerp", &Ease::nlerp},
+    {"squad", &Ease::squad},
+    {"barry-goldman", &Ease::barry_goldman},
 };
 
 // CSS names with their handles. Source: W3C, "CSS Easing Functions Level 1".
