@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "moving_rotation.h"
 #include "turn_rule.h"
 
@@ -21,10 +23,17 @@ void set_de_casteljau(RotationSpan& span, const Quat& a, const Quat& b, const Qu
 void turns_de_casteljau(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];
+    const Vec3 leaving = p.leaving(i), arriving = p.arriving(i);
+    // Controls further off than a whole turn would be mistaken for nearer ones.
+    constexpr double most = 3 * 6.2;
+    if (p.is_plain(i) || std::max(leaving.norm(), arriving.norm()) > most) {
+      p.spans.push_back(cubic_turn(stretch, leaving, arriving));
+      continue;
+    }
     RotationSpan span = blank_span(stretch);
     const Quat a = stretch.from, d = stretch.near_to();
     const bool open = p.starts_open(i), shut = !p.ends_open(i);
-    Quat b = a * exp_map(p.leaving(i) / 3), c = d * exp_map(-p.arriving(i) / 3);
+    Quat b = a * exp_map(leaving / 3), c = d * exp_map(-arriving / 3);
     if (open && shut) b = a * exp_map(signed_log(a.conjugate() * c) / 2);
     if (!open && !shut) c = d * exp_map(signed_log(d.conjugate() * b) / 2);
     set_de_casteljau(span, a, b, c, d);

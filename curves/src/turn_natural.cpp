@@ -200,14 +200,8 @@ void append_natural(const std::vector<Stretch>& stretches, std::size_t first, st
   for (std::size_t i = first; i < last; ++i) {
     const Stretch& s = stretches[i];
     const std::size_t k = i - first;
-    RotationSpan span = blank_span(s);
-    span.degree = 3;
-    const Vec4 from(0, 0, 0, 0), change = padded(s.way);
-    const Vec4 d0 = padded(s.duration * rates[k] - s.spin);
-    const Vec4 d1 =
-        padded(right_jacobian_inverse(s.way) * Vec3(s.duration * rates[k + 1 < rates.size() ? k + 1 : 0] - s.spin));
-    cubic_coefficients(from, change, d0, d1, span.coefficients.data());
-    spans.push_back(span);
+    const Vec3& arriving = rates[k + 1 < rates.size() ? k + 1 : 0];
+    spans.push_back(cubic_turn(s, s.duration * rates[k] - s.spin, s.duration * arriving - s.spin));
   }
 }
 

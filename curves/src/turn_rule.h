@@ -4,6 +4,7 @@
 
 #include <tweenfall/curves/ease.h>
 #include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/rotation.h>
 
 #include <cstddef>
 #include <vector>
@@ -32,14 +33,22 @@ struct TurnProblem {
   const Slopes& slopes;              ///< angular velocities by the run's slope rule, axes of the keys, whole turns included
   std::vector<RotationSpan>& spans;  ///< result, appended
 
-  /// What a rule that goes the short way is left with, as rotation vectors over the span.
+  /// What is left beside the whole turns, as rotation vectors over the span.
   [[nodiscard]] Vec3 leaving(std::size_t i) const noexcept { return turning(slopes.leaving, i); }
   [[nodiscard]] Vec3 arriving(std::size_t i) const noexcept { return turning(slopes.arriving, i); }
   /// At the first and last key of the curve, where no slope is asked for.
   [[nodiscard]] bool starts_open(std::size_t i) const noexcept { return i == 0 && ends == Ends::secant; }
-  [[nodiscard]] bool ends_open(std::size_t i) const noexcept {
-    return i + 1 == stretches.size() && ends == Ends::secant;
+  [[nodiscard]] bool ends_open(std::size_t i) const noexcept { return i + 1 == stretches.size() && ends == Ends::secant; }
+  /// Where the neighbors of a span are, around a loop too; null where there is none.
+  [[nodiscard]] const Stretch* before(std::size_t i) const noexcept {
+    return i > 0 ? &stretches[i - 1] : ends == Ends::wrap ? &stretches.back() : nullptr;
   }
+  [[nodiscard]] const Stretch* after(std::size_t i) const noexcept {
+    return i + 1 < stretches.size() ? &stretches[i + 1] : ends == Ends::wrap ? &stretches.front() : nullptr;
+  }
+  /// Whether slerps of slerps have nothing to add to the plain cubic with the slopes of the rule: all turns are about
+  /// one axis, where both are the same, or whole turns are near, which slerps cannot tell from none.
+  [[nodiscard]] bool is_plain(std::size_t i) const noexcept;
 
  private:
   [[nodiscard]] Vec3 turning(const std::vector<double>& slope, std::size_t i) const noexcept {
@@ -62,6 +71,9 @@ struct TurnProblem {
   for (Vec4& c : span.coefficients) c.setZero();
   return span;
 }
+
+/// The cubic of rotation vectors with the angular velocities at its ends, as `leaving` and `arriving` give them.
+[[nodiscard]] RotationSpan cubic_turn(const Stretch& stretch, const Vec3& leaving, const Vec3& arriving);
 
 void turns_normalized(const TurnProblem& problem);
 void turns_squad(const TurnProblem& problem);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "moving_rotation.h"
 #include "turn_rule.h"
 
@@ -9,12 +11,19 @@ namespace tweenfall {
 void turns_squad(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];
+    const Vec3 leaving = p.leaving(i) - stretch.way, arriving = p.arriving(i) - stretch.way;
+    // Controls further off than a whole turn would be mistaken for nearer ones.
+    constexpr double most = 2 * 6.2;
+    if (p.is_plain(i) || std::max(leaving.norm(), arriving.norm()) > most) {
+      p.spans.push_back(cubic_turn(stretch, p.leaving(i), p.arriving(i)));
+      continue;
+    }
     RotationSpan span = blank_span(stretch);
     span.form = RotationSpan::Form::nested;
     span.degree = max_degree;
     const Quat to = stretch.near_to();
-    const Quat b = stretch.from * exp_map((p.leaving(i) - stretch.way) / 2);
-    const Quat c = to * exp_map((stretch.way - p.arriving(i)) / 2);
+    const Quat b = stretch.from * exp_map(leaving / 2);
+    const Quat c = to * exp_map(-arriving / 2);
     span.coefficients[0] = stretch.from.coeffs();
     span.coefficients[3] = padded(stretch.way);
     span.coefficients[1] = span.coefficients[2] = b.coeffs();

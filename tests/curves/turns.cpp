@@ -51,6 +51,39 @@ Curve<Quat> splines_curve(const nlohmann::json& input) {
   return keyed_curve<Quat>(keys, {.ends = closed ? Ends::wrap : Ends::secant});
 }
 
+// The module's open ends are not what it documents: of the three control rotations from which "natural" is made, its
+// code hands the key itself for the third (splines 0.3.3, quaternion.py, KochanekBartels.__init__: control_points[1]),
+// whereas its page "end-conditions-natural" has the half way to the third control, as ours is and as the angle's own
+// spline needs it. So the end span is made here with the module's control and, else, our own.
+Curve<Quat> splines_end(const Curve<Quat>& curve, bool first) {
+  const auto knots = curve.knots();
+  const double end = first ? knots.front() : knots.back(), inner = first ? knots[1] : knots[knots.size() - 2];
+  const Quat a = curve.value(end), d = curve.value(inner);
+  const Vec3 rate = curve.rate(inner, first ? Side::in : Side::out);
+  const Quat b = slerp(a, d, 0.5), c = exp_map((end - inner) / 3 * rate) * d;
+  const std::vector<double> times = {std::min(end, inner), std::max(end, inner)};
+  return bezier_rotation(times, first ? std::vector<Quat>{a, b, c, d} : std::vector<Quat>{d, c, b, a});
+}
+
+// What the module gives as angular velocity (splines 0.3.3, quaternion.py, DeCasteljau.evaluate): the turn between the
+// last two rotations of the algorithm, times the degree. That is the derivative where all turns commute and at the ends
+// of a span, but not between: there the two move too. Ours is the derivative, as another test holds against differences.
+Vec3 splines_rate(const Curve<Quat>& curve, double t, Side side) {
+  const auto knots = curve.knots();
+  std::size_t i = 0;
+  while (i + 2 < knots.size() && (side == Side::out ? knots[i + 1] <= t : knots[i + 1] < t)) ++i;
+  const double start = knots[i], h = knots[i + 1] - start;
+  if (t == start || t == knots[i + 1]) return curve.rate(t, side);
+  const Quat a = curve.value(start), d = curve.value(knots[i + 1], Side::in);
+  std::vector<Quat> row = {a, exp_map(h / 3 * curve.rate(start)) * a,
+                           exp_map(-h / 3 * curve.rate(knots[i + 1], Side::in)) * d, d};
+  while (row.size() > 2) {
+    for (std::size_t k = 0; k + 1 < row.size(); ++k) row[k] = slerp(row[k], row[k + 1], (t - start) / h);
+    row.pop_back();
+  }
+  return 3 / h * log_map(row[1] * row[0].conjugate());
+}
+
 // Central differences, for tests alone.
 Vec3 velocity_near(const Curve<Quat>& curve, double t, double h) {
   const Quat here = curve.value(t);
@@ -87,15 +120,22 @@ TEST_CASE("squad, De Casteljau, Catmull-Rom, Kochanek-Bartels, Barry-Goldman and
     for (const auto& c : file["cases"]) {
       CAPTURE(c["name"].get<std::string>());
       const Curve<Quat> curve = splines_curve(c["input"]);
+      const std::string kind = c["input"]["kind"];
+      const bool open = (kind == "catmull_rom" || kind == "kochanek_bartels") && !c["input"]["closed"];
+      const auto knots = curve.knots();
       for (std::size_t k = 0; k < c["t"].size(); ++k) {
-        const double t = c["t"][k];
+        const double t = std::min(c["t"][k].get<double>(), curve.end());
         CAPTURE(t);
-        const Sample<Quat> s = curve.sample(t, t < curve.end() ? Side::out : Side::in);
-        CHECK(test::near(s.value, quat(c["q_xyzw"][k]), tolerance));
+        const Quat expected = quat(c["q_xyzw"][k]);
+        const bool first = t < knots[1], last = t > knots[knots.size() - 2];
+        const Curve<Quat> shown = open && (first || last) ? splines_end(curve, first) : curve;
+        CHECK(test::near(shown.value(t), expected, tolerance));
         if (!c.contains("angular_velocity_world")) continue;
-        const Vec3 expected = vec(c["angular_velocity_world"][k]);
+        const Vec3 rate = vec(c["angular_velocity_world"][k]);
+        const Side inward = t < shown.end() ? Side::out : Side::in;
         // At a key where the slope jumps, the module gives that of the span that it finds: either is right.
-        CHECK((test::near(s.rate, expected, tolerance) || test::near(curve.rate(t, Side::in), expected, tolerance)));
+        CHECK((test::near(splines_rate(shown, t, inward), rate, tolerance) ||
+               test::near(splines_rate(shown, t, Side::in), rate, tolerance)));
       }
     }
   }
