@@ -67,7 +67,8 @@ Curve<Quat> splines_end(const Curve<Quat>& curve, bool first) {
 
 // What the module gives as angular velocity (splines 0.3.3, quaternion.py, DeCasteljau.evaluate): the turn between the
 // last two rotations of the algorithm, times the degree. That is the derivative where all turns commute and at the ends
-// of a span, but not between: there the two move too. Ours is the derivative, as another test holds against differences.
+// of a span, but not between: there the two move too. Ours is the derivative, as another test holds against
+// differences.
 Vec3 splines_rate(const Curve<Quat>& curve, double t, Side side) {
   const auto knots = curve.knots();
   std::size_t i = 0;
@@ -94,9 +95,9 @@ Vec3 acceleration_near(const Curve<Quat>& curve, double t, double h) {
   return (8 * (curve.rate(t + h) - curve.rate(t - h)) - (curve.rate(t + 2 * h) - curve.rate(t - 2 * h))) / (12 * h);
 }
 
-const char* const eases[] = {"linear",      "nlerp", "squad",         "catmull-rom", "tcb(0.3,-0.4,0.5)", "barry-goldman",
-                             "natural",     "hold",  "smooth",        "monotone",    "centripetal",       "smooth-clamped",
-                             "cubic-in-out"};
+const char* const eases[] = {"linear",        "nlerp",          "squad",       "catmull-rom", "tcb(0.3,-0.4,0.5)",
+                             "barry-goldman", "natural",        "hold",        "smooth",      "monotone",
+                             "centripetal",   "smooth-clamped", "cubic-in-out"};
 
 Ease named(const char* word) {
   return Ease::named(word).value();
@@ -127,7 +128,7 @@ TEST_CASE("squad, De Casteljau, Catmull-Rom, Kochanek-Bartels, Barry-Goldman and
         const double t = std::min(c["t"][k].get<double>(), curve.end());
         CAPTURE(t);
         const Quat expected = quat(c["q_xyzw"][k]);
-        const bool first = t < knots[1], last = t > knots[knots.size() - 2];
+        const bool first = t<knots[1], last = t> knots[knots.size() - 2];
         const Curve<Quat> shown = open && (first || last) ? splines_end(curve, first) : curve;
         CHECK(test::near(shown.value(t), expected, tolerance));
         if (!c.contains("angular_velocity_world")) continue;
@@ -151,12 +152,23 @@ TEST_CASE("the rotation spline with continuous acceleration agrees with scipy") 
       std::vector<Quat> rotations;
       for (const auto& q : c["input"]["q_xyzw"]) rotations.push_back(quat(q));
       const Curve<Quat> curve = clamped_rotation(times, rotations);
+      // scipy stops after ten rounds of a slower iteration, with up to 1e-5 left of the jump in acceleration that is to
+      // vanish. Rates that are off by e at both ends of a span of h seconds move the rotation by e h / 8, its
+      // quaternion by half of that, so values come as near as their file's rates let them.
+      double longest = 0;
+      for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+        longest = std::max(longest, times[i + 1] - times[i]);
+        if (i == 0) continue;
+        const Sample<Quat> in = curve.sample(times[i], Side::in), out = curve.sample(times[i]);
+        CHECK(test::near(in.acceleration, out.acceleration, 1e-11));
+      }
+      const double size = std::max(1.0, test::largest(c["angular_rate"]));
       for (std::size_t k = 0; k < c["t"].size(); ++k) {
         const double t = c["t"][k];
         CAPTURE(t);
         const Sample<Quat> s = curve.sample(t, t < curve.end() ? Side::out : Side::in);
         const Quat back = s.value.conjugate();
-        CHECK(test::near(s.value, quat(c["q_xyzw"][k]), turn));
+        CHECK(test::near(s.value, quat(c["q_xyzw"][k]), std::max(turn, rate * size * longest / 16)));
         CHECK(test::near(Vec3(back * s.rate), vec(c["angular_rate"][k]), rate));
         CHECK(test::near(Vec3(back * s.acceleration), vec(c["angular_acceleration"][k]), acceleration));
       }
@@ -227,8 +239,8 @@ TEST_CASE("CSS rotate: turns about one axis are kept, others go the short way") 
       const bool one_axis = (from.axis - to.axis).norm() < 1e-9;
       const Curve<Quat> curve =
           one_axis ? axis_curve(from.axis, keyed_curve<double>({{0, from.angle, Ease::linear()}, {1, to.angle}}))
-                   : keyed_curve<Quat>({{0, exp_map(from.angle * from.axis), Ease::linear()},
-                                        {1, exp_map(to.angle * to.axis)}});
+                   : keyed_curve<Quat>(
+                         {{0, exp_map(from.angle * from.axis), Ease::linear()}, {1, exp_map(to.angle * to.axis)}});
       // The same turns as a key's own: the whole turns that the angle makes beyond the short way.
       const double angle = to.angle - from.angle;
       const double shorter = angle - 2 * pi * std::round(angle / (2 * pi));
@@ -278,8 +290,8 @@ TEST_CASE("every kind passes its keys, and those that promise it join them with 
   for (const char* word : eases) {
     CAPTURE(std::string(word));
     const std::string name = word;
-    const bool kinked = name == "linear" || name == "nlerp" || name == "hold" || name.substr(0, 3) == "tcb" ||
-                        name == "centripetal";
+    const bool kinked =
+        name == "linear" || name == "nlerp" || name == "hold" || name.substr(0, 3) == "tcb" || name == "centripetal";
     for (int round = 0; round < 8; ++round) {
       std::vector<Key<Quat>> keys = random_keys(random, 6);
       for (auto& key : keys) {
@@ -417,8 +429,14 @@ TEST_CASE("a museum of nasty turns stays finite, of unit length and on its keys"
   const Quat one(1, 0, 0, 0), minus(-1, 0, 0, 0), half(0, 1, 0, 0), other_half(0, 0, 1, 0);
   const Quat nearly_half(1e-12, 1, 0, 0), past_half(-1e-12, 1, 0, 0), close = exp_map({1e-9, 0, 0});
   const std::vector<std::vector<Quat>> museum = {
-      {one, one, one},         {one, minus, one, minus}, {one, half, one, half},       {one, half, other_half, minus},
-      {one, close, one, half}, {one, nearly_half, one},  {nearly_half, past_half, one}, {half, other_half},
+      {one, one, one},
+      {one, minus, one, minus},
+      {one, half, one, half},
+      {one, half, other_half, minus},
+      {one, close, one, half},
+      {one, nearly_half, one},
+      {nearly_half, past_half, one},
+      {half, other_half},
       {Quat(1e150, 0, 1e150, 0), Quat(0, 1e-150, 0, 1e-150), one},
   };
   for (const char* word : eases)
@@ -460,7 +478,8 @@ TEST_CASE("on numbers nlerp is linear, and squad and barry-goldman are catmull-r
   const auto with = [](const char* word) {
     return keyed_curve<double>({{0, 1, named(word)}, {1, 3, named(word)}, {1.5, -1, named(word)}, {3, 2, named(word)}});
   };
-  for (const auto& [word, same] : {std::pair{"nlerp", "linear"}, {"squad", "catmull-rom"}, {"barry-goldman", "catmull-rom"}})
+  for (const auto& [word, same] :
+       {std::pair{"nlerp", "linear"}, {"squad", "catmull-rom"}, {"barry-goldman", "catmull-rom"}})
     for (int k = 0; k <= 30; ++k) CHECK(with(word).sample(0.1 * k).value == with(same).sample(0.1 * k).value);
 }
 

@@ -259,7 +259,8 @@ class TrackShapes {
   }
   Field space() {
     if (!space_)
-      space_ = store_.add(words_of("a color space", {"oklab", "linear", "srgb", "oklch", "hsl", "lab", "lch"}));
+      space_ = store_.add(
+          words_of("a color space", {"oklab", "linear", "srgb", "oklch", "hsl", "hsv", "hwb", "lab", "lch"}));
     return {"space", space_, "where colors are mixed", false, "\"oklab\""};
   }
   Field hue() {
