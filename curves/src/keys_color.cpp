@@ -1,4 +1,4 @@
-#include "jet.h"
+#include "color_alpha.h"
 #include "key_check.h"
 #include "key_pins.h"
 #include "keys_converted.h"
@@ -7,35 +7,6 @@ namespace tweenfall {
 namespace {
 
 constexpr double turn = 0x1.921fb54442d18p+2;
-
-// Coordinates times alpha, but for a hue, with rates by the product rule.
-Sample<Vec4> premultiplied(const Sample<Vec4>& s, int hue) noexcept {
-  Sample<Vec4> result = s;
-  const Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};
-  for (int i = 0; i < 3; ++i) {
-    if (i == hue) continue;
-    const Jet p = Jet{s.value[i], s.rate[i], s.acceleration[i]} * alpha;
-    result.value[i] = p.v;
-    result.rate[i] = p.d;
-    result.acceleration[i] = p.dd;
-  }
-  return result;
-}
-
-// The way back; where nothing is visible the coordinates are 0 and rest.
-Sample<Vec4> divided(const Sample<Vec4>& s, int hue) noexcept {
-  Sample<Vec4> result = s;
-  const Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};
-  const Jet inverse = alpha.v == 0 ? Jet{} : reciprocal(alpha);
-  for (int i = 0; i < 3; ++i) {
-    if (i == hue) continue;
-    const Jet p = Jet{s.value[i], s.rate[i], s.acceleration[i]} * inverse;
-    result.value[i] = p.v;
-    result.rate[i] = p.d;
-    result.acceleration[i] = p.dd;
-  }
-  return result;
-}
 
 double next_hue(double from, double to, HueRule rule) noexcept {
   double step = to - from - turn * std::floor((to - from) / turn);  // 0 to a turn
