@@ -15,6 +15,15 @@ namespace {
   throw std::invalid_argument("span " + std::to_string(index) + " (at " + text_of(start) + " s) " + what);
 }
 
+// How many of the coefficients a span has.
+template <class T>
+int rows_of(const Span<T>& span) noexcept {
+  return span.degree + 1;
+}
+int rows_of(const RotationSpan& span) noexcept {
+  return span.form == RotationSpan::Form::nested ? rotation_rows : span.degree + 1;
+}
+
 template <class SpanType>
 void check(std::span<const SpanType> spans) {
   if (spans.empty()) throw std::invalid_argument("a curve needs at least one span; none were given");
@@ -26,12 +35,14 @@ void check(std::span<const SpanType> spans) {
     if (s.degree < 0 || s.degree > max_degree)
       refuse(i, s.start,
              "must have a degree from 0 to " + std::to_string(max_degree) + "; it is " + std::to_string(s.degree));
-    for (int k = 0; k <= s.degree; ++k)
+    for (int k = 0; k < rows_of(s); ++k)
       if (!all_finite(s.coefficients[static_cast<std::size_t>(k)]))
         refuse(i, s.start,
                "has a non-finite number in coefficient " + std::to_string(k) + ": " +
                    text_of(s.coefficients[static_cast<std::size_t>(k)]));
     if (!all_finite(s.end)) refuse(i, s.start, "has a non-finite end value " + text_of(s.end));
+    if constexpr (std::is_same_v<SpanType, RotationSpan>)
+      if (!all_finite(s.spin)) refuse(i, s.start, "has a non-finite spin " + text_of(s.spin));
     if (i == 0) continue;
     const double expected = spans[i - 1].start + spans[i - 1].duration;
     // Durations are differences of times, so the sum may be off by the rounding of both.
@@ -53,28 +64,40 @@ void through(const Warp::Result& w, Polynomial<V>& p) noexcept {
   p.first = p.first * w.ds;
 }
 
+template <class Data>
+Sample<Quat> sample_rotation(const Data& d, std::size_t i, const Warp::Result& w) noexcept {
+  const Segment& s = d.segments[i];
+  Sample<Quat> result;
+  if (s.form == RotationSpan::Form::nested) {
+    result = sample_nested(&d.pool[s.first], w);
+  } else {
+    Polynomial<Vec4> p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
+    if (s.warped) through(w, p);
+    result = s.form == RotationSpan::Form::normalized ? sample_normalized(p, d.ends[i])
+                                                      : sample_exponential(d.starts[i], p);
+  }
+  if (!d.spins.empty() && !d.spins[i].isZero(0)) result = spun(result, d.spins[i], w);
+  result.rate *= s.inverse;
+  result.acceleration *= s.inverse * s.inverse;
+  return result;
+}
+
 template <class T, class Data>
 Sample<T> sample_segment(const Data& d, std::size_t i, double u) noexcept {
   const Segment& s = d.segments[i];
-  Polynomial<typename Stored<T>::type> p;
-  if (s.warped) {
-    const Warp& warp = d.warps[i];
-    const Warp::Result w = warp.function(u, warp.parameters);
-    p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
-    through(w, p);
-  } else {
-    p = evaluate_polynomial(&d.pool[s.first], s.degree, u);
-  }
+  Warp::Result w{u, 1, 0};
+  if (s.warped) w = d.warps[i].function(u, d.warps[i].parameters);
   if constexpr (std::is_same_v<T, Quat>) {
-    Sample<Quat> result = s.normalized ? sample_normalized(p, d.ends[i]) : sample_exponential(d.starts[i], p);
-    result.rate *= s.inverse;
-    result.acceleration *= s.inverse * s.inverse;
-    return result;
-  } else if constexpr (std::is_same_v<T, Color>) {
-    const Sample<Vec4> v = with_rates(p.value, p.first, p.second, s.inverse);
-    return {Color{v.value}, v.rate, v.acceleration};
+    return sample_rotation(d, i, w);
   } else {
-    return with_rates<T>(p.value, p.first, p.second, s.inverse);
+    Polynomial<typename Stored<T>::type> p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
+    if (s.warped) through(w, p);
+    if constexpr (std::is_same_v<T, Color>) {
+      const Sample<Vec4> v = with_rates(p.value, p.first, p.second, s.inverse);
+      return {Color{v.value}, v.rate, v.acceleration};
+    } else {
+      return with_rates<T>(p.value, p.first, p.second, s.inverse);
+    }
   }
 }
 
@@ -122,9 +145,9 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
                     1 / duration,
                     static_cast<std::uint32_t>(d.pool.size()),
                     static_cast<std::int16_t>(s.degree),
-                    false,
-                    s.warp.function != nullptr};
-    for (int k = 0; k <= s.degree; ++k) {
+                    s.warp.function != nullptr,
+                    RotationSpan::Form::exponential};
+    for (int k = 0; k < rows_of(s); ++k) {
       const auto& c = s.coefficients[static_cast<std::size_t>(k)];
       if constexpr (std::is_same_v<T, Color>)
         d.pool.push_back(c.rgba);
@@ -132,8 +155,10 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
         d.pool.push_back(c);
     }
     if constexpr (std::is_same_v<T, Quat>) {
-      segment.normalized = s.form == RotationSpan::Form::normalized;
+      segment.form = s.form;
       d.starts.push_back(s.from);
+      if (!s.spin.isZero(0)) d.spins.resize(spans.size(), Vec3(0, 0, 0));
+      if (!d.spins.empty()) d.spins[i] = s.spin;
     }
     d.ends.push_back(s.end);
     d.segments.push_back(segment);
@@ -252,15 +277,17 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
     span.start = s.start;
     span.duration = s.duration;
     span.degree = s.degree;
-    for (std::size_t k = 0; k <= static_cast<std::size_t>(s.degree); ++k) {
+    if constexpr (std::is_same_v<T, Quat>) {
+      for (Vec4& c : span.coefficients) c.setZero();
+      span.form = s.form;
+      span.from = d.starts[i];
+      if (!d.spins.empty()) span.spin = d.spins[i];
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(rows_of(span)); ++k) {
       if constexpr (std::is_same_v<T, Color>)
         span.coefficients[k].rgba = d.pool[s.first + k];
       else
         span.coefficients[k] = d.pool[s.first + k];
-    }
-    if constexpr (std::is_same_v<T, Quat>) {
-      span.form = s.normalized ? RotationSpan::Form::normalized : RotationSpan::Form::exponential;
-      span.from = d.starts[i];
     }
     span.end = d.ends[i];
     if (s.warped) span.warp = d.warps[i];

@@ -29,8 +29,8 @@ struct Segment {
   double start, duration, inverse;
   std::uint32_t first;  // index of coefficient 0 in the pool
   std::int16_t degree;
-  bool normalized;  // rotations only
   bool warped;
+  RotationSpan::Form form;  // rotations only
 
   // Where in the segment `time` lies, 0 to 1.
   [[nodiscard]] double position(double time) const noexcept { return std::min((time - start) * inverse, 1.0); }
@@ -48,6 +48,7 @@ struct Curve<T>::Data {
   std::vector<T> starts;    // rotations only: what the exponential multiplies
   std::vector<T> final;     // one value: what leaves the last knot, where that is not what arrives
   std::vector<Warp> warps;  // empty, or one a segment
+  std::vector<Vec3> spins;  // rotations only: empty, or one a segment
 
   // Where to look for a time: entry b counts the knots in buckets below b, buckets being equal shares of the duration.
   // Two a span, so that where keys are spread evenly no bucket has more than one.

@@ -8,6 +8,7 @@
 #include "polynomial.h"
 #include "shapes.h"
 #include "slope_rule.h"
+#include "turn_rule.h"
 
 namespace tweenfall {
 namespace {
@@ -20,8 +21,8 @@ void check_ends(const char* what, double start, double end) {
 
 }  // namespace
 
-Ease::Ease(Rule of, std::string as, SlopeRule slopes, const std::array<double, 4>& numbers)
-    : rule_(of), name_(std::move(as)), slope_rule_(slopes), parameters_(numbers) {}
+Ease::Ease(Rule of, std::string as, SlopeRule slopes, const std::array<double, 4>& numbers, TurnRule turns)
+    : rule_(of), name_(std::move(as)), slope_rule_(slopes), turn_rule_(turns), parameters_(numbers) {}
 
 Ease Ease::hold() {
   return {Rule::hold, "hold"};
@@ -56,7 +57,7 @@ Ease Ease::makima() {
 }
 
 Ease Ease::natural() {
-  return {Rule::slopes, "natural", &slopes_natural};
+  return {Rule::slopes, "natural", &slopes_natural, {}, &turns_natural};
 }
 
 Ease Ease::natural(double start, double end) {
@@ -82,7 +83,7 @@ Ease Ease::not_a_knot() {
 }
 
 Ease Ease::catmull_rom() {
-  return {Rule::slopes, "catmull-rom", &slopes_catmull_rom};
+  return {Rule::slopes, "catmull-rom", &slopes_catmull_rom, {}, &turns_de_casteljau};
 }
 
 Ease Ease::catmull_rom_monotone() {
@@ -105,7 +106,23 @@ Ease Ease::tcb(double tension, double continuity, double bias) {
   for (const double v : {tension, continuity, bias})
     if (!std::isfinite(v))
       throw std::invalid_argument("tension, continuity and bias must be finite; one is " + text_of(v));
-  return {Rule::slopes, call_text("tcb", {tension, continuity, bias}), &slopes_tcb, {tension, continuity, bias, 0}};
+  return {Rule::slopes,
+          call_text("tcb", {tension, continuity, bias}),
+          &slopes_tcb,
+          {tension, continuity, bias, 0},
+          &turns_de_casteljau};
+}
+
+Ease Ease::nlerp() {
+  return {Rule::linear, "nlerp", nullptr, {}, &turns_normalized};
+}
+
+Ease Ease::squad() {
+  return {Rule::slopes, "squad", &slopes_catmull_rom, {}, &turns_squad};
+}
+
+Ease Ease::barry_goldman() {
+  return {Rule::slopes, "barry-goldman", &slopes_catmull_rom, {}, &turns_barry_goldman};
 }
 
 Ease Ease::spring(double period, double damping_ratio) {

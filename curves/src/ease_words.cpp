@@ -38,6 +38,9 @@ constexpr Word plain_words[] = {
     {"uniform", &Ease::uniform},
     {"centripetal", &Ease::centripetal},
     {"chordal", &Ease::chordal},
+    {"nlerp", &Ease::nlerp},
+    {"squad", &Ease::squad},
+    {"barry-goldman", &Ease::barry_goldman},
 };
 
 // CSS names with their handles. Source: W3C, "CSS Easing Functions Level 1".

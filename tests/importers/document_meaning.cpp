@@ -1,5 +1,7 @@
 #include "importers/document_files.h"
 
+#include <tweenfall/curves/keys.h>
+
 #include <numbers>
 
 using namespace tweenfall;
@@ -293,6 +295,40 @@ TEST_CASE("rates of angles give the angular velocity that was asked for, in ever
                                      "in": [10, -20, 30]}]}}}}})");
     const Curve<Quat>& rotation = curve<Quat>(document.stage().clips.at(0), "b.rotation");
     CHECK(near(rotation.rate(1, Side::in), Vec3(10 * degree, -20 * degree, 30 * degree), 1e-9));
+  }
+}
+
+TEST_CASE("a key of quaternions says the way around and the whole turns to the next") {
+  const auto mean_rate = [](const std::string& track, const std::string& first) {
+    const Document document = parsed(R"({"tweenfall": 1, "clips": {"a": {"tracks": {"b.rotation": {)" + track +
+                                     R"("keys": [{"t": 0, "v": {"quat": [0, 0, 0, 1]}, "ease": "linear")" + first +
+                                     R"(}, [2, {"quat": [0, 0, 1, 1]}]]}}}}})");
+    return curve<Quat>(document.stage().clips.at(0), "b.rotation").rate(1).z() / degree;
+  };
+  CHECK(near(mean_rate("", ""), 45, 1e-12));
+  CHECK(near(mean_rate("", R"(, "turn": "long")"), -135, 1e-12));
+  CHECK(near(mean_rate(R"("turn": "long", )", ""), -135, 1e-12));
+  CHECK(near(mean_rate(R"("turn": "long", )", R"(, "turn": "short")"), 45, 1e-12));
+  CHECK(near(mean_rate("", R"(, "turn": {"turns": 2})"), 405, 1e-12));
+  CHECK(near(mean_rate(R"("turn": "long", )", R"(, "turn": {"turns": 1})"), -315, 1e-12));
+  CHECK(near(mean_rate("", R"(, "turn": {"axis": "z", "turns": 1})"), 225, 1e-12));
+  CHECK(near(mean_rate("", R"(, "turn": {"axis": [0, 0, -1]})"), -135, 1e-12));
+  CHECK_THROWS_AS((void)mean_rate("", R"(, "turn": {"axis": "z", "way": "long"})"), DocumentError);
+  CHECK_THROWS_AS((void)mean_rate("", R"(, "turn": {"turns": 1.5})"), DocumentError);
+}
+
+TEST_CASE("rotation keys take the words of rotations") {
+  for (const std::string word : {"nlerp", "squad", "barry-goldman", "natural", "tcb(0,0.5,0)"}) {
+    CAPTURE(word);
+    const std::string ease = ", \"" + word + "\"]";
+    const Document document =
+        parsed(R"({"tweenfall": 1, "clips": {"a": {"tracks": {"b.rotation": [
+      [0, {"quat": [0, 0, 0, 1]})" +
+               ease + R"(, [1, {"quat": [0, 0, 1, 1]})" + ease + R"(, [2, {"quat": [1, 0, 0, 1]}]]}}}})");
+    const Curve<Quat>& rotation = curve<Quat>(document.stage().clips.at(0), "b.rotation");
+    Key<Quat> keys[] = {
+        {0, Quat(1, 0, 0, 0), *Ease::named(word)}, {1, Quat(1, 0, 0, 1), *Ease::named(word)}, {2, Quat(1, 1, 0, 0)}};
+    CHECK(near(rotation.value(0.7), keyed_curve<Quat>(keys).value(0.7), 1e-15));
   }
 }
 

@@ -24,6 +24,7 @@ struct TrackKind {
   const Shape* rate = nullptr;  // null: the value switches, and has neither ease nor tangents
   std::vector<Field> options{};
   std::vector<Field> functions{};
+  std::vector<Field> key_options{};  // of keys with names
 };
 
 class TrackShapes {
@@ -61,6 +62,7 @@ class TrackShapes {
       full.fields.push_back({"v_in", kind.value, "value on arrival, where the curve jumps"});
       full.together = {at_most_one({"ease", "out"})};
     }
+    for (const Field& option : kind.key_options) full.fields.push_back(option);
     full.on_one_line = true;
     Shape key = choice_of(row.what, {store_.add(row), store_.add(full)});
     key.definition = "key-" + kind.name;
@@ -122,7 +124,12 @@ class TrackShapes {
     const TrackKind euler{
         "euler", values_.euler, values_.vector, {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}}};
     const TrackKind quaternion{
-        "quat", values_.quaternion, values_.vector, {relative(), {"turn", turn, "way around", false, "\"short\""}}};
+        "quat",
+        values_.quaternion,
+        values_.vector,
+        {relative(), {"turn", turn, "way around", false, "\"short\""}},
+        {},
+        {{"turn", key_turn(turn), "the way to the next key"}}};
     const TrackKind axis_angle{"axis-angle", values_.axis_angle, values_.vector, {relative()}};
     const TrackKind degrees{"degrees",
                             values_.number,
@@ -151,6 +158,25 @@ class TrackShapes {
                                                                : in_euler;
       return list ? spelled.list : spelled.object;
     };
+    return store_.add(std::move(shape));
+  }
+
+  const Shape* key_turn(const Shape* ways) {
+    Shape whole;
+    whole.kind = Shape::Kind::number;
+    whole.what = "a whole number of turns, -1000000 to 1000000";
+    whole.whole = true;
+    whole.low = -1e6;
+    whole.high = 1e6;
+    Shape told = object_of("a turn: {\"way\", \"turns\"} or {\"axis\", \"turns\"}",
+                           {{"way", ways, "way around; absent: as the track says"},
+                            {"axis", values_.axis, "the way that turns counterclockwise about it"},
+                            {"turns", store_.add(std::move(whole)), "whole turns on top", false, "0"}});
+    told.together = {at_most_one({"way", "axis"})};
+    told.on_one_line = true;
+    Shape shape = choice_of("\"short\", \"long\", or {\"way\", \"turns\"} or {\"axis\", \"turns\"}",
+                            {ways, store_.add(std::move(told))});
+    shape.definition = "turn";
     return store_.add(std::move(shape));
   }
 
@@ -263,7 +289,8 @@ class TrackShapes {
   }
   Field space() {
     if (!space_)
-      space_ = store_.add(words_of("a color space", {"oklab", "linear", "srgb", "oklch", "hsl", "lab", "lch"}));
+      space_ = store_.add(
+          words_of("a color space", {"oklab", "linear", "srgb", "oklch", "hsl", "hsv", "hwb", "lab", "lch"}));
     return {"space", space_, "where colors are mixed", false, "\"oklab\""};
   }
   Field hue() {

@@ -19,6 +19,7 @@ struct KeyReader {
   std::function<std::optional<T>(const JsonValue&)> value;
   std::function<std::optional<Rate<T>>(const JsonValue& rate, const T& value)> rate;
   double unit = 1;  // what slopes written in an ease are multiplied by
+  std::function<Turn(const JsonValue& key)> turn{};  // rotations only
 };
 
 template <class T>
@@ -59,6 +60,7 @@ std::optional<Curve<T>> read_keys(const JsonValue& list, const ClipTimes& times,
     key.in = read_tangent(parts.in, parts.value_in ? reader.value(*parts.value_in).value_or(*value) : *value, reader);
     key.out = read_tangent(parts.out, *value, reader);
     if (parts.value_in) key.value_in = reader.value(*parts.value_in);
+    if (reader.turn) key.turn = reader.turn(list.items[i]);
     keys.push_back(std::move(key));
   }
   if (keys.size() != list.items.size() || keys.empty() || problems.size() != problems_before) return {};

@@ -167,10 +167,26 @@ class RotationTrack {
       return in_radians(*velocity);
     };
     reader.unit = radians(1);
-    const KeyOptions options{.ends = ends_of(track_), .long_way = long_way};
-    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, options, problems_);
+    reader.turn = [&](const JsonValue& key) { return turn_of(key, long_way); };
+    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
+  }
+
+  // The way to the next key: as the key says, else as the track does.
+  Turn turn_of(const JsonValue& key, bool long_way) {
+    Turn turn{long_way ? Turn::Way::longer : Turn::Way::shorter};
+    const JsonValue* said = key.is(Kind::object) ? usable(key, "turn") : nullptr;
+    if (!said) return turn;
+    const std::string way = said->is(Kind::text) ? said->text : text_in(*said, "way");
+    if (!way.empty()) turn.way = way == "long" ? Turn::Way::longer : Turn::Way::shorter;
+    if (!said->is(Kind::object)) return turn;
+    turn.whole_turns = static_cast<int>(number_in(*said, "turns", 0));
+    if (const JsonValue* axis = usable(*said, "axis")) {
+      turn.way = Turn::Way::along;
+      turn.axis = axis_of(*axis, problems_).value_or(Vec3(0, 0, 1));
+    }
+    return turn;
   }
 
   const JsonValue& track_;

@@ -96,8 +96,8 @@ class TrackReader {
     const std::string space = text_in(track_, "space", "oklab");
     static constexpr std::pair<std::string_view, ColorSpace> spaces[] = {
         {"linear", ColorSpace::linear}, {"srgb", ColorSpace::srgb}, {"oklab", ColorSpace::oklab},
-        {"oklch", ColorSpace::oklch},   {"hsl", ColorSpace::hsl},   {"lab", ColorSpace::lab},
-        {"lch", ColorSpace::lch}};
+        {"oklch", ColorSpace::oklch},   {"hsl", ColorSpace::hsl},   {"hsv", ColorSpace::hsv},
+        {"hwb", ColorSpace::hwb},       {"lab", ColorSpace::lab},   {"lch", ColorSpace::lch}};
     for (const auto& [word, meant] : spaces)
       if (space == word) options.space = meant;
     if (const JsonValue* hue = usable(track_, "hue")) {
@@ -106,8 +106,8 @@ class TrackReader {
                     : hue->text == "decreasing" ? HueRule::decreasing
                                                 : HueRule::shorter;
       if (hue_index(options.space) < 0)
-        problems_.add(*hue,
-                      "the space " + in_quotes(space) + " has no hue; spaces with one are \"oklch\", \"hsl\", \"lch\"");
+        problems_.add(*hue, "the space " + in_quotes(space) +
+                                " has no hue; spaces with one are \"oklch\", \"hsl\", \"hsv\", \"hwb\", \"lch\"");
     }
     KeyReader<Color> reader;
     reader.value = [](const JsonValue& value) { return color_of(value); };

@@ -90,4 +90,9 @@ extern template class Curve<Quat>;
 /// @throws std::invalid_argument for a zero axis.
 [[nodiscard]] Curve<Quat> axis_curve(const Vec3& axis, const Curve<double>& angle);
 
+/// A ratio of width to height over time as the two factors of a shape that keeps its area: (sqrt(r), 1 / sqrt(r)), of
+/// product 1. Keys of `ratio` mixed by their logarithm (`KeyOptions::logarithmic`) go from 1:4 to 4:1 through 1:1.
+/// @param ratio  > 0 wherever it is sampled; where it is not, the factors are those of 1
+[[nodiscard]] Curve<Vec2> aspect_curve(const Curve<double>& ratio);
+
 }  // namespace tweenfall

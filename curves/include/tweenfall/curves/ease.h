@@ -14,6 +14,7 @@
 namespace tweenfall {
 
 struct SlopeProblem;
+struct TurnProblem;
 
 class Ease {
  public:
@@ -23,6 +24,8 @@ class Ease {
 
   /// Makes slopes from neighboring keys; the problem is private to the library.
   using SlopeRule = void (*)(const SlopeProblem& problem);
+  /// Makes the spans of rotations for a run of keys; the problem is private to the library.
+  using TurnRule = void (*)(const TurnProblem& problem);
   /// Makes a shape for a span of `duration` seconds, where it depends on that.
   using ShapeRule = std::vector<Span<double>> (*)(double duration, const std::array<double, 4>& parameters);
 
@@ -45,8 +48,8 @@ class Ease {
   [[nodiscard]] static Ease akima();
   /// As akima, but flat stretches stay flat and no step overshoots much ("modified Akima").
   [[nodiscard]] static Ease makima();
-  /// Continuous acceleration over a run of such keys, zero at its ends. For rotations this is exact for the
-  /// rotation vectors of the spans, hence only nearly so for the angular acceleration.
+  /// Continuous acceleration over a run of such keys, zero at its ends; for rotations the angular acceleration.
+  /// Source for rotations: Mayorov, "Smooth attitude interpolation", 2018.
   [[nodiscard]] static Ease natural();
   /// The same with given accelerations at the ends of the run, U/s^2, for every component; the first key's start and
   /// the last span's end count.
@@ -59,6 +62,7 @@ class Ease {
   /// Continuous acceleration, the first two spans of the run being one cubic, and the last two.
   [[nodiscard]] static Ease not_a_knot();
   /// Catmull-Rom with the keys' own times: slope = the secants, each weighted by the other's duration.
+  /// Rotations: slerps of slerps between control rotations (De Casteljau), with those slopes at the keys.
   [[nodiscard]] static Ease catmull_rom();
   /// Catmull-Rom, zero at a local extreme and at most three times the smaller secant, per component.
   /// Source: Dougherty, Edelman, Hyman, 1989, equation 4.2.
@@ -70,6 +74,12 @@ class Ease {
   [[nodiscard]] static Ease chordal();
   /// Kochanek and Bartels, 1984: tension, continuity and bias at this key; 0, 0, 0 is catmull_rom. Any finite numbers.
   [[nodiscard]] static Ease tcb(double tension, double continuity, double bias);
+  /// Rotations: the straight way between the two quaternions, scaled to unit length. Anything else: linear.
+  [[nodiscard]] static Ease nlerp();
+  /// Rotations: Shoemake's spherical quadrangle, 1987, for uneven times. Anything else: what it comes to, catmull_rom.
+  [[nodiscard]] static Ease squad();
+  /// Rotations: the recursion of Barry and Goldman, 1988, with slerps. Anything else: what it comes to, catmull_rom.
+  [[nodiscard]] static Ease barry_goldman();
   /// An exact damped spring let go at this key towards the next: undamped period in seconds, damping ratio.
   /// What is left of its motion at the next key is taken away smoothly over the span.
   /// @throws std::invalid_argument unless period > 0 and damping_ratio >= 0.
@@ -98,6 +108,7 @@ class Ease {
   /// The pieces for a span of `duration` seconds.
   [[nodiscard]] std::vector<Piece> pieces_for(double duration) const;
   [[nodiscard]] SlopeRule slope_rule() const noexcept { return slope_rule_; }
+  [[nodiscard]] TurnRule turn_rule() const noexcept { return turn_rule_; }  ///< null: slerp, hold, shape or Hermite
   [[nodiscard]] const std::array<double, 4>& parameters() const noexcept { return parameters_; }
 
   bool operator==(const Ease& other) const noexcept { return name_ == other.name_; }
@@ -106,11 +117,13 @@ class Ease {
   [[nodiscard]] Sample<double> progress(double u, Side side = Side::out) const noexcept;
 
  private:
-  Ease(Rule rule, std::string name, SlopeRule slope_rule = nullptr, const std::array<double, 4>& parameters = {});
+  Ease(Rule rule, std::string name, SlopeRule slope_rule = nullptr, const std::array<double, 4>& parameters = {},
+       TurnRule turn_rule = nullptr);
 
   Rule rule_;
   std::string name_;
   SlopeRule slope_rule_ = nullptr;
+  TurnRule turn_rule_ = nullptr;
   ShapeRule shape_rule_ = nullptr;
   std::array<double, 4> parameters_{};
   std::vector<Piece> pieces_;

@@ -25,6 +25,17 @@ struct Tangent {
   double weight = 1.0 / 3.0;       ///< the handle's share of the span, > 0 to 1; 1/3 is the plain Hermite cubic
 };
 
+/// Rotations: which of the ways to the next key is taken, and how often around.
+struct Turn {
+  /// `along` is the way that turns positively about `axis`: counterclockwise for who looks against the axis.
+  enum class Way { shorter, longer, along };
+  Way way = Way::shorter;
+  int whole_turns = 0;   ///< added in the direction of the way; negative: taken off it
+  Vec3 axis{0, 0, 0};    ///< outer axes; read for `along`, and for whole turns between equal rotations
+
+  bool operator==(const Turn&) const = default;
+};
+
 template <class T>
 struct Key {
   double time;                         ///< s; strictly increasing along a curve
@@ -33,6 +44,7 @@ struct Key {
   std::optional<Tangent<T>> in{},
       out{};  ///< slopes; a span is Hermite when the key it leaves has `out` or the one it reaches has `in`
   std::optional<T> value_in{};  ///< the value arriving, where the curve jumps
+  Turn turn{};                  ///< rotations only: the way to the next key
 };
 
 /// What automatic tangents assume beyond the first and last key.
@@ -50,13 +62,14 @@ struct KeyOptions {
   HueRule hue = HueRule::shorter;
   /// Scales and ratios: interpolate the logarithm, so that 1 to 4 passes 2 half way. Values must be > 0.
   bool logarithmic = false;
-  /// Rotations: take the long way around between keys instead of the short one.
+  /// Rotations: keys that say nothing else take the long way around instead of the short one.
   bool long_way = false;
 };
 
 /// The curve through `keys`.
 /// @throws std::invalid_argument naming the key and the value: no keys, times not strictly increasing,
-///         non-finite numbers, a zero quaternion, a weight outside (0, 1], `ease` beside `out` where it conflicts.
+///         non-finite numbers, a zero quaternion, a weight outside (0, 1], `ease` beside `out` where it conflicts,
+///         a turn without the axis that it needs.
 template <class T>
 [[nodiscard]] Curve<T> keyed_curve(std::span<const Key<T>> keys, const KeyOptions& options = {});
 
