@@ -58,8 +58,7 @@ Sample<T> sample_segment(const Data& d, std::size_t i, double u) noexcept {
   const Segment& s = d.segments[i];
   Polynomial<typename Stored<T>::type> p;
   if (s.warped) {
-    const Warp& warp = d.warps[i];
-    const Warp::Result w = warp.function(u, warp.parameters);
+    const Warp::Result w = d.warps[i].at(u);
     p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
     through(w, p);
   } else {

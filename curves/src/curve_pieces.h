@@ -1,0 +1,51 @@
+#pragma once
+
+// A curve between two times as polynomials, whatever it is made of: what every question about its shape is asked of.
+
+#include <tweenfall/curves/curve.h>
+
+#include <array>
+#include <vector>
+
+#include "curve_data.h"
+
+namespace tweenfall {
+
+/// value = sum c[i] s^i for s from 0 to 1, at the time from + (to - from) x(s): x(s) = s, or the cubic of weighted
+/// handles. Spans that are neither (eases, formulas) come as quintics with the curve's own value, rate and
+/// acceleration at their ends, cut until they agree with it within 1e-12 of its size where they are checked.
+template <class V>
+struct CurvePiece {
+  double from = 0, to = 1;  ///< s, from < to
+  int degree = 0;
+  std::array<V, max_degree + 1> c;
+  bool timed = false;
+  std::array<double, 4> x{0, 1, 0, 0};
+  bool exact = true;  ///< false for the quintics
+
+  [[nodiscard]] double time_at(double s) const noexcept {
+    if (s <= 0) return from;
+    if (s >= 1) return to;
+    const double u = timed ? ((x[3] * s + x[2]) * s + x[1]) * s : s;
+    const double time = from + u * (to - from);
+    return time < from ? from : time > to ? to : time;
+  }
+  /// The position at a time, as `time_at` takes it.
+  [[nodiscard]] double position_at(double time) const noexcept;
+};
+
+/// In order, without gaps, from `from` to `to`; empty where to <= from. Colors as their linear parts.
+template <class T>
+[[nodiscard]] std::vector<CurvePiece<typename Stored<T>::type>> curve_pieces(const Curve<T>& curve, double from,
+                                                                             double to);
+
+/// Coefficients of one component, degree + 1 of them.
+template <class V>
+[[nodiscard]] std::vector<double> component_polynomial(const CurvePiece<V>& piece, int component_index) {
+  std::vector<double> result;
+  for (int i = 0; i <= piece.degree; ++i)
+    result.push_back(component(piece.c[static_cast<std::size_t>(i)], component_index));
+  return result;
+}
+
+}  // namespace tweenfall
