@@ -181,6 +181,23 @@ std::vector<CurvePiece<typename Stored<T>::type>> curve_pieces(const Curve<T>& c
   return result;
 }
 
+template <class V>
+std::vector<CurvePiece<V>> as_quintics(const CurvePiece<V>& piece) {
+  const double inverse = 1 / (piece.to - piece.from);
+  const auto sampler = [&](double time, Side) {
+    const double s = piece.position_at(time);
+    // The least slope as in time_bezier.h.
+    const double slope = std::max((3 * piece.x[3] * s + 2 * piece.x[2]) * s + piece.x[1], 1e-6);
+    const double ds = 1 / slope, dds = slope > 1e-6 ? -(6 * piece.x[3] * s + 2 * piece.x[2]) * ds * ds * ds : 0;
+    const Polynomial<V> p = evaluate_polynomial(piece.c.data(), piece.degree, s);
+    const V second = p.second * (ds * ds) + p.first * dds;
+    return Sample<V>{p.value, p.first * (ds * inverse), second * (inverse * inverse)};
+  };
+  std::vector<CurvePiece<V>> result;
+  add_quintics(result, sampler, piece.from, piece.to);
+  return result;
+}
+
 #define TWEENFALL_PIECES(T) \
   template std::vector<CurvePiece<Stored<T>::type>> curve_pieces<T>(const Curve<T>&, double, double);
 TWEENFALL_PIECES(double)
@@ -190,8 +207,12 @@ TWEENFALL_PIECES(Vec4)
 TWEENFALL_PIECES(Color)
 #undef TWEENFALL_PIECES
 template struct CurvePiece<double>;
+template std::vector<CurvePiece<double>> as_quintics<double>(const CurvePiece<double>&);
 template struct CurvePiece<Vec2>;
+template std::vector<CurvePiece<Vec2>> as_quintics<Vec2>(const CurvePiece<Vec2>&);
 template struct CurvePiece<Vec3>;
+template std::vector<CurvePiece<Vec3>> as_quintics<Vec3>(const CurvePiece<Vec3>&);
 template struct CurvePiece<Vec4>;
+template std::vector<CurvePiece<Vec4>> as_quintics<Vec4>(const CurvePiece<Vec4>&);
 
 }  // namespace tweenfall

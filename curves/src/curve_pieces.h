@@ -39,6 +39,10 @@ template <class T>
 [[nodiscard]] std::vector<CurvePiece<typename Stored<T>::type>> curve_pieces(const Curve<T>& curve, double from,
                                                                              double to);
 
+/// A timed piece as quintics in time, as those of an ease.
+template <class V>
+[[nodiscard]] std::vector<CurvePiece<V>> as_quintics(const CurvePiece<V>& piece);
+
 /// Coefficients of one component, degree + 1 of them.
 template <class V>
 [[nodiscard]] std::vector<double> component_polynomial(const CurvePiece<V>& piece, int component_index) {
