@@ -87,8 +87,8 @@ TEST_CASE("loops are baked to spans that go the same way") {
     }
     // Rotations turn on and on.
     const Quat a = Quat::Identity(), b = exp_map(Vec3(0.3, 0.9, -0.2));
-    const Curve<Quat> turn = keyed_curve<Quat>({{0, a, Ease::smooth()}, {1, b, Ease::smooth()}, {3, a * b * b}})
-                                 .with_outside(rule, rule);
+    const Curve<Quat> turn =
+        keyed_curve<Quat>({{0, a, Ease::smooth()}, {1, b, Ease::smooth()}, {3, a * b * b}}).with_outside(rule, rule);
     const Curve<Quat> baked = trimmed(turn, -4, 8);
     for (double t = -3.95; t < 8; t += 0.1) {
       CHECK(test::near(baked.value(t), turn.value(t), 1e-12));
@@ -201,13 +201,14 @@ TEST_CASE("keys are put between those of colors, ratios and turns as well") {
   const std::vector<Key<double>> more = with_key<double>(doubling, 1.7, ratio);
   check_same(keyed_curve<double>(std::span<const Key<double>>(doubling), ratio),
              keyed_curve<double>(std::span<const Key<double>>(more), ratio), 0, 3);
-  const std::vector<Key<Color>> fade = {
-      {0, Color{{1, 0.2, 0, 1}}, Ease::smooth()}, {1, Color{{0, 0.3, 1, 0.5}}, Ease::smooth()}, {2, Color{{1, 1, 1, 1}}}};
+  const std::vector<Key<Color>> fade = {{0, Color{{1, 0.2, 0, 1}}, Ease::smooth()},
+                                        {1, Color{{0, 0.3, 1, 0.5}}, Ease::smooth()},
+                                        {2, Color{{1, 1, 1, 1}}}};
   const auto mixed = keyed_curve<Color>(std::span<const Key<Color>>(fade));
   const auto cut = keyed_curve<Color>(std::span<const Key<Color>>(with_key<Color>(fade, 0.4)));
   for (double t = 0; t <= 2; t += 0.05) CHECK(test::near(cut.value(t).rgba, mixed.value(t).rgba, 1e-10));
-  const std::vector<Key<Quat>> turns = {{0, Quat::Identity(), Ease::linear()}, {1, exp_map(Vec3(1, 1, 0)), Ease::smooth()},
-                                        {2, exp_map(Vec3(0, 1, 1))}};
+  const std::vector<Key<Quat>> turns = {
+      {0, Quat::Identity(), Ease::linear()}, {1, exp_map(Vec3(1, 1, 0)), Ease::smooth()}, {2, exp_map(Vec3(0, 1, 1))}};
   const auto way = keyed_curve<Quat>(std::span<const Key<Quat>>(turns));
   const auto way_cut = keyed_curve<Quat>(std::span<const Key<Quat>>(with_key<Quat>(turns, 0.3)));
   for (double t = 0; t <= 2; t += 0.05) CHECK(test::near(way_cut.value(t), way.value(t), 1e-12));

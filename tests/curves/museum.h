@@ -33,7 +33,8 @@ inline std::vector<Exhibit> museum() {
   add("vertical tangents", keyed_curve<double>({sloped(0, 0, 0, 1), sloped(1, 1, 0, 1), sloped(2, -1, 0, 1)}));
   add("vertical in the middle", keyed_curve<double>({{0, 0, Ease::bezier(1, 0, 0, 1)}, {1, 1}}));
   add("slopes of a million", keyed_curve<double>({sloped(0, 0, 1e6), sloped(1, 0, -1e6)}));
-  add("near-coincident keys", keyed_curve<double>({{0, 0}, {1, 1}, {1 + 1e-12, 2}, {2, 0}, {2 + 4e-16 * 2, 1}, {3, 0}}));
+  add("near-coincident keys",
+      keyed_curve<double>({{0, 0}, {1, 1}, {1 + 1e-12, 2}, {2, 0}, {2 + 4e-16 * 2, 1}, {3, 0}}));
   add("spans of 1e-9 s", keyed_curve<double>({{0, 0}, {1e-9, 1}, {2e-9, -1}, {1, 0}}));
   add("spans of 1e9 s", keyed_curve<double>({{-1e9, 0}, {0, 1}, {1e9, -1}, {1e9 + 1, 4}}));
   add("short after long", keyed_curve<double>({{0, 0}, {1e9, 1}, {1e9 + 1e-6, 2}}));
@@ -77,7 +78,8 @@ inline Curve<double> random_curve(Random& random, bool eases = true) {
       key.out = Tangent<double>{Tangent<double>::Kind::given, random.between(-9, 9)};
       if (kind == 4) key.out->weight = random.between(0.05, 1);
     }
-    if (kind == 5) key.in = Tangent<double>{Tangent<double>::Kind::given, random.between(-9, 9), random.between(0.05, 1)};
+    if (kind == 5)
+      key.in = Tangent<double>{Tangent<double>::Kind::given, random.between(-9, 9), random.between(0.05, 1)};
     if (kind == 6) key.ease = *Ease::named("sine-in-out");
     if (kind == 7) key.ease = *Ease::named("back-out");
     if (key.out) key.ease = Ease::smooth_clamped();
