@@ -188,7 +188,7 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
   const double s = d.position(stretch, length - stretch.before);
   const Polynomial<T> p = evaluate_polynomial(piece.c.data(), piece.degree, s);
   const double time = piece.time_at(s);
-  const T value = s > 0 && s < 1 && piece.exact ? p.value : d.path.value(time, s < 1 ? Side::out : Side::in);
+  const T value = s > 0 && s < 1 && piece.exact() ? p.value : d.path.value(time, s < 1 ? Side::out : Side::in);
   const double square = product(p.first, p.first), bend = product(p.second, p.second);
   if (square > 1e-24 * bend && square > 0) {
     const double pace = std::sqrt(square);

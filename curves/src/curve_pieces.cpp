@@ -26,16 +26,25 @@ class Quintics {
   Quintics(std::vector<CurvePiece<V>>& result, const Sampler& sampler, double from, double to)
       : result_(result), sampler_(sampler) {
     double scale = 0;
-    for (int i = 0; i <= first_parts; ++i) {
-      const V v = sampler(mark(from, to, i), i == first_parts ? Side::in : Side::out).value;
-      for (int k = 0; k < dimensions<V>; ++k) scale = std::max(scale, std::abs(component(v, k)));
-    }
-    tolerance_ = 1e-12 * scale;
+    // Not evenly, lest an oscillation be met at its zeros alone.
+    for (int i = 0; i <= first_parts; ++i)
+      for (const double off : {0.0, 0.37}) {
+        const V v = sampler(std::min(mark(from, to, i) + off / first_parts * (to - from), to), Side::in).value;
+        for (int k = 0; k < dimensions<V>; ++k) scale = std::max(scale, std::abs(component(v, k)));
+      }
+    // A time, and a position in a span, is known to its last bit only, which counts where the curve is steep.
+    time_rounding_ = 1e-15 * std::max({std::abs(from), std::abs(to), to - from});
     for (int i = 0; i < first_parts; ++i) {
       const double a = mark(from, to, i), b = mark(from, to, i + 1);
       if (!(b > a)) continue;
-      budget_ = most_parts;
-      add(a, sampler(a, Side::out), b, sampler(b, Side::in), 0);
+      const std::size_t before = result.size();
+      // What is too rough for so many parts is taken less exactly.
+      for (tolerance_ = 1e-12 * scale;; tolerance_ *= 100) {
+        budget_ = most_parts;
+        add(a, sampler(a, Side::out), b, sampler(b, Side::in), 0);
+        if (budget_ > 0 || !(tolerance_ < 1e-4 * scale)) break;
+        result.resize(before);
+      }
     }
   }
 
@@ -46,14 +55,14 @@ class Quintics {
     return i == 0 ? from : i == first_parts ? to : from + (to - from) * i / first_parts;
   }
 
-  static CurvePiece<V> quintic(double from, const Sample<V>& a, double to, const Sample<V>& b) noexcept {
+  CurvePiece<V> quintic(double from, const Sample<V>& a, double to, const Sample<V>& b) const noexcept {
     const double h = to - from;
     const V change = b.value - a.value, d0 = h * a.rate, d1 = h * b.rate;
     const V e0 = (h * h) * a.acceleration, e1 = (h * h) * b.acceleration;
     CurvePiece<V> piece;
     piece.from = from;
     piece.to = to;
-    piece.exact = false;
+    piece.error = tolerance_;
     piece.degree = 5;
     piece.c = {a.value,
                d0,
@@ -65,14 +74,12 @@ class Quintics {
   }
 
   bool agrees(const CurvePiece<V>& piece) const noexcept {
-    // A time is known to its last bit only, which counts where the curve is steep.
-    const double time_rounding = 1e-15 * std::max(std::abs(piece.from), std::abs(piece.to));
     for (const double s : {0.5, 0.25, 0.75, 0.1, 0.9}) {
       const V ours = polynomial_at(piece.c.data(), 5, s);
       const Sample<V> theirs = sampler_(piece.time_at(s), Side::out);
       for (int i = 0; i < dimensions<V>; ++i)
         if (!(std::abs(component(ours, i) - component(theirs.value, i)) <=
-              tolerance_ + time_rounding * std::abs(component(theirs.rate, i))))
+              tolerance_ + time_rounding_ * std::abs(component(theirs.rate, i))))
           return false;
     }
     return true;
@@ -83,12 +90,13 @@ class Quintics {
     const double middle = from + 0.5 * (to - from);
     if (agrees(piece)) {
       result_.push_back(piece);
-    } else if (depth == deepest || --budget_ <= 0 || !(middle > from && middle < to)) {
+    } else if (depth == deepest || budget_ <= 0 || !(middle > from && middle < to)) {
       // A jump or an infinite rate between neighboring times: nothing beyond the two values is known.
       piece.degree = 1;
       piece.c[1] = b.value - a.value;
       result_.push_back(piece);
     } else {
+      --budget_;
       add(from, a, middle, sampler_(middle, Side::in), depth + 1);
       add(middle, sampler_(middle, Side::out), to, b, depth + 1);
     }
@@ -96,7 +104,7 @@ class Quintics {
 
   std::vector<CurvePiece<V>>& result_;
   const Sampler& sampler_;
-  double tolerance_;
+  double tolerance_ = 0, time_rounding_ = 0;
   int budget_ = 0;
 };
 
@@ -149,10 +157,10 @@ double CurvePiece<V>::position_at(double time) const noexcept {
   if (!timed) return u;
   double low = 0, high = 1, s = u;
   for (int i = 0; i < 200; ++i) {
-    const double error = ((x[3] * s + x[2]) * s + x[1]) * s - u;
-    if (error == 0) break;
-    (error < 0 ? low : high) = s;
-    double next = s - error / ((3 * x[3] * s + 2 * x[2]) * s + x[1]);
+    const double miss = ((x[3] * s + x[2]) * s + x[1]) * s - u;
+    if (miss == 0) break;
+    (miss < 0 ? low : high) = s;
+    double next = s - miss / ((3 * x[3] * s + 2 * x[2]) * s + x[1]);
     if (!(next > low && next < high)) next = 0.5 * (low + high);
     if (next == s || next == low || next == high) break;
     s = next;

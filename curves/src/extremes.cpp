@@ -68,7 +68,7 @@ std::vector<double> extrema(const Curve<double>& curve) {
       // A stretch at rest has no extreme, nor has what follows it.
       if (before * sign < 0) {
         const double time = piece.time_at(marks[i]);
-        result.push_back(piece.exact ? time : refined(piece, time, [&](double t) { return curve.rate(t); }));
+        result.push_back(piece.exact() ? time : refined(piece, time, [&](double t) { return curve.rate(t); }));
       }
       before = sign;
     }
@@ -102,7 +102,7 @@ std::vector<double> solve(const Curve<double>& curve, double level, double from,
     }
     for (const double s : polynomial_roots(c, 0, 1)) {
       const double time = piece.time_at(s);
-      add(piece.exact ? time : refined(piece, time, [&](double t) { return curve.value(t) - level; }));
+      add(piece.exact() ? time : refined(piece, time, [&](double t) { return curve.value(t) - level; }));
     }
   }
   return result;

@@ -18,7 +18,7 @@ class Fitter {
   using Kind = typename FitTarget<T>::Kind;
 
   Fitter(const Curve<T>& curve, double error, const FitOptions& options, bool cubic)
-      : target_(curve, error, options), chained_(options.slopes == FitSlopes::least_squares), cubic_(cubic) {}
+      : target_(curve, error, options), cubic_(cubic) {}
 
   std::vector<Key<T>> keys() {
     const Curve<T>& curve = target_.curve();
@@ -34,6 +34,12 @@ class Fitter {
   }
 
  private:
+  struct Try {
+    bool tried;
+    Kind kind;
+    const Rate<T>* leaving;
+  };
+
   // The span to be used from `from` to `to`; `found` tells whether it is near enough.
   FittedSpan<T> best(double from, double to, bool* found = nullptr) {
     if (found) *found = true;
@@ -41,11 +47,12 @@ class Fitter {
     FittedSpan<T> straight = target_.span(from, to, Kind::linear);
     if (target_.is_near(straight, target_.least_error())) return straight;
     if (cubic_) {
-      const Rate<T>* leaving = chained_ && has_arrived_ ? &arrived_ : nullptr;
-      FittedSpan<T> span = target_.span(from, to, Kind::cubic, leaving);
-      if (target_.is_near(span, target_.error())) return span;
-      if (leaving) {
-        span = target_.span(from, to, Kind::cubic);
+      // Smooth across the key first, then with a corner, then at the curve's own slopes, which suit any short span.
+      const bool suits = target_.suits();
+      for (const auto& [tried, kind, leaving] : {Try{suits && has_arrived_, Kind::suited, &arrived_},
+                                                 Try{suits, Kind::suited, nullptr}, Try{true, Kind::cubic, nullptr}}) {
+        if (!tried) continue;
+        const FittedSpan<T> span = target_.span(from, to, kind, leaving);
         if (target_.is_near(span, target_.error())) return span;
       }
     }
@@ -120,7 +127,7 @@ class Fitter {
   }
 
   FitTarget<T> target_;
-  bool chained_, cubic_;
+  bool cubic_;
   Rate<T> arrived_ = zero<Rate<T>>();
   bool has_arrived_ = false;
 };

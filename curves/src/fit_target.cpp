@@ -36,9 +36,7 @@ FitTarget<T>::FitTarget(const Curve<T>& curve, double error, const FitOptions& o
       pieces_ = curve_pieces(curve, curve.start(), curve.end());
       for (const auto& piece : pieces_) {
         boundaries_.push_back(piece.from);
-        double size = 0;
-        for (int i = 0; i <= piece.degree; ++i) size += length_of(piece.c[static_cast<std::size_t>(i)]);
-        least_error_ = std::max(least_error_, (piece.exact ? 1e-13 : 2e-11) * size);
+        least_error_ = std::max(least_error_, 10 * piece.rounding());
       }
       boundaries_.push_back(curve.end());
     }
@@ -97,7 +95,7 @@ FittedSpan<T> FitTarget<T>::span(double from, double to, Kind kind, const Rate<T
     return result;
   }
   Rate<T> out = a.rate, in = b.rate;
-  if (options_.slopes == FitSlopes::least_squares && plain_) {
+  if (kind == Kind::suited) {
     if (leaving) out = *leaving;
     choose_slopes(out, in, from, to, leaving != nullptr);
   }

@@ -17,11 +17,13 @@ struct FittedSpan {
 template <class T>
 class FitTarget {
  public:
-  enum class Kind { cubic, linear };
+  enum class Kind { cubic, suited, linear };  ///< cubic: at the curve's slopes; suited: at those of least squares
 
   /// @throws std::invalid_argument as `fit` does.
   FitTarget(const Curve<T>& curve, double error, const FitOptions& options);
 
+  /// Whether spans can be suited: numbers and vectors mixed as they are, where that is asked for.
+  [[nodiscard]] bool suits() const noexcept { return plain_ && options_.slopes == FitSlopes::least_squares; }
   [[nodiscard]] const Curve<T>& curve() const noexcept { return curve_; }
   /// Times at which one polynomial ends and the next begins, with both ends.
   [[nodiscard]] const std::vector<double>& boundaries() const noexcept { return boundaries_; }

@@ -114,9 +114,7 @@ bool is_monotone(const Curve<double>& curve) {
     before = value;
   };
   for (const CurvePiece<double>& piece : curve_pieces(curve, curve.start(), curve.end())) {
-    double size = 0;
-    for (int i = 0; i <= piece.degree; ++i) size += std::abs(piece.c[static_cast<std::size_t>(i)]);
-    const double rounding = (piece.exact ? 1e-14 : 4e-12) * size;
+    const double rounding = piece.rounding();
     step(curve.value(piece.from), rounding);
     for (const double s : polynomial_roots(polynomial_derivative(component_polynomial(piece, 0)), 0, 1))
       step(polynomial_at(piece.c.data(), piece.degree, s), rounding);

@@ -25,7 +25,7 @@ struct Inverse {
   // Time at which the piece takes `level`, which lies between its ends.
   double time_in(std::size_t i, double level) const noexcept {
     const CurvePiece<double>& piece = pieces[i];
-    if (!piece.exact) return crossing([&](double t) { return sign * curve.value(t) - level; }, piece.from, piece.to);
+    if (!piece.exact()) return crossing([&](double t) { return sign * curve.value(t) - level; }, piece.from, piece.to);
     const auto above = [&](double s) { return sign * polynomial_at(piece.c.data(), piece.degree, s) - level; };
     return piece.time_at(crossing(above, 0, 1));
   }
@@ -69,18 +69,19 @@ Curve<double> inverse(const Curve<double>& curve) {
   result->least_rate = 1e-6 * std::abs(last - first) / curve.duration();
   double before = result->sign * first;
   const double scale = std::max(std::abs(first), std::abs(last));
-  const auto rise = [&](double value, double time, bool exact) {
-    if (value < before - (exact ? 1e-14 : 4e-12) * scale)
+  const auto rise = [&](double value, double time, double rounding) {
+    if (value < before - 1e-14 * scale - rounding)
       throw std::invalid_argument("a curve must not turn to have an inverse; this one does before " + text_of(time) +
                                   " s");
     before = std::max(before, value);
   };
   for (const CurvePiece<double>& piece : result->pieces) {
-    rise(result->sign * curve.value(piece.from, Side::out), piece.from, piece.exact);
+    rise(result->sign * curve.value(piece.from, Side::out), piece.from, 4 * piece.error);
     result->leaving.push_back(before);
     for (const double s : polynomial_roots(polynomial_derivative(component_polynomial(piece, 0)), 0, 1))
-      rise(result->sign * curve.value(piece.time_at(s), s >= 1 ? Side::in : Side::out), piece.time_at(s), piece.exact);
-    rise(result->sign * curve.value(piece.to, Side::in), piece.to, piece.exact);
+      rise(result->sign * curve.value(piece.time_at(s), s >= 1 ? Side::in : Side::out), piece.time_at(s),
+           4 * piece.error);
+    rise(result->sign * curve.value(piece.to, Side::in), piece.to, 4 * piece.error);
     result->arriving.push_back(before);
   }
   return Curve<double>([result](double value, Side side) { return (*result)(value, side); }, std::min(first, last),

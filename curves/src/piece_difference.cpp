@@ -10,13 +10,6 @@ namespace tweenfall {
 namespace {
 
 template <class V>
-double size_of(const CurvePiece<V>& piece) noexcept {
-  double size = 0;
-  for (int i = 0; i <= piece.degree; ++i) size += length_of(piece.c[static_cast<std::size_t>(i)]);
-  return size;
-}
-
-template <class V>
 void add_difference(std::vector<PieceDifference<V>>& result, const CurvePiece<V>& a, const CurvePiece<V>& b,
                     double sign) {
   PieceDifference<V> d{a, composed(b, a), 0};
@@ -26,8 +19,7 @@ void add_difference(std::vector<PieceDifference<V>>& result, const CurvePiece<V>
     const V own = i <= static_cast<std::size_t>(a.degree) ? a.c[i] : zero<V>();
     d.c[i] = sign * (own - d.c[i]);
   }
-  const double size = size_of(a) + size_of(b);
-  d.rounding = (a.exact && b.exact ? 1e-14 : 4e-12) * size;
+  d.rounding = a.rounding() + b.rounding();
   result.push_back(std::move(d));
 }
 

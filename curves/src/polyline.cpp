@@ -43,9 +43,7 @@ std::vector<PolylinePoint<T>> polyline(const Curve<T>& curve, double from, doubl
   if (to < from) std::swap(from, to);
   std::vector<PolylinePoint<T>> result;
   for (const CurvePiece<V>& piece : curve_pieces(curve, from, to)) {
-    double size = 0;
-    for (int i = 0; i <= piece.degree; ++i) size += length_of(piece.c[static_cast<std::size_t>(i)]);
-    const double rounding = (piece.exact ? 1e-15 : 4e-12) * size;
+    const double rounding = piece.rounding();
     const PolylinePoint<T> first{piece.from, curve.value(piece.from)};
     // A knot is one point, unless the curve jumps there.
     if (result.empty() || !(result.back().value == first.value)) result.push_back(first);
