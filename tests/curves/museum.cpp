@@ -22,8 +22,9 @@ double size_of(const Curve<double>& curve) {
 }  // namespace
 
 TEST_CASE("every question about every curve of the museum has a finite answer that fits what is seen") {
-  for (const auto& [name, curve] : test::museum()) {
-    CAPTURE(name);
+  for (const test::Exhibit& exhibit : test::museum()) {
+    CAPTURE(exhibit.name);
+    const Curve<double>& curve = exhibit.curve;
     const double from = curve.start(), to = curve.end();
     const Range r = range(curve, from, to);
     const double size = size_of(curve), slack = 1e-9 * size;
@@ -62,11 +63,11 @@ TEST_CASE("every question about every curve of the museum has a finite answer th
       }
     }
     CHECK(std::isfinite(arc_length(curve, from, to)));
-    CHECK(
-        arc_length(curve, from, to) >=
-        (r.high - r.low) * (1 - 1e-9) - (continuity(curve).empty() ? size : 0) -
-            (name.find("jump") != std::string::npos || name == "holds" || name == "steps" ? 2 * (r.high - r.low) : 0));
-    CHECK(continuity(curve).size() == curve.knots().size());
+    const std::vector<Continuity> smoothness = continuity(curve);
+    const bool jumps = smoothness.size() < 2 || std::any_of(smoothness.begin() + 1, smoothness.end() - 1,
+                                                            [](Continuity c) { return c == Continuity::jump; });
+    if (!jumps) CHECK(arc_length(curve, from, to) >= (r.high - r.low) * (1 - 1e-9));
+    CHECK(smoothness.size() == curve.knots().size());
     if (is_flat(curve)) CHECK(is_linear(curve));
     if (is_linear(curve)) CHECK(is_monotone(curve));
     CHECK(differences(curve, curve, from, to).empty());
@@ -79,8 +80,9 @@ TEST_CASE("every question about every curve of the museum has a finite answer th
 }
 
 TEST_CASE("every curve of the museum can be edited and comes back as it was") {
-  for (const auto& [name, curve] : test::museum()) {
-    CAPTURE(name);
+  for (const test::Exhibit& exhibit : test::museum()) {
+    CAPTURE(exhibit.name);
+    const Curve<double>& curve = exhibit.curve;
     if (!(curve.duration() > 0)) continue;
     const double size = size_of(curve), from = curve.start(), to = curve.end();
     const double middle = from + 0.37 * (to - from);
@@ -96,8 +98,9 @@ TEST_CASE("every curve of the museum can be edited and comes back as it was") {
 }
 
 TEST_CASE("every curve of the museum is fitted within its error") {
-  for (const auto& [name, curve] : test::museum()) {
-    CAPTURE(name);
+  for (const test::Exhibit& exhibit : test::museum()) {
+    CAPTURE(exhibit.name);
+    const Curve<double>& curve = exhibit.curve;
     const double size = size_of(curve);
     for (const double share : {0.1, 1e-3}) {
       CAPTURE(share);

@@ -4,11 +4,11 @@
 ///
 /// The error bounds the whole span, not places looked at. For numbers and vectors the difference from the cubic is a
 /// polynomial (also where handles are weighted: then in the handles' own position), bounded by its Bezier control
-/// points; eases and formulas count as the quintics of `calculus.h`, whose own 4e-12 of the size is taken off the
-/// error. Where keys are mixed in other coordinates (colors, rotations, logarithms) the difference is bounded on ever
-/// shorter stretches by its value and rate in the middle and the greatest difference of accelerations at the ends and
-/// the middle, doubled: sound where accelerations do not peak between these. Distances are Euclidean for vectors, of
-/// linear red, green, blue and alpha for colors, and angles in radians for rotations.
+/// points; eases and formulas count as the quintics of `calculus.h`, whose own error is taken off. Where keys are mixed
+/// in other coordinates (colors, rotations, logarithms) the difference is bounded on ever shorter stretches by its
+/// value and rate in the middle and the greatest difference of accelerations at the ends and the middle, doubled: sound
+/// where accelerations do not peak between these. Distances are Euclidean for vectors, of linear red, green, blue and
+/// alpha for colors, and angles in radians for rotations.
 ///
 /// Keys lie on the curve, and each reaches as far as the error lets it (longest first): where a shorter span is never
 /// worse than a longer one, no smaller number of keys of this kind would do. Time grows as n log n with the spans.
