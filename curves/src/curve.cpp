@@ -86,7 +86,7 @@ template <class T, class Data>
 Sample<T> sample_segment(const Data& d, std::size_t i, double u) noexcept {
   const Segment& s = d.segments[i];
   Warp::Result w{u, 1, 0};
-  if (s.warped) w = d.warps[i].function(u, d.warps[i].parameters);
+  if (s.warped) w = d.warps[i].at(u);
   if constexpr (std::is_same_v<T, Quat>) {
     return sample_rotation(d, i, w);
   } else {

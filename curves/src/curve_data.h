@@ -83,7 +83,7 @@ struct Curve<T>::Data {
 
 struct CurveAccess {
   template <class T>
-  static const auto& data(const Curve<T>& curve) {
+  static const typename Curve<T>::Data& data(const Curve<T>& curve) noexcept {
     return *curve.data_;
   }
 
@@ -100,6 +100,18 @@ struct CurveAccess {
   /// A curve of checked spans with its last knot given to the bit.
   template <class T>
   static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final = nullptr);
+
+  /// A formula between knots, with the usual rules outside.
+  template <class T>
+  static Curve<T> formula_with_knots(typename Curve<T>::Formula formula, double start, double end,
+                                     std::span<const double> knots) {
+    auto data = std::make_shared<typename Curve<T>::Data>();
+    data->formula = std::move(formula);
+    data->start = start;
+    data->end = end;
+    data->knots.assign(knots.begin(), knots.end());
+    return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
+  }
 
   /// A curve that another one is made into: it answers at all times, `rebuilt` makes it anew with other rules outside.
   template <class T>

@@ -5,6 +5,7 @@
 #include <tweenfall/curves/curve.h>
 #include <tweenfall/curves/rotation.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "components.h"
@@ -69,7 +70,9 @@ Sample<T> sample_outside(Outside rule, double start, double end, double time, Si
   }
   const bool backward = rule == Outside::pingpong && std::fmod(plays, 2) != 0;
   if (backward) {
-    Sample<T> s = inside(local == 0 ? end : end - local, side == Side::in ? Side::out : Side::in);
+    // The difference may round to before the start.
+    const double mirrored = arriving ? start : std::max(start, end - local);
+    Sample<T> s = inside(mirrored, side == Side::in ? Side::out : Side::in);
     s.rate = -s.rate;
     return s;
   }

@@ -45,4 +45,20 @@ inline Polynomial<V> evaluate_polynomial(const V* c, int degree, double s) noexc
   return {value, first, 2 * half_second};
 }
 
+// The value alone, in every bit as above.
+template <class V>
+inline V polynomial_at(const V* c, int degree, double s) noexcept {
+  return evaluate_polynomial(c, degree, s).value;
+}
+
+// From a polynomial in s to the one in x with s = a + b x, in place.
+template <class V>
+inline void substitute(V* c, int degree, double a, double b) noexcept {
+  if (a != 0)
+    for (int i = 0; i < degree; ++i)
+      for (int k = degree - 1; k >= i; --k) c[k] = c[k] + a * c[k + 1];
+  double power = 1;
+  for (int i = 1; i <= degree; ++i) c[i] = (power *= b) * c[i];
+}
+
 }  // namespace tweenfall

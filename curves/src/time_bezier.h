@@ -10,4 +10,7 @@ namespace tweenfall {
 /// time never runs backwards. Where the tangent is vertical the slope is limited to a million.
 [[nodiscard]] Warp time_bezier_warp(double x1, double x2);
 
+/// Whether a warp is one of these; its parameters then begin with x1 and x2.
+[[nodiscard]] bool is_time_bezier(const Warp& warp) noexcept;
+
 }  // namespace tweenfall

@@ -23,6 +23,13 @@ struct Warp {
 
   Function function = nullptr;         ///< null: s = u
   std::array<double, 4> parameters{};  ///< handed to the function unchanged
+  double from = 0, width = 1;          ///< the stretch of the function that is seen: at from + width u
+
+  /// The warp at u, 0 to 1. Precondition: `function` is set.
+  [[nodiscard]] Result at(double u) const noexcept {
+    const Result r = function(from + width * u, parameters);
+    return {r.s, width * r.ds, width * width * r.dds};
+  }
 
   bool operator==(const Warp&) const = default;
 };
