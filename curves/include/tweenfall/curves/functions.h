@@ -47,7 +47,7 @@ struct Orbit {
   Vec3 center{0, 0, 0};       ///< the heavy body, m
   double periapsis = 1;       ///< least distance from it, m; > 0
   double eccentricity = 0;    ///< >= 0: below 1 an ellipse, 1 a parabola, above a hyperbola
-  double gravity = 1;         ///< gravitational parameter G M, m^3/s^2; > 0
+  double gravitational_parameter = 1;  ///< G M, m^3/s^2; > 0
   double passage = 0;         ///< time at which the periapsis is passed, s
   Quat rotation{1, 0, 0, 0};  ///< turns the plane: x to the periapsis, y as the body moves there
 
