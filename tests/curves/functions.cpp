@@ -1,3 +1,4 @@
+#include <tweenfall/curves/expression.h>
 #include <tweenfall/curves/functions.h>
 
 #include <stdexcept>
@@ -13,6 +14,21 @@ TEST_CASE("a projectile is where the textbook says, at any time") {
   CHECK(c.rate(2) == Vec3(3, -10, 0));
   CHECK(c.sample(-4).acceleration == Vec3(0, -10, 0));
   CHECK_THROWS_AS(static_cast<void>(projectile({.from = {0, std::nan(""), 0}})), std::invalid_argument);
+}
+
+// The first lecture on physics-based animation: u = (3, 4), a = (0, -1), at t = 0, 1, 2, 3.
+TEST_CASE("a projectile, and the same motion as expressions, give the lecture's table exactly") {
+  const Curve<Vec3> thrown = projectile({.velocity = {3, 4, 0}, .gravity = {0, -1, 0}});
+  const Curve<Vec2> written =
+      parametric(expression_curve(Expression("3*t")), expression_curve(Expression("4*t - 1/2*t^2")));
+  const Vec2 table[] = {{0, 0}, {3, 3.5}, {6, 6}, {9, 7.5}};
+  for (int t = 0; t <= 3; ++t) {
+    CHECK(thrown.value(t) == Vec3(table[t][0], table[t][1], 0));
+    CHECK(written.value(t) == table[t]);
+    CHECK(thrown.rate(t) == Vec3(3, 4 - t, 0));
+    CHECK(written.rate(t) == Vec2(3, 4 - t));
+    CHECK(written.sample(t).acceleration == Vec2(0, -1));
+  }
 }
 
 TEST_CASE("an oscillator solves the damped wave's equation") {

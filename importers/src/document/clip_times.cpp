@@ -33,8 +33,17 @@ const JsonValue* keys_of(const JsonValue& track) {
   return usable(track, "keys");
 }
 
-bool is_function(const JsonValue& track) {
-  return track.find("oscillator") || track.find("projectile");
+bool is_endless(const JsonValue& track) {
+  for (const char* name : {"oscillator", "projectile", "pendulum", "orbit", "expression"})
+    if (track.find(name)) return true;
+  return false;
+}
+
+// How long a function takes that begins at 0 s and ends; 0 where there is none.
+double passing_time(const JsonValue& track) {
+  for (const char* name : {"path", "line", "arc"})
+    if (const JsonValue* function = usable(track, name)) return number_in(*function, "duration", 1);
+  return 0;
 }
 
 }  // namespace
@@ -118,7 +127,11 @@ double clip_duration(const JsonValue& clip, std::optional<double> fps) {
   if (const JsonValue* tracks = usable(clip, "tracks")) {
     for (const JsonMember& track : tracks->members) {
       if (is_free_name(track.name)) continue;
-      any_functions = any_functions || is_function(track.value);
+      any_functions = any_functions || is_endless(track.value);
+      if (const double passing = passing_time(track.value); passing > 0) {
+        any_keys = true;
+        latest = std::max(latest, passing);
+      }
       const JsonValue* keys = keys_of(track.value);
       if (!keys) continue;
       any_keys = true;

@@ -1,5 +1,6 @@
 #include <tweenfall/importers/number_text.h>
 
+#include "document/grammar_functions.h"
 #include "document/grammar_parts.h"
 
 #include <utility>
@@ -17,19 +18,35 @@ const JsonValue* first_key_value(const JsonValue& track) {
   return key.find("v");
 }
 
+bool has_function(const JsonValue& track) {
+  for (const std::string& name : FunctionShapes::names())
+    if (track.find(name)) return true;
+  return false;
+}
+
+// Whether the function that stands in place of keys gives vectors.
+bool is_vector_function(const JsonValue& track) {
+  for (const std::string& name : FunctionShapes::vector_names())
+    if (track.find(name)) return true;
+  const JsonValue* oscillator = track.find("oscillator");
+  const JsonValue* amplitude = oscillator ? oscillator->find("amplitude") : nullptr;
+  const JsonValue* expression = track.find("expression");
+  return (amplitude && amplitude->is(JsonValue::Kind::list)) || (expression && expression->is(JsonValue::Kind::list));
+}
+
 // What the tracks of one kind of value look like, with its options.
 struct TrackKind {
   std::string name;  // of its definitions
   const Shape* value = nullptr;
   const Shape* rate = nullptr;  // null: the value switches, and has neither ease nor tangents
   std::vector<Field> options{};
-  std::vector<Field> functions{};
+  TrackFunctions functions{};
   std::vector<Field> key_options{};  // of keys with names
 };
 
 class TrackShapes {
  public:
-  TrackShapes(ShapeStore& store, const ValueShapes& values) : store_(store), values_(values) {
+  TrackShapes(ShapeStore& store, const ValueShapes& values) : functions(store, values), store_(store), values_(values) {
     outside_ = store_.add(
         words_of("what happens outside the keys", {"hold", "linear", "repeat", "repeat-offset", "pingpong"}));
     ends_ = store_.add(words_of("an end of automatic slopes", {"secant", "flat", "wrap"}));
@@ -82,35 +99,24 @@ class TrackShapes {
     }
     std::vector<std::string> sources = {"keys"};
     shape.fields.push_back({"keys", keys, "the keys, in order of time"});
-    for (const Field& function : kind.functions) {
+    for (const Field& function : kind.functions.endless) {
       shape.fields.push_back(function);
       sources.push_back(function.name);
-      // A function has no outside.
       shape.together.push_back(at_most_one({"before", function.name}));
       shape.together.push_back(at_most_one({"after", function.name}));
       shape.together.push_back(at_most_one({"ends", function.name}));
     }
+    for (const Field& function : kind.functions.passing) {
+      shape.fields.push_back(function);
+      sources.push_back(function.name);
+      shape.together.push_back(at_most_one({"ends", function.name}));
+    }
+    if (kind.functions.parameters) {
+      shape.fields.push_back({"parameters", functions.parameters(), "numbers that the expression calls by name"});
+      shape.together.push_back({Together::Rule::first_needs_second, {"parameters", "expression"}});
+    }
     shape.together.insert(shape.together.begin(), exactly_one(std::move(sources)));
     return store_.add(std::move(shape));
-  }
-
-  const Shape* oscillator(const Shape* value, const std::string& unit) {
-    return store_.add(
-        object_of("an oscillator: {\"amplitude\", \"hz\", \"phase\", \"damping\", \"center\"}",
-                  {{"amplitude", value, unit, true},
-                   {"hz", values_.not_negative, "cycles per second", true},
-                   {"phase", values_.number, "degrees", false, "0"},
-                   {"damping", values_.not_negative, "rate of decay, 1/s", false, "0"},
-                   {"center", value, unit + ", added", false, value == values_.number ? "0" : "[0, 0, 0]"}}));
-  }
-
-  const Shape* projectile() {
-    if (!projectile_)
-      projectile_ = store_.add(object_of("a projectile: {\"from\", \"velocity\", \"gravity\"}",
-                                         {{"from", values_.vector, "m", false, "[0, 0, 0]"},
-                                          {"velocity", values_.vector, "m/s at time 0", true},
-                                          {"gravity", values_.vector, "m/s^2", false, "[0, -9.81, 0]"}}));
-    return projectile_;
   }
 
   // Keys alone, or an object: tracks of one kind only.
@@ -135,7 +141,7 @@ class TrackShapes {
                             values_.number,
                             values_.number,
                             {{"axis", values_.axis, "what the degrees turn about", true}, relative()},
-                            {{"oscillator", oscillator(values_.number, "degrees"), "swings"}}};
+                            functions.of_numbers("degrees", true)};
     struct Spelled {
       const Shape *list, *object;
     };
@@ -151,7 +157,7 @@ class TrackShapes {
     shape.select = [=](const JsonValue& value) -> const Shape* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
-      if (!list && (value.find("axis") || value.find("oscillator"))) return in_degrees;
+      if (!list && (value.find("axis") || has_function(value))) return in_degrees;
       const JsonValue* first = first_key_value(value);
       const Spelled& spelled = first && first->find("quat")    ? in_quat
                                : first && first->find("angle") ? in_axis_angle
@@ -198,13 +204,12 @@ class TrackShapes {
                            values_.number,
                            values_.number,
                            {kind_field("number", false)},
-                           {{"oscillator", oscillator(values_.number, "the value's unit"), "swings"}}};
+                           functions.of_numbers("the value's unit", true)};
     const TrackKind swinging{"swinging-vector",
                              values_.vector,
                              values_.vector,
                              {kind_field("vector", false)},
-                             {{"oscillator", oscillator(values_.vector, "the value's unit"), "swings"},
-                              {"projectile", projectile(), "a thrown body's way"}}};
+                             functions.of_places("the value's unit")};
     const TrackKind color{"user-color", values_.color, values_.vector_4, {kind_field("color", false), space(), hue()}};
     const TrackKind truth{"switch", values_.boolean, nullptr, {kind_field("switch", false)}};
     const TrackKind text{"text", store_.add(plain_text), nullptr};
@@ -222,16 +227,18 @@ class TrackShapes {
       shape.alternatives.push_back(made.back().object);
     };
     add("number", number);
-    add("vector-2", {"vector-2", values_.vector_2, values_.vector_2, {kind_field("vector", false)}});
+    add("vector-2",
+        {"vector-2", values_.vector_2, values_.vector_2, {kind_field("vector", false)}, functions.of_vectors(2)});
     add("vector-3", swinging);
-    add("vector-4", {"vector-4", values_.vector_4, values_.vector_4, {kind_field("vector", false)}});
+    add("vector-4",
+        {"vector-4", values_.vector_4, values_.vector_4, {kind_field("vector", false)}, functions.of_vectors(4)});
     add("color", color);
     add("switch", truth);
     add("text", text);
     add("said-text", said_text);
 
     // Stands in where the kind's word is none.
-    const Shape* unknown = store_.add(object_of(
+    Shape any_track = object_of(
         "a track", {{"kind", store_.add(words_of("a kind of value", {"number", "vector", "color", "switch", "text"})),
                      "kind of value"},
                     {"keys", values_.any, ""},
@@ -239,15 +246,14 @@ class TrackShapes {
                     {"after", outside_, ""},
                     {"ends", ends_, ""},
                     {"space", values_.any, ""},
-                    {"hue", values_.any, ""},
-                    {"oscillator", values_.any, ""},
-                    {"projectile", values_.any, ""}}));
+                    {"hue", values_.any, ""}});
+    for (const std::string& name : FunctionShapes::names()) any_track.fields.push_back({name, values_.any, ""});
+    any_track.fields.push_back({"parameters", values_.any, ""});
+    const Shape* unknown = store_.add(std::move(any_track));
     shape.select = [made, unknown](const JsonValue& value) -> const Shape* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
       const JsonValue* first = first_key_value(value);
-      const JsonValue* oscillator = value.find("oscillator");
-      const JsonValue* amplitude = oscillator ? oscillator->find("amplitude") : nullptr;
       std::string kind;
       if (const JsonValue* said = value.find("kind")) {
         kind = said->is(JsonValue::Kind::text) ? said->text : "";
@@ -271,10 +277,11 @@ class TrackShapes {
             break;
         }
       } else {
-        kind = (amplitude && amplitude->is(JsonValue::Kind::list)) || value.find("projectile") ? "vector" : "number";
+        kind = is_vector_function(value) ? "vector" : "number";
       }
       if (kind == "vector") {
-        const std::size_t size = first ? first->items.size() : 3;
+        const JsonValue* expressions = value.find("expression");
+        const std::size_t size = first ? first->items.size() : expressions ? expressions->items.size() : 3;
         kind = size == 2 ? "vector-2" : size == 4 ? "vector-4" : "vector-3";
       }
       for (const Made& each : made)
@@ -303,6 +310,8 @@ class TrackShapes {
             "\"linear\""};
   }
 
+  const FunctionShapes functions;
+
  private:
   const Shape* share() {
     if (!share_) {
@@ -322,7 +331,6 @@ class TrackShapes {
   const Shape* outside_ = nullptr;
   const Shape* ends_ = nullptr;
   const Shape* share_ = nullptr;
-  const Shape* projectile_ = nullptr;
   const Shape* space_ = nullptr;
   const Shape* hue_ = nullptr;
 };
@@ -332,20 +340,14 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   Shape tracks = object_of("an object with tracks by name", {});
   tracks.definition = "tracks";
   tracks.one_a_line = true;
-  tracks.endings = {{".position", make.either({"position",
-                                               values.vector,
-                                               values.vector,
-                                               {make.relative()},
-                                               {{"oscillator", make.oscillator(values.vector, "m"), "swings"},
-                                                {"projectile", make.projectile(), "a thrown body's way"}}})},
-                    {".rotation", make.rotation()},
-                    {".scale", make.either({"scale",
-                                            values.scale,
-                                            values.scale,
-                                            {make.relative(), make.mix()},
-                                            {{"oscillator", make.oscillator(values.vector, "factors"), "swings"}}})},
-                    {".color", make.either({"color", values.color, values.vector_4, {make.space(), make.hue()}})},
-                    {".weights", make.either({"weights", values.numbers, values.numbers, {}})}};
+  tracks.endings = {
+      {".position",
+       make.either({"position", values.vector, values.vector, {make.relative()}, make.functions.of_places("m")})},
+      {".rotation", make.rotation()},
+      {".scale",
+       make.either({"scale", values.scale, values.scale, {make.relative(), make.mix()}, make.functions.of_scales()})},
+      {".color", make.either({"color", values.color, values.vector_4, {make.space(), make.hue()}})},
+      {".weights", make.either({"weights", values.numbers, values.numbers, {}})}};
   tracks.others = make.user();
   tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
   tracks.name_fault = [](std::string_view name) -> std::string {

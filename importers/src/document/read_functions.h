@@ -2,18 +2,23 @@
 
 // Functions that stand in place of keys, and what happens outside keys.
 
+#include <tweenfall/anim/track.h>
 #include <tweenfall/curves/keys.h>
 
-#include "json/json_text.h"
+#include "document/problems.h"
 
 #include <optional>
 
 namespace tweenfall::document {
 
-// Amplitude and center of `oscillator` times `unit`.
-[[nodiscard]] Curve<double> read_oscillator(const JsonValue& oscillator, double unit);
-[[nodiscard]] Curve<Vec3> read_vector_oscillator(const JsonValue& oscillator);
-[[nodiscard]] Curve<Vec3> read_projectile(const JsonValue& projectile);
+// What a track has instead of keys.
+[[nodiscard]] bool has_function(const JsonValue& track);
+
+// Such a track's curve: a number, or a vector. Empty where it is faulty, which then is noted.
+[[nodiscard]] std::optional<TrackCurve> read_function(const JsonValue& track, Problems& problems);
+
+// The same for an angle about an axis, in radians.
+[[nodiscard]] std::optional<Curve<double>> read_angle_function(const JsonValue& track, Problems& problems);
 
 [[nodiscard]] Outside outside_of(const JsonValue& track, std::string_view side);  // "before" or "after"
 

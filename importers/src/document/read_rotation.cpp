@@ -60,8 +60,8 @@ class RotationTrack {
   std::optional<Curve<Quat>> about_axis() {
     const std::optional<Vec3> axis = axis_of(*usable(track_, "axis"), problems_);
     std::optional<Curve<double>> angle;
-    if (const JsonValue* function = usable(track_, "oscillator"))
-      angle = read_oscillator(*function, radians(1));
+    if (has_function(track_))
+      angle = read_angle_function(track_, problems_);
     else if (list_)
       angle = degrees_curve([](const JsonValue& value) { return &value; }, {});
     if (!axis || !angle) return {};

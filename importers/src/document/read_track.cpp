@@ -1,5 +1,6 @@
 #include "document/read_track.h"
 
+#include <tweenfall/curves/functions.h>
 #include <tweenfall/importers/number_text.h>
 
 #include "document/read_functions.h"
@@ -50,12 +51,7 @@ class TrackReader {
 
   std::optional<TrackCurve> read(const std::string& property) {
     if (property == "rotation") return made(read_rotation_track(track_, times_, problems_));
-    if (const JsonValue* function = usable(track_, "projectile")) return TrackCurve(read_projectile(*function));
-    if (const JsonValue* function = usable(track_, "oscillator")) {
-      const JsonValue* amplitude = usable(*function, "amplitude");
-      if (amplitude && amplitude->is(Kind::list)) return TrackCurve(read_vector_oscillator(*function));
-      return TrackCurve(read_oscillator(*function, 1));
-    }
+    if (has_function(track_)) return function(property);
     if (!list_ || list_->items.empty()) return {};
     if (property == "position") return keyed(reader_of<Vec3>(vector_of));
     if (property == "scale") return scale();
@@ -68,6 +64,16 @@ class TrackReader {
   template <class T>
   static std::optional<TrackCurve> made(const std::optional<T>& curve) {
     return curve ? std::optional<TrackCurve>(*curve) : std::nullopt;
+  }
+
+  std::optional<TrackCurve> function(const std::string& property) {
+    const std::optional<TrackCurve> curve = read_function(track_, problems_);
+    // One number is for all three axes.
+    if (curve && property == "scale" && std::holds_alternative<Curve<double>>(*curve)) {
+      const Curve<double>& factor = std::get<Curve<double>>(*curve);
+      return TrackCurve(parametric(factor, factor, factor));
+    }
+    return curve;
   }
 
   template <class T>

@@ -2,7 +2,7 @@
 
 #include "support.h"
 
-#include <tweenfall/anim/nearest_name.h>
+#include <tweenfall/curves/nearest_name.h>
 
 using namespace tweenfall;
 

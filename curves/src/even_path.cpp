@@ -1,0 +1,71 @@
+#include <tweenfall/curves/functions.h>
+#include <tweenfall/curves/keys.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "arc_length_table.h"
+#include "components.h"
+
+namespace tweenfall {
+namespace {
+
+// The path's shape, over any parameter: a spline whose keys are as far apart in time as in space.
+Curve<Vec3> shape_of(const EvenPath& p) {
+  std::vector<Vec3> points = p.points;
+  if (points.size() < 2)
+    throw std::invalid_argument("a path needs at least two points; " + std::to_string(points.size()) + " given");
+  if (p.closed) points.push_back(points.front());
+  std::vector<Key<Vec3>> keys;
+  double along = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!all_finite(points[i]))
+      throw std::invalid_argument("point " + std::to_string(i) + " of a path must be finite; it is " +
+                                  text_of(points[i]));
+    if (i > 0) {
+      const double chord = (points[i] - points[i - 1]).norm();
+      if (!(along + chord > along) || !std::isfinite(along + chord))
+        throw std::invalid_argument("point " + std::to_string(i) + " of a path, " + text_of(points[i]) +
+                                    ", must be apart from the one before it, at a finite distance; it is " +
+                                    text_of(chord) + " m away" +
+                                    (p.closed && i + 1 == points.size() ? " (a closed path ends at its first)" : ""));
+      along += chord;
+    }
+    keys.push_back({.time = along, .value = points[i], .ease = p.ease});
+  }
+  return keyed_curve<Vec3>(keys, {.ends = p.closed ? Ends::wrap : Ends::secant});
+}
+
+}  // namespace
+
+Curve<Vec3> even_path(const EvenPath& settings) {
+  return even_path(shape_of(settings), settings.duration);
+}
+
+Curve<Vec3> even_path(const Curve<Vec3>& shape, double duration) {
+  if (!(duration > 0) || !std::isfinite(duration))
+    throw std::invalid_argument("a path's duration must be finite and > 0 s; it is " + text_of(duration));
+  if (!(shape.duration() > 0) || !std::isfinite(shape.duration()))
+    throw std::invalid_argument("a path's shape must begin and end; it leads from " + text_of(shape.start()) +
+                                " s to " + text_of(shape.end()) + " s");
+  const auto table = std::make_shared<const ArcLengthTable>(shape);
+  const double length = table->length(), speed = length / duration;
+  if (!(length > 0) || !std::isfinite(length))
+    throw std::invalid_argument("a path's length must be finite and > 0 m; it is " + text_of(length));
+  return Curve<Vec3>(
+      [shape, table, speed, duration](double t, Side side) {
+        const bool arrived = t >= duration;
+        const double parameter = arrived ? shape.end() : table->parameter(speed * t);
+        const Sample<Vec3> s = shape.sample(parameter, arrived ? Side::in : side);
+        // By length l instead of the parameter: c' / |c'|, and of c'' what is across, over |c'|^2.
+        const double pace = s.rate.norm();
+        if (!(pace > 0)) return Sample<Vec3>{s.value, Vec3::Zero(), Vec3::Zero()};
+        const Vec3 tangent = s.rate / pace;
+        const Vec3 across = s.acceleration - s.acceleration.dot(tangent) * tangent;
+        const double ratio = speed / pace;
+        return Sample<Vec3>{s.value, speed * tangent, (ratio * ratio) * across};
+      },
+      0, duration);
+}
+
+}  // namespace tweenfall
