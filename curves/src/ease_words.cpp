@@ -41,7 +41,7 @@ constexpr CssWord css_words[] = {{"ease", 0.25, 0.1, 0.25, 1},
                                  {"ease-out", 0, 0, 0.58, 1},
                                  {"ease-in-out", 0.42, 0, 0.58, 1}};
 
-// The ten families; up to two numbers in a call, with the values they have in a plain word.
+// The families; up to two numbers in a call, with the values they have in a plain word.
 struct Family {
   std::string_view name;
   int numbers;
@@ -59,6 +59,7 @@ constexpr Family families[] = {
     {"circ", 0, {}, [](Numbers, Flow flow) { return shapes::circular(flow); }},
     {"back", 1, {1.70158}, [](Numbers n, Flow flow) { return shapes::back(n[0], flow); }},
     {"elastic", 2, {1, 0.3}, [](Numbers n, Flow flow) { return shapes::elastic(n[0], n[1], flow); }},
+    {"penner-elastic", 2, {1, 0.3}, [](Numbers n, Flow flow) { return shapes::penner_elastic(n[0], n[1], flow); }},
     {"bounce", 0, {}, [](Numbers, Flow flow) { return shapes::bounce(flow); }},
 };
 
@@ -137,7 +138,7 @@ std::optional<Ease> in_family(const Call& call) {
                   std::string(call.name) + (family.numbers == 1 ? "(overshoot)" : "(amplitude,period)"));
       std::array<double, 2> numbers = family.defaults;
       for (std::size_t i = 0; i < call.arguments.size(); ++i) numbers[i] = call.number(i);
-      if (family.numbers == 2 && !(numbers[0] >= 1))
+      if (family.name == "elastic" && !(numbers[0] >= 1))
         refuse("the amplitude of " + std::string(call.name) + " must be >= 1; it is " + number_text(numbers[0]));
       if (family.numbers == 2 && !(numbers[1] > 0))
         refuse("the period of " + std::string(call.name) + " must be > 0; it is " + number_text(numbers[1]));
@@ -206,7 +207,9 @@ std::vector<std::string> Ease::names() {
   for (const Family& family : families)
     for (const FlowWord& word : flows) result.push_back(std::string(family.name) + std::string(word.suffix));
   for (const FlowWord& word : flows) result.push_back("back" + std::string(word.suffix) + "(overshoot)");
-  for (const FlowWord& word : flows) result.push_back("elastic" + std::string(word.suffix) + "(amplitude,period)");
+  for (const std::string_view elastic : {"elastic", "penner-elastic"})
+    for (const FlowWord& word : flows)
+      result.push_back(std::string(elastic) + std::string(word.suffix) + "(amplitude,period)");
   for (const std::string_view form : call_forms) result.emplace_back(form);
   return result;
 }

@@ -1,10 +1,10 @@
 #include <tweenfall/curves/rotation.h>
 
+#include "bezier_span.h"
 #include "curve_data.h"
 #include "key_check.h"
 #include "keys_converted.h"
 #include "span_slopes.h"
-#include "time_bezier.h"
 
 namespace tweenfall {
 namespace {
@@ -62,6 +62,22 @@ RotationSpan blank(const Stretch& stretch, double start, double end) {
   return span;
 }
 
+// In the axes of the key's own rotation.
+Vec3 angular_slope(const std::optional<Tangent<Quat>>& tangent, const Quat& rotation, const Vec3& automatic,
+                   const Vec3& straight) {
+  if (!tangent) return automatic;
+  switch (tangent->kind) {
+    case TangentKind::given:
+      return rotation.conjugate() * tangent->rate;
+    case TangentKind::flat:
+      return Vec3::Zero();
+    case TangentKind::vector:
+      return straight;
+    default:
+      return automatic;
+  }
+}
+
 void append_shape(std::vector<RotationSpan>& spans, const Key<Quat>& from, double end, const Stretch& stretch) {
   const double duration = end - from.time;
   const std::vector<Ease::Piece> pieces = from.ease.pieces_for(duration);
@@ -111,23 +127,20 @@ Curve<Quat> rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& op
       span.degree = 1;
       span.coefficients[1] = padded(s.way);
     } else {
-      // Slopes are angular velocities in the axes of the key's own rotation; stated ones are in world axes.
-      const Vec3 zero = Vec3::Zero();
-      const Vec3 chosen_leaving(&slopes.leaving[3 * i]), chosen_arriving(&slopes.arriving[3 * i]);
-      const Vec3 leaving = s.from.conjugate() * stated<Quat>(a.out, Vec3(s.from * chosen_leaving), zero);
-      const Vec3 arriving = s.to.conjugate() * stated<Quat>(b.in, Vec3(s.to * chosen_arriving), zero);
+      // Slopes are angular velocities in the axes of the key's own rotation.
+      const Vec3 straight = (1 / span.duration) * s.way;
+      const Vec3 leaving = angular_slope(a.out, s.from, Vec3(&slopes.leaving[3 * i]), straight);
+      const Vec3 arriving = angular_slope(b.in, s.to, Vec3(&slopes.arriving[3 * i]), straight);
       const Vec4 d0 = padded(span.duration * leaving);
       const Vec4 d1 = padded(right_jacobian_inverse(s.way) * Vec3(span.duration * arriving));
       const Vec4 from = Vec4::Zero(), change = padded(s.way);
       constexpr double third = 1.0 / 3;
       const double w0 = a.out ? a.out->weight : third, w1 = b.in ? b.in->weight : third;
       span.degree = 3;
-      if (w0 == third && w1 == third) {
+      if (w0 == third && w1 == third)
         cubic_coefficients(from, change, d0, d1, span.coefficients.data());
-      } else {
-        bezier_coefficients(from, change, d0, w0, d1, w1, span.coefficients.data());
-        span.warp = time_bezier_warp(w0, 1 - w1);
-      }
+      else
+        fill_bezier(span, from, change, Vec4(w0 * d0), Vec4(w1 * d1), {w0, w1}, options.overlong);
     }
     spans.push_back(span);
   }

@@ -351,7 +351,7 @@ TEST_CASE("keys that cannot be a curve are refused with index, time and value") 
   refused({{0, not_a_number}}, "key 0");
   refused({{not_a_number, 1}}, "finite time");
   refused({{0, 1, Ease::linear(), {}, given(1)}, {1, 2}}, "one of them decides");
-  refused({{0, 1, Ease::smooth_clamped(), {}, given(1, 1.5)}, {1, 2}}, "weight 1.5");
+  refused({{0, 1, Ease::smooth_clamped(), {}, given(1, -0.5)}, {1, 2}}, "weight -0.5");
   refused({{0, 1, Ease::smooth_clamped(), {}, given(1, 0)}, {1, 2}}, "weight 0");
   CHECK_THROWS_WITH_AS(static_cast<void>(keyed_curve<Quat>({{0, Quat(0, 0, 0, 0)}})), doctest::Contains("key 0"),
                        std::invalid_argument);
