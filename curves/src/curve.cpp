@@ -94,13 +94,14 @@ Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
   return sample_segment<T>(d, i, 0);
 }
 
-// What leaves the last knot, or the first.
+// What arrives at the first knot, or leaves the last.
 template <class T, class Data>
 T end_value(const Data& d, bool early) noexcept {
+  const std::vector<T>& own = early ? d.initial : d.final;
+  if (!own.empty()) return own[0];
   const double end = early ? d.start : d.end;
-  if (d.rebuilt) return d.formula(end, early ? Side::out : Side::in).value;
-  if (!early && !d.final.empty()) return d.final[0];
-  return sample_inside<T>(d, end, early ? Side::out : Side::in).value;
+  const Side side = early ? Side::out : Side::in;
+  return d.rebuilt ? d.formula(end, side).value : sample_inside<T>(d, end, side).value;
 }
 
 // Outside the knots, by rules that go on for ever.
@@ -108,26 +109,24 @@ template <class T, class Data>
 Sample<T> sample_endless(const Data& d, double time, Side side) noexcept {
   if (d.rebuilt) return d.formula(time, side);
   const bool early = time < d.start || (time == d.start && side == Side::in);
-  const Outside rule = early ? d.before.rule : d.after.rule;
-  if (!early && !d.final.empty() && (rule == Outside::hold || rule == Outside::linear)) {
-    Sample<T> leaving = sample_inside<T>(d, d.end, Side::in);
-    leaving.value = d.final[0];
-    return rule == Outside::hold ? at_rest<T>(leaving.value) : straight_on(leaving, time - d.end);
-  }
-  return sample_outside<T>(rule, d.start, d.end, time, side,
-                           [&d](double t, Side s) { return sample_inside<T>(d, t, s); });
+  return sample_outside<T>(
+      early ? d.before.rule : d.after.rule, d.start, d.end, time, side,
+      [&d](double t, Side s) { return sample_inside<T>(d, t, s); },
+      [&d](bool first) { return end_value<T>(d, first); });
 }
 
 }  // namespace
 
 template <class T>
-Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final) {
+Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final,
+                                 const T* initial) {
   check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
   d.start = spans.front().start;
   d.end = end;
   if (final) d.final.push_back(*final);
+  if (initial) d.initial.push_back(*initial);
   if (!std::isfinite(end - d.start))
     throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
   d.knots.reserve(spans.size() + 1);
@@ -310,7 +309,7 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
 
 #define TWEENFALL_CURVE(T) \
   template class Curve<T>; \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*);
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*, const T*);
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)
 TWEENFALL_CURVE(Vec3)

@@ -50,6 +50,7 @@ struct Curve<T>::Data {
   std::vector<T> ends;      // values on arrival, one a segment
   std::vector<T> starts;    // rotations only: what the exponential multiplies
   std::vector<T> final;     // one value: what leaves the last knot, where that is not what arrives
+  std::vector<T> initial;   // one value: what arrives at the first knot, where that is not what leaves
   std::vector<Warp> warps;  // empty, or one a segment
 
   // Where to look for a time: entry b counts the knots in buckets below b, buckets being equal shares of the duration.
@@ -98,9 +99,10 @@ struct CurveAccess {
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
-  /// A curve of checked spans with its last knot given to the bit.
+  /// A curve of checked spans with its last knot given to the bit, and the values beyond its ends.
   template <class T>
-  static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final = nullptr);
+  static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final = nullptr,
+                             const T* initial = nullptr);
 
   /// A curve that another one is made into: it answers at all times, `rebuilt` makes it anew with other rules outside.
   template <class T>

@@ -58,7 +58,8 @@ Curve<double> handle_curve(std::span<const HandleKey> keys, const HandleOptions&
     const Key<double> pair[] = {{a.time, a.value, *a.ease}, {b.time, b.value}};
     for (const Span<double>& span : keyed_curve<double>(pair).spans()) spans.push_back(span);
   }
-  return CurveAccess::with_end_slopes(CurveAccess::from_spans<double>(spans, back.time, &back.value), ends);
+  return CurveAccess::with_end_slopes(CurveAccess::from_spans<double>(spans, back.time, &back.value, &front.value),
+                                      ends);
 }
 
 }  // namespace tweenfall
