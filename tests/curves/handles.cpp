@@ -1,5 +1,6 @@
 #include <tweenfall/curves/handles.h>
 
+#include <limits>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -208,4 +209,115 @@ TEST_CASE("handles lie where Blender puts them, and the curve through them is Bl
       }
     }
   }
+}
+
+TEST_CASE("an inserted key keeps the shape and has the handles that Blender gives it") {
+  for (const auto& file : test::vector_family("blender_insert"))
+    for (const auto& c : file["cases"]) {
+      CAPTURE(c["name"].get<std::string>());
+      const HandleOptions options{.overlong = Overlong::contain};
+      const std::vector<HandleKey> before = blender_keys(c["input"]["keys"], false);
+      const double at = c["input"]["insert"]["time"];
+      const std::vector<HandleKey> after = insert_key(before, at, options);
+      const Curve<double> a = handle_curve(before, options), b = handle_curve(after);
+      REQUIRE(after.size() == before.size() + 1);
+      CHECK(test::near(b.value(at), c["input"]["insert"]["value"].get<double>(), 2e-5));
+      const double size = std::max(1.0, test::largest(c["value"]));
+      for (std::size_t k = 0; k < c["t"].size(); ++k) {
+        const double t = c["t"][k];
+        CAPTURE(t);
+        CHECK(std::abs(a.value(t) - c["value"][k].get<double>()) <= 2e-5 * size);
+        CHECK(test::near(b.value(t), a.value(t), 1e-11));
+        CHECK(test::near(b.rate(t), a.rate(t), 1e-8));
+      }
+      const std::vector<HandleKey> theirs = blender_keys(c["keys_after"], false);
+      for (std::size_t i = 0; i < after.size(); ++i) {
+        CAPTURE(i);
+        CHECK(test::near(after[i].time, theirs[i].time, 2e-6));
+        // Blender shortens handles beyond their span only when it draws.
+        if (i > 0 && theirs[i].in.time >= theirs[i - 1].time) {
+          CHECK(test::near(after[i].in.time, theirs[i].in.time, 1e-5));
+          CHECK(std::abs(after[i].in.value - theirs[i].in.value) <= 2e-5 * size);
+        }
+        if (i + 1 < after.size() && theirs[i].out.time <= theirs[i + 1].time) {
+          CHECK(test::near(after[i].out.time, theirs[i].out.time, 1e-5));
+          CHECK(std::abs(after[i].out.value - theirs[i].out.value) <= 2e-5 * size);
+        }
+      }
+    }
+}
+
+TEST_CASE("a key inserted into random handles changes neither value, rate nor acceleration") {
+  test::Random random(8);
+  for (int n = 0; n < 100; ++n) {
+    std::vector<HandleKey> keys;
+    double t = random.between(-5, 5);
+    for (int i = 0; i < 4; ++i, t += random.between(0.5, 3)) {
+      HandleKey key{t, random.between(-4, 4)};
+      key.in = {TangentKind::given, t - random.between(0.1, 4), random.between(-4, 4)};
+      key.out = {TangentKind::given, t + random.between(0.1, 4), random.between(-4, 4)};
+      keys.push_back(key);
+    }
+    for (const Overlong rule : {Overlong::keep_ratio, Overlong::keep_start, Overlong::contain}) {
+      const HandleOptions options{.overlong = rule};
+      const Curve<double> before = handle_curve(keys, options);
+      const double at = random.between(before.start(), before.end());
+      const Curve<double> after = handle_curve(insert_key(keys, at, options));
+      for (int k = 1; k < 50; ++k) {
+        const double u = before.start() + k / 50.0 * before.duration();
+        const Sample<double> a = before.sample(u), b = after.sample(u);
+        // Where the tangent is vertical the slope is limited, in shares of another span.
+        if (std::abs(a.rate) > 1e3) continue;
+        CHECK(test::near(b.value, a.value, 1e-9));
+        CHECK(test::near(b.rate, a.rate, 1e-5 * (1 + a.rate * a.rate)));
+      }
+    }
+  }
+}
+
+TEST_CASE("keys go into held and straight spans too, but not into easings or beyond the ends") {
+  std::vector<HandleKey> keys = {
+      {0, 1, {}, {}, Ease::hold()}, {1, 3, {}, {}, Ease::linear()}, {2, 7, {}, {}, Ease::named("bounce-out")}, {3, 0}};
+  for (HandleKey& key : keys) key.in = key.out = {TangentKind::given, key.time, key.value};
+  CHECK(insert_key(keys, 0.5)[1].value == 1);
+  CHECK(insert_key(keys, 1.5)[2].value == 5);
+  CHECK(handle_curve(insert_key(keys, 0.5)).value(0.9) == 1);
+  CHECK(handle_curve(insert_key(keys, 1.5)).rate(1.7) == doctest::Approx(4));
+  CHECK(insert_key(keys, 2).size() == 4);
+  CHECK_THROWS_WITH_AS((void)insert_key(keys, 2.5), doctest::Contains("into the ease \"bounce-out\" that leaves key 2"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)insert_key(keys, 3.5), doctest::Contains("from 0 s to 3 s, not at 3.5 s"),
+                       std::invalid_argument);
+}
+
+TEST_CASE("handles that cannot be are refused with their key") {
+  const auto refused = [](std::vector<HandleKey> keys, const char* text) {
+    CHECK_THROWS_WITH_AS((void)handle_curve(keys), doctest::Contains(text), std::invalid_argument);
+  };
+  const auto at = [](double time, double value) { return Handle{TangentKind::given, time, value}; };
+  const double infinite = std::numeric_limits<double>::infinity();
+  refused({}, "at least one key");
+  refused({{0, 1, at(0, 1), at(0, 1)}, {0, 2, at(0, 1), at(0, 1)}}, "key 1 (time 0 s, value 2) must come after");
+  refused({{0, 1, at(0, 1), at(-1, 1)}, {1, 2, at(1, 2), at(1, 2)}},
+          "key 0 (time 0 s, value 1) has its handle \"out\" at -1 s");
+  refused({{0, 1, at(0, 1), at(0, infinite)}, {1, 2, at(1, 2), at(1, 2)}}, "non-finite handle (0, inf) in \"out\"");
+  CHECK_THROWS_WITH_AS((void)resolved({-1, 0.5}, Overlong::contain), doctest::Contains("must be >= 0; it is -1"),
+                       std::invalid_argument);
+}
+
+TEST_CASE("automatic handles join smoothly over a loop") {
+  for (const bool even : {false, true})
+    for (const TangentKind kind : {TangentKind::automatic, TangentKind::auto_clamped, TangentKind::plateau,
+                                   TangentKind::auto_chord, TangentKind::auto_mix, TangentKind::auto_ease}) {
+      std::vector<HandleKey> keys = {{0, 1}, {1, 2.5}, {1.7, 4}, {3, -1}, {4, 1}};
+      for (HandleKey& key : keys) key.in.kind = key.out.kind = kind;
+      const Curve<double> curve = handle_curve(keys, {.ends = Ends::wrap, .even_acceleration = even})
+                                      .with_outside(Outside::repeat, Outside::repeat);
+      CAPTURE(static_cast<int>(kind));
+      CHECK(curve.rate(4, Side::in) == doctest::Approx(curve.rate(4)).epsilon(1e-12));
+      CHECK(curve.rate(4) != 0);
+      if (even && kind == TangentKind::automatic)
+        for (const double t : {1.0, 1.7, 3.0, 4.0})
+          CHECK(curve.sample(t, Side::in).acceleration == doctest::Approx(curve.sample(t).acceleration).epsilon(1e-9));
+    }
 }

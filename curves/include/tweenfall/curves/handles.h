@@ -61,9 +61,11 @@ struct HandleOptions {
 /// @throws as placed_handles.
 [[nodiscard]] Curve<double> handle_curve(std::span<const HandleKey> keys, const HandleOptions& options = {});
 
-/// `keys`, placed, with one more at `time` that does not change the curve between the first and the last.
-/// At the time of a key nothing is added. @throws as placed_handles; std::invalid_argument when `time` lies outside
-/// the keys, or in a span with an ease other than `hold` and `linear`.
+/// `keys`, placed and with overlong handles as the rule leaves them, and one more at `time` that does not change the
+/// curve. At the time of a key nothing is added. What comes back may reach beyond its spans without time running
+/// backwards: it is the same curve by any rule but `contain`.
+/// @throws as placed_handles; std::invalid_argument when `time` lies outside the keys, or in a span with an ease other
+///         than `hold` and `linear`.
 [[nodiscard]] std::vector<HandleKey> insert_key(std::span<const HandleKey> keys, double time,
                                                 const HandleOptions& options = {});
 
