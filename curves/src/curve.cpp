@@ -116,16 +116,39 @@ Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
   return sample_segment<T>(d, i, s.position(time));
 }
 
+// What arrives at the first knot, or leaves the last.
+template <class T, class Data>
+T end_value(const Data& d, bool early) noexcept {
+  const std::vector<T>& own = early ? d.initial : d.final;
+  if (!own.empty()) return own[0];
+  const double end = early ? d.start : d.end;
+  const Side side = early ? Side::out : Side::in;
+  return d.rebuilt ? d.formula(end, side).value : sample_inside<T>(d, end, side).value;
+}
+
+// Outside the knots, by rules that go on for ever.
+template <class T, class Data>
+Sample<T> sample_endless(const Data& d, double time, Side side) noexcept {
+  if (d.rebuilt) return d.formula(time, side);
+  const bool early = time < d.start || (time == d.start && side == Side::in);
+  return sample_outside<T>(
+      early ? d.before.rule : d.after.rule, d.start, d.end, time, side,
+      [&d](double t, Side s) { return sample_inside<T>(d, t, s); },
+      [&d](bool first) { return end_value<T>(d, first); });
+}
+
 }  // namespace
 
 template <class T>
-Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final) {
+Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final,
+                                 const T* initial) {
   check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
   d.start = spans.front().start;
   d.end = end;
   if (final) d.final.push_back(*final);
+  if (initial) d.initial.push_back(*initial);
   if (!std::isfinite(end - d.start))
     throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
   d.knots.reserve(spans.size() + 1);
@@ -204,8 +227,18 @@ Curve<T>::Curve(Formula formula, double start, double end) {
 
 template <class T>
 Curve<T> Curve<T>::with_outside(Outside before, Outside after) const {
-  if (data_->rebuilt) return data_->rebuilt(before, after);
-  auto data = std::make_shared<Data>(*data_);
+  return with_outside(OutsideRule<T>{before}, OutsideRule<T>{after});
+}
+
+template <class T>
+Curve<T> Curve<T>::with_outside(const OutsideRule<T>& before, const OutsideRule<T>& after) const {
+  for (const OutsideRule<T>* rule : {&before, &after}) {
+    if (rule->slope && !all_finite(*rule->slope))
+      throw std::invalid_argument("the slope outside a curve must be finite; it is " + text_of(*rule->slope));
+    if (!(rule->plays >= 0) || !std::isfinite(rule->plays))
+      throw std::invalid_argument("the plays outside a curve must be >= 0; they are " + text_of(rule->plays));
+  }
+  auto data = std::make_shared<Data>(data_->rebuilt ? *data_->rebuilt(before.rule, after.rule).data_ : *data_);
   data->before = before;
   data->after = after;
   return Curve(std::shared_ptr<const Data>(std::move(data)));
@@ -223,11 +256,21 @@ double Curve<T>::end() const noexcept {
 
 template <class T>
 Outside Curve<T>::before() const noexcept {
-  return data_->before;
+  return data_->before.rule;
 }
 
 template <class T>
 Outside Curve<T>::after() const noexcept {
+  return data_->after.rule;
+}
+
+template <class T>
+const OutsideRule<T>& Curve<T>::rule_before() const noexcept {
+  return data_->before;
+}
+
+template <class T>
+const OutsideRule<T>& Curve<T>::rule_after() const noexcept {
   return data_->after;
 }
 
@@ -239,18 +282,25 @@ std::span<const double> Curve<T>::knots() const noexcept {
 template <class T>
 Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
   const Data& d = *data_;
-  if (d.rebuilt) return d.formula(time, side);
   if ((time > d.start || (time == d.start && side == Side::out)) &&
       (time < d.end || (time == d.end && side == Side::in)))
-    return sample_inside<T>(d, time, side);
+    return d.rebuilt ? d.formula(time, side) : sample_inside<T>(d, time, side);
   const bool early = time < d.start || (time == d.start && side == Side::in);
-  if (!early && !d.final.empty() && (d.after == Outside::hold || d.after == Outside::linear)) {
-    Sample<T> leaving = sample_inside<T>(d, d.end, Side::in);
-    leaving.value = d.final[0];
-    return d.after == Outside::hold ? at_rest<T>(leaving.value) : straight_on(leaving, time - d.end);
+  const OutsideRule<T>& rule = early ? d.before : d.after;
+  if (rule.rule == Outside::linear) {
+    const std::optional<Rate<T>>& slope = rule.slope ? rule.slope : early ? d.end_slopes.before : d.end_slopes.after;
+    if (slope) {
+      const double end = early ? d.start : d.end;
+      return straight_on(Sample<T>{end_value<T>(d, early), *slope, zero_rate<Rate<T>>()}, time - end);
+    }
+  } else if (rule.rule != Outside::hold && rule.plays > 0) {
+    const double beyond = rule.plays * (d.end - d.start);
+    const double last = early ? d.start - beyond : d.end + beyond;
+    const bool over =
+        early ? time < last || (time == last && side == Side::in) : time > last || (time == last && side == Side::out);
+    if (over) return at_rest<T>(sample_endless<T>(d, last, early ? Side::out : Side::in).value);
   }
-  return sample_outside<T>(early ? d.before : d.after, d.start, d.end, time, side,
-                           [&d](double t, Side s) { return sample_inside<T>(d, t, s); });
+  return sample_endless<T>(d, time, side);
 }
 
 template <class T>
@@ -298,7 +348,7 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
 
 #define TWEENFALL_CURVE(T) \
   template class Curve<T>; \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*);
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*, const T*);
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)
 TWEENFALL_CURVE(Vec3)

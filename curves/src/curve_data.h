@@ -25,6 +25,12 @@ struct Stored<Quat> {
   using type = Vec4;
 };
 
+/// The slopes at which a curve goes on beyond its ends where they are not those of the ends themselves.
+template <class T>
+struct EndSlopes {
+  std::optional<Rate<T>> before{}, after{};
+};
+
 struct Segment {
   double start, duration, inverse;
   std::uint32_t first;  // index of coefficient 0 in the pool
@@ -38,7 +44,8 @@ struct Segment {
 
 template <class T>
 struct Curve<T>::Data {
-  Outside before = Outside::hold, after = Outside::hold;
+  OutsideRule<T> before, after;
+  EndSlopes<T> end_slopes;
   double start = 0, end = 0;
 
   std::vector<double> knots;
@@ -47,6 +54,7 @@ struct Curve<T>::Data {
   std::vector<T> ends;      // values on arrival, one a segment
   std::vector<T> starts;    // rotations only: what the exponential multiplies
   std::vector<T> final;     // one value: what leaves the last knot, where that is not what arrives
+  std::vector<T> initial;   // one value: what arrives at the first knot, where that is not what leaves
   std::vector<Warp> warps;  // empty, or one a segment
   std::vector<Vec3> spins;  // rotations only: empty, or one a segment
 
@@ -97,9 +105,17 @@ struct CurveAccess {
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
-  /// A curve of checked spans with its last knot given to the bit.
   template <class T>
-  static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final = nullptr);
+  static Curve<T> with_end_slopes(const Curve<T>& curve, const EndSlopes<T>& slopes) {
+    auto data = std::make_shared<typename Curve<T>::Data>(*curve.data_);
+    data->end_slopes = slopes;
+    return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
+  }
+
+  /// A curve of checked spans with its last knot given to the bit, and the values beyond its ends.
+  template <class T>
+  static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final = nullptr,
+                             const T* initial = nullptr);
 
   /// A formula between knots, with the usual rules outside.
   template <class T>
@@ -123,8 +139,8 @@ struct CurveAccess {
     data->start = start;
     data->end = end;
     data->knots.assign(knots.begin(), knots.end());
-    data->before = before;
-    data->after = after;
+    data->before.rule = before;
+    data->after.rule = after;
     data->rebuilt = std::move(rebuilt);
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }

@@ -77,6 +77,11 @@ constexpr Family families[] = {
      2,
      {1, 0.3},
      [](Numbers n, Flow flow) { return shapes::elastic(n[0], n[1], flow); }},
+    {"penner-elastic",
+     "(amplitude,period)",
+     2,
+     {1, 0.3},
+     [](Numbers n, Flow flow) { return shapes::penner_elastic(n[0], n[1], flow); }},
     {"bounce", "", 0, {}, [](Numbers, Flow flow) { return shapes::bounce(flow); }},
 };
 
@@ -160,7 +165,7 @@ std::optional<Ease> in_family(const Call& call) {
       call.expect(1, static_cast<std::size_t>(family.numbers), std::string(call.name) + std::string(family.form));
       std::array<double, 2> numbers = family.defaults;
       for (std::size_t i = 0; i < call.arguments.size(); ++i) numbers[i] = call.number(i);
-      if (family.numbers == 2 && !(numbers[0] >= 1))
+      if (family.name == "elastic" && !(numbers[0] >= 1))
         refuse("the amplitude of " + std::string(call.name) + " must be >= 1; it is " + number_text(numbers[0]));
       if (family.numbers == 2 && !(numbers[1] > 0))
         refuse("the period of " + std::string(call.name) + " must be > 0; it is " + number_text(numbers[1]));

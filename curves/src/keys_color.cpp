@@ -55,7 +55,7 @@ void convert_tangent(std::optional<Tangent<Vec4>>& result, const std::optional<T
                      const Color& color, const Vec4& coordinates, ColorSpace space) {
   if (!tangent) return;
   result.emplace();
-  result->kind = static_cast<Tangent<Vec4>::Kind>(tangent->kind);
+  result->kind = tangent->kind;
   result->weight = tangent->weight;
   Sample<Vec4> s = to_space(Sample<Color>{color, tangent->rate, Vec4::Zero()}, space);
   const int hue = hue_index(space);
@@ -90,6 +90,7 @@ Curve<Color> color_curve(std::span<const Key<Color>> keys, const KeyOptions& opt
   }
   KeyOptions inner_options;
   inner_options.ends = options.ends;
+  inner_options.overlong = options.overlong;
   return seen_through_keys<Color>(keyed_curve<Vec4>(std::span<const Key<Vec4>>(inner), inner_options),
                                   std::make_shared<const KeyPins<Color>>(keys),
                                   [space, hue](const Sample<Vec4>& s) { return from_space(divided(s, hue), space); });

@@ -1,9 +1,10 @@
 #include <tweenfall/curves/rotation.h>
 
+#include "bezier_span.h"
 #include "curve_data.h"
 #include "key_check.h"
 #include "keys_converted.h"
-#include "time_bezier.h"
+#include "span_slopes.h"
 #include "turn_rule.h"
 
 namespace tweenfall {
@@ -121,14 +122,29 @@ RotationSpan at_rest_span(const Stretch& stretch) {
   return span;
 }
 
-// The cubic of rotation vectors with given slopes: angular velocities in the axes of the key's own rotation where
-// they are chosen, in outer axes where they are stated.
+// In the axes of the key's own rotation.
+Vec3 angular_slope(const std::optional<Tangent<Quat>>& tangent, const Quat& rotation, const Vec3& automatic,
+                   const Vec3& straight) {
+  if (!tangent) return automatic;
+  switch (tangent->kind) {
+    case TangentKind::given:
+      return rotation.conjugate() * tangent->rate;
+    case TangentKind::flat:
+      return Vec3::Zero();
+    case TangentKind::vector:
+      return straight;
+    default:
+      return automatic;
+  }
+}
+
+// The cubic of rotation vectors with given slopes: angular velocities in the axes of the key's own rotation.
 RotationSpan hermite_span(const Key<Quat>& a, const Key<Quat>& b, const Stretch& s, const Vec3& chosen_leaving,
-                          const Vec3& chosen_arriving) {
+                          const Vec3& chosen_arriving, Overlong overlong) {
   RotationSpan span = blank_span(s);
-  const Vec3 zero(0, 0, 0);
-  const Vec3 leaving = s.from.conjugate() * stated<Quat>(a.out, Vec3(s.from * chosen_leaving), zero);
-  const Vec3 arriving = s.to.conjugate() * stated<Quat>(b.in, Vec3(s.to * chosen_arriving), zero);
+  const Vec3 straight = (s.way + s.spin) / s.duration;
+  const Vec3 leaving = angular_slope(a.out, s.from, chosen_leaving, straight);
+  const Vec3 arriving = angular_slope(b.in, s.to, chosen_arriving, straight);
   constexpr double third = 1.0 / 3;
   const double w0 = a.out ? a.out->weight : third, w1 = b.in ? b.in->weight : third;
   const bool plain = w0 == third && w1 == third;
@@ -138,12 +154,10 @@ RotationSpan hermite_span(const Key<Quat>& a, const Key<Quat>& b, const Stretch&
   const Vec4 d1 = padded(right_jacobian_inverse(s.way) * Vec3(s.duration * arriving - share1 * s.spin));
   const Vec4 from(0, 0, 0, 0), change = padded(s.way);
   span.degree = 3;
-  if (plain) {
+  if (plain)
     cubic_coefficients(from, change, d0, d1, span.coefficients.data());
-  } else {
-    bezier_coefficients(from, change, d0, w0, d1, w1, span.coefficients.data());
-    span.warp = time_bezier_warp(w0, 1 - w1);
-  }
+  else
+    fill_bezier(span, from, change, Vec4(w0 * d0), Vec4(w1 * d1), {w0, w1}, overlong);
   return span;
 }
 
@@ -180,7 +194,7 @@ Curve<Quat> rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& op
         break;
       case SpanKind::cubic:
         spans.push_back(hermite_span(keys[i], keys[i + 1], stretches[i], Vec3(&slopes.leaving[3 * i]),
-                                     Vec3(&slopes.arriving[3 * i])));
+                                     Vec3(&slopes.arriving[3 * i]), options.overlong));
         break;
     }
     ++i;

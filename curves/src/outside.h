@@ -43,16 +43,19 @@ Sample<T> offset_by_plays(const Sample<T>& sample, const T& start, const T& end,
   }
 }
 
-// Beyond the ends by `rule`; `inside(time, side)` answers from start to end.
-template <class T, class Inside>
-Sample<T> sample_outside(Outside rule, double start, double end, double time, Side side,
-                         const Inside& inside) noexcept {
+// Beyond the ends by `rule`; `inside(time, side)` answers from start to end, and `end_value(early)` with the values
+// that arrive at the first knot and leave the last one.
+template <class T, class Inside, class EndValue>
+Sample<T> sample_outside(Outside rule, double start, double end, double time, Side side, const Inside& inside,
+                         const EndValue& end_value) noexcept {
   const bool early = time < start || (time == start && side == Side::in);
   const double duration = end - start;
-  if (rule == Outside::hold || !(duration > 0))
-    return at_rest<T>(early ? inside(start, Side::out).value : inside(end, Side::in).value);
-  if (rule == Outside::linear)
-    return early ? straight_on(inside(start, Side::out), time - start) : straight_on(inside(end, Side::in), time - end);
+  if (rule == Outside::hold || !(duration > 0)) return at_rest<T>(end_value(early));
+  if (rule == Outside::linear) {
+    Sample<T> from = early ? inside(start, Side::out) : inside(end, Side::in);
+    from.value = end_value(early);
+    return straight_on(from, time - (early ? start : end));
+  }
 
   // time = start + plays * duration + local, 0 <= local < duration; the remainder is exact.
   double local = std::fmod(time - start, duration);
@@ -78,7 +81,7 @@ Sample<T> sample_outside(Outside rule, double start, double end, double time, Si
   }
   const Sample<T> s = inside(arriving ? end : start + local, side);
   if (rule != Outside::repeat_offset) return s;
-  return offset_by_plays(s, inside(start, Side::out).value, inside(end, Side::in).value, plays);
+  return offset_by_plays(s, end_value(true), end_value(false), plays);
 }
 
 }  // namespace tweenfall

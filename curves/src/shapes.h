@@ -42,6 +42,7 @@ Warp::Result reversed(double u, const std::array<double, 4>& parameters) noexcep
 [[nodiscard]] Pieces circular(Flow flow);
 [[nodiscard]] Pieces back(double overshoot, Flow flow);
 [[nodiscard]] Pieces elastic(double amplitude, double period, Flow flow);
+[[nodiscard]] Pieces penner_elastic(double amplitude, double period, Flow flow);
 [[nodiscard]] Pieces bounce(Flow flow);
 [[nodiscard]] Pieces bezier(double x1, double y1, double x2, double y2);
 /// @param jump  "jump-start", "jump-end", "jump-none", "jump-both"

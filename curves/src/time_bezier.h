@@ -6,8 +6,8 @@
 
 namespace tweenfall {
 
-/// Warp with parameters {x1, x2}: the handles' times as shares of the span, both in 0 to 1, so that
-/// time never runs backwards. Where the tangent is vertical the slope is limited to a million.
+/// Warp with parameters {x1, x2}: the handles' times as shares of the span, such that time never runs
+/// backwards (they may lie outside 0 to 1). Where the tangent is vertical the slope is limited to a million.
 [[nodiscard]] Warp time_bezier_warp(double x1, double x2);
 
 /// Whether a warp is one of these; its parameters then begin with x1 and x2.

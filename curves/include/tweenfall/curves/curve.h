@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,18 @@ enum class Outside {
   repeat,         ///< the curve again
   repeat_offset,  ///< the curve again, starting from where it ended
   pingpong,       ///< the curve backwards, then forwards, ...
+};
+
+/// The same in full, for one end of a curve of values `T`.
+template <class T>
+struct OutsideRule {
+  Outside rule = Outside::hold;
+  /// For `linear`: the rate to go on at, U/s. Without it that of the end, or of the handle that the end's key has on
+  /// its outer side.
+  std::optional<Rate<T>> slope{};
+  /// For `repeat`, `repeat_offset` and `pingpong`: how often the curve plays beyond this end, and then rests where it
+  /// got to; 0 is for ever. Need not be a whole number.
+  double plays = 0;
 };
 
 struct CurveAccess;
@@ -49,12 +62,16 @@ class Curve {
 
   /// The same curve with other rules outside its knots.
   [[nodiscard]] Curve with_outside(Outside before, Outside after) const;
+  /// @throws std::invalid_argument for a non-finite slope or plays not >= 0.
+  [[nodiscard]] Curve with_outside(const OutsideRule<T>& before, const OutsideRule<T>& after) const;
 
   [[nodiscard]] double start() const noexcept;  ///< first knot, s; -infinity for an endless formula, 0 for a constant
   [[nodiscard]] double end() const noexcept;    ///< last knot, s
   [[nodiscard]] double duration() const noexcept { return end() - start(); }
   [[nodiscard]] Outside before() const noexcept;
   [[nodiscard]] Outside after() const noexcept;
+  [[nodiscard]] const OutsideRule<T>& rule_before() const noexcept;
+  [[nodiscard]] const OutsideRule<T>& rule_after() const noexcept;
 
   /// Knots in order, s; empty for a constant or a formula. A curve seen through a conversion (a color mixed in
   /// another space, a logarithmic scale, angles as a rotation) has the knots of the curve it is made of.
