@@ -112,9 +112,12 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
   double sign = 1;
   const bool early = time < d.start || (time == d.start && side == Side::in);
   if (early || time > d.end || (time == d.end && side == Side::out)) {
-    const Outside rule = early ? d.before : d.after;
+    const OutsideRule<T>& outside = early ? d.before : d.after;
+    const Outside rule = outside.rule;
     if (rule == Outside::hold || rule == Outside::linear) return zero<T>();
     const double duration = d.end - d.start;
+    const double beyond = early ? d.start - time : time - d.end;
+    if (outside.plays > 0 && beyond > outside.plays * duration) return zero<T>();
     double local = std::fmod(time - d.start, duration);
     if (local < 0) local += duration;
     double plays = std::floor((time - d.start - local) / duration + 0.5);

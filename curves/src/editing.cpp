@@ -59,14 +59,14 @@ Curve<T> joined(const Curve<T>& first, const Curve<T>& second) {
                  return (early ? first : second).sample(time, side);
                },
                first.start(), second.end(), knots)
-        .with_outside(first.before(), second.after());
+        .with_outside(first.rule_before(), second.rule_after());
   }
   more.front().start = seam;
   spans.insert(spans.end(), more.begin(), more.end());
   const T final = second.value(second.end(), Side::out);
   const bool holds = second.after() == Outside::hold;
   return CurveAccess::from_spans<T>(spans, second.end(), holds ? &final : nullptr)
-      .with_outside(first.before(), second.after());
+      .with_outside(first.rule_before(), second.rule_after());
 }
 
 template <class T>
@@ -87,7 +87,7 @@ Curve<T> with_knot(const Curve<T>& curve, double time) {
   const T final = curve.value(curve.end(), Side::out);
   const bool holds = curve.after() == Outside::hold;
   return CurveAccess::from_spans<T>(spans, curve.end(), holds ? &final : nullptr)
-      .with_outside(curve.before(), curve.after());
+      .with_outside(curve.rule_before(), curve.rule_after());
 }
 
 template <class T>
@@ -116,7 +116,7 @@ Curve<T> without_redundant_knots(const Curve<T>& curve, double tolerance) {
   const T final = curve.value(curve.end(), Side::out);
   const bool holds = curve.after() == Outside::hold;
   return CurveAccess::from_spans<T>(kept, curve.end(), holds ? &final : nullptr)
-      .with_outside(curve.before(), curve.after());
+      .with_outside(curve.rule_before(), curve.rule_after());
 }
 
 #define TWEENFALL_EDITING(T)                                                \

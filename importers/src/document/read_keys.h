@@ -18,7 +18,7 @@ template <class T>
 struct KeyReader {
   std::function<std::optional<T>(const JsonValue&)> value;
   std::function<std::optional<Rate<T>>(const JsonValue& rate, const T& value)> rate;
-  double unit = 1;  // what slopes written in an ease are multiplied by
+  double unit = 1;                                   // what slopes written in an ease are multiplied by
   std::function<Turn(const JsonValue& key)> turn{};  // rotations only
 };
 

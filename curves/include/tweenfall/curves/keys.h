@@ -46,8 +46,8 @@ struct Turn {
   /// `along` is the way that turns positively about `axis`: counterclockwise for who looks against the axis.
   enum class Way { shorter, longer, along };
   Way way = Way::shorter;
-  int whole_turns = 0;   ///< added in the direction of the way; negative: taken off it
-  Vec3 axis{0, 0, 0};    ///< outer axes; read for `along`, and for whole turns between equal rotations
+  int whole_turns = 0;  ///< added in the direction of the way; negative: taken off it
+  Vec3 axis{0, 0, 0};   ///< outer axes; read for `along`, and for whole turns between equal rotations
 
   bool operator==(const Turn&) const = default;
 };
@@ -58,8 +58,8 @@ struct Key {
   T value;                             ///< rotations need not be normalized
   Ease ease = Ease::smooth_clamped();  ///< how the curve leaves this key
   std::optional<Tangent<T>> in{},
-      out{};  ///< slopes; a span is Hermite when the key it leaves has `out` or the one it reaches has `in`. Outside::linear
-              ///< goes on at a given or flat slope of the first key's `in` and the last key's `out`
+      out{};  ///< slopes; a span is Hermite when the key it leaves has `out` or the one it reaches has `in`.
+              ///< Outside::linear goes on at a given or flat slope of the first key's `in` and the last key's `out`
   std::optional<T> value_in{};  ///< the value arriving, where the curve jumps
   Turn turn{};                  ///< rotations only: the way to the next key
 };
