@@ -31,6 +31,7 @@ class TrackShapes {
   TrackShapes(ShapeStore& store, const ValueShapes& values) : store_(store), values_(values) {
     outside_ = store_.add(
         words_of("what happens outside the keys", {"hold", "linear", "repeat", "repeat-offset", "pingpong"}));
+    ends_ = store_.add(words_of("an end of automatic slopes", {"secant", "flat", "wrap"}));
   }
 
   const Shape* keys(const TrackKind& kind) {
@@ -75,6 +76,7 @@ class TrackShapes {
     if (kind.rate) {
       shape.fields.push_back({"before", outside_, "before the first key", false, "\"hold\""});
       shape.fields.push_back({"after", outside_, "after the last key", false, "\"hold\""});
+      shape.fields.push_back({"ends", ends_, "what automatic slopes assume there", false, "\"secant\""});
     }
     std::vector<std::string> sources = {"keys"};
     shape.fields.push_back({"keys", keys, "the keys, in order of time"});
@@ -84,6 +86,7 @@ class TrackShapes {
       // A function has no outside.
       shape.together.push_back(at_most_one({"before", function.name}));
       shape.together.push_back(at_most_one({"after", function.name}));
+      shape.together.push_back(at_most_one({"ends", function.name}));
     }
     shape.together.insert(shape.together.begin(), exactly_one(std::move(sources)));
     return store_.add(std::move(shape));
@@ -208,6 +211,7 @@ class TrackShapes {
                     {"keys", values_.any, ""},
                     {"before", outside_, ""},
                     {"after", outside_, ""},
+                    {"ends", ends_, ""},
                     {"space", values_.any, ""},
                     {"hue", values_.any, ""},
                     {"oscillator", values_.any, ""},
@@ -289,6 +293,7 @@ class TrackShapes {
   ShapeStore& store_;
   const ValueShapes& values_;
   const Shape* outside_ = nullptr;
+  const Shape* ends_ = nullptr;
   const Shape* share_ = nullptr;
   const Shape* projectile_ = nullptr;
   const Shape* space_ = nullptr;

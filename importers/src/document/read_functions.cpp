@@ -51,4 +51,9 @@ Outside outside_of(const JsonValue& track, std::string_view side) {
   return Outside::hold;
 }
 
+Ends ends_of(const JsonValue& track) {
+  const std::string word = text_in(track, "ends", "secant");
+  return word == "flat" ? Ends::flat : word == "wrap" ? Ends::wrap : Ends::secant;
+}
+
 }  // namespace tweenfall::document

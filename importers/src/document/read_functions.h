@@ -2,7 +2,7 @@
 
 // Functions that stand in place of keys, and what happens outside keys.
 
-#include <tweenfall/curves/curve.h>
+#include <tweenfall/curves/keys.h>
 
 #include "json/json_text.h"
 
@@ -16,6 +16,8 @@ namespace tweenfall::document {
 [[nodiscard]] Curve<Vec3> read_projectile(const JsonValue& projectile);
 
 [[nodiscard]] Outside outside_of(const JsonValue& track, std::string_view side);  // "before" or "after"
+
+[[nodiscard]] Ends ends_of(const JsonValue& track);
 
 template <class T>
 [[nodiscard]] Curve<T> with_outside_of(const JsonValue& track, const Curve<T>& curve) {

@@ -90,7 +90,7 @@ class RotationTrack {
       return radians(along);
     };
     reader.unit = radians(1);
-    return read_keys<double>(*list_, times_, reader, {}, problems_);
+    return read_keys<double>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
   }
 
   std::optional<Curve<Quat>> in_euler() {
@@ -123,7 +123,8 @@ class RotationTrack {
       return rates;
     };
     reader.unit = radians(1);
-    const std::optional<Curve<Vec3>> angles = read_keys<Vec3>(*list_, times_, reader, {}, problems_);
+    const std::optional<Curve<Vec3>> angles =
+        read_keys<Vec3>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
     if (!angles) return {};
     return euler_curve(with_outside_of(track_, *angles), order);
   }
@@ -160,13 +161,14 @@ class RotationTrack {
   std::optional<Curve<Quat>> in_quaternions(bool long_way) {
     KeyReader<Quat> reader;
     reader.value = [&](const JsonValue& value) { return rotation_of(value, {}, problems_); };
-    reader.unit = radians(1);
     reader.rate = [](const JsonValue& rate, const Quat&) -> std::optional<Vec3> {
       const std::optional<Vec3> velocity = vector_of(rate);
       if (!velocity) return {};
       return in_radians(*velocity);
     };
-    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, {.long_way = long_way}, problems_);
+    reader.unit = radians(1);
+    const KeyOptions options{.ends = ends_of(track_), .long_way = long_way};
+    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, options, problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
   }

@@ -71,7 +71,8 @@ class TrackReader {
   }
 
   template <class T>
-  std::optional<TrackCurve> keyed(const KeyReader<T>& reader, const KeyOptions& options = {}) {
+  std::optional<TrackCurve> keyed(const KeyReader<T>& reader, KeyOptions options = {}) {
+    options.ends = ends_of(track_);
     const std::optional<Curve<T>> curve = read_keys<T>(*list_, times_, reader, options, problems_);
     if (!curve) return {};
     return TrackCurve(with_outside_of(track_, *curve));
@@ -135,7 +136,8 @@ class TrackReader {
         return i < value.items.size() ? number_of(value.items[i]) : std::nullopt;
       };
       const KeyReader<double> reader{part, [part](const JsonValue& rate, double) { return part(rate); }};
-      const std::optional<Curve<double>> curve = read_keys<double>(*list_, times_, reader, {}, problems_);
+      const std::optional<Curve<double>> curve =
+          read_keys<double>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
       if (!curve) return {};
       curves.push_back(with_outside_of(track_, *curve));
     }
