@@ -91,9 +91,9 @@ struct FlowWord {
 };
 constexpr FlowWord flows[] = {{"-in", Flow::in}, {"-out", Flow::out}, {"-in-out", Flow::in_out}};
 
-constexpr std::string_view call_forms[] = {"bezier(x1,y1,x2,y2)",    "steps(count,jump)",
-                                           "spring(period,damping)", "tcb(tension,continuity,bias)",
-                                           "natural(start,end)",     "clamped(start,end)"};
+constexpr std::string_view call_forms[] = {
+    "bezier(x1,y1,x2,y2)",          "linear(stop,...)",   "steps(count,jump)", "spring(period,damping)",
+    "tcb(tension,continuity,bias)", "natural(start,end)", "clamped(start,end)"};
 constexpr std::string_view jumps[] = {"jump-start", "jump-end", "jump-none", "jump-both"};
 
 std::string_view trimmed(std::string_view text) {
