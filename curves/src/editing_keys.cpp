@@ -7,6 +7,7 @@
 #include "curve_pieces.h"
 #include "key_check.h"
 #include "piece_difference.h"
+#include "span_part.h"
 #include "span_slopes.h"
 #include "spans_between.h"
 #include "time_bezier.h"
@@ -62,8 +63,9 @@ void describe(Key<Quat>& from, Key<Quat>&, const RotationSpan& span, const Curve
     return;
   }
   constexpr double half_turn = 0x1.921fb54442d18p+1;
-  if (span.form != RotationSpan::Form::exponential || span.degree != 1 || span.warp.function ||
-      !(span.coefficients[1].norm() < half_turn))
+  const bool even = !span.warp.function || span.warp.function == &straight_warp;
+  if (span.form != RotationSpan::Form::exponential || span.degree != 1 || !even ||
+      !(std::abs(span.warp.width) * span.coefficients[1].norm() < half_turn))
     refuse_span(span, "is no turn at constant speed by less than half a turn");
   from.ease = Ease::linear();
 }

@@ -214,3 +214,51 @@ TEST_CASE("keys are put between those of colors, ratios and turns as well") {
   for (double t = 0; t <= 2; t += 0.05) CHECK(test::near(way_cut.value(t), way.value(t), 1e-12));
   CHECK_THROWS_AS((void)with_key<Quat>(turns, 1.5), std::invalid_argument);
 }
+
+TEST_CASE("cubic spans go to Bezier points and back, and their points are those of the definition") {
+  // value' at the ends is 3 (P1 - P0) and 3 (P3 - P2) over the duration.
+  const auto points = bezier_points(keyed_curve<double>({test::sloped(1, 2, 3), test::sloped(4, 5, -6)}));
+  REQUIRE(points.size() == 1);
+  CHECK(points[0].times == std::array<double, 4>{1, 2, 3, 4});
+  CHECK(points[0].values[1] == doctest::Approx(2 + 3));
+  CHECK(points[0].values[2] == doctest::Approx(5 + 6));
+  const auto ease = bezier_points(keyed_curve<double>({{0, 1, Ease::bezier(0.1, 0.7, 0.4, 1.2)}, {2, 3}}));
+  CHECK(ease[0].times[1] == doctest::Approx(0.2));
+  CHECK(ease[0].times[2] == doctest::Approx(0.8));
+  CHECK(ease[0].values[1] == doctest::Approx(1 + 2 * 0.7));
+  CHECK(ease[0].values[2] == doctest::Approx(1 + 2 * 1.2));
+  test::Random random(18);
+  for (int round = 0; round < 40; ++round) {
+    CAPTURE(round);
+    const Curve<double> curve = test::random_curve(random, false);
+    const std::vector<BezierPoints<double>> spans = bezier_points(curve);
+    const std::vector<Key<double>> keys = keys_of<double>(std::span<const BezierPoints<double>>(spans));
+    check_same(curve, keyed_curve<double>(std::span<const Key<double>>(keys)), curve.start(), curve.end());
+  }
+  const BezierPoints<double> backward{{0, 1.5, 0.5, 1}, {0, 0, 1, 1}};
+  CHECK_THROWS_AS((void)keys_of<double>(std::span<const BezierPoints<double>>(&backward, 1)), std::invalid_argument);
+  CHECK_THROWS_AS((void)bezier_points(keyed_curve<double>({{0, 0, *Ease::named("sine-in")}, {1, 1}})),
+                  std::invalid_argument);
+}
+
+TEST_CASE("turns are cut and played backwards, whatever the form of their spans") {
+  const Quat a = Quat::Identity(), b = exp_map(Vec3(0.3, 0.9, -0.2)), c = exp_map(Vec3(-1, 0.4, 0.7));
+  const Curve<Quat> turn =
+      keyed_curve<Quat>({{0, a, Ease::smooth()}, {1, b, *Ease::named("sine-in-out")}, {3, c, Ease::linear()}, {4, a}});
+  const auto parts = split(turn, 0.4);
+  const Curve<Quat> whole = joined(parts.first, parts.second), back = reversed(turn), twice = reversed(back);
+  for (double t = 0.05; t < 4; t += 0.1) {
+    const Sample<Quat> s = turn.sample(t), w = whole.sample(t), r = back.sample(4 - t, Side::in),
+                       again = twice.sample(t);
+    CHECK(test::near(w.value, s.value, 1e-13));
+    CHECK(test::near(w.rate, s.rate, 1e-12));
+    CHECK(test::near(w.acceleration, s.acceleration, 1e-11));
+    CHECK(test::near(r.value, s.value, 1e-13));
+    CHECK(test::near(r.rate, Vec3(-s.rate), 1e-12));
+    CHECK(test::near(again.value, s.value, 1e-13));
+  }
+  const std::vector<Key<Quat>> keys = keys_of(split(turn, 3.25).second);
+  REQUIRE(keys.size() == 2);
+  CHECK(test::near(keys[0].value, turn.value(3.25), 1e-13));
+  CHECK(keys[0].ease == Ease::linear());
+}

@@ -13,6 +13,7 @@
 #include <tweenfall/curves/curve.h>
 #include <tweenfall/curves/keys.h>
 
+#include <array>
 #include <span>
 #include <utility>
 #include <vector>
@@ -66,6 +67,23 @@ template <class T>
 /// @throws std::invalid_argument naming the time of a span that no key describes: a higher degree, an ease, a formula.
 template <class T>
 [[nodiscard]] std::vector<Key<T>> keys_of(const Curve<T>& curve);
+
+/// A span by its Bezier points: the ends and what the curve heads for in between, each a time in s and a value.
+template <class T>
+struct BezierPoints {
+  std::array<double, 4> times;
+  std::array<T, 4> values;
+};
+
+/// The spans of a curve by their Bezier points. For double, Vec2, Vec3, Vec4 and Color.
+/// @throws std::invalid_argument as `keys_of`, but that handles may lie outside their spans.
+template <class T>
+[[nodiscard]] std::vector<BezierPoints<T>> bezier_points(const Curve<T>& curve);
+
+/// Keys for spans given by Bezier points, each beginning where the one before ends. For double, Vec2, Vec3 and Vec4.
+/// @throws std::invalid_argument naming the span: none, a gap, a handle outside its span or at its own end.
+template <class T>
+[[nodiscard]] std::vector<Key<T>> keys_of(std::span<const BezierPoints<T>> spans);
 
 /// The same keys with every slope stated that a rule would have chosen, so that they can be changed one by one.
 template <class T>
