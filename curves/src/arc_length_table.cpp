@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace tweenfall {
 namespace {
@@ -19,8 +20,15 @@ constexpr int most_halvings = 20;
 ArcLengthTable::ArcLengthTable(const Curve<Vec3>& curve) : curve_(curve) {
   const std::array<double, 2> ends = {curve.start(), curve.end()};
   const std::span<const double> knots = curve.knots().empty() ? std::span<const double>(ends) : curve.knots();
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-    add(knots[i], knots[i + 1], length_between(knots[i], knots[i + 1]), 0);
+  std::vector<double> lengths;
+  double about = 0;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    lengths.push_back(length_between(knots[i], knots[i + 1]));
+    about += lengths.back();
+  }
+  constexpr double without_end = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    add(knots[i], knots[i + 1], lengths[i], 1e-15 * about, without_end, 0);
   double before = 0;
   for (Part& part : parts_) {
     part.length_before = before;
@@ -28,16 +36,19 @@ ArcLengthTable::ArcLengthTable(const Curve<Vec3>& curve) : curve_(curve) {
   }
 }
 
-void ArcLengthTable::add(double from, double to, double whole, int depth) {
+void ArcLengthTable::add(double from, double to, double whole, double allowed, double fault_before, int depth) {
   const double middle = 0.5 * (from + to);
   const double first = length_between(from, middle), second = length_between(middle, to);
-  if (depth == most_halvings || std::abs(first + second - whole) <= 1e-15 * (first + second)) {
+  const double fault = std::abs(first + second - whole);
+  // Noise of the rates shrinks no faster than the parts do; what is left of the rule's own fault is then below it.
+  const bool noise = fault <= 1e-10 * whole && fault > 0.4 * fault_before;
+  if (!(fault > allowed) || noise || depth == most_halvings) {
     parts_.push_back({from, middle, 0, first});
     parts_.push_back({middle, to, 0, second});
     return;
   }
-  add(from, middle, first, depth + 1);
-  add(middle, to, second, depth + 1);
+  add(from, middle, first, allowed, fault, depth + 1);
+  add(middle, to, second, allowed, fault, depth + 1);
 }
 
 double ArcLengthTable::length_between(double from, double to) const noexcept {

@@ -10,8 +10,8 @@ namespace tweenfall {
 
 class ArcLengthTable {
  public:
-  /// Of `curve` from its first to its last knot; the rule is refined until halving no longer changes a length by more
-  /// than rounding.
+  /// Of `curve` from its first to its last knot; parts are halved until that no longer changes a length by more than
+  /// rounding.
   explicit ArcLengthTable(const Curve<Vec3>& curve);
 
   [[nodiscard]] double length() const noexcept { return parts_.back().length_before + parts_.back().length; }
@@ -25,7 +25,7 @@ class ArcLengthTable {
     double length_before;  // up to `from`
     double length;
   };
-  void add(double from, double to, double whole, int depth);
+  void add(double from, double to, double whole, double allowed, double fault_before, int depth);
   [[nodiscard]] double length_between(double from, double to) const noexcept;
 
   Curve<Vec3> curve_;

@@ -8,7 +8,7 @@
 namespace tweenfall {
 namespace {
 
-constexpr double pi = 0x1.921fb54442d18p+1, half_pi = 0x1.921fb54442d18p+0;
+constexpr double pi = 0x1.921fb54442d18p+1;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // Sign of what `a` is about to be on the side that `way` means.

@@ -69,6 +69,10 @@ SurfaceMesh sweep(const Curve<Vec2>& curve, const Curve<Vec3>& rail, const Sweep
   const bool loop = times.size() > 3 && (end - begin).norm() <= 1e-9 * size &&
                     leaving.cross(arriving).norm() <= 1e-6 * leaving.norm() * arriving.norm() &&
                     leaving.dot(arriving) > 0;
+  constexpr double turn = 0x1.921fb54442d18p+2;
+  if (loop && !(std::abs(std::remainder(options.twist, turn)) <= 1e-9))
+    throw std::invalid_argument("a closed rail is twisted by whole turns, or the profile would not meet itself; " +
+                                text_of(options.twist) + " radians given");
   const std::vector<Frame> frames =
       rotation_minimizing_frames(rail, times, {.normal = options.normal, .twist = options.twist, .closed = loop});
   std::vector<double> along = {0};

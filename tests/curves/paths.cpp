@@ -88,6 +88,23 @@ TEST_CASE("lengths are those of the closed forms, and half of the time is half o
   CHECK_THROWS_AS((void)even_path(Curve<Vec3>({1, 2, 3}), 1), std::invalid_argument);
 }
 
+TEST_CASE("a shape far from time zero, with a cusp or at rest, still becomes a path") {
+  const auto key = [](double time, const Vec3& value, const Vec3& rate) {
+    const Tangent<Vec3> tangent{Tangent<Vec3>::Kind::given, rate};
+    return Key<Vec3>{.time = time, .value = value, .in = tangent, .out = tangent};
+  };
+  const Curve<Vec3> near_zero = keyed_curve<Vec3>({key(0, {0, 0, 0}, {1, 3, 0}), key(1, {2, 0, 1}, {0, -1, 5})});
+  const Curve<Vec3> far = keyed_curve<Vec3>({key(1e9, {0, 0, 0}, {1, 3, 0}), key(1e9 + 1, {2, 0, 1}, {0, -1, 5})});
+  CHECK(even_path(far, 1).rate(0.5).norm() == doctest::Approx(even_path(near_zero, 1).rate(0.5).norm()).epsilon(1e-9));
+  // (t^2, t^3) from -1 to 1: the cusp's length is 2 (13^1.5 - 8) / 27.
+  const Curve<Vec3> cusp = keyed_curve<Vec3>({key(-1, {1, -1, 0}, {-2, 3, 0}), key(1, {1, 1, 0}, {2, 3, 0})});
+  CHECK(even_path(cusp, 1).rate(0.3).norm() == doctest::Approx(2 * (std::pow(13, 1.5) - 8) / 27).epsilon(1e-11));
+  CHECK(near(even_path(cusp, 1).value(0.5), Vec3(0, 0, 0), 1e-6));
+  const Curve<Vec3> held = keyed_curve<Vec3>(
+      {{0, {0, 0, 0}, Ease::linear()}, {1, {1, 0, 0}, Ease::hold()}, {2, {1, 0, 0}, Ease::linear()}, {3, {1, 1, 0}}});
+  CHECK(near(even_path(held, 2).value(1.5), Vec3(1, 0.5, 0), 1e-14));
+}
+
 TEST_CASE("a path agrees with the arc lengths of the vectors") {
   for (const nlohmann::json& family : vector_family("arc_length"))
     for (const nlohmann::json& each : family["cases"]) {

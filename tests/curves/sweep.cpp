@@ -270,4 +270,7 @@ TEST_CASE("what cannot be swept or turned is refused with its numbers") {
   CHECK_THROWS_WITH_AS((void)sweep(round, rail, {.rail_steps = 0}), doctest::Contains("step"), std::invalid_argument);
   CHECK_THROWS_WITH_AS((void)sweep(round, rail, {.normal = Vec3(0, 0, 1)}), doctest::Contains("normal"),
                        std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)sweep(round, knot(), {.twist = 1}), doctest::Contains("whole turns"),
+                       std::invalid_argument);
+  CHECK(is_closed(sweep(circle(0, 0, 0.1), knot(), {.twist = 2 * pi})));
 }

@@ -25,16 +25,16 @@ Curve<T> curve_of(const std::string& name, const std::string& track) {
 }  // namespace
 
 TEST_CASE("an expression is a track's value at every time, with its exact rate") {
-  const Curve<double> wave = curve_of<double>("a.b", R"({"expression": "2*cos(t)"})");
+  const Curve<double> wave = curve_of<double>("a.b", R"json({"expression": "2*cos(t)"})json");
   CHECK(wave.value(0.7) == doctest::Approx(2 * std::cos(0.7)).epsilon(1e-15));
-CHECK(wave.rate(0.7) == doctest::Approx(-2 * std::sin(0.7)).epsilon(1e-15));
-const Curve<Vec3> place =
-    curve_of<Vec3>("a.position", R"({"expression": ["t", 3, "g*t^2/2"], "parameters": {"g": -9.81}})");
-CHECK(near(place.value(2), Vec3(2, 3, -19.62), 1e-15));
-CHECK(near(place.rate(2), Vec3(1, 0, -19.62), 1e-15));
-CHECK(curve_of<Vec2>("a.uv", R"({"expression": ["t", 1]})").value(3) == Vec2(3, 1));
-CHECK(curve_of<Vec4>("a.uv", R"({"expression": ["t", 1, 2, "t"]})").value(3) == Vec4(3, 1, 2, 3));
-CHECK(curve_of<Vec3>("a.scale", R"({"expression": "1+t"})").value(3) == Vec3(4, 4, 4));
+  CHECK(wave.rate(0.7) == doctest::Approx(-2 * std::sin(0.7)).epsilon(1e-15));
+  const Curve<Vec3> place =
+      curve_of<Vec3>("a.position", R"({"expression": ["t", 3, "g*t^2/2"], "parameters": {"g": -9.81}})");
+  CHECK(near(place.value(2), Vec3(2, 3, -19.62), 1e-15));
+  CHECK(near(place.rate(2), Vec3(1, 0, -19.62), 1e-15));
+  CHECK(curve_of<Vec2>("a.uv", R"({"expression": ["t", 1]})").value(3) == Vec2(3, 1));
+  CHECK(curve_of<Vec4>("a.uv", R"({"expression": ["t", 1, 2, "t"]})").value(3) == Vec4(3, 1, 2, 3));
+  CHECK(curve_of<Vec3>("a.scale", R"({"expression": "1+t"})").value(3) == Vec3(4, 4, 4));
 }
 
 TEST_CASE("angles of functions are degrees, and rotations turn about the axis by them") {

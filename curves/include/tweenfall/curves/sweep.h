@@ -19,7 +19,7 @@ struct SweepOptions {
   int profile_steps = 32;        ///< sides of the profile, about: each span has at least one; >= 1
   bool caps = true;              ///< a closed profile on an open rail gets a lid at both ends
   std::optional<Vec3> normal{};  ///< where the profile's x axis points at the rail's start. Absent: any
-  double twist = 0;              ///< radians about the rail from start to end
+  double twist = 0;              ///< radians about the rail from start to end; on a closed rail whole turns
 };
 
 /// The profile carried along the rail in rotation-minimizing frames: x along the normal, y along the binormal.
@@ -27,7 +27,7 @@ struct SweepOptions {
 /// Outside is right of the profile's direction; a closed profile may run either way. A rail that ends where it began
 /// and in the same direction is closed. At a kink of the rail the profile stands across half the bend.
 /// Texture coordinates run from 0 to 1 with the length of the profile and of the rail.
-/// @throws std::invalid_argument for an endless or pointlike curve, or steps < 1.
+/// @throws std::invalid_argument for an endless or pointlike curve, steps < 1, or part of a turn on a closed rail.
 [[nodiscard]] SurfaceMesh sweep(const Curve<Vec2>& profile, const Curve<Vec3>& rail, const SweepOptions& options = {});
 
 struct LatheOptions {
