@@ -42,13 +42,24 @@ Curve<Vec3> read_projectile(const JsonValue& settings) {
                      .gravity = vector_in(settings, "gravity", Vec3(0, -9.81, 0))});
 }
 
-Outside outside_of(const JsonValue& track, std::string_view side) {
-  const std::string word = text_in(track, side, "hold");
+namespace {
+
+Outside rule_of(std::string_view word) {
   if (word == "linear") return Outside::linear;
   if (word == "repeat") return Outside::repeat;
   if (word == "repeat-offset") return Outside::repeat_offset;
   if (word == "pingpong") return Outside::pingpong;
   return Outside::hold;
+}
+
+}  // namespace
+
+OutsideParts outside_of(const JsonValue& track, std::string_view side) {
+  const JsonValue* given = usable(track, side);
+  if (!given) return {};
+  if (!given->is(JsonValue::Kind::object)) return {rule_of(given->text)};
+  if (const JsonValue* slope = usable(*given, "slope")) return {Outside::linear, 0, slope};
+  return {rule_of(text_in(*given, "mode")), number_in(*given, "count", 0)};
 }
 
 }  // namespace tweenfall::document

@@ -89,7 +89,7 @@ class RotationTrack {
       }
       return radians(along);
     };
-    return read_keys<double>(*list_, times_, reader, {}, problems_);
+    return read_keys<double>(*list_, times_, reader, key_options_of(track_), problems_);
   }
 
   std::optional<Curve<Quat>> in_euler() {
@@ -121,7 +121,8 @@ class RotationTrack {
                        axes.col(0).dot(axes.col(1).cross(wanted)) / determinant);
       return rates;
     };
-    const std::optional<Curve<Vec3>> angles = read_keys<Vec3>(*list_, times_, reader, {}, problems_);
+    const std::optional<Curve<Vec3>> angles =
+        read_keys<Vec3>(*list_, times_, reader, key_options_of(track_), problems_);
     if (!angles) return {};
     return euler_curve(with_outside_of(track_, *angles), order);
   }
@@ -163,7 +164,8 @@ class RotationTrack {
       if (!velocity) return {};
       return in_radians(*velocity);
     };
-    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, {.long_way = long_way}, problems_);
+    const std::optional<Curve<Quat>> curve =
+        read_keys<Quat>(*list_, times_, reader, key_options_of(track_, {.long_way = long_way}), problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
   }

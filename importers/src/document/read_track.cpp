@@ -4,6 +4,7 @@
 
 #include "document/read_functions.h"
 #include "document/read_keys.h"
+#include "document/read_modifiers.h"
 #include "document/read_rotation.h"
 #include "document/values.h"
 
@@ -54,7 +55,7 @@ class TrackReader {
     if (const JsonValue* function = usable(track_, "oscillator")) {
       const JsonValue* amplitude = usable(*function, "amplitude");
       if (amplitude && amplitude->is(Kind::list)) return TrackCurve(read_vector_oscillator(*function));
-      return TrackCurve(read_oscillator(*function, 1));
+      return made(with_modifiers_of(track_, read_oscillator(*function, 1), problems_));
     }
     if (!list_ || list_->items.empty()) return {};
     if (property == "position") return keyed(reader_of<Vec3>(vector_of));
@@ -72,9 +73,14 @@ class TrackReader {
 
   template <class T>
   std::optional<TrackCurve> keyed(const KeyReader<T>& reader, const KeyOptions& options = {}) {
-    const std::optional<Curve<T>> curve = read_keys<T>(*list_, times_, reader, options, problems_);
+    const std::optional<Curve<T>> curve =
+        read_keys<T>(*list_, times_, reader, key_options_of(track_, options), problems_);
     if (!curve) return {};
-    return TrackCurve(with_outside_of(track_, *curve));
+    const Curve<T> continued = with_outside_of(track_, *curve);
+    if constexpr (std::is_same_v<T, double>)
+      return made(with_modifiers_of(track_, continued, problems_));
+    else
+      return TrackCurve(continued);
   }
 
   std::optional<TrackCurve> scale() {
@@ -135,7 +141,8 @@ class TrackReader {
         return i < value.items.size() ? number_of(value.items[i]) : std::nullopt;
       };
       const KeyReader<double> reader{part, [part](const JsonValue& rate, double) { return part(rate); }};
-      const std::optional<Curve<double>> curve = read_keys<double>(*list_, times_, reader, {}, problems_);
+      const std::optional<Curve<double>> curve =
+          read_keys<double>(*list_, times_, reader, key_options_of(track_), problems_);
       if (!curve) return {};
       curves.push_back(with_outside_of(track_, *curve));
     }
@@ -201,6 +208,11 @@ std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times,
   std::optional<TrackCurve> curve = TrackReader(track.value, times, problems).read(property);
   if (!curve) return {};
   return Track{track.name.substr(0, dot), property, std::move(*curve), flag_in(track.value, "relative", false)};
+}
+
+std::optional<Curve<double>> read_plain_keys(const JsonValue& keys, Problems& problems) {
+  const ClipTimes times({}, {}, "the keys of a warp have no duration of their own");
+  return read_keys<double>(keys, times, reader_of<double>(number_of), {}, problems);
 }
 
 std::optional<Curve<double>> read_weight(const JsonValue& keys, std::optional<double> fps, Problems& problems) {
