@@ -365,3 +365,46 @@ TEST_CASE("the starting document loads and shows keys, a body and a hand-off") {
   CHECK(document.stage().rules.size() >= 1);
   CHECK(starting_document().find("//") != std::string::npos);
 }
+
+TEST_CASE("tangent kinds, overlong handles and what lies outside are read as they say") {
+  const Document document = good("handles");
+  const Clip& clip = document.stage().clips[0];
+  const Curve<double>& mirrored = curve<double>(clip, "a.mirrored");
+  CHECK(mirrored.rate(0) == 0);
+  CHECK(mirrored.rate(1, Side::in) == doctest::Approx(3));
+  CHECK(mirrored.rate(1) == doctest::Approx(3));
+  CHECK(mirrored.rate(3, Side::in) == doctest::Approx(1));
+  // A loop: the rate is the same on both sides of the seam, and zero where a component turns.
+  const Curve<Vec2>& clamped = curve<Vec2>(clip, "a.clamped");
+  CHECK(near(clamped.rate(4, Side::in), clamped.rate(4), 1e-13));
+  CHECK(clamped.rate(1)[1] == 0);
+  const Curve<double>&over = curve<double>(clip, "a.long"), &same = curve<double>(clip, "a.same");
+  for (const double t : {0.2, 0.5, 0.7}) CHECK(over.value(t) == doctest::Approx(same.value(t)).epsilon(1e-12));
+  const Curve<double>& counted = curve<double>(clip, "a.counted");
+  CHECK(counted.value(-1) == 3);
+  CHECK(counted.value(2.5) == doctest::Approx(6));
+  CHECK(counted.value(3.5) == 7);
+  CHECK(near(curve<Vec3>(clip, "a.position").value(3), Vec3(3, 5, 7), 1e-14));
+  const Curve<Quat>& rotation = curve<Quat>(clip, "a.rotation");
+  CHECK(turn(rotation.value(3)) == doctest::Approx(45 * degree));
+  CHECK(turn(rotation.value(7)) == doctest::Approx(45 * degree));
+}
+
+TEST_CASE("modifiers are laid over tracks of numbers in their order") {
+  const Document document = good("handles");
+  const Clip& clip = document.stage().clips[1];
+  const Curve<double>& cycled = curve<double>(clip, "b.cycled");
+  CHECK(cycled.value(-1) == 0);
+  CHECK(cycled.value(1.5) == doctest::Approx(3));
+  // The sine sees the cycled time, which never reaches its range.
+  CHECK(cycled.value(3.25) == doctest::Approx(6.5));
+  CHECK(cycled.value(9) == doctest::Approx(2));
+  const Curve<double>& swing = curve<double>(clip, "b.swing");
+  CHECK(swing.value(0) == 1);
+  CHECK(swing.rate(0) == 0);
+  CHECK(swing.value(0.25) == doctest::Approx(0));
+  const Curve<double>& warped = curve<double>(clip, "b.warped");
+  CHECK(warped.value(0.5) == doctest::Approx(1.5));
+  CHECK(warped.rate(0.5) == doctest::Approx(-1));
+  CHECK(std::isfinite(curve<double>(clip, "b.all").value(1.3)));
+}

@@ -39,6 +39,7 @@ struct TrackKind {
   std::string name;  // of its definitions
   const Shape* value = nullptr;
   const Shape* rate = nullptr;  // null: the value switches, and has neither ease nor tangents
+  bool turns = false;           // a rotation: rates are angular velocities, and have no neighbors to look at
   std::vector<Field> options{};
   TrackFunctions functions{};
   std::vector<Field> key_options{};  // of keys with names
@@ -47,19 +48,26 @@ struct TrackKind {
 class TrackShapes {
  public:
   TrackShapes(ShapeStore& store, const ValueShapes& values) : functions(store, values), store_(store), values_(values) {
-    outside_ = store_.add(
+    outside_words_ = store_.add(
         words_of("what happens outside the keys", {"hold", "linear", "repeat", "repeat-offset", "pingpong"}));
-    ends_ = store_.add(words_of("an end of automatic slopes", {"secant", "flat", "wrap"}));
+    overlong_ = store_.add(words_of("what gives way to overlong handles", {"keep-ratio", "keep-start", "contain"}));
+    ends_ = store_.add(words_of("what lies beyond the end keys for automatic slopes", {"secant", "flat", "wrap"}));
   }
 
   const Shape* keys(const TrackKind& kind) {
     const Shape* tangent = nullptr;
     if (kind.rate) {
-      Shape handle = object_of("a tangent with \"rate\" and \"weight\"",
-                               {{"rate", kind.rate, "value per second", true},
+      const Shape* words =
+          store_.add(kind.turns ? words_of("", {"auto", "flat", "vector"})
+                                : words_of("", {"auto", "flat", "vector", "aligned", "mirrored", "plateau",
+                                                "auto-clamped", "auto-chord", "auto-mix", "auto-ease"}));
+      Shape handle = object_of("a tangent with \"rate\" or \"kind\", and \"weight\"",
+                               {{"rate", kind.rate, "value per second"},
+                                {"kind", words, "a word in place of a rate"},
                                 {"weight", share(), "the handle's share of the span", false, number_text(1.0 / 3.0)}});
+      handle.together = {exactly_one({"rate", "kind"})};
       Shape shape = choice_of("a tangent: \"auto\", \"flat\", a rate in value per second, or {\"rate\", \"weight\"}",
-                              {store_.add(words_of("", {"auto", "flat"})), kind.rate, store_.add(handle)});
+                              {words, kind.rate, store_.add(handle)});
       shape.definition = "tangent-" + kind.name;
       tangent = store_.add(std::move(shape));
     }
@@ -93,9 +101,12 @@ class TrackShapes {
     Shape shape = object_of("a track: a list of keys, or an object with \"keys\"", kind.options);
     shape.definition = "track-" + kind.name;
     if (kind.rate) {
-      shape.fields.push_back({"before", outside_, "before the first key", false, "\"hold\""});
-      shape.fields.push_back({"after", outside_, "after the last key", false, "\"hold\""});
-      shape.fields.push_back({"ends", ends_, "what automatic slopes assume there", false, "\"secant\""});
+      const Shape* beyond = outside(kind);
+      shape.fields.push_back({"before", beyond, "before the first key", false, "\"hold\""});
+      shape.fields.push_back({"after", beyond, "after the last key", false, "\"hold\""});
+      shape.fields.push_back(
+          {"overlong", overlong_, "what gives way where handles would turn time", false, "\"keep-ratio\""});
+      shape.fields.push_back({"ends", ends_, "what automatic slopes see beyond the ends", false, "\"secant\""});
     }
     std::vector<std::string> sources = {"keys"};
     shape.fields.push_back({"keys", keys, "the keys, in order of time"});
@@ -104,11 +115,13 @@ class TrackShapes {
       sources.push_back(function.name);
       shape.together.push_back(at_most_one({"before", function.name}));
       shape.together.push_back(at_most_one({"after", function.name}));
+      shape.together.push_back(at_most_one({"overlong", function.name}));
       shape.together.push_back(at_most_one({"ends", function.name}));
     }
     for (const Field& function : kind.functions.passing) {
       shape.fields.push_back(function);
       sources.push_back(function.name);
+      shape.together.push_back(at_most_one({"overlong", function.name}));
       shape.together.push_back(at_most_one({"ends", function.name}));
     }
     if (kind.functions.parameters) {
@@ -116,6 +129,26 @@ class TrackShapes {
       shape.together.push_back({Together::Rule::first_needs_second, {"parameters", "expression"}});
     }
     shape.together.insert(shape.together.begin(), exactly_one(std::move(sources)));
+    return store_.add(std::move(shape));
+  }
+
+  // A word, or an object for what needs a number.
+  const Shape* outside(const TrackKind& kind) {
+    const Shape* plays = store_.add(words_of("a way to repeat", {"repeat", "repeat-offset", "pingpong"}));
+    Shape full = object_of(
+        "an outside: {\"mode\", \"count\"} or {\"slope\"}",
+        {{"mode", plays, "how it repeats"}, {"count", values_.positive, "plays beyond this end; absent: without end"}});
+    full.on_one_line = true;
+    full.together = {{Together::Rule::first_needs_second, {"count", "mode"}}};
+    if (kind.turns || kind.name == "weights") {
+      full.what = "an outside: {\"mode\", \"count\"}";
+      full.fields[0].required = true;
+    } else {
+      full.fields.push_back({"slope", kind.rate, "straight on, in value per second"});
+      full.together.insert(full.together.begin(), exactly_one({"mode", "slope"}));
+    }
+    Shape shape = choice_of("what happens outside the keys", {outside_words_, store_.add(std::move(full))});
+    shape.definition = "outside-" + kind.name;
     return store_.add(std::move(shape));
   }
 
@@ -127,18 +160,23 @@ class TrackShapes {
 
   const Shape* rotation() {
     const Shape* turn = store_.add(words_of("which way around", {"short", "long"}));
-    const TrackKind euler{
-        "euler", values_.euler, values_.vector, {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}}};
+    const TrackKind euler{"euler",
+                          values_.euler,
+                          values_.vector,
+                          true,
+                          {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}}};
     const TrackKind quaternion{"quat",
                                values_.quaternion,
                                values_.vector,
+                               true,
                                {relative(), {"turn", turn, "way around", false, "\"short\""}},
                                {},
                                {{"turn", key_turn(turn), "the way to the next key"}}};
-    const TrackKind axis_angle{"axis-angle", values_.axis_angle, values_.vector, {relative()}};
+    const TrackKind axis_angle{"axis-angle", values_.axis_angle, values_.vector, true, {relative()}};
     const TrackKind degrees{"degrees",
                             values_.number,
                             values_.number,
+                            true,
                             {{"axis", values_.axis, "what the degrees turn about", true}, relative()},
                             functions.of_numbers("degrees", true)};
     struct Spelled {
@@ -199,20 +237,24 @@ class TrackShapes {
     any_text.kind = Shape::Kind::text;
     any_text.what = "a text";
 
-    const TrackKind number{"number",
-                           values_.number,
-                           values_.number,
-                           {kind_field("number", false)},
-                           functions.of_numbers("the value's unit", true)};
+    const TrackKind number{
+        "number",
+        values_.number,
+        values_.number,
+        false,
+        {kind_field("number", false), {"modifiers", modifiers_shape(store_, values_), "laid over the curve"}},
+        functions.of_numbers("the value's unit", true)};
     const TrackKind swinging{"swinging-vector",
                              values_.vector,
                              values_.vector,
+                             false,
                              {kind_field("vector", false)},
                              functions.of_places("the value's unit")};
-    const TrackKind color{"user-color", values_.color, values_.vector_4, {kind_field("color", false), space(), hue()}};
-    const TrackKind truth{"switch", values_.boolean, nullptr, {kind_field("switch", false)}};
+    const TrackKind color{
+        "user-color", values_.color, values_.vector_4, false, {kind_field("color", false), space(), hue()}};
+    const TrackKind truth{"switch", values_.boolean, nullptr, false, {kind_field("switch", false)}};
     const TrackKind text{"text", store_.add(plain_text), nullptr};
-    const TrackKind said_text{"said-text", store_.add(any_text), nullptr, {kind_field("text", true)}};
+    const TrackKind said_text{"said-text", store_.add(any_text), nullptr, false, {kind_field("text", true)}};
     struct Made {
       std::string kind;
       const Shape *list, *object;
@@ -227,10 +269,10 @@ class TrackShapes {
     };
     add("number", number);
     add("vector-2",
-        {"vector-2", values_.vector_2, values_.vector_2, {kind_field("vector", false)}, functions.of_vectors(2)});
+        {"vector-2", values_.vector_2, values_.vector_2, false, {kind_field("vector", false)}, functions.of_vectors(2)});
     add("vector-3", swinging);
     add("vector-4",
-        {"vector-4", values_.vector_4, values_.vector_4, {kind_field("vector", false)}, functions.of_vectors(4)});
+        {"vector-4", values_.vector_4, values_.vector_4, false, {kind_field("vector", false)}, functions.of_vectors(4)});
     add("color", color);
     add("switch", truth);
     add("text", text);
@@ -241,9 +283,11 @@ class TrackShapes {
         "a track", {{"kind", store_.add(words_of("a kind of value", {"number", "vector", "color", "switch", "text"})),
                      "kind of value"},
                     {"keys", values_.any, ""},
-                    {"before", outside_, ""},
-                    {"after", outside_, ""},
+                    {"before", values_.any, ""},
+                    {"after", values_.any, ""},
+                    {"overlong", overlong_, ""},
                     {"ends", ends_, ""},
+                    {"modifiers", values_.any, ""},
                     {"space", values_.any, ""},
                     {"hue", values_.any, ""}});
     for (const std::string& name : FunctionShapes::names()) any_track.fields.push_back({name, values_.any, ""});
@@ -316,10 +360,9 @@ class TrackShapes {
     if (!share_) {
       Shape shape;
       shape.kind = Shape::Kind::number;
-      shape.what = "a share of the span, above 0 and at most 1";
+      shape.what = "a share of the span, above 0";
       shape.low = 0;
       shape.above_low = true;
-      shape.high = 1;
       share_ = store_.add(std::move(shape));
     }
     return share_;
@@ -327,7 +370,8 @@ class TrackShapes {
 
   ShapeStore& store_;
   const ValueShapes& values_;
-  const Shape* outside_ = nullptr;
+  const Shape* outside_words_ = nullptr;
+  const Shape* overlong_ = nullptr;
   const Shape* ends_ = nullptr;
   const Shape* share_ = nullptr;
   const Shape* space_ = nullptr;
@@ -341,12 +385,12 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   tracks.one_a_line = true;
   tracks.endings = {
       {".position",
-       make.either({"position", values.vector, values.vector, {make.relative()}, make.functions.of_places("m")})},
+       make.either({"position", values.vector, values.vector, false, {make.relative()}, make.functions.of_places("m")})},
       {".rotation", make.rotation()},
       {".scale",
-       make.either({"scale", values.scale, values.scale, {make.relative(), make.mix()}, make.functions.of_scales()})},
-      {".color", make.either({"color", values.color, values.vector_4, {make.space(), make.hue()}})},
-      {".weights", make.either({"weights", values.numbers, values.numbers, {}})}};
+       make.either({"scale", values.scale, values.scale, false, {make.relative(), make.mix()}, make.functions.of_scales()})},
+      {".color", make.either({"color", values.color, values.vector_4, false, {make.space(), make.hue()}})},
+      {".weights", make.either({"weights", values.numbers, values.numbers})}};
   tracks.others = make.user();
   tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
   tracks.name_fault = [](std::string_view name) -> std::string {

@@ -158,8 +158,9 @@ std::optional<Curve<double>> read_angle_function(const JsonValue& track, Problem
   });
 }
 
-Outside outside_of(const JsonValue& track, std::string_view side) {
-  const std::string word = text_in(track, side, "hold");
+namespace {
+
+Outside rule_of(std::string_view word) {
   if (word == "linear") return Outside::linear;
   if (word == "repeat") return Outside::repeat;
   if (word == "repeat-offset") return Outside::repeat_offset;
@@ -167,9 +168,14 @@ Outside outside_of(const JsonValue& track, std::string_view side) {
   return Outside::hold;
 }
 
-Ends ends_of(const JsonValue& track) {
-  const std::string word = text_in(track, "ends", "secant");
-  return word == "flat" ? Ends::flat : word == "wrap" ? Ends::wrap : Ends::secant;
+}  // namespace
+
+OutsideParts outside_of(const JsonValue& track, std::string_view side) {
+  const JsonValue* given = usable(track, side);
+  if (!given) return {};
+  if (!given->is(JsonValue::Kind::object)) return {rule_of(given->text)};
+  if (const JsonValue* slope = usable(*given, "slope")) return {Outside::linear, 0, slope};
+  return {rule_of(text_in(*given, "mode")), number_in(*given, "count", 0)};
 }
 
 }  // namespace tweenfall::document

@@ -22,13 +22,18 @@ struct KeyReader {
   std::function<Turn(const JsonValue& key)> turn{};  // rotations only
 };
 
+[[nodiscard]] TangentKind tangent_kind_of(std::string_view word);
+
+// `options` with what the track says of handles and ends.
+[[nodiscard]] KeyOptions key_options_of(const JsonValue& track, KeyOptions options = {});
+
 template <class T>
 std::optional<Tangent<T>> read_tangent(const JsonValue* tangent, const T& value, const KeyReader<T>& reader) {
   if (!tangent) return {};
   Tangent<T> out;
   if constexpr (!std::is_same_v<Rate<T>, double>) out.rate.setZero();
   if (tangent->is(JsonValue::Kind::text)) {
-    out.kind = tangent->text == "flat" ? Tangent<T>::Kind::flat : Tangent<T>::Kind::automatic;
+    out.kind = tangent_kind_of(tangent->text);
     return out;
   }
   out.kind = Tangent<T>::Kind::given;
@@ -36,6 +41,10 @@ std::optional<Tangent<T>> read_tangent(const JsonValue* tangent, const T& value,
   if (tangent->is(JsonValue::Kind::object)) {
     rate = usable(*tangent, "rate");
     out.weight = number_in(*tangent, "weight", out.weight);
+    if (const JsonValue* kind = usable(*tangent, "kind")) {
+      out.kind = tangent_kind_of(kind->text);
+      return out;
+    }
   }
   const std::optional<Rate<T>> read = rate ? reader.rate(*rate, value) : std::nullopt;
   if (!read) return {};

@@ -90,7 +90,7 @@ class RotationTrack {
       return radians(along);
     };
     reader.unit = radians(1);
-    return read_keys<double>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
+    return read_keys<double>(*list_, times_, reader, key_options_of(track_), problems_);
   }
 
   std::optional<Curve<Quat>> in_euler() {
@@ -124,7 +124,7 @@ class RotationTrack {
     };
     reader.unit = radians(1);
     const std::optional<Curve<Vec3>> angles =
-        read_keys<Vec3>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
+        read_keys<Vec3>(*list_, times_, reader, key_options_of(track_), problems_);
     if (!angles) return {};
     return euler_curve(with_outside_of(track_, *angles), order);
   }
@@ -169,7 +169,7 @@ class RotationTrack {
     reader.unit = radians(1);
     reader.turn = [&](const JsonValue& key) { return turn_of(key, long_way); };
     const std::optional<Curve<Quat>> curve =
-        read_keys<Quat>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
+        read_keys<Quat>(*list_, times_, reader, key_options_of(track_), problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
   }

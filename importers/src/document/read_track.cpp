@@ -5,6 +5,7 @@
 
 #include "document/read_functions.h"
 #include "document/read_keys.h"
+#include "document/read_modifiers.h"
 #include "document/read_rotation.h"
 #include "document/values.h"
 
@@ -68,6 +69,8 @@ class TrackReader {
 
   std::optional<TrackCurve> function(const std::string& property) {
     const std::optional<TrackCurve> curve = read_function(track_, problems_);
+    if (curve && std::holds_alternative<Curve<double>>(*curve) && property != "scale")
+      return made(with_modifiers_of(track_, std::get<Curve<double>>(*curve), problems_));
     // One number is for all three axes.
     if (curve && property == "scale" && std::holds_alternative<Curve<double>>(*curve)) {
       const Curve<double>& factor = std::get<Curve<double>>(*curve);
@@ -77,11 +80,15 @@ class TrackReader {
   }
 
   template <class T>
-  std::optional<TrackCurve> keyed(const KeyReader<T>& reader, KeyOptions options = {}) {
-    options.ends = ends_of(track_);
-    const std::optional<Curve<T>> curve = read_keys<T>(*list_, times_, reader, options, problems_);
+  std::optional<TrackCurve> keyed(const KeyReader<T>& reader, const KeyOptions& options = {}) {
+    const std::optional<Curve<T>> curve =
+        read_keys<T>(*list_, times_, reader, key_options_of(track_, options), problems_);
     if (!curve) return {};
-    return TrackCurve(with_outside_of(track_, *curve));
+    const Curve<T> continued = with_outside_of(track_, *curve);
+    if constexpr (std::is_same_v<T, double>)
+      return made(with_modifiers_of(track_, continued, problems_));
+    else
+      return TrackCurve(continued);
   }
 
   std::optional<TrackCurve> scale() {
@@ -143,7 +150,7 @@ class TrackReader {
       };
       const KeyReader<double> reader{part, [part](const JsonValue& rate, double) { return part(rate); }};
       const std::optional<Curve<double>> curve =
-          read_keys<double>(*list_, times_, reader, {.ends = ends_of(track_)}, problems_);
+          read_keys<double>(*list_, times_, reader, key_options_of(track_), problems_);
       if (!curve) return {};
       curves.push_back(with_outside_of(track_, *curve));
     }
@@ -209,6 +216,11 @@ std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times,
   std::optional<TrackCurve> curve = TrackReader(track.value, times, problems).read(property);
   if (!curve) return {};
   return Track{track.name.substr(0, dot), property, std::move(*curve), flag_in(track.value, "relative", false)};
+}
+
+std::optional<Curve<double>> read_plain_keys(const JsonValue& keys, Problems& problems) {
+  const ClipTimes times({}, {}, "the keys of a warp have no duration of their own");
+  return read_keys<double>(keys, times, reader_of<double>(number_of), {}, problems);
 }
 
 std::optional<Curve<double>> read_weight(const JsonValue& keys, std::optional<double> fps, Problems& problems) {
