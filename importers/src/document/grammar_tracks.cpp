@@ -268,11 +268,19 @@ class TrackShapes {
       shape.alternatives.push_back(made.back().object);
     };
     add("number", number);
-    add("vector-2",
-        {"vector-2", values_.vector_2, values_.vector_2, false, {kind_field("vector", false)}, functions.of_vectors(2)});
+    add("vector-2", {"vector-2",
+                     values_.vector_2,
+                     values_.vector_2,
+                     false,
+                     {kind_field("vector", false)},
+                     functions.of_vectors(2)});
     add("vector-3", swinging);
-    add("vector-4",
-        {"vector-4", values_.vector_4, values_.vector_4, false, {kind_field("vector", false)}, functions.of_vectors(4)});
+    add("vector-4", {"vector-4",
+                     values_.vector_4,
+                     values_.vector_4,
+                     false,
+                     {kind_field("vector", false)},
+                     functions.of_vectors(4)});
     add("color", color);
     add("switch", truth);
     add("text", text);
@@ -385,10 +393,12 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   tracks.one_a_line = true;
   tracks.endings = {
       {".position",
-       make.either({"position", values.vector, values.vector, false, {make.relative()}, make.functions.of_places("m")})},
+       make.either(
+           {"position", values.vector, values.vector, false, {make.relative()}, make.functions.of_places("m")})},
       {".rotation", make.rotation()},
       {".scale",
-       make.either({"scale", values.scale, values.scale, false, {make.relative(), make.mix()}, make.functions.of_scales()})},
+       make.either(
+           {"scale", values.scale, values.scale, false, {make.relative(), make.mix()}, make.functions.of_scales()})},
       {".color", make.either({"color", values.color, values.vector_4, false, {make.space(), make.hue()}})},
       {".weights", make.either({"weights", values.numbers, values.numbers})}};
   tracks.others = make.user();

@@ -168,8 +168,7 @@ class RotationTrack {
     };
     reader.unit = radians(1);
     reader.turn = [&](const JsonValue& key) { return turn_of(key, long_way); };
-    const std::optional<Curve<Quat>> curve =
-        read_keys<Quat>(*list_, times_, reader, key_options_of(track_), problems_);
+    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, key_options_of(track_), problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
   }
