@@ -112,7 +112,7 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
   double sign = 1;
   const bool early = time < d.start || (time == d.start && side == Side::in);
   if (early || time > d.end || (time == d.end && side == Side::out)) {
-    const Outside rule = early ? d.before : d.after;
+    const Outside rule = early ? curve.before() : curve.after();
     if (rule == Outside::hold || rule == Outside::linear) return zero<T>();
     const double duration = d.end - d.start;
     double local = std::fmod(time - d.start, duration);
