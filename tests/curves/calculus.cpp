@@ -219,3 +219,19 @@ TEST_CASE("integrals of eases and of weighted handles have their closed forms") 
   CHECK(up_to.value(1) == doctest::Approx(area).epsilon(1e-11));
   CHECK(up_to.value(0.3) + integral(handles, 0.3, 1) == doctest::Approx(area).epsilon(1e-11));
 }
+
+TEST_CASE("roots are the times of zero, and derivatives follow loops outside the knots") {
+  const Curve<double> wave = keyed_curve<double>({{0, -1, Ease::linear()}, {1, 1, Ease::linear()}, {3, -3}});
+  CHECK(roots(wave) == std::vector<double>{0.5, 1.5});
+  const Curve<double> cubic =
+      keyed_curve<double>({{0, 0, Ease::smooth_clamped(), {}, Tangent<double>{Tangent<double>::Kind::given, 1.0}},
+                           {1, 2, Ease::smooth_clamped(), Tangent<double>{Tangent<double>::Kind::given, -3.0}}});
+  // Hermite: value''' = 6 (d0 + d1 - 2 change).
+  CHECK(derivative_at(cubic, 3, 0.3) == doctest::Approx(6 * (1 - 3 - 4)));
+  CHECK(derivative_at(cubic, 4, 0.3) == 0);
+  CHECK(derivative_at(cubic, 3, 1.3) == 0);
+  const Curve<double> back = cubic.with_outside(Outside::repeat, Outside::pingpong);
+  CHECK(derivative_at(back, 3, 1.3) == doctest::Approx(36));
+  CHECK(derivative_at(back, 3, -0.3) == doctest::Approx(-36));
+  CHECK_THROWS_AS((void)derivative_at(cubic, -1, 0), std::invalid_argument);
+}
