@@ -67,6 +67,7 @@ void add_play(std::vector<CurvePart>& result, const Curve<double>& curve, const 
 void add_outside(std::vector<CurvePart>& result, const Curve<double>& curve, const std::vector<Span<double>>& spans,
                  double from, double to, bool early) {
   const Outside rule = early ? curve.before() : curve.after();
+  CurvePart rest{0, 0, {}};
   const Sample<double> end = early ? curve.sample(curve.start(), Side::in) : curve.sample(curve.end(), Side::out);
   if (rule == Outside::hold) {
     result.push_back({from, to, {end.value}});
@@ -75,12 +76,27 @@ void add_outside(std::vector<CurvePart>& result, const Curve<double>& curve, con
     result.push_back({from, to, {end.value + (from - anchor) * end.rate, (to - from) * end.rate}});
   } else {
     const double duration = curve.duration();
-    const double gain = curve.value(curve.end(), Side::in) - curve.value(curve.start());
+    if (const double plays = early ? curve.rule_before().plays : curve.rule_after().plays; plays > 0) {
+      // Beyond the last play the curve rests.
+      const double last = early ? curve.start() - plays * duration : curve.end() + plays * duration;
+      const double resting = curve.value(last, early ? Side::in : Side::out);
+      if (early && from < last) {
+        result.push_back({from, std::min(to, last), {resting}});
+        from = std::min(to, last);
+      }
+      if (!early && to > last) {
+        rest = {std::max(from, last), to, {resting}};
+        to = std::max(from, last);
+      }
+    }
+    const Curve<double> held = curve.with_outside(Outside::hold, Outside::hold);
+    const double gain = held.value(curve.end(), Side::out) - held.value(curve.start(), Side::in);
     const double last = std::ceil((to - curve.start()) / duration);
     for (double k = std::floor((from - curve.start()) / duration); k < last; k += 1)
       add_play(result, curve, spans, from, to,
                {k * duration, rule == Outside::pingpong && std::fmod(k, 2) != 0,
                 rule == Outside::repeat_offset ? k * gain : 0});
+    if (rest.to > rest.from) result.push_back(std::move(rest));
   }
 }
 
