@@ -62,20 +62,14 @@ RotationSpan blank(const Stretch& stretch, double start, double end) {
   return span;
 }
 
-// In the axes of the key's own rotation.
-Vec3 angular_slope(const std::optional<Tangent<Quat>>& tangent, const Quat& rotation, const Vec3& automatic,
+// The angular velocity that a side states or its rule chose, in world axes; the rule's and the straight way's are in
+// the axes of the key's own rotation.
+Vec3 angular_slope(const std::optional<Tangent<Quat>>& tangent, const Quat& rotation, const Vec3& chosen,
                    const Vec3& straight) {
-  if (!tangent) return automatic;
-  switch (tangent->kind) {
-    case TangentKind::given:
-      return rotation.conjugate() * tangent->rate;
-    case TangentKind::flat:
-      return Vec3::Zero();
-    case TangentKind::vector:
-      return straight;
-    default:
-      return automatic;
-  }
+  const TangentKind kind = tangent ? tangent->kind : TangentKind::automatic;
+  if (kind == TangentKind::given) return tangent->rate;
+  if (kind == TangentKind::flat) return Vec3::Zero();
+  return rotation * (kind == TangentKind::vector ? straight : chosen);
 }
 
 void append_shape(std::vector<RotationSpan>& spans, const Key<Quat>& from, double end, const Stretch& stretch) {
@@ -129,8 +123,8 @@ Curve<Quat> rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& op
     } else {
       // Slopes are angular velocities in the axes of the key's own rotation.
       const Vec3 straight = (1 / span.duration) * s.way;
-      const Vec3 leaving = angular_slope(a.out, s.from, Vec3(&slopes.leaving[3 * i]), straight);
-      const Vec3 arriving = angular_slope(b.in, s.to, Vec3(&slopes.arriving[3 * i]), straight);
+      const Vec3 leaving = s.from.conjugate() * angular_slope(a.out, s.from, Vec3(&slopes.leaving[3 * i]), straight);
+      const Vec3 arriving = s.to.conjugate() * angular_slope(b.in, s.to, Vec3(&slopes.arriving[3 * i]), straight);
       const Vec4 d0 = padded(span.duration * leaving);
       const Vec4 d1 = padded(right_jacobian_inverse(s.way) * Vec3(span.duration * arriving));
       const Vec4 from = Vec4::Zero(), change = padded(s.way);
