@@ -121,20 +121,14 @@ RotationSpan at_rest_span(const Stretch& stretch) {
   return span;
 }
 
-// In the axes of the key's own rotation.
-Vec3 angular_slope(const std::optional<Tangent<Quat>>& tangent, const Quat& rotation, const Vec3& automatic,
+// The angular velocity that a side states or its rule chose, in world axes; the rule's and the straight way's are in
+// the axes of the key's own rotation.
+Vec3 angular_slope(const std::optional<Tangent<Quat>>& tangent, const Quat& rotation, const Vec3& chosen,
                    const Vec3& straight) {
-  if (!tangent) return automatic;
-  switch (tangent->kind) {
-    case TangentKind::given:
-      return rotation.conjugate() * tangent->rate;
-    case TangentKind::flat:
-      return Vec3::Zero();
-    case TangentKind::vector:
-      return straight;
-    default:
-      return automatic;
-  }
+  const TangentKind kind = tangent ? tangent->kind : TangentKind::automatic;
+  if (kind == TangentKind::given) return tangent->rate;
+  if (kind == TangentKind::flat) return Vec3::Zero();
+  return rotation * (kind == TangentKind::vector ? straight : chosen);
 }
 
 // The cubic of rotation vectors with given slopes: angular velocities in the axes of the key's own rotation.
@@ -142,8 +136,8 @@ RotationSpan hermite_span(const Key<Quat>& a, const Key<Quat>& b, const Stretch&
                           const Vec3& chosen_arriving, Overlong overlong) {
   RotationSpan span = blank_span(s);
   const Vec3 straight = (s.way + s.spin) / s.duration;
-  const Vec3 leaving = angular_slope(a.out, s.from, chosen_leaving, straight);
-  const Vec3 arriving = angular_slope(b.in, s.to, chosen_arriving, straight);
+  const Vec3 leaving = s.from.conjugate() * angular_slope(a.out, s.from, chosen_leaving, straight);
+  const Vec3 arriving = s.to.conjugate() * angular_slope(b.in, s.to, chosen_arriving, straight);
   constexpr double third = 1.0 / 3;
   const double w0 = a.out ? a.out->weight : third, w1 = b.in ? b.in->weight : third;
   const bool plain = w0 == third && w1 == third;

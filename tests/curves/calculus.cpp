@@ -235,3 +235,18 @@ TEST_CASE("roots are the times of zero, and derivatives follow loops outside the
   CHECK(derivative_at(back, 3, -0.3) == doctest::Approx(-36));
   CHECK_THROWS_AS((void)derivative_at(cubic, -1, 0), std::invalid_argument);
 }
+
+TEST_CASE("integral, range and solve know counted plays and given slopes outside") {
+  const Curve<double> line = keyed_curve<double>({{0, 0, Ease::linear()}, {1, 2}});
+  const Curve<double> c =
+      line.with_outside(OutsideRule<double>{Outside::linear, -1}, OutsideRule<double>{Outside::repeat_offset, {}, 2});
+  // Triangle, three climbs that go on from each other, then rest at 6.
+  CHECK(integral(c, -2, 0) == doctest::Approx(2));
+  CHECK(integral(c, 0, 3) == doctest::Approx(9));
+  CHECK(integral(c, 0, 5) == doctest::Approx(21));
+  CHECK(integral(c, 4, 5) == doctest::Approx(6));
+  CHECK(range(c, -2, 9).high == doctest::Approx(6));
+  CHECK(solve(c, 5, 0, 9).front() == doctest::Approx(2.5));
+  const Curve<double> before = line.with_outside(OutsideRule<double>{Outside::repeat, {}, 1.5}, {});
+  CHECK(integral(before, -3, 0) == doctest::Approx(1 + 0.75 + 1.5));
+}

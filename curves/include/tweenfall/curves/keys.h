@@ -57,9 +57,9 @@ struct Key {
   double time;                         ///< s; strictly increasing along a curve
   T value;                             ///< rotations need not be normalized
   Ease ease = Ease::smooth_clamped();  ///< how the curve leaves this key
-  std::optional<Tangent<T>> in{},
-      out{};  ///< slopes; a span is Hermite when the key it leaves has `out` or the one it reaches has `in`.
-              ///< Outside::linear goes on at a given or flat slope of the first key's `in` and the last key's `out`
+  /// Slopes; a span is Hermite when the key it leaves has `out` or the one it reaches has `in`. Outside::linear goes on
+  /// at a given or flat slope of the first key's `in` and the last key's `out`.
+  std::optional<Tangent<T>> in{}, out{};
   std::optional<T> value_in{};  ///< the value arriving, where the curve jumps
   Turn turn{};                  ///< rotations only: the way to the next key
 };
