@@ -73,8 +73,8 @@ Sample<Quat> sample_rotation(const Data& d, std::size_t i, const Warp::Result& w
   } else {
     Polynomial<Vec4> p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
     if (s.warped) through(w, p);
-    result = s.form == RotationSpan::Form::normalized ? sample_normalized(p, d.ends[i])
-                                                      : sample_exponential(d.starts[i], p);
+    result =
+        s.form == RotationSpan::Form::normalized ? sample_normalized(p, d.ends[i]) : sample_exponential(d.starts[i], p);
   }
   if (!d.spins.empty() && !d.spins[i].isZero(0)) result = spun(result, d.spins[i], w);
   result.rate *= s.inverse;

@@ -43,9 +43,8 @@ Way way_of(std::span<const Key<Quat>> keys, std::size_t i, const Quat& from, con
       refuse_key(keys, i, "makes whole turns to an equal rotation, so it needs an axis to turn about");
     direction = from.conjugate() * turn.axis;
   } else {
-    const bool other_way = turn.way == Turn::Way::along
-                               ? shorter.dot(from.conjugate() * turn.axis) < 0
-                               : turn.way == Turn::Way::longer || (long_way && turn == Turn{});
+    const bool other_way = turn.way == Turn::Way::along ? shorter.dot(from.conjugate() * turn.axis) < 0
+                                                        : turn.way == Turn::Way::longer || (long_way && turn == Turn{});
     if (other_way) turns = -turns - 1;
   }
   if (turns == 0) return {shorter, Vec3(0, 0, 0)};

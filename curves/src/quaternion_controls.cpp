@@ -51,8 +51,7 @@ Curve<Quat> bezier_rotation(std::span<const double> times, std::span<const Quat>
   std::vector<RotationSpan> spans;
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
     const Quat* c = &units[3 * i];
-    RotationSpan span =
-        blank_span({times[i], times[i + 1] - times[i], c[0], c[3], Vec3(0, 0, 0), Vec3(0, 0, 0)});
+    RotationSpan span = blank_span({times[i], times[i + 1] - times[i], c[0], c[3], Vec3(0, 0, 0), Vec3(0, 0, 0)});
     set_de_casteljau(span, c[0], c[1], c[2], c[3]);
     spans.push_back(span);
   }
@@ -75,7 +74,8 @@ Curve<Quat> clamped_rotation(std::span<const double> times, std::span<const Quat
     stretches.push_back({times[i], times[i + 1] - times[i], units[i], units[i + 1],
                          log_map(units[i].conjugate() * units[i + 1]), Vec3(0, 0, 0)});
   NaturalEnds ends;
-  ends.start = start ? Vec3(units.front().conjugate() * *start) : Vec3(stretches.front().way / stretches.front().duration);
+  ends.start =
+      start ? Vec3(units.front().conjugate() * *start) : Vec3(stretches.front().way / stretches.front().duration);
   ends.end = end ? Vec3(units.back().conjugate() * *end) : Vec3(stretches.back().way / stretches.back().duration);
   std::vector<RotationSpan> spans;
   append_natural(stretches, 0, stretches.size(), ends, spans);

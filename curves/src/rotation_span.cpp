@@ -46,8 +46,7 @@ Sample<Quat> sample_nested(const Vec4* rows, const Warp::Result& s) noexcept {
 Sample<Quat> spun(const Sample<Quat>& sample, const Vec3& spin, const Warp::Result& s) noexcept {
   const Quat turn = exp_map(s.s * spin);
   const Vec3 spinning = s.ds * spin, carried = turn * sample.rate;
-  return {turn * sample.value, spinning + carried,
-          s.dds * spin + spinning.cross(carried) + turn * sample.acceleration};
+  return {turn * sample.value, spinning + carried, s.dds * spin + spinning.cross(carried) + turn * sample.acceleration};
 }
 
 }  // namespace tweenfall

@@ -140,8 +140,7 @@ class Rates {
         const Vec3& to = rates[k + 1 < n ? k + 1 : 0];
         row.upper = 2 / p->h * p->inverse;
         row.diagonal += 4 / p->h * Mat3::Identity() - p->spin_cross;
-        row.right +=
-            6 / (p->h * p->h) * p->total - row.upper * to - 4 / p->h * rates[k] + p->spin_cross * rates[k];
+        row.right += 6 / (p->h * p->h) * p->total - row.upper * to - 4 / p->h * rates[k] + p->spin_cross * rates[k];
       }
     }
     return rows;
@@ -180,10 +179,10 @@ class Rates {
     }
     for (std::size_t k = n - 1; k-- > first;) sides[k] -= uppers[k] * sides[k + 1];
     if (ends_.around) {
-      const Mat3 all = rows[0].diagonal + rows[0].lower * sides[n - 1].leftCols<3>() +
-                       rows[0].upper * sides[1].leftCols<3>();
-      result[0] = all.inverse() *
-                  Vec3(rows[0].right - rows[0].lower * sides[n - 1].col(3) - rows[0].upper * sides[1].col(3));
+      const Mat3 all =
+          rows[0].diagonal + rows[0].lower * sides[n - 1].leftCols<3>() + rows[0].upper * sides[1].leftCols<3>();
+      result[0] =
+          all.inverse() * Vec3(rows[0].right - rows[0].lower * sides[n - 1].col(3) - rows[0].upper * sides[1].col(3));
     }
     for (std::size_t k = first; k < n; ++k) {
       result[k] = sides[k].col(3);

@@ -30,7 +30,7 @@ struct TurnProblem {
   const std::vector<Stretch>& stretches;
   std::size_t first, last;  ///< the run: stretches first to last - 1
   Ends ends;
-  const Slopes& slopes;              ///< angular velocities by the run's slope rule, axes of the keys, whole turns included
+  const Slopes& slopes;  ///< angular velocities by the run's slope rule, axes of the keys, whole turns included
   std::vector<RotationSpan>& spans;  ///< result, appended
 
   /// What is left beside the whole turns, as rotation vectors over the span.
@@ -38,7 +38,9 @@ struct TurnProblem {
   [[nodiscard]] Vec3 arriving(std::size_t i) const noexcept { return turning(slopes.arriving, i); }
   /// At the first and last key of the curve, where no slope is asked for.
   [[nodiscard]] bool starts_open(std::size_t i) const noexcept { return i == 0 && ends == Ends::secant; }
-  [[nodiscard]] bool ends_open(std::size_t i) const noexcept { return i + 1 == stretches.size() && ends == Ends::secant; }
+  [[nodiscard]] bool ends_open(std::size_t i) const noexcept {
+    return i + 1 == stretches.size() && ends == Ends::secant;
+  }
   /// Where the neighbors of a span are, around a loop too; null where there is none.
   [[nodiscard]] const Stretch* before(std::size_t i) const noexcept {
     return i > 0 ? &stretches[i - 1] : ends == Ends::wrap ? &stretches.back() : nullptr;

@@ -120,13 +120,12 @@ class TrackShapes {
     const Shape* turn = store_.add(words_of("which way around", {"short", "long"}));
     const TrackKind euler{
         "euler", values_.euler, values_.vector, {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}}};
-    const TrackKind quaternion{
-        "quat",
-        values_.quaternion,
-        values_.vector,
-        {relative(), {"turn", turn, "way around", false, "\"short\""}},
-        {},
-        {{"turn", key_turn(turn), "the way to the next key"}}};
+    const TrackKind quaternion{"quat",
+                               values_.quaternion,
+                               values_.vector,
+                               {relative(), {"turn", turn, "way around", false, "\"short\""}},
+                               {},
+                               {{"turn", key_turn(turn), "the way to the next key"}}};
     const TrackKind axis_angle{"axis-angle", values_.axis_angle, values_.vector, {relative()}};
     const TrackKind degrees{"degrees",
                             values_.number,

@@ -73,7 +73,8 @@ Form form_of_spans(const Curve<Quat>& curve) {
   bool turns = true, cubics = true;
   for (const RotationSpan& span : curve.spans()) {
     const bool exponential = span.form == RotationSpan::Form::exponential;
-    turns = turns && exponential && span.degree <= 1 && span.spin.isZero(0) && span.coefficients[0].head<3>().isZero(0) &&
+    turns = turns && exponential && span.degree <= 1 && span.spin.isZero(0) &&
+            span.coefficients[0].head<3>().isZero(0) &&
             (span.degree == 0 || span.coefficients[1].head<3>().norm() <= 3.1415926);
     cubics = cubics && span.form == RotationSpan::Form::normalized && span.degree <= 3 && span.spin.isZero(0);
   }

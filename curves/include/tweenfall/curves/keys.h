@@ -30,8 +30,8 @@ struct Turn {
   /// `along` is the way that turns positively about `axis`: counterclockwise for who looks against the axis.
   enum class Way { shorter, longer, along };
   Way way = Way::shorter;
-  int whole_turns = 0;   ///< added in the direction of the way; negative: taken off it
-  Vec3 axis{0, 0, 0};    ///< outer axes; read for `along`, and for whole turns between equal rotations
+  int whole_turns = 0;  ///< added in the direction of the way; negative: taken off it
+  Vec3 axis{0, 0, 0};   ///< outer axes; read for `along`, and for whole turns between equal rotations
 
   bool operator==(const Turn&) const = default;
 };
