@@ -79,6 +79,12 @@ class Rates {
     double miss = size_of(rows);
     for (int round = 0; round < 50 && miss > 0; ++round) {
       const std::vector<Vec3> step = solve(rows);
+      double step_size = 0, rate_size = 0;
+      for (std::size_t k = 0; k < step.size(); ++k) {
+        step_size += step[k].squaredNorm();
+        rate_size += rates_[k].squaredNorm();
+      }
+      if (!(step_size > 1e-31 * rate_size)) break;
       double share = 1;
       bool better = false;
       for (int halving = 0; halving < 8 && !better; ++halving, share /= 2) {
