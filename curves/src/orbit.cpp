@@ -58,7 +58,8 @@ void check(const Orbit& o) {
   if (!(o.eccentricity >= 0))
     throw std::invalid_argument("an orbit's eccentricity must be >= 0; it is " + text_of(o.eccentricity));
   if (!(o.gravitational_parameter > 0))
-    throw std::invalid_argument("an orbit's gravitational parameter must be > 0 m^3/s^2; it is " + text_of(o.gravitational_parameter));
+    throw std::invalid_argument("an orbit's gravitational parameter must be > 0 m^3/s^2; it is " +
+                                text_of(o.gravitational_parameter));
 }
 
 }  // namespace

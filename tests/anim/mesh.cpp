@@ -85,10 +85,8 @@ TEST_CASE("joints in their bind poses leave a skinned mesh where it was") {
 }
 
 TEST_CASE("a swept surface becomes a mesh with all that it has") {
-  const SurfaceMesh surface{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-                            {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
-                            {{0, 0}, {1, 0}, {0, 1}},
-                            {0, 1, 2}};
+  const SurfaceMesh surface{
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 0}, {1, 0}, {0, 1}}, {0, 1, 2}};
   const Mesh mesh = mesh_of(surface, "vase");
   CHECK(mesh.name == "vase");
   CHECK(mesh.positions == surface.positions);

@@ -54,7 +54,8 @@ TEST_CASE("positions are those that tables give") {
   CHECK(std::abs(eccentric(0.99, 0.2) - 1.066997) < 1e-6);
   CHECK(std::abs(eccentric(0.999, 7 * pi / 180) * 180 / pi - 52.2702615) < 1e-7);
   const double gauss = 0.01720209895;
-  const Vec3 comet = orbit({.periapsis = 1.487469, .eccentricity = 1, .gravitational_parameter = gauss * gauss}).value(112.5642);
+  const Vec3 comet =
+      orbit({.periapsis = 1.487469, .eccentricity = 1, .gravitational_parameter = gauss * gauss}).value(112.5642);
   CHECK(std::abs(std::atan2(comet[1], comet[0]) * 180 / pi - 66.78862) < 2e-5);
   CHECK(std::abs(comet.norm() - 2.133911) < 2e-6);
 }

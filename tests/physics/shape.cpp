@@ -66,9 +66,7 @@ TEST_CASE("bounds touch the shape on every side") {
 }
 
 TEST_CASE("a turned cylinder has a cylinder's mass properties, and an open surface has none") {
-  const auto edge = [](Vec2 from, Vec2 to) {
-    return keyed_curve<Vec2>({{0, from, Ease::linear()}, {1, to}});
-  };
+  const auto edge = [](Vec2 from, Vec2 to) { return keyed_curve<Vec2>({{0, from, Ease::linear()}, {1, to}}); };
   // A cylinder of radius 1 and height 2 about y: m r^2 / 2, m (3 r^2 + h^2) / 12.
   const Curve<Vec2> wall = edge({1, 0}, {1, 2});
   const MassProperties cylinder = mass_properties(lathe(wall, {.segments = 500}), 3);

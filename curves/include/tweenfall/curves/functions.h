@@ -44,12 +44,12 @@ struct Pendulum {
 
 /// A small body around a heavy one: a conic section with the heavy body in a focus, swept at Kepler's pace.
 struct Orbit {
-  Vec3 center{0, 0, 0};       ///< the heavy body, m
-  double periapsis = 1;       ///< least distance from it, m; > 0
-  double eccentricity = 0;    ///< >= 0: below 1 an ellipse, 1 a parabola, above a hyperbola
+  Vec3 center{0, 0, 0};                ///< the heavy body, m
+  double periapsis = 1;                ///< least distance from it, m; > 0
+  double eccentricity = 0;             ///< >= 0: below 1 an ellipse, 1 a parabola, above a hyperbola
   double gravitational_parameter = 1;  ///< G M, m^3/s^2; > 0
-  double passage = 0;         ///< time at which the periapsis is passed, s
-  Quat rotation{1, 0, 0, 0};  ///< turns the plane: x to the periapsis, y as the body moves there
+  double passage = 0;                  ///< time at which the periapsis is passed, s
+  Quat rotation{1, 0, 0, 0};           ///< turns the plane: x to the periapsis, y as the body moves there
 
   /// The settings of an ellipse that is run through in `period` seconds.
   /// @throws std::invalid_argument unless eccentricity < 1 and period > 0.
@@ -68,8 +68,8 @@ struct EvenPath {
 /// From 0 s to the duration; the speed is the path's length over the duration to about 1e-12.
 /// @throws std::invalid_argument naming the point that is not finite or equal to the one before; too few points.
 [[nodiscard]] Curve<Vec3> even_path(const EvenPath& settings);
-/// The way of `shape`, from its first knot to its last, run through at an even speed from 0 s to `duration`. It kinks where
-/// `shape` does; where `shape` jumps, the jump takes no time.
+/// The way of `shape`, from its first knot to its last, run through at an even speed from 0 s to `duration`. It kinks
+/// where `shape` does; where `shape` jumps, the jump takes no time.
 /// @throws std::invalid_argument for an endless shape, one without length, or a duration not > 0.
 [[nodiscard]] Curve<Vec3> even_path(const Curve<Vec3>& shape, double duration);
 
