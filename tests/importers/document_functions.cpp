@@ -47,7 +47,7 @@ TEST_CASE("angles of functions are degrees, and rotations turn about the axis by
   CHECK(2 * std::atan2(swing.value(0.4).z(), swing.value(0.4).w()) == doctest::Approx(exact.value(0.4)).epsilon(1e-14));
   const Curve<double> lean = curve_of<double>("a.lean", R"({"pendulum": {"angle": 150, "length": 2}})");
   CHECK(lean.value(0.4) == doctest::Approx(exact.value(0.4) / degree).epsilon(1e-14));
-  CHECK(lean.rate(0) == 0);
+  CHECK(std::abs(lean.rate(0)) < 1e-12);
 }
 
 TEST_CASE("an orbit is back after its period, and a hyperbola needs the pull") {
@@ -88,6 +88,6 @@ TEST_CASE("a fault in an expression is told at its column in the file") {
   const std::string text =
       "{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {\n  \"a.b\": {\"expression\": \"1 + 2*cas(t)\"}}}}}";
   CHECK(faults_of(text, "wave.json", {}) ==
-        "wave.json:2:31: error: unknown function \"cas\"; did you mean \"cos\"? (at /clips/c/tracks/a.b/expression)\n"
-        " 2 |   \"a.b\": {\"expression\": \"1 + 2*cas(t)\"}}}}}\n   |                               ^\n");
+        "wave.json:2:32: error: unknown function \"cas\"; did you mean \"cos\"? (at /clips/c/tracks/a.b/expression)\n"
+        " 2 |   \"a.b\": {\"expression\": \"1 + 2*cas(t)\"}}}}}\n   |                                ^\n");
 }

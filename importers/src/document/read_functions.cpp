@@ -74,13 +74,17 @@ std::optional<Curve<Vec3>> orbit_of(const JsonValue& settings, Problems& problem
   return orbit(o);
 }
 
-std::optional<Curve<Vec3>> path_of(const JsonValue& settings) {
+std::optional<Curve<Vec3>> path_of(const JsonValue& settings, Problems& problems) {
   EvenPath p{.closed = flag_in(settings, "closed", false), .duration = number_in(settings, "duration", 1)};
   const JsonValue* points = usable(settings, "points");
   if (!points) return {};
   for (const JsonValue& each : points->items) {
     const std::optional<Vec3> point = vector_of(each);
     if (!point) return {};
+    if (!p.points.empty() && p.points.back() == *point) {
+      problems.add(each, "neighboring points of a path are apart; this one is the same as the one before it");
+      return {};
+    }
     p.points.push_back(*point);
   }
   if (const std::optional<Ease> ease = Ease::named(text_in(settings, "ease", "natural"))) p.ease = *ease;
@@ -118,7 +122,7 @@ std::optional<TrackCurve> function_of(const JsonValue& track, Problems& problems
   if (const JsonValue* f = usable(track, "pendulum")) return TrackCurve(scaled(pendulum_of(*f), degrees(1)));
   if (const JsonValue* f = usable(track, "projectile")) return TrackCurve(projectile_of(*f));
   if (const JsonValue* f = usable(track, "orbit")) return made(orbit_of(*f, problems));
-  if (const JsonValue* f = usable(track, "path")) return passing(path_of(*f));
+  if (const JsonValue* f = usable(track, "path")) return passing(path_of(*f, problems));
   if (const JsonValue* f = usable(track, "line")) return passing(line_of(*f));
   if (const JsonValue* f = usable(track, "arc")) return passing(arc_of(*f, problems));
   return read_expression(track, problems);
