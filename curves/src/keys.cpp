@@ -98,8 +98,8 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
       spans.push_back(span);
     }
   }
-  return CurveAccess::with_end_slopes(
-      CurveAccess::from_spans<T>(spans, keys.back().time, &keys.back().value, &keys.front().value), tangents.outer());
+  return CurveAccess::from_spans<T>(spans, keys.back().time, {{}, keys.front().value, tangents.before()},
+                                    {{}, keys.back().value, tangents.after()});
 }
 
 }  // namespace
