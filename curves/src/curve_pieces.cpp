@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hermite_coefficients.h"
 #include "polynomial.h"
 #include "span_part.h"
 #include "spans_between.h"
@@ -64,12 +65,7 @@ class Quintics {
     piece.to = to;
     piece.error = tolerance_;
     piece.degree = 5;
-    piece.c = {a.value,
-               d0,
-               0.5 * e0,
-               10 * change - 6 * d0 - 4 * d1 - 1.5 * e0 + 0.5 * e1,
-               -15 * change + 8 * d0 + 7 * d1 + 1.5 * e0 - e1,
-               6 * change - 3 * d0 - 3 * d1 - 0.5 * e0 + 0.5 * e1};
+    quintic_coefficients(a.value, change, d0, d1, e0, e1, piece.c.data());
     return piece;
   }
 

@@ -114,7 +114,7 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
   const bool early = time < d.start || (time == d.start && side == Side::in);
   if (early || time > d.end || (time == d.end && side == Side::out)) {
     const OutsideRule<T>& outside = (early ? d.before : d.after).rule;
-    if (outside.rule == Outside::hold || outside.rule == Outside::linear) return zero<T>();
+    if (!loops(outside.rule)) return zero<T>();
     const std::optional<double> over = last_play(outside, d.start, d.end, early);
     if (over && is_beyond(time, side, *over, early)) return zero<T>();
     const auto [local, plays] = played_time(time, d.start, d.end - d.start, side == Side::in);
@@ -137,8 +137,7 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
 // Whether the rate beyond an end is one value or a loop of the rates inside.
 template <class T>
 bool is_plain_outside(const OutsideRule<T>& rule) noexcept {
-  return rule.rule == Outside::hold || rule.rule == Outside::linear ||
-         (rule.rule != Outside::pingpong && rule.plays == 0);
+  return !loops(rule.rule) || (rule.rule != Outside::pingpong && rule.plays == 0);
 }
 
 template <class T>

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "curve_data.h"
+#include "outside.h"
 #include "span_part.h"
 #include "spans_between.h"
 
@@ -23,8 +24,7 @@ void check_order(double from, double to) {
 template <class T>
 CurveEnd<T> end_of(const Curve<T>& curve, bool early) {
   CurveEnd<T> end = early ? CurveAccess::data(curve).before : CurveAccess::data(curve).after;
-  const bool loops = end.rule.rule != Outside::hold && end.rule.rule != Outside::linear;
-  if (curve.spans().empty() && !loops && std::isfinite(early ? curve.start() : curve.end()))
+  if (curve.spans().empty() && !loops(end.rule.rule) && std::isfinite(early ? curve.start() : curve.end()))
     end.value = early ? curve.value(curve.start(), Side::in) : curve.value(curve.end(), Side::out);
   return end;
 }

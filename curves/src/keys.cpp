@@ -2,6 +2,7 @@
 
 #include "bezier_span.h"
 #include "curve_data.h"
+#include "hermite_coefficients.h"
 #include "key_check.h"
 #include "key_tangents.h"
 #include "keys_converted.h"

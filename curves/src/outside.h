@@ -43,10 +43,14 @@ Sample<T> offset_by_plays(const Sample<T>& sample, const T& start, const T& end,
   }
 }
 
+inline bool loops(Outside rule) noexcept {
+  return rule != Outside::hold && rule != Outside::linear;
+}
+
 // Where counted plays are over and the curve comes to rest; none where it goes on for ever.
 template <class T>
 std::optional<double> last_play(const OutsideRule<T>& rule, double start, double end, bool early) noexcept {
-  if (rule.rule == Outside::hold || rule.rule == Outside::linear || !(rule.plays > 0)) return std::nullopt;
+  if (!loops(rule.rule) || !(rule.plays > 0)) return std::nullopt;
   const double beyond = rule.plays * (end - start);
   return early ? start - beyond : end + beyond;
 }

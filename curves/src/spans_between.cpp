@@ -13,10 +13,6 @@ namespace {
 
 constexpr double most_plays = 1e6;
 
-bool loops(Outside rule) noexcept {
-  return rule != Outside::hold && rule != Outside::linear;
-}
-
 template <class T>
 T turned_part(const Quat& turn, const T& part) noexcept {
   const Quat q = turn * Quat(part[3], part[0], part[1], part[2]);
