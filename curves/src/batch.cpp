@@ -21,8 +21,8 @@ void check_size(std::size_t given, std::size_t wanted, const char* what) {
 
 template <class Data>
 bool is_plain(const Data& data) {
-  return !data.segments.empty() && data.warps.empty() && data.before.rule == Outside::hold &&
-         data.after.rule == Outside::hold &&
+  return !data.segments.empty() && data.warps.empty() && data.before.rule.rule == Outside::hold &&
+         data.after.rule.rule == Outside::hold &&
          std::all_of(data.segments.begin(), data.segments.end(), [](const Segment& s) { return s.degree <= 3; });
 }
 
