@@ -132,3 +132,20 @@ TEST_CASE("modifiers change vectors component by component, or all alike") {
   CHECK(2 * std::atan2(nod.value(0.5).x(), nod.value(0.5).w()) == doctest::Approx(55 * degree).epsilon(1e-14));
   CHECK(near(nod.rate(0.5), Vec3(90 * degree, 0, 0), 1e-14));
 }
+
+TEST_CASE("splines through rotations pass them with the angular velocities that their ends state") {
+  const Curve<Quat> spline = curve_of<Quat>(
+      "a.rotation",
+      R"({"spline": {"points": [{"euler": [0, 0, 0]}, {"axis": "z", "angle": 90}, {"axis": "x", "angle": 90}], "times": [0, 1, 3],
+          "start": {"rate": [0, 0, 30]}, "end": {"rate": [10, 0, -20]}}})");
+  CHECK(near(spline.rate(0), degree * Vec3(0, 0, 30), 1e-12));
+  CHECK(near(spline.rate(3, Side::in), degree * Vec3(10, 0, -20), 1e-12));
+  CHECK(near(spline.value(1), Quat(std::sqrt(0.5), 0, 0, std::sqrt(0.5)), 1e-12));
+  CHECK(near(spline.rate(1, Side::in), spline.rate(1), 1e-9));
+  // Control rotations about one axis: Bernstein's cubic of their angles, 90 u^3 + 3 u^2 (1 - u) 30.
+  const Curve<Quat> bezier = curve_of<Quat>(
+      "a.rotation",
+      R"({"bezier": {"points": [{"axis": "y", "angle": 0}, {"axis": "y", "angle": 0}, {"axis": "y", "angle": 30}, {"axis": "y", "angle": 90}], "duration": 2}})");
+  const double u = 0.4, angle = (90 * u * u * u + 90 * u * u * (1 - u)) * degree;
+  CHECK(near(bezier.value(0.8), Quat(std::cos(angle / 2), 0, std::sin(angle / 2), 0), 1e-12));
+}

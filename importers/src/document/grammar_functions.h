@@ -20,6 +20,9 @@ struct TrackFunctions {
 [[nodiscard]] std::vector<Field> spline_fields(ShapeStore& store, const ValueShapes& values, const Shape* value,
                                                const std::string& kind);
 
+// The same for rotations.
+[[nodiscard]] std::vector<Field> rotation_spline_fields(ShapeStore& store, const ValueShapes& values);
+
 class FunctionShapes {
  public:
   FunctionShapes(ShapeStore& store, const ValueShapes& values);

@@ -78,4 +78,29 @@ std::vector<Field> spline_fields(ShapeStore& store, const ValueShapes& values, c
           {"b_spline", named("b-spline", std::move(b_spline)), "a B-spline, drawn by control points"}};
 }
 
+std::vector<Field> rotation_spline_fields(ShapeStore& store, const ValueShapes& values) {
+  const Shape* points = store.add(list_of(values.rotation, "a list of two or more rotations", 2));
+  const Shape* times = store.add(list_of(values.number, "a list of two or more times in seconds", 2));
+  const Field duration{"duration", values.positive, "s for the whole of it", false, "1"};
+  Shape rate = object_of("an end: {\"rate\"}", {{"rate", values.vector, "angular velocity, degrees per second", true}});
+  rate.on_one_line = true;
+  const Shape* end = store.add(std::move(rate));
+  Shape through = object_of("a spline: {\"points\", \"times\", ...}",
+                            {{"points", points, "it leads through all of them, the short way", true},
+                             {"times", times, "s, one a point"},
+                             duration,
+                             {"start", end, "absent: the mean of the first span"},
+                             {"end", end, "absent: the mean of the last span"}});
+  through.together = {at_most_one({"times", "duration"})};
+  through.definition = "spline-rotation";
+  Shape bezier = object_of("a chain of Bezier curves: {\"points\", ...}",
+                           {{"points", points, "end, two controls, end, two controls, end, ...", true},
+                            {"times", times, "s, one an end"},
+                            duration});
+  bezier.together = {at_most_one({"times", "duration"})};
+  bezier.definition = "bezier-rotation";
+  return {{"spline", store.add(std::move(through)), "through rotations with continuous angular acceleration"},
+          {"bezier", store.add(std::move(bezier)), "Bezier curves, drawn by control rotations"}};
+}
+
 }  // namespace tweenfall::document

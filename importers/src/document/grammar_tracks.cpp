@@ -111,6 +111,7 @@ class TrackShapes {
     for (const Field& function : kind.functions.passing) {
       shape.fields.push_back(function);
       sources.push_back(function.name);
+      if (shape.field("turn")) shape.together.push_back(at_most_one({"turn", function.name}));
       shape.together.push_back(at_most_one({"overlong", function.name}));
       shape.together.push_back(at_most_one({"ends", function.name}));
     }
@@ -160,7 +161,7 @@ class TrackShapes {
                                values_.vector,
                                true,
                                {relative(), {"turn", turn, "way around", false, "\"short\""}},
-                               {},
+                               {{}, rotation_spline_fields(store_, values_), false},
                                {{"turn", key_turn(turn), "the way to the next key"}}};
     const TrackKind axis_angle{"axis-angle", values_.axis_angle, values_.vector, true, {relative()}};
     const TrackKind degrees{"degrees",
@@ -184,7 +185,9 @@ class TrackShapes {
     shape.select = [=](const JsonValue& value) -> const Shape* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
-      if (!list && (value.find("axis") || has_function(value))) return in_degrees;
+      const bool has_axis = value.find("axis") != nullptr;
+      if (!list && !has_axis && (value.find("spline") || value.find("bezier"))) return in_quat.object;
+      if (!list && (has_axis || has_function(value))) return in_degrees;
       const JsonValue* first = first_key_value(value);
       const Spelled& spelled = first && first->find("quat")    ? in_quat
                                : first && first->find("angle") ? in_axis_angle

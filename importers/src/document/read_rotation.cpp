@@ -7,6 +7,7 @@
 #include "document/read_functions.h"
 #include "document/read_keys.h"
 #include "document/read_modifiers.h"
+#include "document/read_splines.h"
 #include "document/values.h"
 
 #include <cmath>
@@ -47,6 +48,10 @@ class RotationTrack {
 
   std::optional<Curve<Quat>> read() {
     if (usable(track_, "axis")) return about_axis();
+    if (has_function(track_)) {
+      const std::optional<Curve<Quat>> spline = read_rotation_spline(track_, problems_);
+      return spline ? std::optional(with_outside_of(track_, *spline)) : std::nullopt;
+    }
     if (!list_ || list_->items.empty()) return {};
     const JsonValue* first = key_parts(list_->items.front()).value;
     if (!first) {

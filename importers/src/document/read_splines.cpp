@@ -22,20 +22,18 @@ class SplineReader {
   std::optional<Curve<T>> through_points(const JsonValue& settings) {
     const std::vector<T> points = values_in(settings, "points");
     const bool closed = flag_in(settings, "closed", false);
-    const std::vector<double> times = times_in(settings, [&] {
-      const std::string spacing = text_in(settings, "spacing", "uniform");
-      return spline_times<T>(points,
-                             spacing == "centripetal" ? Parametrization::centripetal
-                             : spacing == "chordal"   ? Parametrization::chordal
-                                                      : Parametrization::uniform,
-                             closed);
-    });
     const std::string each = "one for each of the " + std::to_string(points.size()) + " points";
     if (!has_count(settings, "times", points.size() + (closed ? 1 : 0),
-                   each + (closed ? " and one for the return" : "")) ||
-        !has_count(settings, "rates", points.size(), each) ||
-        !has_count(settings, "accelerations", points.size(), each) || !has_rising_times(settings))
+                   each + (closed ? " and one for the return" : ""), problems_) ||
+        !has_count(settings, "rates", points.size(), each, problems_) ||
+        !has_count(settings, "accelerations", points.size(), each, problems_) || !has_rising_times(settings, problems_))
       return {};
+    const std::string spacing = text_in(settings, "spacing", "uniform");
+    const Parametrization parametrization = spacing == "centripetal" ? Parametrization::centripetal
+                                            : spacing == "chordal"   ? Parametrization::chordal
+                                                                     : Parametrization::uniform;
+    const std::vector<double> times = times_in(
+        settings, usable(settings, "times") ? std::vector<double>() : spline_times<T>(points, parametrization, closed));
     if (usable(settings, "rates") && !usable(settings, "accelerations"))
       return hermite_spline<T>(times, points, values_in(settings, "rates"));
     if (usable(settings, "rates"))
@@ -61,23 +59,9 @@ class SplineReader {
 
   std::optional<Curve<T>> of_bezier_curves(const JsonValue& settings) {
     const std::vector<T> points = values_in(settings, "points");
-    const std::size_t degree = degree_in(settings);
-    if (points.size() % degree != 1 % degree || points.size() <= degree) {
-      problems_.add(*usable(settings, "points"),
-                    "curves of degree " + std::to_string(degree) + " that share their ends have " +
-                        std::to_string(degree + 1) + " points, or " + std::to_string(2 * degree + 1) + ", " +
-                        std::to_string(3 * degree + 1) + ", ...; found " + std::to_string(points.size()));
-      return {};
-    }
-    const std::size_t curves = (points.size() - 1) / degree;
-    const std::vector<double> times = times_in(settings, [&] {
-      std::vector<double> even;
-      for (std::size_t i = 0; i <= curves; ++i) even.push_back(static_cast<double>(i));
-      return even;
-    });
-    if (!has_count(settings, "times", curves + 1, "one for each of the " + std::to_string(curves + 1) + " ends") ||
-        !has_rising_times(settings))
-      return {};
+    const std::size_t degree = degree_in(settings), curves = bezier_curves_in(settings, degree, problems_);
+    if (curves == 0) return {};
+    const std::vector<double> times = times_in(settings, even_times(curves));
     std::vector<T> control;
     for (std::size_t i = 0; i < curves; ++i)
       for (std::size_t k = 0; k <= degree; ++k) control.push_back(points[i * degree + k]);
@@ -88,7 +72,7 @@ class SplineReader {
     const std::vector<T> points = values_in(settings, "points");
     const int degree = static_cast<int>(degree_in(settings));
     const std::size_t knots_wanted = points.size() + static_cast<std::size_t>(degree) + 1;
-    if (!has_count(settings, "knots", knots_wanted, "degree + 1 more than points")) return {};
+    if (!has_count(settings, "knots", knots_wanted, "degree + 1 more than points", problems_)) return {};
     if (const JsonValue* knots = usable(settings, "knots")) return b_spline<T>(degree, numbers_in(*knots), points);
     return b_spline<T>(degree, clamped_knots(degree, points.size(), 0, number_in(settings, "duration", 1)), points);
   }
@@ -122,38 +106,6 @@ class SplineReader {
     return static_cast<std::size_t>(number_in(settings, "degree", 3));
   }
 
-  // Whether a list, if it is there, is as long as it must be.
-  [[nodiscard]] bool has_count(const JsonValue& settings, std::string_view name, std::size_t count,
-                               const std::string& why) {
-    const JsonValue* list = usable(settings, name);
-    if (!list || list->items.size() == count) return true;
-    problems_.add(*list,
-                  "expected " + std::to_string(count) + ", " + why + "; found " + std::to_string(list->items.size()));
-    return false;
-  }
-
-  [[nodiscard]] bool has_rising_times(const JsonValue& settings) {
-    const JsonValue* times = usable(settings, "times");
-    for (std::size_t i = 1; times && i < times->items.size(); ++i) {
-      const double before = times->items[i - 1].number, time = times->items[i].number;
-      if (time > before) continue;
-      problems_.add(times->items[i],
-                    "times must increase; " + number_text(time) + " s is not after " + number_text(before) + " s");
-      return false;
-    }
-    return true;
-  }
-
-  // Those stated, else the proposed ones stretched to the duration.
-  template <class Propose>
-  [[nodiscard]] static std::vector<double> times_in(const JsonValue& settings, const Propose& propose) {
-    if (const JsonValue* stated = usable(settings, "times")) return numbers_in(*stated);
-    std::vector<double> times = propose();
-    const double duration = number_in(settings, "duration", 1), whole = times.back();
-    for (double& time : times) time = time / whole * duration;
-    return times;
-  }
-
   [[nodiscard]] SplineEnd<T> end_in(const JsonValue& settings, std::string_view name) const {
     const JsonValue* said = usable(settings, name);
     if (!said) return {};
@@ -166,13 +118,6 @@ class SplineReader {
   double unit_;
   Problems& problems_;
 };
-
-bool has_faults(const JsonValue& value) {
-  if (value.is(Kind::faulty)) return true;
-  return std::any_of(value.items.begin(), value.items.end(), has_faults) ||
-         std::any_of(value.members.begin(), value.members.end(),
-                     [](const JsonMember& member) { return has_faults(member.value); });
-}
 
 }  // namespace
 

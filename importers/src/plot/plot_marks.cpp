@@ -143,7 +143,8 @@ void draw_colors(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted
                         {"y", px(panel.value.to + 1)},
                         {"width", px(to - from)},
                         {"height", "8"},
-                        {"fill", before}});
+                        {"fill", before},
+                        {"shape-rendering", "crispEdges"}});
     from = to;
   };
   for (const TrackPoint& point : plotted.curve) {
@@ -158,7 +159,7 @@ void draw_colors(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted
     }
     const double x = panel.time.place(point.time);
     // A strip of three pixels' width is as fine as eyes see here; jumps stand where they are.
-    if (color == before || (x < from + 3 && !point.starts)) continue;
+    if (color == before || (!before.empty() && x < from + 3 && !point.starts)) continue;
     strip(x);
     before = color;
   }
@@ -191,7 +192,8 @@ void draw_legend(SvgWriter& svg, const PlottedStage& plotted, double x, double y
     name("key", 11);
   }
   if (any_key([](const PlottedKey& key) { return !key.handles.empty(); })) {
-    draw_arm(svg, Vec2(x, y - 3.5), Vec2(x + 14, y - 3.5), true);
+    line("M" + px(x) + " " + px(y - 3.5) + "h14", gray, "1", "none");
+    svg.leaf("circle", {{"cx", px(x + 14)}, {"cy", px(y - 3.5)}, {"r", "2"}, {"fill", gray}});
     name("handle", 20);
   }
   if (any([&](const PlottedTrack& track) {

@@ -38,7 +38,8 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
                         {"width", px(panel.time.place(to) - panel.time.place(from))},
                         {"height", px(bottom - top)},
                         {"fill", "#eeeeea"}});
-  const std::vector<double> levels = ticks(panel.value, static_cast<int>((bottom - top) / 28));
+  std::vector<double> levels;
+  if (!panel.names.empty()) levels = ticks(panel.value, static_cast<int>((bottom - top) / 28));
   for (const double level : levels) {
     const double y = panel.value.place(level);
     svg.leaf("path",

@@ -106,7 +106,7 @@ std::optional<std::pair<double, double>> keyed_stretch(const TrackCurve& curve) 
 
 /// Whether a track that ends goes on moving a little beyond that end.
 bool moves_beyond(const Track& track, double end, double step) {
-  const TrackPoint rest = sample_track(track.curve, end, step > 0 ? Side::in : Side::out);
+  const TrackPoint rest = sample_track(track.curve, end + step / 2, Side::out);
   for (int i = 1; i <= 3; ++i) {
     const TrackPoint point = sample_track(track.curve, end + step * i, Side::out);
     if (point.values != rest.values && !point.rates.empty()) return true;
@@ -180,9 +180,9 @@ void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<doub
   for (const double time : times) {
     const bool corner = std::binary_search(corners.begin(), corners.end(), time) && time > from;
     if (corner) plotted.curve.push_back(shown.at(*plotted.track, time, Side::in));
-    // A key at the very end is arrived at; what would follow is not on the plot.
+    // The very end is arrived at; what would follow is not on the plot.
     if (corner && time == until) continue;
-    plotted.curve.push_back(shown.at(*plotted.track, time, Side::out));
+    plotted.curve.push_back(shown.at(*plotted.track, time, time == until ? Side::in : Side::out));
     if (corner) plotted.curve.back().starts = jumps(plotted.curve[plotted.curve.size() - 2], plotted.curve.back());
   }
   if (plotted.curve.front().values.size() > 16) return;  // keys of so many curves would hide them
