@@ -90,25 +90,32 @@ void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) 
   }
 }
 
-void draw_moments(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted, bool named) {
+void draw_moments(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
+  for (const PlottedMoment& moment : plotted.moments)
+    svg.leaf("path",
+             {{"class", moment.handoff ? "handoff" : "event"},
+              {"d", "M" + px(panel.time.place(moment.time)) + " " + px(panel.value.from) + "V" + px(panel.value.to)},
+              {"stroke", moment.handoff ? "#d97a00" : gray},
+              {"stroke-width", moment.handoff ? "1.8" : "1"},
+              {"stroke-dasharray", moment.handoff ? "none" : "2 3"}});
+}
+
+void draw_moment_names(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
   const auto rows = static_cast<std::size_t>((panel.value.from - panel.value.to) / 2 / row_height);
   LabelRows above(panel.time.from, panel.time.to, rows), below(panel.time.from, panel.time.to, rows);
   for (const PlottedMoment& moment : plotted.moments) {
-    const double x = panel.time.place(moment.time);
-    svg.leaf("path", {{"class", moment.handoff ? "handoff" : "event"},
-                      {"d", "M" + px(x) + " " + px(panel.value.from) + "V" + px(panel.value.to)},
-                      {"stroke", moment.handoff ? "#d97a00" : gray},
-                      {"stroke-width", moment.handoff ? "1.8" : "1"},
-                      {"stroke-dasharray", moment.handoff ? "none" : "2 3"}});
-    if (!named) continue;
     const std::string name = shortened(moment.name, panel.time.to - panel.time.from - 8);
-    const LabelRows::Place place = (moment.handoff ? above : below).place(x, name);
+    const LabelRows::Place place = (moment.handoff ? above : below).place(panel.time.place(moment.time), name);
     const double down = row_height * static_cast<double>(place.row);
+    // A rim of the ground's color, so that curves do not run through the letters.
     svg.text("text",
              {{"x", px(place.x)},
               {"y", px(moment.handoff ? panel.value.to + 12 + down : panel.value.from - 5 - down)},
               {"font-size", "10"},
-              {"fill", moment.handoff ? "#a85f00" : "#6d7178"}},
+              {"fill", moment.handoff ? "#a85f00" : "#6d7178"},
+              {"stroke", "#ffffff"},
+              {"stroke-width", "3"},
+              {"paint-order", "stroke"}},
              name);
   }
 }

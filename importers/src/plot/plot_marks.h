@@ -10,8 +10,9 @@ namespace tweenfall {
 /// Diamonds at the keys, with the handles that they have, or short lines along the slopes where there are none.
 void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted);
 
-/// Lines across the panel at events and hand-offs, and their names where `named`.
-void draw_moments(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted, bool named);
+/// Lines across the panel at events and hand-offs; their names, to be drawn over the curves.
+void draw_moments(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted);
+void draw_moment_names(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted);
 
 void draw_texts(SvgWriter& svg, const Panel& panel, const StepCurve<std::string>& curve);
 

@@ -122,14 +122,19 @@ void draw_curves(SvgWriter& svg, const Panel& panel, const std::vector<TrackPoin
   for (std::size_t i = 0; i < panel.names.size(); ++i) {
     std::string path;
     std::vector<Place> places;
+    double time_before = HUGE_VAL, number_before = 0;
     for (const TrackPoint& point : points) {
       const std::vector<double>& row = numbers(point, panel.shows);
       if (i >= row.size()) continue;
-      if (point.starts) {
+      const bool jumps =
+          point.time == time_before && std::abs(row[i] - number_before) > 1e-9 * std::max(1.0, std::abs(number_before));
+      if (point.starts || jumps) {
         append_line(path, places);
         places.clear();
       }
       places.push_back({panel.time.place(point.time), panel.value.place(row[i])});
+      time_before = point.time;
+      number_before = row[i];
     }
     append_line(path, places);
     if (path.empty()) continue;

@@ -54,10 +54,11 @@ void draw_block(SvgWriter& svg, const PlottedTrack& plotted, const PlotOptions& 
                      plotted.last_key};
   draw_frame(svg, values, !has_rates(plotted, options));
   if (std::holds_alternative<Curve<Color>>(plotted.track->curve)) draw_colors(svg, values, plotted);
-  draw_moments(svg, values, plotted, true);
+  draw_moments(svg, values, plotted);
   draw_curves(svg, values, plotted.curve, false);
   for (const auto& points : plotted.simulated) draw_curves(svg, values, points, true);
   draw_keys(svg, values, plotted);
+  draw_moment_names(svg, values, plotted);
   if (const auto* texts = std::get_if<StepCurve<std::string>>(&plotted.track->curve)) draw_texts(svg, values, *texts);
   if (!has_rates(plotted, options)) return;
   top += value_height + between;
@@ -71,7 +72,7 @@ void draw_block(SvgWriter& svg, const PlottedTrack& plotted, const PlotOptions& 
                     plotted.first_key,
                     plotted.last_key};
   draw_frame(svg, rates, true);
-  draw_moments(svg, rates, plotted, false);
+  draw_moments(svg, rates, plotted);
   draw_curves(svg, rates, plotted.curve, false);
   for (const auto& points : plotted.simulated) draw_curves(svg, rates, points, true);
 }
