@@ -260,3 +260,18 @@ TEST_CASE("modifiers that cannot be are refused with their place in the list") {
   refused({Placement{}, std::nullopt, 1.5}, "the influence must lie in 0 to 1; it is 1.5");
   refused({BuiltIn{.amplitude = std::numeric_limits<double>::infinity()}}, "amplitude must be finite");
 }
+
+TEST_CASE("modifiers of a vector change their component alone, and repeat with the curve") {
+  const Curve<Vec2> line = keyed_curve<Vec2>({{0, Vec2(0, 0), Ease::linear()}, {1, Vec2(1, 3)}});
+  const std::vector<Modifier> lists[] = {{}, {{modifiers::Limits{.high = 2}}}};
+  const Curve<Vec2> limited = modified<Vec2>(line, lists);
+  CHECK(limited.value(0.5) == Vec2(0.5, 1.5));
+  CHECK(limited.value(0.9) == Vec2(0.9, 2));
+  CHECK(limited.rate(0.9) == Vec2(1, 0));
+  CHECK(limited.with_outside(Outside::hold, Outside::repeat_offset).value(1.25) == Vec2(1.25, 2));
+  CHECK_THROWS_WITH_AS((void)modified<Vec2>(line, std::span(lists, 1)),
+                       "a vector of 2 needs one list of modifiers a component; 1 were given", std::invalid_argument);
+  const std::vector<Modifier> bad[] = {{}, {{modifiers::Stepped{.step = 0}}}};
+  CHECK_THROWS_WITH_AS((void)modified<Vec2>(line, bad), doctest::Contains("component 1, modifier 0: "),
+                       std::invalid_argument);
+}

@@ -34,7 +34,7 @@ const JsonValue* keys_of(const JsonValue& track) {
 }
 
 bool is_endless(const JsonValue& track) {
-  for (const char* name : {"oscillator", "projectile", "pendulum", "orbit", "expression"})
+  for (const char* name : {"oscillator", "spring", "projectile", "pendulum", "orbit", "expression"})
     if (track.find(name)) return true;
   return false;
 }
@@ -43,6 +43,16 @@ bool is_endless(const JsonValue& track) {
 double passing_time(const JsonValue& track) {
   for (const char* name : {"path", "line", "arc"})
     if (const JsonValue* function = usable(track, name)) return number_in(*function, "duration", 1);
+  for (const char* name : {"spline", "bezier", "b_spline"}) {
+    const JsonValue* spline = usable(track, name);
+    if (!spline) continue;
+    const JsonValue* points = usable(*spline, "points");
+    const JsonValue *times = usable(*spline, "times"), *knots = usable(*spline, "knots");
+    if (times && !times->items.empty()) return times->items.back().number;
+    // A B-spline ends at the knot that has the number of its points.
+    if (knots && points && points->items.size() < knots->items.size()) return knots->items[points->items.size()].number;
+    return number_in(*spline, "duration", 1);
+  }
   return 0;
 }
 

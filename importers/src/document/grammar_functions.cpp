@@ -98,45 +98,80 @@ Field FunctionShapes::oscillator(const Shape* value, const std::string& unit) co
   return {"oscillator", shape, "swings"};
 }
 
+Field FunctionShapes::spring(const Shape* value, const std::string& unit) const {
+  const std::string nothing = value == values_.number ? "0" : "[0, 0, 0]";
+  const Shape* shape =
+      store_.add(object_of("a spring: {\"hz\", \"zeta\", \"from\", \"velocity\", \"goal\", \"goal_velocity\"}",
+                           {{"hz", values_.positive, "undamped cycles per second", true},
+                            {"zeta", values_.not_negative, "damping ratio; 1 is critical", false, "1"},
+                            {"from", value, unit + ", at time 0", false, nothing},
+                            {"velocity", value, unit + " per second at time 0", false, nothing},
+                            {"goal", value, unit + ", at time 0", true},
+                            {"goal_velocity", value, unit + " per second", false, nothing}}));
+  return {"spring", shape, "an exact damped spring after a goal"};
+}
+
 Field FunctionShapes::expression(const Shape* shape) const {
   return {"expression", shape, "a formula of t, the clip's seconds"};
 }
 
 TrackFunctions FunctionShapes::of_numbers(const std::string& unit, bool angles) const {
-  TrackFunctions out{{oscillator(values_.number, unit)}, {}, true};
+  TrackFunctions out{{oscillator(values_.number, unit), spring(values_.number, unit)},
+                     spline_fields(store_, values_, values_.number, "number"),
+                     true};
   if (angles) out.endless.push_back({"pendulum", pendulum_, "swings in exact arcs of any size, degrees"});
   out.endless.push_back(expression(text_));
   return out;
 }
 
 TrackFunctions FunctionShapes::of_places(const std::string& unit) const {
-  return {{oscillator(values_.vector, unit),
-           {"projectile", projectile_, "a thrown body's way"},
-           {"orbit", orbit_, "a small body's way around a heavy one"},
-           expression(expressions_3_)},
-          {{"path", path_, "a smooth way through points"},
-           {"line", line_, "a straight way"},
-           {"arc", arc_, "a way along a circle"}},
-          true};
+  TrackFunctions out{{oscillator(values_.vector, unit),
+                      spring(values_.vector, unit),
+                      {"projectile", projectile_, "a thrown body's way"},
+                      {"orbit", orbit_, "a small body's way around a heavy one"},
+                      expression(expressions_3_)},
+                     spline_fields(store_, values_, values_.vector, "vector-3"),
+                     true};
+  out.passing.insert(out.passing.begin(), {{"path", path_, "a smooth way through points"},
+                                           {"line", line_, "a straight way"},
+                                           {"arc", arc_, "a way along a circle"}});
+  return out;
 }
 
 TrackFunctions FunctionShapes::of_scales() const {
   const Shape* either = store_.add(choice_of("an expression of t, or a list of 3", {text_, expressions_3_}));
-  return {{oscillator(values_.vector, "factors"), expression(either)}, {}, true};
+  return {{oscillator(values_.vector, "factors"), spring(values_.vector, "factors"), expression(either)},
+          spline_fields(store_, values_, values_.vector, "vector-3"),
+          true};
 }
 
 TrackFunctions FunctionShapes::of_vectors(std::size_t size) const {
-  return {{expression(size == 2 ? expressions_2_ : expressions_4_)}, {}, true};
+  return {{expression(size == 2 ? expressions_2_ : expressions_4_)},
+          size == 2 ? spline_fields(store_, values_, values_.vector_2, "vector-2")
+                    : spline_fields(store_, values_, values_.vector_4, "vector-4"),
+          true};
 }
 
-const std::vector<std::string>& FunctionShapes::vector_names() {
-  static const std::vector<std::string> list = {"projectile", "orbit", "path", "line", "arc"};
-  return list;
+std::size_t FunctionShapes::dimension(const JsonValue& track) {
+  for (const char* name : {"projectile", "orbit", "path", "line", "arc"})
+    if (track.find(name)) return 3;
+  const JsonValue* value = track.find("expression");
+  const auto inside = [&](const char* function, const char* member) {
+    if (const JsonValue* settings = track.find(function)) value = settings->find(member);
+  };
+  inside("oscillator", "amplitude");
+  inside("spring", "goal");
+  for (const char* spline : {"spline", "bezier", "b_spline"}) {
+    inside(spline, "points");
+    if (track.find(spline)) value = value && !value->items.empty() ? &value->items.front() : nullptr;
+  }
+  return value && value->is(JsonValue::Kind::list) ? value->items.size() : 1;
 }
 
 const std::vector<std::string>& FunctionShapes::names() {
-  static const std::vector<std::string> list = {"oscillator", "pendulum", "expression", "projectile",
-                                                "orbit",      "path",     "line",       "arc"};
+  static const std::vector<std::string> list = {"oscillator", "spring", "pendulum", "expression",
+                                                "projectile", "orbit",  "path",     "line",
+                                                "arc",        "spline", "bezier",   "b_spline"};
   return list;
 }
 

@@ -16,6 +16,13 @@ struct TrackFunctions {
   bool parameters = false;       // whether an expression is among them
 };
 
+// Splines through values of one kind, or drawn by them.
+[[nodiscard]] std::vector<Field> spline_fields(ShapeStore& store, const ValueShapes& values, const Shape* value,
+                                               const std::string& kind);
+
+// The same for rotations.
+[[nodiscard]] std::vector<Field> rotation_spline_fields(ShapeStore& store, const ValueShapes& values);
+
 class FunctionShapes {
  public:
   FunctionShapes(ShapeStore& store, const ValueShapes& values);
@@ -27,12 +34,13 @@ class FunctionShapes {
   [[nodiscard]] TrackFunctions of_vectors(std::size_t size) const;  // 2 or 4 numbers
   [[nodiscard]] const Shape* parameters() const { return parameters_; }
 
-  // Names of all functions whose values are vectors, and of all.
-  [[nodiscard]] static const std::vector<std::string>& vector_names();
+  // How many numbers the values of a track's function have.
+  [[nodiscard]] static std::size_t dimension(const JsonValue& track);
   [[nodiscard]] static const std::vector<std::string>& names();
 
  private:
   [[nodiscard]] Field oscillator(const Shape* value, const std::string& unit) const;
+  [[nodiscard]] Field spring(const Shape* value, const std::string& unit) const;
   [[nodiscard]] Field expression(const Shape* shape) const;
 
   ShapeStore& store_;

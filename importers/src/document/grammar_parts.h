@@ -21,6 +21,7 @@ struct ValueShapes {
 };
 
 // Tracks and clips.
+const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values);
 const Shape* clip_shape(ShapeStore& store, const ValueShapes& values);
 // Keys of numbers in stage time, for weights of plays.
 const Shape* weight_keys_shape(ShapeStore& store, const ValueShapes& values);

@@ -24,16 +24,6 @@ bool has_function(const JsonValue& track) {
   return false;
 }
 
-// Whether the function that stands in place of keys gives vectors.
-bool is_vector_function(const JsonValue& track) {
-  for (const std::string& name : FunctionShapes::vector_names())
-    if (track.find(name)) return true;
-  const JsonValue* oscillator = track.find("oscillator");
-  const JsonValue* amplitude = oscillator ? oscillator->find("amplitude") : nullptr;
-  const JsonValue* expression = track.find("expression");
-  return (amplitude && amplitude->is(JsonValue::Kind::list)) || (expression && expression->is(JsonValue::Kind::list));
-}
-
 // What the tracks of one kind of value look like, with its options.
 struct TrackKind {
   std::string name;  // of its definitions
@@ -121,6 +111,7 @@ class TrackShapes {
     for (const Field& function : kind.functions.passing) {
       shape.fields.push_back(function);
       sources.push_back(function.name);
+      if (shape.field("turn")) shape.together.push_back(at_most_one({"turn", function.name}));
       shape.together.push_back(at_most_one({"overlong", function.name}));
       shape.together.push_back(at_most_one({"ends", function.name}));
     }
@@ -170,14 +161,14 @@ class TrackShapes {
                                values_.vector,
                                true,
                                {relative(), {"turn", turn, "way around", false, "\"short\""}},
-                               {},
+                               {{}, rotation_spline_fields(store_, values_), false},
                                {{"turn", key_turn(turn), "the way to the next key"}}};
     const TrackKind axis_angle{"axis-angle", values_.axis_angle, values_.vector, true, {relative()}};
     const TrackKind degrees{"degrees",
                             values_.number,
                             values_.number,
                             true,
-                            {{"axis", values_.axis, "what the degrees turn about", true}, relative()},
+                            {{"axis", values_.axis, "what the degrees turn about", true}, relative(), modifiers(1)},
                             functions.of_numbers("degrees", true)};
     struct Spelled {
       const Shape *list, *object;
@@ -194,7 +185,9 @@ class TrackShapes {
     shape.select = [=](const JsonValue& value) -> const Shape* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
-      if (!list && (value.find("axis") || has_function(value))) return in_degrees;
+      const bool has_axis = value.find("axis") != nullptr;
+      if (!list && !has_axis && (value.find("spline") || value.find("bezier"))) return in_quat.object;
+      if (!list && (has_axis || has_function(value))) return in_degrees;
       const JsonValue* first = first_key_value(value);
       const Spelled& spelled = first && first->find("quat")    ? in_quat
                                : first && first->find("angle") ? in_axis_angle
@@ -237,18 +230,17 @@ class TrackShapes {
     any_text.kind = Shape::Kind::text;
     any_text.what = "a text";
 
-    const TrackKind number{
-        "number",
-        values_.number,
-        values_.number,
-        false,
-        {kind_field("number", false), {"modifiers", modifiers_shape(store_, values_), "laid over the curve"}},
-        functions.of_numbers("the value's unit", true)};
+    const TrackKind number{"number",
+                           values_.number,
+                           values_.number,
+                           false,
+                           {kind_field("number", false), modifiers(1)},
+                           functions.of_numbers("the value's unit", true)};
     const TrackKind swinging{"swinging-vector",
                              values_.vector,
                              values_.vector,
                              false,
-                             {kind_field("vector", false)},
+                             {kind_field("vector", false), modifiers(3)},
                              functions.of_places("the value's unit")};
     const TrackKind color{
         "user-color", values_.color, values_.vector_4, false, {kind_field("color", false), space(), hue()}};
@@ -272,14 +264,14 @@ class TrackShapes {
                      values_.vector_2,
                      values_.vector_2,
                      false,
-                     {kind_field("vector", false)},
+                     {kind_field("vector", false), modifiers(2)},
                      functions.of_vectors(2)});
     add("vector-3", swinging);
     add("vector-4", {"vector-4",
                      values_.vector_4,
                      values_.vector_4,
                      false,
-                     {kind_field("vector", false)},
+                     {kind_field("vector", false), modifiers(4)},
                      functions.of_vectors(4)});
     add("color", color);
     add("switch", truth);
@@ -328,11 +320,10 @@ class TrackShapes {
             break;
         }
       } else {
-        kind = is_vector_function(value) ? "vector" : "number";
+        kind = FunctionShapes::dimension(value) > 1 ? "vector" : "number";
       }
       if (kind == "vector") {
-        const JsonValue* expressions = value.find("expression");
-        const std::size_t size = first ? first->items.size() : expressions ? expressions->items.size() : 3;
+        const std::size_t size = first ? first->items.size() : FunctionShapes::dimension(value);
         kind = size == 2 ? "vector-2" : size == 4 ? "vector-4" : "vector-3";
       }
       for (const Made& each : made)
@@ -361,6 +352,19 @@ class TrackShapes {
             "\"linear\""};
   }
 
+  // Over numbers a list; over vectors one list for all components alike, or lists by component.
+  Field modifiers(std::size_t size) {
+    if (!modifiers_) modifiers_ = modifiers_shape(store_, values_);
+    const Field over_numbers{"modifiers", modifiers_, "laid over the curve"};
+    if (size == 1) return over_numbers;
+    Shape parts = object_of("modifiers: a list, or lists by component", {});
+    for (std::size_t i = 0; i < size; ++i)
+      parts.fields.push_back({std::string(1, "xyzw"[i]), modifiers_, "over it alone"});
+    parts.definition = "modifiers-" + std::to_string(size);
+    const Shape* either = store_.add(choice_of(parts.what, {modifiers_, store_.add(parts)}));
+    return {"modifiers", either, "laid over the curve: a list for all components alike, or lists by component"};
+  }
+
   const FunctionShapes functions;
 
  private:
@@ -384,7 +388,10 @@ class TrackShapes {
   const Shape* share_ = nullptr;
   const Shape* space_ = nullptr;
   const Shape* hue_ = nullptr;
+  const Shape* modifiers_ = nullptr;
 };
+
+}  // namespace
 
 const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   TrackShapes make(store, values);
@@ -392,13 +399,19 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   tracks.definition = "tracks";
   tracks.one_a_line = true;
   tracks.endings = {
-      {".position",
-       make.either(
-           {"position", values.vector, values.vector, false, {make.relative()}, make.functions.of_places("m")})},
+      {".position", make.either({"position",
+                                 values.vector,
+                                 values.vector,
+                                 false,
+                                 {make.relative(), make.modifiers(3)},
+                                 make.functions.of_places("m")})},
       {".rotation", make.rotation()},
-      {".scale",
-       make.either(
-           {"scale", values.scale, values.scale, false, {make.relative(), make.mix()}, make.functions.of_scales()})},
+      {".scale", make.either({"scale",
+                              values.scale,
+                              values.scale,
+                              false,
+                              {make.relative(), make.mix(), make.modifiers(3)},
+                              make.functions.of_scales()})},
       {".color", make.either({"color", values.color, values.vector_4, false, {make.space(), make.hue()}})},
       {".weights", make.either({"weights", values.numbers, values.numbers})}};
   tracks.others = make.user();
@@ -411,45 +424,8 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   return store.add(std::move(tracks));
 }
 
-const Shape* event_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape row;
-  row.kind = Shape::Kind::tuple;
-  row.what = "an event: [time, name], [time, name, data] or {\"from\", \"to\", \"name\"}";
-  row.parts = {values.key_time, values.name, values.any};
-  row.fewest = 2;
-  row.on_one_line = true;
-  Shape span = object_of(row.what, {{"from", values.key_time, "clip time", true},
-                                    {"to", values.key_time, "clip time", true},
-                                    {"name", values.name, "", true},
-                                    {"data", values.any, "given with the event"}});
-  span.on_one_line = true;
-  Shape either = choice_of(row.what, {store.add(row), store.add(span)});
-  either.definition = "event";
-  return store.add(std::move(either));
-}
-
-}  // namespace
-
 const Shape* weight_keys_shape(ShapeStore& store, const ValueShapes& values) {
   return TrackShapes(store, values).keys({"weight", values.number, values.number});
-}
-
-const Shape* clip_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape loop =
-      object_of("a loop: {\"mode\", \"count\"}",
-                {{"mode", store.add(words_of("a way to loop", {"repeat", "repeat-offset", "pingpong"})), "", true},
-                 {"count", values.positive, "number of plays; absent: without end"}});
-  loop.on_one_line = true;
-  Shape events = list_of(event_shape(store, values), "a list of events", 0);
-  events.one_a_line = true;
-  Shape clip = object_of("a clip: {\"duration\", \"loop\", \"tracks\", \"events\"}",
-                         {{"duration", values.length_of_time, "absent: the latest key or event"},
-                          {"loop", store.add(std::move(loop)), "absent: once"},
-                          {"tracks", tracks_shape(store, values), "", false, "{}"},
-                          {"events", store.add(std::move(events)), "", false, "[]"}});
-  clip.definition = "clip";
-  clip.one_a_line = true;
-  return store.add(std::move(clip));
 }
 
 }  // namespace tweenfall::document

@@ -4,6 +4,7 @@
 
 #include "document/grammar_functions.h"
 #include "document/read_expression.h"
+#include "document/read_splines.h"
 #include "document/values.h"
 
 #include <array>
@@ -37,6 +38,31 @@ Curve<Vec3> vector_oscillator_of(const JsonValue& settings) {
   const Vec3 factors[] = {vector_in(settings, "amplitude", Vec3(1, 1, 1)),
                           vector_in(settings, "center", Vec3(0, 0, 0))};
   return combined<Vec3>(parts, factors);
+}
+
+Curve<double> spring_of(const JsonValue& settings, double unit) {
+  return damped_spring({.hz = number_in(settings, "hz", 1),
+                        .damping_ratio = number_in(settings, "zeta", 1),
+                        .position = unit * number_in(settings, "from", 0),
+                        .velocity = unit * number_in(settings, "velocity", 0),
+                        .goal = unit * number_in(settings, "goal", 0),
+                        .goal_velocity = unit * number_in(settings, "goal_velocity", 0)});
+}
+
+// Each component swings by itself.
+Curve<Vec3> vector_spring_of(const JsonValue& settings) {
+  const Vec3 none(0, 0, 0);
+  const Vec3 from = vector_in(settings, "from", none), velocity = vector_in(settings, "velocity", none);
+  const Vec3 goal = vector_in(settings, "goal", none), goal_velocity = vector_in(settings, "goal_velocity", none);
+  const auto axis = [&](Eigen::Index i) {
+    return damped_spring({.hz = number_in(settings, "hz", 1),
+                          .damping_ratio = number_in(settings, "zeta", 1),
+                          .position = from[i],
+                          .velocity = velocity[i],
+                          .goal = goal[i],
+                          .goal_velocity = goal_velocity[i]});
+  };
+  return parametric(axis(0), axis(1), axis(2));
 }
 
 Curve<Vec3> projectile_of(const JsonValue& settings) {
@@ -108,9 +134,13 @@ std::optional<Curve<Vec3>> arc_of(const JsonValue& settings, Problems& problems)
               .duration = number_in(settings, "duration", 1)});
 }
 
+bool has_spline(const JsonValue& track) {
+  return usable(track, "spline") || usable(track, "bezier") || usable(track, "b_spline");
+}
+
 std::optional<TrackCurve> function_of(const JsonValue& track, Problems& problems) {
   const auto made = [](const auto& curve) { return curve ? std::optional<TrackCurve>(*curve) : std::nullopt; };
-  const auto passing = [&](const std::optional<Curve<Vec3>>& curve) -> std::optional<TrackCurve> {
+  const auto passing = [&](const auto& curve) -> std::optional<TrackCurve> {
     if (!curve) return {};
     return TrackCurve(with_outside_of(track, *curve));
   };
@@ -119,12 +149,29 @@ std::optional<TrackCurve> function_of(const JsonValue& track, Problems& problems
     if (amplitude && amplitude->is(Kind::list)) return TrackCurve(vector_oscillator_of(*f));
     return TrackCurve(oscillator_of(*f, 1));
   }
+  if (const JsonValue* f = usable(track, "spring")) {
+    const JsonValue* goal = usable(*f, "goal");
+    if (goal && goal->is(Kind::list)) return TrackCurve(vector_spring_of(*f));
+    return TrackCurve(spring_of(*f, 1));
+  }
   if (const JsonValue* f = usable(track, "pendulum")) return TrackCurve(scaled(pendulum_of(*f), degrees(1)));
   if (const JsonValue* f = usable(track, "projectile")) return TrackCurve(projectile_of(*f));
   if (const JsonValue* f = usable(track, "orbit")) return made(orbit_of(*f, problems));
   if (const JsonValue* f = usable(track, "path")) return passing(path_of(*f, problems));
-  if (const JsonValue* f = usable(track, "line")) return passing(line_of(*f));
+  if (const JsonValue* f = usable(track, "line")) return passing(std::optional(line_of(*f)));
   if (const JsonValue* f = usable(track, "arc")) return passing(arc_of(*f, problems));
+  if (has_spline(track)) {
+    switch (FunctionShapes::dimension(track)) {
+      case 2:
+        return passing(read_spline<Vec2>(track, 1, problems));
+      case 3:
+        return passing(read_spline<Vec3>(track, 1, problems));
+      case 4:
+        return passing(read_spline<Vec4>(track, 1, problems));
+      default:
+        return passing(read_spline<double>(track, 1, problems));
+    }
+  }
   return read_expression(track, problems);
 }
 
@@ -155,6 +202,8 @@ std::optional<TrackCurve> read_function(const JsonValue& track, Problems& proble
 std::optional<Curve<double>> read_angle_function(const JsonValue& track, Problems& problems) {
   return guarded(track, problems, [&]() -> std::optional<Curve<double>> {
     if (const JsonValue* f = usable(track, "oscillator")) return oscillator_of(*f, radians(1));
+    if (const JsonValue* f = usable(track, "spring")) return spring_of(*f, radians(1));
+    if (has_spline(track)) return read_spline<double>(track, radians(1), problems);
     if (const JsonValue* f = usable(track, "pendulum")) return pendulum_of(*f);
     const std::optional<TrackCurve> angle = read_expression(track, problems);
     if (!angle || !std::holds_alternative<Curve<double>>(*angle)) return {};

@@ -5,7 +5,9 @@
 #include "document/read_track.h"
 #include "document/values.h"
 
+#include <algorithm>
 #include <stdexcept>
+#include <type_traits>
 
 namespace tweenfall::document {
 namespace {
@@ -111,13 +113,11 @@ std::optional<Kind> kind_of(const JsonValue& modifier, Problems& problems) {
   return {};
 }
 
-}  // namespace
-
-std::optional<Curve<double>> with_modifiers_of(const JsonValue& track, const Curve<double>& curve, Problems& problems) {
-  const JsonValue* list = usable(track, "modifiers");
-  if (!list) return curve;
+// Modifiers of `list`; `check` throws for one that cannot be. Nothing where one is faulty.
+template <class Check>
+std::optional<std::vector<Modifier>> modifiers_in(const JsonValue& list, const Check& check, Problems& problems) {
   std::vector<Modifier> modifiers;
-  for (const JsonValue& item : list->items) {
+  for (const JsonValue& item : list.items) {
     std::optional<Kind> kind = kind_of(item, problems);
     if (!kind) continue;
     Modifier modifier{std::move(*kind)};
@@ -126,7 +126,7 @@ std::optional<Curve<double>> with_modifiers_of(const JsonValue& track, const Cur
                                      number_in(*range, "blend_in", 0), number_in(*range, "blend_out", 0)};
     modifier.influence = number_in(item, "influence", 1);
     try {
-      (void)modified(curve, std::span(&modifier, 1));
+      check(modifier);
     } catch (const std::invalid_argument& fault) {
       const std::string what = fault.what();
       problems.add(item, what.substr(what.find(": ") + 2));
@@ -134,8 +134,51 @@ std::optional<Curve<double>> with_modifiers_of(const JsonValue& track, const Cur
     }
     modifiers.push_back(std::move(modifier));
   }
-  if (modifiers.size() != list->items.size()) return {};
-  return modified(curve, modifiers);
+  if (modifiers.size() != list.items.size()) return {};
+  return modifiers;
 }
+
+}  // namespace
+
+template <class T>
+std::optional<Curve<T>> with_modifiers_of(const JsonValue& track, const Curve<T>& curve, Problems& problems) {
+  const JsonValue* said = usable(track, "modifiers");
+  if (!said) return curve;
+  if constexpr (std::is_same_v<T, double>) {
+    const auto check = [&](const Modifier& one) { (void)modified(curve, std::span(&one, 1)); };
+    const std::optional<std::vector<Modifier>> modifiers = modifiers_in(*said, check, problems);
+    return modifiers ? std::optional(modified(curve, *modifiers)) : std::nullopt;
+  } else {
+    using Lists = std::vector<std::vector<Modifier>>;
+    constexpr std::size_t size = static_cast<std::size_t>(T::RowsAtCompileTime);
+    Lists lists(size);
+    bool faulty = false;
+    const auto over = [&](const Lists& all) { return modified<T>(curve, std::span<const std::vector<Modifier>>(all)); };
+    const auto read = [&](const JsonValue& list, std::size_t i) {
+      const auto check = [&](const Modifier& one) {
+        Lists alone(size);
+        alone[i] = {one};
+        (void)over(alone);
+      };
+      if (std::optional<std::vector<Modifier>> modifiers = modifiers_in(list, check, problems))
+        lists[i] = std::move(*modifiers);
+      else
+        faulty = true;
+    };
+    if (said->is(JsonValue::Kind::list)) {
+      read(*said, 0);
+      std::fill(lists.begin() + 1, lists.end(), lists.front());
+    } else {
+      for (std::size_t i = 0; i < size; ++i)
+        if (const JsonValue* list = usable(*said, std::string_view("xyzw").substr(i, 1))) read(*list, i);
+    }
+    return faulty ? std::nullopt : std::optional(over(lists));
+  }
+}
+
+template std::optional<Curve<double>> with_modifiers_of(const JsonValue&, const Curve<double>&, Problems&);
+template std::optional<Curve<Vec2>> with_modifiers_of(const JsonValue&, const Curve<Vec2>&, Problems&);
+template std::optional<Curve<Vec3>> with_modifiers_of(const JsonValue&, const Curve<Vec3>&, Problems&);
+template std::optional<Curve<Vec4>> with_modifiers_of(const JsonValue&, const Curve<Vec4>&, Problems&);
 
 }  // namespace tweenfall::document

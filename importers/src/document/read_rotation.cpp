@@ -1,10 +1,13 @@
 #include "document/read_rotation.h"
 
 #include <tweenfall/curves/elementary.h>
+#include <tweenfall/curves/modifiers.h>
 #include <tweenfall/importers/number_text.h>
 
 #include "document/read_functions.h"
 #include "document/read_keys.h"
+#include "document/read_modifiers.h"
+#include "document/read_splines.h"
 #include "document/values.h"
 
 #include <cmath>
@@ -45,6 +48,10 @@ class RotationTrack {
 
   std::optional<Curve<Quat>> read() {
     if (usable(track_, "axis")) return about_axis();
+    if (has_function(track_)) {
+      const std::optional<Curve<Quat>> spline = read_rotation_spline(track_, problems_);
+      return spline ? std::optional(with_outside_of(track_, *spline)) : std::nullopt;
+    }
     if (!list_ || list_->items.empty()) return {};
     const JsonValue* first = key_parts(list_->items.front()).value;
     if (!first) {
@@ -65,7 +72,20 @@ class RotationTrack {
     else if (list_)
       angle = degrees_curve([](const JsonValue& value) { return &value; }, {});
     if (!axis || !angle) return {};
-    return axis_curve(*axis, with_outside_of(track_, *angle));
+    angle = with_outside_of(track_, *angle);
+    if (usable(track_, "modifiers")) angle = with_modifiers(*angle);
+    if (!angle) return {};
+    return axis_curve(*axis, *angle);
+  }
+
+  // Modifiers speak of degrees.
+  std::optional<Curve<double>> with_modifiers(const Curve<double>& angle) {
+    const auto scaled = [](const Curve<double>& curve, double factor) {
+      const Modifier scaling{modifiers::Placement{.value_scale = factor}};
+      return modified(curve, std::span(&scaling, 1));
+    };
+    const std::optional<Curve<double>> in_degrees = with_modifiers_of(track_, scaled(angle, degrees(1)), problems_);
+    return in_degrees ? std::optional(scaled(*in_degrees, radians(1))) : std::nullopt;
   }
 
   // The unwrapped angle about one axis. Rates are degrees per second, or angular velocities along `axis`.

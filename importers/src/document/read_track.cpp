@@ -68,15 +68,31 @@ class TrackReader {
   }
 
   std::optional<TrackCurve> function(const std::string& property) {
-    const std::optional<TrackCurve> curve = read_function(track_, problems_);
-    if (curve && std::holds_alternative<Curve<double>>(*curve) && property != "scale")
-      return made(with_modifiers_of(track_, std::get<Curve<double>>(*curve), problems_));
+    std::optional<TrackCurve> curve = read_function(track_, problems_);
+    if (!curve) return {};
     // One number is for all three axes.
-    if (curve && property == "scale" && std::holds_alternative<Curve<double>>(*curve)) {
-      const Curve<double>& factor = std::get<Curve<double>>(*curve);
-      return TrackCurve(parametric(factor, factor, factor));
+    if (property == "scale" && std::holds_alternative<Curve<double>>(*curve)) {
+      const Curve<double> factor = std::get<Curve<double>>(*curve);
+      curve = parametric(factor, factor, factor);
     }
-    return curve;
+    return std::visit([this](const auto& held) { return modified_by_track(held); }, *curve);
+  }
+
+  template <class T>
+  std::optional<TrackCurve> modified_by_track(const T& curve) {
+    return TrackCurve(curve);
+  }
+  std::optional<TrackCurve> modified_by_track(const Curve<double>& curve) {
+    return made(with_modifiers_of(track_, curve, problems_));
+  }
+  std::optional<TrackCurve> modified_by_track(const Curve<Vec2>& curve) {
+    return made(with_modifiers_of(track_, curve, problems_));
+  }
+  std::optional<TrackCurve> modified_by_track(const Curve<Vec3>& curve) {
+    return made(with_modifiers_of(track_, curve, problems_));
+  }
+  std::optional<TrackCurve> modified_by_track(const Curve<Vec4>& curve) {
+    return made(with_modifiers_of(track_, curve, problems_));
   }
 
   template <class T>
@@ -84,11 +100,7 @@ class TrackReader {
     const std::optional<Curve<T>> curve =
         read_keys<T>(*list_, times_, reader, key_options_of(track_, options), problems_);
     if (!curve) return {};
-    const Curve<T> continued = with_outside_of(track_, *curve);
-    if constexpr (std::is_same_v<T, double>)
-      return made(with_modifiers_of(track_, continued, problems_));
-    else
-      return TrackCurve(continued);
+    return modified_by_track(with_outside_of(track_, *curve));
   }
 
   std::optional<TrackCurve> scale() {

@@ -116,4 +116,9 @@ struct Modifier {
 ///         of order, nothing to generate from.
 [[nodiscard]] Curve<double> modified(const Curve<double>& curve, std::span<const Modifier> modifiers);
 
+/// The same for Vec2, Vec3 and Vec4: `modifiers[i]` are laid over component i; an empty list leaves it as it is.
+/// @throws as above, naming the component; std::invalid_argument unless there is one list a component.
+template <class T>
+[[nodiscard]] Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> modifiers);
+
 }  // namespace tweenfall
