@@ -275,6 +275,16 @@ TEST_CASE("keys keep the slopes on the outer sides of a curve's ends") {
   CHECK(keys.back().value_in == -1.0);
 }
 
+TEST_CASE("rotations go straight on at the angular velocity of their outer tangents") {
+  const Quat a = exp_map(Vec3(0.3, -0.2, 0.5)), b = exp_map(Vec3(-0.6, 0.9, 0.1));
+  const Vec3 rate(0.4, 0, 0.2);
+  const Curve<Quat> c = curve_through<Quat>(a, b, b, rate).with_outside(Outside::linear, Outside::linear);
+  CHECK(apart(c.rate(-1), rate) == 0);
+  CHECK(apart(c.value(-1), exp_map(-2 * rate) * a) < 1e-14);
+  CHECK(apart(c.rate(5), Vec3(-rate)) == 0);
+  CHECK(apart(c.value(5), exp_map(-rate) * b) < 1e-14);
+}
+
 TEST_CASE("modifiers go on over a stated slope and over counted plays") {
   const Curve<double> line = keyed_curve<double>({{0, 0, Ease::linear()}, {1, 2}});
   modifiers::Generator cubic{{0, 0, 0, 1}};
