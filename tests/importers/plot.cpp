@@ -121,9 +121,9 @@ TEST_CASE("what curves do beyond their keys is shown, shaded, where they do not 
 
 TEST_CASE("of very many tracks a plot draws some and says how many more there are") {
   StageDescription stage = one_track();
-  for (int i = 0; i < 59; ++i) stage.clips[0].tracks.push_back({"node" + std::to_string(i), "x", Curve<double>(1.0)});
+  for (int i = 0; i < 75; ++i) stage.clips[0].tracks.push_back({"node" + std::to_string(i), "x", Curve<double>(1.0)});
   const std::string svg = plot_svg(stage, nullptr, {.tracks = {}, .clip = "", .columns = 4, .rates = false});
-  CHECK(count(svg, "class=\"curve\"") == 48);
+  CHECK(count(svg, "class=\"curve\"") == 64);
   CHECK(count(svg, ">and 12 more") == 1);
   CHECK_THROWS_WITH_AS((void)plot_svg(stage, nullptr, {.tracks = {}, .clip = "", .columns = 7}),
                        "a plot has 1 to 6 columns; found 7", std::invalid_argument);

@@ -12,7 +12,7 @@ namespace tweenfall {
 struct PlotOptions {
   std::vector<std::string> tracks;  ///< names, "node.property"; empty: all
   std::string clip;                 ///< empty: the only one, or every one that plays
-  std::size_t most = 48;            ///< tracks drawn where `tracks` names none
+  std::size_t most = 64;            ///< tracks drawn where `tracks` names none
   int columns = 1;                  ///< side by side; 1 to 6
   bool rates = true;                ///< below the values
 };
