@@ -1,10 +1,9 @@
 # One module: a static library of every source below src, exported as tweenfall::NAME.
 # Sources are found by globbing, so that adding a kind of thing means adding its files and nothing else.
 #
-# tweenfall_module(NAME PUBLIC what its headers need  PRIVATE what its sources need
-#   PRECOMPILE <headers> that most of its sources include, beside Eigen and the common standard ones)
+# tweenfall_module(NAME PUBLIC what its headers need  PRIVATE what its sources need)
 function(tweenfall_module name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE;PRECOMPILE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/src/*.cpp)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/include/*.h)
   set(target tweenfall_${name})
@@ -20,14 +19,23 @@ function(tweenfall_module name)
   # one contracted a*b+c there and the same document gives other bits.
   target_compile_options(${target} PUBLIC -ffp-contract=off)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
-  target_precompile_headers(${target} PRIVATE
-    <Eigen/Geometry> <algorithm> <functional> <memory> <span> <string> <vector> ${arg_PRECOMPILE})
   tweenfall_flags(${target})
+  tweenfall_precompile(${target} tweenfall_curves)
   if(TWEENFALL_INSTALL)
     include(GNUInstallDirs)
     install(TARGETS ${target} EXPORT tweenfall_${name} FILE_SET HEADERS)
     install(EXPORT tweenfall_${name} NAMESPACE tweenfall:: FILE ${name}.cmake
       DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tweenfall)
+  endif()
+endfunction()
+
+# The headers that nearly every source includes, compiled once for all targets of the same flags: by OWNER.
+function(tweenfall_precompile target owner)
+  if(target STREQUAL owner)
+    target_precompile_headers(${target} PRIVATE
+      <Eigen/Geometry> <algorithm> <functional> <memory> <span> <string> <vector>)
+  else()
+    target_precompile_headers(${target} REUSE_FROM ${owner})
   endif()
 endfunction()
 

@@ -1,5 +1,7 @@
 #include <tweenfall/anim/mesh.h>
 
+#include <utility>
+
 namespace tweenfall {
 
 namespace {
@@ -25,6 +27,16 @@ Vec3 skinned(const Influence& influence, const Skin& skin, std::span<const World
 }
 
 }  // namespace
+
+Mesh mesh_of(const SurfaceMesh& surface, std::string name) {
+  Mesh mesh;
+  mesh.name = std::move(name);
+  mesh.positions = surface.positions;
+  mesh.normals = surface.normals;
+  mesh.texture_coordinates = surface.texture_coordinates;
+  mesh.triangles = surface.triangles;
+  return mesh;
+}
 
 void deform(const Mesh& mesh, std::span<const double> weights, const Skin* skin, std::size_t node,
             std::span<const WorldMotion> world, std::span<Vec3> out) noexcept {

@@ -22,6 +22,10 @@ Triple to_coordinates(const Triple& linear, ColorSpace space) noexcept {
       return color_spaces::to_polar(color_spaces::to_oklab(linear), oklab_gray);
     case ColorSpace::hsl:
       return color_spaces::srgb_to_hsl(color_spaces::to_srgb(linear));
+    case ColorSpace::hsv:
+      return color_spaces::srgb_to_hsv(color_spaces::to_srgb(linear));
+    case ColorSpace::hwb:
+      return color_spaces::srgb_to_hwb(color_spaces::to_srgb(linear));
     case ColorSpace::lab:
       return color_spaces::to_lab(linear);
     case ColorSpace::lch:
@@ -42,6 +46,10 @@ Triple to_linear(const Triple& c, ColorSpace space) noexcept {
       return color_spaces::from_oklab(color_spaces::from_polar(c));
     case ColorSpace::hsl:
       return color_spaces::from_srgb(color_spaces::hsl_to_srgb(c));
+    case ColorSpace::hsv:
+      return color_spaces::from_srgb(color_spaces::hsv_to_srgb(c));
+    case ColorSpace::hwb:
+      return color_spaces::from_srgb(color_spaces::hwb_to_srgb(c));
     case ColorSpace::lab:
       return color_spaces::from_lab(c);
     case ColorSpace::lch:
@@ -63,8 +71,15 @@ Sample<Vec4> sample_of(const Triple& c, double alpha, double alpha_rate, double 
 }  // namespace
 
 int hue_index(ColorSpace space) noexcept {
-  if (space == ColorSpace::hsl) return 0;
+  if (space == ColorSpace::hsl || space == ColorSpace::hsv || space == ColorSpace::hwb) return 0;
   return space == ColorSpace::oklch || space == ColorSpace::lch ? 2 : -1;
+}
+
+bool has_hue(const Vec4& coordinates, ColorSpace space) noexcept {
+  if (hue_index(space) < 0) return false;
+  // A gray's whiteness and blackness sum to 1 but for rounding.
+  if (space == ColorSpace::hwb) return coordinates[1] + coordinates[2] < 1 - 1e-9;
+  return coordinates[1] > (space == ColorSpace::oklch ? oklab_gray : space == ColorSpace::lch ? lab_gray : 0);
 }
 
 Vec4 to_space(const Color& color, ColorSpace space) noexcept {

@@ -45,9 +45,23 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 [[nodiscard]] Triple to_lab(const Triple& linear) noexcept;
 [[nodiscard]] Triple from_lab(const Triple& lab) noexcept;
 
-// Hue, saturation and lightness, from and to encoded red, green and blue.
+// Hue in radians (0 for a gray), least and largest of encoded red, green and blue, and how far these are apart
+// (exactly 0 for a gray): what the three spaces below are made of.
+struct Hexcone {
+  Jet hue, low, high, range;
+};
+[[nodiscard]] Hexcone hexcone(const Triple& srgb) noexcept;
+
+// The brightest color of a hue that has a part of 0 and a part of 1.
+[[nodiscard]] Triple pure_hue(const Jet& hue) noexcept;
+
+// Hue, saturation and lightness; hue, saturation and value; hue, whiteness and blackness.
 [[nodiscard]] Triple srgb_to_hsl(const Triple& srgb) noexcept;
 [[nodiscard]] Triple hsl_to_srgb(const Triple& hsl) noexcept;
+[[nodiscard]] Triple srgb_to_hsv(const Triple& srgb) noexcept;
+[[nodiscard]] Triple hsv_to_srgb(const Triple& hsv) noexcept;
+[[nodiscard]] Triple srgb_to_hwb(const Triple& srgb) noexcept;
+[[nodiscard]] Triple hwb_to_srgb(const Triple& hwb) noexcept;
 
 // The plane of the second and third coordinate in polar form. Below `gray` the chroma counts as none.
 [[nodiscard]] Triple to_polar(const Triple& plane, double gray) noexcept;

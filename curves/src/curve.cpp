@@ -15,6 +15,15 @@ namespace {
   throw std::invalid_argument("span " + std::to_string(index) + " (at " + text_of(start) + " s) " + what);
 }
 
+// How many of the coefficients a span has.
+template <class T>
+int rows_of(const Span<T>& span) noexcept {
+  return span.degree + 1;
+}
+int rows_of(const RotationSpan& span) noexcept {
+  return span.form == RotationSpan::Form::nested ? rotation_rows : span.degree + 1;
+}
+
 template <class SpanType>
 void check(std::span<const SpanType> spans) {
   if (spans.empty()) throw std::invalid_argument("a curve needs at least one span; none were given");
@@ -26,12 +35,14 @@ void check(std::span<const SpanType> spans) {
     if (s.degree < 0 || s.degree > max_degree)
       refuse(i, s.start,
              "must have a degree from 0 to " + std::to_string(max_degree) + "; it is " + std::to_string(s.degree));
-    for (int k = 0; k <= s.degree; ++k)
+    for (int k = 0; k < rows_of(s); ++k)
       if (!all_finite(s.coefficients[static_cast<std::size_t>(k)]))
         refuse(i, s.start,
                "has a non-finite number in coefficient " + std::to_string(k) + ": " +
                    text_of(s.coefficients[static_cast<std::size_t>(k)]));
     if (!all_finite(s.end)) refuse(i, s.start, "has a non-finite end value " + text_of(s.end));
+    if constexpr (std::is_same_v<SpanType, RotationSpan>)
+      if (!all_finite(s.spin)) refuse(i, s.start, "has a non-finite spin " + text_of(s.spin));
     if (i == 0) continue;
     const double expected = spans[i - 1].start + spans[i - 1].duration;
     // Durations are differences of times, so the sum may be off by the rounding of both.
@@ -53,28 +64,40 @@ void through(const Warp::Result& w, Polynomial<V>& p) noexcept {
   p.first = p.first * w.ds;
 }
 
+template <class Data>
+Sample<Quat> sample_rotation(const Data& d, std::size_t i, const Warp::Result& w) noexcept {
+  const Segment& s = d.segments[i];
+  Sample<Quat> result;
+  if (s.form == RotationSpan::Form::nested) {
+    result = sample_nested(&d.pool[s.first], w);
+  } else {
+    Polynomial<Vec4> p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
+    if (s.warped) through(w, p);
+    result =
+        s.form == RotationSpan::Form::normalized ? sample_normalized(p, d.ends[i]) : sample_exponential(d.starts[i], p);
+  }
+  if (!d.spins.empty() && !d.spins[i].isZero(0)) result = spun(result, d.spins[i], w);
+  result.rate *= s.inverse;
+  result.acceleration *= s.inverse * s.inverse;
+  return result;
+}
+
 template <class T, class Data>
 Sample<T> sample_segment(const Data& d, std::size_t i, double u) noexcept {
   const Segment& s = d.segments[i];
-  Polynomial<typename Stored<T>::type> p;
-  if (s.warped) {
-    const Warp& warp = d.warps[i];
-    const Warp::Result w = warp.function(u, warp.parameters);
-    p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
-    through(w, p);
-  } else {
-    p = evaluate_polynomial(&d.pool[s.first], s.degree, u);
-  }
+  Warp::Result w{u, 1, 0};
+  if (s.warped) w = d.warps[i].at(u);
   if constexpr (std::is_same_v<T, Quat>) {
-    Sample<Quat> result = s.normalized ? sample_normalized(p, d.ends[i]) : sample_exponential(d.starts[i], p);
-    result.rate *= s.inverse;
-    result.acceleration *= s.inverse * s.inverse;
-    return result;
-  } else if constexpr (std::is_same_v<T, Color>) {
-    const Sample<Vec4> v = with_rates(p.value, p.first, p.second, s.inverse);
-    return {Color{v.value}, v.rate, v.acceleration};
+    return sample_rotation(d, i, w);
   } else {
-    return with_rates<T>(p.value, p.first, p.second, s.inverse);
+    Polynomial<typename Stored<T>::type> p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
+    if (s.warped) through(w, p);
+    if constexpr (std::is_same_v<T, Color>) {
+      const Sample<Vec4> v = with_rates(p.value, p.first, p.second, s.inverse);
+      return {Color{v.value}, v.rate, v.acceleration};
+    } else {
+      return with_rates<T>(p.value, p.first, p.second, s.inverse);
+    }
   }
 }
 
@@ -90,20 +113,40 @@ Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
     return arrival;
   }
   const Segment& s = d.segments[i];
-  if (!at_knot) return sample_segment<T>(d, i, std::min((time - s.start) / s.duration, 1.0));
-  return sample_segment<T>(d, i, 0);
+  return sample_segment<T>(d, i, s.position(time));
+}
+
+// What arrives at the first knot, or leaves the last.
+template <class T, class Data>
+T end_value(const Data& d, bool early) noexcept {
+  const std::optional<T>& own = early ? d.before.value : d.after.value;
+  if (own) return *own;
+  const double end = early ? d.start : d.end;
+  if (d.rebuilt) return d.formula(end, early ? Side::in : Side::out).value;
+  return sample_inside<T>(d, end, early ? Side::out : Side::in).value;
+}
+
+// Outside the knots, by rules that go on for ever.
+template <class T, class Data>
+Sample<T> sample_endless(const Data& d, double time, Side side) noexcept {
+  const bool early = time < d.start || (time == d.start && side == Side::in);
+  return sample_outside<T>((early ? d.before : d.after).rule.rule, d.start, d.end, time, side,
+                           [&d](double t, Side s) { return sample_inside<T>(d, t, s); },
+                           [&d](bool first) { return end_value<T>(d, first); });
 }
 
 }  // namespace
 
 template <class T>
-Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final) {
+Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const CurveEnd<T>& before,
+                                 const CurveEnd<T>& after) {
   check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
   d.start = spans.front().start;
   d.end = end;
-  if (final) d.final.push_back(*final);
+  d.before = before;
+  d.after = after;
   if (!std::isfinite(end - d.start))
     throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
   d.knots.reserve(spans.size() + 1);
@@ -123,9 +166,9 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
                     1 / duration,
                     static_cast<std::uint32_t>(d.pool.size()),
                     static_cast<std::int16_t>(s.degree),
-                    false,
-                    s.warp.function != nullptr};
-    for (int k = 0; k <= s.degree; ++k) {
+                    s.warp.function != nullptr,
+                    RotationSpan::Form::exponential};
+    for (int k = 0; k < rows_of(s); ++k) {
       const auto& c = s.coefficients[static_cast<std::size_t>(k)];
       if constexpr (std::is_same_v<T, Color>)
         d.pool.push_back(c.rgba);
@@ -133,8 +176,10 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
         d.pool.push_back(c);
     }
     if constexpr (std::is_same_v<T, Quat>) {
-      segment.normalized = s.form == RotationSpan::Form::normalized;
+      segment.form = s.form;
       d.starts.push_back(s.from);
+      if (!s.spin.isZero(0)) d.spins.resize(spans.size(), Vec3(0, 0, 0));
+      if (!d.spins.empty()) d.spins[i] = s.spin;
     }
     d.ends.push_back(s.end);
     d.segments.push_back(segment);
@@ -142,12 +187,17 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   }
   if (spans.size() > 1) {
     const std::size_t count = spans.size();
-    d.bucket_scale = static_cast<double>(count) / (d.end - d.start);
-    d.buckets.assign(count + 1, 0);
+    d.bucket_scale = static_cast<double>(2 * count) / (d.end - d.start);
+    d.buckets.assign(2 * count + 1, 0);
     for (std::size_t i = 0; i < count; ++i) ++d.buckets[d.bucket(d.knots[i]) + 1];
-    for (std::size_t b = 1; b <= count; ++b) d.buckets[b] += d.buckets[b - 1];
+    for (std::size_t b = 1; b < d.buckets.size(); ++b) d.buckets[b] += d.buckets[b - 1];
   }
   return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
+}
+
+template <class T>
+T CurveAccess::end_value(const Curve<T>& curve, bool early) noexcept {
+  return tweenfall::end_value<T>(*curve.data_, early);
 }
 
 template <class T>
@@ -180,10 +230,21 @@ Curve<T>::Curve(Formula formula, double start, double end) {
 
 template <class T>
 Curve<T> Curve<T>::with_outside(Outside before, Outside after) const {
+  return with_outside(OutsideRule<T>{before}, OutsideRule<T>{after});
+}
+
+template <class T>
+Curve<T> Curve<T>::with_outside(const OutsideRule<T>& before, const OutsideRule<T>& after) const {
+  for (const OutsideRule<T>* rule : {&before, &after}) {
+    if (rule->slope && !all_finite(*rule->slope))
+      throw std::invalid_argument("the slope outside a curve must be finite; it is " + text_of(*rule->slope));
+    if (!(rule->plays >= 0) || !std::isfinite(rule->plays))
+      throw std::invalid_argument("the plays outside a curve must be >= 0; they are " + text_of(rule->plays));
+  }
   if (data_->rebuilt) return data_->rebuilt(before, after);
   auto data = std::make_shared<Data>(*data_);
-  data->before = before;
-  data->after = after;
+  data->before.rule = before;
+  data->after.rule = after;
   return Curve(std::shared_ptr<const Data>(std::move(data)));
 }
 
@@ -199,12 +260,22 @@ double Curve<T>::end() const noexcept {
 
 template <class T>
 Outside Curve<T>::before() const noexcept {
-  return data_->before;
+  return data_->before.rule.rule;
 }
 
 template <class T>
 Outside Curve<T>::after() const noexcept {
-  return data_->after;
+  return data_->after.rule.rule;
+}
+
+template <class T>
+const OutsideRule<T>& Curve<T>::rule_before() const noexcept {
+  return data_->before.rule;
+}
+
+template <class T>
+const OutsideRule<T>& Curve<T>::rule_after() const noexcept {
+  return data_->after.rule;
 }
 
 template <class T>
@@ -215,18 +286,32 @@ std::span<const double> Curve<T>::knots() const noexcept {
 template <class T>
 Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
   const Data& d = *data_;
-  if (d.rebuilt) return d.formula(time, side);
   if ((time > d.start || (time == d.start && side == Side::out)) &&
       (time < d.end || (time == d.end && side == Side::in)))
-    return sample_inside<T>(d, time, side);
+    return d.rebuilt ? d.formula(time, side) : sample_inside<T>(d, time, side);
   const bool early = time < d.start || (time == d.start && side == Side::in);
-  if (!early && !d.final.empty() && (d.after == Outside::hold || d.after == Outside::linear)) {
-    Sample<T> leaving = sample_inside<T>(d, d.end, Side::in);
-    leaving.value = d.final[0];
-    return d.after == Outside::hold ? at_rest<T>(leaving.value) : straight_on(leaving, time - d.end);
+  const CurveEnd<T>& beyond = early ? d.before : d.after;
+  if (const std::optional<Rate<T>>& slope = beyond.straight(); slope && beyond.rule.rule == Outside::linear)
+    return straight_on(Sample<T>{end_value<T>(d, early), *slope, zero_rate<Rate<T>>()},
+                       time - (early ? d.start : d.end));
+  if (d.rebuilt) return d.formula(time, side);
+  if (const std::optional<double> last = last_play(beyond.rule, d.start, d.end, early);
+      last && is_beyond(time, side, *last, early))
+    return at_rest<T>(sample_endless<T>(d, *last, early ? Side::out : Side::in).value);
+  return sample_endless<T>(d, time, side);
+}
+
+template <class T>
+T Curve<T>::value(double time, Side side) const noexcept {
+  if constexpr (std::is_same_v<T, double>) {
+    // The most frequent question of all, without the work for rates.
+    const Data& d = *data_;
+    if (time >= d.start && time < d.end && side == Side::out && d.warps.empty() && !d.segments.empty()) {
+      const Segment& s = d.segments[d.locate(time)];
+      return polynomial_value(&d.pool[s.first], s.degree, s.position(time));
+    }
   }
-  return sample_outside<T>(early ? d.before : d.after, d.start, d.end, time, side,
-                           [&d](double t, Side s) { return sample_inside<T>(d, t, s); });
+  return sample(time, side).value;
 }
 
 template <class T>
@@ -240,15 +325,17 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
     span.start = s.start;
     span.duration = s.duration;
     span.degree = s.degree;
-    for (std::size_t k = 0; k <= static_cast<std::size_t>(s.degree); ++k) {
+    if constexpr (std::is_same_v<T, Quat>) {
+      for (Vec4& c : span.coefficients) c.setZero();
+      span.form = s.form;
+      span.from = d.starts[i];
+      if (!d.spins.empty()) span.spin = d.spins[i];
+    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(rows_of(span)); ++k) {
       if constexpr (std::is_same_v<T, Color>)
         span.coefficients[k].rgba = d.pool[s.first + k];
       else
         span.coefficients[k] = d.pool[s.first + k];
-    }
-    if constexpr (std::is_same_v<T, Quat>) {
-      span.form = s.normalized ? RotationSpan::Form::normalized : RotationSpan::Form::exponential;
-      span.from = d.starts[i];
     }
     span.end = d.ends[i];
     if (s.warped) span.warp = d.warps[i];
@@ -257,9 +344,11 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
   return result;
 }
 
-#define TWEENFALL_CURVE(T) \
-  template class Curve<T>; \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*);
+#define TWEENFALL_CURVE(T)                                                                                            \
+  template class Curve<T>;                                                                                            \
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const CurveEnd<T>&, \
+                                               const CurveEnd<T>&);                                                   \
+  template T CurveAccess::end_value<T>(const Curve<T>&, bool) noexcept;
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)
 TWEENFALL_CURVE(Vec3)

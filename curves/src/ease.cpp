@@ -8,14 +8,28 @@
 #include "polynomial.h"
 #include "shapes.h"
 #include "slope_rule.h"
+#include "turn_rule.h"
 
 namespace tweenfall {
+namespace {
 
-Ease::Ease(Rule of, std::string as, SlopeRule slopes, const std::array<double, 4>& numbers)
-    : rule_(of), name_(std::move(as)), slope_rule_(slopes), parameters_(numbers) {}
+void check_ends(const char* what, double start, double end) {
+  for (const double v : {start, end})
+    if (!std::isfinite(v))
+      throw std::invalid_argument(std::string("the ") + what + " at the ends must be finite; one is " + text_of(v));
+}
+
+}  // namespace
+
+Ease::Ease(Rule of, std::string as, SlopeRule slopes, const std::array<double, 4>& numbers, TurnRule turns)
+    : rule_(of), name_(std::move(as)), slope_rule_(slopes), turn_rule_(turns), parameters_(numbers) {}
 
 Ease Ease::hold() {
   return {Rule::hold, "hold"};
+}
+
+Ease Ease::step_next() {
+  return shape("step-next", shapes::steps(1, "jump-start"));
 }
 
 Ease Ease::linear() {
@@ -34,23 +48,81 @@ Ease Ease::monotone() {
   return {Rule::slopes, "monotone", &slopes_monotone};
 }
 
+Ease Ease::akima() {
+  return {Rule::slopes, "akima", &slopes_akima};
+}
+
+Ease Ease::makima() {
+  return {Rule::slopes, "makima", &slopes_makima};
+}
+
 Ease Ease::natural() {
-  return {Rule::slopes, "natural", &slopes_natural};
+  return {Rule::slopes, "natural", &slopes_natural, {}, &turns_natural};
+}
+
+Ease Ease::natural(double start, double end) {
+  check_ends("second derivatives", start, end);
+  return {Rule::slopes, call_text("natural", {start, end}), &slopes_natural_given, {start, end, 0, 0}};
+}
+
+Ease Ease::clamped() {
+  return {Rule::slopes, "clamped", &slopes_clamped};
+}
+
+Ease Ease::clamped(double start, double end) {
+  check_ends("slopes", start, end);
+  return {Rule::slopes, call_text("clamped", {start, end}), &slopes_clamped, {start, end, 0, 0}};
+}
+
+Ease Ease::periodic() {
+  return {Rule::slopes, "periodic", &slopes_periodic};
+}
+
+Ease Ease::not_a_knot() {
+  return {Rule::slopes, "not-a-knot", &slopes_not_a_knot};
 }
 
 Ease Ease::catmull_rom() {
-  return {Rule::slopes, "catmull-rom", &slopes_catmull_rom};
+  return {Rule::slopes, "catmull-rom", &slopes_catmull_rom, {}, &turns_de_casteljau};
+}
+
+Ease Ease::catmull_rom_monotone() {
+  return {Rule::slopes, "catmull-rom-monotone", &slopes_catmull_rom_monotone};
+}
+
+Ease Ease::uniform() {
+  return {Rule::slopes, "uniform", &slopes_uniform};
 }
 
 Ease Ease::centripetal() {
   return {Rule::slopes, "centripetal", &slopes_centripetal};
 }
 
+Ease Ease::chordal() {
+  return {Rule::slopes, "chordal", &slopes_chordal};
+}
+
 Ease Ease::tcb(double tension, double continuity, double bias) {
   for (const double v : {tension, continuity, bias})
     if (!std::isfinite(v))
       throw std::invalid_argument("tension, continuity and bias must be finite; one is " + text_of(v));
-  return {Rule::slopes, call_text("tcb", {tension, continuity, bias}), &slopes_tcb, {tension, continuity, bias, 0}};
+  return {Rule::slopes,
+          call_text("tcb", {tension, continuity, bias}),
+          &slopes_tcb,
+          {tension, continuity, bias, 0},
+          &turns_de_casteljau};
+}
+
+Ease Ease::nlerp() {
+  return {Rule::linear, "nlerp", nullptr, {}, &turns_normalized};
+}
+
+Ease Ease::squad() {
+  return {Rule::slopes, "squad", &slopes_catmull_rom, {}, &turns_squad};
+}
+
+Ease Ease::barry_goldman() {
+  return {Rule::slopes, "barry-goldman", &slopes_catmull_rom, {}, &turns_barry_goldman};
 }
 
 Ease Ease::spring(double period, double damping_ratio) {
@@ -84,6 +156,12 @@ Ease Ease::shape(std::string name, std::vector<Piece> pieces) {
   return ease;
 }
 
+Ease Ease::scaled(double factor) const {
+  const double start = parameters_[0] * factor, end = parameters_[1] * factor;
+  if (slope_rule_ == &slopes_natural_given) return natural(start, end);
+  return slope_rule_ == &slopes_clamped && (start != 0 || end != 0) ? clamped(start, end) : *this;
+}
+
 std::vector<Ease::Piece> Ease::pieces_for(double duration) const {
   return shape_rule_ ? shape_rule_(duration, parameters_) : pieces_;
 }
@@ -94,7 +172,7 @@ Sample<double> Ease::progress(double u, Side side) const noexcept {
   const Piece& p = pieces_[i];
   const double local = std::min(1.0, std::max(0.0, (u - p.start) / p.duration));
   Warp::Result w{local, 1, 0};
-  if (p.warp.function) w = p.warp.function(local, p.warp.parameters);
+  if (p.warp.function) w = p.warp.at(local);
   const Polynomial<double> v = evaluate_polynomial(p.coefficients.data(), p.degree, w.s);
   Sample<double> result{v.value, v.first * w.ds / p.duration,
                         (v.second * w.ds * w.ds + v.first * w.dds) / (p.duration * p.duration)};

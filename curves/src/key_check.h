@@ -22,10 +22,16 @@ void check_tangent(std::span<const Key<T>> keys, std::size_t i, const std::optio
   if (!tangent) return;
   if (tangent->kind == Tangent<T>::Kind::given && !all_finite(tangent->rate))
     refuse_key(keys, i, std::string("has the non-finite rate ") + text_of(tangent->rate) + " in \"" + side + "\"");
-  if (!(tangent->weight > 0 && tangent->weight <= 1))
+  if (std::is_same_v<T, Quat> && tangent->kind > TangentKind::vector)
+    refuse_key(keys, i, std::string("has in \"") + side + "\" a kind of tangent that rotations do not take");
+  if (!(tangent->weight > 0) || !std::isfinite(tangent->weight))
     refuse_key(keys, i,
                std::string("has the weight ") + text_of(tangent->weight) + " in \"" + side +
-                   "\"; a handle's share of its span must be > 0 and at most 1");
+                   "\"; a handle's share of its span must be > 0");
+}
+
+inline bool follows_other_side(TangentKind kind) {
+  return kind == TangentKind::aligned || kind == TangentKind::mirrored;
 }
 
 template <class T>
@@ -44,6 +50,8 @@ void check_keys(std::span<const Key<T>> keys) {
     check_tangent(keys, i, key.out, "out");
     if (key.out && key.ease.rule() != Ease::Rule::smooth_clamped)
       refuse_key(keys, i, "has both the ease \"" + key.ease.name() + "\" and an \"out\" tangent; one of them decides");
+    if (key.in && key.out && follows_other_side(key.in->kind) && follows_other_side(key.out->kind))
+      refuse_key(keys, i, "has two tangents that follow each other; one of them must say where to");
     if (key.value_in && i == 0)
       refuse_key(keys, i, "is the first, so nothing arrives and it cannot have an arriving value");
     if (key.value_in && keys[i - 1].ease.rule() == Ease::Rule::hold && !keys[i - 1].out && !key.in)

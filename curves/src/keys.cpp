@@ -1,10 +1,12 @@
 #include <tweenfall/curves/keys.h>
 
+#include "bezier_span.h"
 #include "curve_data.h"
+#include "hermite_coefficients.h"
 #include "key_check.h"
+#include "key_tangents.h"
 #include "keys_converted.h"
 #include "span_slopes.h"
-#include "time_bezier.h"
 
 namespace tweenfall {
 namespace {
@@ -15,7 +17,7 @@ const T& arrival(const Key<T>& key) {
 }
 
 template <class T>
-Slopes slopes_of(std::span<const Key<T>> keys, Ends ends) {
+SlopeRequest request_of(std::span<const Key<T>> keys, Ends ends) {
   constexpr std::size_t n = dimensions<T>;
   SlopeRequest request{n, {}, {}, ends, {}, {}};
   for (const Key<T>& key : keys) request.eases.push_back(&key.ease);
@@ -26,15 +28,7 @@ Slopes slopes_of(std::span<const Key<T>> keys, Ends ends) {
       request.secants.push_back((component(arrival(keys[i + 1]), c) - component(keys[i].value, c)) / duration);
     request.span_eases.push_back(plan_span(keys[i].ease, keys[i].out || keys[i + 1].in).slopes);
   }
-  return choose_slopes(request);
-}
-
-template <class T>
-T slope_at(const std::vector<double>& slopes, std::size_t span) {
-  T result{};
-  for (int c = 0; c < dimensions<T>; ++c)
-    component_of(result, c) = slopes[span * static_cast<std::size_t>(dimensions<T>) + static_cast<std::size_t>(c)];
-  return result;
+  return request;
 }
 
 template <class T>
@@ -59,31 +53,30 @@ void append_shape(std::vector<Span<T>>& spans, const Key<T>& from, double end, c
 }
 
 template <class T>
-void append_cubic(std::vector<Span<T>>& spans, const Key<T>& from, const Key<T>& to, const T& leaving,
-                  const T& arriving) {
+Span<T> cubic(const Key<T>& from, const Key<T>& to, const KeyTangents<T>& tangents, std::size_t i, Overlong overlong) {
   Span<T> span{};
   span.start = from.time;
   span.duration = to.time - from.time;
   span.degree = 3;
   span.end = arrival(to);
   const T change = span.end - from.value;
-  const T d0 = span.duration * leaving, d1 = span.duration * arriving;
+  const T d0 = span.duration * tangents.leaving(i), d1 = span.duration * tangents.arriving(i);
+  const HandleWidths w = tangents.widths(i);
   constexpr double third = 1.0 / 3;
-  const double w0 = from.out ? from.out->weight : third, w1 = to.in ? to.in->weight : third;
-  if (w0 == third && w1 == third) {
+  if (w.start == third && w.end == third)
     cubic_coefficients(from.value, change, d0, d1, span.coefficients.data());
-  } else {
-    bezier_coefficients(from.value, change, d0, w0, d1, w1, span.coefficients.data());
-    span.warp = time_bezier_warp(w0, 1 - w1);
-  }
-  spans.push_back(span);
+  else
+    fill_bezier(span, from.value, change, T(w.start * d0), T(w.end * d1), w, overlong);
+  return span;
 }
 
 // Numbers and vectors, in their own units.
 template <class T>
 Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
   if (keys.size() == 1) return CurveAccess::one_key(keys[0].value, keys[0].time);
-  const Slopes slopes = slopes_of(keys, options.ends);
+  const SlopeRequest request = request_of(keys, options.ends);
+  const Slopes slopes = choose_slopes(request);
+  const KeyTangents<T> tangents(keys, request, slopes);
   std::vector<Span<T>> spans;
   spans.reserve(keys.size() - 1);
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
@@ -92,9 +85,7 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
     if (kind == SpanKind::shape) {
       append_shape(spans, a, b.time, arrival(b));
     } else if (kind == SpanKind::cubic) {
-      const T leaving = stated<T>(a.out, slope_at<T>(slopes.leaving, i), zero_rate<T>());
-      const T arriving = stated<T>(b.in, slope_at<T>(slopes.arriving, i), zero_rate<T>());
-      append_cubic(spans, a, b, leaving, arriving);
+      spans.push_back(cubic(a, b, tangents, i, options.overlong));
     } else {
       Span<T> span{};
       span.start = a.time;
@@ -108,7 +99,8 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
       spans.push_back(span);
     }
   }
-  return CurveAccess::from_spans<T>(spans, keys.back().time, &keys.back().value);
+  return CurveAccess::from_spans<T>(spans, keys.back().time, {{}, keys.front().value, tangents.before()},
+                                    {{}, keys.back().value, tangents.after()});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "jet.h"
+#include "color_alpha.h"
 #include "key_check.h"
 #include "key_pins.h"
 #include "keys_converted.h"
@@ -7,35 +7,6 @@ namespace tweenfall {
 namespace {
 
 constexpr double turn = 0x1.921fb54442d18p+2;
-
-// Coordinates times alpha, but for a hue, with rates by the product rule.
-Sample<Vec4> premultiplied(const Sample<Vec4>& s, int hue) noexcept {
-  Sample<Vec4> result = s;
-  const Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};
-  for (int i = 0; i < 3; ++i) {
-    if (i == hue) continue;
-    const Jet p = Jet{s.value[i], s.rate[i], s.acceleration[i]} * alpha;
-    result.value[i] = p.v;
-    result.rate[i] = p.d;
-    result.acceleration[i] = p.dd;
-  }
-  return result;
-}
-
-// The way back; where nothing is visible the coordinates are 0 and rest.
-Sample<Vec4> divided(const Sample<Vec4>& s, int hue) noexcept {
-  Sample<Vec4> result = s;
-  const Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};
-  const Jet inverse = alpha.v == 0 ? Jet{} : reciprocal(alpha);
-  for (int i = 0; i < 3; ++i) {
-    if (i == hue) continue;
-    const Jet p = Jet{s.value[i], s.rate[i], s.acceleration[i]} * inverse;
-    result.value[i] = p.v;
-    result.rate[i] = p.d;
-    result.acceleration[i] = p.dd;
-  }
-  return result;
-}
 
 double next_hue(double from, double to, HueRule rule) noexcept {
   double step = to - from - turn * std::floor((to - from) / turn);  // 0 to a turn
@@ -55,30 +26,36 @@ double next_hue(double from, double to, HueRule rule) noexcept {
   return from + step;
 }
 
-// Coordinates of all keys, arriving and leaving, in the order in which the curve meets them.
+// Coordinates at a key, arriving and leaving.
 struct Stop {
-  Vec4 value;
-  bool gray;
+  Vec4 arriving, leaving;
+  bool jumps;  // from one color to another
 };
 
-void join_hues(std::vector<Stop>& stops, int hue, HueRule rule) {
-  const Stop* colored = nullptr;
-  for (const Stop& s : stops)
-    if (!s.gray && !colored) colored = &s;
-  if (!colored) return;
-  // A gray takes the hue of the color before it, else of the first that has one.
-  double last = colored->value[hue];
-  for (Stop& s : stops) {
-    s.value[hue] = s.gray ? last : next_hue(last, s.value[hue], &s == colored ? HueRule::shorter : rule);
-    last = s.value[hue];
+// A color that shows no hue takes that of the other end of its span: it may arrive with one and leave with another.
+// Source: W3C, "CSS Color Module Level 4", 12.2.
+void join_hues(std::vector<Stop>& stops, ColorSpace space, HueRule rule) {
+  const int hue = hue_index(space);
+  const auto shows = [space](const Vec4& v) { return v[3] != 0 && has_hue(v, space); };
+  double last = 0;
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    Vec4 &from = stops[i].leaving, &to = stops[i + 1].arriving;
+    const bool from_shows = shows(from), to_shows = shows(to);
+    if (from_shows ? i == 0 || stops[i].jumps : to_shows)
+      last = next_hue(last, (from_shows ? from : to)[hue], HueRule::shorter);
+    from[hue] = last;
+    if (from_shows && to_shows) last = next_hue(last, to[hue], rule);
+    to[hue] = last;
   }
+  Vec4& final = stops.back().leaving;
+  final[hue] = shows(final) ? next_hue(last, final[hue], HueRule::shorter) : last;
 }
 
 void convert_tangent(std::optional<Tangent<Vec4>>& result, const std::optional<Tangent<Color>>& tangent,
                      const Color& color, const Vec4& coordinates, ColorSpace space) {
   if (!tangent) return;
   result.emplace();
-  result->kind = static_cast<Tangent<Vec4>::Kind>(tangent->kind);
+  result->kind = tangent->kind;
   result->weight = tangent->weight;
   Sample<Vec4> s = to_space(Sample<Color>{color, tangent->rate, Vec4::Zero()}, space);
   const int hue = hue_index(space);
@@ -93,35 +70,27 @@ Curve<Color> color_curve(std::span<const Key<Color>> keys, const KeyOptions& opt
   const ColorSpace space = options.space;
   const int hue = hue_index(space);
   std::vector<Stop> stops;
-  const auto add = [&](const Color& color) {
-    const Vec4 v = to_space(color, space);
-    const bool gray = hue >= 0 && !(v[1] > 0);
-    stops.push_back({v, gray});
-  };
-  for (const Key<Color>& key : keys) {
-    if (key.value_in) add(*key.value_in);
-    add(key.value);
-  }
-  if (hue >= 0) join_hues(stops, hue, options.hue);
+  for (const Key<Color>& key : keys)
+    stops.push_back({to_space(key.value_in ? *key.value_in : key.value, space), to_space(key.value, space),
+                     key.value_in.has_value()});
+  if (hue >= 0) join_hues(stops, space, options.hue);
 
   std::vector<Key<Vec4>> inner;
-  std::size_t next = 0;
   const Vec4 none = Vec4::Zero();
-  for (const Key<Color>& key : keys) {
-    Key<Vec4> k{key.time, none, key.ease};
-    Vec4 arriving = none;
-    if (key.value_in) {
-      arriving = stops[next++].value;
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Key<Color>& key = keys[i];
+    const Vec4 &arriving = stops[i].arriving, &leaving = stops[i].leaving;
+    Key<Vec4> k{key.time, premultiplied({leaving, none, none}, hue).value, key.ease};
+    const bool held = i > 0 && keys[i - 1].ease.rule() == Ease::Rule::hold && !keys[i - 1].out && !key.in;
+    if (i > 0 && !held && (key.value_in || arriving != leaving))
       k.value_in = premultiplied({arriving, none, none}, hue).value;
-    }
-    const Vec4 leaving = stops[next++].value;
-    k.value = premultiplied({leaving, none, none}, hue).value;
     convert_tangent(k.out, key.out, key.value, leaving, space);
-    convert_tangent(k.in, key.in, key.value_in ? *key.value_in : key.value, key.value_in ? arriving : leaving, space);
+    convert_tangent(k.in, key.in, key.value_in ? *key.value_in : key.value, arriving, space);
     inner.push_back(k);
   }
   KeyOptions inner_options;
   inner_options.ends = options.ends;
+  inner_options.overlong = options.overlong;
   return seen_through_keys<Color>(keyed_curve<Vec4>(std::span<const Key<Vec4>>(inner), inner_options),
                                   std::make_shared<const KeyPins<Color>>(keys),
                                   [space, hue](const Sample<Vec4>& s) { return from_space(divided(s, hue), space); });

@@ -6,16 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "cross_matrix.h"
 #include "rotation_series.h"
 
 namespace tweenfall {
 namespace {
-
-Mat3 cross_matrix(const Vec3& v) noexcept {
-  Mat3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 Quat negated(const Quat& q) noexcept {
   return Quat(-q.w(), -q.x(), -q.y(), -q.z());
@@ -76,7 +71,7 @@ Quat slerp(const Quat& a, const Quat& b, double u) noexcept {
 }
 
 Quat normalized(const Quat& q) {
-  const Vec4 c = q.coeffs();
+  const Vec4& c = q.coeffs();
   const double largest = c.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !std::isfinite(c.sum())) {
     throw std::invalid_argument("a rotation needs a finite quaternion other than zero; this one is (x " +
@@ -114,8 +109,8 @@ Vec3 to_euler(const Quat& q, const EulerOrder& order) noexcept {
   if (order.intrinsic) std::swap(i, k);
   const bool proper = i == k;
   if (proper) k = 3 - i - j;
-  const double parity = (i - j) * (j - k) * (k - i) / 2;
-  const Vec4 v = q.coeffs();
+  const double parity = (i - j) * (j - k) * (k - i) > 0 ? 1 : -1;
+  const Vec4& v = q.coeffs();
   double a = v[3], b = v[i], c = v[j], d = v[k] * parity;
   if (!proper) {
     const double a0 = a, b0 = b, c0 = c, d0 = d;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Evaluation of the two forms of rotation span.
+// Evaluation of the forms of rotation span.
 
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/curves/span.h>
@@ -14,5 +14,11 @@ namespace tweenfall {
 
 /// p / |p| with p = (x, y, z, w) and its derivatives; `fallback` where p vanishes.
 [[nodiscard]] Sample<Quat> sample_normalized(const Polynomial<Vec4>& p, const Quat& fallback) noexcept;
+
+/// Slerps of slerps: the eight rows of a nested span, at s with derivatives of s carried through.
+[[nodiscard]] Sample<Quat> sample_nested(const Vec4* rows, const Warp::Result& s) noexcept;
+
+/// `sample` turned further by exp(s spin).
+[[nodiscard]] Sample<Quat> spun(const Sample<Quat>& sample, const Vec3& spin, const Warp::Result& s) noexcept;
 
 }  // namespace tweenfall

@@ -1,8 +1,5 @@
-#include <tweenfall/curves/elementary.h>
-
-#include <cmath>
-
 #include "shapes.h"
+#include "spring_response.h"
 
 namespace tweenfall::shapes {
 namespace {
@@ -13,30 +10,8 @@ struct Response {
 
 // Step response of x'' + 2 z w x' + w^2 (x - 1) = 0 from rest at 0, at phase w t, derivatives with respect to it.
 Response step_response(double phase, double z) noexcept {
-  double position, velocity;  // of the distance to the goal, which starts at 1
-  if (z < 1) {
-    const double d = std::sqrt((1 - z) * (1 + z));
-    const elementary::SinCos turn = elementary::sin_cos(d * phase);
-    const double e = elementary::exp(-z * phase);
-    // sin(d p)/d tends to p where the damping is nearly critical.
-    const double k = d * phase < 1e-8 ? phase : turn.sin / d;
-    position = e * (turn.cos + z * k);
-    velocity = -e * k;
-  } else {
-    const double d = std::sqrt((z - 1) * (z + 1));
-    if (d * phase < 1e-8) {
-      const double e = elementary::exp(-z * phase);
-      position = e * (1 + z * phase);
-      velocity = -e * phase;
-    } else {
-      // The slow root by its product with the fast one, which does not cancel.
-      const double fast = z + d, slow = 1 / fast;
-      const double es = elementary::exp(-slow * phase), ef = elementary::exp(-fast * phase);
-      position = (fast * es - slow * ef) / (2 * d);
-      velocity = (ef - es) / (2 * d);
-    }
-  }
-  return {1 - position, -velocity, position + 2 * z * velocity};
+  const SpringResponse r = spring_response(phase, z);
+  return {1 - r.displaced, r.struck, r.displaced - 2 * z * r.struck};
 }
 
 // The response over the span, plus what is left at its end, taken away by a smooth step.

@@ -35,16 +35,25 @@ Warp::Result reversed(double u, const std::array<double, 4>& parameters) noexcep
   return {1 - r.s, r.ds, -r.dds};
 }
 
-[[nodiscard]] Pieces power(int degree, Flow flow);  ///< u^degree; degree 2 to 5
+[[nodiscard]] Pieces power(int degree, Flow flow);       ///< u^degree; degree 1 to 5
+[[nodiscard]] Pieces power(double exponent, Flow flow);  ///< u^exponent; exponent > 0
 [[nodiscard]] Pieces sine(Flow flow);
 [[nodiscard]] Pieces exponential(Flow flow);
 [[nodiscard]] Pieces circular(Flow flow);
 [[nodiscard]] Pieces back(double overshoot, Flow flow);
 [[nodiscard]] Pieces elastic(double amplitude, double period, Flow flow);
+[[nodiscard]] Pieces penner_elastic(double amplitude, double period, Flow flow);
 [[nodiscard]] Pieces bounce(Flow flow);
 [[nodiscard]] Pieces bezier(double x1, double y1, double x2, double y2);
 /// @param jump  "jump-start", "jump-end", "jump-none", "jump-both"
 [[nodiscard]] Pieces steps(int count, std::string_view jump);
+/// A stop of CSS linear(): an output, and none, one or two inputs in percent at which it stands.
+struct LinearStop {
+  double output;
+  std::vector<double> percents{};
+};
+/// @param stops  one or more
+[[nodiscard]] Pieces linear(const std::vector<LinearStop>& stops);
 /// @param parameters  undamped period in seconds, damping ratio
 [[nodiscard]] Pieces spring(double duration, const std::array<double, 4>& parameters);
 

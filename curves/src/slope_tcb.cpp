@@ -8,8 +8,10 @@ void slopes_tcb(const SlopeProblem& p) {
   const auto slope = [&p](std::size_t key, std::size_t span, bool arriving, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
     if (a == SlopeProblem::none || b == SlopeProblem::none) return 0.0;
-    // The three numbers belong to the key; where it has none of its own (the run ends there), to the span.
-    const Ease& own = *p.eases[key];
+    // The three numbers belong to the key; where it has none of its own (the run ends there), to the span. The last
+    // key of a loop is its first.
+    const bool seam = key == p.spans && p.eases[key]->slope_rule() != &slopes_tcb;
+    const Ease& own = *p.eases[seam ? 0 : key];
     const auto& parameters = own.slope_rule() == &slopes_tcb ? own.parameters() : p.eases[span]->parameters();
     const double tension = parameters[0], bias = parameters[2];
     const double continuity = arriving ? -parameters[1] : parameters[1];

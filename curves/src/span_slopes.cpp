@@ -1,10 +1,54 @@
 #include "span_slopes.h"
 
+#include <algorithm>
+
 #include "slope_rule.h"
 
 namespace tweenfall {
 
-Slopes choose_slopes(const SlopeRequest& request) {
+namespace {
+
+// On a loop whose last span goes on by the rule of its first, the run that crosses the seam is one run.
+std::size_t seam_run(const SlopeRequest& request) {
+  const std::size_t spans = request.durations.size();
+  if (request.ends != Ends::wrap || spans == 0) return 0;
+  const auto rule = [&request](std::size_t span) {
+    return request.span_eases[span] ? request.span_eases[span]->slope_rule() : nullptr;
+  };
+  std::size_t first = spans;
+  while (first > 0 && rule(first - 1) && rule(first - 1) == rule(0)) --first;
+  return first == 0 || first == spans ? 0 : first;
+}
+
+// The loop as if it began with span `first`.
+SlopeRequest rotated(const SlopeRequest& request, std::size_t first) {
+  SlopeRequest result = request;
+  const auto turn = [](auto& list, std::size_t by) {
+    std::rotate(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(by), list.end());
+  };
+  turn(result.durations, first);
+  turn(result.secants, first * request.dimensions);
+  turn(result.span_eases, first);
+  // The first and the last key are one key; the first says how it leaves.
+  result.eases.pop_back();
+  turn(result.eases, first);
+  result.eases.push_back(result.eases.front());
+  return result;
+}
+
+}  // namespace
+
+Slopes choose_slopes(const SlopeRequest& given) {
+  if (const std::size_t first = seam_run(given)) {
+    const std::size_t spans = given.durations.size();
+    SlopeRequest opened = rotated(given, first);
+    Slopes result = choose_slopes(opened);
+    for (std::vector<double>* list : {&result.leaving, &result.arriving})
+      std::rotate(list->begin(), list->begin() + static_cast<std::ptrdiff_t>((spans - first) * given.dimensions),
+                  list->end());
+    return result;
+  }
+  const SlopeRequest& request = given;
   const std::size_t spans = request.durations.size();
   Slopes result;
   result.leaving.assign(spans * request.dimensions, 0.0);

@@ -34,30 +34,4 @@ struct SpanPlan {
 
 [[nodiscard]] SpanPlan plan_span(const Ease& ease, bool has_tangents);
 
-/// The slope at one side of a stated span: as given, flat, or what the rule chose.
-template <class T>
-[[nodiscard]] Rate<T> stated(const std::optional<Tangent<T>>& tangent, const Rate<T>& automatic, const Rate<T>& flat) {
-  if (!tangent || tangent->kind == Tangent<T>::Kind::automatic) return automatic;
-  return tangent->kind == Tangent<T>::Kind::flat ? flat : tangent->rate;
-}
-
-/// Coefficients of the cubic from `from` that moves by `change`, with slopes times duration d0 and d1 at its ends.
-template <class V>
-void cubic_coefficients(const V& from, const V& change, const V& d0, const V& d1, V* c) {
-  c[0] = from;
-  c[1] = d0;
-  c[2] = 3 * change - 2 * d0 - d1;
-  c[3] = d0 + d1 - 2 * change;
-}
-
-/// Coefficients in the handles' own position, for handles of the shares w0 and w1 of the span.
-template <class V>
-void bezier_coefficients(const V& from, const V& change, const V& d0, double w0, const V& d1, double w1, V* c) {
-  const V first = w0 * d0, second = change - w1 * d1;  // inner control points, from `from`
-  c[0] = from;
-  c[1] = 3 * first;
-  c[2] = 3 * second - 6 * first;
-  c[3] = change + 3 * first - 3 * second;
-}
-
 }  // namespace tweenfall

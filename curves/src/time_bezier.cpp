@@ -39,4 +39,8 @@ Warp time_bezier_warp(double x1, double x2) {
   return {&inverse, {x1, x2, 0, 0}};
 }
 
+bool is_time_bezier(const Warp& warp) noexcept {
+  return warp.function == &inverse;
+}
+
 }  // namespace tweenfall

@@ -173,7 +173,7 @@ class BvhReader {
     if (!frame_time || !(*frame_time > 0)) return fail("Frame Time: must be above 0 s");
     if (channel_count_ == 0 || *frames == 0) return true;
     std::vector<double> numbers;
-    while (numbers.size() / channel_count_ < *frames) {
+    while (static_cast<double>(numbers.size()) < *frames * static_cast<double>(channel_count_)) {
       const auto number = words_.number();
       if (!number)
         return fail("frame " + std::to_string(numbers.size() / channel_count_ + 1) + " of " +

@@ -37,6 +37,7 @@ std::vector<Section> resampled(const Loft& loft) {
   for (std::size_t i = 1; i < loft.sections.size(); ++i)
     lengths.push_back(lengths.back() + (loft.sections[i].center - loft.sections[i - 1].center).norm());
   std::vector<Section> rings;
+  rings.reserve(static_cast<std::size_t>(loft.rings));
   for (int i = 0; i < loft.rings; ++i)
     rings.push_back(section_at(loft.sections, lengths, static_cast<double>(i) / (loft.rings - 1)));
   return rings;

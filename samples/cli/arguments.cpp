@@ -67,7 +67,7 @@ void Arguments::files(const char* name, std::vector<std::string>& values, const 
   app_of(implementation_).add_option(name, values, says)->required()->type_name("");
 }
 
-void Arguments::word(const char* name, std::string& value, std::vector<std::string> choices, const char* says) {
+void Arguments::word(const char* name, std::string& value, const std::vector<std::string>& choices, const char* says) {
   app_of(implementation_)
       .add_option_function<std::string>(
           name,

@@ -26,7 +26,7 @@ class Arguments {
   void file(const char* name, std::string& value, const char* says);
   void optional_file(const char* name, std::string& value, const char* says);
   void files(const char* name, std::vector<std::string>& values, const char* says);
-  void word(const char* name, std::string& value, std::vector<std::string> choices, const char* says);
+  void word(const char* name, std::string& value, const std::vector<std::string>& choices, const char* says);
 
   void flag(const char* option, bool& value, const char* says);
   void text(const char* option, const char* kind, std::optional<std::string>& value, const char* says);

@@ -81,8 +81,9 @@ Run bench(Arguments&) {
                  brief_text(1 / each) + " " + unit});
     };
 
-    std::vector<Key<Vec3>> keys;
-    for (int i = 0; i < 64; ++i) keys.push_back({static_cast<double>(i), Vec3(i % 7, i % 5, i % 3)});
+    std::vector<Key<Vec3>> keys(64);
+    for (int i = 0; i < 64; ++i)
+      keys[static_cast<std::size_t>(i)] = {static_cast<double>(i), Vec3(i % 7, i % 5, i % 3)};
     const Curve<Vec3> curve = keyed_curve<Vec3>(keys);
     double time = 0, sum = 0;
     const double sampling = seconds_of([&] {

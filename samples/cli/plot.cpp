@@ -7,9 +7,11 @@
 #include "terminal.h"
 #include "verbs.h"
 
+#include <tweenfall/importers/number_text.h>
 #include <tweenfall/importers/plot.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tweenfall::cli {
 
@@ -18,7 +20,11 @@ namespace {
 struct Options : RunOptions {
   std::string output;
   std::vector<std::string> tracks;
+  std::optional<double> columns;
+  bool no_rates = false;
 };
+
+constexpr int most_columns = 6;
 
 /// The clips that a plot shows: the one asked for, else the only one, else all that play.
 std::vector<std::size_t> shown_clips(const StageDescription& stage, const Options& options) {
@@ -55,10 +61,17 @@ std::vector<std::string> chosen_tracks(const StageDescription& stage, const std:
 
 int plot_file(const Options& options) {
   require_output(options.output, options.file, std::vector<std::string>{".svg"});
+  const double columns = options.columns.value_or(1);
+  if (!(columns >= 1 && columns <= most_columns && columns == std::floor(columns)))
+    throw UsageError("--columns takes a whole number from 1 to " + std::to_string(most_columns) + ", not " +
+                     brief_text(columns));
   const StageFile read = read_stage_file(options.file);
   const StageDescription& stage = read.stage;
   const std::vector<std::size_t> clips = shown_clips(stage, options);
-  PlotOptions plotted{.tracks = chosen_tracks(stage, clips, options.tracks), .clip = options.clip.value_or("")};
+  const PlotOptions plotted{.tracks = chosen_tracks(stage, clips, options.tracks),
+                            .clip = options.clip.value_or(""),
+                            .columns = static_cast<int>(columns),
+                            .rates = !options.no_rates};
 
   // Only a clip that plays on a stage with bodies has a continuation to show.
   const bool has_bodies =
@@ -76,7 +89,10 @@ int plot_file(const Options& options) {
     if (plotted.tracks.empty()) tracks += stage.clips[clip].tracks.size();
     names += (names.empty() ? "" : ", ") + stage.clips[clip].name;
   }
-  std::string shows = counted(tracks, "track") + " of " + names + ": values with keys and tangents, rates below";
+  const bool is_cut = plotted.tracks.empty() && tracks > plotted.most;
+  std::string shows = (is_cut ? std::to_string(plotted.most) + " of " : "") + counted(tracks, "track") + " of " +
+                      names + ": values with keys and handles" + (plotted.rates ? ", rates below" : "");
+  if (is_cut) shows += "; name others with --track";
   if (recording && !recording->handoffs.empty())
     shows += "; " + counted(recording->handoffs.size(), "hand-off") + " and the simulated motion after";
   say_written(options.output, shows);
@@ -95,6 +111,8 @@ Run plot(Arguments& arguments) {
                   "only this track, or those of a pattern like \"arm.*\"; again for more");
   arguments.text("--clip", "NAME", options->clip, "this clip; else the only one, or all that play");
   arguments.number("--until", "T", options->until, "simulate to stage time T, s");
+  arguments.number("--columns", "N", options->columns, "so many side by side, 1 to 6; 1 without it");
+  arguments.flag("--no-rates", options->no_rates, "values alone, without their rates below");
   return [options] { return plot_file(*options); };
 }
 

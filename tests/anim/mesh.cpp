@@ -83,3 +83,15 @@ TEST_CASE("joints in their bind poses leave a skinned mesh where it was") {
   deform(mesh, {}, &skin, 0, world, out);
   for (std::size_t i = 0; i < out.size(); ++i) CHECK(near(out[i], mesh.positions[i], 1e-13));
 }
+
+TEST_CASE("a swept surface becomes a mesh with all that it has") {
+  const SurfaceMesh surface{
+      {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}, {{0, 0}, {1, 0}, {0, 1}}, {0, 1, 2}};
+  const Mesh mesh = mesh_of(surface, "vase");
+  CHECK(mesh.name == "vase");
+  CHECK(mesh.positions == surface.positions);
+  CHECK(mesh.normals == surface.normals);
+  CHECK(mesh.texture_coordinates == surface.texture_coordinates);
+  CHECK(mesh.triangles == surface.triangles);
+  CHECK(mesh.influences.empty());
+}

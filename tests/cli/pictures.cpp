@@ -26,6 +26,19 @@ TEST_CASE("plot without a file is SVG on stdout, with the line about it on stder
   CHECK(ran.err.find("wrote") != std::string::npos);
 }
 
+TEST_CASE("plot in columns without rates says so, and of columns that cannot be says what can") {
+  const Folder folder;
+  folder.write("ball.json", ball_document);
+  const Ran ran = folder.run("plot ball.json --columns 2 --no-rates -o ball.svg");
+  CHECK_MESSAGE(ran.code == 0, ran.err);
+  CHECK(ran.out.find("rates") == std::string::npos);
+  CHECK(folder.read("ball.svg").find(">rate<") == std::string::npos);
+  const Ran wrong = folder.run("plot ball.json --columns 0 -o other.svg");
+  CHECK(wrong.code == 2);
+  CHECK(wrong.err.find("--columns takes a whole number from 1 to 6, not 0") != std::string::npos);
+  CHECK(folder.names() == std::vector<std::string>{"ball.json", "ball.svg"});
+}
+
 TEST_CASE("plot of a thrown ball tells of the hand-off") {
   const Folder folder;
   folder.write("thrown.json", thrown_document);

@@ -151,14 +151,84 @@ TEST_CASE("an angle about an axis keeps its turns and its rules outside") {
 }
 
 TEST_CASE("the rates of a vector curve are those of its values for every rule") {
-  for (const std::string word :
-       {"smooth", "smooth-clamped", "monotone", "natural", "catmull-rom", "centripetal", "tcb(0.2,0.3,-0.4)", "ease",
-        "sine-in-out", "expo-out", "circ-in", "back-in-out", "elastic-out(1,0.3)", "bounce-in", "spring(0.3s,0.5)",
-        "spring(0.4s,1)", "spring(0.4s,1.7)"}) {
+  for (const std::string word : {"smooth",
+                                 "smooth-clamped",
+                                 "monotone",
+                                 "natural",
+                                 "catmull-rom",
+                                 "centripetal",
+                                 "tcb(0.2,0.3,-0.4)",
+                                 "ease",
+                                 "sine-in-out",
+                                 "expo-out",
+                                 "circ-in",
+                                 "back-in-out",
+                                 "elastic-out(1,0.3)",
+                                 "bounce-in",
+                                 "spring(0.3s,0.5)",
+                                 "spring(0.4s,1)",
+                                 "spring(0.4s,1.7)",
+                                 "akima",
+                                 "makima",
+                                 "natural(1,-2)",
+                                 "clamped",
+                                 "clamped(1,-2)",
+                                 "periodic",
+                                 "not-a-knot",
+                                 "catmull-rom-monotone",
+                                 "uniform",
+                                 "chordal",
+                                 "poly-in-out(2.7)",
+                                 "poly-out(0.7)",
+                                 "linear(0, 0.5 25% 75%, 1)",
+                                 "step-next"}) {
     CAPTURE(word);
     const Ease ease = Ease::named(word).value();
     const Curve<Vec3> c = keyed_curve<Vec3>(
         {{0, {1, 2, 3}, ease}, {0.8, {-2, 1, 4}, ease}, {2, {0, 5, 4.5}, ease}, {3, {1, 1, 1}, ease}});
     for (const double t : {0.11, 0.5, 1.21, 1.77, 2.3, 2.9}) check_rates(c, t, 1e-4, 1e-6);
   }
+}
+
+TEST_CASE("outside, a slope can be given and plays can be counted") {
+  const Curve<double> c = saw();
+  const Curve<double> sloped = c.with_outside(OutsideRule<double>{Outside::linear, -3}, {Outside::linear, 0.5});
+  CHECK(sloped.value(0) == 3);
+  CHECK(sloped.rate(0) == -3);
+  CHECK(sloped.rate(1, Side::in) == -3);
+  CHECK(sloped.rate(1) == 4);
+  CHECK(sloped.value(6) == 7);
+  const Curve<double> twice =
+      c.with_outside(OutsideRule<double>{Outside::repeat, {}, 1}, OutsideRule<double>{Outside::repeat_offset, {}, 2});
+  CHECK(twice.value(9.9) == doctest::Approx(12 + 6.2));
+  CHECK(twice.value(10, Side::in) == 18);
+  CHECK(twice.rate(10, Side::in) == -2);
+  CHECK(twice.value(10) == 18);
+  CHECK(twice.rate(10) == 0);
+  CHECK(twice.value(50) == 18);
+  CHECK(twice.value(-2) == 0);
+  CHECK(twice.rate(-2) == 4);
+  CHECK(twice.rate(-2, Side::in) == 0);
+  CHECK(twice.value(-40) == 0);
+  const Curve<double> half = c.with_outside({}, OutsideRule<double>{Outside::pingpong, {}, 0.5});
+  CHECK(half.value(5.5, Side::in) == 9);
+  CHECK(half.value(9) == 9);
+  CHECK(half.rule_after().plays == 0.5);
+  // Seen through a conversion it is the same.
+  const Curve<Quat> turned =
+      axis_curve({0, 0, 1}, c).with_outside({}, OutsideRule<Quat>{Outside::linear, Vec3(0, 1, 0)});
+  CHECK(test::near(turned.rate(5), Vec3(0, 1, 0), 1e-15));
+  CHECK(test::near(turned.value(5), Quat(exp_map({0, 1, 0}) * exp_map({0, 0, 6})), 1e-14));
+  CHECK_THROWS_WITH_AS((void)c.with_outside({}, OutsideRule<double>{Outside::repeat, {}, -1}),
+                       doctest::Contains("must be >= 0; they are -1"), std::invalid_argument);
+}
+
+TEST_CASE("a key's outer tangents say how a straight continuation goes on") {
+  std::vector<Key<double>> keys = {{0, 1}, {2, 5}};
+  keys[0].in = Tangent<double>{TangentKind::given, -2};
+  keys[1].out = Tangent<double>{TangentKind::flat};
+  const Curve<double> c = keyed_curve<double>(keys).with_outside(Outside::linear, Outside::linear);
+  CHECK(c.value(-1) == 3);
+  CHECK(c.value(3) == 5);
+  CHECK(c.rate(0) == doctest::Approx(2));
 }

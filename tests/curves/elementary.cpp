@@ -63,6 +63,23 @@ TEST_CASE("elementary functions are within two units in the last place of the C 
                 [&] { return std::exp(random.between(-2, 2)); }) <= 2);
 }
 
+TEST_CASE("hyperbolic functions are within three units in the last place of the C library's") {
+  test::Random random(2);
+  const auto exact = [](auto function) {
+    return [function](double x) { return static_cast<double>(function(static_cast<long double>(x))); };
+  };
+  for (const double reach : {1e-6, 0.5, 2.0, 20.0, 710.0}) {
+    CAPTURE(reach);
+    const auto pick = [&] { return random.between(-reach, reach); };
+    CHECK(worst(&elementary::sinh, exact([](long double x) { return std::sinh(x); }), pick) <= 3);
+    CHECK(worst(&elementary::cosh, exact([](long double x) { return std::cosh(x); }), pick) <= 3);
+    CHECK(worst(&elementary::tanh, exact([](long double x) { return std::tanh(x); }), pick) <= 3);
+    CHECK(worst(&elementary::asinh, exact([](long double x) { return std::asinh(x); }), pick) <= 3);
+  }
+  CHECK(elementary::sinh(-1e5) == -std::numeric_limits<double>::infinity());
+  CHECK(elementary::tanh(-1e5) == -1);
+}
+
 TEST_CASE("elementary functions are exact where the answer is a round number") {
   CHECK(elementary::sin(0) == 0);
   CHECK(elementary::cos(0) == 1);

@@ -1,5 +1,7 @@
 #include "importers/document_files.h"
 
+#include <tweenfall/curves/keys.h>
+
 #include <numbers>
 
 using namespace tweenfall;
@@ -228,6 +230,24 @@ TEST_CASE("every field reaches the stage's description") {
   }
 }
 
+TEST_CASE("runs of one rule know their ends, and slopes in an ease are in the track's unit") {
+  const Document document = good("runs");
+  const Clip& clip = document.stage().clips.at(0);
+  const Curve<double>& height = curve<double>(clip, "wheel.height");
+  const Sample<double> arriving = height.sample(4, Side::in), leaving = height.sample(0);
+  CHECK(near(arriving.rate, leaving.rate, 1e-12));
+  CHECK(near(arriving.acceleration, leaving.acceleration, 1e-12));
+  CHECK(near(curve<Quat>(clip, "wheel.rotation").rate(0), Vec3(0, 0, 90 * degree), 1e-12));
+  CHECK(near(curve<Quat>(clip, "wheel.rotation").rate(2, Side::in), Vec3(0, 0, -45 * degree), 1e-12));
+  CHECK(near(curve<Vec3>(clip, "wheel.position").rate(0), Vec3(0, 0, 0), 1e-15));
+  CHECK(near(curve<Vec3>(clip, "wheel.position").rate(3, Side::in), Vec3(0, 0, 0), 1e-12));
+  const Curve<double>& glow = curve<double>(clip, "wheel.glow");
+  CHECK(near(glow.value(0.5), 2, 1e-15));
+  CHECK(glow.value(1, Side::in) == 4);
+  CHECK(glow.value(1) == 5);
+  CHECK(near(glow.value(2.25), 5 - 5 * 0.125, 1e-14));
+}
+
 TEST_CASE("tracks of every kind are read as their kind") {
   const Document document = good("everything");
   const Clip& clip = document.stage().clips.at(0);
@@ -278,6 +298,40 @@ TEST_CASE("rates of angles give the angular velocity that was asked for, in ever
   }
 }
 
+TEST_CASE("a key of quaternions says the way around and the whole turns to the next") {
+  const auto mean_rate = [](const std::string& track, const std::string& first) {
+    const Document document = parsed(R"({"tweenfall": 1, "clips": {"a": {"tracks": {"b.rotation": {)" + track +
+                                     R"("keys": [{"t": 0, "v": {"quat": [0, 0, 0, 1]}, "ease": "linear")" + first +
+                                     R"(}, [2, {"quat": [0, 0, 1, 1]}]]}}}}})");
+    return curve<Quat>(document.stage().clips.at(0), "b.rotation").rate(1).z() / degree;
+  };
+  CHECK(near(mean_rate("", ""), 45, 1e-12));
+  CHECK(near(mean_rate("", R"(, "turn": "long")"), -135, 1e-12));
+  CHECK(near(mean_rate(R"("turn": "long", )", ""), -135, 1e-12));
+  CHECK(near(mean_rate(R"("turn": "long", )", R"(, "turn": "short")"), 45, 1e-12));
+  CHECK(near(mean_rate("", R"(, "turn": {"turns": 2})"), 405, 1e-12));
+  CHECK(near(mean_rate(R"("turn": "long", )", R"(, "turn": {"turns": 1})"), -315, 1e-12));
+  CHECK(near(mean_rate("", R"(, "turn": {"axis": "z", "turns": 1})"), 225, 1e-12));
+  CHECK(near(mean_rate("", R"(, "turn": {"axis": [0, 0, -1]})"), -135, 1e-12));
+  CHECK_THROWS_AS((void)mean_rate("", R"(, "turn": {"axis": "z", "way": "long"})"), DocumentError);
+  CHECK_THROWS_AS((void)mean_rate("", R"(, "turn": {"turns": 1.5})"), DocumentError);
+}
+
+TEST_CASE("rotation keys take the words of rotations") {
+  for (const std::string word : {"nlerp", "squad", "barry-goldman", "natural", "tcb(0,0.5,0)"}) {
+    CAPTURE(word);
+    const std::string ease = ", \"" + word + "\"]";
+    const Document document =
+        parsed(R"({"tweenfall": 1, "clips": {"a": {"tracks": {"b.rotation": [
+      [0, {"quat": [0, 0, 0, 1]})" +
+               ease + R"(, [1, {"quat": [0, 0, 1, 1]})" + ease + R"(, [2, {"quat": [1, 0, 0, 1]}]]}}}})");
+    const Curve<Quat>& rotation = curve<Quat>(document.stage().clips.at(0), "b.rotation");
+    Key<Quat> keys[] = {
+        {0, Quat(1, 0, 0, 0), *Ease::named(word)}, {1, Quat(1, 0, 0, 1), *Ease::named(word)}, {2, Quat(1, 1, 0, 0)}};
+    CHECK(near(rotation.value(0.7), keyed_curve<Quat>(keys).value(0.7), 1e-15));
+  }
+}
+
 TEST_CASE("imports bring nodes and clips under their names") {
   const Document document = good("importer");
   const StageDescription& stage = document.stage();
@@ -310,4 +364,47 @@ TEST_CASE("the starting document loads and shows keys, a body and a hand-off") {
   CHECK(document.stage().nodes.size() >= 2);
   CHECK(document.stage().rules.size() >= 1);
   CHECK(starting_document().find("//") != std::string::npos);
+}
+
+TEST_CASE("tangent kinds, overlong handles and what lies outside are read as they say") {
+  const Document document = good("handles");
+  const Clip& clip = document.stage().clips[0];
+  const Curve<double>& mirrored = curve<double>(clip, "a.mirrored");
+  CHECK(mirrored.rate(0) == 0);
+  CHECK(mirrored.rate(1, Side::in) == doctest::Approx(3));
+  CHECK(mirrored.rate(1) == doctest::Approx(3));
+  CHECK(mirrored.rate(3, Side::in) == doctest::Approx(1));
+  // A loop: the rate is the same on both sides of the seam, and zero where a component turns.
+  const Curve<Vec2>& clamped = curve<Vec2>(clip, "a.clamped");
+  CHECK(near(clamped.rate(4, Side::in), clamped.rate(4), 1e-13));
+  CHECK(clamped.rate(1)[1] == 0);
+  const Curve<double>&over = curve<double>(clip, "a.long"), &same = curve<double>(clip, "a.same");
+  for (const double t : {0.2, 0.5, 0.7}) CHECK(over.value(t) == doctest::Approx(same.value(t)).epsilon(1e-12));
+  const Curve<double>& counted = curve<double>(clip, "a.counted");
+  CHECK(counted.value(-1) == 3);
+  CHECK(counted.value(2.5) == doctest::Approx(6));
+  CHECK(counted.value(3.5) == 7);
+  CHECK(near(curve<Vec3>(clip, "a.position").value(3), Vec3(3, 5, 7), 1e-14));
+  const Curve<Quat>& rotation = curve<Quat>(clip, "a.rotation");
+  CHECK(turn(rotation.value(3)) == doctest::Approx(45 * degree));
+  CHECK(turn(rotation.value(7)) == doctest::Approx(45 * degree));
+}
+
+TEST_CASE("modifiers are laid over tracks of numbers in their order") {
+  const Document document = good("handles");
+  const Clip& clip = document.stage().clips[1];
+  const Curve<double>& cycled = curve<double>(clip, "b.cycled");
+  CHECK(cycled.value(-1) == 0);
+  CHECK(cycled.value(1.5) == doctest::Approx(3));
+  // The sine sees the cycled time, which never reaches its range.
+  CHECK(cycled.value(3.25) == doctest::Approx(6.5));
+  CHECK(cycled.value(9) == doctest::Approx(2));
+  const Curve<double>& swing = curve<double>(clip, "b.swing");
+  CHECK(swing.value(0) == 1);
+  CHECK(swing.rate(0) == 0);
+  CHECK(swing.value(0.25) == doctest::Approx(0));
+  const Curve<double>& warped = curve<double>(clip, "b.warped");
+  CHECK(warped.value(0.5) == doctest::Approx(1.5));
+  CHECK(warped.rate(0.5) == doctest::Approx(-1));
+  CHECK(std::isfinite(curve<double>(clip, "b.all").value(1.3)));
 }

@@ -49,11 +49,11 @@ TEST_CASE("a plot is the golden file, byte for byte") {
                 "the plot differs; where that is wanted, run once with TWEENFALL_WRITE_GOLDEN=1 and look at the file");
 }
 
-TEST_CASE("a plot marks each key, the slopes on its sides and the events") {
+TEST_CASE("a plot marks each key, the handles that keys have and the events") {
   const std::string svg = plot_svg(one_track(), nullptr);
   CHECK(count(svg, "class=\"key\"") == 4);
-  CHECK(count(svg, "class=\"tangent\"") == 6);  // two a key, one at the ends
-  CHECK(count(svg, "class=\"event\"") == 2);    // through both panels
+  CHECK(count(svg, "class=\"handle\"") == 2);  // of the one span that is a cubic
+  CHECK(count(svg, "class=\"event\"") == 2);   // through both panels
   CHECK(count(svg, ">click<") == 1);
   CHECK(count(svg, "class=\"curve\"") == 2);
 }
@@ -69,6 +69,75 @@ TEST_CASE("a recorded plot has the hand-off line and the simulated continuation"
   CHECK(count(pivot, "class=\"handoff\"") == 2);
   CHECK(count(pivot, ">bob free<") == 1);
   CHECK(count(pivot, "class=\"simulated\"") == 0);
+}
+
+TEST_CASE("a rotation about an axis is plotted as its angle in degrees, which does not wrap") {
+  StageDescription stage;
+  const Curve<double> two_turns = keyed_curve<double>({{0, 0, Ease::linear()}, {2, 4 * 3.141592653589793}});
+  stage.clips.push_back({.name = "turn", .duration = 2});
+  stage.clips[0].tracks.push_back({"wheel", "rotation", axis_curve(Vec3(0, 1, 0), two_turns)});
+  const std::string svg = plot_svg(stage, nullptr, {.tracks = {}, .clip = "", .rates = false});
+  CHECK(count(svg, ">degrees<") == 1);
+  CHECK(count(svg, ">600<") == 1);
+  REQUIRE(count(svg, "class=\"curve\"") == 1);  // the angle alone
+  const std::size_t at = svg.find(" d=\"", svg.find("class=\"curve\"")) + 4;
+  const std::string line = svg.substr(at, svg.find('"', at) - at);
+  // A steady turn is one straight line; one that wrapped would have corners.
+  CHECK(count(line, "L") <= 10);
+  CHECK(count(line, "M") == 1);
+  double before = 1e9;
+  for (std::size_t i = line.find('L'); i != std::string::npos; i = line.find('L', i + 1)) {
+    const double y = std::stod(line.substr(line.find(' ', i) + 1));
+    CHECK(y < before);
+    before = y;
+  }
+}
+
+TEST_CASE("rotations about changing axes are plotted as three angles that pass a gimbal lock without a jump") {
+  StageDescription stage;
+  stage.clips.push_back({.name = "turn", .duration = 2});
+  const double right = 3.141592653589793 / 2;
+  const Curve<Vec3> angles = keyed_curve<Vec3>({{0, Vec3(0.4, 0, 0), Ease::linear()}, {2, Vec3(0.4, 2 * right, 0.5)}});
+  stage.clips[0].tracks.push_back({"arm", "rotation", euler_curve(angles, {})});
+  const std::string svg = plot_svg(stage, nullptr, {.tracks = {}, .clip = "", .rates = false});
+  REQUIRE(count(svg, "class=\"curve\"") == 3);
+  for (std::size_t at = svg.find("class=\"curve\""); at != std::string::npos;
+       at = svg.find("class=\"curve\"", at + 1)) {
+    const std::size_t begin = svg.find(" d=\"", at) + 5;
+    const std::string line = svg.substr(begin, svg.find('"', begin) - begin);
+    CHECK(count(line, "L") <= 24);  // straight lines again
+  }
+}
+
+TEST_CASE("what curves do beyond their keys is shown, shaded, where they do not rest there") {
+  StageDescription stage = one_track();
+  CHECK(count(plot_svg(stage, nullptr), "class=\"beyond\"") == 0);
+  auto& curve = std::get<Curve<double>>(stage.clips[0].tracks[0].curve);
+  curve = curve.with_outside(Outside::hold, Outside::repeat);
+  const std::string svg = plot_svg(stage, nullptr);
+  CHECK(count(svg, "class=\"beyond\"") == 2);  // after the last key, in two panels
+  CHECK(count(svg, ">3 s<") == 1);             // half the clip's length more
+}
+
+TEST_CASE("of very many tracks a plot draws some and says how many more there are") {
+  StageDescription stage = one_track();
+  for (int i = 0; i < 75; ++i) stage.clips[0].tracks.push_back({"node" + std::to_string(i), "x", Curve<double>(1.0)});
+  const std::string svg = plot_svg(stage, nullptr, {.tracks = {}, .clip = "", .columns = 4, .rates = false});
+  CHECK(count(svg, "class=\"curve\"") == 64);
+  CHECK(count(svg, ">and 12 more") == 1);
+  CHECK_THROWS_WITH_AS((void)plot_svg(stage, nullptr, {.tracks = {}, .clip = "", .columns = 7}),
+                       "a plot has 1 to 6 columns; found 7", std::invalid_argument);
+}
+
+TEST_CASE("names of events that are close stand in rows below each other") {
+  StageDescription stage = one_track();
+  stage.clips[0].events.push_back({.from = 1.51, .to = 1.51, .name = "clack", .data = ""});
+  const std::string svg = plot_svg(stage, nullptr);
+  const auto y_of = [&](const std::string& name) {
+    const std::size_t at = svg.rfind(" y=\"", svg.find(">" + name + "<"));
+    return std::stod(svg.substr(at + 4));
+  };
+  CHECK(std::abs(y_of("click") - y_of("clack")) > 10);
 }
 
 TEST_CASE("a track or clip that is not there is named with those that are") {

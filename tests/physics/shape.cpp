@@ -1,3 +1,5 @@
+#include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/sweep.h>
 #include <tweenfall/physics/shape.h>
 
 #include <limits>
@@ -61,4 +63,20 @@ TEST_CASE("bounds touch the shape on every side") {
   CHECK(near(box.high, Vec3(1 + std::sqrt(2.0), 2 + std::sqrt(2.0), 4), 1e-14));
   const Bounds capsule = bounds({Capsule{0.5, 1}}, pose);
   CHECK(near(capsule.low, Vec3(0.5 - std::sqrt(0.5), 1.5 - std::sqrt(0.5), 2.5), 1e-14));
+}
+
+TEST_CASE("a turned cylinder has a cylinder's mass properties, and an open surface has none") {
+  const auto edge = [](Vec2 from, Vec2 to) { return keyed_curve<Vec2>({{0, from, Ease::linear()}, {1, to}}); };
+  // A cylinder of radius 1 and height 2 about y: m r^2 / 2, m (3 r^2 + h^2) / 12.
+  const Curve<Vec2> wall = edge({1, 0}, {1, 2});
+  const MassProperties cylinder = mass_properties(lathe(wall, {.segments = 500}), 3);
+  CHECK(cylinder.mass == 3);
+  CHECK(test::near(cylinder.center, Vec3(0, 1, 0), 1e-12));
+  CHECK(test::near(cylinder.inertia, Mat3(Vec3(3 * 7.0 / 12, 1.5, 3 * 7.0 / 12).asDiagonal()), 1e-4));
+  CHECK_THROWS_WITH_AS((void)mass_properties(lathe(wall, {.caps = false}), 3), doctest::Contains("open"),
+                       std::invalid_argument);
+  SurfaceMesh inside_out = lathe(wall);
+  for (std::size_t i = 0; i < inside_out.triangles.size(); i += 3)
+    std::swap(inside_out.triangles[i], inside_out.triangles[i + 1]);
+  CHECK_THROWS_WITH_AS((void)mass_properties(inside_out, 3), doctest::Contains("outwards"), std::invalid_argument);
 }

@@ -33,8 +33,27 @@ const JsonValue* keys_of(const JsonValue& track) {
   return usable(track, "keys");
 }
 
-bool is_function(const JsonValue& track) {
-  return track.find("oscillator") || track.find("projectile");
+bool is_endless(const JsonValue& track) {
+  for (const char* name : {"oscillator", "spring", "projectile", "pendulum", "orbit", "expression"})
+    if (track.find(name)) return true;
+  return false;
+}
+
+// How long a function takes that begins at 0 s and ends; 0 where there is none.
+double passing_time(const JsonValue& track) {
+  for (const char* name : {"path", "line", "arc"})
+    if (const JsonValue* function = usable(track, name)) return number_in(*function, "duration", 1);
+  for (const char* name : {"spline", "bezier", "b_spline"}) {
+    const JsonValue* spline = usable(track, name);
+    if (!spline) continue;
+    const JsonValue* points = usable(*spline, "points");
+    const JsonValue *times = usable(*spline, "times"), *knots = usable(*spline, "knots");
+    if (times && !times->items.empty()) return times->items.back().number;
+    // A B-spline ends at the knot that has the number of its points.
+    if (knots && points && points->items.size() < knots->items.size()) return knots->items[points->items.size()].number;
+    return number_in(*spline, "duration", 1);
+  }
+  return 0;
 }
 
 }  // namespace
@@ -118,7 +137,11 @@ double clip_duration(const JsonValue& clip, std::optional<double> fps) {
   if (const JsonValue* tracks = usable(clip, "tracks")) {
     for (const JsonMember& track : tracks->members) {
       if (is_free_name(track.name)) continue;
-      any_functions = any_functions || is_function(track.value);
+      any_functions = any_functions || is_endless(track.value);
+      if (const double passing = passing_time(track.value); passing > 0) {
+        any_keys = true;
+        latest = std::max(latest, passing);
+      }
       const JsonValue* keys = keys_of(track.value);
       if (!keys) continue;
       any_keys = true;

@@ -82,7 +82,8 @@ bool plain(const Span<T>& span, int degree) {
   return span.degree <= degree && !span.warp.function;
 }
 bool plain(const RotationSpan& span, int degree) {
-  return span.degree <= degree && !span.warp.function && span.form == RotationSpan::Form::exponential;
+  return span.degree <= degree && !span.warp.function && span.form == RotationSpan::Form::exponential &&
+         span.spin.isZero(0);
 }
 
 // Whether a cubic with the span's values and rates at its ends is the span.

@@ -21,9 +21,12 @@ struct ValueShapes {
 };
 
 // Tracks and clips.
+const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values);
 const Shape* clip_shape(ShapeStore& store, const ValueShapes& values);
 // Keys of numbers in stage time, for weights of plays.
 const Shape* weight_keys_shape(ShapeStore& store, const ValueShapes& values);
+// What is laid over a track of numbers.
+const Shape* modifiers_shape(ShapeStore& store, const ValueShapes& values);
 
 const Shape* node_shape(ShapeStore& store, const ValueShapes& values);
 const Shape* play_shape(ShapeStore& store, const ValueShapes& values);

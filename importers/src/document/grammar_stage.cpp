@@ -1,5 +1,6 @@
 #include "document/grammar_parts.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace tweenfall::document {
@@ -128,8 +129,8 @@ std::vector<Field> trigger_fields(ShapeStore& store, const ValueShapes& values) 
 
 const Shape* when_shape(ShapeStore& store, const ValueShapes& values) {
   const auto names = [](const std::vector<Field>& fields) {
-    std::vector<std::string> out;
-    for (const Field& field : fields) out.push_back(field.name);
+    std::vector<std::string> out(fields.size());
+    std::transform(fields.begin(), fields.end(), out.begin(), [](const Field& field) { return field.name; });
     return out;
   };
   std::vector<Field> fields = trigger_fields(store, values);

@@ -1,5 +1,6 @@
 #include <tweenfall/importers/number_text.h>
 
+#include "document/grammar_functions.h"
 #include "document/grammar_parts.h"
 
 #include <utility>
@@ -17,30 +18,46 @@ const JsonValue* first_key_value(const JsonValue& track) {
   return key.find("v");
 }
 
+bool has_function(const JsonValue& track) {
+  for (const std::string& name : FunctionShapes::names())
+    if (track.find(name)) return true;
+  return false;
+}
+
 // What the tracks of one kind of value look like, with its options.
 struct TrackKind {
   std::string name;  // of its definitions
   const Shape* value = nullptr;
   const Shape* rate = nullptr;  // null: the value switches, and has neither ease nor tangents
+  bool turns = false;           // a rotation: rates are angular velocities, and have no neighbors to look at
   std::vector<Field> options{};
-  std::vector<Field> functions{};
+  TrackFunctions functions{};
+  std::vector<Field> key_options{};  // of keys with names
 };
 
 class TrackShapes {
  public:
-  TrackShapes(ShapeStore& store, const ValueShapes& values) : store_(store), values_(values) {
-    outside_ = store_.add(
+  TrackShapes(ShapeStore& store, const ValueShapes& values) : functions(store, values), store_(store), values_(values) {
+    outside_words_ = store_.add(
         words_of("what happens outside the keys", {"hold", "linear", "repeat", "repeat-offset", "pingpong"}));
+    overlong_ = store_.add(words_of("what gives way to overlong handles", {"keep-ratio", "keep-start", "contain"}));
+    ends_ = store_.add(words_of("what lies beyond the end keys for automatic slopes", {"secant", "flat", "wrap"}));
   }
 
   const Shape* keys(const TrackKind& kind) {
     const Shape* tangent = nullptr;
     if (kind.rate) {
-      Shape handle = object_of("a tangent with \"rate\" and \"weight\"",
-                               {{"rate", kind.rate, "value per second", true},
+      const Shape* words =
+          store_.add(kind.turns ? words_of("", {"auto", "flat", "vector"})
+                                : words_of("", {"auto", "flat", "vector", "aligned", "mirrored", "plateau",
+                                                "auto-clamped", "auto-chord", "auto-mix", "auto-ease"}));
+      Shape handle = object_of("a tangent with \"rate\" or \"kind\", and \"weight\"",
+                               {{"rate", kind.rate, "value per second"},
+                                {"kind", words, "a word in place of a rate"},
                                 {"weight", share(), "the handle's share of the span", false, number_text(1.0 / 3.0)}});
+      handle.together = {exactly_one({"rate", "kind"})};
       Shape shape = choice_of("a tangent: \"auto\", \"flat\", a rate in value per second, or {\"rate\", \"weight\"}",
-                              {store_.add(words_of("", {"auto", "flat"})), kind.rate, store_.add(handle)});
+                              {words, kind.rate, store_.add(handle)});
       shape.definition = "tangent-" + kind.name;
       tangent = store_.add(std::move(shape));
     }
@@ -60,6 +77,7 @@ class TrackShapes {
       full.fields.push_back({"v_in", kind.value, "value on arrival, where the curve jumps"});
       full.together = {at_most_one({"ease", "out"})};
     }
+    for (const Field& option : kind.key_options) full.fields.push_back(option);
     full.on_one_line = true;
     Shape key = choice_of(row.what, {store_.add(row), store_.add(full)});
     key.definition = "key-" + kind.name;
@@ -73,39 +91,56 @@ class TrackShapes {
     Shape shape = object_of("a track: a list of keys, or an object with \"keys\"", kind.options);
     shape.definition = "track-" + kind.name;
     if (kind.rate) {
-      shape.fields.push_back({"before", outside_, "before the first key", false, "\"hold\""});
-      shape.fields.push_back({"after", outside_, "after the last key", false, "\"hold\""});
+      const Shape* beyond = outside(kind);
+      shape.fields.push_back({"before", beyond, "before the first key", false, "\"hold\""});
+      shape.fields.push_back({"after", beyond, "after the last key", false, "\"hold\""});
+      shape.fields.push_back(
+          {"overlong", overlong_, "what gives way where handles would turn time", false, "\"keep-ratio\""});
+      shape.fields.push_back({"ends", ends_, "what automatic slopes see beyond the ends", false, "\"secant\""});
     }
     std::vector<std::string> sources = {"keys"};
     shape.fields.push_back({"keys", keys, "the keys, in order of time"});
-    for (const Field& function : kind.functions) {
+    for (const Field& function : kind.functions.endless) {
       shape.fields.push_back(function);
       sources.push_back(function.name);
-      // A function has no outside.
       shape.together.push_back(at_most_one({"before", function.name}));
       shape.together.push_back(at_most_one({"after", function.name}));
+      shape.together.push_back(at_most_one({"overlong", function.name}));
+      shape.together.push_back(at_most_one({"ends", function.name}));
+    }
+    for (const Field& function : kind.functions.passing) {
+      shape.fields.push_back(function);
+      sources.push_back(function.name);
+      if (shape.field("turn")) shape.together.push_back(at_most_one({"turn", function.name}));
+      shape.together.push_back(at_most_one({"overlong", function.name}));
+      shape.together.push_back(at_most_one({"ends", function.name}));
+    }
+    if (kind.functions.parameters) {
+      shape.fields.push_back({"parameters", functions.parameters(), "numbers that the expression calls by name"});
+      shape.together.push_back({Together::Rule::first_needs_second, {"parameters", "expression"}});
     }
     shape.together.insert(shape.together.begin(), exactly_one(std::move(sources)));
     return store_.add(std::move(shape));
   }
 
-  const Shape* oscillator(const Shape* value, const std::string& unit) {
-    return store_.add(
-        object_of("an oscillator: {\"amplitude\", \"hz\", \"phase\", \"damping\", \"center\"}",
-                  {{"amplitude", value, unit, true},
-                   {"hz", values_.not_negative, "cycles per second", true},
-                   {"phase", values_.number, "degrees", false, "0"},
-                   {"damping", values_.not_negative, "rate of decay, 1/s", false, "0"},
-                   {"center", value, unit + ", added", false, value == values_.number ? "0" : "[0, 0, 0]"}}));
-  }
-
-  const Shape* projectile() {
-    if (!projectile_)
-      projectile_ = store_.add(object_of("a projectile: {\"from\", \"velocity\", \"gravity\"}",
-                                         {{"from", values_.vector, "m", false, "[0, 0, 0]"},
-                                          {"velocity", values_.vector, "m/s at time 0", true},
-                                          {"gravity", values_.vector, "m/s^2", false, "[0, -9.81, 0]"}}));
-    return projectile_;
+  // A word, or an object for what needs a number.
+  const Shape* outside(const TrackKind& kind) {
+    const Shape* plays = store_.add(words_of("a way to repeat", {"repeat", "repeat-offset", "pingpong"}));
+    Shape full = object_of(
+        "an outside: {\"mode\", \"count\"} or {\"slope\"}",
+        {{"mode", plays, "how it repeats"}, {"count", values_.positive, "plays beyond this end; absent: without end"}});
+    full.on_one_line = true;
+    full.together = {{Together::Rule::first_needs_second, {"count", "mode"}}};
+    if (kind.turns || kind.name == "weights") {
+      full.what = "an outside: {\"mode\", \"count\"}";
+      full.fields[0].required = true;
+    } else {
+      full.fields.push_back({"slope", kind.rate, "straight on, in value per second"});
+      full.together.insert(full.together.begin(), exactly_one({"mode", "slope"}));
+    }
+    Shape shape = choice_of("what happens outside the keys", {outside_words_, store_.add(std::move(full))});
+    shape.definition = "outside-" + kind.name;
+    return store_.add(std::move(shape));
   }
 
   // Keys alone, or an object: tracks of one kind only.
@@ -116,16 +151,25 @@ class TrackShapes {
 
   const Shape* rotation() {
     const Shape* turn = store_.add(words_of("which way around", {"short", "long"}));
-    const TrackKind euler{
-        "euler", values_.euler, values_.vector, {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}}};
-    const TrackKind quaternion{
-        "quat", values_.quaternion, values_.vector, {relative(), {"turn", turn, "way around", false, "\"short\""}}};
-    const TrackKind axis_angle{"axis-angle", values_.axis_angle, values_.vector, {relative()}};
+    const TrackKind euler{"euler",
+                          values_.euler,
+                          values_.vector,
+                          true,
+                          {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}}};
+    const TrackKind quaternion{"quat",
+                               values_.quaternion,
+                               values_.vector,
+                               true,
+                               {relative(), {"turn", turn, "way around", false, "\"short\""}},
+                               {{}, rotation_spline_fields(store_, values_), false},
+                               {{"turn", key_turn(turn), "the way to the next key"}}};
+    const TrackKind axis_angle{"axis-angle", values_.axis_angle, values_.vector, true, {relative()}};
     const TrackKind degrees{"degrees",
                             values_.number,
                             values_.number,
-                            {{"axis", values_.axis, "what the degrees turn about", true}, relative()},
-                            {{"oscillator", oscillator(values_.number, "degrees"), "swings"}}};
+                            true,
+                            {{"axis", values_.axis, "what the degrees turn about", true}, relative(), modifiers(1)},
+                            functions.of_numbers("degrees", true)};
     struct Spelled {
       const Shape *list, *object;
     };
@@ -141,13 +185,34 @@ class TrackShapes {
     shape.select = [=](const JsonValue& value) -> const Shape* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
-      if (!list && (value.find("axis") || value.find("oscillator"))) return in_degrees;
+      const bool has_axis = value.find("axis") != nullptr;
+      if (!list && !has_axis && (value.find("spline") || value.find("bezier"))) return in_quat.object;
+      if (!list && (has_axis || has_function(value))) return in_degrees;
       const JsonValue* first = first_key_value(value);
       const Spelled& spelled = first && first->find("quat")    ? in_quat
                                : first && first->find("angle") ? in_axis_angle
                                                                : in_euler;
       return list ? spelled.list : spelled.object;
     };
+    return store_.add(std::move(shape));
+  }
+
+  const Shape* key_turn(const Shape* ways) {
+    Shape whole;
+    whole.kind = Shape::Kind::number;
+    whole.what = "a whole number of turns, -1000000 to 1000000";
+    whole.whole = true;
+    whole.low = -1e6;
+    whole.high = 1e6;
+    Shape told = object_of("a turn: {\"way\", \"turns\"} or {\"axis\", \"turns\"}",
+                           {{"way", ways, "way around; absent: as the track says"},
+                            {"axis", values_.axis, "the way that turns counterclockwise about it"},
+                            {"turns", store_.add(std::move(whole)), "whole turns on top", false, "0"}});
+    told.together = {at_most_one({"way", "axis"})};
+    told.on_one_line = true;
+    Shape shape = choice_of("\"short\", \"long\", or {\"way\", \"turns\"} or {\"axis\", \"turns\"}",
+                            {ways, store_.add(std::move(told))});
+    shape.definition = "turn";
     return store_.add(std::move(shape));
   }
 
@@ -168,18 +233,20 @@ class TrackShapes {
     const TrackKind number{"number",
                            values_.number,
                            values_.number,
-                           {kind_field("number", false)},
-                           {{"oscillator", oscillator(values_.number, "the value's unit"), "swings"}}};
+                           false,
+                           {kind_field("number", false), modifiers(1)},
+                           functions.of_numbers("the value's unit", true)};
     const TrackKind swinging{"swinging-vector",
                              values_.vector,
                              values_.vector,
-                             {kind_field("vector", false)},
-                             {{"oscillator", oscillator(values_.vector, "the value's unit"), "swings"},
-                              {"projectile", projectile(), "a thrown body's way"}}};
-    const TrackKind color{"user-color", values_.color, values_.vector_4, {kind_field("color", false), space(), hue()}};
-    const TrackKind truth{"switch", values_.boolean, nullptr, {kind_field("switch", false)}};
+                             false,
+                             {kind_field("vector", false), modifiers(3)},
+                             functions.of_places("the value's unit")};
+    const TrackKind color{
+        "user-color", values_.color, values_.vector_4, false, {kind_field("color", false), space(), hue()}};
+    const TrackKind truth{"switch", values_.boolean, nullptr, false, {kind_field("switch", false)}};
     const TrackKind text{"text", store_.add(plain_text), nullptr};
-    const TrackKind said_text{"said-text", store_.add(any_text), nullptr, {kind_field("text", true)}};
+    const TrackKind said_text{"said-text", store_.add(any_text), nullptr, false, {kind_field("text", true)}};
     struct Made {
       std::string kind;
       const Shape *list, *object;
@@ -193,31 +260,43 @@ class TrackShapes {
       shape.alternatives.push_back(made.back().object);
     };
     add("number", number);
-    add("vector-2", {"vector-2", values_.vector_2, values_.vector_2, {kind_field("vector", false)}});
+    add("vector-2", {"vector-2",
+                     values_.vector_2,
+                     values_.vector_2,
+                     false,
+                     {kind_field("vector", false), modifiers(2)},
+                     functions.of_vectors(2)});
     add("vector-3", swinging);
-    add("vector-4", {"vector-4", values_.vector_4, values_.vector_4, {kind_field("vector", false)}});
+    add("vector-4", {"vector-4",
+                     values_.vector_4,
+                     values_.vector_4,
+                     false,
+                     {kind_field("vector", false), modifiers(4)},
+                     functions.of_vectors(4)});
     add("color", color);
     add("switch", truth);
     add("text", text);
     add("said-text", said_text);
 
     // Stands in where the kind's word is none.
-    const Shape* unknown = store_.add(object_of(
+    Shape any_track = object_of(
         "a track", {{"kind", store_.add(words_of("a kind of value", {"number", "vector", "color", "switch", "text"})),
                      "kind of value"},
                     {"keys", values_.any, ""},
-                    {"before", outside_, ""},
-                    {"after", outside_, ""},
+                    {"before", values_.any, ""},
+                    {"after", values_.any, ""},
+                    {"overlong", overlong_, ""},
+                    {"ends", ends_, ""},
+                    {"modifiers", values_.any, ""},
                     {"space", values_.any, ""},
-                    {"hue", values_.any, ""},
-                    {"oscillator", values_.any, ""},
-                    {"projectile", values_.any, ""}}));
+                    {"hue", values_.any, ""}});
+    for (const std::string& name : FunctionShapes::names()) any_track.fields.push_back({name, values_.any, ""});
+    any_track.fields.push_back({"parameters", values_.any, ""});
+    const Shape* unknown = store_.add(std::move(any_track));
     shape.select = [made, unknown](const JsonValue& value) -> const Shape* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
       const JsonValue* first = first_key_value(value);
-      const JsonValue* oscillator = value.find("oscillator");
-      const JsonValue* amplitude = oscillator ? oscillator->find("amplitude") : nullptr;
       std::string kind;
       if (const JsonValue* said = value.find("kind")) {
         kind = said->is(JsonValue::Kind::text) ? said->text : "";
@@ -241,10 +320,10 @@ class TrackShapes {
             break;
         }
       } else {
-        kind = (amplitude && amplitude->is(JsonValue::Kind::list)) || value.find("projectile") ? "vector" : "number";
+        kind = FunctionShapes::dimension(value) > 1 ? "vector" : "number";
       }
       if (kind == "vector") {
-        const std::size_t size = first ? first->items.size() : 3;
+        const std::size_t size = first ? first->items.size() : FunctionShapes::dimension(value);
         kind = size == 2 ? "vector-2" : size == 4 ? "vector-4" : "vector-3";
       }
       for (const Made& each : made)
@@ -259,7 +338,8 @@ class TrackShapes {
   }
   Field space() {
     if (!space_)
-      space_ = store_.add(words_of("a color space", {"oklab", "linear", "srgb", "oklch", "hsl", "lab", "lch"}));
+      space_ = store_.add(
+          words_of("a color space", {"oklab", "linear", "srgb", "oklch", "hsl", "hsv", "hwb", "lab", "lch"}));
     return {"space", space_, "where colors are mixed", false, "\"oklab\""};
   }
   Field hue() {
@@ -272,15 +352,29 @@ class TrackShapes {
             "\"linear\""};
   }
 
+  // Over numbers a list; over vectors one list for all components alike, or lists by component.
+  Field modifiers(std::size_t size) {
+    if (!modifiers_) modifiers_ = modifiers_shape(store_, values_);
+    const Field over_numbers{"modifiers", modifiers_, "laid over the curve"};
+    if (size == 1) return over_numbers;
+    Shape parts = object_of("modifiers: a list, or lists by component", {});
+    for (std::size_t i = 0; i < size; ++i)
+      parts.fields.push_back({std::string(1, "xyzw"[i]), modifiers_, "over it alone"});
+    parts.definition = "modifiers-" + std::to_string(size);
+    const Shape* either = store_.add(choice_of(parts.what, {modifiers_, store_.add(parts)}));
+    return {"modifiers", either, "laid over the curve: a list for all components alike, or lists by component"};
+  }
+
+  const FunctionShapes functions;
+
  private:
   const Shape* share() {
     if (!share_) {
       Shape shape;
       shape.kind = Shape::Kind::number;
-      shape.what = "a share of the span, above 0 and at most 1";
+      shape.what = "a share of the span, above 0";
       shape.low = 0;
       shape.above_low = true;
-      shape.high = 1;
       share_ = store_.add(std::move(shape));
     }
     return share_;
@@ -288,32 +382,38 @@ class TrackShapes {
 
   ShapeStore& store_;
   const ValueShapes& values_;
-  const Shape* outside_ = nullptr;
+  const Shape* outside_words_ = nullptr;
+  const Shape* overlong_ = nullptr;
+  const Shape* ends_ = nullptr;
   const Shape* share_ = nullptr;
-  const Shape* projectile_ = nullptr;
   const Shape* space_ = nullptr;
   const Shape* hue_ = nullptr;
+  const Shape* modifiers_ = nullptr;
 };
+
+}  // namespace
 
 const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   TrackShapes make(store, values);
   Shape tracks = object_of("an object with tracks by name", {});
   tracks.definition = "tracks";
   tracks.one_a_line = true;
-  tracks.endings = {{".position", make.either({"position",
-                                               values.vector,
-                                               values.vector,
-                                               {make.relative()},
-                                               {{"oscillator", make.oscillator(values.vector, "m"), "swings"},
-                                                {"projectile", make.projectile(), "a thrown body's way"}}})},
-                    {".rotation", make.rotation()},
-                    {".scale", make.either({"scale",
-                                            values.scale,
-                                            values.scale,
-                                            {make.relative(), make.mix()},
-                                            {{"oscillator", make.oscillator(values.vector, "factors"), "swings"}}})},
-                    {".color", make.either({"color", values.color, values.vector_4, {make.space(), make.hue()}})},
-                    {".weights", make.either({"weights", values.numbers, values.numbers, {}})}};
+  tracks.endings = {
+      {".position", make.either({"position",
+                                 values.vector,
+                                 values.vector,
+                                 false,
+                                 {make.relative(), make.modifiers(3)},
+                                 make.functions.of_places("m")})},
+      {".rotation", make.rotation()},
+      {".scale", make.either({"scale",
+                              values.scale,
+                              values.scale,
+                              false,
+                              {make.relative(), make.mix(), make.modifiers(3)},
+                              make.functions.of_scales()})},
+      {".color", make.either({"color", values.color, values.vector_4, false, {make.space(), make.hue()}})},
+      {".weights", make.either({"weights", values.numbers, values.numbers})}};
   tracks.others = make.user();
   tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
   tracks.name_fault = [](std::string_view name) -> std::string {
@@ -324,45 +424,8 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   return store.add(std::move(tracks));
 }
 
-const Shape* event_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape row;
-  row.kind = Shape::Kind::tuple;
-  row.what = "an event: [time, name], [time, name, data] or {\"from\", \"to\", \"name\"}";
-  row.parts = {values.key_time, values.name, values.any};
-  row.fewest = 2;
-  row.on_one_line = true;
-  Shape span = object_of(row.what, {{"from", values.key_time, "clip time", true},
-                                    {"to", values.key_time, "clip time", true},
-                                    {"name", values.name, "", true},
-                                    {"data", values.any, "given with the event"}});
-  span.on_one_line = true;
-  Shape either = choice_of(row.what, {store.add(row), store.add(span)});
-  either.definition = "event";
-  return store.add(std::move(either));
-}
-
-}  // namespace
-
 const Shape* weight_keys_shape(ShapeStore& store, const ValueShapes& values) {
   return TrackShapes(store, values).keys({"weight", values.number, values.number});
-}
-
-const Shape* clip_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape loop =
-      object_of("a loop: {\"mode\", \"count\"}",
-                {{"mode", store.add(words_of("a way to loop", {"repeat", "repeat-offset", "pingpong"})), "", true},
-                 {"count", values.positive, "number of plays; absent: without end"}});
-  loop.on_one_line = true;
-  Shape events = list_of(event_shape(store, values), "a list of events", 0);
-  events.one_a_line = true;
-  Shape clip = object_of("a clip: {\"duration\", \"loop\", \"tracks\", \"events\"}",
-                         {{"duration", values.length_of_time, "absent: the latest key or event"},
-                          {"loop", store.add(std::move(loop)), "absent: once"},
-                          {"tracks", tracks_shape(store, values), "", false, "{}"},
-                          {"events", store.add(std::move(events)), "", false, "[]"}});
-  clip.definition = "clip";
-  clip.one_a_line = true;
-  return store.add(std::move(clip));
 }
 
 }  // namespace tweenfall::document

@@ -72,6 +72,10 @@ void find_pointers(const JsonValue& value, const std::string& pointer, std::map<
   const auto within = wanted.lower_bound(value.offset);
   if (within == wanted.end() || within->first > value.offset + value.length) return;
   if (within->first == value.offset) within->second = pointer;
+  // A place within a text is the text's.
+  if (value.is(JsonValue::Kind::text))
+    for (auto inside = within; inside != wanted.end() && inside->first < value.offset + value.length; ++inside)
+      inside->second = pointer;
   for (std::size_t i = 0; i < value.items.size(); ++i)
     find_pointers(value.items[i], pointer + "/" + std::to_string(i), wanted);
   for (const JsonMember& member : value.members) {

@@ -18,7 +18,14 @@ template <class T>
 struct KeyReader {
   std::function<std::optional<T>(const JsonValue&)> value;
   std::function<std::optional<Rate<T>>(const JsonValue& rate, const T& value)> rate;
+  double unit = 1;                                   // what slopes written in an ease are multiplied by
+  std::function<Turn(const JsonValue& key)> turn{};  // rotations only
 };
+
+[[nodiscard]] TangentKind tangent_kind_of(std::string_view word);
+
+// `options` with what the track says of handles and ends.
+[[nodiscard]] KeyOptions key_options_of(const JsonValue& track, KeyOptions options = {});
 
 template <class T>
 std::optional<Tangent<T>> read_tangent(const JsonValue* tangent, const T& value, const KeyReader<T>& reader) {
@@ -26,7 +33,7 @@ std::optional<Tangent<T>> read_tangent(const JsonValue* tangent, const T& value,
   Tangent<T> out;
   if constexpr (!std::is_same_v<Rate<T>, double>) out.rate.setZero();
   if (tangent->is(JsonValue::Kind::text)) {
-    out.kind = tangent->text == "flat" ? Tangent<T>::Kind::flat : Tangent<T>::Kind::automatic;
+    out.kind = tangent_kind_of(tangent->text);
     return out;
   }
   out.kind = Tangent<T>::Kind::given;
@@ -34,6 +41,10 @@ std::optional<Tangent<T>> read_tangent(const JsonValue* tangent, const T& value,
   if (tangent->is(JsonValue::Kind::object)) {
     rate = usable(*tangent, "rate");
     out.weight = number_in(*tangent, "weight", out.weight);
+    if (const JsonValue* kind = usable(*tangent, "kind")) {
+      out.kind = tangent_kind_of(kind->text);
+      return out;
+    }
   }
   const std::optional<Rate<T>> read = rate ? reader.rate(*rate, value) : std::nullopt;
   if (!read) return {};
@@ -54,10 +65,11 @@ std::optional<Curve<T>> read_keys(const JsonValue& list, const ClipTimes& times,
     if (!value || !seconds[i]) continue;
     Key<T> key{.time = *seconds[i], .value = *value};
     if (parts.ease)
-      if (const std::optional<Ease> ease = Ease::named(parts.ease->text)) key.ease = *ease;
+      if (const std::optional<Ease> ease = Ease::named(parts.ease->text)) key.ease = ease->scaled(reader.unit);
     key.in = read_tangent(parts.in, parts.value_in ? reader.value(*parts.value_in).value_or(*value) : *value, reader);
     key.out = read_tangent(parts.out, *value, reader);
     if (parts.value_in) key.value_in = reader.value(*parts.value_in);
+    if (reader.turn) key.turn = reader.turn(list.items[i]);
     keys.push_back(std::move(key));
   }
   if (keys.size() != list.items.size() || keys.empty() || problems.size() != problems_before) return {};

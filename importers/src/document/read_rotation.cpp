@@ -1,10 +1,13 @@
 #include "document/read_rotation.h"
 
 #include <tweenfall/curves/elementary.h>
+#include <tweenfall/curves/modifiers.h>
 #include <tweenfall/importers/number_text.h>
 
 #include "document/read_functions.h"
 #include "document/read_keys.h"
+#include "document/read_modifiers.h"
+#include "document/read_splines.h"
 #include "document/values.h"
 
 #include <cmath>
@@ -45,6 +48,10 @@ class RotationTrack {
 
   std::optional<Curve<Quat>> read() {
     if (usable(track_, "axis")) return about_axis();
+    if (has_function(track_)) {
+      const std::optional<Curve<Quat>> spline = read_rotation_spline(track_, problems_);
+      return spline ? std::optional(with_outside_of(track_, *spline)) : std::nullopt;
+    }
     if (!list_ || list_->items.empty()) return {};
     const JsonValue* first = key_parts(list_->items.front()).value;
     if (!first) {
@@ -60,12 +67,25 @@ class RotationTrack {
   std::optional<Curve<Quat>> about_axis() {
     const std::optional<Vec3> axis = axis_of(*usable(track_, "axis"), problems_);
     std::optional<Curve<double>> angle;
-    if (const JsonValue* function = usable(track_, "oscillator"))
-      angle = read_oscillator(*function, radians(1));
+    if (has_function(track_))
+      angle = read_angle_function(track_, problems_);
     else if (list_)
       angle = degrees_curve([](const JsonValue& value) { return &value; }, {});
     if (!axis || !angle) return {};
-    return axis_curve(*axis, with_outside_of(track_, *angle));
+    angle = with_outside_of(track_, *angle);
+    if (usable(track_, "modifiers")) angle = with_modifiers(*angle);
+    if (!angle) return {};
+    return axis_curve(*axis, *angle);
+  }
+
+  // Modifiers speak of degrees.
+  std::optional<Curve<double>> with_modifiers(const Curve<double>& angle) {
+    const auto scaled = [](const Curve<double>& curve, double factor) {
+      const Modifier scaling{modifiers::Placement{.value_scale = factor}};
+      return modified(curve, std::span(&scaling, 1));
+    };
+    const std::optional<Curve<double>> in_degrees = with_modifiers_of(track_, scaled(angle, degrees(1)), problems_);
+    return in_degrees ? std::optional(scaled(*in_degrees, radians(1))) : std::nullopt;
   }
 
   // The unwrapped angle about one axis. Rates are degrees per second, or angular velocities along `axis`.
@@ -89,7 +109,8 @@ class RotationTrack {
       }
       return radians(along);
     };
-    return read_keys<double>(*list_, times_, reader, {}, problems_);
+    reader.unit = radians(1);
+    return read_keys<double>(*list_, times_, reader, key_options_of(track_), problems_);
   }
 
   std::optional<Curve<Quat>> in_euler() {
@@ -121,7 +142,9 @@ class RotationTrack {
                        axes.col(0).dot(axes.col(1).cross(wanted)) / determinant);
       return rates;
     };
-    const std::optional<Curve<Vec3>> angles = read_keys<Vec3>(*list_, times_, reader, {}, problems_);
+    reader.unit = radians(1);
+    const std::optional<Curve<Vec3>> angles =
+        read_keys<Vec3>(*list_, times_, reader, key_options_of(track_), problems_);
     if (!angles) return {};
     return euler_curve(with_outside_of(track_, *angles), order);
   }
@@ -163,9 +186,27 @@ class RotationTrack {
       if (!velocity) return {};
       return in_radians(*velocity);
     };
-    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, {.long_way = long_way}, problems_);
+    reader.unit = radians(1);
+    reader.turn = [&](const JsonValue& key) { return turn_of(key, long_way); };
+    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, key_options_of(track_), problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
+  }
+
+  // The way to the next key: as the key says, else as the track does.
+  Turn turn_of(const JsonValue& key, bool long_way) {
+    Turn turn{long_way ? Turn::Way::longer : Turn::Way::shorter};
+    const JsonValue* said = key.is(Kind::object) ? usable(key, "turn") : nullptr;
+    if (!said) return turn;
+    const std::string way = said->is(Kind::text) ? said->text : text_in(*said, "way");
+    if (!way.empty()) turn.way = way == "long" ? Turn::Way::longer : Turn::Way::shorter;
+    if (!said->is(Kind::object)) return turn;
+    turn.whole_turns = static_cast<int>(number_in(*said, "turns", 0));
+    if (const JsonValue* axis = usable(*said, "axis")) {
+      turn.way = Turn::Way::along;
+      turn.axis = axis_of(*axis, problems_).value_or(Vec3(0, 0, 1));
+    }
+    return turn;
   }
 
   const JsonValue& track_;

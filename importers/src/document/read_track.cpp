@@ -1,9 +1,11 @@
 #include "document/read_track.h"
 
+#include <tweenfall/curves/functions.h>
 #include <tweenfall/importers/number_text.h>
 
 #include "document/read_functions.h"
 #include "document/read_keys.h"
+#include "document/read_modifiers.h"
 #include "document/read_rotation.h"
 #include "document/values.h"
 
@@ -50,12 +52,7 @@ class TrackReader {
 
   std::optional<TrackCurve> read(const std::string& property) {
     if (property == "rotation") return made(read_rotation_track(track_, times_, problems_));
-    if (const JsonValue* function = usable(track_, "projectile")) return TrackCurve(read_projectile(*function));
-    if (const JsonValue* function = usable(track_, "oscillator")) {
-      const JsonValue* amplitude = usable(*function, "amplitude");
-      if (amplitude && amplitude->is(Kind::list)) return TrackCurve(read_vector_oscillator(*function));
-      return TrackCurve(read_oscillator(*function, 1));
-    }
+    if (has_function(track_)) return function(property);
     if (!list_ || list_->items.empty()) return {};
     if (property == "position") return keyed(reader_of<Vec3>(vector_of));
     if (property == "scale") return scale();
@@ -70,11 +67,40 @@ class TrackReader {
     return curve ? std::optional<TrackCurve>(*curve) : std::nullopt;
   }
 
+  std::optional<TrackCurve> function(const std::string& property) {
+    std::optional<TrackCurve> curve = read_function(track_, problems_);
+    if (!curve) return {};
+    // One number is for all three axes.
+    if (property == "scale" && std::holds_alternative<Curve<double>>(*curve)) {
+      const Curve<double> factor = std::get<Curve<double>>(*curve);
+      curve = parametric(factor, factor, factor);
+    }
+    return std::visit([this](const auto& held) { return modified_by_track(held); }, *curve);
+  }
+
+  template <class T>
+  std::optional<TrackCurve> modified_by_track(const T& curve) {
+    return TrackCurve(curve);
+  }
+  std::optional<TrackCurve> modified_by_track(const Curve<double>& curve) {
+    return made(with_modifiers_of(track_, curve, problems_));
+  }
+  std::optional<TrackCurve> modified_by_track(const Curve<Vec2>& curve) {
+    return made(with_modifiers_of(track_, curve, problems_));
+  }
+  std::optional<TrackCurve> modified_by_track(const Curve<Vec3>& curve) {
+    return made(with_modifiers_of(track_, curve, problems_));
+  }
+  std::optional<TrackCurve> modified_by_track(const Curve<Vec4>& curve) {
+    return made(with_modifiers_of(track_, curve, problems_));
+  }
+
   template <class T>
   std::optional<TrackCurve> keyed(const KeyReader<T>& reader, const KeyOptions& options = {}) {
-    const std::optional<Curve<T>> curve = read_keys<T>(*list_, times_, reader, options, problems_);
+    const std::optional<Curve<T>> curve =
+        read_keys<T>(*list_, times_, reader, key_options_of(track_, options), problems_);
     if (!curve) return {};
-    return TrackCurve(with_outside_of(track_, *curve));
+    return modified_by_track(with_outside_of(track_, *curve));
   }
 
   std::optional<TrackCurve> scale() {
@@ -95,8 +121,8 @@ class TrackReader {
     const std::string space = text_in(track_, "space", "oklab");
     static constexpr std::pair<std::string_view, ColorSpace> spaces[] = {
         {"linear", ColorSpace::linear}, {"srgb", ColorSpace::srgb}, {"oklab", ColorSpace::oklab},
-        {"oklch", ColorSpace::oklch},   {"hsl", ColorSpace::hsl},   {"lab", ColorSpace::lab},
-        {"lch", ColorSpace::lch}};
+        {"oklch", ColorSpace::oklch},   {"hsl", ColorSpace::hsl},   {"hsv", ColorSpace::hsv},
+        {"hwb", ColorSpace::hwb},       {"lab", ColorSpace::lab},   {"lch", ColorSpace::lch}};
     for (const auto& [word, meant] : spaces)
       if (space == word) options.space = meant;
     if (const JsonValue* hue = usable(track_, "hue")) {
@@ -105,8 +131,8 @@ class TrackReader {
                     : hue->text == "decreasing" ? HueRule::decreasing
                                                 : HueRule::shorter;
       if (hue_index(options.space) < 0)
-        problems_.add(*hue,
-                      "the space " + in_quotes(space) + " has no hue; spaces with one are \"oklch\", \"hsl\", \"lch\"");
+        problems_.add(*hue, "the space " + in_quotes(space) +
+                                " has no hue; spaces with one are \"oklch\", \"hsl\", \"hsv\", \"hwb\", \"lch\"");
     }
     KeyReader<Color> reader;
     reader.value = [](const JsonValue& value) { return color_of(value); };
@@ -135,7 +161,8 @@ class TrackReader {
         return i < value.items.size() ? number_of(value.items[i]) : std::nullopt;
       };
       const KeyReader<double> reader{part, [part](const JsonValue& rate, double) { return part(rate); }};
-      const std::optional<Curve<double>> curve = read_keys<double>(*list_, times_, reader, {}, problems_);
+      const std::optional<Curve<double>> curve =
+          read_keys<double>(*list_, times_, reader, key_options_of(track_), problems_);
       if (!curve) return {};
       curves.push_back(with_outside_of(track_, *curve));
     }
@@ -201,6 +228,11 @@ std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times,
   std::optional<TrackCurve> curve = TrackReader(track.value, times, problems).read(property);
   if (!curve) return {};
   return Track{track.name.substr(0, dot), property, std::move(*curve), flag_in(track.value, "relative", false)};
+}
+
+std::optional<Curve<double>> read_plain_keys(const JsonValue& keys, Problems& problems) {
+  const ClipTimes times({}, {}, "the keys of a warp have no duration of their own");
+  return read_keys<double>(keys, times, reader_of<double>(number_of), {}, problems);
 }
 
 std::optional<Curve<double>> read_weight(const JsonValue& keys, std::optional<double> fps, Problems& problems) {

@@ -17,6 +17,9 @@ namespace tweenfall::document {
 
 [[nodiscard]] Clip read_clip(const JsonMember& clip, std::optional<double> fps, Problems& problems);
 
+// Keys of one number in seconds of their own.
+[[nodiscard]] std::optional<Curve<double>> read_plain_keys(const JsonValue& keys, Problems& problems);
+
 // Keys of one number in stage time, for weights of plays.
 [[nodiscard]] std::optional<Curve<double>> read_weight(const JsonValue& keys, std::optional<double> fps,
                                                        Problems& problems);

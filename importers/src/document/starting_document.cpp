@@ -22,7 +22,8 @@ std::string starting_document() {
   },
 
   // How it moves: keys are [time, value] or [time, value, ease], the ease being how the curve leaves the key.
-  // Angles are degrees.
+  // Angles are degrees. In place of keys a track can have a function: {"spring": ...}, {"spline": ...}, {"path": ...},
+  // {"expression": "2*t^2"}, ...
   "clips": {
     "swing up": {
       "tracks": {

@@ -66,14 +66,17 @@ Form form_of_spans(const Curve<T>& curve) {
 /// Only a constant turn of at most half a circle is what glTF calls linear, and only a cubic of the four parts is its
 /// CUBICSPLINE.
 Form form_of_spans(const Curve<Quat>& curve) {
+  for (const RotationSpan& span : curve.spans())
+    if (span.form == RotationSpan::Form::nested) return Form::other;
   const Form form = form_of_spans<Quat>(curve);
   if (form == Form::constant || form == Form::step || form == Form::other) return form;
   bool turns = true, cubics = true;
   for (const RotationSpan& span : curve.spans()) {
     const bool exponential = span.form == RotationSpan::Form::exponential;
-    turns = turns && exponential && span.degree <= 1 && span.coefficients[0].head<3>().isZero(0) &&
+    turns = turns && exponential && span.degree <= 1 && span.spin.isZero(0) &&
+            span.coefficients[0].head<3>().isZero(0) &&
             (span.degree == 0 || span.coefficients[1].head<3>().norm() <= 3.1415926);
-    cubics = cubics && !exponential && span.degree <= 3;
+    cubics = cubics && span.form == RotationSpan::Form::normalized && span.degree <= 3 && span.spin.isZero(0);
   }
   return turns ? Form::linear : cubics ? Form::cubic : Form::other;
 }

@@ -79,13 +79,12 @@ class Parser {
   void skip_space() {
     while (!done()) {
       const char c = text_[at_];
+      const std::string_view mark = rules_.comments ? text_.substr(at_, 2) : std::string_view();
       if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
         ++at_;
-      } else if (c != '/' || !rules_.comments) {
-        break;
-      } else if (text_.substr(at_, 2) == "//") {
+      } else if (mark == "//") {
         at_ = std::min(text_.find('\n', at_), text_.size());
-      } else if (text_.substr(at_, 2) == "/*") {
+      } else if (mark == "/*") {
         const std::size_t end = text_.find("*/", at_ + 2);
         if (end == std::string_view::npos) stop("this comment has no end; expected \"*/\"");
         at_ = end + 2;

@@ -2,6 +2,11 @@
 
 #include <tweenfall/importers/number_text.h>
 
+#include "plot/label_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
 namespace tweenfall {
 
 const std::vector<double>& numbers(const TrackPoint& point, Shows shows) {
@@ -24,7 +29,17 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
                     {"height", px(bottom - top)},
                     {"fill", "#ffffff"},
                     {"stroke", "#dddcd8"}});
-  const std::vector<double> levels = ticks(panel.value, static_cast<int>((bottom - top) / 28));
+  for (const auto& [from, to] : {std::pair(panel.time.low, std::min(panel.first_key, panel.time.high)),
+                                 std::pair(std::max(panel.last_key, panel.time.low), panel.time.high)})
+    if (from < to)
+      svg.leaf("rect", {{"class", "beyond"},
+                        {"x", px(panel.time.place(from))},
+                        {"y", px(top)},
+                        {"width", px(panel.time.place(to) - panel.time.place(from))},
+                        {"height", px(bottom - top)},
+                        {"fill", "#eeeeea"}});
+  std::vector<double> levels;
+  if (!panel.names.empty()) levels = ticks(panel.value, static_cast<int>((bottom - top) / 28));
   for (const double level : levels) {
     const double y = panel.value.place(level);
     svg.leaf("path",
@@ -34,7 +49,7 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
         {{"x", px(left - 6)}, {"y", px(y + 3.5)}, {"font-size", "10"}, {"text-anchor", "end"}, {"fill", "#6d7178"}},
         short_text(level, tick_decimals(levels)));
   }
-  const std::vector<double> moments = ticks(panel.time, static_cast<int>((right - left) / 70));
+  const std::vector<double> moments = ticks(panel.time, static_cast<int>((right - left) / 55));
   for (const double moment : moments) {
     const double x = panel.time.place(moment);
     svg.leaf("path", {{"d", "M" + px(x) + " " + px(bottom) + "V" + px(bottom - 4)}, {"stroke", "#b5b5b0"}});
@@ -44,31 +59,84 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
           {{"x", px(x)}, {"y", px(bottom + 14)}, {"font-size", "10"}, {"text-anchor", "middle"}, {"fill", "#6d7178"}},
           short_text(moment, tick_decimals(moments)) + " s");
   }
-  svg.text("text", {{"x", px(left)}, {"y", px(top - 6)}, {"font-weight", "600"}, {"fill", "#23262b"}}, panel.title);
+  // From the right: the components, as many as half the width takes; a plain number needs no name.
   double x = right;
-  for (std::size_t i = panel.names.size(); i-- > 0;) {
+  for (std::size_t i = panel.names == std::vector<std::string>{"value"} ? 0 : panel.names.size(); i-- > 0;) {
+    const bool is_cut = x < (left + right) / 2;
     svg.text("text",
              {{"x", px(x)},
               {"y", px(top - 6)},
               {"font-weight", "600"},
               {"text-anchor", "end"},
-              {"fill", component_color(panel.names[i])}},
-             panel.names[i]);
+              {"fill", is_cut ? "#6d7178" : component_color(panel.names[i])}},
+             is_cut ? "\xe2\x80\xa6" : panel.names[i]);
     x -= 8 + 7 * static_cast<double>(panel.names[i].size());
+    if (is_cut) break;
+  }
+  // Letters of this size are a quarter wider than those that are measured.
+  const std::string title = shortened(panel.title, (x - left) / 1.25);
+  svg.text("text", {{"x", px(left)}, {"y", px(top - 6)}, {"font-weight", "600"}, {"fill", "#23262b"}}, title);
+  const double after = left + 1.25 * text_width(title) + 6;
+  if (!panel.unit.empty() && after + 1.1 * text_width(panel.unit) < x)
+    svg.text("text", {{"x", px(after)}, {"y", px(top - 6)}, {"fill", "#6d7178"}}, panel.unit);
+}
+
+namespace {
+
+struct Place {
+  double x, y;
+};
+
+/// Whether the way from `from` to `to` passes all `between` so closely that nobody sees a difference.
+bool is_straight(const Place& from, const std::vector<Place>& between, const Place& to) {
+  constexpr double seen = 0.06;  // px
+  const double across = to.x - from.x, up = to.y - from.y, length = std::sqrt(across * across + up * up);
+  return std::all_of(between.begin(), between.end(), [&](const Place& place) {
+    const double off = across * (place.y - from.y) - up * (place.x - from.x);
+    return std::abs(off) <= seen * length;
+  });
+}
+
+/// A path through places in order of x, without those that a straight way passes anyway.
+void append_line(std::string& path, const std::vector<Place>& places) {
+  constexpr std::size_t most = 60;
+  std::vector<Place> between;
+  const auto append = [&](char command, const Place& place) { path += command + px(place.x) + " " + px(place.y); };
+  if (places.empty()) return;
+  append('M', places.front());
+  Place last = places.front();
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    if (i + 1 < places.size()) {
+      between.push_back(places[i]);
+      if (between.size() < most && is_straight(last, between, places[i + 1])) continue;
+    }
+    append('L', places[i]);
+    last = places[i];
+    between.clear();
   }
 }
+
+}  // namespace
 
 void draw_curves(SvgWriter& svg, const Panel& panel, const std::vector<TrackPoint>& points, bool dashed) {
   for (std::size_t i = 0; i < panel.names.size(); ++i) {
     std::string path;
-    bool pen_up = true;
+    std::vector<Place> places;
+    double time_before = HUGE_VAL, number_before = 0;
     for (const TrackPoint& point : points) {
       const std::vector<double>& row = numbers(point, panel.shows);
       if (i >= row.size()) continue;
-      path += pen_up || point.starts ? 'M' : 'L';
-      path += px(panel.time.place(point.time)) + " " + px(panel.value.place(row[i]));
-      pen_up = false;
+      const bool jumps =
+          point.time == time_before && std::abs(row[i] - number_before) > 1e-9 * std::max(1.0, std::abs(number_before));
+      if (point.starts || jumps) {
+        append_line(path, places);
+        places.clear();
+      }
+      places.push_back({panel.time.place(point.time), panel.value.place(row[i])});
+      time_before = point.time;
+      number_before = row[i];
     }
+    append_line(path, places);
     if (path.empty()) continue;
     svg.leaf("path", {{"class", dashed ? "simulated" : "curve"},
                       {"d", path},

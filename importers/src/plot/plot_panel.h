@@ -6,6 +6,7 @@
 #include "plot/svg_writer.h"
 #include "plot/track_values.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,12 @@ enum class Shows { values, rates };
 struct Panel {
   Axis time, value;
   Shows shows = Shows::values;
-  std::string title;
-  std::vector<std::string> names;  ///< of the components
+  std::string title, unit;
+  std::vector<std::string> names;                     ///< of the components
+  double first_key = -HUGE_VAL, last_key = HUGE_VAL;  ///< s; beyond these the frame is shaded
 };
 
-/// Frame, ticks, title and the names of the components in their colors.
+/// Frame, ticks, title with unit, and the names of the components in their colors.
 void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels);
 
 /// A line through the points for each component.

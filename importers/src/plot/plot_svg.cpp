@@ -1,26 +1,29 @@
 #include <tweenfall/importers/plot.h>
 
-#include <tweenfall/importers/number_text.h>
-#include "plot/plot_panel.h"
-#include "plot/plotted_track.h"
-#include "recording/words.h"
+#include "plot/plot_marks.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace tweenfall {
 
 namespace {
 
-constexpr double picture_width = 860, left = 58, right = 844;
-constexpr double head = 34, title_room = 26, value_height = 150, rate_height = 90, between = 24, below = 28;
+constexpr double left_margin = 58, right_margin = 16;
+constexpr double head = 52, title_room = 26, value_height = 150, rate_height = 90, between = 24, below = 28, foot = 8;
 
-bool has_rates(const PlottedTrack& plotted) {
-  return !rate_names(plotted.track->curve).empty();
+/// Width of a column where there are so many, px.
+double column_width(int columns) {
+  return columns == 1 ? 860 : columns == 2 ? 480 : 350;
 }
 
-double block_height(const PlottedTrack& plotted) {
-  return title_room + value_height + (has_rates(plotted) ? between + rate_height : 0) + below;
+bool has_rates(const PlottedTrack& plotted, const PlotOptions& options) {
+  return options.rates && !plotted.rate_names.empty();
+}
+
+double block_height(const PlottedTrack& plotted, const PlotOptions& options) {
+  return title_room + value_height + (has_rates(plotted, options) ? between + rate_height : 0) + below;
 }
 
 Axis value_axis(const PlottedTrack& plotted, Shows shows, double top, double height) {
@@ -39,81 +42,37 @@ Axis value_axis(const PlottedTrack& plotted, Shows shows, double top, double hei
   return {low, high, top + height, top};
 }
 
-/// Dots at the keys, and the slopes with which the curve arrives and leaves.
-void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
-  constexpr double handle = 20;  // px
-  const double across = (panel.time.to - panel.time.from) / (panel.time.high - panel.time.low);
-  const double up = (panel.value.to - panel.value.from) / (panel.value.high - panel.value.low);
-  const bool slopes = !std::holds_alternative<Curve<Quat>>(plotted.track->curve);
-  for (const PlottedKey& key : plotted.keys) {
-    for (std::size_t i = 0; i < panel.names.size(); ++i) {
-      const double x = panel.time.place(key.time);
-      for (const bool arrives : {true, false}) {
-        const TrackPoint& side = arrives ? key.in : key.out;
-        if (!slopes || i >= side.rates.size() || (arrives ? key.first : key.last)) continue;
-        const Vec2 way(across, up * side.rates[i]);
-        const Vec2 tip = way * ((arrives ? -handle : handle) / way.norm());
-        const double y = panel.value.place(side.values[i]);
-        svg.leaf("path", {{"class", "tangent"},
-                          {"d", "M" + px(x) + " " + px(y) + "l" + px(tip.x()) + " " + px(tip.y())},
-                          {"stroke", "#8b9098"}});
-        svg.leaf(
-            "circle",
-            {{"class", "handle"}, {"cx", px(x + tip.x())}, {"cy", px(y + tip.y())}, {"r", "2"}, {"fill", "#8b9098"}});
-      }
-      const double y = panel.value.place(key.out.values[i]);
-      svg.leaf("path", {{"class", "key"},
-                        {"d", "M" + px(x) + " " + px(y - 3.5) + "l3.5 3.5l-3.5 3.5l-3.5 -3.5Z"},
-                        {"fill", component_color(panel.names[i])}});
-    }
-  }
-}
-
-void draw_moments(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted, bool named) {
-  for (const PlottedMoment& moment : plotted.moments) {
-    const double x = panel.time.place(moment.time);
-    svg.leaf("path", {{"class", moment.handoff ? "handoff" : "event"},
-                      {"d", "M" + px(x) + " " + px(panel.value.from) + "V" + px(panel.value.to)},
-                      {"stroke", moment.handoff ? "#d97a00" : "#8b9098"},
-                      {"stroke-width", moment.handoff ? "1.8" : "1"},
-                      {"stroke-dasharray", moment.handoff ? "none" : "2 3"}});
-    if (named)
-      svg.text("text",
-               {{"x", px(x + 4)},
-                {"y", px(moment.handoff ? panel.value.to + 12 : panel.value.from - 5)},
-                {"font-size", "10"},
-                {"fill", moment.handoff ? "#a85f00" : "#6d7178"}},
-               moment.name);
-  }
-}
-
-void draw_texts(SvgWriter& svg, const Panel& panel, const StepCurve<std::string>& curve) {
-  for (const auto& [time, text] : curve.steps())
-    svg.text("text",
-             {{"x", px(panel.time.place(time) + 4)},
-              {"y", px((panel.value.from + panel.value.to) / 2)},
-              {"fill", "#23262b"}},
-             text);
-}
-
-void draw_block(SvgWriter& svg, const PlottedTrack& plotted, double from, double until, double top) {
-  const Axis time{from, until, left, right};
+void draw_block(SvgWriter& svg, const PlottedTrack& plotted, const PlotOptions& options, Axis time, double top) {
   top += title_room;
-  const Panel values{time, value_axis(plotted, Shows::values, top, value_height), Shows::values, plotted.title,
-                     component_names(plotted.track->curve)};
-  draw_frame(svg, values, !has_rates(plotted));
-  draw_moments(svg, values, plotted, true);
+  const Panel values{time,
+                     value_axis(plotted, Shows::values, top, value_height),
+                     Shows::values,
+                     plotted.title,
+                     plotted.unit,
+                     plotted.names,
+                     plotted.first_key,
+                     plotted.last_key};
+  draw_frame(svg, values, !has_rates(plotted, options));
+  if (std::holds_alternative<Curve<Color>>(plotted.track->curve)) draw_colors(svg, values, plotted);
+  draw_moments(svg, values, plotted);
   draw_curves(svg, values, plotted.curve, false);
   for (const auto& points : plotted.simulated) draw_curves(svg, values, points, true);
   draw_keys(svg, values, plotted);
+  draw_moment_names(svg, values, plotted);
   if (const auto* texts = std::get_if<StepCurve<std::string>>(&plotted.track->curve)) draw_texts(svg, values, *texts);
-  if (!has_rates(plotted)) return;
+  if (!has_rates(plotted, options)) return;
   top += value_height + between;
   const bool turns = std::holds_alternative<Curve<Quat>>(plotted.track->curve);
-  const Panel rates{time, value_axis(plotted, Shows::rates, top, rate_height), Shows::rates,
-                    turns ? "angular velocity, rad/s" : "rate, per second", rate_names(plotted.track->curve)};
+  const Panel rates{time,
+                    value_axis(plotted, Shows::rates, top, rate_height),
+                    Shows::rates,
+                    turns ? "angular velocity" : "rate",
+                    plotted.rate_unit.empty() ? "per second" : plotted.rate_unit,
+                    plotted.rate_names,
+                    plotted.first_key,
+                    plotted.last_key};
   draw_frame(svg, rates, true);
-  draw_moments(svg, rates, plotted, false);
+  draw_moments(svg, rates, plotted);
   draw_curves(svg, rates, plotted.curve, false);
   for (const auto& points : plotted.simulated) draw_curves(svg, rates, points, true);
 }
@@ -121,18 +80,31 @@ void draw_block(SvgWriter& svg, const PlottedTrack& plotted, double from, double
 }  // namespace
 
 std::string plot_svg(const StageDescription& stage, const Recording* recording, const PlotOptions& options) {
+  if (options.columns < 1 || options.columns > 6)
+    throw std::invalid_argument("a plot has 1 to 6 columns; found " + std::to_string(options.columns));
   const PlottedStage plotted = plotted_tracks(stage, recording, options);
-  double height = head + 8;
-  for (const PlottedTrack& track : plotted.tracks) height += block_height(track);
-  SvgWriter svg(picture_width, height);
+  const std::size_t columns = std::min(static_cast<std::size_t>(options.columns), plotted.tracks.size());
+  const double width = column_width(static_cast<int>(columns));
+  std::vector<double> tops = {head};  // of the rows, and of what follows them
+  for (std::size_t i = 0; i < plotted.tracks.size(); i += columns) {
+    double height = 0;
+    for (std::size_t k = i; k < std::min(i + columns, plotted.tracks.size()); ++k)
+      height = std::max(height, block_height(plotted.tracks[k], options));
+    tops.push_back(tops.back() + height);
+  }
+  SvgWriter svg(width * static_cast<double>(columns), tops.back() + foot + (plotted.left_out > 0 ? 18 : 0));
   svg.leaf("rect", {{"width", "100%"}, {"height", "100%"}, {"fill", "#f7f7f5"}});
   svg.text("text", {{"x", "14"}, {"y", "23"}, {"font-size", "14"}, {"font-weight", "600"}, {"fill", "#23262b"}},
            stage.name.empty() ? "tracks" : stage.name);
-  double top = head;
-  for (const PlottedTrack& track : plotted.tracks) {
-    draw_block(svg, track, plotted.from, plotted.until, top);
-    top += block_height(track);
+  draw_legend(svg, plotted, 14, 42);
+  for (std::size_t i = 0; i < plotted.tracks.size(); ++i) {
+    const double left = width * static_cast<double>(i % columns);
+    draw_block(svg, plotted.tracks[i], options,
+               {plotted.from, plotted.until, left + left_margin, left + width - right_margin}, tops[i / columns]);
   }
+  if (plotted.left_out > 0)
+    svg.text("text", {{"x", "14"}, {"y", px(tops.back() + 10)}, {"fill", "#6d7178"}},
+             "and " + std::to_string(plotted.left_out) + " more, which are drawn where they are named");
   return svg.finish();
 }
 

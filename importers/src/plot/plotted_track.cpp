@@ -1,12 +1,17 @@
 #include "plot/plotted_track.h"
 
+#include "plot/track_angles.h"
+#include "plot/track_handles.h"
 #include "recording/check.h"
 #include "recording/key_lanes.h"
 #include "recording/words.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <tuple>
+#include <utility>
 
 namespace tweenfall {
 
@@ -81,8 +86,91 @@ std::vector<double> seams(const Shown& shown, double from, double until) {
   return times;
 }
 
+template <class T>
+void widen(std::pair<double, double>& stretch, const Curve<T>& curve) {
+  if (!(curve.start() < curve.end()) || std::isinf(curve.start()) || std::isinf(curve.end())) return;
+  stretch = {std::min(stretch.first, curve.start()), std::max(stretch.second, curve.end())};
+}
+void widen(std::pair<double, double>& stretch, const WeightCurves& curves) {
+  for (const Curve<double>& curve : curves) widen(stretch, curve);
+}
+template <class T>
+void widen(std::pair<double, double>&, const StepCurve<T>&) {}
+
+/// Where what is keyed begins and ends; nothing for constants, switches and what has no end.
+std::optional<std::pair<double, double>> keyed_stretch(const TrackCurve& curve) {
+  std::pair<double, double> stretch(HUGE_VAL, -HUGE_VAL);
+  std::visit([&](const auto& held) { widen(stretch, held); }, curve);
+  return stretch.first < stretch.second ? std::optional(stretch) : std::nullopt;
+}
+
+/// Whether a track that ends goes on moving a little beyond that end.
+bool moves_beyond(const Track& track, double end, double step) {
+  const TrackPoint rest = sample_track(track.curve, end + step / 2, Side::out);
+  for (int i = 1; i <= 3; ++i) {
+    const TrackPoint point = sample_track(track.curve, end + step * i, Side::out);
+    if (point.values != rest.values && !point.rates.empty()) return true;
+  }
+  return false;
+}
+
+/// Beyond its keys a curve that repeats may jump at each turn.
+std::vector<double> turns_beyond(const Shown& shown, const Track& track, double from, double until) {
+  std::vector<double> times;
+  const auto keyed = keyed_stretch(track.curve);
+  if (!keyed || shown.play) return times;
+  const auto [first, last] = *keyed;
+  const double length = last - first;
+  for (double time = last; time < until && times.size() < 200; time += length) times.push_back(time);
+  for (double time = first; time > from && times.size() < 400; time -= length) times.push_back(time);
+  return times;
+}
+
+void add_handles(PlottedTrack& plotted, const Shown& shown) {
+  const std::vector<TrackHandle> handles = track_handles(plotted.track->curve);
+  for (PlottedKey& key : plotted.keys) {
+    for (const Side side : {Side::in, Side::out}) {
+      double clip_time = key.time, pace = 1;
+      if (shown.play) {
+        const ClipClock clock = clock_at(*shown.play, *shown.clip, key.time, side);
+        clip_time = clock.time;
+        pace = clock.rate;
+      }
+      if (pace == 0) continue;
+      const bool arrives = (side == Side::in) == (pace > 0);
+      for (const TrackHandle& handle : handles)
+        if (handle.arrives == arrives && std::abs(handle.key - clip_time) < 1e-9 * std::max(1.0, std::abs(clip_time)))
+          for (std::size_t i = 0; i < handle.time.size(); ++i)
+            key.handles.push_back({i, handle.time[i] / pace, handle.change[i]});
+    }
+  }
+}
+
+/// Names of the components, and units; a rotation's follow from how it turns.
+void name_parts(PlottedTrack& plotted) {
+  plotted.names = component_names(plotted.track->curve);
+  plotted.rate_names = rate_names(plotted.track->curve);
+  switch (property_named(plotted.track->property)) {
+    case Property::position:
+      plotted.unit = "m";
+      plotted.rate_unit = "m/s";
+      break;
+    case Property::color:
+      plotted.unit = "linear light";
+      break;
+    case Property::scale:
+      plotted.unit = "factors";
+      break;
+    default:
+      break;
+  }
+  if (std::holds_alternative<Curve<Quat>>(plotted.track->curve)) turn_into_angles(plotted);
+}
+
 void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<double>& keys, double from, double until) {
   std::vector<double> corners = seams(shown, from, until);
+  const std::vector<double> turns = turns_beyond(shown, *plotted.track, from, until);
+  corners.insert(corners.end(), turns.begin(), turns.end());
   corners.insert(corners.end(), keys.begin(), keys.end());
   std::sort(corners.begin(), corners.end());
   std::vector<double> times = corners;
@@ -92,15 +180,18 @@ void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<doub
   for (const double time : times) {
     const bool corner = std::binary_search(corners.begin(), corners.end(), time) && time > from;
     if (corner) plotted.curve.push_back(shown.at(*plotted.track, time, Side::in));
-    // A key at the very end is arrived at; what would follow is not on the plot.
+    // The very end is arrived at; what would follow is not on the plot.
     if (corner && time == until) continue;
-    plotted.curve.push_back(shown.at(*plotted.track, time, Side::out));
+    plotted.curve.push_back(shown.at(*plotted.track, time, time == until ? Side::in : Side::out));
     if (corner) plotted.curve.back().starts = jumps(plotted.curve[plotted.curve.size() - 2], plotted.curve.back());
   }
   if (plotted.curve.front().values.size() > 16) return;  // keys of so many curves would hide them
   for (const double time : keys)
     plotted.keys.push_back({time, shown.at(*plotted.track, time, Side::in), shown.at(*plotted.track, time, Side::out),
                             time == keys.front(), time == keys.back()});
+  add_handles(plotted, shown);
+  if (const auto keyed = keyed_stretch(plotted.track->curve); keyed && !shown.play)
+    std::tie(plotted.first_key, plotted.last_key) = *keyed;
 }
 
 bool is_below(const Recording& recording, std::size_t node, const std::string& name) {
@@ -159,22 +250,46 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
   }
   // A formula has no end, a single moment no length: show ten seconds, or one.
   if (!(result.until > result.from)) result.until = result.from + (recording ? 1 : 10);
+  const auto is_wanted = [&](const Track& track) {
+    return options.tracks.empty() ||
+           std::find(options.tracks.begin(), options.tracks.end(), track.name()) != options.tracks.end();
+  };
+  const double clip_end = result.until;
+  if (!recording) {
+    const double length = clip_end;
+    for (const Shown& shown : clips)
+      for (const Track& track : shown.clip->tracks) {
+        const auto keyed = keyed_stretch(track.curve);
+        if (!keyed || !is_wanted(track)) continue;
+        if (keyed->second > 0.75 * length && moves_beyond(track, keyed->second, length / 17))
+          result.until = std::max(result.until, length * 1.5);
+        if (keyed->first < 0.25 * length && moves_beyond(track, keyed->first, -length / 17))
+          result.from = std::min(result.from, -length / 4);
+      }
+  }
 
   std::vector<std::string> missing = options.tracks;
   std::string names;
   for (const Shown& shown : clips) {
     for (const Track& track : shown.clip->tracks) {
       names += (names.empty() ? "" : ", ") + track.name();
-      if (!options.tracks.empty()) {
-        if (std::find(options.tracks.begin(), options.tracks.end(), track.name()) == options.tracks.end()) continue;
-        missing.erase(std::remove(missing.begin(), missing.end(), track.name()), missing.end());
+      if (!is_wanted(track)) continue;
+      missing.erase(std::remove(missing.begin(), missing.end(), track.name()), missing.end());
+      if (options.tracks.empty() && result.tracks.size() >= options.most) {
+        ++result.left_out;
+        continue;
       }
       PlottedTrack plotted;
       plotted.track = &track;
       plotted.title = track.name() + (clips.size() > 1 ? " in " + shown.clip->name : "");
-      add_curve(plotted, shown, passed_keys(stage, shown, track, result.from, result.until), result.from, result.until);
+      // What is not keyed says nothing of the time outside its clip.
+      const bool is_cut = !recording && !keyed_stretch(track.curve);
+      const double from = is_cut ? 0 : result.from, until = is_cut ? clip_end : result.until;
+      add_curve(plotted, shown, passed_keys(stage, shown, track, from, until), from, until);
+      if (is_cut) std::tie(plotted.first_key, plotted.last_key) = std::pair(from, until);
       add_events(plotted, shown, recording);
       if (recording) add_recorded(plotted, *recording);
+      name_parts(plotted);
       result.tracks.push_back(std::move(plotted));
     }
   }

@@ -6,12 +6,21 @@
 
 #include <tweenfall/importers/plot.h>
 
+#include <cmath>
+
 namespace tweenfall {
+
+/// Where a component's handle ends, as its way from the key.
+struct PlottedHandle {
+  std::size_t component = 0;
+  double time = 0, change = 0;  ///< s, the value's unit
+};
 
 struct PlottedKey {
   double time = 0;
   TrackPoint in, out;
   bool first = false, last = false;  ///< no curve before or after
+  std::vector<PlottedHandle> handles{};
 };
 
 /// A line across the panels.
@@ -24,15 +33,19 @@ struct PlottedMoment {
 struct PlottedTrack {
   const Track* track = nullptr;
   std::string title;
+  std::vector<std::string> names, rate_names;  ///< of the components
+  std::string unit, rate_unit;                 ///< empty where the unit is the author's
   std::vector<TrackPoint> curve;
   std::vector<PlottedKey> keys;
   std::vector<PlottedMoment> moments;
-  std::vector<std::vector<TrackPoint>> simulated;  ///< each a stretch in which the body was not keyed
+  std::vector<std::vector<TrackPoint>> simulated;     ///< each a stretch in which the body was not keyed
+  double first_key = -HUGE_VAL, last_key = HUGE_VAL;  ///< s; what lies beyond is not keyed
 };
 
 struct PlottedStage {
   double from = 0, until = 1;  ///< s: stage time when there is a recording, else clip time
   std::vector<PlottedTrack> tracks;
+  std::size_t left_out = 0;  ///< tracks beyond the most that a plot shows
 };
 
 /// @throws std::invalid_argument naming what exists, for a clip or a track that does not, or when there is nothing to

@@ -48,6 +48,7 @@ std::vector<Vec3> box_around(const Mesh& mesh) {
     high = high.cwiseMax(position);
   }
   std::vector<Vec3> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i)
     corners.emplace_back(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(), i & 4 ? high.z() : low.z());
   return corners;

@@ -3,6 +3,7 @@
 /// Triangle meshes that a skeleton bends and morph targets mold.
 
 #include <tweenfall/anim/hierarchy.h>
+#include <tweenfall/curves/surface_mesh.h>
 
 #include <array>
 #include <cstdint>
@@ -36,6 +37,9 @@ struct Mesh {
   std::vector<double> rest_weights;  ///< one per morph target
   Color base_color{Vec4{0.8, 0.8, 0.8, 1}};
 };
+
+/// A swept or turned surface as a mesh to be shown.
+[[nodiscard]] Mesh mesh_of(const SurfaceMesh& surface, std::string name = {});
 
 /// Which nodes are the joints of a mesh, and where each was when the mesh was bound to it.
 struct Skin {

@@ -16,6 +16,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,18 @@ enum class Outside {
   repeat,         ///< the curve again
   repeat_offset,  ///< the curve again, starting from where it ended
   pingpong,       ///< the curve backwards, then forwards, ...
+};
+
+/// The same in full, for one end of a curve of values `T`.
+template <class T>
+struct OutsideRule {
+  Outside rule = Outside::hold;
+  /// For `linear`: the rate to go on at, U/s. Without it that of the end, or of the handle that the end's key has on
+  /// its outer side.
+  std::optional<Rate<T>> slope{};
+  /// For `repeat`, `repeat_offset` and `pingpong`: how often the curve plays beyond this end, and then rests where it
+  /// got to; 0 is for ever. Need not be a whole number.
+  double plays = 0;
 };
 
 struct CurveAccess;
@@ -49,12 +62,16 @@ class Curve {
 
   /// The same curve with other rules outside its knots.
   [[nodiscard]] Curve with_outside(Outside before, Outside after) const;
+  /// @throws std::invalid_argument for a non-finite slope or plays not >= 0.
+  [[nodiscard]] Curve with_outside(const OutsideRule<T>& before, const OutsideRule<T>& after) const;
 
   [[nodiscard]] double start() const noexcept;  ///< first knot, s; -infinity for an endless formula, 0 for a constant
   [[nodiscard]] double end() const noexcept;    ///< last knot, s
   [[nodiscard]] double duration() const noexcept { return end() - start(); }
   [[nodiscard]] Outside before() const noexcept;
   [[nodiscard]] Outside after() const noexcept;
+  [[nodiscard]] const OutsideRule<T>& rule_before() const noexcept;
+  [[nodiscard]] const OutsideRule<T>& rule_after() const noexcept;
 
   /// Knots in order, s; empty for a constant or a formula. A curve seen through a conversion (a color mixed in
   /// another space, a logarithmic scale, angles as a rotation) has the knots of the curve it is made of.
@@ -62,7 +79,7 @@ class Curve {
 
   /// Value, rate and acceleration at any finite time.
   [[nodiscard]] Sample<T> sample(double time, Side side = Side::out) const noexcept;
-  [[nodiscard]] T value(double time, Side side = Side::out) const noexcept { return sample(time, side).value; }
+  [[nodiscard]] T value(double time, Side side = Side::out) const noexcept;
   [[nodiscard]] Rate<T> rate(double time, Side side = Side::out) const noexcept { return sample(time, side).rate; }
 
   /// The spans, as built; empty for a constant, a formula or a curve seen through a conversion.
@@ -89,5 +106,10 @@ extern template class Curve<Quat>;
 /// An angle in radians over time about a fixed axis; turns are not wrapped.
 /// @throws std::invalid_argument for a zero axis.
 [[nodiscard]] Curve<Quat> axis_curve(const Vec3& axis, const Curve<double>& angle);
+
+/// A ratio of width to height over time as the two factors of a shape that keeps its area: (sqrt(r), 1 / sqrt(r)), of
+/// product 1. Keys of `ratio` mixed by their logarithm (`KeyOptions::logarithmic`) go from 1:4 to 4:1 through 1:1.
+/// @param ratio  > 0 wherever it is sampled; where it is not, the factors are those of 1
+[[nodiscard]] Curve<Vec2> aspect_curve(const Curve<double>& ratio);
 
 }  // namespace tweenfall

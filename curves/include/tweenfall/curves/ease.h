@@ -14,6 +14,7 @@
 namespace tweenfall {
 
 struct SlopeProblem;
+struct TurnProblem;
 
 class Ease {
  public:
@@ -23,6 +24,8 @@ class Ease {
 
   /// Makes slopes from neighboring keys; the problem is private to the library.
   using SlopeRule = void (*)(const SlopeProblem& problem);
+  /// Makes the spans of rotations for a run of keys; the problem is private to the library.
+  using TurnRule = void (*)(const TurnProblem& problem);
   /// Makes a shape for a span of `duration` seconds, where it depends on that.
   using ShapeRule = std::vector<Span<double>> (*)(double duration, const std::array<double, 4>& parameters);
 
@@ -31,6 +34,9 @@ class Ease {
   using Piece = Span<double>;
 
   [[nodiscard]] static Ease hold();
+  /// The next key's value right after this key: it arrives with its own value (Side::in) and leaves with the next
+  /// one's.
+  [[nodiscard]] static Ease step_next();
   [[nodiscard]] static Ease linear();
   /// Slope at a key = plain mean of the two neighboring secants; at an end the end's own secant.
   [[nodiscard]] static Ease smooth();
@@ -38,15 +44,42 @@ class Ease {
   [[nodiscard]] static Ease smooth_clamped();
   /// Monotone between monotone data, per component. Source: Fritsch and Butland, 1984 ("pchip").
   [[nodiscard]] static Ease monotone();
-  /// Continuous acceleration over a run of such keys, zero at its ends. For rotations this is exact for the
-  /// rotation vectors of the spans, hence only nearly so for the angular acceleration.
+  /// Slopes that keep aloof from outliers. Source: Akima, 1970.
+  [[nodiscard]] static Ease akima();
+  /// As akima, but flat stretches stay flat and no step overshoots much ("modified Akima").
+  [[nodiscard]] static Ease makima();
+  /// Continuous acceleration over a run of such keys, zero at its ends; for rotations the angular acceleration.
+  /// Source for rotations: Mayorov, "Smooth attitude interpolation", 2018.
   [[nodiscard]] static Ease natural();
+  /// The same with given accelerations at the ends of the run, U/s^2, for every component; the first key's start and
+  /// the last span's end count.
+  [[nodiscard]] static Ease natural(double start, double end);
+  /// Continuous acceleration with the run's ends at rest, or at given slopes, U/s, for every component.
+  [[nodiscard]] static Ease clamped();
+  [[nodiscard]] static Ease clamped(double start, double end);
+  /// Continuous acceleration, the run being one period: its end has the slope and acceleration of its start.
+  [[nodiscard]] static Ease periodic();
+  /// Continuous acceleration, the first two spans of the run being one cubic, and the last two.
+  [[nodiscard]] static Ease not_a_knot();
   /// Catmull-Rom with the keys' own times: slope = the secants, each weighted by the other's duration.
+  /// Rotations: slerps of slerps between control rotations (De Casteljau), with those slopes at the keys.
   [[nodiscard]] static Ease catmull_rom();
-  /// Catmull-Rom shaped by the square roots of the distances, at the keys' own times: no cusps or loops in a path.
+  /// Catmull-Rom, zero at a local extreme and at most three times the smaller secant, per component.
+  /// Source: Dougherty, Edelman, Hyman, 1989, equation 4.2.
+  [[nodiscard]] static Ease catmull_rom_monotone();
+  /// Catmull-Rom shaped as if every span took the same time, by the square roots of the distances (no cusps or loops in
+  /// a path), or by the distances, at the keys' own times: the direction at a key is one, the speed each span's own.
+  [[nodiscard]] static Ease uniform();
   [[nodiscard]] static Ease centripetal();
+  [[nodiscard]] static Ease chordal();
   /// Kochanek and Bartels, 1984: tension, continuity and bias at this key; 0, 0, 0 is catmull_rom. Any finite numbers.
   [[nodiscard]] static Ease tcb(double tension, double continuity, double bias);
+  /// Rotations: the straight way between the two quaternions, scaled to unit length. Anything else: linear.
+  [[nodiscard]] static Ease nlerp();
+  /// Rotations: Shoemake's spherical quadrangle, 1987, for uneven times. Anything else: what it comes to, catmull_rom.
+  [[nodiscard]] static Ease squad();
+  /// Rotations: the recursion of Barry and Goldman, 1988, with slerps. Anything else: what it comes to, catmull_rom.
+  [[nodiscard]] static Ease barry_goldman();
   /// An exact damped spring let go at this key towards the next: undamped period in seconds, damping ratio.
   /// What is left of its motion at the next key is taken away smoothly over the span.
   /// @throws std::invalid_argument unless period > 0 and damping_ratio >= 0.
@@ -64,6 +97,10 @@ class Ease {
   /// All the words and call forms that `named` knows, in the order the documentation lists them.
   [[nodiscard]] static std::vector<std::string> names();
 
+  /// The same where the ease states slopes or accelerations, as clamped(a,b) does: they times `factor`, for values that
+  /// are converted to another unit.
+  [[nodiscard]] Ease scaled(double factor) const;
+
   [[nodiscard]] Rule rule() const noexcept { return rule_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }  ///< as `named` would read it back
   /// The pieces of a shape over the unit interval; for a spring those of a span of one second.
@@ -71,6 +108,7 @@ class Ease {
   /// The pieces for a span of `duration` seconds.
   [[nodiscard]] std::vector<Piece> pieces_for(double duration) const;
   [[nodiscard]] SlopeRule slope_rule() const noexcept { return slope_rule_; }
+  [[nodiscard]] TurnRule turn_rule() const noexcept { return turn_rule_; }  ///< null: slerp, hold, shape or Hermite
   [[nodiscard]] const std::array<double, 4>& parameters() const noexcept { return parameters_; }
 
   bool operator==(const Ease& other) const noexcept { return name_ == other.name_; }
@@ -79,11 +117,13 @@ class Ease {
   [[nodiscard]] Sample<double> progress(double u, Side side = Side::out) const noexcept;
 
  private:
-  Ease(Rule rule, std::string name, SlopeRule slope_rule = nullptr, const std::array<double, 4>& parameters = {});
+  Ease(Rule rule, std::string name, SlopeRule slope_rule = nullptr, const std::array<double, 4>& parameters = {},
+       TurnRule turn_rule = nullptr);
 
   Rule rule_;
   std::string name_;
   SlopeRule slope_rule_ = nullptr;
+  TurnRule turn_rule_ = nullptr;
   ShapeRule shape_rule_ = nullptr;
   std::array<double, 4> parameters_{};
   std::vector<Piece> pieces_;

@@ -24,5 +24,9 @@ struct SinCos {
 [[nodiscard]] double log(double x) noexcept;            ///< x > 0
 [[nodiscard]] double pow(double x, double y) noexcept;  ///< x >= 0
 [[nodiscard]] double cbrt(double x) noexcept;
+[[nodiscard]] double sinh(double x) noexcept;
+[[nodiscard]] double cosh(double x) noexcept;
+[[nodiscard]] double tanh(double x) noexcept;
+[[nodiscard]] double asinh(double x) noexcept;
 
 }  // namespace tweenfall::elementary

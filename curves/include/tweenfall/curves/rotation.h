@@ -5,6 +5,8 @@
 
 #include <tweenfall/curves/values.h>
 
+#include <span>
+
 namespace tweenfall {
 
 /// Rotation by |v| radians about v. Series near zero; exact identity at 0.
@@ -27,6 +29,16 @@ namespace tweenfall {
 
 /// `q` scaled to unit length. @throws std::invalid_argument for a zero or non-finite quaternion.
 [[nodiscard]] Quat normalized(const Quat& q);
+
+/// The mean of rotations that does not depend on their order or signs: the unit quaternion q with the largest
+/// sum of weight (q . q_i)^2. The nearest to the first rotation's sign is returned.
+///
+/// @param rotations  unit quaternions
+/// @param weights    one a rotation, >= 0, not all zero; only their ratios matter
+/// @throws std::invalid_argument naming the rotation: none, sizes that differ, a weight that is negative or not finite,
+///         all weights zero, a rotation that is not of unit length to 1e-6.
+/// Source: Markley, Cheng, Crassidis, Oshman, "Averaging quaternions", 2007.
+[[nodiscard]] Quat weighted_mean(std::span<const Quat> rotations, std::span<const double> weights);
 
 /// Axes in the order in which they are applied. Intrinsic (`xyz`): each turn about the
 /// already turned axis, R = X Y Z. Extrinsic: about the fixed axes, R = Z Y X.

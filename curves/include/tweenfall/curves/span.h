@@ -23,6 +23,13 @@ struct Warp {
 
   Function function = nullptr;         ///< null: s = u
   std::array<double, 4> parameters{};  ///< handed to the function unchanged
+  double from = 0, width = 1;          ///< the stretch of the function that is seen: at from + width u
+
+  /// The warp at u, 0 to 1. Precondition: `function` is set.
+  [[nodiscard]] Result at(double u) const noexcept {
+    const Result r = function(from + width * u, parameters);
+    return {r.s, width * r.ds, width * width * r.dds};
+  }
 
   bool operator==(const Warp&) const = default;
 };
@@ -41,20 +48,28 @@ struct Span {
   Warp warp = {};
 };
 
-/// A stretch of rotation.
+/// Rows of coefficients that a stretch of rotation has room for.
+inline constexpr int rotation_rows = 8;
+
+/// A stretch of rotation, exp(s spin) times what its form gives:
 /// `exponential`: from * exp(r(s)), r a polynomial of rotation vectors in the first three parts.
 /// `normalized`: the polynomial of four parts (x, y, z, w), scaled to unit length; `from` is not read.
+/// `nested`: slerps of slerps. Rows 0 to 2 are rotations P (x, y, z, w), rows 3 to 5 rotation vectors V: three even
+///     turns G = P exp(s V). The first two are mixed by the weight a + b s, the last two by c + d s, row 6 being
+///     (a, b, c, d), and these two by f s + g s^2, row 7 being (f, g, 0, 0). A mix of A and B is A exp(w log(A^-1 B)),
+///     the logarithm taken on the way that the signs of the quaternions say. `degree` and `from` are not read.
 struct RotationSpan {
-  enum class Form { exponential, normalized };
+  enum class Form { exponential, normalized, nested };
 
   double start = 0;
   double duration = 1;
   Form form = Form::exponential;
   int degree = 0;
-  std::array<Vec4, max_degree + 1> coefficients;
+  std::array<Vec4, rotation_rows> coefficients;
   Quat from{1, 0, 0, 0};
   Quat end{1, 0, 0, 0};
   Warp warp = {};
+  Vec3 spin{0, 0, 0};  ///< outer axes; where spans are to join, whole turns about the way that the form goes
 };
 
 template <class T>

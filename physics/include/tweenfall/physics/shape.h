@@ -3,6 +3,7 @@
 /// Solid shapes, and what follows from them: volume, mass, center of mass, inertia.
 
 #include <tweenfall/curves/pose.h>
+#include <tweenfall/curves/surface_mesh.h>
 
 #include <variant>
 
@@ -47,6 +48,10 @@ void validate(const Solid& solid);
 /// Mass properties of a uniform solid of the given mass. Sources: closed forms, e.g. Goldstein, Classical Mechanics.
 /// @throws std::invalid_argument for a plane, or mass not > 0.
 [[nodiscard]] MassProperties mass_properties(const Shape& shape, double mass);
+
+/// Mass properties of what a closed mesh encloses, filled evenly, in the mesh's own space.
+/// @throws std::invalid_argument for a mesh that is open or inside out, or mass not > 0.
+[[nodiscard]] MassProperties mass_properties(const SurfaceMesh& mesh, double mass);
 
 /// The same properties about the frame moved by the parallel-axis theorem: inertia about `point` (node frame).
 [[nodiscard]] Mat3 inertia_about(const MassProperties& properties, const Vec3& point) noexcept;

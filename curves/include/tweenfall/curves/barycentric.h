@@ -1,0 +1,44 @@
+#pragma once
+
+/// Mixing by weights: three values at the corners of a triangle, or any number of them.
+///
+/// The weights are divided by their sum, so that they always are parts of a whole: where all values are equal the mix
+/// is that value, and what moves, turns or scales all values does so to the mix. Weights may be negative, to reach
+/// beyond the values. Where one weight is all there is, the mix is its value, bit for bit. Values and weights carry
+/// their rates, and the rates of the mix are exact, those that come from moving weights among them.
+
+#include <tweenfall/curves/color.h>
+#include <tweenfall/curves/pose.h>
+
+#include <array>
+#include <span>
+
+namespace tweenfall {
+
+/// The weighted mean of numbers, vectors (`T` is double, Vec2, Vec3 or Vec4) or rotations (Quat).
+///
+/// For rotations it is the one from which the weighted ways to all of them cancel: of two it is their slerp, and it
+/// knows no order. It is unique while all lie within a quarter turn of some one rotation.
+///
+/// @throws std::invalid_argument: no values, sizes that differ, weights that sum to zero or are not finite.
+/// Source for rotations: Karcher, "Riemannian center of mass and mollifier smoothing", 1977.
+template <class T>
+[[nodiscard]] Sample<T> barycentric(std::span<const Sample<T>> values, std::span<const Sample<double>> weights);
+
+/// Colors, mixed in `space` on premultiplied coordinates. Hues are mixed as numbers, each taken within half a turn of
+/// the first color's that has one; grays and invisible colors do not count in the hue.
+[[nodiscard]] Sample<Color> barycentric(std::span<const Sample<Color>> values, std::span<const Sample<double>> weights,
+                                        ColorSpace space = ColorSpace::oklab);
+
+/// Motions: positions and scales as vectors, rotations as rotations. Accelerations of the weights are not read.
+[[nodiscard]] Motion barycentric(std::span<const Motion> values, std::span<const Sample<double>> weights);
+
+/// The weights of three corners whose mix is `point`, or the point of their plane nearest to it.
+/// A corner has the weights 1, 0, 0, exactly; inside the triangle all are positive.
+/// @param point    value, rate and acceleration of a moving point
+/// @param a, b, c  corners, in any unit
+/// @throws std::invalid_argument where the corners lie on one line.
+[[nodiscard]] std::array<Sample<double>, 3> triangle_weights(const Sample<Vec3>& point, const Vec3& a, const Vec3& b,
+                                                             const Vec3& c);
+
+}  // namespace tweenfall

@@ -1,0 +1,46 @@
+#include "plot/label_rows.h"
+
+#include <algorithm>
+
+namespace tweenfall {
+
+namespace {
+
+std::size_t letters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; }));
+}
+
+}  // namespace
+
+double text_width(const std::string& text) {
+  return 6.2 * static_cast<double>(letters(text));
+}
+
+std::string shortened(const std::string& text, double width) {
+  if (text_width(text) <= width) return text;
+  std::string out = text;
+  while (!out.empty() && text_width(out) > width - 6.2) {
+    while ((static_cast<unsigned char>(out.back()) & 0xc0) == 0x80) out.pop_back();
+    out.pop_back();
+  }
+  return out + "\xe2\x80\xa6";
+}
+
+LabelRows::Place LabelRows::place(double x, const std::string& text) {
+  constexpr double gap = 4;
+  const double width = text_width(text);
+  double from = x + gap;
+  if (from + width > right_) from = std::max(left_, x - gap - width);
+  for (std::size_t row = 0;; ++row) {
+    auto& taken = rows_[row];
+    const bool is_free = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
+      return from < other.second + gap && other.first < from + width + gap;
+    });
+    if (!is_free && row + 1 < rows_.size()) continue;
+    taken.emplace_back(from, from + width);
+    return {from, row};
+  }
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,33 @@
+#pragma once
+
+// Labels along a line of time, each in the first row where it lies over no other.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tweenfall {
+
+/// About how wide a text of size 10 is, px.
+[[nodiscard]] double text_width(const std::string& text);
+
+/// The text, or its beginning with "…", in no more than `width` px.
+[[nodiscard]] std::string shortened(const std::string& text, double width);
+
+class LabelRows {
+ public:
+  LabelRows(double left, double right, std::size_t rows) : left_(left), right_(right), rows_(rows) {}
+
+  struct Place {
+    double x;  ///< where the text begins, px
+    std::size_t row;
+  };
+  /// Beside `x`, right of it where there is room, else left. The last row takes all that finds no place.
+  [[nodiscard]] Place place(double x, const std::string& text);
+
+ private:
+  double left_, right_;
+  std::vector<std::vector<std::pair<double, double>>> rows_;
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,231 @@
+#include "plot/plot_marks.h"
+
+#include <tweenfall/curves/color.h>
+
+#include "plot/label_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tweenfall {
+
+namespace {
+
+constexpr const char* gray = "#8b9098";
+constexpr double row_height = 11;  // px, of labels
+
+void draw_arm(SvgWriter& svg, const Vec2& from, const Vec2& to, bool ends) {
+  svg.leaf("path", {{"class", "handle"},
+                    {"d", "M" + px(from.x()) + " " + px(from.y()) + "L" + px(to.x()) + " " + px(to.y())},
+                    {"stroke", gray}});
+  if (ends) svg.leaf("circle", {{"cx", px(to.x())}, {"cy", px(to.y())}, {"r", "2"}, {"fill", gray}});
+}
+
+/// How much of the way from `place` by `way` stays within the frame, 0 to 1.
+double share_within(const Panel& panel, const Vec2& place, const Vec2& way) {
+  double share = 1;
+  const auto limit = [&](double from, double step, double low, double high) {
+    if (step > 0) share = std::min(share, (high - from) / step);
+    if (step < 0) share = std::min(share, (low - from) / step);
+  };
+  limit(place.x(), way.x(), panel.time.from, panel.time.to);
+  limit(place.y(), way.y(), panel.value.to, panel.value.from);
+  return std::max(0.0, share);
+}
+
+void draw_handles(SvgWriter& svg, const Panel& panel, const PlottedKey& key, std::size_t component) {
+  const double across = (panel.time.to - panel.time.from) / (panel.time.high - panel.time.low);
+  const double up = (panel.value.to - panel.value.from) / (panel.value.high - panel.value.low);
+  for (const PlottedHandle& handle : key.handles) {
+    if (handle.component != component) continue;
+    const TrackPoint& side = handle.time < 0 ? key.in : key.out;
+    const Vec2 place(panel.time.place(key.time), panel.value.place(side.values[component]));
+    const Vec2 way(across * handle.time, up * handle.change);
+    const double share = share_within(panel, place, way);
+    draw_arm(svg, place, place + share * way, share == 1);
+  }
+}
+
+/// For curves whose keys have no handles but slopes.
+void draw_slopes(SvgWriter& svg, const Panel& panel, const PlottedKey& key, std::size_t component) {
+  constexpr double length = 14;  // px
+  const double across = (panel.time.to - panel.time.from) / (panel.time.high - panel.time.low);
+  const double up = (panel.value.to - panel.value.from) / (panel.value.high - panel.value.low);
+  for (const bool arrives : {true, false}) {
+    const TrackPoint& side = arrives ? key.in : key.out;
+    if ((arrives ? key.first : key.last) || component >= side.rates.size()) continue;
+    const Vec2 place(panel.time.place(key.time), panel.value.place(side.values[component]));
+    const Vec2 way(across, up * side.rates[component]);
+    const Vec2 tip = way * ((arrives ? -length : length) / way.norm());
+    svg.leaf("path", {{"class", "slope"},
+                      {"d", "M" + px(place.x()) + " " + px(place.y()) + "l" + px(tip.x()) + " " + px(tip.y())},
+                      {"stroke", gray}});
+  }
+}
+
+}  // namespace
+
+void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
+  // Keys closer than their marks are wide are marked small.
+  const double room = (panel.time.to - panel.time.from) / static_cast<double>(plotted.keys.size() + 1);
+  const bool is_close = room < 9;
+  const bool has_handles =
+      std::any_of(plotted.keys.begin(), plotted.keys.end(), [](const PlottedKey& key) { return !key.handles.empty(); });
+  const bool rotates = std::holds_alternative<Curve<Quat>>(plotted.track->curve);
+  for (const PlottedKey& key : plotted.keys) {
+    for (std::size_t i = 0; i < panel.names.size() && i < key.out.values.size(); ++i) {
+      if (!is_close) {
+        if (has_handles)
+          draw_handles(svg, panel, key, i);
+        else if (!rotates || panel.names.size() == 1)
+          draw_slopes(svg, panel, key, i);
+      }
+      const double x = panel.time.place(key.time), y = panel.value.place(key.out.values[i]);
+      const std::string half = is_close ? "1.8" : "3.5";
+      svg.leaf("path", {{"class", "key"},
+                        {"d", "M" + px(x) + " " + px(y - (is_close ? 1.8 : 3.5)) + "l" + half + " " + half + "l-" +
+                                  half + " " + half + "l-" + half + " -" + half + "Z"},
+                        {"fill", component_color(panel.names[i])}});
+    }
+  }
+}
+
+void draw_moments(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
+  for (const PlottedMoment& moment : plotted.moments)
+    svg.leaf("path",
+             {{"class", moment.handoff ? "handoff" : "event"},
+              {"d", "M" + px(panel.time.place(moment.time)) + " " + px(panel.value.from) + "V" + px(panel.value.to)},
+              {"stroke", moment.handoff ? "#d97a00" : gray},
+              {"stroke-width", moment.handoff ? "1.8" : "1"},
+              {"stroke-dasharray", moment.handoff ? "none" : "2 3"}});
+}
+
+void draw_moment_names(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
+  const auto rows = static_cast<std::size_t>((panel.value.from - panel.value.to) / 2 / row_height);
+  LabelRows above(panel.time.from, panel.time.to, rows), below(panel.time.from, panel.time.to, rows);
+  for (const PlottedMoment& moment : plotted.moments) {
+    const std::string name = shortened(moment.name, panel.time.to - panel.time.from - 8);
+    const LabelRows::Place place = (moment.handoff ? above : below).place(panel.time.place(moment.time), name);
+    const double down = row_height * static_cast<double>(place.row);
+    // A rim of the ground's color, so that curves do not run through the letters.
+    svg.text("text",
+             {{"x", px(place.x)},
+              {"y", px(moment.handoff ? panel.value.to + 12 + down : panel.value.from - 5 - down)},
+              {"font-size", "10"},
+              {"fill", moment.handoff ? "#a85f00" : "#6d7178"},
+              {"stroke", "#ffffff"},
+              {"stroke-width", "3"},
+              {"paint-order", "stroke"}},
+             name);
+  }
+}
+
+void draw_texts(SvgWriter& svg, const Panel& panel, const StepCurve<std::string>& curve) {
+  LabelRows rows(panel.time.from, panel.time.to,
+                 static_cast<std::size_t>((panel.value.from - panel.value.to - 20) / row_height));
+  for (const auto& [time, text] : curve.steps()) {
+    if (time < panel.time.low || time > panel.time.high) continue;
+    const double x = panel.time.place(time);
+    svg.leaf("path", {{"class", "key"},
+                      {"d", "M" + px(x) + " " + px(panel.value.from) + "V" + px(panel.value.to)},
+                      {"stroke", "#dddcd8"}});
+    const std::string shown = shortened(text, (panel.time.to - panel.time.from) / 2);
+    const LabelRows::Place place = rows.place(x, shown);
+    svg.text("text",
+             {{"x", px(place.x)},
+              {"y", px(panel.value.to + 16 + row_height * static_cast<double>(place.row))},
+              {"font-size", "10"},
+              {"fill", "#23262b"}},
+             shown);
+  }
+}
+
+void draw_colors(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
+  std::string before;
+  double from = panel.time.from;
+  const auto strip = [&](double to) {
+    if (!before.empty() && to > from)
+      svg.leaf("rect", {{"class", "color"},
+                        {"x", px(from)},
+                        {"y", px(panel.value.to + 1)},
+                        {"width", px(to - from)},
+                        {"height", "8"},
+                        {"fill", before},
+                        {"shape-rendering", "crispEdges"}});
+    from = to;
+  };
+  for (const TrackPoint& point : plotted.curve) {
+    const Vec4 parts = to_space(Color{{point.values[0], point.values[1], point.values[2], 1}}, ColorSpace::srgb)
+                           .cwiseMax(0)
+                           .cwiseMin(1);
+    std::string color = "#";
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      const int byte = static_cast<int>(std::floor(parts[i] * 255 + 0.5));
+      color += "0123456789abcdef"[byte / 16];
+      color += "0123456789abcdef"[byte % 16];
+    }
+    const double x = panel.time.place(point.time);
+    // A strip of three pixels' width is as fine as eyes see here; jumps stand where they are.
+    if (color == before || (!before.empty() && x < from + 3 && !point.starts)) continue;
+    strip(x);
+    before = color;
+  }
+  strip(panel.time.to);
+}
+
+void draw_legend(SvgWriter& svg, const PlottedStage& plotted, double x, double y) {
+  const auto any = [&](auto has) { return std::any_of(plotted.tracks.begin(), plotted.tracks.end(), has); };
+  const auto any_key = [&](auto has) {
+    return any([&](const PlottedTrack& track) { return std::any_of(track.keys.begin(), track.keys.end(), has); });
+  };
+  const auto any_moment = [&](bool handoff) {
+    return any([&](const PlottedTrack& track) {
+      return std::any_of(track.moments.begin(), track.moments.end(),
+                         [&](const PlottedMoment& moment) { return moment.handoff == handoff; });
+    });
+  };
+  const auto line = [&](const std::string& path, const char* color, const char* width, const char* dashes) {
+    svg.leaf("path", {{"d", path}, {"stroke", color}, {"stroke-width", width}, {"stroke-dasharray", dashes}});
+  };
+  const auto name = [&](const std::string& text, double after) {
+    svg.text("text", {{"x", px(x + after)}, {"y", px(y)}, {"font-size", "10"}, {"fill", "#6d7178"}}, text);
+    x += after + text_width(text) + 14;
+  };
+  const std::string flat = "M" + px(x) + " " + px(y - 3.5) + "h16";
+  line(flat, "#23262b", "1.8", "none");
+  name("curve", 20);
+  if (any_key([](const PlottedKey&) { return true; })) {
+    svg.leaf("path", {{"d", "M" + px(x + 4) + " " + px(y - 7) + "l3.5 3.5l-3.5 3.5l-3.5 -3.5Z"}, {"fill", "#23262b"}});
+    name("key", 11);
+  }
+  if (any_key([](const PlottedKey& key) { return !key.handles.empty(); })) {
+    line("M" + px(x) + " " + px(y - 3.5) + "h14", gray, "1", "none");
+    svg.leaf("circle", {{"cx", px(x + 14)}, {"cy", px(y - 3.5)}, {"r", "2"}, {"fill", gray}});
+    name("handle", 20);
+  }
+  if (any([&](const PlottedTrack& track) {
+        return track.first_key > plotted.from || track.last_key < plotted.until;
+      })) {
+    svg.leaf("rect", {{"x", px(x)},
+                      {"y", px(y - 9)},
+                      {"width", "14"},
+                      {"height", "11"},
+                      {"fill", "#eeeeea"},
+                      {"stroke", "#dddcd8"}});
+    name("beyond the keys", 18);
+  }
+  if (any([](const PlottedTrack& track) { return !track.simulated.empty(); })) {
+    line("M" + px(x) + " " + px(y - 3.5) + "h16", "#23262b", "1.4", "5 3");
+    name("simulated", 20);
+  }
+  if (any_moment(false)) {
+    line("M" + px(x + 3) + " " + px(y - 9) + "v11", gray, "1", "2 3");
+    name("event", 9);
+  }
+  if (any_moment(true)) {
+    line("M" + px(x + 3) + " " + px(y - 9) + "v11", "#d97a00", "1.8", "none");
+    name("hand-off", 9);
+  }
+}
+
+}  // namespace tweenfall
