@@ -12,14 +12,6 @@
 namespace tweenfall {
 namespace {
 
-double size_of(double v) noexcept {
-  return std::abs(v);
-}
-template <class V>
-double size_of(const V& v) noexcept {
-  return std::sqrt(v.squaredNorm());
-}
-
 template <class V>
 double product(const V& a, const V& b) noexcept {
   if constexpr (std::is_same_v<V, double>)
@@ -28,14 +20,23 @@ double product(const V& a, const V& b) noexcept {
     return a.dot(b);
 }
 
+// Where a quintic stands for the curve, the curve's own rate tells its speed better, except next to an infinite rate,
+// where that is limited.
 template <class V>
-double speed(const CurvePiece<V>& piece, double s) noexcept {
-  return size_of(evaluate_polynomial(piece.c.data(), piece.degree, s).first);
+struct PathPiece : CurvePiece<V> {
+  bool has_own_rate = false;
+};
+
+// By the piece's own variable.
+template <class V>
+double speed(const Curve<V>& path, const PathPiece<V>& piece, double s) noexcept {
+  if (piece.has_own_rate) return (piece.to - piece.from) * length_of(path.rate(piece.time_at(s)));
+  return length_of(evaluate_polynomial(piece.c.data(), piece.degree, s).first);
 }
 
 // Source: Abramowitz and Stegun, "Handbook of Mathematical Functions", table 25.4, n = 16.
 template <class V>
-double gauss(const CurvePiece<V>& piece, double from, double to) noexcept {
+double gauss(const Curve<V>& path, const PathPiece<V>& piece, double from, double to) noexcept {
   constexpr double nodes[8] = {0.0950125098376374402, 0.2816035507792589132, 0.4580167776572273863,
                                0.6178762444026437484, 0.7554044083550030339, 0.8656312023878317439,
                                0.9445750230732325761, 0.9894009349916499326};
@@ -45,8 +46,23 @@ double gauss(const CurvePiece<V>& piece, double from, double to) noexcept {
   const double middle = 0.5 * (from + to), half = 0.5 * (to - from);
   double sum = 0;
   for (int i = 0; i < 8; ++i)
-    sum += weights[i] * (speed(piece, middle - half * nodes[i]) + speed(piece, middle + half * nodes[i]));
+    sum += weights[i] * (speed(path, piece, middle - half * nodes[i]) + speed(path, piece, middle + half * nodes[i]));
   return half * sum;
+}
+
+template <class V>
+std::vector<PathPiece<V>> path_pieces(const Curve<V>& path, double from, double to) {
+  std::vector<PathPiece<V>> result;
+  for (const CurvePiece<V>& piece : curve_pieces(path, from, to)) {
+    PathPiece<V> own{piece, !piece.exact()};
+    const PathPiece<V> plain{piece, false};
+    if (own.has_own_rate) {
+      const double length = gauss(path, plain, 0, 1);
+      own.has_own_rate = std::abs(gauss(path, own, 0, 1) - length) <= 1e-10 * length + 10 * piece.error;
+    }
+    result.push_back(own);
+  }
+  return result;
 }
 
 // Part of a piece on which Gauss's rule is good for every beginning of it.
@@ -59,15 +75,16 @@ struct Stretch {
 template <class V>
 class Measure {
  public:
-  Measure(const std::vector<CurvePiece<V>>& pieces, std::vector<Stretch>& result) : pieces_(pieces), result_(result) {
-    for (const CurvePiece<V>& piece : pieces) tolerance_ += 1e-13 * gauss(piece, 0, 1);
+  Measure(const Curve<V>& path, const std::vector<PathPiece<V>>& pieces, std::vector<Stretch>& result)
+      : path_(path), pieces_(pieces), result_(result) {
+    for (const PathPiece<V>& piece : pieces) tolerance_ += 1e-13 * gauss(path, piece, 0, 1);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       double from = 0;
       for (const double s : least_speeds(pieces[i])) {
-        add(i, from, s, gauss(pieces[i], from, s), 0);
+        add(i, from, s, gauss(path, pieces[i], from, s), 0);
         from = s;
       }
-      add(i, from, 1, gauss(pieces[i], from, 1), 0);
+      add(i, from, 1, gauss(path, pieces[i], from, 1), 0);
     }
   }
 
@@ -86,7 +103,7 @@ class Measure {
 
   void add(std::size_t i, double from, double to, double whole, int depth) {
     const double middle = 0.5 * (from + to);
-    const double first = gauss(pieces_[i], from, middle), second = gauss(pieces_[i], middle, to);
+    const double first = gauss(path_, pieces_[i], from, middle), second = gauss(path_, pieces_[i], middle, to);
     if (std::abs(first + second - whole) <= tolerance_ || depth == 40) {
       result_.push_back({i, from, to, total_, first + second});
       total_ += first + second;
@@ -96,7 +113,8 @@ class Measure {
     add(i, middle, to, second, depth + 1);
   }
 
-  const std::vector<CurvePiece<V>>& pieces_;
+  const Curve<V>& path_;
+  const std::vector<PathPiece<V>>& pieces_;
   std::vector<Stretch>& result_;
   double tolerance_ = 0, total_ = 0;
 };
@@ -106,7 +124,7 @@ class Measure {
 template <class T>
 struct MeasuredPath<T>::Data {
   Curve<T> path;
-  std::vector<CurvePiece<T>> pieces;
+  std::vector<PathPiece<T>> pieces;
   std::vector<Stretch> stretches;
 
   [[nodiscard]] double length() const noexcept {
@@ -115,15 +133,15 @@ struct MeasuredPath<T>::Data {
 
   // Position within a stretch at which `rest` of it is done.
   [[nodiscard]] double position(const Stretch& stretch, double rest) const noexcept {
-    const CurvePiece<T>& piece = pieces[stretch.piece];
+    const PathPiece<T>& piece = pieces[stretch.piece];
     if (!(rest > 0)) return stretch.from;
     if (!(rest < stretch.length)) return stretch.to;
     double low = stretch.from, high = stretch.to, s = low + (high - low) * (rest / stretch.length);
     for (int i = 0; i < 100; ++i) {
-      const double error = gauss(piece, stretch.from, s) - rest;
+      const double error = gauss(path, piece, stretch.from, s) - rest;
       if (error == 0) break;
       (error < 0 ? low : high) = s;
-      double next = s - error / speed(piece, s);
+      double next = s - error / speed(path, piece, s);
       if (!(next > low && next < high)) next = 0.5 * (low + high);
       if (next <= low || next >= high || std::abs(next - s) <= 1e-16 * std::abs(s)) break;
       s = next;
@@ -143,8 +161,8 @@ struct MeasuredPath<T>::Data {
 template <class T>
 MeasuredPath<T>::MeasuredPath(const Curve<T>& path) {
   check_times(path.start(), path.end());
-  auto data = std::make_shared<Data>(Data{path, curve_pieces(path, path.start(), path.end()), {}});
-  Measure<T>(data->pieces, data->stretches);
+  auto data = std::make_shared<Data>(Data{path, path_pieces(path, path.start(), path.end()), {}});
+  Measure<T>(path, data->pieces, data->stretches);
   data_ = std::move(data);
 }
 
@@ -159,14 +177,14 @@ double MeasuredPath<T>::length_at(double time) const noexcept {
   if (d.stretches.empty() || time <= d.path.start()) return 0;
   if (time >= d.path.end()) return d.length();
   const auto after = std::upper_bound(d.pieces.begin(), d.pieces.end(), time,
-                                      [](double t, const CurvePiece<T>& piece) { return t < piece.from; });
+                                      [](double t, const PathPiece<T>& piece) { return t < piece.from; });
   const std::size_t i = static_cast<std::size_t>(after - d.pieces.begin()) - 1;
   const double s = d.pieces[i].position_at(time);
   const auto next = std::partition_point(d.stretches.begin(), d.stretches.end(), [&](const Stretch& stretch) {
     return stretch.piece < i || (stretch.piece == i && stretch.from <= s);
   });
   const Stretch& stretch = *(next - 1);
-  return stretch.before + gauss(d.pieces[i], stretch.from, s);
+  return stretch.before + gauss(d.path, d.pieces[i], stretch.from, s);
 }
 
 template <class T>
@@ -184,11 +202,18 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
   if (d.stretches.empty()) return {d.path.value(d.path.start()), zero<T>(), zero<T>()};
   const double length = std::clamp(length_from_start, 0.0, d.length());
   const Stretch& stretch = d.stretch_at(length, side);
-  const CurvePiece<T>& piece = d.pieces[stretch.piece];
+  const PathPiece<T>& piece = d.pieces[stretch.piece];
   const double s = d.position(stretch, length - stretch.before);
-  const Polynomial<T> p = evaluate_polynomial(piece.c.data(), piece.degree, s);
   const double time = piece.time_at(s);
-  const T value = s > 0 && s < 1 && piece.exact() ? p.value : d.path.value(time, s < 1 ? Side::out : Side::in);
+  Polynomial<T> p;
+  if (piece.exact()) {
+    p = evaluate_polynomial(piece.c.data(), piece.degree, s);
+  } else {
+    // By length all parameters are alike.
+    const Sample<T> own = d.path.sample(time, s < 1 ? Side::out : Side::in);
+    p = {own.value, own.rate, own.acceleration};
+  }
+  const T value = s > 0 && s < 1 ? p.value : d.path.value(time, s < 1 ? Side::out : Side::in);
   const double square = product(p.first, p.first), bend = product(p.second, p.second);
   if (square > 1e-24 * bend && square > 0) {
     const double pace = std::sqrt(square);
@@ -202,9 +227,9 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
 template <class T>
 double arc_length(const Curve<T>& curve, double from, double to) {
   if (to < from) return -arc_length(curve, to, from);
-  const std::vector<CurvePiece<T>> pieces = curve_pieces(curve, from, to);
+  const std::vector<PathPiece<T>> pieces = path_pieces(curve, from, to);
   std::vector<Stretch> stretches;
-  Measure<T>(pieces, stretches);
+  Measure<T>(curve, pieces, stretches);
   return stretches.empty() ? 0 : stretches.back().before + stretches.back().length;
 }
 

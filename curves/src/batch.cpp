@@ -21,8 +21,8 @@ void check_size(std::size_t given, std::size_t wanted, const char* what) {
 
 template <class Data>
 bool is_plain(const Data& data) {
-  return !data.segments.empty() && data.warps.empty() && data.before.rule == Outside::hold &&
-         data.after.rule == Outside::hold &&
+  return !data.segments.empty() && data.warps.empty() && data.before.rule.rule == Outside::hold &&
+         data.after.rule.rule == Outside::hold &&
          std::all_of(data.segments.begin(), data.segments.end(), [](const Segment& s) { return s.degree <= 3; });
 }
 
@@ -39,32 +39,32 @@ CurveBatch::CurveBatch(std::span<const Curve<double>> curves) {
     starts_.push_back(start);
     cubics_.push_back(cubic);
   };
+  double seconds = 0, spans = 0;
   for (const Curve<double>& curve : curves) {
     const auto& data = CurveAccess::data(curve);
-    Track track{};
-    track.first = static_cast<std::uint32_t>(starts_.size());
-    track.start = track.end = infinity;
+    Track track{static_cast<std::uint32_t>(starts_.size()), 0, infinity, infinity, 0};
     if (is_plain(data)) {
-      track.start = data.start;
-      track.end = data.end;
-      track.bucket = static_cast<std::uint32_t>(buckets_.size());
-      track.buckets = static_cast<std::uint32_t>(data.buckets.size());
-      track.bucket_scale = data.bucket_scale;
-      buckets_.insert(buckets_.end(), data.buckets.begin(), data.buckets.end());
-      add(-infinity, {curve.value(data.start), 0, 0, 0});
+      add(-infinity, {curve.value(data.start, Side::in), 0, 0, 0});
       for (const Segment& segment : data.segments) {
         double c[4]{};
         std::copy_n(&data.pool[segment.first], segment.degree + 1, c);
         add(segment.start, {c[0], c[1], c[2], c[3]});
       }
       add(data.end, {curve.value(data.end), 0, 0, 0});
+      track.start = data.start;
+      track.end = data.end;
+      track.spans_per_second = static_cast<double>(data.segments.size()) / (data.end - data.start);
+      seconds += data.end - data.start;
+      spans += static_cast<double>(data.segments.size());
     } else {
       apart_.push_back({tracks_.size(), curve});
       add(-infinity, {0, 0, 0, 0});
     }
     track.last = static_cast<std::uint32_t>(starts_.size()) - 1;
+    add(infinity, {0, 0, 0, 0});
     tracks_.push_back(track);
   }
+  if (spans > 0) stride_ = seconds / spans;
   place_.resize(size());
   stale_.resize(size());
   for (std::vector<double>* column : {&start_, &end_, &inverse_, &c0_, &c1_, &c2_, &c3_}) column->resize(size());
@@ -74,42 +74,52 @@ CurveBatch::CurveBatch(std::span<const Curve<double>> curves) {
   }
 }
 
-// The stretch of curve `i` that holds `time`.
-std::uint32_t CurveBatch::locate(std::size_t i, double time) const noexcept {
-  const Track& track = tracks_[i];
-  // Mostly the next one.
-  if (time >= end_[i] && time - end_[i] < end_[i] - start_[i] &&
-      (place_[i] + 1 == track.last || time < starts_[place_[i] + 2]))
-    return place_[i] + 1;
+// The stretch that would hold `time` if all spans were as long.
+std::uint32_t CurveBatch::guess(const Track& track, double time) const noexcept {
+  if (!(time >= track.start)) return track.first;
   if (time >= track.end) return track.last;
-  if (time < track.start) return track.first;
-  std::uint32_t low = track.first + 1, high = track.last - 1;
-  if (track.buckets > 1) {
-    // The buckets tell how many knots lie before a share of the duration: mostly all, or all but one, of those wanted.
-    const double b = (time - track.start) * track.bucket_scale;
-    const std::uint32_t top = track.buckets - 2;
-    const std::uint32_t bucket = track.bucket + (b < top ? static_cast<std::uint32_t>(b) : top);
-    low = track.first + buckets_[bucket];
-    high = track.first + buckets_[bucket + 1];
-  }
-  while (high - low > 1) {
-    const std::uint32_t middle = (low + high) / 2;
-    (starts_[middle] <= time ? low : high) = middle;
-  }
-  // No branch, as the answer is hard to foresee.
-  return low + static_cast<std::uint32_t>((high != low) & (starts_[high] <= time));
+  const double spans = (time - track.start) * track.spans_per_second;
+  const std::uint32_t most = track.last - track.first - 2;
+  return track.first + 1 + (spans < most ? static_cast<std::uint32_t>(spans) : most);
+}
+
+// The stretch that holds `time`.
+std::uint32_t CurveBatch::locate(const Track& track, std::uint32_t guess, double time) const noexcept {
+  // Mostly the one guessed or one beside it; which one is hard to foresee, so it is counted without a branch.
+  if (guess > track.first && guess < track.last && starts_[guess - 1] <= time &&
+      (guess + 2 > track.last || time < starts_[guess + 2]))
+    return guess - 1 + static_cast<std::uint32_t>(starts_[guess] <= time) +
+           static_cast<std::uint32_t>(starts_[guess + 1] <= time);
+  const auto first = starts_.begin() + track.first, last = starts_.begin() + track.last + 1;
+  return track.first + static_cast<std::uint32_t>(std::upper_bound(first, last, time) - first) - 1;
 }
 
 void CurveBatch::remember(std::size_t i) noexcept {
   const std::uint32_t place = place_[i];
-  start_[i] = starts_[place];
-  end_[i] = place < tracks_[i].last ? starts_[place + 1] : infinity;
-  inverse_[i] = 1 / (end_[i] - start_[i]);
   const Cubic& cubic = cubics_[place];
+  __builtin_prefetch(&cubic + 2);  // played on, the next stretches are wanted soon
+  start_[i] = starts_[place];
+  end_[i] = starts_[place + 1];
+  inverse_[i] = 1 / (end_[i] - start_[i]);
   c0_[i] = cubic.c0;
   c1_[i] = cubic.c1;
   c2_[i] = cubic.c2;
   c3_[i] = cubic.c3;
+}
+
+// For the first `count` of stale_. In rounds, so that what all of them need is on its way from memory at once.
+void CurveBatch::seek(std::size_t count, double time) noexcept {
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t i = stale_[k];
+    place_[i] = guess(tracks_[i], time);
+    __builtin_prefetch(&starts_[place_[i]]);
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t i = stale_[k];
+    place_[i] = locate(tracks_[i], place_[i], time);
+    __builtin_prefetch(&cubics_[place_[i]]);
+  }
+  for (std::size_t k = 0; k < count; ++k) remember(stale_[k]);
 }
 
 void CurveBatch::sample(double time, std::span<double> values, std::span<double> rates) {
@@ -123,13 +133,26 @@ void CurveBatch::sample(double time, std::span<double> values, std::span<double>
     stale_[changed] = static_cast<std::uint32_t>(i);
     changed += static_cast<std::size_t>(!((time >= start_[i]) & (time < end_[i])));
   }
-  // In two rounds, so that the cubics of all are on their way from memory at once.
-  for (std::size_t k = 0; k < changed; ++k) {
-    const std::uint32_t place = locate(stale_[k], time);
-    __builtin_prefetch(&cubics_[place]);
-    place_[stale_[k]] = place;
+  if (time > time_ && time - time_ < stride_) {
+    // Mostly the next stretch holds the time.
+    for (std::size_t k = 0; k < changed; ++k) {
+      __builtin_prefetch(&starts_[place_[stale_[k]] + 2]);
+      __builtin_prefetch(&cubics_[place_[stale_[k]] + 1]);
+    }
+    std::size_t far = 0;
+    for (std::size_t k = 0; k < changed; ++k) {
+      const std::uint32_t i = stale_[k];
+      if (time < starts_[place_[i] + 2]) {
+        ++place_[i];
+        remember(i);
+      } else {
+        stale_[far++] = i;
+      }
+    }
+    changed = far;
   }
-  for (std::size_t k = 0; k < changed; ++k) remember(stale_[k]);
+  seek(changed, time);
+  time_ = time;
 
   const double *start = start_.data(), *inverse = inverse_.data();
   const double *c0 = c0_.data(), *c1 = c1_.data(), *c2 = c2_.data(), *c3 = c3_.data();

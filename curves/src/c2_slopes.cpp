@@ -1,34 +1,9 @@
 #include "c2_slopes.h"
 
+#include "tridiagonal.h"
+
 namespace tweenfall {
 namespace {
-
-// Rows of a tridiagonal system with `columns` right-hand sides, which become the solutions.
-class Tridiagonal {
- public:
-  Tridiagonal(std::size_t rows, std::size_t columns)
-      : lower(rows), diagonal(rows), upper(rows), right(rows * columns), columns_(columns) {}
-
-  // Thomas' algorithm: no pivoting is needed, for no row of these systems gets a small diagonal.
-  void solve() {
-    const std::size_t n = diagonal.size();
-    for (std::size_t i = 1; i < n; ++i) {
-      const double f = lower[i] / diagonal[i - 1];
-      diagonal[i] -= f * upper[i - 1];
-      for (std::size_t c = 0; c < columns_; ++c) at(i, c) -= f * at(i - 1, c);
-    }
-    for (std::size_t c = 0; c < columns_; ++c) at(n - 1, c) /= diagonal[n - 1];
-    for (std::size_t i = n - 1; i-- > 0;)
-      for (std::size_t c = 0; c < columns_; ++c) at(i, c) = (at(i, c) - upper[i] * at(i + 1, c)) / diagonal[i];
-  }
-
-  double& at(std::size_t row, std::size_t column) { return right[row * columns_ + column]; }
-
-  std::vector<double> lower, diagonal, upper, right;
-
- private:
-  std::size_t columns_;
-};
 
 // h1 m[k-1] + 2 (h0 + h1) m[k] + h0 m[k+1] = 3 (h1 d0 + h0 d1), divided by h0 + h1, for the key between spans a and b.
 void fill_inner_row(Tridiagonal& rows, std::size_t row, const SlopeProblem& p, std::size_t a, std::size_t b) {
@@ -109,24 +84,12 @@ void solve_c2_periodic(const SlopeProblem& p) {
     for (std::size_t c = 0; c < d; ++c) p.leaving[p.first * d + c] = p.arriving[p.first * d + c] = p.secant(p.first, c);
     return;
   }
-  // The two corner entries by Sherman and Morrison: A = B + u v^T with u = (g, 0, ..., low), v = (1, 0, ..., high / g);
-  // the column after the components solves for u.
-  Tridiagonal rows(spans, d + 1);
+  Tridiagonal rows(spans, d);
   for (std::size_t k = 0; k < spans; ++k) {
     const std::size_t a = p.first + (k > 0 ? k - 1 : spans - 1);
     fill_inner_row(rows, k, p, a, p.first + k);
   }
-  const double g = -rows.diagonal[0], low = rows.upper[spans - 1], high = rows.lower[0];
-  rows.diagonal[0] -= g;
-  rows.diagonal[spans - 1] -= low * high / g;
-  rows.at(0, d) = g;
-  rows.at(spans - 1, d) += low;
-  rows.solve();
-  const double ratio = high / g, scale = 1 + rows.at(0, d) + ratio * rows.at(spans - 1, d);
-  for (std::size_t c = 0; c < d; ++c) {
-    const double f = (rows.at(0, c) + ratio * rows.at(spans - 1, c)) / scale;
-    for (std::size_t k = 0; k < spans; ++k) rows.at(k, c) -= f * rows.at(k, d);
-  }
+  rows.solve_cyclic();
   store(p, rows, true);
 }
 

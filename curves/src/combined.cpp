@@ -4,19 +4,24 @@
 #include <limits>
 #include <stdexcept>
 
-#include "components.h"
+#include "curve_data.h"
 
 namespace tweenfall {
 namespace {
 
-// The extent and the rules outside that all parts share; where they differ the sum is endless, and each part goes on by
-// its own rule. Constants have no say.
+// The extent and the rules outside that all parts share; where they differ, or a slope is stated, the sum is endless,
+// and each part goes on by its own rule. Constants have no say.
 struct Extent {
   double start = -std::numeric_limits<double>::infinity(), end = -start;
   Outside before = Outside::hold, after = Outside::hold;
+  double plays_before = 0, plays_after = 0;
 
   bool operator==(const Extent&) const = default;
 };
+
+bool states_slope(const CurveEnd<double>& end) noexcept {
+  return end.rule.rule == Outside::linear && end.straight();
+}
 
 template <class Curves>
 Extent shared_extent(const Curves& parts) {
@@ -24,8 +29,9 @@ Extent shared_extent(const Curves& parts) {
   bool any = false;
   for (const Curve<double>& part : parts) {
     if (part.start() == part.end()) continue;
-    const Extent own{part.start(), part.end(), part.before(), part.after()};
-    if (any && !(own == shared)) return {};
+    const CurveEnd<double>&before = CurveAccess::data(part).before, &after = CurveAccess::data(part).after;
+    const Extent own{part.start(), part.end(), before.rule.rule, after.rule.rule, before.rule.plays, after.rule.plays};
+    if ((any && !(own == shared)) || states_slope(before) || states_slope(after)) return {};
     shared = own;
     any = true;
   }
@@ -34,7 +40,8 @@ Extent shared_extent(const Curves& parts) {
 
 template <class T>
 Curve<T> made(typename Curve<T>::Formula formula, const Extent& extent) {
-  return Curve<T>(std::move(formula), extent.start, extent.end).with_outside(extent.before, extent.after);
+  return Curve<T>(std::move(formula), extent.start, extent.end)
+      .with_outside({extent.before, {}, extent.plays_before}, {extent.after, {}, extent.plays_after});
 }
 
 template <class T, std::size_t size>

@@ -119,36 +119,34 @@ Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
 // What arrives at the first knot, or leaves the last.
 template <class T, class Data>
 T end_value(const Data& d, bool early) noexcept {
-  const std::vector<T>& own = early ? d.initial : d.final;
-  if (!own.empty()) return own[0];
+  const std::optional<T>& own = early ? d.before.value : d.after.value;
+  if (own) return *own;
   const double end = early ? d.start : d.end;
-  const Side side = early ? Side::out : Side::in;
-  return d.rebuilt ? d.formula(end, side).value : sample_inside<T>(d, end, side).value;
+  if (d.rebuilt) return d.formula(end, early ? Side::in : Side::out).value;
+  return sample_inside<T>(d, end, early ? Side::out : Side::in).value;
 }
 
 // Outside the knots, by rules that go on for ever.
 template <class T, class Data>
 Sample<T> sample_endless(const Data& d, double time, Side side) noexcept {
-  if (d.rebuilt) return d.formula(time, side);
   const bool early = time < d.start || (time == d.start && side == Side::in);
-  return sample_outside<T>(
-      early ? d.before.rule : d.after.rule, d.start, d.end, time, side,
-      [&d](double t, Side s) { return sample_inside<T>(d, t, s); },
-      [&d](bool first) { return end_value<T>(d, first); });
+  return sample_outside<T>((early ? d.before : d.after).rule.rule, d.start, d.end, time, side,
+                           [&d](double t, Side s) { return sample_inside<T>(d, t, s); },
+                           [&d](bool first) { return end_value<T>(d, first); });
 }
 
 }  // namespace
 
 template <class T>
-Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final,
-                                 const T* initial) {
+Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const CurveEnd<T>& before,
+                                 const CurveEnd<T>& after) {
   check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
   d.start = spans.front().start;
   d.end = end;
-  if (final) d.final.push_back(*final);
-  if (initial) d.initial.push_back(*initial);
+  d.before = before;
+  d.after = after;
   if (!std::isfinite(end - d.start))
     throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
   d.knots.reserve(spans.size() + 1);
@@ -198,6 +196,11 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
 }
 
 template <class T>
+T CurveAccess::end_value(const Curve<T>& curve, bool early) noexcept {
+  return tweenfall::end_value<T>(*curve.data_, early);
+}
+
+template <class T>
 Curve<T>::Curve(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
 template <class T>
@@ -238,9 +241,10 @@ Curve<T> Curve<T>::with_outside(const OutsideRule<T>& before, const OutsideRule<
     if (!(rule->plays >= 0) || !std::isfinite(rule->plays))
       throw std::invalid_argument("the plays outside a curve must be >= 0; they are " + text_of(rule->plays));
   }
-  auto data = std::make_shared<Data>(data_->rebuilt ? *data_->rebuilt(before.rule, after.rule).data_ : *data_);
-  data->before = before;
-  data->after = after;
+  if (data_->rebuilt) return data_->rebuilt(before, after);
+  auto data = std::make_shared<Data>(*data_);
+  data->before.rule = before;
+  data->after.rule = after;
   return Curve(std::shared_ptr<const Data>(std::move(data)));
 }
 
@@ -256,22 +260,22 @@ double Curve<T>::end() const noexcept {
 
 template <class T>
 Outside Curve<T>::before() const noexcept {
-  return data_->before.rule;
+  return data_->before.rule.rule;
 }
 
 template <class T>
 Outside Curve<T>::after() const noexcept {
-  return data_->after.rule;
+  return data_->after.rule.rule;
 }
 
 template <class T>
 const OutsideRule<T>& Curve<T>::rule_before() const noexcept {
-  return data_->before;
+  return data_->before.rule;
 }
 
 template <class T>
 const OutsideRule<T>& Curve<T>::rule_after() const noexcept {
-  return data_->after;
+  return data_->after.rule;
 }
 
 template <class T>
@@ -286,20 +290,14 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
       (time < d.end || (time == d.end && side == Side::in)))
     return d.rebuilt ? d.formula(time, side) : sample_inside<T>(d, time, side);
   const bool early = time < d.start || (time == d.start && side == Side::in);
-  const OutsideRule<T>& rule = early ? d.before : d.after;
-  if (rule.rule == Outside::linear) {
-    const std::optional<Rate<T>>& slope = rule.slope ? rule.slope : early ? d.end_slopes.before : d.end_slopes.after;
-    if (slope) {
-      const double end = early ? d.start : d.end;
-      return straight_on(Sample<T>{end_value<T>(d, early), *slope, zero_rate<Rate<T>>()}, time - end);
-    }
-  } else if (rule.rule != Outside::hold && rule.plays > 0) {
-    const double beyond = rule.plays * (d.end - d.start);
-    const double last = early ? d.start - beyond : d.end + beyond;
-    const bool over =
-        early ? time < last || (time == last && side == Side::in) : time > last || (time == last && side == Side::out);
-    if (over) return at_rest<T>(sample_endless<T>(d, last, early ? Side::out : Side::in).value);
-  }
+  const CurveEnd<T>& beyond = early ? d.before : d.after;
+  if (const std::optional<Rate<T>>& slope = beyond.straight(); slope && beyond.rule.rule == Outside::linear)
+    return straight_on(Sample<T>{end_value<T>(d, early), *slope, zero_rate<Rate<T>>()},
+                       time - (early ? d.start : d.end));
+  if (d.rebuilt) return d.formula(time, side);
+  if (const std::optional<double> last = last_play(beyond.rule, d.start, d.end, early);
+      last && is_beyond(time, side, *last, early))
+    return at_rest<T>(sample_endless<T>(d, *last, early ? Side::out : Side::in).value);
   return sample_endless<T>(d, time, side);
 }
 
@@ -346,9 +344,11 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
   return result;
 }
 
-#define TWEENFALL_CURVE(T) \
-  template class Curve<T>; \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const T*, const T*);
+#define TWEENFALL_CURVE(T)                                                                                            \
+  template class Curve<T>;                                                                                            \
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const CurveEnd<T>&, \
+                                               const CurveEnd<T>&);                                                   \
+  template T CurveAccess::end_value<T>(const Curve<T>&, bool) noexcept;
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)
 TWEENFALL_CURVE(Vec3)

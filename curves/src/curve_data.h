@@ -25,10 +25,14 @@ struct Stored<Quat> {
   using type = Vec4;
 };
 
-/// The slopes at which a curve goes on beyond its ends where they are not those of the ends themselves.
+/// What lies beyond one end of a curve.
 template <class T>
-struct EndSlopes {
-  std::optional<Rate<T>> before{}, after{};
+struct CurveEnd {
+  OutsideRule<T> rule{};
+  std::optional<T> value{};        ///< what arrives at the first knot, or leaves the last, where spans say otherwise
+  std::optional<Rate<T>> slope{};  ///< of the end's key on its outer side, where that is not the curve's own
+
+  [[nodiscard]] const std::optional<Rate<T>>& straight() const noexcept { return rule.slope ? rule.slope : slope; }
 };
 
 struct Segment {
@@ -44,8 +48,7 @@ struct Segment {
 
 template <class T>
 struct Curve<T>::Data {
-  OutsideRule<T> before, after;
-  EndSlopes<T> end_slopes;
+  CurveEnd<T> before, after;
   double start = 0, end = 0;
 
   std::vector<double> knots;
@@ -53,8 +56,6 @@ struct Curve<T>::Data {
   std::vector<typename Stored<T>::type> pool;
   std::vector<T> ends;      // values on arrival, one a segment
   std::vector<T> starts;    // rotations only: what the exponential multiplies
-  std::vector<T> final;     // one value: what leaves the last knot, where that is not what arrives
-  std::vector<T> initial;   // one value: what arrives at the first knot, where that is not what leaves
   std::vector<Warp> warps;  // empty, or one a segment
   std::vector<Vec3> spins;  // rotations only: empty, or one a segment
 
@@ -64,8 +65,8 @@ struct Curve<T>::Data {
   double bucket_scale = 0;
 
   Formula formula;  // empty where there are spans
-  // Set where the formula answers at every time by itself and its own curve must be told of new rules.
-  std::function<Curve(Outside, Outside)> rebuilt;
+  // Set where the formula answers at every time by itself and makes the curve anew with other rules outside.
+  std::function<Curve(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt;
 
   [[nodiscard]] std::size_t bucket(double time) const noexcept {
     const double b = (time - start) * bucket_scale;
@@ -97,25 +98,34 @@ struct CurveAccess {
 
   /// `value` at all times, with one knot at `time`.
   template <class T>
-  static Curve<T> one_key(const T& value, double time) {
+  static Curve<T> one_key(const T& value, double time, const CurveEnd<T>& before = {}, const CurveEnd<T>& after = {}) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = [value](double, Side) { return Sample<T>{value, zero_rate<Rate<T>>(), zero_rate<Rate<T>>()}; };
     data->start = data->end = time;
     data->knots = {time};
+    data->before = before;
+    data->after = after;
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
+  /// A curve of checked spans with its last knot given to the bit, and what lies beyond its ends.
   template <class T>
-  static Curve<T> with_end_slopes(const Curve<T>& curve, const EndSlopes<T>& slopes) {
+  static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end,
+                             const CurveEnd<T>& before = {}, const CurveEnd<T>& after = {});
+
+  /// The same curve with something else beyond its ends.
+  template <class T>
+  static Curve<T> with_ends(const Curve<T>& curve, const CurveEnd<T>& before, const CurveEnd<T>& after) {
     auto data = std::make_shared<typename Curve<T>::Data>(*curve.data_);
-    data->end_slopes = slopes;
+    data->before = before;
+    data->after = after;
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
-  /// A curve of checked spans with its last knot given to the bit, and the values beyond its ends.
+  /// What arrives at the first knot (`early`) or leaves the last: that from which the curve goes on, and between which
+  /// loops with an offset climb.
   template <class T>
-  static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const T* final = nullptr,
-                             const T* initial = nullptr);
+  static T end_value(const Curve<T>& curve, bool early) noexcept;
 
   /// A formula between knots, with the usual rules outside.
   template <class T>
@@ -132,8 +142,8 @@ struct CurveAccess {
   /// A curve that another one is made into: it answers at all times, `rebuilt` makes it anew with other rules outside.
   template <class T>
   static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end,
-                               std::span<const double> knots, Outside before, Outside after,
-                               std::function<Curve<T>(Outside, Outside)> rebuilt) {
+                               std::span<const double> knots, const OutsideRule<T>& before, const OutsideRule<T>& after,
+                               std::function<Curve<T>(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = std::move(formula);
     data->start = start;
@@ -143,6 +153,21 @@ struct CurveAccess {
     data->after.rule = after;
     data->rebuilt = std::move(rebuilt);
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
+  }
+
+  /// The values of `inner` as values of another kind: `sampler(inner, time, side)`. Rules outside are those of `inner`;
+  /// slopes stated for the result are its own.
+  template <class T, class Inner, class Sampler>
+  static Curve<T> converted(const Curve<Inner>& inner, const Sampler& sampler) {
+    const OutsideRule<Inner>&before = inner.rule_before(), &after = inner.rule_after();
+    return seen_through<T>(
+        [inner, sampler](double time, Side side) { return sampler(inner, time, side); }, inner.start(), inner.end(),
+        inner.knots(), {before.rule, {}, before.plays}, {after.rule, {}, after.plays},
+        [inner, sampler](const OutsideRule<T>& early, const OutsideRule<T>& late) {
+          const Curve<T> again =
+              converted<T>(inner.with_outside({early.rule, {}, early.plays}, {late.rule, {}, late.plays}), sampler);
+          return with_ends<T>(again, {early, {}, {}}, {late, {}, {}});
+        });
   }
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hermite_coefficients.h"
 #include "polynomial.h"
 #include "span_part.h"
 #include "spans_between.h"
@@ -64,12 +65,7 @@ class Quintics {
     piece.to = to;
     piece.error = tolerance_;
     piece.degree = 5;
-    piece.c = {a.value,
-               d0,
-               0.5 * e0,
-               10 * change - 6 * d0 - 4 * d1 - 1.5 * e0 + 0.5 * e1,
-               -15 * change + 8 * d0 + 7 * d1 + 1.5 * e0 - e1,
-               6 * change - 3 * d0 - 3 * d1 - 0.5 * e0 + 0.5 * e1};
+    quintic_coefficients(a.value, change, d0, d1, e0, e1, piece.c.data());
     return piece;
   }
 
@@ -123,16 +119,8 @@ void add_span(std::vector<CurvePiece<V>>& result, const Span<T>& span, double to
   if (span.degree == 0 || !span.warp.function) {
     result.push_back(piece);
   } else if (is_time_bezier(span.warp)) {
-    const double x1 = span.warp.parameters[0], x2 = span.warp.parameters[1];
-    const double s0 = span.warp.at(0).s, s1 = span.warp.at(1).s;
     piece.timed = true;
-    piece.x = {0, 3 * x1, 3 * x2 - 6 * x1, 1 + 3 * x1 - 3 * x2};
-    if (s0 != 0 || s1 != 1) {
-      substitute(piece.c.data(), piece.degree, s0, s1 - s0);
-      substitute(piece.x.data(), 3, s0, s1 - s0);
-      const double width = piece.x[1] + piece.x[2] + piece.x[3];
-      piece.x = {0, piece.x[1] / width, piece.x[2] / width, piece.x[3] / width};
-    }
+    piece.x = shown_time_cubic(span.warp, piece.c.data(), piece.degree);
     result.push_back(piece);
   } else {
     const double inverse = 1 / (to - span.start);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "curve_data.h"
+#include "outside.h"
 #include "polynomial.h"
 #include "spans_between.h"
 #include "time_bezier.h"
@@ -72,8 +73,8 @@ T segment_derivative(const Data& d, std::size_t i, double u, int order) noexcept
     }
   } else if (segment.degree > 0) {
     const Warp& warp = d.warps[i];
-    const double x1 = warp.parameters[0], x2 = warp.parameters[1];
-    LongPolynomial x{3, {0, 3 * x1, 3 * x2 - 6 * x1, 1 + 3 * x1 - 3 * x2}};
+    LongPolynomial x{3, {}};
+    std::ranges::copy(time_cubic(warp.parameters[0], warp.parameters[1]), x.c.begin());
     const double s = warp.at(u).s;
     for (int k = 0; k < dimensions<T>; ++k) {
       LongPolynomial y{segment.degree, {}};
@@ -93,7 +94,7 @@ T segment_derivative(const Data& d, std::size_t i, double u, int order) noexcept
 template <class Data>
 void check_order(const Data& d, int order) {
   if (order < 0 || order > highest_order) refuse_order(order, "orders go from 0 to " + std::to_string(highest_order));
-  if (order <= 2 || d.start == d.end) return;
+  if (order <= 2 || (d.start == d.end && !d.rebuilt)) return;
   if (d.segments.empty()) refuse_order(order, "a formula gives two");
   for (std::size_t i = 0; i < d.warps.size(); ++i)
     if (d.warps[i].function && d.segments[i].degree > 0 && !is_time_bezier(d.warps[i]))
@@ -112,21 +113,13 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
   double sign = 1;
   const bool early = time < d.start || (time == d.start && side == Side::in);
   if (early || time > d.end || (time == d.end && side == Side::out)) {
-    const OutsideRule<T>& outside = early ? d.before : d.after;
-    const Outside rule = outside.rule;
-    if (rule == Outside::hold || rule == Outside::linear) return zero<T>();
-    const double duration = d.end - d.start;
-    const double beyond = early ? d.start - time : time - d.end;
-    if (outside.plays > 0 && beyond > outside.plays * duration) return zero<T>();
-    double local = std::fmod(time - d.start, duration);
-    if (local < 0) local += duration;
-    double plays = std::floor((time - d.start - local) / duration + 0.5);
-    if (local == 0 && side == Side::in) {
-      local = duration;
-      plays -= 1;
-    }
+    const OutsideRule<T>& outside = (early ? d.before : d.after).rule;
+    if (!loops(outside.rule)) return zero<T>();
+    const std::optional<double> over = last_play(outside, d.start, d.end, early);
+    if (over && is_beyond(time, side, *over, early)) return zero<T>();
+    const auto [local, plays] = played_time(time, d.start, d.end - d.start, side == Side::in);
     time = d.start + local;
-    if (rule == Outside::pingpong && std::fmod(plays, 2) != 0) {
+    if (is_backward(outside.rule, plays)) {
       time = d.end - local;
       side = side == Side::in ? Side::out : Side::in;
       if (order % 2 != 0) sign = -1;
@@ -141,8 +134,34 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
   return sign * segment_derivative<T>(d, i, u, order);
 }
 
-Outside outside_of_rate(Outside rule) noexcept {
-  return rule == Outside::repeat || rule == Outside::repeat_offset ? Outside::repeat : Outside::hold;
+// Whether the rate beyond an end is one value or a loop of the rates inside.
+template <class T>
+bool is_plain_outside(const OutsideRule<T>& rule) noexcept {
+  return !loops(rule.rule) || (rule.rule != Outside::pingpong && rule.plays == 0);
+}
+
+template <class T>
+CurveEnd<T> end_of_rate(const Curve<T>& curve, bool early) noexcept {
+  const Outside rule = early ? curve.before() : curve.after();
+  if (rule == Outside::repeat || rule == Outside::repeat_offset) return {{Outside::repeat}, {}, {}};
+  return {{Outside::hold}, early ? curve.rate(curve.start(), Side::in) : curve.rate(curve.end(), Side::out), {}};
+}
+
+// Where spans do not say it.
+template <class T>
+Curve<T> formula_of_rate(const Curve<T>& curve, const CurveEnd<T>& before, const CurveEnd<T>& after) {
+  const auto sampler = [curve](double time, Side side) {
+    const Sample<T> s = curve.sample(time, side);
+    return Sample<T>{s.rate, s.acceleration, known_derivative(curve, 3, time, side)};
+  };
+  const Curve<T> rate = CurveAccess::with_ends(
+      CurveAccess::formula_with_knots<T>(sampler, curve.start(), curve.end(), curve.knots()), before, after);
+  if (is_plain_outside(curve.rule_before()) && is_plain_outside(curve.rule_after())) return rate;
+  // Else the curve itself tells what its rate is outside.
+  return CurveAccess::seen_through<T>(
+      sampler, curve.start(), curve.end(), curve.knots(), {curve.before(), {}, curve.rule_before().plays},
+      {curve.after(), {}, curve.rule_after().plays},
+      [rate](const OutsideRule<T>& early, const OutsideRule<T>& late) { return rate.with_outside(early, late); });
 }
 
 }  // namespace
@@ -156,20 +175,15 @@ T derivative_at(const Curve<T>& curve, int order, double time, Side side) {
 
 template <class T>
 Curve<T> derivative(const Curve<T>& curve) {
-  if (curve.start() == curve.end()) return CurveAccess::one_key<T>(zero<T>(), curve.start());
+  const CurveEnd<T> before = end_of_rate(curve, true), after = end_of_rate(curve, false);
+  if (curve.start() == curve.end() && has_spans(curve))
+    return CurveAccess::one_key<T>(zero<T>(), curve.start(), before, after);
   check_order(CurveAccess::data(curve), 3);
-  const Outside before = outside_of_rate(curve.before()), after = outside_of_rate(curve.after());
   std::vector<Span<T>> spans = curve.spans();
   const bool warped = std::any_of(spans.begin(), spans.end(),
                                   [](const Span<T>& span) { return span.warp.function && span.degree > 0; });
-  if (warped)
-    return CurveAccess::formula_with_knots<T>(
-               [curve](double time, Side side) {
-                 const Sample<T> s = curve.sample(time, side);
-                 return Sample<T>{s.rate, s.acceleration, known_derivative(curve, 3, time, side)};
-               },
-               curve.start(), curve.end(), curve.knots())
-        .with_outside(before, after);
+  if (warped || !is_plain_outside(curve.rule_before()) || !is_plain_outside(curve.rule_after()))
+    return formula_of_rate(curve, before, after);
   for (std::size_t i = 0; i < spans.size(); ++i) {
     Span<T>& span = spans[i];
     const double inverse = 1 / (curve.knots()[i + 1] - curve.knots()[i]);
@@ -184,7 +198,7 @@ Curve<T> derivative(const Curve<T>& curve) {
     span.warp = {};
     span.end = sum;
   }
-  return CurveAccess::from_spans<T>(spans, curve.end()).with_outside(before, after);
+  return CurveAccess::from_spans<T>(spans, curve.end(), before, after);
 }
 
 #define TWEENFALL_DERIVATIVE(T)                                    \

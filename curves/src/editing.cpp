@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "curve_data.h"
+#include "outside.h"
 #include "span_part.h"
 #include "spans_between.h"
 
@@ -19,19 +20,30 @@ void check_order(double from, double to) {
                                 text_of(to) + " s");
 }
 
+// What lies beyond an end, of a formula too.
+template <class T>
+CurveEnd<T> end_of(const Curve<T>& curve, bool early) {
+  CurveEnd<T> end = early ? CurveAccess::data(curve).before : CurveAccess::data(curve).after;
+  if (curve.spans().empty() && !loops(end.rule.rule) && std::isfinite(early ? curve.start() : curve.end()))
+    end.value = early ? curve.value(curve.start(), Side::in) : curve.value(curve.end(), Side::out);
+  return end;
+}
+
 }  // namespace
 
 template <class T>
 Curve<T> trimmed(const Curve<T>& curve, double from, double to) {
   check_order(from, to);
-  if (has_spans(curve)) {
-    const T final = curve.value(to, Side::out);
-    const bool own_end = curve.after() == Outside::hold || to < curve.end();
-    return CurveAccess::from_spans<T>(spans_between(curve, from, to), to, own_end ? &final : nullptr);
-  }
+  CurveEnd<T> before, after;
+  if (from == curve.start()) before = end_of(curve, true);
+  if (to == curve.end()) after = end_of(curve, false);
+  before.rule = after.rule = {};
+  if (to < curve.end()) after.value = curve.value(to, Side::out);
+  if (has_spans(curve)) return CurveAccess::from_spans<T>(spans_between(curve, from, to), to, before, after);
   const std::vector<double> knots = curve.knots().empty() ? std::vector<double>{} : seams_between(curve, from, to);
-  return CurveAccess::formula_with_knots<T>([curve](double time, Side side) { return curve.sample(time, side); }, from,
-                                            to, knots);
+  const Curve<T> part = CurveAccess::formula_with_knots<T>(
+      [curve](double time, Side side) { return curve.sample(time, side); }, from, to, knots);
+  return CurveAccess::with_ends(part, before, after);
 }
 
 template <class T>
@@ -53,20 +65,17 @@ Curve<T> joined(const Curve<T>& first, const Curve<T>& second) {
     std::vector<double> knots(first.knots().begin(), first.knots().end());
     for (const double knot : second.knots())
       if (knots.empty() || knot > knots.back()) knots.push_back(knot);
-    return CurveAccess::formula_with_knots<T>(
-               [first, second, seam](double time, Side side) {
-                 const bool early = time < seam || (time == seam && side == Side::in);
-                 return (early ? first : second).sample(time, side);
-               },
-               first.start(), second.end(), knots)
-        .with_outside(first.rule_before(), second.rule_after());
+    const Curve<T> whole = CurveAccess::formula_with_knots<T>(
+        [first, second, seam](double time, Side side) {
+          const bool early = time < seam || (time == seam && side == Side::in);
+          return (early ? first : second).sample(time, side);
+        },
+        first.start(), second.end(), knots);
+    return CurveAccess::with_ends(whole, end_of(first, true), end_of(second, false));
   }
   more.front().start = seam;
   spans.insert(spans.end(), more.begin(), more.end());
-  const T final = second.value(second.end(), Side::out);
-  const bool holds = second.after() == Outside::hold;
-  return CurveAccess::from_spans<T>(spans, second.end(), holds ? &final : nullptr)
-      .with_outside(first.rule_before(), second.rule_after());
+  return CurveAccess::from_spans<T>(spans, second.end(), end_of(first, true), end_of(second, false));
 }
 
 template <class T>
@@ -84,10 +93,7 @@ Curve<T> with_knot(const Curve<T>& curve, double time) {
   const double u = (time - knots[i]) / (knots[i + 1] - knots[i]);
   spans[i] = span_part(whole, 0, u, knots[i], time);
   spans.insert(spans.begin() + static_cast<std::ptrdiff_t>(i) + 1, span_part(whole, u, 1, time, knots[i + 1]));
-  const T final = curve.value(curve.end(), Side::out);
-  const bool holds = curve.after() == Outside::hold;
-  return CurveAccess::from_spans<T>(spans, curve.end(), holds ? &final : nullptr)
-      .with_outside(curve.rule_before(), curve.rule_after());
+  return CurveAccess::from_spans<T>(spans, curve.end(), end_of(curve, true), end_of(curve, false));
 }
 
 template <class T>
@@ -113,10 +119,7 @@ Curve<T> without_redundant_knots(const Curve<T>& curve, double tolerance) {
     span.end = end;
     continued_to = curve.knots()[i + 1];
   }
-  const T final = curve.value(curve.end(), Side::out);
-  const bool holds = curve.after() == Outside::hold;
-  return CurveAccess::from_spans<T>(kept, curve.end(), holds ? &final : nullptr)
-      .with_outside(curve.rule_before(), curve.rule_after());
+  return CurveAccess::from_spans<T>(kept, curve.end(), end_of(curve, true), end_of(curve, false));
 }
 
 #define TWEENFALL_EDITING(T)                                                \

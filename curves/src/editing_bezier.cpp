@@ -31,15 +31,8 @@ BezierPoints<T> points_of(const Span<T>& span, double end) {
   const double duration = end - span.start;
   BezierPoints<T> result{{span.start, span.start + duration / 3, end - duration / 3, end}, {}};
   if (warped) {
-    const double x1 = span.warp.parameters[0], x2 = span.warp.parameters[1];
-    std::vector<double> x = {0, 3 * x1, 3 * x2 - 6 * x1, 1 + 3 * x1 - 3 * x2};
-    const double s0 = span.warp.at(0).s, s1 = span.warp.at(1).s;
-    if (s0 != 0 || s1 != 1) {
-      substitute(x.data(), 3, s0, s1 - s0);
-      substitute(c.data(), 3, s0, s1 - s0);
-      const double width = x[1] + x[2] + x[3];
-      x = {0, x[1] / width, x[2] / width, x[3] / width};
-    }
+    const std::array<double, 4> shown = shown_time_cubic(span.warp, c.data(), 3);
+    std::vector<double> x(shown.begin(), shown.end());
     make_control_points(x);
     for (std::size_t k = 1; k < 3; ++k) result.times[k] = span.start + x[k] * duration;
   }

@@ -58,6 +58,7 @@ void describe(Key<T>& from, Key<T>& to, const Span<T>& span, const Curve<T>& cur
 }
 
 void describe(Key<Quat>& from, Key<Quat>&, const RotationSpan& span, const Curve<Quat>&) {
+  if (!span.spin.isZero(0)) refuse_span(span, "makes whole turns on the way");
   if (span.form == RotationSpan::Form::exponential && span.degree == 0) {
     from.ease = Ease::hold();
     return;
@@ -88,13 +89,16 @@ std::vector<Key<T>> keys_of(const Curve<T>& curve) {
   std::vector<Key<T>> keys;
   for (std::size_t i = 0; i < knots.size(); ++i) {
     const bool last = i + 1 == knots.size();
-    keys.push_back({knots[i], curve.value(knots[i], last && curve.after() != Outside::hold ? Side::in : Side::out)});
+    keys.push_back({knots[i], last ? CurveAccess::end_value(curve, false) : curve.value(knots[i], Side::out)});
     if (i == 0) continue;
     describe(keys[i - 1], keys[i], spans[i - 1], curve);
     const T arriving = curve.value(knots[i], Side::in);
     if (keys[i - 1].ease.rule() != Ease::Rule::hold && !same_value(arriving, keys[i].value))
       keys[i].value_in = arriving;
   }
+  const auto& data = CurveAccess::data(curve);
+  if (data.before.slope) keys.front().in = given<T>(*data.before.slope);
+  if (data.after.slope) keys.back().out = given<T>(*data.after.slope);
   return keys;
 }
 
@@ -150,7 +154,7 @@ std::vector<Key<T>> with_key(std::span<const Key<T>> keys, double time, const Ke
       x2 = bezier ? piece.warp.parameters[1] : 2.0 / 3;
       from.ease = Ease::smooth_clamped();
     }
-    handles.x = {0, 3 * x1, 3 * x2 - 6 * x1, 1 + 3 * x1 - 3 * x2};
+    handles.x = time_cubic(x1, x2);
     const bool plain = x1 == 1.0 / 3 && std::abs(x2 - 2.0 / 3) <= 2e-16;
     const Weights first = plain ? Weights{} : weights_of(piece_part(handles, from.time, time).x);
     const Weights second = plain ? Weights{} : weights_of(piece_part(handles, time, to.time).x);

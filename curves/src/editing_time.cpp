@@ -11,6 +11,25 @@
 namespace tweenfall {
 namespace {
 
+template <class T, class Scale>
+OutsideRule<T> with_slope(OutsideRule<T> rule, const Scale& scaled) {
+  if (rule.slope) rule.slope = scaled(*rule.slope);
+  return rule;
+}
+
+template <class T, class Scale>
+CurveEnd<T> with_slopes(CurveEnd<T> end, const Scale& scaled) {
+  end.rule = with_slope(end.rule, scaled);
+  if (end.slope) end.slope = scaled(*end.slope);
+  return end;
+}
+
+// Slopes times a factor.
+template <class T>
+auto times(double factor) {
+  return [factor](const Rate<T>& slope) { return Rate<T>(factor * slope); };
+}
+
 // Another time for everything: `later(t)` is the new time of the old t, `earlier` its inverse, both rising.
 template <class T, class Later, class Earlier>
 Curve<T> retimed(const Curve<T>& curve, const Later& later, const Earlier& earlier, double factor) {
@@ -25,9 +44,11 @@ Curve<T> retimed(const Curve<T>& curve, const Later& later, const Earlier& earli
           s.acceleration = s.acceleration / (factor * factor);
           return s;
         },
-        later(curve.start()), later(curve.end()), knots, curve.before(), curve.after(),
-        [curve, later, earlier, factor](Outside before, Outside after) {
-          return retimed(curve.with_outside(before, after), later, earlier, factor);
+        later(curve.start()), later(curve.end()), knots, with_slope(curve.rule_before(), times<T>(1 / factor)),
+        with_slope(curve.rule_after(), times<T>(1 / factor)),
+        [curve, later, earlier, factor](const OutsideRule<T>& before, const OutsideRule<T>& after) {
+          return retimed(curve.with_outside(with_slope(before, times<T>(factor)), with_slope(after, times<T>(factor))),
+                         later, earlier, factor);
         });
   for (std::size_t i = 0; i < spans.size(); ++i) {
     if (!(knots[i + 1] > knots[i]))
@@ -36,10 +57,9 @@ Curve<T> retimed(const Curve<T>& curve, const Later& later, const Earlier& earli
     spans[i].start = knots[i];
     spans[i].duration = knots[i + 1] - knots[i];
   }
-  const T final = curve.value(curve.end(), Side::out);
-  const bool holds = curve.after() == Outside::hold;
-  return CurveAccess::from_spans<T>(spans, knots.back(), holds ? &final : nullptr)
-      .with_outside(curve.before(), curve.after());
+  const auto& data = CurveAccess::data(curve);
+  return CurveAccess::from_spans<T>(spans, knots.back(), with_slopes(data.before, times<T>(1 / factor)),
+                                    with_slopes(data.after, times<T>(1 / factor)));
 }
 
 }  // namespace
@@ -79,12 +99,17 @@ Curve<T> reversed(const Curve<T>& curve) {
           s.rate = -s.rate;
           return s;
         },
-        curve.start(), curve.end(), knots, curve.after(), curve.before(),
-        [curve](Outside before, Outside after) { return reversed(curve.with_outside(after, before)); });
+        curve.start(), curve.end(), knots, with_slope(curve.rule_after(), times<T>(-1)),
+        with_slope(curve.rule_before(), times<T>(-1)),
+        [curve](const OutsideRule<T>& before, const OutsideRule<T>& after) {
+          return reversed(curve.with_outside(with_slope(after, times<T>(-1)), with_slope(before, times<T>(-1))));
+        });
   std::vector<typename SpanOf<T>::type> result;
   for (std::size_t i = 0; i < spans.size(); ++i)
     result.push_back(span_part(spans[spans.size() - 1 - i], 1, 0, knots[i], knots[i + 1]));
-  return CurveAccess::from_spans<T>(result, knots.back()).with_outside(curve.after(), curve.before());
+  const auto& data = CurveAccess::data(curve);
+  return CurveAccess::from_spans<T>(result, knots.back(), with_slopes(data.after, times<T>(-1)),
+                                    with_slopes(data.before, times<T>(-1)));
 }
 
 template <class T>
@@ -99,25 +124,23 @@ Curve<T> value_scaled(const Curve<T>& curve, const T& factor, const T& offset) {
                                 text_of(offset));
   std::vector<Span<T>> spans = curve.spans();
   if (spans.empty())
-    return CurveAccess::seen_through<T>(
-        [curve, times_factor, offset](double time, Side side) {
-          const Sample<T> s = curve.sample(time, side);
-          return Sample<T>{times_factor(s.value) + offset, times_factor(s.rate), times_factor(s.acceleration)};
-        },
-        curve.start(), curve.end(), curve.knots(), curve.before(), curve.after(),
-        [curve, factor, offset](Outside before, Outside after) {
-          return value_scaled(curve.with_outside(before, after), factor, offset);
-        });
+    return CurveAccess::converted<T>(curve, [times_factor, offset](const Curve<T>& whole, double time, Side side) {
+      const Sample<T> s = whole.sample(time, side);
+      return Sample<T>{times_factor(s.value) + offset, times_factor(s.rate), times_factor(s.acceleration)};
+    });
   for (Span<T>& span : spans) {
     for (std::size_t k = 0; k <= static_cast<std::size_t>(span.degree); ++k)
       span.coefficients[k] = times_factor(span.coefficients[k]);
     span.coefficients[0] += offset;
     span.end = times_factor(span.end) + offset;
   }
-  const T final = times_factor(curve.value(curve.end(), Side::out)) + offset;
-  const bool holds = curve.after() == Outside::hold;
-  return CurveAccess::from_spans<T>(spans, curve.end(), holds ? &final : nullptr)
-      .with_outside(curve.before(), curve.after());
+  const auto scaled_end = [&](const CurveEnd<T>& end) {
+    CurveEnd<T> result = with_slopes(end, times_factor);
+    if (result.value) result.value = times_factor(*result.value) + offset;
+    return result;
+  };
+  const auto& data = CurveAccess::data(curve);
+  return CurveAccess::from_spans<T>(spans, curve.end(), scaled_end(data.before), scaled_end(data.after));
 }
 
 #define TWEENFALL_EDITING_TIME(T)                                    \

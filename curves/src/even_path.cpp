@@ -1,10 +1,9 @@
+#include <tweenfall/curves/arc_length.h>
 #include <tweenfall/curves/functions.h>
 #include <tweenfall/curves/keys.h>
 
-#include <memory>
 #include <stdexcept>
 
-#include "arc_length_table.h"
 #include "components.h"
 
 namespace tweenfall {
@@ -48,24 +47,10 @@ Curve<Vec3> even_path(const Curve<Vec3>& shape, double duration) {
   if (!(shape.duration() > 0) || !std::isfinite(shape.duration()))
     throw std::invalid_argument("a path's shape must begin and end; it leads from " + text_of(shape.start()) +
                                 " s to " + text_of(shape.end()) + " s");
-  const auto table = std::make_shared<const ArcLengthTable>(shape);
-  const double length = table->length(), speed = length / duration;
+  const double length = arc_length(shape, shape.start(), shape.end());
   if (!(length > 0) || !std::isfinite(length))
     throw std::invalid_argument("a path's length must be finite and > 0 m; it is " + text_of(length));
-  return Curve<Vec3>(
-      [shape, table, speed, duration](double t, Side side) {
-        const bool arrived = t >= duration;
-        const double parameter = arrived ? shape.end() : table->parameter(speed * t);
-        const Sample<Vec3> s = shape.sample(parameter, arrived ? Side::in : side);
-        // By length l instead of the parameter: c' / |c'|, and of c'' what is across, over |c'|^2.
-        const double pace = s.rate.norm();
-        if (!(pace > 0)) return Sample<Vec3>{s.value, Vec3::Zero(), Vec3::Zero()};
-        const Vec3 tangent = s.rate / pace;
-        const Vec3 across = s.acceleration - s.acceleration.dot(tangent) * tangent;
-        const double ratio = speed / pace;
-        return Sample<Vec3>{s.value, speed * tangent, (ratio * ratio) * across};
-      },
-      0, duration);
+  return at_even_speed(shape, 0, duration);
 }
 
 }  // namespace tweenfall

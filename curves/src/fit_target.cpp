@@ -1,4 +1,5 @@
 #include "fit_target.h"
+#include "hermite_coefficients.h"
 
 #include <algorithm>
 #include <cmath>

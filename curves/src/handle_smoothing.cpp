@@ -3,68 +3,24 @@
 #include <limits>
 
 #include "handle_places.h"
+#include "tridiagonal.h"
 
 namespace tweenfall {
 namespace {
 
 constexpr double third = 1.0 / 3;
 
-// A tridiagonal system, cyclic where the corners are not zero.
-struct Rows {
-  std::vector<double> lower, diagonal, upper, right;
-
-  explicit Rows(std::size_t n) : lower(n), diagonal(n), upper(n), right(n) {}
-  [[nodiscard]] std::size_t size() const { return diagonal.size(); }
-
-  void lock(std::size_t i, double value) {
-    lower[i] = upper[i] = 0;
-    diagonal[i] = 1;
-    right[i] = value;
-  }
-  void copy(std::size_t i, const Rows& from) {
-    lower[i] = from.lower[i];
-    diagonal[i] = from.diagonal[i];
-    upper[i] = from.upper[i];
-    right[i] = from.right[i];
-  }
-};
-
-// Thomas' algorithm.
-std::vector<double> solved(const Rows& rows, std::vector<double> diagonal, std::vector<double> x) {
-  const std::size_t n = rows.size();
-  for (std::size_t i = 1; i < n; ++i) {
-    const double f = rows.lower[i] / diagonal[i - 1];
-    diagonal[i] -= f * rows.upper[i - 1];
-    x[i] -= f * x[i - 1];
-  }
-  x[n - 1] /= diagonal[n - 1];
-  for (std::size_t i = n - 1; i-- > 0;) x[i] = (x[i] - rows.upper[i] * x[i + 1]) / diagonal[i];
-  return x;
+void lock(Tridiagonal& rows, std::size_t i, double value) {
+  rows.lower[i] = rows.upper[i] = 0;
+  rows.diagonal[i] = 1;
+  rows.right[i] = value;
 }
 
-// With the two corner entries, by Sherman and Morrison.
-std::vector<double> solved(const Rows& rows) {
-  const std::size_t n = rows.size();
-  const double low_corner = rows.upper[n - 1], high_corner = rows.lower[0];
-  if (n < 2 || (low_corner == 0 && high_corner == 0)) return solved(rows, rows.diagonal, rows.right);
-  if (n == 2) {
-    const double b = rows.upper[0] + high_corner, c = rows.lower[1] + low_corner;
-    const double d = rows.diagonal[0] * rows.diagonal[1] - b * c;
-    return {(rows.right[0] * rows.diagonal[1] - b * rows.right[1]) / d,
-            (rows.diagonal[0] * rows.right[1] - c * rows.right[0]) / d};
-  }
-  const double g = -rows.diagonal[0];
-  std::vector<double> diagonal = rows.diagonal, correction(n);
-  diagonal[0] -= g;
-  diagonal[n - 1] -= low_corner * high_corner / g;
-  correction[0] = g;
-  correction[n - 1] = low_corner;
-  std::vector<double> x = solved(rows, diagonal, rows.right);
-  correction = solved(rows, diagonal, correction);
-  const double ratio = high_corner / g;
-  const double f = (x[0] + ratio * x[n - 1]) / (1 + correction[0] + ratio * correction[n - 1]);
-  for (std::size_t i = 0; i < n; ++i) x[i] -= f * correction[i];
-  return x;
+void copy_row(Tridiagonal& rows, std::size_t i, const Tridiagonal& from) {
+  rows.lower[i] = from.lower[i];
+  rows.diagonal[i] = from.diagonal[i];
+  rows.upper[i] = from.upper[i];
+  rows.right[i] = from.right[i];
 }
 
 struct Limits {
@@ -81,13 +37,15 @@ struct Limits {
 // Slopes that solve the rows where the limits allow it. A slope beyond a limit is set to it; one that then wants back
 // inside is set free again, at most twice.
 // Source: Blender, tridiagonal_solve_with_limits.
-std::vector<double> solved_within(const Rows& free_rows, const std::vector<Limits>& limits) {
-  const std::size_t n = free_rows.size();
-  Rows rows = free_rows;
+std::vector<double> solved_within(const Tridiagonal& free_rows, const std::vector<Limits>& limits) {
+  const std::size_t n = free_rows.rows();
+  Tridiagonal rows = free_rows;
   std::vector<bool> locked(n);
   std::vector<int> releases(n);
   for (;;) {
-    std::vector<double> x = solved(rows);
+    Tridiagonal solution = rows;
+    solution.solve_cyclic();
+    std::vector<double>& x = solution.right;
     std::vector<std::size_t> beyond;
     for (std::size_t i = 0; i < n; ++i)
       if (x[i] < limits[i].low || x[i] > limits[i].high) beyond.push_back(i);
@@ -97,7 +55,7 @@ std::vector<double> solved_within(const Rows& free_rows, const std::vector<Limit
     for (const std::size_t i : beyond)
       if (!some_too_far || target(i) != 0) {
         locked[i] = true;
-        rows.lock(i, target(i));
+        lock(rows, i, target(i));
       }
     if (!beyond.empty()) continue;
     bool released = false;
@@ -107,7 +65,7 @@ std::vector<double> solved_within(const Rows& free_rows, const std::vector<Limit
       const double pull =
           free_rows.right[i] - free_rows.lower[i] * before - free_rows.diagonal[i] * x[i] - free_rows.upper[i] * after;
       if ((pull > 0 && x[i] < limits[i].high) || (pull < 0 && x[i] > limits[i].low)) {
-        rows.copy(i, free_rows);
+        copy_row(rows, i, free_rows);
         locked[i] = false;
         ++releases[i];
         released = true;
@@ -138,7 +96,7 @@ class Run {
     const bool ends_open = whole_cycle_ || opens(last, last.in_kind, index(count_ - 1) + 1 == keys_.size());
     if (count_ == 2 && !whole_cycle_ && starts_open == ends_open) return;
     const std::size_t unknowns = whole_cycle_ ? count_ - 1 : count_;
-    Rows rows(unknowns);
+    Tridiagonal rows(unknowns);
     for (std::size_t k = 0; k < unknowns; ++k) {
       const bool at_start = k == 0 && !whole_cycle_, at_end = k + 1 == count_;
       if (at_start || at_end) {
@@ -194,10 +152,11 @@ class Run {
 
   // An end that keeps its handle: its slope is known. Its length, where that is not a third, changes how strongly the
   // acceleration at the next key depends on that key's own slope.
-  void lock_end(Rows& rows, std::size_t end, std::size_t next, HandleReach reach, double span, bool other_open) const {
+  void lock_end(Tridiagonal& rows, std::size_t end, std::size_t next, HandleReach reach, double span,
+                bool other_open) const {
     const double fit = span / (reach.time + third * span);
     if (fit < 1) reach = {fit * reach.time, fit * reach.value};
-    rows.lock(end, 3 * reach.value / span);
+    lock(rows, end, 3 * reach.value / span);
     if (count_ == 2 && !other_open) return;
     // In units of the row, whose own two spans count h1 and h0.
     const double share = 1 - 3 * reach.time / span;

@@ -45,9 +45,9 @@ std::optional<double> slope_of(double time, double value) {
 Curve<double> handle_curve(std::span<const HandleKey> keys, const HandleOptions& options) {
   const std::vector<HandleKey> placed = placed_handles(keys, options);
   const HandleKey &front = placed.front(), &back = placed.back();
-  const EndSlopes<double> ends{slope_of(front.time - front.in.time, front.value - front.in.value),
-                               slope_of(back.out.time - back.time, back.out.value - back.value)};
-  if (placed.size() == 1) return CurveAccess::with_end_slopes(CurveAccess::one_key(front.value, front.time), ends);
+  const CurveEnd<double> before{{}, front.value, slope_of(front.time - front.in.time, front.value - front.in.value)};
+  const CurveEnd<double> after{{}, back.value, slope_of(back.out.time - back.time, back.out.value - back.value)};
+  if (placed.size() == 1) return CurveAccess::one_key(front.value, front.time, before, after);
   std::vector<Span<double>> spans;
   for (std::size_t i = 0; i + 1 < placed.size(); ++i) {
     const HandleKey &a = placed[i], &b = placed[i + 1];
@@ -58,8 +58,7 @@ Curve<double> handle_curve(std::span<const HandleKey> keys, const HandleOptions&
     const Key<double> pair[] = {{a.time, a.value, *a.ease}, {b.time, b.value}};
     for (const Span<double>& span : keyed_curve<double>(pair).spans()) spans.push_back(span);
   }
-  return CurveAccess::with_end_slopes(CurveAccess::from_spans<double>(spans, back.time, &back.value, &front.value),
-                                      ends);
+  return CurveAccess::from_spans<double>(spans, back.time, before, after);
 }
 
 }  // namespace tweenfall

@@ -58,8 +58,12 @@ struct Area {
   }
 };
 
-Outside outside_of_area(Outside rule) noexcept {
-  return rule == Outside::repeat ? Outside::repeat_offset : Outside::linear;
+// The area climbs on where the curve repeats, and at the value that the curve holds.
+template <class T>
+OutsideRule<T> outside_of_area(const Curve<T>& curve, bool early) noexcept {
+  const OutsideRule<T>& rule = early ? curve.rule_before() : curve.rule_after();
+  if (rule.rule == Outside::repeat) return {Outside::repeat_offset, {}, rule.plays};
+  return {Outside::linear, early ? curve.value(curve.start(), Side::in) : curve.value(curve.end(), Side::out)};
 }
 
 }  // namespace
@@ -85,7 +89,7 @@ Curve<T> antiderivative(const Curve<T>& curve, const T& first) {
     span.end = first + value;
     return Curve<T>(std::span<const Span<T>>(&span, 1)).with_outside(Outside::linear, Outside::linear);
   }
-  const Outside before = outside_of_area(curve.before()), after = outside_of_area(curve.after());
+  const OutsideRule<T> before = outside_of_area(curve, true), after = outside_of_area(curve, false);
   std::vector<Span<T>> spans = curve.spans();
   const bool plain = !spans.empty() && std::all_of(spans.begin(), spans.end(), [](const Span<T>& span) {
     return (!span.warp.function || span.degree == 0) && span.degree < max_degree;

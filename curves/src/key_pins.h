@@ -8,6 +8,9 @@
 #include <memory>
 #include <vector>
 
+#include "curve_data.h"
+#include "outside.h"
+
 namespace tweenfall {
 
 template <class T>
@@ -37,9 +40,9 @@ class KeyPins {
     const auto found = std::lower_bound(times_.begin(), times_.end(), time);
     if (*found != time) return nullptr;
     const std::size_t i = static_cast<std::size_t>(found - times_.begin());
-    if (i == 0 && side == Side::in && before != Outside::hold && before != Outside::linear) return nullptr;
+    if (i == 0 && side == Side::in && times_.size() > 1) return loops(before) ? nullptr : &leaving_[0];
     if (i + 1 == times_.size() && i > 0) {
-      if (side == Side::out && after != Outside::hold && after != Outside::linear) return nullptr;
+      if (side == Side::out && loops(after)) return nullptr;
       if (side == Side::out) return &leaving_[i];
     }
     if (side == Side::in && i > 0) return arrives_[i] ? &arriving_[i] : nullptr;
@@ -52,29 +55,15 @@ class KeyPins {
   std::vector<bool> arrives_, leaves_;
 };
 
-/// Which rules apply outside, for a curve seen through `inner`.
+/// The curve of `convert(sample of inner)`, exact at the keys.
 template <class T, class Inner, class Convert>
 [[nodiscard]] Curve<T> seen_through_keys(const Curve<Inner>& inner, std::shared_ptr<const KeyPins<T>> pins,
-                                         const Convert& convert);
-
-}  // namespace tweenfall
-
-#include "curve_data.h"
-
-namespace tweenfall {
-
-template <class T, class Inner, class Convert>
-Curve<T> seen_through_keys(const Curve<Inner>& inner, std::shared_ptr<const KeyPins<T>> pins, const Convert& convert) {
-  return CurveAccess::seen_through<T>(
-      [inner, pins, convert](double time, Side side) {
-        Sample<T> s = convert(inner.sample(time, side));
-        if (const T* exact = pins->at(time, side, inner.before(), inner.after())) s.value = *exact;
-        return s;
-      },
-      inner.start(), inner.end(), inner.knots(), inner.before(), inner.after(),
-      [inner, pins, convert](Outside before, Outside after) {
-        return seen_through_keys<T>(inner.with_outside(before, after), pins, convert);
-      });
+                                         const Convert& convert) {
+  return CurveAccess::converted<T>(inner, [pins, convert](const Curve<Inner>& curve, double time, Side side) {
+    Sample<T> s = convert(curve.sample(time, side));
+    if (const T* exact = pins->at(time, side, curve.before(), curve.after())) s.value = *exact;
+    return s;
+  });
 }
 
 }  // namespace tweenfall

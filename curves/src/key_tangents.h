@@ -25,7 +25,8 @@ class KeyTangents {
   }
 
   /// Slopes that the outer sides of the end keys state, for a curve that goes on straight.
-  [[nodiscard]] EndSlopes<T> outer() const { return {outer({0, Side::in}), outer({keys_.size() - 1, Side::out})}; }
+  [[nodiscard]] std::optional<Rate<T>> before() const { return outer({0, Side::in}); }
+  [[nodiscard]] std::optional<Rate<T>> after() const { return outer({keys_.size() - 1, Side::out}); }
 
  private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);

@@ -2,6 +2,7 @@
 
 #include "bezier_span.h"
 #include "curve_data.h"
+#include "hermite_coefficients.h"
 #include "key_check.h"
 #include "key_tangents.h"
 #include "keys_converted.h"
@@ -98,8 +99,8 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
       spans.push_back(span);
     }
   }
-  return CurveAccess::with_end_slopes(
-      CurveAccess::from_spans<T>(spans, keys.back().time, &keys.back().value, &keys.front().value), tangents.outer());
+  return CurveAccess::from_spans<T>(spans, keys.back().time, {{}, keys.front().value, tangents.before()},
+                                    {{}, keys.back().value, tangents.after()});
 }
 
 }  // namespace

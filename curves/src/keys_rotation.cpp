@@ -2,6 +2,7 @@
 
 #include "bezier_span.h"
 #include "curve_data.h"
+#include "hermite_coefficients.h"
 #include "key_check.h"
 #include "keys_converted.h"
 #include "span_slopes.h"
@@ -154,6 +155,13 @@ RotationSpan hermite_span(const Key<Quat>& a, const Key<Quat>& b, const Stretch&
   return span;
 }
 
+// The angular velocity that the outer side of an end key states.
+std::optional<Vec3> outer_slope(const std::optional<Tangent<Quat>>& tangent) {
+  if (tangent && tangent->kind == TangentKind::given) return tangent->rate;
+  if (tangent && tangent->kind == TangentKind::flat) return Vec3(0, 0, 0);
+  return std::nullopt;
+}
+
 }  // namespace
 
 Curve<Quat> rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& options) {
@@ -193,7 +201,9 @@ Curve<Quat> rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& op
     ++i;
   }
   const Quat final = hemisphere_aligned(unit(keys, keys.size() - 1, keys.back().value), stretches.back().to);
-  return CurveAccess::from_spans<Quat>(spans, keys.back().time, &final);
+  return CurveAccess::from_spans<Quat>(spans, keys.back().time,
+                                       {{}, stretches.front().from, outer_slope(keys.front().in)},
+                                       {{}, final, outer_slope(keys.back().out)});
 }
 
 }  // namespace tweenfall

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "modifier_form.h"
+#include "outside.h"
 
 namespace tweenfall {
 namespace {
@@ -24,15 +25,7 @@ class CyclesForm : public ModifierForm {
     const Cycles::Mode mode = early ? cycles_.before : cycles_.after;
     const int most = early ? cycles_.plays_before : cycles_.plays_after;
     if (mode == Cycles::Mode::none) return;
-    // start + plays duration + local, with 0 <= local < duration, or 0 < local <= duration on arrival.
-    double local = std::fmod(t - start_, duration);
-    if (local < 0) local += duration;
-    if (local >= duration) local = 0;
-    double plays = std::floor((t - start_ - local) / duration + 0.5);
-    if (local == 0 && arrives) {
-      local = duration;
-      plays -= 1;
-    }
+    const auto [local, plays] = played_time(t, start_, duration, arrives);
     const double beyond = early ? -plays : plays;
     if (most > 0 && beyond > most) return;
     if (mode == Cycles::Mode::mirror && std::fmod(plays, 2) != 0) {

@@ -115,11 +115,14 @@ class Stack {
 
 Curve<double> modified(const Curve<double>& curve, std::span<const Modifier> modifiers) {
   const auto stack = std::make_shared<const Stack>(curve, modifiers);
+  // A slope stated outside is that of the curve below, to which the modifiers are added.
   const std::vector<Modifier> kept(modifiers.begin(), modifiers.end());
   return CurveAccess::seen_through<double>(
       [stack](double time, Side side) { return stack->sample(time, side); }, curve.start(), curve.end(), curve.knots(),
-      curve.before(), curve.after(),
-      [curve, kept](Outside before, Outside after) { return modified(curve.with_outside(before, after), kept); });
+      {curve.before(), {}, curve.rule_before().plays}, {curve.after(), {}, curve.rule_after().plays},
+      [curve, kept](const OutsideRule<double>& before, const OutsideRule<double>& after) {
+        return modified(curve.with_outside(before, after), kept);
+      });
 }
 
 }  // namespace tweenfall

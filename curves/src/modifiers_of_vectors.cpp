@@ -9,13 +9,10 @@ namespace {
 
 template <class T>
 Curve<double> one_component(const Curve<T>& curve, int i) {
-  return CurveAccess::seen_through<double>(
-      [curve, i](double time, Side side) {
-        const Sample<T> s = curve.sample(time, side);
-        return Sample<double>{s.value[i], s.rate[i], s.acceleration[i]};
-      },
-      curve.start(), curve.end(), curve.knots(), curve.before(), curve.after(),
-      [curve, i](Outside before, Outside after) { return one_component(curve.with_outside(before, after), i); });
+  return CurveAccess::converted<double>(curve, [i](const Curve<T>& inner, double time, Side side) {
+    const Sample<T> s = inner.sample(time, side);
+    return Sample<double>{s.value[i], s.rate[i], s.acceleration[i]};
+  });
 }
 
 }  // namespace
@@ -48,8 +45,9 @@ Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> 
         }
         return result;
       },
-      curve.start(), curve.end(), curve.knots(), curve.before(), curve.after(),
-      [curve, kept](Outside before, Outside after) {
+      curve.start(), curve.end(), curve.knots(), {curve.before(), {}, curve.rule_before().plays},
+      {curve.after(), {}, curve.rule_after().plays},
+      [curve, kept](const OutsideRule<T>& before, const OutsideRule<T>& after) {
         return modified<T>(curve.with_outside(before, after), std::span<const std::vector<Modifier>>(kept));
       });
 }

@@ -43,6 +43,47 @@ Sample<T> offset_by_plays(const Sample<T>& sample, const T& start, const T& end,
   }
 }
 
+inline bool loops(Outside rule) noexcept {
+  return rule != Outside::hold && rule != Outside::linear;
+}
+
+// Where counted plays are over and the curve comes to rest; none where it goes on for ever.
+template <class T>
+std::optional<double> last_play(const OutsideRule<T>& rule, double start, double end, bool early) noexcept {
+  if (!loops(rule.rule) || !(rule.plays > 0)) return std::nullopt;
+  const double beyond = rule.plays * (end - start);
+  return early ? start - beyond : end + beyond;
+}
+
+// Whether `time` lies further out than `end`, which is passed on the side that faces away from the curve.
+inline bool is_beyond(double time, Side side, double end, bool early) noexcept {
+  return time == end ? side == (early ? Side::in : Side::out) : early ? time < end : time > end;
+}
+
+// A time that is start + plays * duration + local, with 0 <= local < duration, or 0 < local <= duration on arrival.
+struct PlayedTime {
+  double local, plays;
+};
+inline PlayedTime played_time(double time, double start, double duration, bool arriving) noexcept {
+  double local = std::fmod(time - start, duration);  // exact
+  if (local < 0) local += duration;
+  double plays = std::floor((time - start - local) / duration + 0.5);
+  if (local >= duration) {
+    local = 0;
+    plays += 1;
+  }
+  if (local == 0 && arriving) {
+    local = duration;
+    plays -= 1;
+  }
+  return {local, plays};
+}
+
+// Whether a play of a loop goes backwards.
+inline bool is_backward(Outside rule, double plays) noexcept {
+  return rule == Outside::pingpong && std::fmod(plays, 2) != 0;
+}
+
 // Beyond the ends by `rule`; `inside(time, side)` answers from start to end, and `end_value(early)` with the values
 // that arrive at the first knot and leave the last one.
 template <class T, class Inside, class EndValue>
@@ -57,22 +98,10 @@ Sample<T> sample_outside(Outside rule, double start, double end, double time, Si
     return straight_on(from, time - (early ? start : end));
   }
 
-  // time = start + plays * duration + local, 0 <= local < duration; the remainder is exact.
-  double local = std::fmod(time - start, duration);
-  if (local < 0) local += duration;
-  double plays = std::floor((time - start - local) / duration + 0.5);
-  if (local >= duration) {
-    local = 0;
-    plays += 1;
-  }
+  const auto [local, plays] = played_time(time, start, duration, side == Side::in);
   // Arriving at a seam is the end of the play before.
-  const bool arriving = local == 0 && side == Side::in;
-  if (arriving) {
-    local = duration;
-    plays -= 1;
-  }
-  const bool backward = rule == Outside::pingpong && std::fmod(plays, 2) != 0;
-  if (backward) {
+  const bool arriving = local == duration;
+  if (is_backward(rule, plays)) {
     // The difference may round to before the start.
     const double mirrored = arriving ? start : std::max(start, end - local);
     Sample<T> s = inside(mirrored, side == Side::in ? Side::out : Side::in);

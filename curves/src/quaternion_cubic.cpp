@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "curve_data.h"
-#include "span_slopes.h"
+#include "hermite_coefficients.h"
 
 namespace tweenfall {
 

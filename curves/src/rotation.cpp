@@ -6,16 +6,11 @@
 #include <string>
 #include <utility>
 
+#include "cross_matrix.h"
 #include "rotation_series.h"
 
 namespace tweenfall {
 namespace {
-
-Mat3 cross_matrix(const Vec3& v) noexcept {
-  Mat3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 Quat negated(const Quat& q) noexcept {
   return Quat(-q.w(), -q.x(), -q.y(), -q.z());

@@ -32,12 +32,9 @@ Curve<Quat> euler_curve(const Curve<Vec3>& angles, const EulerOrder& order) {
       throw std::invalid_argument("the axes of Euler angles must be 0, 1 or 2 with neighbors that differ; they are " +
                                   std::to_string(order.axes[0]) + ", " + std::to_string(order.axes[1]) + ", " +
                                   std::to_string(order.axes[2]));
-  return CurveAccess::seen_through<Quat>(
-      [angles, order](double time, Side side) { return turned(angles.sample(time, side), order); }, angles.start(),
-      angles.end(), angles.knots(), angles.before(), angles.after(),
-      [angles, order](Outside before, Outside after) {
-        return euler_curve(angles.with_outside(before, after), order);
-      });
+  return CurveAccess::converted<Quat>(angles, [order](const Curve<Vec3>& curve, double time, Side side) {
+    return turned(curve.sample(time, side), order);
+  });
 }
 
 Curve<Quat> axis_curve(const Vec3& axis, const Curve<double>& angle) {
@@ -46,15 +43,12 @@ Curve<Quat> axis_curve(const Vec3& axis, const Curve<double>& angle) {
     throw std::invalid_argument("an axis must be finite and not zero; it is " + text_of(axis));
   const Vec3 scaled = axis / largest;
   const Vec3 unit = scaled / std::sqrt(scaled.squaredNorm());
-  return CurveAccess::seen_through<Quat>(
-      [unit, angle](double time, Side side) {
-        const Sample<double> s = angle.sample(time, side);
-        const elementary::SinCos half = elementary::sin_cos(s.value / 2);
-        return Sample<Quat>{Quat(half.cos, half.sin * unit.x(), half.sin * unit.y(), half.sin * unit.z()),
-                            s.rate * unit, s.acceleration * unit};
-      },
-      angle.start(), angle.end(), angle.knots(), angle.before(), angle.after(),
-      [unit, angle](Outside before, Outside after) { return axis_curve(unit, angle.with_outside(before, after)); });
+  return CurveAccess::converted<Quat>(angle, [unit](const Curve<double>& curve, double time, Side side) {
+    const Sample<double> s = curve.sample(time, side);
+    const elementary::SinCos half = elementary::sin_cos(s.value / 2);
+    return Sample<Quat>{Quat(half.cos, half.sin * unit.x(), half.sin * unit.y(), half.sin * unit.z()), s.rate * unit,
+                        s.acceleration * unit};
+  });
 }
 
 }  // namespace tweenfall

@@ -34,13 +34,4 @@ struct SpanPlan {
 
 [[nodiscard]] SpanPlan plan_span(const Ease& ease, bool has_tangents);
 
-/// Coefficients of the cubic from `from` that moves by `change`, with slopes times duration d0 and d1 at its ends.
-template <class V>
-void cubic_coefficients(const V& from, const V& change, const V& d0, const V& d1, V* c) {
-  c[0] = from;
-  c[1] = d0;
-  c[2] = 3 * change - 2 * d0 - d1;
-  c[3] = d0 + d1 - 2 * change;
-}
-
 }  // namespace tweenfall

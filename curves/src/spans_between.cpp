@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "curve_data.h"
 #include "outside.h"
 #include "span_part.h"
 
@@ -25,11 +26,15 @@ void offset_span(typename SpanOf<T>::type& span, const T& start, const T& end, d
     const Quat turn = exp_map(plays * log_map(end * start.conjugate()));
     span.from = turn * span.from;
     span.end = turn * span.end;
-    if (span.form == RotationSpan::Form::normalized)
-      for (int i = 0; i <= span.degree; ++i) {
-        Vec4& c = span.coefficients[static_cast<std::size_t>(i)];
-        c = turned_part(turn, c);
-      }
+    span.spin = turn * span.spin;
+    // Rows that are rotations, or sum up to them.
+    const int rotations = span.form == RotationSpan::Form::normalized ? span.degree + 1
+                          : span.form == RotationSpan::Form::nested   ? 3
+                                                                      : 0;
+    for (int i = 0; i < rotations; ++i) {
+      Vec4& c = span.coefficients[static_cast<std::size_t>(i)];
+      c = turned_part(turn, c);
+    }
   } else if constexpr (std::is_same_v<T, Color>) {
     const Vec4 offset = plays * (end.rgba - start.rgba);
     span.coefficients[0].rgba += offset;
@@ -70,7 +75,7 @@ struct Plays {
   using SpanType = typename SpanOf<T>::type;
   const Curve<T>& curve;
   const std::vector<SpanType>& spans;
-  T first, last;  // values at the ends of the knots
+  T first, last;  // values between which offsets climb
   std::vector<SpanType> result;
 
   // One play of the knots, shown from start + k duration on.
@@ -98,18 +103,30 @@ struct Plays {
   }
 
   void add_outside(double from, double to, bool early) {
-    const Outside rule = early ? curve.before() : curve.after();
-    if (rule == Outside::hold || rule == Outside::linear || !(curve.duration() > 0)) {
-      const double anchor = early ? curve.start() : curve.end();
-      const Sample<T> end = early ? curve.sample(anchor, Side::in) : curve.sample(anchor, Side::out);
-      result.push_back(straight_span<T>(end, anchor, rule == Outside::linear && curve.duration() > 0, from, to));
+    const OutsideRule<T>& rule = early ? curve.rule_before() : curve.rule_after();
+    const double anchor = early ? curve.start() : curve.end();
+    if (!loops(rule.rule) || !(curve.duration() > 0)) {
+      const Sample<T> end = curve.sample(anchor, early ? Side::in : Side::out);
+      result.push_back(straight_span<T>(end, anchor, rule.rule == Outside::linear, from, to));
       return;
     }
+    const double over = last_play(rule, curve.start(), curve.end(), early).value_or(early ? from : to);
+    const auto rest = [&](double low, double high) {
+      if (!(low < high)) return;
+      const Sample<T> end = curve.sample(over, early ? Side::in : Side::out);
+      result.push_back(straight_span<T>(end, over, false, low, high));
+    };
+    if (early) rest(from, std::min(to, over));
+    add_plays(rule.rule, early ? std::max(from, over) : from, early ? to : std::min(to, over));
+    if (!early) rest(std::max(from, over), to);
+  }
+
+  void add_plays(Outside rule, double from, double to) {
     const double duration = curve.duration();
     const double begin = std::floor((from - curve.start()) / duration),
                  end = std::ceil((to - curve.start()) / duration);
     for (double k = begin; k < end; k += 1)
-      add(k, rule == Outside::pingpong && std::fmod(k, 2) != 0, rule == Outside::repeat_offset ? k : 0, from, to);
+      add(k, is_backward(rule, k), rule == Outside::repeat_offset ? k : 0, from, to);
   }
 };
 
@@ -123,10 +140,13 @@ void close_gaps(std::vector<SpanType>& spans, double from, double to) {
 
 template <class T>
 void check_plays(const Curve<T>& curve, double from, double to) {
-  const auto loops = [](Outside rule) { return rule != Outside::hold && rule != Outside::linear; };
-  const double beyond = (loops(curve.before()) ? std::max(0.0, curve.start() - from) : 0) +
-                        (loops(curve.after()) ? std::max(0.0, to - curve.end()) : 0);
-  if (curve.duration() > 0 && !(beyond <= most_plays * curve.duration()))
+  const auto seconds_played = [&curve](const OutsideRule<T>& rule, double beyond) {
+    if (!loops(rule.rule) || !(beyond > 0)) return 0.0;
+    return rule.plays > 0 ? std::min(beyond, rule.plays * curve.duration()) : beyond;
+  };
+  const double played =
+      seconds_played(curve.rule_before(), curve.start() - from) + seconds_played(curve.rule_after(), to - curve.end());
+  if (curve.duration() > 0 && !(played <= most_plays * curve.duration()))
     throw std::invalid_argument("from " + text_of(from) + " s to " + text_of(to) +
                                 " s the curve plays more than a million times; ask about less time");
 }
@@ -140,18 +160,18 @@ void check_times(double from, double to) {
 
 template <class T>
 bool has_spans(const Curve<T>& curve) {
-  return curve.start() == curve.end() || !curve.spans().empty();
+  const auto& data = CurveAccess::data(curve);
+  return !data.segments.empty() || (curve.start() == curve.end() && !data.rebuilt);
 }
 
 template <class T>
 std::vector<typename SpanOf<T>::type> spans_between(const Curve<T>& curve, double from, double to) {
   check_times(from, to);
   check_plays(curve, from, to);
-  if (curve.start() == curve.end()) return {straight_span<T>(at_rest<T>(curve.value(from)), from, false, from, to)};
   const std::vector<typename SpanOf<T>::type> spans = curve.spans();
-  Plays<T> plays{curve, spans, curve.value(curve.start(), Side::out), curve.value(curve.end(), Side::in), {}};
+  Plays<T> plays{curve, spans, CurveAccess::end_value(curve, true), CurveAccess::end_value(curve, false), {}};
   if (from < curve.start()) plays.add_outside(from, std::min(to, curve.start()), true);
-  plays.add(0, false, 0, from, to);
+  if (!spans.empty()) plays.add(0, false, 0, from, to);
   if (to > curve.end()) plays.add_outside(std::max(from, curve.end()), to, false);
   std::erase_if(plays.result, [](const auto& span) { return !(span.duration > 0); });
   close_gaps(plays.result, from, to);
@@ -167,28 +187,31 @@ std::vector<double> seams_between(const Curve<T>& curve, double from, double to)
     if (time > result.back() && time < to) result.push_back(time);
   };
   const std::span<const double> knots = curve.knots();
-  const auto add_plays = [&](double low, double high, bool pingpong) {
-    const double duration = curve.duration();
+  const double duration = curve.duration();
+  const auto add_plays = [&](const OutsideRule<T>& rule, double low, double high, bool early) {
+    if (!(low < high) || !loops(rule.rule) || !std::isfinite(duration) || !(duration > 0)) return;
+    const std::optional<double> over = last_play(rule, curve.start(), curve.end(), early);
+    if (over) (early ? low : high) = early ? std::max(low, *over) : std::min(high, *over);
+    if (over && early) add(*over);
     for (double k = std::floor((low - curve.start()) / duration); k < std::ceil((high - curve.start()) / duration);
          k += 1) {
-      const bool backward = pingpong && std::fmod(k, 2) != 0;
+      const bool backward = is_backward(rule.rule, k);
       const double seam = curve.start() + (k + 1) * duration;
-      add(curve.start() + k * duration);
+      const auto add_played = [&](double time) {
+        if (time < high) add(time);
+      };
+      add_played(curve.start() + k * duration);
       for (std::size_t j = 0; j < knots.size(); ++j)
-        add(backward ? seam - (knots[knots.size() - 1 - j] - knots[0]) : knots[j] + k * duration);
-      add(seam);
+        add_played(backward ? seam - (knots[knots.size() - 1 - j] - knots[0]) : knots[j] + k * duration);
+      add_played(seam);
     }
+    add(high);
   };
-  const auto loops = [&](Outside rule) {
-    return rule != Outside::hold && rule != Outside::linear && std::isfinite(curve.duration()) && curve.duration() > 0;
-  };
-  if (from < curve.start() && loops(curve.before()))
-    add_plays(from, std::min(to, curve.start()), curve.before() == Outside::pingpong);
+  add_plays(curve.rule_before(), from, std::min(to, curve.start()), true);
   add(curve.start());
   for (const double knot : knots) add(knot);
   add(curve.end());
-  if (to > curve.end() && loops(curve.after()))
-    add_plays(std::max(from, curve.end()), to, curve.after() == Outside::pingpong);
+  add_plays(curve.rule_after(), std::max(from, curve.end()), to, false);
   result.push_back(to);
   return result;
 }

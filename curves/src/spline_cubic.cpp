@@ -2,6 +2,7 @@
 
 #include "c2_slopes.h"
 #include "curve_data.h"
+#include "hermite_coefficients.h"
 #include "span_slopes.h"
 #include "spline_check.h"
 

@@ -1,7 +1,7 @@
 #include <tweenfall/curves/splines.h>
 
 #include "curve_data.h"
-#include "span_slopes.h"
+#include "hermite_coefficients.h"
 #include "spline_check.h"
 
 namespace tweenfall {
@@ -39,17 +39,9 @@ Curve<T> quintic_spline(std::span<const double> times, std::span<const T> values
     span.duration = h;
     span.degree = 5;
     span.end = values[i + 1];
-    const T start_rate = h * rates[i], half_bend = (0.5 * h * h) * accelerations[i];
-    // What the polynomial of degree 2 from the start leaves to be made up at the end, for value, rate and bend.
-    const T value = values[i + 1] - values[i] - start_rate - half_bend;
-    const T rate = h * rates[i + 1] - start_rate - 2 * half_bend;
-    const T bend = (h * h) * accelerations[i + 1] - 2 * half_bend;
-    span.coefficients[0] = values[i];
-    span.coefficients[1] = start_rate;
-    span.coefficients[2] = half_bend;
-    span.coefficients[3] = 10 * value - 4 * rate + 0.5 * bend;
-    span.coefficients[4] = -15 * value + 7 * rate - bend;
-    span.coefficients[5] = 6 * value - 3 * rate + 0.5 * bend;
+    const T change = values[i + 1] - values[i], d0 = h * rates[i], d1 = h * rates[i + 1];
+    const T e0 = (h * h) * accelerations[i], e1 = (h * h) * accelerations[i + 1];
+    quintic_coefficients(values[i], change, d0, d1, e0, e1, span.coefficients.data());
   }
   return CurveAccess::from_spans<T>(spans, times.back());
 }

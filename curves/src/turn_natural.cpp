@@ -1,17 +1,12 @@
 #include <Eigen/LU>
 
+#include "cross_matrix.h"
 #include "moving_rotation.h"
 #include "turn_natural.h"
 #include "turn_rule.h"
 
 namespace tweenfall {
 namespace {
-
-Mat3 cross_matrix(const Vec3& v) noexcept {
-  Mat3 m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 // One stretch with what does not change while the rates are sought: J is the Jacobian at its end, A its inverse.
 struct Part {

@@ -1,4 +1,5 @@
 #include "turn_rule.h"
+#include "hermite_coefficients.h"
 
 namespace tweenfall {
 

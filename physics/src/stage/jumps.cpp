@@ -28,10 +28,13 @@ void collect(const Curve<T>& curve, const Clip& clip, bool accumulates, std::vec
   const double length = curve.duration();
   if (std::isfinite(length) && length > 0 && differ(curve.value(curve.end(), Side::in), curve.value(curve.start()))) {
     constexpr int most = 1000;
-    if (curve.after() == Outside::repeat)
-      for (int k = 0; k < most && curve.end() + k * length < clip.duration; ++k) add(curve.end() + k * length);
-    if (curve.before() == Outside::repeat)
-      for (int k = 0; k < most && curve.start() - k * length > 0; ++k) add(curve.start() - k * length);
+    const auto plays = [](const auto& rule, int k) {
+      return rule.rule == Outside::repeat && k < most && (rule.plays == 0 || k < rule.plays);
+    };
+    for (int k = 0; plays(curve.rule_after(), k) && curve.end() + k * length < clip.duration; ++k)
+      add(curve.end() + k * length);
+    for (int k = 0; plays(curve.rule_before(), k) && curve.start() - k * length > 0; ++k)
+      add(curve.start() - k * length);
   }
   const bool wraps = clip.loop.mode == LoopMode::repeat || (clip.loop.mode == LoopMode::repeat_offset && !accumulates);
   if (wraps && std::isfinite(clip.duration) &&

@@ -32,11 +32,10 @@ class CurveBatch {
   struct alignas(32) Cubic {
     double c0, c1, c2, c3;
   };
-  // Where a curve's stretches are, and where among them to look for a time.
+  // Where a curve's stretches are, and what tells roughly which of them holds a time.
   struct Track {
     std::uint32_t first, last;  // of starts_ and cubics_
-    std::uint32_t bucket, buckets;
-    double start, end, bucket_scale;
+    double start, end, spans_per_second;
   };
   // A curve that is asked by itself.
   struct Apart {
@@ -44,14 +43,17 @@ class CurveBatch {
     Curve<double> curve;
   };
 
-  [[nodiscard]] std::uint32_t locate(std::size_t track, double time) const noexcept;
+  [[nodiscard]] std::uint32_t guess(const Track& track, double time) const noexcept;
+  [[nodiscard]] std::uint32_t locate(const Track& track, std::uint32_t guess, double time) const noexcept;
+  void seek(std::size_t count, double time) noexcept;
   void remember(std::size_t track) noexcept;
 
+  // A curve's stretches start at minus infinity, at each of its knots, and end at infinity.
   std::vector<double> starts_;
   std::vector<Cubic> cubics_;
-  std::vector<std::uint32_t> buckets_;
   std::vector<Track> tracks_;
   std::vector<Apart> apart_;
+  double time_ = 0, stride_ = 0;  // last asked for; up to which step the next stretch is the likely one
 
   // The stretch that each curve was last in: which, until when, and its numbers.
   std::vector<std::uint32_t> place_, stale_;

@@ -22,7 +22,7 @@ template <class T>
 
 /// The curve whose rate is `curve` and which begins, at its start, with `first`, U s. Spans of one degree more, hence
 /// made of spans where those of `curve` are unwarped and of degree 4 at most, else a formula. Outside its knots it is
-/// exact where `curve` holds or repeats; otherwise it goes on straight.
+/// exact where `curve` holds, and where it repeats, as long as it plays; otherwise it goes on straight.
 /// @throws std::invalid_argument for an endless curve.
 template <class T>
 [[nodiscard]] Curve<T> antiderivative(const Curve<T>& curve, const T& first = zero<T>());
@@ -33,7 +33,8 @@ template <class T>
 template <class T>
 [[nodiscard]] T derivative_at(const Curve<T>& curve, int order, double time, Side side = Side::out);
 
-/// The rate as a curve, over the same knots. Outside them it repeats where `curve` repeats, else it holds its ends.
+/// The rate as a curve, over the same knots and at all times outside them. Made of spans where those of `curve` are
+/// unwarped and `curve` rests, goes on straight or repeats for ever, else a formula.
 /// @throws std::invalid_argument where the third derivative is not known (see `derivative_at`).
 template <class T>
 [[nodiscard]] Curve<T> derivative(const Curve<T>& curve);

@@ -1,0 +1,29 @@
+#pragma once
+
+// Polynomials over 0 to 1 with given values and derivatives at both ends, in power basis.
+
+namespace tweenfall {
+
+/// The cubic from `from` that moves by `change`, with the slopes d0 and d1 at its ends.
+template <class V>
+void cubic_coefficients(const V& from, const V& change, const V& d0, const V& d1, V* c) {
+  c[0] = from;
+  c[1] = d0;
+  c[2] = 3 * change - 2 * d0 - d1;
+  c[3] = d0 + d1 - 2 * change;
+}
+
+/// The same of degree 5, with the second derivatives e0 and e1 too.
+template <class V>
+void quintic_coefficients(const V& from, const V& change, const V& d0, const V& d1, const V& e0, const V& e1, V* c) {
+  // What the polynomial of degree 2 from the start leaves to be made up at the end, for value, slope and bend.
+  const V value = change - d0 - 0.5 * e0, slope = d1 - d0 - e0, bend = e1 - e0;
+  c[0] = from;
+  c[1] = d0;
+  c[2] = 0.5 * e0;
+  c[3] = 10 * value - 4 * slope + 0.5 * bend;
+  c[4] = -15 * value + 7 * slope - bend;
+  c[5] = 6 * value - 3 * slope + 0.5 * bend;
+}
+
+}  // namespace tweenfall
