@@ -31,16 +31,22 @@ install_missing() {
   rm -f "$log"
 }
 
-# build PRESET [TARGET...]: configure when needed, then compile; the compiler's words only when it has some.
-build() {
+# configure PRESET: when it never was, or the presets have changed since.
+configure() {
   local preset=$1 folder=$cache_folder/$1 log
-  shift
   mkdir -p "$folder"
   log=$folder/configure.log
   if [ ! -f "$folder/build.ninja" ] || [ "$source_folder/CMakePresets.json" -nt "$folder/build.ninja" ]; then
     (cd "$source_folder" && cmake --preset "$preset") > "$log" 2>&1 < /dev/null ||
       { cat "$log" >&2; fail "cmake could not configure the $preset build"; }
   fi
+}
+
+# build PRESET [TARGET...]: configure when needed, then compile; the compiler's words only when it has some.
+build() {
+  local preset=$1 folder=$cache_folder/$1
+  shift
+  configure "$preset"
   ninja -C "$folder" "$@" 2>&1 < /dev/null | show_build "$preset" >&2 || fail "the $preset build failed"
 }
 

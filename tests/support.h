@@ -10,61 +10,38 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
 namespace tweenfall::test {
 
-namespace detail {
-inline std::filesystem::path folder(const char* variable, const char* fallback) {
-  const char* given = std::getenv(variable);
-  return given && *given ? std::filesystem::path(given) : std::filesystem::path(TWEENFALL_SOURCE_DIR) / fallback;
-}
-}  // namespace detail
+inline constexpr double pi = std::numbers::pi;
 
 /// Numbers made by other programs: TWEENFALL_VECTORS, or ../shared/vectors.
-inline std::filesystem::path vectors_folder() {
-  return detail::folder("TWEENFALL_VECTORS", "../shared/vectors");
-}
+std::filesystem::path vectors_folder();
 /// Real models with oracle poses: TWEENFALL_MODELS, or ../shared/models.
-inline std::filesystem::path models_folder() {
-  return detail::folder("TWEENFALL_MODELS", "../shared/models");
-}
+std::filesystem::path models_folder();
+/// Scenes of rigid bodies: TWEENFALL_SCENES, or ../shared/scenes.
+std::filesystem::path scenes_folder();
 /// The few cases of each family that travel with the project.
-inline std::filesystem::path data_folder() {
-  return std::filesystem::path(TWEENFALL_SOURCE_DIR) / "tests/data";
-}
+std::filesystem::path data_folder();
 
-inline nlohmann::json read_json(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  REQUIRE_MESSAGE(stream.good(), "cannot read " << file.string());
-  return nlohmann::json::parse(stream);
-}
+std::string text_of(const std::filesystem::path& file);
+nlohmann::json read_json(const std::filesystem::path& file);
+/// How often `what` is in `text`.
+std::size_t count(const std::string& text, const std::string& what);
 
 /// All files of a vector family: "NAME.json" and "NAME_*.json" in tests/data and in the vectors folder.
 /// Says loudly when the vectors folder is absent.
-inline std::vector<nlohmann::json> vector_family(const std::string& name) {
-  std::vector<nlohmann::json> files;
-  for (const auto& folder : {data_folder() / "vectors", vectors_folder()}) {
-    if (!std::filesystem::is_directory(folder)) {
-      MESSAGE("SKIPPED: vectors of family " << name << ", no folder " << folder.string());
-      continue;
-    }
-    std::vector<std::filesystem::path> found;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-      if (entry.path().extension() == ".json") found.push_back(entry.path());
-    std::sort(found.begin(), found.end());
-    for (const auto& path : found) {
-      auto content = read_json(path);
-      if (content.is_object() && content.value("family", "") == name) files.push_back(std::move(content));
-    }
-  }
-  CHECK_MESSAGE(!files.empty(), "no file of vector family " << name << " anywhere");
-  return files;
-}
+std::vector<nlohmann::json> vector_family(const std::string& name);
+
+/// Three numbers.
+Vec3 vec(const nlohmann::json& list);
+/// Four numbers from place `at`, the scalar last.
+Quat quat(const nlohmann::json& list, std::size_t at = 0);
 
 /// Equal within `tolerance` of the larger of 1 and the expected magnitude.
 inline bool near(double actual, double expected, double tolerance) {

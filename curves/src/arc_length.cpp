@@ -66,7 +66,7 @@ std::vector<PathPiece<V>> path_pieces(const Curve<V>& path, double from, double 
 }
 
 // Part of a piece on which Gauss's rule is good for every beginning of it.
-struct Stretch {
+struct MeasuredPiece {
   std::size_t piece;
   double from, to;        // positions in the piece
   double before, length;  // U
@@ -75,7 +75,7 @@ struct Stretch {
 template <class V>
 class Measure {
  public:
-  Measure(const Curve<V>& path, const std::vector<PathPiece<V>>& pieces, std::vector<Stretch>& result)
+  Measure(const Curve<V>& path, const std::vector<PathPiece<V>>& pieces, std::vector<MeasuredPiece>& result)
       : path_(path), pieces_(pieces), result_(result) {
     for (const PathPiece<V>& piece : pieces) tolerance_ += 1e-13 * gauss(path, piece, 0, 1);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -115,7 +115,7 @@ class Measure {
 
   const Curve<V>& path_;
   const std::vector<PathPiece<V>>& pieces_;
-  std::vector<Stretch>& result_;
+  std::vector<MeasuredPiece>& result_;
   double tolerance_ = 0, total_ = 0;
 };
 
@@ -125,14 +125,14 @@ template <class T>
 struct MeasuredPath<T>::Data {
   Curve<T> path;
   std::vector<PathPiece<T>> pieces;
-  std::vector<Stretch> stretches;
+  std::vector<MeasuredPiece> stretches;
 
   [[nodiscard]] double length() const noexcept {
     return stretches.empty() ? 0 : stretches.back().before + stretches.back().length;
   }
 
   // Position within a stretch at which `rest` of it is done.
-  [[nodiscard]] double position(const Stretch& stretch, double rest) const noexcept {
+  [[nodiscard]] double position(const MeasuredPiece& stretch, double rest) const noexcept {
     const PathPiece<T>& piece = pieces[stretch.piece];
     if (!(rest > 0)) return stretch.from;
     if (!(rest < stretch.length)) return stretch.to;
@@ -149,11 +149,12 @@ struct MeasuredPath<T>::Data {
     return s;
   }
 
-  [[nodiscard]] const Stretch& stretch_at(double length, Side side) const noexcept {
-    const auto after = side == Side::out ? std::upper_bound(stretches.begin(), stretches.end(), length,
-                                                            [](double v, const Stretch& s) { return v < s.before; })
-                                         : std::lower_bound(stretches.begin(), stretches.end(), length,
-                                                            [](const Stretch& s, double v) { return s.before < v; });
+  [[nodiscard]] const MeasuredPiece& stretch_at(double length, Side side) const noexcept {
+    const auto after = side == Side::out
+                           ? std::upper_bound(stretches.begin(), stretches.end(), length,
+                                              [](double v, const MeasuredPiece& s) { return v < s.before; })
+                           : std::lower_bound(stretches.begin(), stretches.end(), length,
+                                              [](const MeasuredPiece& s, double v) { return s.before < v; });
     return after == stretches.begin() ? *after : *(after - 1);
   }
 };
@@ -180,10 +181,10 @@ double MeasuredPath<T>::length_at(double time) const noexcept {
                                       [](double t, const PathPiece<T>& piece) { return t < piece.from; });
   const std::size_t i = static_cast<std::size_t>(after - d.pieces.begin()) - 1;
   const double s = d.pieces[i].position_at(time);
-  const auto next = std::partition_point(d.stretches.begin(), d.stretches.end(), [&](const Stretch& stretch) {
+  const auto next = std::partition_point(d.stretches.begin(), d.stretches.end(), [&](const MeasuredPiece& stretch) {
     return stretch.piece < i || (stretch.piece == i && stretch.from <= s);
   });
-  const Stretch& stretch = *(next - 1);
+  const MeasuredPiece& stretch = *(next - 1);
   return stretch.before + gauss(d.path, d.pieces[i], stretch.from, s);
 }
 
@@ -192,7 +193,7 @@ double MeasuredPath<T>::time_at(double length_from_start) const noexcept {
   const Data& d = *data_;
   if (d.stretches.empty() || !(length_from_start > 0)) return d.path.start();
   if (length_from_start >= d.length()) return d.path.end();
-  const Stretch& stretch = d.stretch_at(length_from_start, Side::out);
+  const MeasuredPiece& stretch = d.stretch_at(length_from_start, Side::out);
   return d.pieces[stretch.piece].time_at(d.position(stretch, length_from_start - stretch.before));
 }
 
@@ -201,7 +202,7 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
   const Data& d = *data_;
   if (d.stretches.empty()) return {d.path.value(d.path.start()), zero<T>(), zero<T>()};
   const double length = std::clamp(length_from_start, 0.0, d.length());
-  const Stretch& stretch = d.stretch_at(length, side);
+  const MeasuredPiece& stretch = d.stretch_at(length, side);
   const PathPiece<T>& piece = d.pieces[stretch.piece];
   const double s = d.position(stretch, length - stretch.before);
   const double time = piece.time_at(s);
@@ -228,7 +229,7 @@ template <class T>
 double arc_length(const Curve<T>& curve, double from, double to) {
   if (to < from) return -arc_length(curve, to, from);
   const std::vector<PathPiece<T>> pieces = path_pieces(curve, from, to);
-  std::vector<Stretch> stretches;
+  std::vector<MeasuredPiece> stretches;
   Measure<T>(curve, pieces, stretches);
   return stretches.empty() ? 0 : stretches.back().before + stretches.back().length;
 }

@@ -131,7 +131,7 @@ void CurveBatch::sample(double time, std::span<double> values, std::span<double>
   std::size_t changed = 0;
   for (std::size_t i = 0; i < count; ++i) {
     stale_[changed] = static_cast<std::uint32_t>(i);
-    changed += static_cast<std::size_t>(!((time >= start_[i]) & (time < end_[i])));
+    changed += static_cast<std::size_t>(!(time >= start_[i])) | static_cast<std::size_t>(!(time < end_[i]));
   }
   if (time > time_ && time - time_ < stride_) {
     // Mostly the next stretch holds the time.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "ease_text.h"
+#include "quoted.h"
 #include "shapes.h"
 
 namespace tweenfall {
@@ -104,10 +105,6 @@ std::string_view trimmed(std::string_view text) {
 
 [[noreturn]] void refuse(const std::string& reason) {
   throw std::invalid_argument(reason);
-}
-
-std::string quoted(std::string_view text) {
-  return "\"" + std::string(text) + "\"";
 }
 
 std::optional<double> number_in(std::string_view text) {

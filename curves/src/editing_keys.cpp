@@ -21,12 +21,12 @@ Tangent<T> given(const Rate<T>& rate, double weight = 1.0 / 3) {
 }
 
 // The shares of a span that its handles take, from the cubic of its time.
-struct Weights {
+struct HandleWeights {
   double out = 1.0 / 3, in = 1.0 / 3;
   [[nodiscard]] bool possible() const noexcept { return out > 0 && out <= 1 && in > 0 && in <= 1; }
 };
 
-Weights weights_of(const std::array<double, 4>& x) noexcept {
+HandleWeights weights_of(const std::array<double, 4>& x) noexcept {
   const double x1 = x[1] / 3, x2 = (x[2] + 6 * x1) / 3;
   return {x1, 1 - x2};
 }
@@ -39,7 +39,7 @@ template <class AnySpan>
 
 template <class T>
 void describe(Key<T>& from, Key<T>& to, const Span<T>& span, const Curve<T>& curve) {
-  Weights weights;
+  HandleWeights weights;
   if (span.degree == 0) {
     from.ease = Ease::hold();
     return;
@@ -156,8 +156,8 @@ std::vector<Key<T>> with_key(std::span<const Key<T>> keys, double time, const Ke
     }
     handles.x = time_cubic(x1, x2);
     const bool plain = x1 == 1.0 / 3 && std::abs(x2 - 2.0 / 3) <= 2e-16;
-    const Weights first = plain ? Weights{} : weights_of(piece_part(handles, from.time, time).x);
-    const Weights second = plain ? Weights{} : weights_of(piece_part(handles, time, to.time).x);
+    const HandleWeights first = plain ? HandleWeights{} : weights_of(piece_part(handles, from.time, time).x);
+    const HandleWeights second = plain ? HandleWeights{} : weights_of(piece_part(handles, time, to.time).x);
     if (!first.possible() || !second.possible())
       refuse_key(keys, i, "has handles that, cut here, would lie outside their spans");
     from.out = given<T>(curve.rate(from.time, Side::out), first.out);

@@ -3,11 +3,12 @@
 #include <tweenfall/curves/elementary.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace tweenfall {
 namespace {
 
-constexpr double pi = 0x1.921fb54442d18p+1;
+using std::numbers::pi;
 
 }  // namespace
 

@@ -4,11 +4,12 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tweenfall {
 namespace {
 
-constexpr double pi = 0x1.921fb54442d18p+1;
+using std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // Sign of what `a` is about to be on the side that `way` means.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "expression_program.h"
+#include "quoted.h"
 
 namespace tweenfall {
 namespace {
@@ -24,10 +25,6 @@ bool is_digit(char c) {
 }
 bool starts_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
-std::string quoted(std::string_view word) {
-  return "\"" + std::string(word) + "\"";
 }
 
 // Recursive descent over

@@ -72,7 +72,7 @@ Vec3 turned(const Frame& frame, double angle) {
   return wave.cos * frame.normal + wave.sin * frame.tangent.cross(frame.normal);
 }
 
-void check_times(std::span<const double> times) {
+void check_frame_times(std::span<const double> times) {
   if (times.empty()) throw std::invalid_argument("frames need at least one time; none were given");
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i])) throw std::invalid_argument("time " + std::to_string(i) + " must be finite");
@@ -102,7 +102,7 @@ std::optional<Frame> frenet_frame(const Curve<Vec3>& curve, double time, Side si
 
 std::vector<Frame> rotation_minimizing_frames(const Curve<Vec3>& curve, std::span<const double> times,
                                               const FrameOptions& options) {
-  check_times(times);
+  check_frame_times(times);
   Vec3 tangent(1, 0, 0);
   for (std::size_t i = times.size(); i-- > 0;) tangent = tangent_at(curve, times[i], tangent);
 

@@ -49,6 +49,18 @@ HandleKey divided(HandleKey& a, HandleKey& b, double time) {
   return key;
 }
 
+// The key on the span that leaves `a`, key number `index`, by an ease.
+HandleKey between(const HandleKey& a, const HandleKey& b, double time, std::size_t index) {
+  double value = a.value;
+  if (a.ease->rule() == Ease::Rule::linear)
+    value = a.value + (time - a.time) / (b.time - a.time) * (b.value - a.value);
+  else if (a.ease->rule() != Ease::Rule::hold)
+    throw std::invalid_argument("a key cannot be inserted into the ease \"" + a.ease->name() + "\" that leaves key " +
+                                std::to_string(index));
+  const Handle handle{TangentKind::given, time, value};
+  return {time, value, handle, handle, a.ease};
+}
+
 }  // namespace
 
 std::vector<HandleKey> insert_key(std::span<const HandleKey> keys, double time, const HandleOptions& options) {
@@ -62,18 +74,8 @@ std::vector<HandleKey> insert_key(std::span<const HandleKey> keys, double time, 
       std::find_if(result.begin(), result.end(), [time](const HandleKey& key) { return key.time >= time; });
   if (next->time == time) return result;
   HandleKey &b = *next, &a = *(next - 1);
-  HandleKey key{time, a.value};
-  if (!a.ease) {
-    key = divided(a, b, time);
-  } else {
-    if (a.ease->rule() == Ease::Rule::linear)
-      key.value = a.value + (time - a.time) / (b.time - a.time) * (b.value - a.value);
-    else if (a.ease->rule() != Ease::Rule::hold)
-      throw std::invalid_argument("a key cannot be inserted into the ease \"" + a.ease->name() + "\" that leaves key " +
-                                  std::to_string(next - result.begin() - 1));
-    key.in = key.out = {TangentKind::given, key.time, key.value};
-    key.ease = a.ease;
-  }
+  const auto place = next - result.begin();
+  const HandleKey key = a.ease ? between(a, b, time, static_cast<std::size_t>(place - 1)) : divided(a, b, time);
   result.insert(next, key);
   return result;
 }

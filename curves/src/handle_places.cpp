@@ -12,7 +12,6 @@ namespace {
 
 // The length of an automatic handle, as a share of the span. Source: Blender, calchandleNurb_intern.
 constexpr double automatic_share = 1 / 2.5614;
-constexpr double third = 1.0 / 3;
 
 [[noreturn]] void refuse(std::span<const HandleKey> keys, std::size_t i, const std::string& what) {
   throw std::invalid_argument("key " + std::to_string(i) + " (time " + text_of(keys[i].time) + " s, value " +
@@ -59,7 +58,7 @@ KeyNeighbors neighbors_of(const std::vector<PlacedKey>& keys, std::size_t i, End
 void put_automatic(PlacedKey& key, const KeyNeighbors& n, bool open_end, bool even_acceleration) {
   double before = n.duration_before, after = n.duration_after, share = automatic_share;
   if (even_acceleration) {
-    share = third;
+    share = 1.0 / 3;
   } else {
     before = std::min(before, 5 * after);
     after = std::min(after, 5 * before);
@@ -97,7 +96,7 @@ void put_third(HandleReach& reach, TangentKind kind, double secant, double durat
   if (kind == TangentKind::given || kind == TangentKind::aligned || kind == TangentKind::mirrored || is_smooth(kind))
     return;
   const double slope = kind == TangentKind::vector ? secant : open_end ? 0 : neighbor_slope(kind, n);
-  reach = {third * duration, slope * third * duration};
+  reach = {duration / 3, slope * (duration / 3)};
 }
 
 }  // namespace

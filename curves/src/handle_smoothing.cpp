@@ -8,8 +8,6 @@
 namespace tweenfall {
 namespace {
 
-constexpr double third = 1.0 / 3;
-
 void lock(Tridiagonal& rows, std::size_t i, double value) {
   rows.lower[i] = rows.upper[i] = 0;
   rows.diagonal[i] = 1;
@@ -23,7 +21,7 @@ void copy_row(Tridiagonal& rows, std::size_t i, const Tridiagonal& from) {
   rows.right[i] = from.right[i];
 }
 
-struct Limits {
+struct HandleLimits {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 
   // The slope may neither point away from the neighbor nor reach beyond its value.
@@ -37,7 +35,7 @@ struct Limits {
 // Slopes that solve the rows where the limits allow it. A slope beyond a limit is set to it; one that then wants back
 // inside is set free again, at most twice.
 // Source: Blender, tridiagonal_solve_with_limits.
-std::vector<double> solved_within(const Tridiagonal& free_rows, const std::vector<Limits>& limits) {
+std::vector<double> solved_within(const Tridiagonal& free_rows, const std::vector<HandleLimits>& limits) {
   const std::size_t n = free_rows.rows();
   Tridiagonal rows = free_rows;
   std::vector<bool> locked(n);
@@ -154,7 +152,7 @@ class Run {
   // acceleration at the next key depends on that key's own slope.
   void lock_end(Tridiagonal& rows, std::size_t end, std::size_t next, HandleReach reach, double span,
                 bool other_open) const {
-    const double fit = span / (reach.time + third * span);
+    const double fit = span / (reach.time + span / 3);
     if (fit < 1) reach = {fit * reach.time, fit * reach.value};
     lock(rows, end, 3 * reach.value / span);
     if (count_ == 2 && !other_open) return;
@@ -164,8 +162,8 @@ class Run {
     rows.diagonal[next] += weight * share;
   }
 
-  [[nodiscard]] std::vector<Limits> limits(std::size_t unknowns) const {
-    std::vector<Limits> result(unknowns);
+  [[nodiscard]] std::vector<HandleLimits> limits(std::size_t unknowns) const {
+    std::vector<HandleLimits> result(unknowns);
     for (std::size_t k = 0; k < count_; ++k) {
       if (!is_clamped(key(k))) continue;
       if (k > 0) result[k % unknowns].keep_within(secant(k - 1));

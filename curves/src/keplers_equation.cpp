@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace tweenfall {
 namespace {
@@ -35,7 +36,8 @@ double eccentric_anomaly(double mean, double eccentricity) noexcept {
   const double e = eccentricity, m = std::abs(mean);
   // Each lies above the root: sin E <= 1, sin E <= E, and E - sin E >= E^3 / pi^2 up to pi.
   // Up to pi the function is convex, and its root lies there.
-  constexpr double pi = 0x1.921fb54442d18p+1, pi_squared = 0x1.3bd3cc9be45dep+3;
+  using std::numbers::pi;
+  constexpr double pi_squared = 0x1.3bd3cc9be45dep+3;
   const double above = std::min({pi, m + e, m / (1 - e), elementary::cbrt(pi_squared * m / std::max(e, 0.1))});
   const double anomaly = descended(above, [e, m](double x) {
     const double half = elementary::sin(0.5 * x);

@@ -6,21 +6,21 @@
 namespace tweenfall {
 namespace {
 
-constexpr double turn = 0x1.921fb54442d18p+2;
+constexpr double full_turn = 0x1.921fb54442d18p+2;
 
 double next_hue(double from, double to, HueRule rule) noexcept {
-  double step = to - from - turn * std::floor((to - from) / turn);  // 0 to a turn
+  double step = to - from - full_turn * std::floor((to - from) / full_turn);  // 0 to a full_turn
   switch (rule) {
     case HueRule::shorter:
-      if (step > turn / 2) step -= turn;
+      if (step > full_turn / 2) step -= full_turn;
       break;
     case HueRule::longer:
-      if (step > 0 && step < turn / 2) step -= turn;
+      if (step > 0 && step < full_turn / 2) step -= full_turn;
       break;
     case HueRule::increasing:
       break;
     case HueRule::decreasing:
-      if (step > 0) step -= turn;
+      if (step > 0) step -= full_turn;
       break;
   }
   return from + step;

@@ -2,6 +2,7 @@
 #include <tweenfall/curves/sweep.h>
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "components.h"
@@ -10,16 +11,16 @@
 namespace tweenfall {
 namespace {
 
-constexpr double whole_turn = 0x1.921fb54442d18p+2;
+constexpr double full_circle = 2 * std::numbers::pi;
 
 class Lathe {
  public:
   Lathe(const Curve<Vec2>& curve, const LatheOptions& options)
-      : profile_(curve, options.profile_steps, true), options_(options), whole_(options.angle == whole_turn) {
+      : profile_(curve, options.profile_steps, true), options_(options), whole_(options.angle == full_circle) {
     if (options.segments < 3)
       throw std::invalid_argument("a lathe needs at least three segments; " + std::to_string(options.segments) +
                                   " given");
-    if (!(options.angle > 0 && options.angle <= whole_turn))
+    if (!(options.angle > 0 && options.angle <= full_circle))
       throw std::invalid_argument("a lathe's angle must be above 0 and at most a whole turn; it is " +
                                   text_of(options.angle));
     double size = 0;

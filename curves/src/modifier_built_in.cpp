@@ -1,6 +1,7 @@
 #include <tweenfall/curves/elementary.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "modifier_form.h"
 
@@ -9,7 +10,7 @@ namespace {
 
 using modifiers::BuiltIn;
 
-constexpr double pi = 0x1.921fb54442d18p+1;
+using std::numbers::pi;
 
 Jet sinc(const Jet& x) noexcept {
   const Jet y = pi * x;

@@ -2,6 +2,7 @@
 #include <tweenfall/curves/functions.h>
 
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 
 #include "components.h"
@@ -10,7 +11,8 @@
 namespace tweenfall {
 namespace {
 
-constexpr double pi = 0x1.921fb54442d18p+1, endless = std::numeric_limits<double>::infinity();
+using std::numbers::pi;
+constexpr double forever = std::numeric_limits<double>::infinity();
 
 // With half the angle, h: h'^2 = w^2 (k^2 - sin^2 h), where k^2 is the energy over that of the top.
 struct Swing {
@@ -39,7 +41,7 @@ struct Swing {
 };
 
 Curve<double> endless_curve(Curve<double>::Formula formula) {
-  return Curve<double>(std::move(formula), -endless, endless);
+  return Curve<double>(std::move(formula), -forever, forever);
 }
 
 Curve<double> swinging(const Swing& m) {
@@ -90,7 +92,7 @@ Curve<double> pendulum(const Pendulum& settings) {
 
 double pendulum_period(const Pendulum& settings) {
   const Swing m(settings);
-  if (m.missing == 0) return endless;
+  if (m.missing == 0) return forever;
   if (m.missing > 0) return 4 * Elliptic(m.energy, m.missing).quarter_period() / m.frequency;
   return 2 * Elliptic(1 / m.energy, -m.missing / m.energy).quarter_period() / (m.frequency * std::sqrt(m.energy));
 }

@@ -50,6 +50,7 @@ template std::vector<double> step_times(const Curve<Vec3>&, int, bool, const std
 Profile::Profile(const Curve<Vec2>& curve, int steps, bool keep_straight) {
   const std::vector<double> times = step_times(curve, steps, keep_straight, "a profile");
   std::vector<Vec2> points;
+  points.reserve(times.size());
   for (const double t : times) points.push_back(curve.value(t, t == times.front() ? Side::out : Side::in));
   double length = 0, size = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
@@ -71,10 +72,7 @@ Profile::Profile(const Curve<Vec2>& curve, int steps, bool keep_straight) {
     const double reach = step.norm();
     if (!(reach > 0)) continue;
     const Vec2 chord = step / reach;
-    const bool continues = !columns.empty();
-    if (continues && direction(curve.sample(times[i], Side::out), 1, chord).dot(columns.back().tangent) < smooth)
-      add(i, Side::out, chord);
-    else if (!continues)
+    if (columns.empty() || direction(curve.sample(times[i], Side::out), 1, chord).dot(columns.back().tangent) < smooth)
       add(i, Side::out, chord);
     corners.push_back(static_cast<std::uint32_t>(columns.size() - 1));
     sides.push_back(static_cast<std::uint32_t>(columns.size() - 1));

@@ -13,7 +13,7 @@ std::string named_key(std::size_t i, double time) {
   return "key " + std::to_string(i) + " (time " + text_of(time) + " s) ";
 }
 
-void check_times(std::span<const double> times) {
+void check_key_times(std::span<const double> times) {
   if (times.empty()) throw std::invalid_argument("a curve needs at least one key; none were given");
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i])) throw std::invalid_argument(named_key(i, times[i]) + "must have a finite time");
@@ -40,7 +40,7 @@ std::vector<Quat> aligned(std::span<const Quat> rotations, const char* what) {
 }  // namespace
 
 Curve<Quat> bezier_rotation(std::span<const double> times, std::span<const Quat> controls) {
-  check_times(times);
+  check_key_times(times);
   const std::size_t wanted = 3 * times.size() - 2;
   if (controls.size() != wanted)
     throw std::invalid_argument("cubics through " + std::to_string(times.size()) + " keys take " +
@@ -60,7 +60,7 @@ Curve<Quat> bezier_rotation(std::span<const double> times, std::span<const Quat>
 
 Curve<Quat> clamped_rotation(std::span<const double> times, std::span<const Quat> rotations,
                              const std::optional<Vec3>& start, const std::optional<Vec3>& end) {
-  check_times(times);
+  check_key_times(times);
   if (rotations.size() != times.size())
     throw std::invalid_argument("a curve needs a rotation a time; there are " + std::to_string(rotations.size()) +
                                 " rotations and " + std::to_string(times.size()) + " times");

@@ -9,7 +9,7 @@ namespace {
 
 // With x from 0 (there) to 1 (not yet): the wave that is left, f(x) a 2^(-10 x) sin((x + s) w), where f fades an
 // amplitude below 1 in over the first quarter of a period. Parameters: amplitude, w, s.
-Warp::Result elastic_in(double u, const std::array<double, 4>& parameters) noexcept {
+Warp::Result penner_elastic_in(double u, const std::array<double, 4>& parameters) noexcept {
   // The start is met, over a jump as large as what is left of the wave there.
   if (u == 0) return {0, 0, 0};
   constexpr double rate = 10 * 0x1.62e42fefa39efp-1;
@@ -37,7 +37,7 @@ Pieces penner_elastic(double amplitude, double period, Flow flow) {
   constexpr double turn = 0x1.921fb54442d18p+2;
   const double w = turn / period;
   const double s = std::abs(amplitude) < 1 ? period / 4 : elementary::asin(1 / amplitude) / w;
-  return flowing(WayIn{{0, 1}, {&elastic_in, {amplitude, w, s, 0}}, &reversed<&elastic_in>}, flow);
+  return flowing(WayIn{{0, 1}, {&penner_elastic_in, {amplitude, w, s, 0}}, &reversed<&penner_elastic_in>}, flow);
 }
 
 }  // namespace tweenfall::shapes

@@ -11,13 +11,13 @@ namespace {
 
 // Spans between the values, and the slopes at both ends of each, to be chosen.
 template <class T>
-struct Frame {
+struct Interpolation {
   std::span<const double> times;
   std::span<const T> values;
   std::vector<double> durations, secants;
   Slopes slopes;
 
-  Frame(std::span<const double> given_times, std::span<const T> given_values, const SplineEnds<T>& ends)
+  Interpolation(std::span<const double> given_times, std::span<const T> given_values, const SplineEnds<T>& ends)
       : times(given_times), values(given_values) {
     check_spline_times(times);
     check_spline_list(values, times.size() - (ends.closed ? 1 : 0), "value");
@@ -80,7 +80,7 @@ bool continuous_acceleration(const Ease& ease) {
 
 // Puts the given ends in the place of the rule's, one component at a time.
 template <class T>
-void state_ends(Frame<T>& frame, const SplineEnds<T>& ends) {
+void state_ends(Interpolation<T>& frame, const SplineEnds<T>& ends) {
   using Kind = typename SplineEnd<T>::Kind;
   const std::size_t d = static_cast<std::size_t>(dimensions<T>), spans = frame.durations.size();
   const Kind first = ends.start.kind, last = ends.end.kind;
@@ -107,7 +107,7 @@ void state_ends(Frame<T>& frame, const SplineEnds<T>& ends) {
 
 template <class T>
 Curve<T> c2_spline(std::span<const double> times, std::span<const T> values, const SplineEnds<T>& ends) {
-  Frame<T> frame(times, values, ends);
+  Interpolation<T> frame(times, values, ends);
   const std::size_t spans = frame.durations.size(), d = static_cast<std::size_t>(dimensions<T>);
   frame.slopes.leaving.resize(spans * d);
   frame.slopes.arriving.resize(spans * d);
@@ -131,7 +131,7 @@ Curve<T> c2_spline(std::span<const double> times, std::span<const T> values, con
 template <class T>
 Curve<T> cubic_spline(std::span<const double> times, std::span<const T> values, std::span<const Ease> rules,
                       const SplineEnds<T>& ends) {
-  Frame<T> frame(times, values, ends);
+  Interpolation<T> frame(times, values, ends);
   if (rules.size() != 1 && rules.size() != values.size())
     refuse_spline("needs one rule, or " + std::to_string(values.size()) + "; " + std::to_string(rules.size()) +
                   " were given");

@@ -7,7 +7,7 @@ namespace tweenfall {
 namespace {
 
 // Root of x(s) = u by Newton's method, kept inside a bracket that bisection would halve.
-Warp::Result inverse(double u, const std::array<double, 4>& parameters) noexcept {
+Warp::Result inverse_warp(double u, const std::array<double, 4>& parameters) noexcept {
   const double a = 3 * parameters[0];
   const double b = 3 * parameters[1] - 6 * parameters[0];
   const double c = 1 + 3 * parameters[0] - 3 * parameters[1];
@@ -36,11 +36,11 @@ Warp::Result inverse(double u, const std::array<double, 4>& parameters) noexcept
 }  // namespace
 
 Warp time_bezier_warp(double x1, double x2) {
-  return {&inverse, {x1, x2, 0, 0}};
+  return {&inverse_warp, {x1, x2, 0, 0}};
 }
 
 bool is_time_bezier(const Warp& warp) noexcept {
-  return warp.function == &inverse;
+  return warp.function == &inverse_warp;
 }
 
 }  // namespace tweenfall

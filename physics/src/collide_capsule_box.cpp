@@ -59,7 +59,7 @@ double nearest_on_segment(const Segment& segment, const Vec3& half_extents) {
   return 0.5 * (zero(false) + zero(true));
 }
 
-struct Candidate {
+struct WayOut {
   double separation = 0;  ///< of the axis from the box, m
   Vec3 normal{0, 0, 0};   ///< out of the box, box space
   int face = -1;          ///< axis of the face, or -1 for an edge
@@ -67,8 +67,8 @@ struct Candidate {
 };
 
 /// The way out when the axis runs through the box: the shortest along face normals and edge crosses.
-Candidate way_out(const Segment& segment, const Vec3& half_extents) {
-  Candidate best;
+WayOut way_out(const Segment& segment, const Vec3& half_extents) {
+  WayOut best;
   best.separation = -1e300;
   const double preference = 1e-3 * half_extents.minCoeff();
   for (int i = 0; i < 3; ++i) {
@@ -101,7 +101,7 @@ Manifold collide(const Box& a, const Placed& at_a, const Capsule& b, const Place
   const Vec3 between = on_axis - on_box;
   const double distance = between.norm();
 
-  Candidate contact;
+  WayOut contact;
   if (distance > 1e-9 * a.half_extents.maxCoeff()) {
     contact.separation = distance;
     contact.normal = between / distance;

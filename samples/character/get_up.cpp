@@ -72,7 +72,7 @@ Quat flat_hand(Flank flank) {
   return turn_y(sign * 20 * degree) * turn_x(-90 * degree) * turn_y(-sign * 90 * degree) * hanging;
 }
 
-void pose_arm(FigurePose& pose, Flank flank, double time) {
+void pose_rising_arm(FigurePose& pose, Flank flank, double time) {
   const Script& s = script();
   const bool is_left = flank == Flank::left;
   const Arm arm = arm_of(flank);
@@ -83,8 +83,8 @@ void pose_arm(FigurePose& pose, Flank flank, double time) {
   const double holds = (is_left ? s.left_holds : s.right_holds).value(time);
   if (holds <= 0) return;
   FigurePose holding = pose;
-  const Vec3 elbow(sign_of(flank), 0.25, -0.35);
-  reach_arm(holding, flank, (is_left ? s.left_wrist : s.right_wrist).value(time), elbow, flat_hand(flank));
+  const Vec3 elbow_way(sign_of(flank), 0.25, -0.35);
+  reach_arm(holding, flank, (is_left ? s.left_wrist : s.right_wrist).value(time), elbow_way, flat_hand(flank));
   for (const Joint joint : {arm.upper, arm.forearm, arm.hand})
     pose.turns[joint] = slerp(pose.turns[joint], hemisphere_aligned(holding.turns[joint], pose.turns[joint]), holds);
 }
@@ -115,7 +115,7 @@ FigurePose get_up_pose(double time) {
   pose.turns[head] = turn_x(0.5 * s.head_bow.value(time) * degree) * turn_y(-0.8 * s.yaw.value(time) * degree);
   for (const Flank flank : {Flank::left, Flank::right}) {
     pose_leg(pose, flank, time);
-    pose_arm(pose, flank, time);
+    pose_rising_arm(pose, flank, time);
   }
   return pose;
 }

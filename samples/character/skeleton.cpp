@@ -17,7 +17,7 @@ struct JointRow {
 // The arm leaves the shoulder at 45 degrees: 0.28 m to the elbow, 0.25 m to the wrist.
 constexpr double diagonal = 0.70710678118654752440;
 constexpr double shoulder_x = 0.168, shoulder_y = 1.385;
-constexpr double elbow = 0.28 * diagonal, wrist = 0.53 * diagonal;
+constexpr double to_elbow = 0.28 * diagonal, to_wrist = 0.53 * diagonal;
 
 constexpr std::array<JointRow, joint_count> rows{{
     {"Hips", joint_count, 0, 0.955, 0},
@@ -27,12 +27,12 @@ constexpr std::array<JointRow, joint_count> rows{{
     {"Head", neck, 0, 1.53, 0.005},
     {"LeftShoulder", chest, 0.035, 1.385, -0.005},
     {"LeftUpperArm", left_shoulder, shoulder_x, shoulder_y, -0.01},
-    {"LeftForearm", left_upper_arm, shoulder_x + elbow, shoulder_y - elbow, -0.01},
-    {"LeftHand", left_forearm, shoulder_x + wrist, shoulder_y - wrist, -0.01},
+    {"LeftForearm", left_upper_arm, shoulder_x + to_elbow, shoulder_y - to_elbow, -0.01},
+    {"LeftHand", left_forearm, shoulder_x + to_wrist, shoulder_y - to_wrist, -0.01},
     {"RightShoulder", chest, -0.035, 1.385, -0.005},
     {"RightUpperArm", right_shoulder, -shoulder_x, shoulder_y, -0.01},
-    {"RightForearm", right_upper_arm, -shoulder_x - elbow, shoulder_y - elbow, -0.01},
-    {"RightHand", right_forearm, -shoulder_x - wrist, shoulder_y - wrist, -0.01},
+    {"RightForearm", right_upper_arm, -shoulder_x - to_elbow, shoulder_y - to_elbow, -0.01},
+    {"RightHand", right_forearm, -shoulder_x - to_wrist, shoulder_y - to_wrist, -0.01},
     {"LeftThigh", hips, 0.092, 0.92, 0},
     {"LeftShin", left_thigh, 0.092, 0.5, 0.022},
     {"LeftFoot", left_shin, 0.092, 0.085, -0.015},

@@ -112,7 +112,7 @@ void pose_trunk(FigurePose& pose, double phase) {
       turn_y(-3.5 * degree * lead) * turn_x(-4 * degree - 1.2 * degree * bob) * turn_z(1 * degree * load);
 }
 
-void pose_arm(FigurePose& pose, Flank flank, double phase) {
+void swing_arm(FigurePose& pose, Flank flank, double phase) {
   // Each arm goes with the other leg; the forearm and the hand drag a little behind.
   const double swing = -sign_of(flank) * wave_of(phase - 0.02), late = -sign_of(flank) * wave_of(phase - 0.07);
   hang_arm(pose, flank,
@@ -133,8 +133,8 @@ FigurePose walk_pose(double time) {
   pose_trunk(pose, phase);
   plant_leg(pose, Flank::left, foot_at(Flank::left, phase));
   plant_leg(pose, Flank::right, foot_at(Flank::right, wrapped(phase + 0.5)));
-  pose_arm(pose, Flank::left, phase);
-  pose_arm(pose, Flank::right, phase);
+  swing_arm(pose, Flank::left, phase);
+  swing_arm(pose, Flank::right, phase);
   return pose;
 }
 

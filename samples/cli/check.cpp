@@ -16,7 +16,7 @@ namespace tweenfall::cli {
 
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::vector<std::string> files;
   bool json = false;
 };
@@ -35,7 +35,7 @@ std::string problem_json(const Problem& problem) {
          ", \"pointer\": " + json_string(problem.pointer) + ", \"message\": " + json_string(problem.message) + "}";
 }
 
-std::string summary_of(const StageDescription& stage) {
+std::string contents_of(const StageDescription& stage) {
   std::size_t tracks = 0, bodies = 0;
   for (const Clip& clip : stage.clips) tracks += clip.tracks.size();
   for (const NodeDescription& node : stage.nodes) bodies += node.body ? 1 : 0;
@@ -89,7 +89,7 @@ Finding check_file(const std::string& file) {
     const StageFile read = read_stage_file(file);
     // What a document alone cannot tell: whether its parts make a stage that can be stepped.
     static_cast<void>(make_stage(read.stage, file));
-    finding.summary = summary_of(read.stage);
+    finding.summary = contents_of(read.stage);
     finding.notes = notes_on(read.stage, file);
   } catch (const DocumentError& error) {
     finding.texts = faults_of(error, file);
@@ -101,7 +101,7 @@ Finding check_file(const std::string& file) {
   return finding;
 }
 
-int check_files(const Options& options) {
+int check_files(const CheckOptions& options) {
   std::vector<std::string> problems, files;
   for (const std::string& file : options.files) {
     const Finding finding = check_file(file);
@@ -123,7 +123,7 @@ int check_files(const Options& options) {
 }  // namespace
 
 Run check(Arguments& arguments) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   arguments.files("FILE", options->files, "documents and models; - is a document on standard input");
   arguments.flag("--json", options->json, "one JSON object for tools, on standard output");
   return [options] { return check_files(*options); };

@@ -15,11 +15,11 @@ namespace tweenfall::cli {
 
 namespace {
 
-struct Options {
+struct ImportOptions {
   std::string file, output = "-";
 };
 
-int import_file(const Options& options) {
+int import_file(const ImportOptions& options) {
   require_output(options.output, options.file, std::vector<std::string>{".json"});
   if (!is_model_name(options.file))
     throw UsageError("\"" + options.file + "\" is no model; those end in .glb, .gltf, .fbx, .bvh, .dae or .obj");
@@ -37,7 +37,7 @@ int import_file(const Options& options) {
 }  // namespace
 
 Run import_model(Arguments& arguments) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ImportOptions>();
   arguments.file("MODEL", options->file, "a .glb, .gltf, .fbx, .bvh, .dae or .obj file");
   arguments.output(options->output, "OUT.json", "where to write; standard output without it");
   return [options] { return import_file(*options); };

@@ -17,7 +17,7 @@ namespace tweenfall::cli {
 
 namespace {
 
-struct Options : RunOptions {
+struct PlotFileOptions : RunOptions {
   std::string output;
   std::vector<std::string> tracks;
   std::optional<double> columns;
@@ -27,7 +27,7 @@ struct Options : RunOptions {
 constexpr int most_columns = 6;
 
 /// The clips that a plot shows: the one asked for, else the only one, else all that play.
-std::vector<std::size_t> shown_clips(const StageDescription& stage, const Options& options) {
+std::vector<std::size_t> shown_clips(const StageDescription& stage, const PlotFileOptions& options) {
   if (options.clip || stage.clips.size() < 2 || stage.plays.empty())
     return {choose_clip(stage, options.clip, options.file)};
   std::vector<std::size_t> clips;
@@ -59,7 +59,7 @@ std::vector<std::string> chosen_tracks(const StageDescription& stage, const std:
   return names;
 }
 
-int plot_file(const Options& options) {
+int plot_file(const PlotFileOptions& options) {
   require_output(options.output, options.file, std::vector<std::string>{".svg"});
   const double columns = options.columns.value_or(1);
   if (!(columns >= 1 && columns <= most_columns && columns == std::floor(columns)))
@@ -102,7 +102,7 @@ int plot_file(const Options& options) {
 }  // namespace
 
 Run plot(Arguments& arguments) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<PlotFileOptions>();
   options->output = "-";
   options->fps = 120;
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");

@@ -14,7 +14,7 @@ namespace tweenfall::cli {
 
 namespace {
 
-struct Options : RunOptions {
+struct RunFileOptions : RunOptions {
   std::optional<double> frames_per_second;
   std::optional<std::string> output;
   bool json = false;
@@ -69,7 +69,7 @@ std::string ends_table(const Recording& recording, const StageDescription& stage
   return table.empty() ? "" : table.text(styled_output());
 }
 
-int run_file(Options options) {
+int run_file(RunFileOptions options) {
   const std::vector<std::string> endings{".json", ".csv", ".svg", ".html", ".glb"};
   if (options.output) require_output(*options.output, options.file, endings);
   options.fps = options.frames_per_second.value_or(60);
@@ -95,7 +95,7 @@ int run_file(Options options) {
 }  // namespace
 
 Run run(Arguments& arguments) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunFileOptions>();
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
   arguments.text("--clip", "NAME", options->clip, "let this clip play alone");
   arguments.number("--until", "T", options->until, "to stage time T, s; else until it has shown what it has");

@@ -18,7 +18,7 @@ namespace tweenfall::cli {
 
 namespace {
 
-struct Options {
+struct SampleOptions {
   std::string file;
   std::optional<std::string> clip;
   std::vector<double> at;
@@ -27,7 +27,7 @@ struct Options {
   bool rates = false, world = false, json = false;
 };
 
-std::vector<double> times_of(const Options& options, const Clip& clip) {
+std::vector<double> times_of(const SampleOptions& options, const Clip& clip) {
   if (!options.at.empty() && options.fps) throw UsageError("either --at or --fps says when, not both");
   if (options.at.empty() && !options.fps) throw UsageError("say when: --at 0,0.5,1 or --fps 30");
   if (options.until && !options.fps) throw UsageError("--until belongs to --fps");
@@ -127,7 +127,7 @@ std::string samples_tables(const Clip& clip, const std::vector<std::size_t>& tra
   return out;
 }
 
-int sample_file(const Options& options) {
+int sample_file(const SampleOptions& options) {
   const StageFile read = read_stage_file(options.file);
   const std::size_t index = choose_clip(read.stage, options.clip, options.file);
   const Clip& clip = read.stage.clips[index];
@@ -147,7 +147,7 @@ int sample_file(const Options& options) {
 }  // namespace
 
 Run sample(Arguments& arguments) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SampleOptions>();
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
   arguments.text("--clip", "NAME", options->clip, "the clip; needed when there are several");
   arguments.numbers("--at", "T,T,...", options->at, "times on the clip's timeline, s");

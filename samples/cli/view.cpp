@@ -11,12 +11,12 @@ namespace tweenfall::cli {
 
 namespace {
 
-struct Options : RunOptions {
+struct ViewOptions : RunOptions {
   std::string output;
   std::optional<double> frames_per_second;
 };
 
-int view_file(Options options) {
+int view_file(ViewOptions options) {
   if (!options.output.empty()) require_output(options.output, options.file, std::vector<std::string>{".html"});
   options.fps = options.frames_per_second.value_or(60);
   require_frames(options.fps, options.until.value_or(0));
@@ -32,7 +32,7 @@ int view_file(Options options) {
 }  // namespace
 
 Run view(Arguments& arguments) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ViewOptions>();
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
   arguments.output(options->output, "OUT.html", "where to write; FILE's name with .html in this folder without it");
   arguments.text("--clip", "NAME", options->clip, "let this clip play alone");

@@ -7,14 +7,7 @@ using namespace tweenfall;
 using namespace tweenfall::test;
 using nlohmann::json;
 
-namespace {
-
-Vec3 vector(const json& list) {
-  REQUIRE(list.size() == 3);
-  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("a thrown ball is keyed, then free with the clip's own velocity, and falls as a projectile") {
   const Folder folder;
@@ -27,8 +20,8 @@ TEST_CASE("a thrown ball is keyed, then free with the clip's own velocity, and f
   CHECK(ball["owner"][0] == "keyed");
   CHECK(ball["owner"][9] == "free");
   const double fallen = found["times"][9].get<double>() - 0.5;
-  CHECK(near(vector(ball["position"][9]), Vec3(1.5 + 3 * fallen, 2 - 9.81 / 2 * fallen * fallen, 0), 1e-9));
-  CHECK(near(vector(ball["velocity"][9]), Vec3(3, -9.81 * fallen, 0), 1e-9));
+  CHECK(near(vec(ball["position"][9]), Vec3(1.5 + 3 * fallen, 2 - 9.81 / 2 * fallen * fallen, 0), 1e-9));
+  CHECK(near(vec(ball["velocity"][9]), Vec3(3, -9.81 * fallen, 0), 1e-9));
   REQUIRE(found["handoffs"].size() == 1);
   const json& handoff = found["handoffs"][0];
   CHECK(handoff["time"] == 0.5);
@@ -36,7 +29,7 @@ TEST_CASE("a thrown ball is keyed, then free with the clip's own velocity, and f
   CHECK(handoff["from"] == "keyed");
   CHECK(handoff["to"] == "free");
   CHECK(handoff["cause"] == "at");
-  CHECK(near(vector(handoff["after"]["linear"]), Vec3(3, 0, 0), 1e-9));
+  CHECK(near(vec(handoff["after"]["linear"]), Vec3(3, 0, 0), 1e-9));
   CHECK(found["events"].is_array());
 }
 
@@ -50,8 +43,8 @@ TEST_CASE("what run prints is the library's recording, bit for bit, also through
   CHECK(found["times"] == json(expected.times));
   for (const NodeRecord& node : expected.nodes)
     for (std::size_t i = 0; i < expected.times.size(); ++i) {
-      CHECK(vector(found["nodes"][node.name]["position"][i]) == node.world[i].motion.pose.position);
-      CHECK(vector(found["nodes"][node.name]["velocity"][i]) == node.twist[i].linear);
+      CHECK(vec(found["nodes"][node.name]["position"][i]) == node.world[i].motion.pose.position);
+      CHECK(vec(found["nodes"][node.name]["velocity"][i]) == node.twist[i].linear);
     }
 }
 
@@ -119,5 +112,5 @@ TEST_CASE("a clip that is named plays alone") {
     "down": {"tracks": {"a.position": [[0, [0, 0, 0], "linear"], [1, [0, -1, 0]]]}}}})";
   const Ran ran = folder.run("run - --clip down --until 1 --fps 2 --json", two);
   REQUIRE(ran.code == 0);
-  CHECK(near(vector(json::parse(ran.out)["nodes"]["a"]["position"][1]), Vec3(0, -0.5, 0), 1e-12));
+  CHECK(near(vec(json::parse(ran.out)["nodes"]["a"]["position"][1]), Vec3(0, -0.5, 0), 1e-12));
 }

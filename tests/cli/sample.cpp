@@ -18,11 +18,6 @@ json sampled(const Folder& folder, const std::string& arguments, const std::stri
   return json::parse(ran.out);
 }
 
-Vec3 vector(const json& list) {
-  REQUIRE(list.size() == 3);
-  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
-}
-
 std::string clip_document(const std::string& tracks, const std::string& more = "") {
   return R"({"tweenfall": 1, "clips": {"c": {)" + more + R"("tracks": {)" + tracks + "}}}}";
 }
@@ -37,10 +32,10 @@ TEST_CASE("sampled values and rates are those of the lines between the keys") {
   CHECK(found["times"] == json{0.5, 2.0});
   CHECK(!found.contains("world"));
   const json& position = found["tracks"]["ball.position"];
-  CHECK(near(vector(position["value"][0]), Vec3(1, 0, 0), 1e-15));
-  CHECK(near(vector(position["value"][1]), Vec3(2, 2, 0), 1e-15));
-  CHECK(near(vector(position["rate"][0]), Vec3(2, 0, 0), 1e-15));
-  CHECK(near(vector(position["rate"][1]), Vec3(0, 2, 0), 1e-15));
+  CHECK(near(vec(position["value"][0]), Vec3(1, 0, 0), 1e-15));
+  CHECK(near(vec(position["value"][1]), Vec3(2, 2, 0), 1e-15));
+  CHECK(near(vec(position["rate"][0]), Vec3(2, 0, 0), 1e-15));
+  CHECK(near(vec(position["rate"][1]), Vec3(0, 2, 0), 1e-15));
   const json& lit = found["tracks"]["ball.lit"];
   CHECK(lit["value"] == json{false, true});
   CHECK(!lit.contains("rate"));
@@ -56,7 +51,7 @@ TEST_CASE("a rotation is x y z w and its rate the angular velocity in radians") 
   const json& turn = found["tracks"]["pivot.rotation"];
   CHECK(near(turn["value"][0][2].get<double>(), std::numbers::sqrt2 / 2, 1e-15));
   CHECK(near(turn["value"][0][3].get<double>(), std::numbers::sqrt2 / 2, 1e-15));
-  CHECK(near(vector(turn["rate"][0]), Vec3(0, 0, std::numbers::pi / 2), 1e-15));
+  CHECK(near(vec(turn["rate"][0]), Vec3(0, 0, std::numbers::pi / 2), 1e-15));
 }
 
 TEST_CASE("world matrices are column-major and hold the whole chain of parents") {
@@ -90,12 +85,12 @@ TEST_CASE("the numbers printed read back to the bits of the library's") {
       const json& value = found["tracks"][track.name()]["value"][i];
       const json& rate = found["tracks"][track.name()]["rate"][i];
       if (const auto* curve = std::get_if<Curve<Vec3>>(&track.curve)) {
-        CHECK(vector(value) == curve->value(time));
-        CHECK(vector(rate) == curve->rate(time));
+        CHECK(vec(value) == curve->value(time));
+        CHECK(vec(rate) == curve->rate(time));
       } else if (const auto* rotation = std::get_if<Curve<Quat>>(&track.curve)) {
         const Quat q = rotation->value(time);
         CHECK(value == json{q.x(), q.y(), q.z(), q.w()});
-        CHECK(vector(rate) == rotation->rate(time));
+        CHECK(vec(rate) == rotation->rate(time));
       } else if (const auto* color = std::get_if<Curve<Color>>(&track.curve)) {
         const Vec4 rgba = color->value(time).rgba;
         CHECK(value == json{rgba[0], rgba[1], rgba[2], rgba[3]});
@@ -112,28 +107,28 @@ TEST_CASE("a loop wraps the time before the tracks see it, and an offset loop go
   const Folder folder;
   const std::string track = R"("a.position": [[0, [0, 0, 0], "linear"], [2, [4, 0, 0]]])";
   const json repeated = sampled(folder, "- --at 2.5 --rates", clip_document(track, R"("loop": {"mode": "repeat"}, )"));
-  CHECK(near(vector(repeated["tracks"]["a.position"]["value"][0]), Vec3(1, 0, 0), 1e-15));
-  CHECK(near(vector(repeated["tracks"]["a.position"]["rate"][0]), Vec3(2, 0, 0), 1e-15));
+  CHECK(near(vec(repeated["tracks"]["a.position"]["value"][0]), Vec3(1, 0, 0), 1e-15));
+  CHECK(near(vec(repeated["tracks"]["a.position"]["rate"][0]), Vec3(2, 0, 0), 1e-15));
   const json offset =
       sampled(folder, "- --at 4.5 --rates", clip_document(track, R"("loop": {"mode": "repeat-offset"}, )"));
-  CHECK(near(vector(offset["tracks"]["a.position"]["value"][0]), Vec3(9, 0, 0), 1e-15));
+  CHECK(near(vec(offset["tracks"]["a.position"]["value"][0]), Vec3(9, 0, 0), 1e-15));
   const json pingpong =
       sampled(folder, "- --at 2.5 --rates", clip_document(track, R"("loop": {"mode": "pingpong"}, )"));
-  CHECK(near(vector(pingpong["tracks"]["a.position"]["value"][0]), Vec3(3, 0, 0), 1e-15));
-  CHECK(near(vector(pingpong["tracks"]["a.position"]["rate"][0]), Vec3(-2, 0, 0), 1e-15));
+  CHECK(near(vec(pingpong["tracks"]["a.position"]["value"][0]), Vec3(3, 0, 0), 1e-15));
+  CHECK(near(vec(pingpong["tracks"]["a.position"]["rate"][0]), Vec3(-2, 0, 0), 1e-15));
 }
 
 TEST_CASE("without a loop a track goes on after its last key as the track says, in tracks and in the world") {
   const Folder folder;
   const std::string keys = R"("keys": [[0, [0, 0, 0], "linear"], [2, [4, 0, 0], "linear"]])";
   const json held = sampled(folder, "- --at 3 --rates --world", clip_document(R"("a.position": {)" + keys + "}"));
-  CHECK(near(vector(held["tracks"]["a.position"]["value"][0]), Vec3(4, 0, 0), 1e-15));
-  CHECK(near(vector(held["tracks"]["a.position"]["rate"][0]), Vec3(0, 0, 0), 1e-15));
+  CHECK(near(vec(held["tracks"]["a.position"]["value"][0]), Vec3(4, 0, 0), 1e-15));
+  CHECK(near(vec(held["tracks"]["a.position"]["rate"][0]), Vec3(0, 0, 0), 1e-15));
   CHECK(near(held["world"]["a"][0][12].get<double>(), 4, 1e-15));
   const json line =
       sampled(folder, "- --at 3 --rates --world", clip_document(R"("a.position": {"after": "linear", )" + keys + "}"));
-  CHECK(near(vector(line["tracks"]["a.position"]["value"][0]), Vec3(6, 0, 0), 1e-15));
-  CHECK(near(vector(line["tracks"]["a.position"]["rate"][0]), Vec3(2, 0, 0), 1e-15));
+  CHECK(near(vec(line["tracks"]["a.position"]["value"][0]), Vec3(6, 0, 0), 1e-15));
+  CHECK(near(vec(line["tracks"]["a.position"]["rate"][0]), Vec3(2, 0, 0), 1e-15));
   CHECK(near(line["world"]["a"][0][12].get<double>(), 6, 1e-15));
 }
 

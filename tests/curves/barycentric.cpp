@@ -70,7 +70,7 @@ std::vector<Sample<T>> samples(const std::vector<Curve<T>>& curves, double t) {
 
 // Central differences, for tests alone.
 template <class F>
-auto difference(const F& f, double h) {
+auto central_difference(const F& f, double h) {
   using V = std::decay_t<decltype(f(0.0))>;
   return V((8 * (f(h) - f(-h)) - (f(2 * h) - f(-2 * h))) / (12 * h));
 }
@@ -100,20 +100,23 @@ TEST_CASE("the rates of a mix are the derivatives of its value, moving weights i
     const auto colors = three_curves<Color>(random);
     for (const double t : {-0.3, 0.1, 0.6}) {
       const auto number = [&](double x) { return barycentric<double>(samples(numbers, t + x), weights_at(t + x)); };
-      CHECK(test::near(number(0).rate, difference([&](double x) { return number(x).value; }, 1e-3), 1e-9));
-      CHECK(test::near(number(0).acceleration, difference([&](double x) { return number(x).rate; }, 1e-3), 1e-9));
+      CHECK(test::near(number(0).rate, central_difference([&](double x) { return number(x).value; }, 1e-3), 1e-9));
+      CHECK(
+          test::near(number(0).acceleration, central_difference([&](double x) { return number(x).rate; }, 1e-3), 1e-9));
       const auto vector = [&](double x) { return barycentric<Vec3>(samples(vectors, t + x), weights_at(t + x)); };
-      CHECK(test::near(vector(0).rate, difference([&](double x) { return vector(x).value; }, 1e-3), 1e-9));
-      CHECK(test::near(vector(0).acceleration, difference([&](double x) { return vector(x).rate; }, 1e-3), 1e-9));
+      CHECK(test::near(vector(0).rate, central_difference([&](double x) { return vector(x).value; }, 1e-3), 1e-9));
+      CHECK(
+          test::near(vector(0).acceleration, central_difference([&](double x) { return vector(x).rate; }, 1e-3), 1e-9));
       const auto turn = [&](double x) { return barycentric<Quat>(samples(turns, t + x), weights_at(t + x)); };
       const Quat here = turn(0).value;
       const auto turned = [&](double x) { return log_map(turn(x).value * here.conjugate()); };
-      CHECK(test::near(turn(0).rate, difference(turned, 1e-3), 1e-9));
-      CHECK(test::near(turn(0).acceleration, difference([&](double x) { return turn(x).rate; }, 1e-3), 1e-9));
+      CHECK(test::near(turn(0).rate, central_difference(turned, 1e-3), 1e-9));
+      CHECK(test::near(turn(0).acceleration, central_difference([&](double x) { return turn(x).rate; }, 1e-3), 1e-9));
       for (const ColorSpace space : {ColorSpace::linear, ColorSpace::oklab, ColorSpace::oklch, ColorSpace::hsl}) {
         const auto color = [&](double x) { return barycentric(samples(colors, t + x), weights_at(t + x), space); };
-        CHECK(test::near(color(0).rate, difference([&](double x) { return color(x).value.rgba; }, 1e-4), 1e-6));
-        CHECK(test::near(color(0).acceleration, difference([&](double x) { return color(x).rate; }, 1e-4), 1e-5));
+        CHECK(test::near(color(0).rate, central_difference([&](double x) { return color(x).value.rgba; }, 1e-4), 1e-6));
+        CHECK(
+            test::near(color(0).acceleration, central_difference([&](double x) { return color(x).rate; }, 1e-4), 1e-5));
       }
     }
   }

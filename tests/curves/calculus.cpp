@@ -4,6 +4,7 @@
 #include "stated.h"
 
 using namespace tweenfall;
+using namespace tweenfall::test;
 
 namespace {
 
@@ -198,7 +199,6 @@ TEST_CASE("monotone curves are inverted as the splines module does") {
 }
 
 TEST_CASE("integrals of eases and of weighted handles have their closed forms") {
-  const double pi = std::acos(-1.0);
   const auto eased = [](const char* word) { return keyed_curve<double>({{1, 2, *Ease::named(word)}, {3, 5}}); };
   // From 2 by 3 over 2 s: 2 * 2 + 3 * 2 * mean of the ease.
   CHECK(integral(eased("sine-in"), 1, 3) == doctest::Approx(4 + 6 * (1 - 2 / pi)).epsilon(1e-13));

@@ -6,6 +6,7 @@
 #include <set>
 
 using namespace tweenfall;
+using namespace tweenfall::test;
 
 namespace {
 
@@ -75,7 +76,7 @@ double missed_stops(const nlohmann::json& file) {
 }  // namespace
 
 TEST_CASE("coordinates agree with culori") {
-  constexpr double degree = 0x1.921fb54442d18p+1 / 180;
+  constexpr double degree = pi / 180;
   const std::set<std::string> not_offered = {"lab65", "lch65", "xyz65", "xyz50", "p3", "rec2020", "okhsl", "okhsv"};
   for (const auto& file : test::vector_family("color_convert")) {
     const double plain = test::tolerance(file), fine = test::stated(file, "tolerance", "lrgb");

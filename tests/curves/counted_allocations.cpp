@@ -8,10 +8,10 @@
 
 namespace {
 
-std::atomic<std::size_t> count = 0;
+std::atomic<std::size_t> allocation_count = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
-  ++count;
+  ++allocation_count;
   const std::size_t least = size > 0 ? size : 1;
   if (void* memory = std::aligned_alloc(alignment, (least + alignment - 1) / alignment * alignment)) return memory;
   throw std::bad_alloc();
@@ -20,7 +20,7 @@ void* counted(std::size_t size, std::size_t alignment) {
 }  // namespace
 
 std::size_t tweenfall::test::allocations() noexcept {
-  return count;
+  return allocation_count;
 }
 
 void* operator new(std::size_t size) {

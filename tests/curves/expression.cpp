@@ -9,8 +9,6 @@ using namespace tweenfall::test;
 
 namespace {
 
-const double pi = std::acos(-1.0);
-
 // A text, and what it means according to the C library in long double.
 struct Pair {
   std::string text;

@@ -13,7 +13,7 @@ Curve<T> built(const std::vector<Key<T>>& keys, const KeyOptions& options = {}) 
   return keyed_curve<T>(std::span<const Key<T>>(keys), options);
 }
 
-double apart(const Quat& a, const Quat& b) {
+double angle_apart(const Quat& a, const Quat& b) {
   return 2 *
          std::asin(std::min(1.0, 0.5 * std::min((a.coeffs() - b.coeffs()).norm(), (a.coeffs() + b.coeffs()).norm()))) *
          (1 + 1e-12);
@@ -173,9 +173,9 @@ TEST_CASE("vectors, colors, ratios and rotations are fitted and reduced within t
   for (double t = 0; t <= 5.75; t += 0.003) {
     CHECK((built(path_keys).value(t) - way.value(t)).norm() <= error);
     CHECK((built(path_fewer).value(t) - way.value(t)).norm() <= error);
-    CHECK(apart(built(turn_keys).value(t), turn.value(t)) <= error);
-    CHECK(apart(built(turn_fewer).value(t), turn.value(t)) <= error);
-    CHECK(apart(built(turn_straight).value(t), turn.value(t)) <= error);
+    CHECK(angle_apart(built(turn_keys).value(t), turn.value(t)) <= error);
+    CHECK(angle_apart(built(turn_fewer).value(t), turn.value(t)) <= error);
+    CHECK(angle_apart(built(turn_straight).value(t), turn.value(t)) <= error);
     CHECK((built(color_keys).value(t).rgba - color.value(t).rgba).norm() <= error);
     CHECK((built(color_fewer).value(t).rgba - color.value(t).rgba).norm() <= error);
   }

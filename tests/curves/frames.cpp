@@ -12,8 +12,6 @@ using namespace tweenfall::test;
 
 namespace {
 
-const double pi = std::acos(-1.0);
-
 Curve<Vec3> curve_of(const char* x, const char* y, const char* z) {
   return parametric(expression_curve(Expression(x)), expression_curve(Expression(y)), expression_curve(Expression(z)));
 }

@@ -9,6 +9,7 @@
 #include "stated.h"
 
 using namespace tweenfall;
+using namespace tweenfall::test;
 
 namespace {
 
@@ -16,14 +17,6 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 Tangent<double> given(double rate, double weight = 1.0 / 3) {
   return {Tangent<double>::Kind::given, rate, weight};
-}
-
-Quat quat(const nlohmann::json& j, std::size_t at = 0) {
-  return Quat(j[at + 3].get<double>(), j[at].get<double>(), j[at + 1].get<double>(), j[at + 2].get<double>());
-}
-
-Vec3 vec(const nlohmann::json& j) {
-  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
 }
 
 // One component of a track of three's, as a curve.

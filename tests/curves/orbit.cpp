@@ -7,11 +7,7 @@
 using namespace tweenfall;
 using namespace tweenfall::test;
 
-namespace {
-
-const double pi = std::acos(-1.0);
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("an orbit keeps its energy and its angular momentum, and falls to its center by the square of the distance") {
   Random random(11);

@@ -11,8 +11,6 @@ using namespace tweenfall::test;
 
 namespace {
 
-const double pi = std::acos(-1.0);
-
 std::vector<Vec3> ring(int count) {
   std::vector<Vec3> points;
   for (int i = 0; i < count; ++i) points.push_back({std::cos(2 * pi * i / count), std::sin(2 * pi * i / count), 0});

@@ -6,10 +6,9 @@
 #include "support.h"
 
 using namespace tweenfall;
+using namespace tweenfall::test;
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 Pendulum from_rest(double degrees) {
   return {.angle = degrees * pi / 180, .length = 2, .gravity = 9.81};

@@ -42,14 +42,14 @@ bool jumps(const std::string& word) {
   return word == "hold" || word.starts_with("step");
 }
 
-Vec4 difference(const Color& a, const Color& b) {
+Vec4 change(const Color& a, const Color& b) {
   return a.rgba - b.rgba;
 }
-Vec3 difference(const Quat& a, const Quat& b) {
+Vec3 change(const Quat& a, const Quat& b) {
   return log_map(a * b.conjugate());
 }
 template <class V>
-V difference(const V& a, const V& b) {
+V change(const V& a, const V& b) {
   return a - b;
 }
 
@@ -72,9 +72,8 @@ double& first_part(V& v) {
 // Of fourth order in h.
 template <class F>
 auto central_difference(const F& value, double t, double h) {
-  using Change = decltype(difference(value(t), value(t)));
-  return Change((8 * difference(value(t + h), value(t - h)) - difference(value(t + 2 * h), value(t - 2 * h))) /
-                (12 * h));
+  using Change = decltype(change(value(t), value(t)));
+  return Change((8 * change(value(t + h), value(t - h)) - change(value(t + 2 * h), value(t - 2 * h))) / (12 * h));
 }
 
 // Times inside a stretch: not so near to its ends that a kink or an infinite rate there would show.
@@ -121,7 +120,7 @@ void check_gain(const Curve<T>& curve) {
         most = std::max(most, length(rate) * duration);
       }
       CAPTURE(knots[i]);
-      const auto gain = difference(curve.value(knots[i + 1], Side::in), curve.value(knots[i]));
+      const auto gain = change(curve.value(knots[i + 1], Side::in), curve.value(knots[i]));
       CHECK(length(sum - gain) < 2e-5 * most);
     }
   }
@@ -132,13 +131,12 @@ void check_keys(const Curve<T>& curve, const std::vector<Key<T>>& keys, bool may
   for (const Key<T>& key : keys) {
     CAPTURE(key.time);
     const bool last = key.time == keys.back().time, first = key.time == keys.front().time;
-    if (!may_jump || first) CHECK(length(difference(curve.value(key.time, Side::in), key.value)) < 1e-14);
-    if (!may_jump || last) CHECK(length(difference(curve.value(key.time), key.value)) < 1e-14);
+    if (!may_jump || first) CHECK(length(change(curve.value(key.time, Side::in), key.value)) < 1e-14);
+    if (!may_jump || last) CHECK(length(change(curve.value(key.time), key.value)) < 1e-14);
   }
   if (may_jump) return;
   // Inside a shape too.
-  for (const double knot : curve.knots())
-    CHECK(length(difference(curve.value(knot, Side::in), curve.value(knot))) < 1e-12);
+  for (const double knot : curve.knots()) CHECK(length(change(curve.value(knot, Side::in), curve.value(knot))) < 1e-12);
 }
 
 template <class T>
@@ -164,7 +162,7 @@ void check_all(const std::vector<Key<T>>& keys, bool may_jump, bool leaves_at_on
     check_quiet(curve.with_outside({rule, {}, 1.5}, {rule}));
 }
 
-const std::vector<double> times = {0, 0.7, 1.5, 1.9, 3};
+const std::vector<double> key_times = {0, 0.7, 1.5, 1.9, 3};
 
 template <class T>
 std::vector<T> values();
@@ -198,7 +196,7 @@ std::vector<Quat> values() {
 template <class T>
 std::vector<Key<T>> keys_of_ease(const Ease& ease) {
   std::vector<Key<T>> keys;
-  for (std::size_t i = 0; i < times.size(); ++i) keys.push_back({times[i], values<T>()[i], ease});
+  for (std::size_t i = 0; i < key_times.size(); ++i) keys.push_back({key_times[i], values<T>()[i], ease});
   // A period ends as it begins.
   if (ease.name() == "periodic") keys.back().value = keys.front().value;
   return keys;
@@ -220,22 +218,22 @@ TEST_CASE_TEMPLATE("every ease meets its keys, has the rates of its values and a
 
 TEST_CASE_TEMPLATE("every kind of tangent meets its keys, has the rates of its values and allocates nothing", T, double,
                    Vec2, Vec3, Vec4, Color, Quat) {
-  using Kind = TangentKind;
-  std::vector<Kind> kinds = {Kind::automatic, Kind::flat, Kind::given, Kind::vector};
+  using Way = TangentKind;
+  std::vector<Way> kinds = {Way::automatic, Way::flat, Way::given, Way::vector};
   if (!std::is_same_v<T, Quat>)
-    kinds.insert(kinds.end(), {Kind::aligned, Kind::mirrored, Kind::plateau, Kind::auto_clamped, Kind::auto_chord,
-                               Kind::auto_mix, Kind::auto_ease});
-  for (const Kind kind : kinds)
+    kinds.insert(kinds.end(), {Way::aligned, Way::mirrored, Way::plateau, Way::auto_clamped, Way::auto_chord,
+                               Way::auto_mix, Way::auto_ease});
+  for (const Way kind : kinds)
     for (const double weight : {1.0 / 3, 0.6}) {
       CAPTURE(static_cast<int>(kind));
       CAPTURE(weight);
       std::vector<Key<T>> keys = keys_of_ease<T>(Ease::smooth_clamped());
       Rate<T> rate = zero<Rate<T>>();
       first_part(rate) = 0.4;
-      const bool follows = kind == Kind::aligned || kind == Kind::mirrored;
+      const bool follows = kind == Way::aligned || kind == Way::mirrored;
       for (Key<T>& key : keys) {
         key.out = Tangent<T>{kind, rate, weight};
-        key.in = Tangent<T>{follows ? Kind::given : kind, rate, weight};
+        key.in = Tangent<T>{follows ? Way::given : kind, rate, weight};
       }
       check_all<T>(keys, false);
     }

@@ -5,17 +5,7 @@
 #include "stated.h"
 
 using namespace tweenfall;
-
-namespace {
-
-Quat quat(const nlohmann::json& j) {
-  return Quat(j[3].get<double>(), j[0].get<double>(), j[1].get<double>(), j[2].get<double>());
-}
-Vec3 vec(const nlohmann::json& j) {
-  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
-}
-
-}  // namespace
+using namespace tweenfall::test;
 
 TEST_CASE("slerp agrees with scipy") {
   for (const auto& file : test::vector_family("rotation_slerp")) {
@@ -58,7 +48,7 @@ TEST_CASE("the exponential and logarithm agree with scipy") {
 }
 
 TEST_CASE("Euler angles agree with scipy in all orders, turning and fixed axes") {
-  constexpr double degree = 0x1.921fb54442d18p+1 / 180;
+  constexpr double degree = pi / 180;
   for (const auto& file : test::vector_family("rotation_euler"))
     for (const auto& c : file["cases"]) {
       CAPTURE(c["name"].get<std::string>());

@@ -13,8 +13,6 @@ using namespace tweenfall::test;
 
 namespace {
 
-const double pi = std::acos(-1.0);
-
 // Counter-clockwise about (x, y), in one second.
 Curve<Vec2> circle(double x, double y, double radius) {
   const Curve<double> c = oscillator({.amplitude = radius, .center = x});

@@ -7,17 +7,9 @@
 #include "stated.h"
 
 using namespace tweenfall;
+using namespace tweenfall::test;
 
 namespace {
-
-constexpr double pi = 0x1.921fb54442d18p+1;
-
-Quat quat(const nlohmann::json& j) {
-  return Quat(j[3].get<double>(), j[0].get<double>(), j[1].get<double>(), j[2].get<double>());
-}
-Vec3 vec(const nlohmann::json& j) {
-  return {j[0].get<double>(), j[1].get<double>(), j[2].get<double>()};
-}
 
 Ease tcb_of(const nlohmann::json& numbers) {
   return Ease::tcb(numbers[0], numbers[1], numbers[2]);

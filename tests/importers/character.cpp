@@ -41,7 +41,7 @@ std::size_t node_named(const std::string& name) {
 }
 
 /// Every node in the world, `clip` at `time` over the rest pose; null for the rest pose alone.
-std::vector<WorldMotion> placed(const Clip* clip, double time) {
+std::vector<WorldMotion> world_at(const Clip* clip, double time) {
   static const Hierarchy hierarchy(stored().nodes);
   std::vector<Motion> local;
   for (const Node& node : stored().nodes) local.push_back({node.rest, {}, Vec3::Zero()});
@@ -59,7 +59,7 @@ std::vector<WorldMotion> placed(const Clip* clip, double time) {
 std::vector<Vec3> skinned(const Clip* clip, double time) {
   const MeshInstance& instance = stored().instances.at(0);
   const Mesh& mesh = stored().meshes.at(instance.mesh);
-  const std::vector<WorldMotion> world = placed(clip, time);
+  const std::vector<WorldMotion> world = world_at(clip, time);
   std::vector<Vec3> points(mesh.positions.size());
   deform(mesh, {}, &stored().skins.at(instance.skin), instance.node, world, points);
   return points;
@@ -159,7 +159,7 @@ TEST_CASE("the character stands at the origin, feet on the floor, looking along 
   CHECK(std::abs(lowest(points)) < 1e-3);
   CHECK(top > 1.6);
   CHECK(top < 1.8);
-  const auto world = placed(nullptr, 0);
+  const auto world = world_at(nullptr, 0);
   CHECK(place_of(world, "LeftHand").x() > 0.2);
   CHECK(place_of(world, "RightHand").x() < -0.2);
   CHECK(place_of(world, "LeftToes").z() > place_of(world, "LeftFoot").z() + 0.08);
@@ -207,9 +207,9 @@ TEST_CASE("a foot that stands does not slide while the character walks forward")
     INFO(side);
     std::vector<Vec3> ball;
     for (double time = 0; time <= walk.duration; time += step)
-      ball.push_back(place_of(placed(&walk, time), side + "Toes"));
+      ball.push_back(place_of(world_at(&walk, time), side + "Toes"));
     // The ball of the foot carries from the foot's lying flat until the toes leave, about half of each cycle.
-    const double height = place_of(placed(nullptr, 0), side + "Toes").y();
+    const double height = place_of(world_at(nullptr, 0), side + "Toes").y();
     std::size_t stances = 0;
     for (const Contact& contact : contacts(ball, step, height, 0.002)) {
       if (contact.duration < 0.3) continue;
@@ -218,16 +218,16 @@ TEST_CASE("a foot that stands does not slide while the character walks forward")
     }
     CHECK(stances >= 4);
   }
-  const Vec3 way = place_of(placed(&walk, walk.duration), "Hips") - place_of(placed(&walk, 0), "Hips");
+  const Vec3 way = place_of(world_at(&walk, walk.duration), "Hips") - place_of(world_at(&walk, 0), "Hips");
   CHECK(way.z() / walk.duration == doctest::Approx(1.2).epsilon(0.02));
   CHECK(std::abs(way.x()) < 1e-5);
 }
 
 TEST_CASE("no bone changes its length in any clip") {
-  const auto rest = placed(nullptr, 0);
+  const auto rest = world_at(nullptr, 0);
   for (const Clip& clip : stored().clips)
     for (double time = 0; time <= clip.duration; time += 0.1) {
-      const auto world = placed(&clip, time);
+      const auto world = world_at(&clip, time);
       for (const std::size_t joint : stored().skins.at(0).joints) {
         const std::size_t parent = stored().nodes[joint].parent;
         if (stored().nodes[joint].name == "Hips") continue;
@@ -255,9 +255,9 @@ TEST_CASE("nothing of the character sinks more than 2 cm into the floor in any c
 
 TEST_CASE("getting up starts on the back and ends in the standing pose, at rest") {
   const Clip& clip = clip_named("GetUp");
-  CHECK(place_of(placed(&clip, 0), "Head").y() < 0.3);
-  CHECK(place_of(placed(&clip, 0), "Hips").y() < 0.3);
-  const auto end = placed(&clip, clip.duration), rest = placed(nullptr, 0);
+  CHECK(place_of(world_at(&clip, 0), "Head").y() < 0.3);
+  CHECK(place_of(world_at(&clip, 0), "Hips").y() < 0.3);
+  const auto end = world_at(&clip, clip.duration), rest = world_at(nullptr, 0);
   for (const std::size_t joint : stored().skins.at(0).joints) {
     INFO(stored().nodes[joint].name);
     CHECK(near(end[joint].motion.pose.position, rest[joint].motion.pose.position, 1e-5));
@@ -280,7 +280,7 @@ TEST_CASE("the wave lifts the right hand over the head, swings it out three time
   std::size_t peaks = 0;
   double top = 0, before = 0, now = 0;
   for (double time = 0; time <= clip.duration; time += 1.0 / 120) {
-    const auto world = placed(&clip, time);
+    const auto world = world_at(&clip, time);
     const Vec3 hand = place_of(world, "RightHand");
     top = std::max(top, hand.y() - place_of(world, "Head").y());
     // Sideways from the elbow, so that the arm's own going up and down does not count.

@@ -6,15 +6,10 @@
 
 #include <tweenfall/importers/document.h>
 
-#include <iterator>
+#include <string>
+#include <vector>
 
 namespace tweenfall::test {
-
-inline std::string text_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  REQUIRE_MESSAGE(stream.good(), "cannot read " << file.string());
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
 
 inline std::vector<std::filesystem::path> documents_in(const std::string& folder) {
   std::vector<std::filesystem::path> files;
@@ -27,6 +22,19 @@ inline std::vector<std::filesystem::path> documents_in(const std::string& folder
 
 inline Document parsed(const std::string& text) {
   return Document::parse(text, "test.json", data_folder() / "documents/good");
+}
+
+inline constexpr double degree = pi / 180;
+
+/// The clip of a document of one track.
+inline Clip clip_of(const std::string& name, const std::string& track) {
+  const std::string text = "{\"tweenfall\": 1, \"clips\": {\"only\": {\"tracks\": {\"" + name + "\": " + track + "}}}}";
+  return Document::parse(text, "clip.json", {}).stage().clips.at(0);
+}
+
+template <class T>
+Curve<T> curve_of(const std::string& name, const std::string& track) {
+  return std::get<Curve<T>>(clip_of(name, track).tracks.at(0).curve);
 }
 
 /// All problems of a text that must not load, as printed.

@@ -7,22 +7,7 @@
 using namespace tweenfall;
 using namespace tweenfall::test;
 
-namespace {
-
-constexpr double pi = std::numbers::pi, degree = pi / 180;
-
-// The clip of one track.
-Clip clip_of(const std::string& name, const std::string& track) {
-  const std::string text = "{\"tweenfall\": 1, \"clips\": {\"only\": {\"tracks\": {\"" + name + "\": " + track + "}}}}";
-  return Document::parse(text, "clip.json", {}).stage().clips.at(0);
-}
-
-template <class T>
-Curve<T> curve_of(const std::string& name, const std::string& track) {
-  return std::get<Curve<T>>(clip_of(name, track).tracks.at(0).curve);
-}
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_CASE("an expression is a track's value at every time, with its exact rate") {
   const Curve<double> wave = curve_of<double>("a.b", R"json({"expression": "2*cos(t)"})json");

@@ -25,8 +25,6 @@ const Curve<T>& curve(const Clip& clip, const std::string& name) {
   return std::get<Curve<T>>(track(clip, name).curve);
 }
 
-constexpr double degree = std::numbers::pi / 180;
-
 // The angle of a rotation about z.
 double turn(const Quat& q) {
   return 2 * std::atan2(q.z(), q.w());

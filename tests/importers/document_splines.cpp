@@ -10,17 +10,8 @@ using namespace tweenfall::test;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
-template <class T>
-Curve<T> curve_of(const std::string& name, const std::string& track) {
-  const std::string text = "{\"tweenfall\": 1, \"clips\": {\"only\": {\"tracks\": {\"" + name + "\": " + track + "}}}}";
-  return std::get<Curve<T>>(Document::parse(text, "clip.json", {}).stage().clips.at(0).tracks.at(0).curve);
-}
-
 double length_of(const std::string& track) {
-  const std::string text = "{\"tweenfall\": 1, \"clips\": {\"only\": {\"tracks\": {\"a.b\": " + track + "}}}}";
-  return Document::parse(text, "clip.json", {}).stage().clips.at(0).duration;
+  return clip_of("a.b", track).duration;
 }
 
 }  // namespace

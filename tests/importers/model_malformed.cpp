@@ -32,11 +32,6 @@ std::string outcome(const std::filesystem::path& file) {
   }
 }
 
-std::string content_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 }  // namespace
 
 TEST_CASE("odd but valid files load, and malformed ones give an error that names the file") {
@@ -137,7 +132,7 @@ TEST_CASE("a valid file cut short or with bits flipped loads or gives an error, 
   Random random(20260101);
   std::size_t refused = 0, total = 0;
   for (const auto& file : files) {
-    const std::string valid = content_of(file);
+    const std::string valid = text_of(file);
     if (valid.size() > 25000) continue;
     for (int i = 0; i < 60; ++i) {
       std::string bytes = valid;
@@ -160,7 +155,7 @@ TEST_CASE("damaged BVH, FBX and Collada files load or give an error") {
   const ScratchFolder folder("fuzz-text");
   Random random(20260102);
   for (const auto& file : files_in(models_folder(), {".bvh", ".fbx", ".dae"})) {
-    const std::string valid = content_of(file), ending = file.extension().string();
+    const std::string valid = text_of(file), ending = file.extension().string();
     if (valid.size() > 60000) continue;
     for (int i = 0; i < (ending == ".bvh" ? 40 : 4); ++i) {
       std::string bytes = valid;

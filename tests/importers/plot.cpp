@@ -10,12 +10,6 @@ using namespace tweenfall::test;
 
 namespace {
 
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
-  return found;
-}
-
 /// A stage of one clip with one track of plain numbers: easings, a hold, given slopes and a jump.
 StageDescription one_track() {
   StageDescription stage;

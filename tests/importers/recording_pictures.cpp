@@ -10,12 +10,6 @@ using namespace tweenfall::test;
 
 namespace {
 
-std::size_t count(const std::string& text, const std::string& what) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++found;
-  return found;
-}
-
 /// The attribute's value in the first element after `from`.
 std::string attribute(const std::string& text, std::size_t from, const std::string& name) {
   const std::size_t at = text.find(" " + name + "=\"", from) + name.size() + 3;

@@ -11,11 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 std::size_t entries(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
 }
@@ -35,9 +30,9 @@ TEST_CASE("a file is written and replaced, and nothing is left beside it") {
   const ScratchFolder folder("write");
   const std::string content("a\0b\r\n", 5);
   write_whole_file(folder / "new.bin", content);
-  CHECK(content_of(folder / "new.bin") == content);
+  CHECK(text_of(folder / "new.bin") == content);
   write_whole_file(folder / "new.bin", "");
-  CHECK(content_of(folder / "new.bin").empty());
+  CHECK(text_of(folder / "new.bin").empty());
   CHECK(entries(folder.path()) == 1);
 }
 
@@ -48,7 +43,7 @@ TEST_CASE("a file that is replaced keeps its permissions, and a link stays a lin
   fs::create_symlink("file.txt", link);
   write_whole_file(link, "new");
   CHECK(fs::is_symlink(link));
-  CHECK(content_of(file) == "new");
+  CHECK(text_of(file) == "new");
   CHECK(fs::status(file).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
 }
 

@@ -54,7 +54,7 @@ struct Moment {
 
 /// Where the example's nodes are, by their index, as formulas.
 inline Moment example_moment(std::size_t node, double t) {
-  const double pi = std::numbers::pi;
+  using std::numbers::pi;
   const auto swing = [&](double time) { return 1.0 * std::cos(2 * pi * 0.5 * time); };
   const auto swing_rate = [&](double time) { return -pi * std::sin(2 * pi * 0.5 * time); };
   const Vec3 pivot(-1.5, 2.4, 0), z(0, 0, 1);

@@ -27,11 +27,6 @@ struct Scene {
   }
 };
 
-/// TWEENFALL_SCENES, or ../shared/scenes.
-inline std::filesystem::path scenes_folder() {
-  return detail::folder("TWEENFALL_SCENES", "../shared/scenes");
-}
-
 inline Vec3 vector_from(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }

@@ -3,7 +3,6 @@
 #include <tweenfall/physics/shape.h>
 
 #include <limits>
-#include <numbers>
 
 #include "support.h"
 
@@ -11,7 +10,7 @@ using namespace tweenfall;
 using test::near;
 
 TEST_CASE("volumes are the closed forms") {
-  const double pi = std::numbers::pi;
+  using test::pi;
   CHECK(near(volume(Sphere{2}), 32 * pi / 3, 1e-15));
   CHECK(near(volume(Box{Vec3(1, 2, 3)}), 48, 1e-15));
   CHECK(near(volume(Capsule{0.5, 1}), pi / 2 + pi / 6, 1e-15));
@@ -58,7 +57,7 @@ TEST_CASE("sizes that no solid can have are refused by name") {
 TEST_CASE("bounds touch the shape on every side") {
   Pose pose;
   pose.position = Vec3(1, 2, 3);
-  pose.rotation = Quat(std::cos(0.125 * std::numbers::pi), 0, 0, std::sin(0.125 * std::numbers::pi));  // 45 degrees
+  pose.rotation = Quat(std::cos(0.125 * test::pi), 0, 0, std::sin(0.125 * test::pi));  // 45 degrees
   const Bounds box = bounds({Box{Vec3(1, 1, 1)}}, pose);
   CHECK(near(box.high, Vec3(1 + std::sqrt(2.0), 2 + std::sqrt(2.0), 4), 1e-14));
   const Bounds capsule = bounds({Capsule{0.5, 1}}, pose);

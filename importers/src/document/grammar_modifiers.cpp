@@ -74,6 +74,7 @@ const Shape* modifiers_shape(ShapeStore& store, const ValueShapes& values) {
         {"value_scale", number, "", false, "1"}});
 
   std::vector<std::string> names;
+  names.reserve(kinds.size());
   for (const Field& field : kinds) names.push_back(field.name);
   Shape influence;
   influence.kind = Shape::Kind::number;

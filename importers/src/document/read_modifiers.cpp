@@ -91,7 +91,7 @@ Envelope envelope(const JsonValue& o) {
   return result;
 }
 
-std::optional<Kind> kind_of(const JsonValue& modifier, Problems& problems) {
+std::optional<modifiers::Kind> kind_of(const JsonValue& modifier, Problems& problems) {
   if (const JsonValue* o = usable(modifier, "cycles")) return cycles(*o);
   if (const JsonValue* o = usable(modifier, "noise")) return noise(*o);
   if (const JsonValue* o = usable(modifier, "polynomial")) return polynomial(*o);
@@ -118,7 +118,7 @@ template <class Check>
 std::optional<std::vector<Modifier>> modifiers_in(const JsonValue& list, const Check& check, Problems& problems) {
   std::vector<Modifier> modifiers;
   for (const JsonValue& item : list.items) {
-    std::optional<Kind> kind = kind_of(item, problems);
+    std::optional<modifiers::Kind> kind = kind_of(item, problems);
     if (!kind) continue;
     Modifier modifier{std::move(*kind)};
     if (const JsonValue* range = usable(item, "range"))

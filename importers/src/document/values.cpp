@@ -8,7 +8,11 @@
 
 namespace tweenfall::document {
 
+namespace {
+
 using Kind = JsonValue::Kind;
+
+}  // namespace
 
 double radians(double degrees) {
   return degrees * (std::numbers::pi / 180);

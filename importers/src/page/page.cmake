@@ -24,4 +24,5 @@ set(page_source ${CMAKE_CURRENT_BINARY_DIR}/page_files.cpp)
 add_custom_command(OUTPUT ${page_source}
   COMMAND ${CMAKE_COMMAND} -DOUT=${page_source} "-DPARTS=${parts}" -P ${page}/embed.cmake
   DEPENDS ${part_files} COMMENT "Embedding the page" VERBATIM)
+set_source_files_properties(${page_source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_sources(tweenfall_importers PRIVATE ${page_source})

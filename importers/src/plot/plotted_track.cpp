@@ -138,10 +138,12 @@ void add_handles(PlottedTrack& plotted, const Shown& shown) {
       }
       if (pace == 0) continue;
       const bool arrives = (side == Side::in) == (pace > 0);
-      for (const TrackHandle& handle : handles)
-        if (handle.arrives == arrives && std::abs(handle.key - clip_time) < 1e-9 * std::max(1.0, std::abs(clip_time)))
-          for (std::size_t i = 0; i < handle.time.size(); ++i)
-            key.handles.push_back({i, handle.time[i] / pace, handle.change[i]});
+      const double near = 1e-9 * std::max(1.0, std::abs(clip_time));
+      auto handle = std::lower_bound(handles.begin(), handles.end(), clip_time - near,
+                                     [](const TrackHandle& h, double time) { return h.key < time; });
+      for (; handle != handles.end() && handle->key <= clip_time + near; ++handle)
+        for (std::size_t i = 0; handle->arrives == arrives && i < handle->time.size(); ++i)
+          key.handles.push_back({i, handle->time[i] / pace, handle->change[i]});
     }
   }
 }

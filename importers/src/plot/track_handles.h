@@ -16,7 +16,8 @@ struct TrackHandle {
   std::vector<double> change;  ///< in the value's unit, one a component
 };
 
-/// Spans that are no cubics of their keys have none: eases, straight ways, formulas, rotations, colors.
+/// In order of their keys. Spans that are no cubics of their keys have none: eases, straight ways, formulas, rotations,
+/// colors.
 [[nodiscard]] std::vector<TrackHandle> track_handles(const TrackCurve& curve);
 
 }  // namespace tweenfall

@@ -16,7 +16,7 @@ namespace tweenfall {
 
 namespace {
 
-constexpr double picture_width = 760, margin = 12, head = 34, most_height = 400;
+constexpr double picture_width = 760, margin = 12, picture_head = 34, most_height = 400;
 constexpr double lane_height = 18, lane_left = 110;
 constexpr double rest = 0.8;                    // s that the last frame stays before the picture starts again
 constexpr std::size_t most_bytes = 280 * 1000;  // pages of projects load it at each visit
@@ -278,8 +278,8 @@ void draw_head(Drawing& drawing, const std::string& name) {
 
 std::string draw(const Recording& recording, const StageDescription& stage, double tolerance) {
   const std::vector<std::size_t> lanes = lane_nodes(recording);
-  const SideView view = side_view(recording, stage, margin, head, picture_width - 2 * margin, most_height);
-  const double bar = head + view.height + 10;
+  const SideView view = side_view(recording, stage, margin, picture_head, picture_width - 2 * margin, most_height);
+  const double bar = picture_head + view.height + 10;
   const double height = bar + static_cast<double>(lanes.size()) * (lane_height + 4) + 28;
   Drawing drawing{recording,
                   view,

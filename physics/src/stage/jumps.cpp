@@ -8,8 +8,6 @@ namespace tweenfall {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 bool differ(const Vec3& a, const Vec3& b) {
   return (a - b).squaredNorm() > 1e-18 * (1 + a.squaredNorm());
 }

@@ -8,10 +8,6 @@ namespace tweenfall {
 
 namespace {
 
-Vec3 center_of(const Motion& motion, const Vec3& center) {
-  return motion.pose.position + motion.pose.rotation * center;
-}
-
 /// The same motion with its twist told at the center of mass: v = v_o + w x r.
 Motion about_center(Motion motion, const Vec3& center) {
   const Vec3 arm = motion.pose.rotation * center;

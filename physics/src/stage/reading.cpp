@@ -9,10 +9,6 @@ namespace tweenfall {
 
 namespace {
 
-Vec3 center_of(const Motion& motion, const Vec3& center) {
-  return motion.pose.position + motion.pose.rotation * center;
-}
-
 bool touched(const World& world, BodyId body) {
   return std::ranges::any_of(world.contacts(), [&](const Contact& contact) {
     return (contact.a == body || contact.b == body) && contact.impulse > 0;

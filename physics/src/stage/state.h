@@ -13,6 +13,12 @@
 namespace tweenfall {
 
 inline constexpr std::size_t no_body = static_cast<std::size_t>(-1);
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Where a motion has the point that is `center` in its own coordinates.
+[[nodiscard]] inline Vec3 center_of(const Motion& motion, const Vec3& center) {
+  return motion.pose.position + motion.pose.rotation * center;
+}
 
 struct StagedBody {
   NodeId node = no_node;

@@ -7,8 +7,6 @@ namespace tweenfall {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// First time in (from, to] at which a play of `animation` fires an event of this name; infinity for none.
 /// @param node  when given, only plays that move the node count
 double first_event(const Animation& animation, const std::string& name, NodeId node, double from, double to) {

@@ -13,9 +13,9 @@
 
 namespace tweenfall::test {
 
-inline constexpr double gravity = 9.81;
+inline constexpr double standard_gravity = 9.81;
 /// The steps at which every hand-off must give the same result.
-inline constexpr double steps[] = {1.0 / 30, 1.0 / 60, 1.0 / 240};
+inline constexpr double compared_steps[] = {1.0 / 30, 1.0 / 60, 1.0 / 240};
 
 /// Scenario 1: theta(t) = cos(sqrt(9.81) t) rad about z, 1 m below a pivot at y = 2.
 inline StageDescription pendulum(double step) {
@@ -29,9 +29,9 @@ inline StageDescription pendulum(double step) {
   Clip swing;
   swing.name = "swing";
   swing.duration = std::numeric_limits<double>::infinity();
-  swing.tracks = {
-      {"pivot", "rotation",
-       axis_curve({0, 0, 1}, oscillator({.amplitude = 1, .hz = std::sqrt(gravity) / (2 * std::numbers::pi)}))}};
+  swing.tracks = {{"pivot", "rotation",
+                   axis_curve({0, 0, 1}, oscillator({.amplitude = 1,
+                                                     .hz = std::sqrt(standard_gravity) / (2 * std::numbers::pi)}))}};
   stage.clips = {swing};
   stage.plays = {{.clip = 0}};
   return stage;

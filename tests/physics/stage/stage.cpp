@@ -61,9 +61,9 @@ TEST_CASE("between two steps a falling body is on its parabola, and has its velo
   Stage stage(description);
   for (const double time : {0.01, 0.0333, 0.05, 0.4567}) {
     stage.advance_to(time);
-    const Vec3 expected(time, 10 + 2 * time - gravity * time * time / 2, 3 * time);
+    const Vec3 expected(time, 10 + 2 * time - standard_gravity * time * time / 2, 3 * time);
     CHECK(near(stage.world(0).motion.pose.position, expected, 1e-12));
-    CHECK(near(stage.twist(0).linear, Vec3(1, 2 - gravity * time, 3), 1e-12));
+    CHECK(near(stage.twist(0).linear, Vec3(1, 2 - standard_gravity * time, 3), 1e-12));
   }
 }
 
@@ -141,7 +141,7 @@ TEST_CASE("nodes and bodies come and go while it runs") {
   CHECK(stage.owner(extra) == Owner::free);
   stage.advance_to(0.75);
   const double fallen = 0.75 - 0.501;
-  CHECK(near(stage.world(extra).motion.pose.position, Vec3(0, 3 - gravity * fallen * fallen / 2, 0), 1e-12));
+  CHECK(near(stage.world(extra).motion.pose.position, Vec3(0, 3 - standard_gravity * fallen * fallen / 2, 0), 1e-12));
   stage.remove(stage.node("box"));
   CHECK_THROWS_WITH_AS((void)stage.node("box"), "there is no node \"box\"", std::invalid_argument);
   CHECK_THROWS_WITH_AS((void)stage.node("bal"), "there is no node \"bal\"; did you mean \"ball\"?",
