@@ -1,10 +1,13 @@
 #include <tweenfall/curves/barycentric.h>
 #include <tweenfall/curves/curve.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <stdexcept>
 #include <vector>
+
+#include "curve_data.h"
 
 namespace tweenfall {
 namespace {
@@ -21,6 +24,20 @@ void mend(std::span<Sample<double>> weights) noexcept {
     for (Sample<double>& w : weights) w = {1, 0, 0};
 }
 
+// Where any of them may jump or kink.
+template <class T>
+std::vector<double> all_knots(std::span<const Curve<T>> values, std::span<const Curve<double>> weights) {
+  std::vector<double> result;
+  const auto add = [&result](const auto& curve) {
+    result.insert(result.end(), curve.knots().begin(), curve.knots().end());
+  };
+  std::for_each(values.begin(), values.end(), add);
+  std::for_each(weights.begin(), weights.end(), add);
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
+  return result;
+}
+
 template <class T, class Mix>
 Curve<T> mixed_curve(std::span<const Curve<T>> values, std::span<const Curve<double>> weights, const Mix& mix) {
   if (values.empty() || values.size() > most_mixed_curves || values.size() != weights.size())
@@ -29,7 +46,7 @@ Curve<T> mixed_curve(std::span<const Curve<T>> values, std::span<const Curve<dou
                                 " values and " + std::to_string(weights.size()) + " weights");
   // Each goes on by its own rule where it ends, so that the mix is endless.
   constexpr double endless = std::numeric_limits<double>::infinity();
-  return Curve<T>(
+  return CurveAccess::formula_with_knots<T>(
       [mix, of = std::vector<Curve<T>>(values.begin(), values.end()),
        by = std::vector<Curve<double>>(weights.begin(), weights.end())](double time, Side side) {
         std::array<Sample<T>, most_mixed_curves> parts;
@@ -42,7 +59,7 @@ Curve<T> mixed_curve(std::span<const Curve<T>> values, std::span<const Curve<dou
         return mix(std::span<const Sample<T>>(parts.data(), of.size()),
                    std::span<const Sample<double>>(shares.data(), of.size()));
       },
-      -endless, endless);
+      -endless, endless, all_knots(values, weights));
 }
 
 }  // namespace

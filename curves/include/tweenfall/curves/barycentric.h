@@ -38,7 +38,8 @@ template <class T>
 inline constexpr std::size_t most_mixed_curves = 32;
 
 /// Curves mixed over time by weights that are curves, each going on by its own rule where it ends: an endless curve,
-/// whose rates are those of the values and of the weights together. While the weights sum to zero it is their even mix.
+/// whose rates are those of the values and of the weights together, and whose knots are all of theirs. While the
+/// weights sum to zero it is their even mix.
 /// @throws std::invalid_argument: no curves, more than `most_mixed_curves`, or not a weight for each.
 template <class T>
 [[nodiscard]] Curve<T> barycentric_curve(std::span<const Curve<T>> values, std::span<const Curve<double>> weights);
