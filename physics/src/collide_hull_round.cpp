@@ -136,14 +136,14 @@ int face_along(const ConvexHull& hull, const Vec3& direction) {
 
 /// The stretch of the axis beside the edge that it lies along, if it does.
 Stretch beside_edge(const AxisSegment& axis, const ConvexHull& hull, const Nearest& nearest, const Vec3& normal) {
-  constexpr double parallel_sine = 0.05;
+  constexpr double lying_along = 0.05;  // sine of the angle
   const double near = 1e-3 * hull.inner_radius();
   for (const ConvexHull::Edge& edge : hull.edges()) {
     const Vec3& from = hull.vertices()[edge.from];
     const Vec3& to = hull.vertices()[edge.to];
     const double length = (to - from).norm();
     const Vec3 along = (to - from) / length;
-    if (along.cross(axis.direction).norm() > parallel_sine) continue;
+    if (along.cross(axis.direction).norm() > lying_along) continue;
     if (std::abs(normal.dot(from - nearest.on_hull)) > near || std::abs(normal.dot(to - nearest.on_hull)) > near)
       continue;
     const double share = along.dot(nearest.on_hull - from);
