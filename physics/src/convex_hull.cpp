@@ -79,7 +79,7 @@ ConvexHull::ConvexHull(std::span<const Vec3> points) {
   if (data->vertices.size() > most_vertices)
     throw std::invalid_argument("a convex hull can have " + std::to_string(most_vertices) +
                                 " vertices, but these points make " + std::to_string(data->vertices.size()) +
-                                "; take fewer points, or fewer segments and steps of a mesh");
+                                "; take fewer points, or fewer sides around");
 
   using DirectedEdge = std::array<std::uint32_t, 3>;  // from, to, face
   std::vector<DirectedEdge> directed;

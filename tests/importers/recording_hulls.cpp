@@ -43,7 +43,7 @@ TEST_CASE("a hull is drawn as its outline and its sharp edges") {
   const std::string path = svg.substr(start, svg.find('"', start) - start);
   const std::size_t closed = path.find('Z');
   REQUIRE(closed != std::string::npos);
-  CHECK(count(path.substr(0, closed), "L") == 31);
+  CHECK(count(path.substr(0, closed), "L") == 23);
   CHECK(count(path.substr(closed), "M") == 8);
   // The outline from the side is the triangle: as wide as two thirds of its height.
   double left = 1e9, right = -1e9, low = -1e9, high = 1e9;

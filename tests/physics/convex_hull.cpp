@@ -238,6 +238,5 @@ TEST_CASE("points that have no hull are refused, saying what would be right") {
   const std::vector<Vec3> ball =
       turned_profile({{0.1, 0}, {0.5, 0.1}, {0.9, 0.5}, {1, 1}, {0.5, 2}, {0, 2.2}}, 60).positions;
   CHECK(refusal(ball) ==
-        "a convex hull can have 256 vertices, but these points make 301; take fewer points, or fewer "
-        "segments and steps of a mesh");
+        "a convex hull can have 256 vertices, but these points make 301; take fewer points, or fewer sides around");
 }

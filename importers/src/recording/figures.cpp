@@ -25,18 +25,19 @@ bool is_plane(const BodyDescription& body) {
   return std::holds_alternative<Plane>(body.shape.solid);
 }
 
-/// The center of mass, the vertices, and the ends of the sharpest edges: what the picture of a hull is made of.
+/// The center of mass, the vertices, and the ends of sharp edges unless those are many, as on what is nearly round.
 std::vector<Vec3> hull_points(const ConvexHull& hull) {
   constexpr double sharp = 0.866;  // cosine of the least angle between the faces of an edge that is drawn
-  constexpr std::size_t most_edges = 48;
-  std::vector<Vec3> points = {hull.measures().center};
+  constexpr std::size_t many = 16;
+  std::vector<Vec3> points(1, hull.measures().center);
   points.insert(points.end(), hull.vertices().begin(), hull.vertices().end());
-  std::size_t drawn = 0;
+  const std::size_t before = points.size();
   for (const ConvexHull::Edge& edge : hull.edges()) {
-    if (hull.faces()[edge.left].normal.dot(hull.faces()[edge.right].normal) > sharp || drawn++ == most_edges) continue;
+    if (hull.faces()[edge.left].normal.dot(hull.faces()[edge.right].normal) > sharp) continue;
     points.push_back(hull.vertices()[edge.from]);
     points.push_back(hull.vertices()[edge.to]);
   }
+  if (points.size() > before + 2 * many) points.resize(before);
   return points;
 }
 

@@ -27,7 +27,7 @@ struct SideView {
 [[nodiscard]] SideView side_view(const Recording& recording, const StageDescription& stage, double left, double top,
                                  double width, double height);
 
-inline constexpr std::size_t hull_outline = 32;
+inline constexpr std::size_t hull_outline = 24;
 
 struct Figure {
   enum class Kind {
@@ -35,7 +35,7 @@ struct Figure {
     stick,  ///< points: two; drawn as thick as 2 radius with round ends
     box,    ///< points: eight corners
     bones,  ///< points: pairs, a line each
-    hull,   ///< points: center of mass, `hull_outline` around the outline, then pairs, a line for each sharp edge
+    hull,   ///< points: center of mass, `hull_outline` around the outline, then pairs, a line each
   };
   Kind kind = Kind::box;
   std::size_t node = no_node;  ///< whose owner colors it
