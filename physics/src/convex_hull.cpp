@@ -19,6 +19,11 @@ struct ConvexHull::Data {
   std::vector<std::uint32_t> first_neighbor;  ///< by vertex, and the end
   MeshMeasures measures;
   double inner_radius = 0, outer_radius = 0;
+
+  /// With planes as thick as `flat`; false when rounding spoils it.
+  bool make(std::span<const Vec3> points, double flat);
+  bool connect();
+  [[nodiscard]] bool holds(std::span<const Vec3> points, double within) const;
 };
 
 namespace {
@@ -62,52 +67,71 @@ ConvexHull::Face face_of(std::span<const Vec3> vertices, std::span<const std::ui
 
 }  // namespace
 
-ConvexHull::ConvexHull(std::span<const Vec3> points) {
-  require_usable(points);
-  std::vector<std::vector<std::uint32_t>> loops = hull_polygons(points);
-  auto data = std::make_shared<Data>();
-
+bool ConvexHull::Data::make(std::span<const Vec3> points, double flat) {
+  const std::vector<std::vector<std::uint32_t>> loops = hull_polygons(points, flat);
   // Vertices get their numbers in the order of the points.
   std::vector<std::uint32_t> number(points.size(), 0);
   for (const auto& loop : loops)
     for (const std::uint32_t corner : loop) number[corner] = 1;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (number[i] == 0) continue;
-    number[i] = static_cast<std::uint32_t>(data->vertices.size());
-    data->vertices.push_back(points[i]);
+    number[i] = static_cast<std::uint32_t>(vertices.size());
+    vertices.push_back(points[i]);
   }
-  if (data->vertices.size() > most_vertices)
-    throw std::invalid_argument("a convex hull can have " + std::to_string(most_vertices) +
-                                " vertices, but these points make " + std::to_string(data->vertices.size()) +
-                                "; take fewer points, or fewer sides around");
+  if (vertices.size() > most_vertices) return true;  // which the caller refuses
+  for (const auto& loop : loops) {
+    const auto first = static_cast<std::uint32_t>(corners.size());
+    for (const std::uint32_t corner : loop) corners.push_back(number[corner]);
+    faces.push_back(face_of(vertices, std::span(corners).subspan(first), first));
+  }
+  return connect() && holds(points, 32 * flat);
+}
 
+/// Edges, which have a face on either side.
+bool ConvexHull::Data::connect() {
   using DirectedEdge = std::array<std::uint32_t, 3>;  // from, to, face
   std::vector<DirectedEdge> directed;
-  for (const auto& loop : loops) {
-    const auto first = static_cast<std::uint32_t>(data->corners.size());
-    for (const std::uint32_t corner : loop) data->corners.push_back(number[corner]);
-    const std::span<const std::uint32_t> corners(data->corners.begin() + first, data->corners.end());
-    const auto face = static_cast<std::uint32_t>(data->faces.size());
-    data->faces.push_back(face_of(data->vertices, corners, first));
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      directed.push_back({corners[i], corners[(i + 1) % corners.size()], face});
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    const std::span<const std::uint32_t> loop = std::span(corners).subspan(faces[i].first, faces[i].corners);
+    for (std::size_t k = 0; k < loop.size(); ++k) directed.push_back({loop[k], loop[(k + 1) % loop.size()], i});
   }
   std::sort(directed.begin(), directed.end());
   for (const auto& [from, to, face] : directed) {
     const auto back = std::lower_bound(directed.begin(), directed.end(), DirectedEdge{to, from, 0});
-    if (back == directed.end() || (*back)[0] != to || (*back)[1] != from) refuse_rounding(points.size());
-    if (from < to) data->edges.push_back({from, to, face, (*back)[2]});
-    data->first_neighbor.resize(from + 1, static_cast<std::uint32_t>(data->neighbors.size()));
-    data->neighbors.push_back(to);
+    if (back == directed.end() || (*back)[0] != to || (*back)[1] != from) return false;
+    if (from < to) edges.push_back({from, to, face, (*back)[2]});
+    first_neighbor.resize(from + 1, static_cast<std::uint32_t>(neighbors.size()));
+    neighbors.push_back(to);
   }
-  data->first_neighbor.push_back(static_cast<std::uint32_t>(data->neighbors.size()));
-  if (data->vertices.size() + data->faces.size() != data->edges.size() + 2) refuse_rounding(points.size());
+  first_neighbor.push_back(static_cast<std::uint32_t>(neighbors.size()));
+  return vertices.size() + faces.size() == edges.size() + 2;
+}
 
-  const double within = 32 * flat_distance(points);
-  for (const Face& face : data->faces)
+/// All points behind all faces, and all faces flat.
+bool ConvexHull::Data::holds(std::span<const Vec3> points, double within) const {
+  for (const Face& face : faces) {
     for (const Vec3& point : points)
-      if (!(face.normal.dot(point) <= face.offset + within)) refuse_rounding(points.size());
+      if (!(face.normal.dot(point) <= face.offset + within)) return false;
+    for (const std::uint32_t corner : std::span(corners).subspan(face.first, face.corners))
+      if (!(face.normal.dot(vertices[corner]) >= face.offset - within)) return false;
+  }
+  return true;
+}
 
+ConvexHull::ConvexHull(std::span<const Vec3> points) {
+  require_usable(points);
+  std::shared_ptr<Data> data;
+  // Points that are not exact to the usual thickness of planes may be to a greater one.
+  double flat = flat_distance(points);
+  for (int attempt = 0; attempt < 4 && !data; ++attempt, flat *= 8) {
+    auto made = std::make_shared<Data>();
+    if (made->make(points, flat)) data = std::move(made);
+  }
+  if (!data) refuse_rounding(points.size());
+  if (data->vertices.size() > most_vertices)
+    throw std::invalid_argument("a convex hull can have " + std::to_string(most_vertices) +
+                                " vertices, but these points make " + std::to_string(data->vertices.size()) +
+                                "; take fewer points, or fewer sides around");
   data_ = data;
   data->measures = measure(surface());
   const Vec3& center = data->measures.center;

@@ -90,8 +90,7 @@ void straighten(std::vector<HullLoop>& loops, std::size_t points) {
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> hull_polygons(std::span<const Vec3> points) {
-  const double flat = flat_distance(points);
+std::vector<std::vector<std::uint32_t>> hull_polygons(std::span<const Vec3> points, double flat) {
   const std::vector<HullTriangle> triangles = hull_triangles(points, flat);
   // Twice the thickness of planes on either side: the triangles of one plane each lie anywhere within it.
   std::vector<std::uint32_t> region = plane_regions(points, triangles, 4 * flat);
