@@ -152,6 +152,16 @@ TEST_CASE("a pyramid, an octahedron and a prism have the faces of the books") {
   CHECK(octahedron.faces().size() == 8);
   CHECK(near(octahedron.measures().volume, 4.0 / 3, 1e-15));
   CHECK(near(octahedron.inner_radius(), 1 / std::sqrt(3.0), 1e-15));
+  // Edges of 1 m: volume 5 (3 + sqrt 5) / 12, every moment of inertia m phi^2 / 10.
+  const double golden = (1 + std::sqrt(5.0)) / 2;
+  std::vector<Vec3> points;
+  for (const double one : {-0.5, 0.5})
+    for (const double other : {-0.5 * golden, 0.5 * golden})
+      points.insert(points.end(), {Vec3(0, one, other), Vec3(one, other, 0), Vec3(other, 0, one)});
+  const Shape icosahedron{Hull{ConvexHull(points)}};
+  CHECK(std::get<Hull>(icosahedron.solid).convex.faces().size() == 20);
+  CHECK(near(volume(icosahedron.solid), 5 * (3 + std::sqrt(5.0)) / 12, 1e-14));
+  CHECK(near(mass_properties(icosahedron, 3).inertia, Mat3(0.3 * golden * golden * Mat3::Identity()), 1e-14));
   const ConvexHull prism(turned_profile({{0.5, 0}, {0.5, 2}}, 24));
   CHECK(prism.vertices().size() == 48);
   CHECK(prism.faces().size() == 26);

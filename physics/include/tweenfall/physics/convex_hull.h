@@ -12,8 +12,9 @@ namespace tweenfall {
 
 /// An immutable value, cheap to copy. The same points give the same hull, to the bit, on every machine.
 ///
-/// A point nearer to a face than about a millionth of the points' extent counts as lying in it: faces that lie so in
-/// one plane are one polygon, and points inside of faces and on straight edges are no vertices.
+/// A point nearer to a face than about a millionth of the points' extent, more where the points are noisier than that,
+/// counts as lying in it: faces that lie so in one plane are one polygon, and points inside of faces and on straight
+/// edges are no vertices.
 class ConvexHull {
  public:
   static constexpr std::size_t most_vertices = 256;
