@@ -35,22 +35,23 @@ double position(double time, double start, double inverse) noexcept {
 }  // namespace
 
 CurveBatch::CurveBatch(std::span<const Curve<double>> curves) {
-  const auto add = [&](double start, const Cubic& cubic) {
-    starts_.push_back(start);
-    cubics_.push_back(cubic);
+  const auto add = [&](double start, double end, double c0, double c1 = 0, double c2 = 0, double c3 = 0) {
+    stretches_.push_back({start, end, 1 / (end - start), c0, c1, c2, c3});
   };
   double seconds = 0, spans = 0;
   for (const Curve<double>& curve : curves) {
     const auto& data = CurveAccess::data(curve);
-    Track track{static_cast<std::uint32_t>(starts_.size()), 0, infinity, infinity, 0};
+    Track track{static_cast<std::uint32_t>(stretches_.size()), 0, infinity, infinity, 0};
     if (is_plain(data)) {
-      add(-infinity, {curve.value(data.start, Side::in), 0, 0, 0});
-      for (const Segment& segment : data.segments) {
+      add(-infinity, data.start, curve.value(data.start, Side::in));
+      for (std::size_t i = 0; i < data.segments.size(); ++i) {
+        const Segment& segment = data.segments[i];
         double c[4]{};
         std::copy_n(&data.pool[segment.first], segment.degree + 1, c);
-        add(segment.start, {c[0], c[1], c[2], c[3]});
+        add(segment.start, i + 1 < data.segments.size() ? data.segments[i + 1].start : data.end, c[0], c[1], c[2],
+            c[3]);
       }
-      add(data.end, {curve.value(data.end), 0, 0, 0});
+      add(data.end, infinity, curve.value(data.end));
       track.start = data.start;
       track.end = data.end;
       track.spans_per_second = static_cast<double>(data.segments.size()) / (data.end - data.start);
@@ -58,10 +59,9 @@ CurveBatch::CurveBatch(std::span<const Curve<double>> curves) {
       spans += static_cast<double>(data.segments.size());
     } else {
       apart_.push_back({tracks_.size(), curve});
-      add(-infinity, {0, 0, 0, 0});
+      add(-infinity, infinity, 0);
     }
-    track.last = static_cast<std::uint32_t>(starts_.size()) - 1;
-    add(infinity, {0, 0, 0, 0});
+    track.last = static_cast<std::uint32_t>(stretches_.size()) - 1;
     tracks_.push_back(track);
   }
   if (spans > 0) stride_ = seconds / spans;
@@ -84,42 +84,47 @@ std::uint32_t CurveBatch::guess(const Track& track, double time) const noexcept 
 }
 
 // The stretch that holds `time`.
-std::uint32_t CurveBatch::locate(const Track& track, std::uint32_t guess, double time) const noexcept {
-  // Mostly the one guessed or one beside it; which one is hard to foresee, so it is counted without a branch.
-  if (guess > track.first && guess < track.last && starts_[guess - 1] <= time &&
-      (guess + 2 > track.last || time < starts_[guess + 2]))
-    return guess - 1 + static_cast<std::uint32_t>(starts_[guess] <= time) +
-           static_cast<std::uint32_t>(starts_[guess + 1] <= time);
-  const auto first = starts_.begin() + track.first, last = starts_.begin() + track.last + 1;
-  return track.first + static_cast<std::uint32_t>(std::upper_bound(first, last, time) - first) - 1;
+std::uint32_t CurveBatch::search(const Track& track, double time) const noexcept {
+  const auto first = stretches_.begin() + track.first, last = stretches_.begin() + track.last + 1;
+  const auto next = std::partition_point(first, last, [time](const Stretch& s) { return s.start <= time; });
+  return static_cast<std::uint32_t>(next - stretches_.begin()) - 1;
 }
 
 void CurveBatch::remember(std::size_t i) noexcept {
-  const std::uint32_t place = place_[i];
-  const Cubic& cubic = cubics_[place];
-  __builtin_prefetch(&cubic + 2);  // played on, the next stretches are wanted soon
-  start_[i] = starts_[place];
-  end_[i] = starts_[place + 1];
-  inverse_[i] = 1 / (end_[i] - start_[i]);
-  c0_[i] = cubic.c0;
-  c1_[i] = cubic.c1;
-  c2_[i] = cubic.c2;
-  c3_[i] = cubic.c3;
+  const Stretch& stretch = stretches_[place_[i]];
+  start_[i] = stretch.start;
+  end_[i] = stretch.end;
+  inverse_[i] = stretch.inverse;
+  c0_[i] = stretch.c0;
+  c1_[i] = stretch.c1;
+  c2_[i] = stretch.c2;
+  c3_[i] = stretch.c3;
 }
 
-// For the first `count` of stale_. In rounds, so that what all of them need is on its way from memory at once.
+// For the first `count` of stale_. Each is guessed some curves ahead and mended fewer ahead, so that what they need is
+// on its way from memory while others are worked at.
 void CurveBatch::seek(std::size_t count, double time) noexcept {
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t i = stale_[k];
-    place_[i] = guess(tracks_[i], time);
-    __builtin_prefetch(&starts_[place_[i]]);
+  constexpr std::size_t ahead = 16;
+  for (std::size_t k = 0; k < count + 2 * ahead; ++k) {
+    if (k < count) {
+      const std::uint32_t i = stale_[k];
+      place_[i] = guess(tracks_[i], time);
+      __builtin_prefetch(&stretches_[place_[i]]);
+    }
+    // Mostly it is the one guessed or one beside it; which one is hard to foresee, so there is no branch.
+    if (k >= ahead && k - ahead < count) {
+      std::uint32_t& place = place_[stale_[k - ahead]];
+      const Stretch& guessed = stretches_[place];
+      place += static_cast<std::uint32_t>(time >= guessed.end) - static_cast<std::uint32_t>(time < guessed.start);
+      __builtin_prefetch(&stretches_[place]);
+    }
+    if (k >= 2 * ahead) {
+      const std::uint32_t i = stale_[k - 2 * ahead];
+      const Stretch& found = stretches_[place_[i]];
+      if (time < found.start || time >= found.end) place_[i] = search(tracks_[i], time);
+      remember(i);
+    }
   }
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::uint32_t i = stale_[k];
-    place_[i] = locate(tracks_[i], place_[i], time);
-    __builtin_prefetch(&cubics_[place_[i]]);
-  }
-  for (std::size_t k = 0; k < count; ++k) remember(stale_[k]);
 }
 
 void CurveBatch::sample(double time, std::span<double> values, std::span<double> rates) {
@@ -135,14 +140,11 @@ void CurveBatch::sample(double time, std::span<double> values, std::span<double>
   }
   if (time > time_ && time - time_ < stride_) {
     // Mostly the next stretch holds the time.
-    for (std::size_t k = 0; k < changed; ++k) {
-      __builtin_prefetch(&starts_[place_[stale_[k]] + 2]);
-      __builtin_prefetch(&cubics_[place_[stale_[k]] + 1]);
-    }
+    for (std::size_t k = 0; k < changed; ++k) __builtin_prefetch(&stretches_[place_[stale_[k]] + 1]);
     std::size_t far = 0;
     for (std::size_t k = 0; k < changed; ++k) {
       const std::uint32_t i = stale_[k];
-      if (time < starts_[place_[i] + 2]) {
+      if (time < stretches_[place_[i] + 1].end) {
         ++place_[i];
         remember(i);
       } else {

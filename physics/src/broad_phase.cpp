@@ -44,7 +44,7 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, const
       entry.bounds.high = entry.bounds.high.cwiseMax(end.high);
     } else if (entry.dynamic) {
       travel = body.twist.linear * dt;
-      if (!body.spherical || body.shape.offset.position != Vec3::Zero())
+      if (!body.spherical || body.mass.center != Vec3::Zero() || std::holds_alternative<Hull>(body.shape.solid))
         swing = std::min(body.twist.angular.norm() * dt, 2.0) * body.radius;
       swing += loads[i].acceleration.norm() * dt * dt;
     }

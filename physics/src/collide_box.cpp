@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "collide_pairs.h"
+#include "contact_candidates.h"
 
 namespace tweenfall {
 
@@ -98,36 +100,6 @@ Polygon cut(const Polygon& polygon, const Vec3& normal, double offset, std::uint
   return result;
 }
 
-struct Candidate {
-  Vec3 position;  ///< on the incident face
-  double gap;
-  std::uint32_t feature;
-};
-
-/// Four of many: the deepest, the farthest from it, and the two that span most area to either side.
-void reduce(std::array<Candidate, 12>& candidates, std::size_t& count, const Vec3& normal, const Vec3& leaning) {
-  if (count <= 4) return;
-  std::array<Candidate, 4> chosen;
-  const auto pick = [&](const auto& score) {
-    std::size_t best = 0;
-    for (std::size_t i = 1; i < count; ++i)
-      if (score(candidates[i]) > score(candidates[best]) + 1e-9) best = i;
-    return candidates[best];
-  };
-  // Equal depths differ by rounding only: the place decides between them.
-  chosen[0] = pick([&](const Candidate& c) { return -c.gap + 1e-3 * leaning.dot(c.position); });
-  chosen[1] = pick([&](const Candidate& c) { return (c.position - chosen[0].position).squaredNorm(); });
-  const Vec3 side = normal.cross(chosen[1].position - chosen[0].position);
-  chosen[2] = pick([&](const Candidate& c) { return side.dot(c.position - chosen[0].position); });
-  chosen[3] = pick([&](const Candidate& c) { return -side.dot(c.position - chosen[0].position); });
-  count = 0;
-  for (const Candidate& candidate : chosen) {
-    bool known = false;
-    for (std::size_t i = 0; i < count; ++i) known = known || candidates[i].feature == candidate.feature;
-    if (!known) candidates[count++] = candidate;
-  }
-}
-
 /// One box's face against the other box: the incident face cut by the sides of the reference face.
 /// `normal` points out of the reference box.
 void clip_faces(Manifold& manifold, const Box& reference, const Placed& at_reference, int axis, const Vec3& normal,
@@ -161,7 +133,7 @@ void clip_faces(Manifold& manifold, const Box& reference, const Placed& at_refer
     polygon = cut(polygon, -out, -at + reference.half_extents[i], static_cast<std::uint32_t>(2 * i + 1), tolerance);
   }
   const double surface = normal.dot(at_reference.center) + reference.half_extents[axis];
-  std::array<Candidate, 12> candidates;
+  std::array<ContactCandidate, 12> candidates;
   std::size_t count = 0;
   for (std::size_t i = 0; i < polygon.count; ++i) {
     const ClipVertex& vertex = polygon.vertices[i];
@@ -169,7 +141,7 @@ void clip_faces(Manifold& manifold, const Box& reference, const Placed& at_refer
     if (gap <= margin) candidates[count++] = {vertex.position, gap, vertex.feature};
   }
   const Vec3 leaning = at_reference.axes.col((axis + 1) % 3) + 0.37 * at_reference.axes.col((axis + 2) % 3);
-  reduce(candidates, count, normal, leaning);
+  count = reduce_to_four(std::span(candidates.data(), count), normal, leaning);
   for (std::size_t i = 0; i < count; ++i)
     add_point(manifold, candidates[i].position - 0.5 * candidates[i].gap * normal, -candidates[i].gap,
               candidates[i].feature | tag << 28, margin);

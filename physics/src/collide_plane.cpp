@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <span>
 
 #include "collide_pairs.h"
+#include "contact_candidates.h"
 
 namespace tweenfall {
 
@@ -69,6 +72,31 @@ Manifold collide(const Box& a, const Placed& at_a, const Plane& b, const Placed&
     const Corner& corner = corners[static_cast<std::size_t>(i)];
     add_point(manifold, corner.position - 0.5 * corner.gap * plane.normal, -corner.gap, corner.number, margin);
   }
+  return manifold;
+}
+
+Manifold collide(const Hull& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin) {
+  const WorldPlane plane = in_world(b, at_b);
+  Manifold manifold;
+  manifold.normal = -plane.normal;
+  const std::span<const Vec3> vertices = a.convex.vertices();
+  std::array<ContactCandidate, ConvexHull::most_vertices> corners;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    const Vec3 position = at_a.center + at_a.axes * vertices[i];
+    corners[i] = {position, plane.normal.dot(position) - plane.offset, i};
+    least = std::min(least, corners[i].gap);
+  }
+  // What is much higher than the lowest is the hull's other side, not what it stands on.
+  const double highest = std::min(margin, least + a.convex.inner_radius());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+    if (corners[i].gap <= highest) corners[count++] = corners[i];
+  const Vec3 leaning = at_a.axes * Vec3(1, 0.61, 0.37);
+  count = reduce_to_four(std::span(corners).first(count), plane.normal, leaning);
+  for (std::size_t i = 0; i < count; ++i)
+    add_point(manifold, corners[i].position - 0.5 * corners[i].gap * plane.normal, -corners[i].gap, corners[i].feature,
+              margin);
   return manifold;
 }
 

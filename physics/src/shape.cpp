@@ -75,26 +75,32 @@ double volume(const Solid& solid) noexcept {
   if (const auto* capsule = std::get_if<Capsule>(&solid)) {
     return pi * capsule->radius * capsule->radius * (2 * capsule->half_height + 4 * capsule->radius / 3);
   }
+  if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.measures().volume;
   return std::numeric_limits<double>::infinity();
 }
 
 MassProperties mass_properties(const Shape& shape, double mass) {
   require_positive(mass, "mass");
-  Vec3 principal;
+  Vec3 center(0, 0, 0);
+  Mat3 inertia;
   if (const auto* sphere = std::get_if<Sphere>(&shape.solid)) {
-    principal = principal_inertia(*sphere, mass);
+    inertia = principal_inertia(*sphere, mass).asDiagonal();
   } else if (const auto* box = std::get_if<Box>(&shape.solid)) {
-    principal = principal_inertia(*box, mass);
+    inertia = principal_inertia(*box, mass).asDiagonal();
   } else if (const auto* capsule = std::get_if<Capsule>(&shape.solid)) {
-    principal = principal_inertia(*capsule, mass);
+    inertia = principal_inertia(*capsule, mass).asDiagonal();
+  } else if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
+    const MeshMeasures& measures = hull->convex.measures();
+    center = measures.center;
+    inertia = mass / measures.volume * measures.inertia;
   } else {
     throw std::invalid_argument("a plane has no mass: only fixed and keyed bodies can be planes");
   }
   const Mat3 axes = shape.offset.rotation.toRotationMatrix();
   MassProperties properties;
   properties.mass = mass;
-  properties.center = shape.offset.position;
-  properties.inertia = axes * principal.asDiagonal() * axes.transpose();
+  properties.center = shape.offset.position + axes * center;
+  properties.inertia = axes * inertia * axes.transpose();
   // Rounding leaves the two triangles an ulp apart.
   properties.inertia = (0.5 * (properties.inertia + properties.inertia.transpose())).eval();
   return properties;
@@ -125,6 +131,14 @@ Bounds bounds(const Shape& shape, const Pose& node) noexcept {
     reach = placed.axes.cwiseAbs() * box->half_extents;
   } else if (const auto* capsule = std::get_if<Capsule>(&shape.solid)) {
     reach = placed.axes.col(1).cwiseAbs() * capsule->half_height + Vec3::Constant(capsule->radius);
+  } else if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
+    Bounds result{reach, -reach};
+    for (const Vec3& vertex : hull->convex.vertices()) {
+      const Vec3 point = placed.axes * vertex;
+      result.low = result.low.cwiseMin(point);
+      result.high = result.high.cwiseMax(point);
+    }
+    return {placed.center + result.low, placed.center + result.high};
   } else if (const auto* plane = std::get_if<Plane>(&shape.solid)) {
     Bounds result{-reach, reach};
     // Half of space is bounded in a direction only when the normal lies along it.

@@ -48,11 +48,12 @@ Motion checked(Motion motion) {
   return motion;
 }
 
-/// Farthest point of the solid from the center of mass, which is the solid's own center.
+/// Farthest point of the solid from its center of mass.
 double radius_of(const Solid& solid) {
   if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
   if (const auto* box = std::get_if<Box>(&solid)) return box->half_extents.norm();
   if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius + capsule->half_height;
+  if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.outer_radius();
   return std::numeric_limits<double>::infinity();
 }
 

@@ -39,6 +39,10 @@ std::string shape_text(const Shape& shape) {
       return "capsule, radius " + brief_text(capsule.radius) + ", half height " + brief_text(capsule.half_height);
     }
     std::string operator()(const Plane& plane) const { return "plane, normal " + brief_text(plane.normal); }
+    std::string operator()(const Hull& hull) const {
+      return "hull, " + std::to_string(hull.convex.vertices().size()) + " vertices, " +
+             std::to_string(hull.convex.faces().size()) + " faces";
+    }
   };
   return std::visit(Words{}, shape.solid);
 }

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "curves/counted_allocations.h"
 #include "support.h"
 
 using namespace tweenfall;
@@ -249,4 +250,61 @@ TEST_CASE("an aspect ratio keeps the area, and mixed by its logarithm passes the
   CHECK(shape.sample(0.7).rate[0] == doctest::Approx(log_2 * width).epsilon(1e-14));
   CHECK(shape.sample(0.7).acceleration[0] == doctest::Approx(log_2 * log_2 * width).epsilon(1e-13));
   CHECK(shape.sample(0.7).acceleration[1] == doctest::Approx(log_2 * log_2 / width).epsilon(1e-13));
+}
+
+namespace {
+
+// `mix` is what the samples of curves and weights come to.
+template <class T, class Mix>
+void check_mixed(const std::vector<Curve<T>>& values, const std::vector<Curve<double>>& weights, const Curve<T>& curve,
+                 const Mix& mix) {
+  for (const double t : {-2.0, -0.3, 0.1, 0.6, 5.0}) {
+    CAPTURE(t);
+    const Sample<T> expected = mix(samples(values, t), samples(weights, t));
+    const std::size_t before = test::allocations();
+    const Sample<T> found = curve.sample(t);
+    CHECK(test::allocations() == before);
+    if constexpr (std::is_same_v<T, Quat>)
+      CHECK(found.value.coeffs() == expected.value.coeffs());
+    else
+      CHECK(found.value == expected.value);
+    CHECK(found.rate == expected.rate);
+    CHECK(found.acceleration == expected.acceleration);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("curves mixed over time are the mix of their samples, and nothing is allocated") {
+  test::Random random(31);
+  const std::vector<Curve<double>> weights = {
+      keyed_curve<double>({{-1, 1.0, Ease::natural()}, {0.5, 0.2, Ease::natural()}, {2, 1.0}}),
+      keyed_curve<double>({{-1, 0.3, Ease::linear()}, {2, 2.0}}), Curve<double>(0.5)};
+  const auto plain = [](const auto& values, const auto& shares) {
+    using T = std::decay_t<decltype(values.front().value)>;
+    return barycentric<T>(values, shares);
+  };
+  const auto numbers = three_curves<double>(random);
+  check_mixed(numbers, weights, barycentric_curve<double>(numbers, weights), plain);
+  const auto vectors = three_curves<Vec3>(random);
+  check_mixed(vectors, weights, barycentric_curve<Vec3>(vectors, weights), plain);
+  const auto turns = three_curves<Quat>(random);
+  check_mixed(turns, weights, barycentric_curve<Quat>(turns, weights), plain);
+  const auto colors = three_curves<Color>(random);
+  check_mixed(colors, weights, barycentric_curve(colors, weights, ColorSpace::oklch),
+              [](const auto& values, const auto& shares) { return barycentric(values, shares, ColorSpace::oklch); });
+}
+
+TEST_CASE("a mix whose weights sum to zero for a while is even there, and one without a weight each is refused") {
+  const std::vector<Curve<double>> values = {Curve<double>(2), Curve<double>(6)};
+  const std::vector<Curve<double>> weights = {
+      keyed_curve<double>({{0, 1.0, Ease::linear()}, {1, 0.0, Ease::hold()}, {2, 0.0}}), Curve<double>(0)};
+  const Curve<double> mix = barycentric_curve<double>(values, weights);
+  CHECK(mix.value(0.5) == 2);
+  CHECK(mix.value(1.5) == 4);
+  CHECK(mix.rate(1.5) == 0);
+  CHECK_THROWS_AS((void)barycentric_curve<double>(values, std::span(weights).first(1)), std::invalid_argument);
+  CHECK_THROWS_AS((void)barycentric_curve<double>({}, {}), std::invalid_argument);
+  const std::vector<Curve<double>> many(most_mixed_curves + 1, Curve<double>(1));
+  CHECK_THROWS_AS((void)barycentric_curve<double>(many, many), std::invalid_argument);
 }

@@ -406,3 +406,23 @@ TEST_CASE("modifiers are laid over tracks of numbers in their order") {
   CHECK(warped.rate(0.5) == doctest::Approx(-1));
   CHECK(std::isfinite(curve<double>(clip, "b.all").value(1.3)));
 }
+
+TEST_CASE("hulls, turned and swept profiles are the convex solids that they describe") {
+  const Document document = good("hulls");
+  const auto hull = [&](std::size_t node) {
+    return std::get<Hull>(document.stage().nodes.at(node).body->shape.solid).convex;
+  };
+  CHECK(hull(0).vertices().size() == 6);  // the seventh point is inside
+  CHECK(hull(0).faces().size() == 5);
+  CHECK(near(hull(0).measures().volume, 3, 1e-14));
+  CHECK(hull(1).faces().size() == 49);
+  CHECK(near(hull(1).measures().volume, 48 * 0.5 * 0.25 * std::sin(2 * std::numbers::pi / 48) * 2 / 3, 1e-12));
+  CHECK(near(hull(1).measures().center, Vec3(0, 0.5, 0), 1e-12));
+  CHECK(near(document.stage().nodes.at(1).body->shape.offset.position, Vec3(0, -0.5, 0), 0));
+  CHECK(hull(2).vertices().size() == 48);
+  CHECK(hull(3).faces().size() == 6);
+  CHECK(near(hull(3).measures().volume, 0.24, 1e-12));
+  const Bounds beam = bounds(document.stage().nodes.at(3).body->shape, {});
+  CHECK(near(beam.low, Vec3(0, -0.1, -0.2), 1e-12));
+  CHECK(near(beam.high, Vec3(3, 0.1, 0.2), 1e-12));
+}

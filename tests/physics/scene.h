@@ -31,7 +31,7 @@ inline Vec3 vector_from(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-/// Joints and hulls are not read.
+/// Joints are not read.
 inline Scene scene_from(const nlohmann::json& json) {
   const std::string name = json.at("name");
   WorldSettings settings;
@@ -49,6 +49,10 @@ inline Scene scene_from(const nlohmann::json& json) {
       entry.shape.solid = Sphere{shape.at("radius").get<double>()};
     } else if (type == "capsule") {
       entry.shape.solid = Capsule{shape.at("radius").get<double>(), shape.at("half_height").get<double>()};
+    } else if (type == "hull") {
+      std::vector<Vec3> points;
+      for (const auto& point : shape.at("points")) points.push_back(vector_from(point));
+      entry.shape.solid = Hull{ConvexHull(points)};
     } else {
       MESSAGE("SKIPPED: a body of scene " << name << " with shape " << type);
       continue;

@@ -75,6 +75,25 @@ TEST_CASE("the door pushes what stands behind it and loses its sign at the slam"
   CHECK(stage.owner(stage.node("door")) == Owner::keyed);
 }
 
+TEST_CASE("the bowling ball knocks over turned pins that stood by themselves, and the top spins on") {
+  Stage stage = staged("bowling");
+  stage.advance_to(0.8);
+  for (const char* pin : {"pin1", "pin3", "pin6"}) {
+    CHECK(lean(stage, pin) < 0.1);
+    CHECK(std::abs(place(stage, pin).y()) < 1e-3);
+  }
+  CHECK(stage.owner(stage.node("ball")) == Owner::free);
+  stage.advance_to(3);
+  int down = 0;
+  for (const char* pin : {"pin1", "pin2", "pin3", "pin4", "pin5", "pin6"}) {
+    down += lean(stage, pin) > 45;
+    CHECK(place(stage, pin).y() > -0.01);
+  }
+  CHECK(down >= 4);
+  CHECK(lean(stage, "top") < 30);
+  CHECK(stage.twist(stage.node("top")).angular.norm() > 50);
+}
+
 TEST_CASE("the walker kicks boxes over and does not break its step") {
   Stage stage = staged("walker");
   stage.advance_to(4.4);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace tweenfall::document {
 
@@ -33,6 +34,14 @@ const JsonValue* keys_of(const JsonValue& track) {
   return usable(track, "keys");
 }
 
+// The tracks of numbers that a track is made of.
+std::span<const JsonValue> parts_of(const JsonValue& track) {
+  if (const JsonValue* mix = usable(track, "barycentric"))
+    if (const JsonValue* weights = usable(*mix, "weights")) return weights->items;
+  if (const JsonValue* ratios = usable(track, "aspect")) return {ratios, 1};
+  return {};
+}
+
 bool is_endless(const JsonValue& track) {
   for (const char* name : {"oscillator", "spring", "projectile", "pendulum", "orbit", "expression"})
     if (track.find(name)) return true;
@@ -55,6 +64,29 @@ double passing_time(const JsonValue& track) {
   }
   return 0;
 }
+
+// How far tracks reach, s.
+struct Reach {
+  double latest = 0;
+  bool any_keys = false, any_functions = false;
+
+  void add(const JsonValue& track, std::optional<double> fps) {
+    any_functions = any_functions || is_endless(track);
+    if (const double passing = passing_time(track); passing > 0) {
+      any_keys = true;
+      latest = std::max(latest, passing);
+    }
+    for (const JsonValue& part : parts_of(track)) add(part, fps);
+    const JsonValue* keys = keys_of(track);
+    if (!keys) return;
+    any_keys = true;
+    std::optional<double> time;
+    for (const JsonValue& key : keys->items) {
+      time = early_seconds(key_parts(key).time, time, fps);
+      if (time) latest = std::max(latest, *time);
+    }
+  }
+};
 
 }  // namespace
 
@@ -132,27 +164,12 @@ std::vector<std::optional<double>> ClipTimes::of_keys(const JsonValue& keys, Pro
 double clip_duration(const JsonValue& clip, std::optional<double> fps) {
   if (const JsonValue* said = usable(clip, "duration"))
     if (const std::optional<double> seconds = early_seconds(said, {}, fps)) return *seconds;
-  double latest = 0;
-  bool any_keys = false, any_functions = false;
-  if (const JsonValue* tracks = usable(clip, "tracks")) {
-    for (const JsonMember& track : tracks->members) {
-      if (is_free_name(track.name)) continue;
-      any_functions = any_functions || is_endless(track.value);
-      if (const double passing = passing_time(track.value); passing > 0) {
-        any_keys = true;
-        latest = std::max(latest, passing);
-      }
-      const JsonValue* keys = keys_of(track.value);
-      if (!keys) continue;
-      any_keys = true;
-      std::optional<double> time;
-      for (const JsonValue& key : keys->items) {
-        time = early_seconds(key_parts(key).time, time, fps);
-        if (time) latest = std::max(latest, *time);
-      }
-    }
-  }
-  if (any_functions && !any_keys) return std::numeric_limits<double>::infinity();
+  Reach reach;
+  if (const JsonValue* tracks = usable(clip, "tracks"))
+    for (const JsonMember& track : tracks->members)
+      if (!is_free_name(track.name)) reach.add(track.value, fps);
+  double latest = reach.latest;
+  if (reach.any_functions && !reach.any_keys) return std::numeric_limits<double>::infinity();
   if (const JsonValue* events = usable(clip, "events")) {
     std::optional<double> time;
     for (const JsonValue& event : events->items) {

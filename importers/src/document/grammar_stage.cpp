@@ -36,11 +36,38 @@ const Shape* owner_shape(ShapeStore& store, const ValueShapes& values) {
   return store.add(std::move(shape));
 }
 
+const Shape* hull_shape(ShapeStore& store, const ValueShapes& values) {
+  const Shape* points = store.add(list_of(values.vector, "a list of at least 4 points", 4, 4096));
+  return store.add(object_of("a hull: {\"points\"}", {{"points", points, "m", true}}));
+}
+
+const Shape* lathe_shape(ShapeStore& store, const ValueShapes& values) {
+  Shape point;
+  point.kind = Shape::Kind::tuple;
+  point.what = "a point: [radius, y], the radius at least 0";
+  point.parts = {values.not_negative, values.number};
+  point.fewest = 2;
+  point.on_one_line = true;
+  const Shape* profile = store.add(list_of(store.add(point), "a list of at least 2 points", 2, 256));
+  return store.add(object_of("a lathe: {\"profile\", \"sides\"}",
+                             {{"profile", profile, "[radius, y], m", true},
+                              {"sides", store.add(bounded("a whole number from 3 to 64", 3, false, 64, true)),
+                               "flat sides around the axis", false, "24"}}));
+}
+
+const Shape* sweep_shape(ShapeStore& store, const ValueShapes& values) {
+  return store.add(object_of(
+      "a sweep: {\"profile\", \"rail\", \"normal\"}",
+      {{"profile", store.add(list_of(values.vector_2, "a list of at least 2 points", 2, 256)), "[x, y], m", true},
+       {"rail", store.add(list_of(values.vector, "a list of at least 2 points", 2, 256)), "m", true},
+       {"normal", values.vector, "where the profile's x points at the rail's start; absent: any"}}));
+}
+
 const Shape* solid_shape(ShapeStore& store, const ValueShapes& values) {
   const Shape* size = store.add(bounded("a size in m, above 0", 0, true));
   const Shape* radius = store.add(bounded("a radius in m, above 0", 0, true));
   Shape shape = object_of(
-      "a shape: one of \"sphere\", \"box\", \"capsule\", \"plane\"",
+      "a shape: one of \"sphere\", \"box\", \"capsule\", \"plane\", \"hull\", \"lathe\", \"sweep\"",
       {{"sphere", store.add(object_of("a sphere: {\"radius\"}", {{"radius", radius, "m", true}})), ""},
        {"box",
         store.add(object_of("a box: {\"size\"}",
@@ -56,8 +83,11 @@ const Shape* solid_shape(ShapeStore& store, const ValueShapes& values) {
         store.add(object_of("a plane: {\"normal\", \"offset\"}",
                             {{"normal", values.vector, "out of the solid", false, "[0, 1, 0]"},
                              {"offset", values.number, "of the surface along the normal, m", false, "0"}})),
-        ""}});
-  shape.together = {exactly_one({"sphere", "box", "capsule", "plane"})};
+        ""},
+       {"hull", hull_shape(store, values), "the smallest convex solid around points"},
+       {"lathe", lathe_shape(store, values), "the convex hull of a profile turned about y"},
+       {"sweep", sweep_shape(store, values), "the convex hull of a profile carried along a rail"}});
+  shape.together = {exactly_one({"sphere", "box", "capsule", "plane", "hull", "lathe", "sweep"})};
   shape.definition = "shape";
   return store.add(std::move(shape));
 }

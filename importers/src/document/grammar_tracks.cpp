@@ -1,3 +1,4 @@
+#include <tweenfall/curves/barycentric.h>
 #include <tweenfall/importers/number_text.h>
 
 #include "document/grammar_functions.h"
@@ -9,8 +10,12 @@ namespace tweenfall::document {
 
 namespace {
 
-// The value of the first key of a track, wherever it is; null when there is none.
+// The value of the first key of a track, wherever it is, or the first of a mix; null when there is none.
 const JsonValue* first_key_value(const JsonValue& track) {
+  if (const JsonValue* mix = track.find("barycentric")) {
+    const JsonValue* values = mix->find("values");
+    return values && !values->items.empty() ? &values->items.front() : nullptr;
+  }
   const JsonValue* keys = track.is(JsonValue::Kind::object) ? track.find("keys") : &track;
   if (!keys || keys->items.empty()) return nullptr;
   const JsonValue& key = keys->items.front();
@@ -33,6 +38,8 @@ struct TrackKind {
   std::vector<Field> options{};
   TrackFunctions functions{};
   std::vector<Field> key_options{};  // of keys with names
+  bool mixes = true;                 // whether values can be mixed by weights
+  std::vector<Field> made_of_numbers{};
 };
 
 class TrackShapes {
@@ -115,12 +122,42 @@ class TrackShapes {
       shape.together.push_back(at_most_one({"overlong", function.name}));
       shape.together.push_back(at_most_one({"ends", function.name}));
     }
+    for (const Field& made : kind.made_of_numbers) add_alone(shape, made, sources);
+    if (kind.rate && kind.mixes) {
+      add_alone(shape, mix_of(kind), sources);
+      if (kind.name == "euler") shape.together.push_back(at_most_one({"modifiers", "barycentric"}));
+    }
     if (kind.functions.parameters) {
       shape.fields.push_back({"parameters", functions.parameters(), "numbers that the expression calls by name"});
       shape.together.push_back({Together::Rule::first_needs_second, {"parameters", "expression"}});
     }
     shape.together.insert(shape.together.begin(), exactly_one(std::move(sources)));
     return store_.add(std::move(shape));
+  }
+
+  // What goes on by rules of its own.
+  static void add_alone(Shape& shape, const Field& source, std::vector<std::string>& sources) {
+    shape.fields.push_back(source);
+    sources.push_back(source.name);
+    for (const char* option : {"turn", "before", "after", "overlong", "ends", "mix", "hue"})
+      if (shape.field(option)) shape.together.push_back(at_most_one({option, source.name}));
+  }
+
+  Field mix_of(const TrackKind& kind) {
+    if (!weight_) {
+      TrackKind numbers{
+          "mix-weight", values_.number, values_.number, false, {}, functions.of_numbers("of the whole", false)};
+      numbers.mixes = false;
+      weight_ = either(numbers);
+    }
+    const std::size_t most = most_mixed_curves;
+    Shape mix =
+        object_of("a mix: {\"values\", \"weights\"}",
+                  {{"values", store_.add(list_of(kind.value, "a list of values", 1, most)), "what is mixed", true},
+                   {"weights", store_.add(list_of(weight_, "a list of tracks of numbers", 1, most)),
+                    "a track of numbers for each value; each counts as a part of their sum", true}});
+    mix.definition = "mix-" + kind.name;
+    return {"barycentric", store_.add(std::move(mix)), "a mix of values by weights that are tracks"};
   }
 
   // A word, or an object for what needs a number.
@@ -155,7 +192,7 @@ class TrackShapes {
                           values_.euler,
                           values_.vector,
                           true,
-                          {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}}};
+                          {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}, modifiers(3)}};
     const TrackKind quaternion{"quat",
                                values_.quaternion,
                                values_.vector,
@@ -291,6 +328,7 @@ class TrackShapes {
                     {"space", values_.any, ""},
                     {"hue", values_.any, ""}});
     for (const std::string& name : FunctionShapes::names()) any_track.fields.push_back({name, values_.any, ""});
+    any_track.fields.push_back({"barycentric", values_.any, ""});
     any_track.fields.push_back({"parameters", values_.any, ""});
     const Shape* unknown = store_.add(std::move(any_track));
     shape.select = [made, unknown](const JsonValue& value) -> const Shape* {
@@ -352,6 +390,11 @@ class TrackShapes {
             "\"linear\""};
   }
 
+  Field aspect() {
+    return {"aspect", keys({"aspect", values_.positive, values_.number}),
+            "keys of the ratio of width to height, x to y, mixed by its logarithm; the area stays 1"};
+  }
+
   // Over numbers a list; over vectors one list for all components alike, or lists by component.
   Field modifiers(std::size_t size) {
     if (!modifiers_) modifiers_ = modifiers_shape(store_, values_);
@@ -386,6 +429,7 @@ class TrackShapes {
   const Shape* overlong_ = nullptr;
   const Shape* ends_ = nullptr;
   const Shape* share_ = nullptr;
+  const Shape* weight_ = nullptr;  // a track of numbers within a track
   const Shape* space_ = nullptr;
   const Shape* hue_ = nullptr;
   const Shape* modifiers_ = nullptr;
@@ -411,9 +455,12 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
                               values.scale,
                               false,
                               {make.relative(), make.mix(), make.modifiers(3)},
-                              make.functions.of_scales()})},
+                              make.functions.of_scales(),
+                              {},
+                              true,
+                              {make.aspect()}})},
       {".color", make.either({"color", values.color, values.vector_4, false, {make.space(), make.hue()}})},
-      {".weights", make.either({"weights", values.numbers, values.numbers})}};
+      {".weights", make.either({"weights", values.numbers, values.numbers, false, {}, {}, {}, false})}};
   tracks.others = make.user();
   tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
   tracks.name_fault = [](std::string_view name) -> std::string {

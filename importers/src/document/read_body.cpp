@@ -1,4 +1,5 @@
 #include "document/content.h"
+#include "document/read_hull.h"
 #include "document/values.h"
 
 #include <limits>
@@ -19,6 +20,7 @@ Solid read_solid(const JsonValue& shape, Problems& problems) {
       if (const std::optional<Vec3> unit = axis_of(*normal, problems)) out.normal = *unit;
     return out;
   }
+  if (const std::optional<Hull> hull = read_hull(shape, problems)) return *hull;
   return Sphere{};
 }
 

@@ -1,11 +1,13 @@
 #include "document/read_rotation.h"
 
+#include <tweenfall/curves/barycentric.h>
 #include <tweenfall/curves/elementary.h>
 #include <tweenfall/curves/modifiers.h>
 #include <tweenfall/importers/number_text.h>
 
 #include "document/read_functions.h"
 #include "document/read_keys.h"
+#include "document/read_mix.h"
 #include "document/read_modifiers.h"
 #include "document/read_splines.h"
 #include "document/values.h"
@@ -48,6 +50,7 @@ class RotationTrack {
 
   std::optional<Curve<Quat>> read() {
     if (usable(track_, "axis")) return about_axis();
+    if (const JsonValue* mix = usable(track_, "barycentric")) return mixed(*mix);
     if (has_function(track_)) {
       const std::optional<Curve<Quat>> spline = read_rotation_spline(track_, problems_);
       return spline ? std::optional(with_outside_of(track_, *spline)) : std::nullopt;
@@ -67,7 +70,9 @@ class RotationTrack {
   std::optional<Curve<Quat>> about_axis() {
     const std::optional<Vec3> axis = axis_of(*usable(track_, "axis"), problems_);
     std::optional<Curve<double>> angle;
-    if (has_function(track_))
+    if (const JsonValue* mix = usable(track_, "barycentric"))
+      angle = mixed_angle(*mix);
+    else if (has_function(track_))
       angle = read_angle_function(track_, problems_);
     else if (list_)
       angle = degrees_curve([](const JsonValue& value) { return &value; }, {});
@@ -78,13 +83,36 @@ class RotationTrack {
     return axis_curve(*axis, *angle);
   }
 
-  // Modifiers speak of degrees.
-  std::optional<Curve<double>> with_modifiers(const Curve<double>& angle) {
-    const auto scaled = [](const Curve<double>& curve, double factor) {
-      const Modifier scaling{modifiers::Placement{.value_scale = factor}};
-      return modified(curve, std::span(&scaling, 1));
+  std::optional<Curve<double>> mixed_angle(const JsonValue& mix) {
+    const auto angle_of = [](const JsonValue& value) {
+      return value.is(Kind::number) ? std::optional(radians(value.number)) : std::nullopt;
     };
-    const std::optional<Curve<double>> in_degrees = with_modifiers_of(track_, scaled(angle, degrees(1)), problems_);
+    const std::optional<std::vector<Curve<double>>> weights = read_mix_weights(mix, times_, problems_);
+    const std::optional<std::vector<Curve<double>>> values = read_mix_values<double>(mix, angle_of);
+    if (!weights || !values) return {};
+    return barycentric_curve<double>(*values, *weights);
+  }
+
+  std::optional<Curve<Quat>> mixed(const JsonValue& mix) {
+    const EulerOrder order = order_of(text_in(track_, "order", "XYZ"));
+    const auto rotation = [&](const JsonValue& value) { return rotation_of(value, order, problems_); };
+    const std::optional<std::vector<Curve<double>>> weights = read_mix_weights(mix, times_, problems_);
+    const std::optional<std::vector<Curve<Quat>>> values = read_mix_values<Quat>(mix, rotation);
+    if (!weights || !values) return {};
+    return barycentric_curve<Quat>(*values, *weights);
+  }
+
+  // Modifiers speak of degrees.
+  template <class T>
+  std::optional<Curve<T>> with_modifiers(const Curve<T>& angle) {
+    const auto scaled = [](const Curve<T>& curve, double factor) {
+      const std::vector<Modifier> scaling = {{modifiers::Placement{.value_scale = factor}}};
+      if constexpr (std::is_same_v<T, double>)
+        return modified(curve, scaling);
+      else
+        return modified<T>(curve, std::vector(static_cast<std::size_t>(T::RowsAtCompileTime), scaling));
+    };
+    const std::optional<Curve<T>> in_degrees = with_modifiers_of(track_, scaled(angle, degrees(1)), problems_);
     return in_degrees ? std::optional(scaled(*in_degrees, radians(1))) : std::nullopt;
   }
 
@@ -146,7 +174,9 @@ class RotationTrack {
     const std::optional<Curve<Vec3>> angles =
         read_keys<Vec3>(*list_, times_, reader, key_options_of(track_), problems_);
     if (!angles) return {};
-    return euler_curve(with_outside_of(track_, *angles), order);
+    std::optional<Curve<Vec3>> turned = with_outside_of(track_, *angles);
+    if (usable(track_, "modifiers")) turned = with_modifiers(*turned);
+    return turned ? std::optional(euler_curve(*turned, order)) : std::nullopt;
   }
 
   // Turns about one axis keep their full turns; about different ones they are rotations like any other.

@@ -1,10 +1,12 @@
 #include "document/read_track.h"
 
+#include <tweenfall/curves/barycentric.h>
 #include <tweenfall/curves/functions.h>
 #include <tweenfall/importers/number_text.h>
 
 #include "document/read_functions.h"
 #include "document/read_keys.h"
+#include "document/read_mix.h"
 #include "document/read_modifiers.h"
 #include "document/read_rotation.h"
 #include "document/values.h"
@@ -52,6 +54,11 @@ class TrackReader {
 
   std::optional<TrackCurve> read(const std::string& property) {
     if (property == "rotation") return made(read_rotation_track(track_, times_, problems_));
+    if (const JsonValue* mix = usable(track_, "barycentric")) return mixed(property, *mix);
+    if (const JsonValue* ratios = usable(track_, "aspect")) {
+      const std::optional<Curve<Vec3>> factors = read_aspect(*ratios, times_, problems_);
+      return factors ? modified_by_track(*factors) : std::nullopt;
+    }
     if (has_function(track_)) return function(property);
     if (!list_ || list_->items.empty()) return {};
     if (property == "position") return keyed(reader_of<Vec3>(vector_of));
@@ -76,6 +83,30 @@ class TrackReader {
       curve = parametric(factor, factor, factor);
     }
     return std::visit([this](const auto& held) { return modified_by_track(held); }, *curve);
+  }
+
+  std::optional<TrackCurve> mixed(const std::string& property, const JsonValue& mix) {
+    if (property == "position") return mixed<Vec3>(mix, vector_of);
+    if (property == "scale") return mixed<Vec3>(mix, scale_of);
+    const JsonValue* values = usable(mix, "values");
+    if (!values || values->items.empty()) return {};
+    const JsonValue& first = values->items.front();
+    if (property == "color" || first.is(Kind::text)) return mixed<Color>(mix, color_of);
+    if (!first.is(Kind::list)) return mixed<double>(mix, number_of);
+    if (first.items.size() == 2) return mixed<Vec2>(mix, numbers_of<2>);
+    if (first.items.size() == 4) return mixed<Vec4>(mix, numbers_of<4>);
+    return mixed<Vec3>(mix, numbers_of<3>);
+  }
+
+  template <class T>
+  std::optional<TrackCurve> mixed(const JsonValue& mix, std::optional<T> (*value_of)(const JsonValue&)) {
+    const std::optional<std::vector<Curve<double>>> weights = read_mix_weights(mix, times_, problems_);
+    const std::optional<std::vector<Curve<T>>> values = read_mix_values<T>(mix, value_of);
+    if (!weights || !values) return {};
+    if constexpr (std::is_same_v<T, Color>)
+      return TrackCurve(barycentric_curve(*values, *weights, color_options().space));
+    else
+      return modified_by_track(barycentric_curve<T>(*values, *weights));
   }
 
   template <class T>
@@ -116,7 +147,7 @@ class TrackReader {
     return keyed(reader, {.logarithmic = true});
   }
 
-  std::optional<TrackCurve> color() {
+  KeyOptions color_options() {
     KeyOptions options;
     const std::string space = text_in(track_, "space", "oklab");
     static constexpr std::pair<std::string_view, ColorSpace> spaces[] = {
@@ -134,10 +165,14 @@ class TrackReader {
         problems_.add(*hue, "the space " + in_quotes(space) +
                                 " has no hue; spaces with one are \"oklch\", \"hsl\", \"hsv\", \"hwb\", \"lch\"");
     }
+    return options;
+  }
+
+  std::optional<TrackCurve> color() {
     KeyReader<Color> reader;
     reader.value = [](const JsonValue& value) { return color_of(value); };
     reader.rate = [](const JsonValue& rate, const Color&) { return numbers_of<4>(rate); };
-    return keyed(reader, options);
+    return keyed(reader, color_options());
   }
 
   // One curve for each morph target.
@@ -228,6 +263,12 @@ std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times,
   std::optional<TrackCurve> curve = TrackReader(track.value, times, problems).read(property);
   if (!curve) return {};
   return Track{track.name.substr(0, dot), property, std::move(*curve), flag_in(track.value, "relative", false)};
+}
+
+std::optional<Curve<double>> read_numbers(const JsonValue& track, const ClipTimes& times, Problems& problems) {
+  const std::optional<TrackCurve> curve = TrackReader(track, times, problems).read("");
+  if (!curve || !std::holds_alternative<Curve<double>>(*curve)) return {};
+  return std::get<Curve<double>>(*curve);
 }
 
 std::optional<Curve<double>> read_plain_keys(const JsonValue& keys, Problems& problems) {

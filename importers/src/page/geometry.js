@@ -46,6 +46,19 @@ function boxGeometry(half) {
   return geometry;
 }
 
+// Faces of a polyhedron, flat, as fans of triangles.
+function hullGeometry(hull) {
+  const positions = [];
+  for (const face of hull.faces)
+    for (let i = 2; i < face.length; ++i)
+      for (const corner of [face[0], face[i - 1], face[i]]) positions.push(...hull.vertices[corner]);
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
+  geometry.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(positions.length).fill(1), 3));
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
 function planeGeometry(normal, offset, size) {
   const geometry = new THREE.PlaneBufferGeometry(size, size);
   const count = geometry.attributes.position.count;
@@ -61,6 +74,7 @@ function shapeGeometry(shape, planeSize) {
   if (shape.sphere !== undefined) return capsuleGeometry(shape.sphere, 0);
   if (shape.box) return boxGeometry(shape.box);
   if (shape.capsule) return capsuleGeometry(shape.capsule[0], shape.capsule[1]);
+  if (shape.hull) return hullGeometry(shape.hull);
   return planeGeometry(shape.plane, shape.offset, planeSize);
 }
 
@@ -81,5 +95,6 @@ function reachOf(shape) {
   if (shape.sphere !== undefined) return away + shape.sphere;
   if (shape.box) return away + Math.hypot(...shape.box);
   if (shape.capsule) return away + shape.capsule[0] + shape.capsule[1];
+  if (shape.hull) return away + Math.max(...shape.hull.vertices.map((vertex) => Math.hypot(...vertex)));
   return 0;
 }

@@ -38,6 +38,22 @@ void append_quoted(std::string& out, const char* name, const std::string& text) 
   ((((out += ",\"") += name) += "\":\"") += text) += '"';
 }
 
+void append_hull(std::string& out, const ConvexHull& hull) {
+  out += "\"hull\":{\"vertices\":[";
+  for (std::size_t i = 0; i < hull.vertices().size(); ++i) {
+    if (i > 0) out += ',';
+    append_vector(out, hull.vertices()[i]);
+  }
+  out += "],\"faces\":[";
+  for (std::size_t i = 0; i < hull.faces().size(); ++i) {
+    out += i > 0 ? ",[" : "[";
+    const std::span<const std::uint32_t> corners = hull.corners(hull.faces()[i]);
+    for (std::size_t k = 0; k < corners.size(); ++k) (k > 0 ? out += ',' : out) += std::to_string(corners[k]);
+    out += ']';
+  }
+  out += "]}";
+}
+
 std::string shape_json(const Shape& shape) {
   std::string out = "{";
   std::visit(Overloaded{[&](const Sphere& s) { out += "\"sphere\":" + number_text(s.radius); },
@@ -52,7 +68,8 @@ std::string shape_json(const Shape& shape) {
                           out += "\"plane\":";
                           append_vector(out, p.normal);
                           out += ",\"offset\":" + number_text(p.offset);
-                        }},
+                        },
+                        [&](const Hull& h) { append_hull(out, h.convex); }},
              shape.solid);
   out += ",\"position\":";
   append_vector(out, shape.offset.position);

@@ -1,9 +1,12 @@
 #include "recording/figures.h"
 
+#include <tweenfall/curves/elementary.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 
 namespace tweenfall {
 
@@ -13,11 +16,45 @@ double reach(const Solid& solid) {
   if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
   if (const auto* box = std::get_if<Box>(&solid)) return box->half_extents.norm();
   if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius + capsule->half_height;
+  if (const auto* hull = std::get_if<Hull>(&solid))
+    return hull->convex.measures().center.norm() + hull->convex.outer_radius();
   return 0;
 }
 
 bool is_plane(const BodyDescription& body) {
   return std::holds_alternative<Plane>(body.shape.solid);
+}
+
+/// The center of mass, the vertices, and the ends of sharp edges unless those are many, as on what is nearly round.
+std::vector<Vec3> hull_points(const ConvexHull& hull) {
+  constexpr double sharp = 0.866;  // cosine of the least angle between the faces of an edge that is drawn
+  constexpr std::size_t many = 16;
+  std::vector<Vec3> points(1, hull.measures().center);
+  points.insert(points.end(), hull.vertices().begin(), hull.vertices().end());
+  const std::size_t before = points.size();
+  for (const ConvexHull::Edge& edge : hull.edges()) {
+    if (hull.faces()[edge.left].normal.dot(hull.faces()[edge.right].normal) > sharp) continue;
+    points.push_back(hull.vertices()[edge.from]);
+    points.push_back(hull.vertices()[edge.to]);
+  }
+  if (points.size() > before + 2 * many) points.resize(before);
+  return points;
+}
+
+/// In place of the vertices, those of them that are farthest in directions all around.
+std::vector<Vec2> outlined(const std::vector<Vec2>& points, std::size_t vertices) {
+  std::vector<Vec2> result = {points.front()};
+  for (std::size_t i = 0; i < hull_outline; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(hull_outline);
+    const auto [sine, cosine] = elementary::sin_cos(angle);
+    const Vec2 direction(cosine, sine);
+    Vec2 farthest = points[1];
+    for (std::size_t k = 2; k <= vertices; ++k)
+      if (direction.dot(points[k]) > direction.dot(farthest) + 1e-9) farthest = points[k];
+    result.push_back(farthest);
+  }
+  result.insert(result.end(), points.begin() + 1 + static_cast<std::ptrdiff_t>(vertices), points.end());
+  return result;
 }
 
 /// Points of one shape on a node, in the node's space.
@@ -35,6 +72,10 @@ std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
     figure.kind = Figure::Kind::box;
     for (int i = 0; i < 8; ++i)
       points.push_back(box->half_extents.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
+  }
+  if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
+    figure.kind = Figure::Kind::hull;
+    points = hull_points(hull->convex);
   }
   for (Vec3& point : points)
     point = transform_point({shape.offset.position, shape.offset.rotation, Vec3(1, 1, 1)}, point);
@@ -140,6 +181,8 @@ std::vector<Figure> figures(const Recording& recording, const StageDescription& 
     figure.fixed = described[i]->body->fixed;
     const std::vector<Vec3> points = outline(described[i]->body->shape, figure, view.scale);
     place(figure, recording.nodes[i], points, view);
+    if (const auto* hull = std::get_if<Hull>(&described[i]->body->shape.solid))
+      for (std::vector<Vec2>& placed : figure.points) placed = outlined(placed, hull->convex.vertices().size());
     list.push_back(std::move(figure));
     drawn[i] = true;
   }

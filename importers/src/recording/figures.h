@@ -27,12 +27,15 @@ struct SideView {
 [[nodiscard]] SideView side_view(const Recording& recording, const StageDescription& stage, double left, double top,
                                  double width, double height);
 
+inline constexpr std::size_t hull_outline = 24;
+
 struct Figure {
   enum class Kind {
     ball,   ///< points: center, and one of its surface that shows how it turns; radius
     stick,  ///< points: two; drawn as thick as 2 radius with round ends
     box,    ///< points: eight corners
     bones,  ///< points: pairs, a line each
+    hull,   ///< points: center of mass, `hull_outline` around the outline, then pairs, a line each
   };
   Kind kind = Kind::box;
   std::size_t node = no_node;  ///< whose owner colors it

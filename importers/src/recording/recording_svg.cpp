@@ -59,7 +59,14 @@ std::string path_text(const Drawing& drawing, const Figure& figure, const std::v
       text += (text.empty() ? "M" : "L") + drawing.place(points[static_cast<std::size_t>(corner)]);
     return text;
   }
-  for (std::size_t i = 0; i < points.size(); ++i) text += (i % 2 == 0 ? "M" : "L") + drawing.place(points[i]);
+  std::size_t first = 0;
+  if (figure.kind == Figure::Kind::hull) {
+    first = 1 + hull_outline;
+    for (std::size_t i = 1; i < first; ++i) text += (i == 1 ? "M" : "L") + drawing.place(points[i]);
+    text += "Z";
+  }
+  for (std::size_t i = first; i < points.size(); ++i)
+    text += ((i - first) % 2 == 0 ? "M" : "L") + drawing.place(points[i]);
   return text;
 }
 
@@ -133,7 +140,7 @@ void draw_trail(Drawing& drawing, const Figure& figure) {
   std::vector<std::vector<Vec2>> middles;
   for (const std::vector<Vec2>& points : figure.points) {
     Vec2 middle = points.front();
-    if (figure.kind != Figure::Kind::ball) {
+    if (figure.kind != Figure::Kind::ball && figure.kind != Figure::Kind::hull) {
       middle.setZero();
       for (const Vec2& point : points) middle += point / static_cast<double>(points.size());
     }

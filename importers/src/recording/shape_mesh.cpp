@@ -74,6 +74,11 @@ Mesh shape_mesh(const Shape& shape) {
     add_box(mesh, box->half_extents);
   } else if (const auto* plane = std::get_if<Plane>(&shape.solid)) {
     add_plane(mesh, *plane);
+  } else if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
+    SurfaceMesh surface = hull->convex.surface();
+    mesh.positions = std::move(surface.positions);
+    mesh.normals = std::move(surface.normals);
+    mesh.triangles = std::move(surface.triangles);
   }
   for (Vec3& position : mesh.positions) position = shape.offset.rotation * position + shape.offset.position;
   for (Vec3& normal : mesh.normals) normal = shape.offset.rotation * normal;

@@ -8,6 +8,7 @@
 /// their rates, and the rates of the mix are exact, those that come from moving weights among them.
 
 #include <tweenfall/curves/color.h>
+#include <tweenfall/curves/curve.h>
 #include <tweenfall/curves/pose.h>
 
 #include <array>
@@ -32,6 +33,19 @@ template <class T>
 
 /// Motions: positions and scales as vectors, rotations as rotations. Accelerations of the weights are not read.
 [[nodiscard]] Motion barycentric(std::span<const Motion> values, std::span<const Sample<double>> weights);
+
+/// How many curves a curve mixes at most.
+inline constexpr std::size_t most_mixed_curves = 32;
+
+/// Curves mixed over time by weights that are curves, each going on by its own rule where it ends: an endless curve,
+/// whose rates are those of the values and of the weights together, and whose knots are all of theirs. While the
+/// weights sum to zero it is their even mix.
+/// @throws std::invalid_argument: no curves, more than `most_mixed_curves`, or not a weight for each.
+template <class T>
+[[nodiscard]] Curve<T> barycentric_curve(std::span<const Curve<T>> values, std::span<const Curve<double>> weights);
+[[nodiscard]] Curve<Color> barycentric_curve(std::span<const Curve<Color>> values,
+                                             std::span<const Curve<double>> weights,
+                                             ColorSpace space = ColorSpace::oklab);
 
 /// The weights of three corners whose mix is `point`, or the point of their plane nearest to it.
 /// A corner has the weights 1, 0, 0, exactly; inside the triangle all are positive.

@@ -28,13 +28,15 @@ class CurveBatch {
   void sample(double time, std::span<double> values, std::span<double> rates = {});
 
  private:
-  // The cubic of one stretch of a curve; constant before the first knot and from the last one on.
-  struct alignas(32) Cubic {
+  // One stretch of a curve with its cubic, a line of the processor's cache; constant before the first knot, which is
+  // from minus infinity on, and from the last one to infinity.
+  struct alignas(64) Stretch {
+    double start, end, inverse;  // inverse of the duration
     double c0, c1, c2, c3;
   };
   // Where a curve's stretches are, and what tells roughly which of them holds a time.
   struct Track {
-    std::uint32_t first, last;  // of starts_ and cubics_
+    std::uint32_t first, last;  // of stretches_
     double start, end, spans_per_second;
   };
   // A curve that is asked by itself.
@@ -44,13 +46,11 @@ class CurveBatch {
   };
 
   [[nodiscard]] std::uint32_t guess(const Track& track, double time) const noexcept;
-  [[nodiscard]] std::uint32_t locate(const Track& track, std::uint32_t guess, double time) const noexcept;
+  [[nodiscard]] std::uint32_t search(const Track& track, double time) const noexcept;
   void seek(std::size_t count, double time) noexcept;
   void remember(std::size_t track) noexcept;
 
-  // A curve's stretches start at minus infinity, at each of its knots, and end at infinity.
-  std::vector<double> starts_;
-  std::vector<Cubic> cubics_;
+  std::vector<Stretch> stretches_;
   std::vector<Track> tracks_;
   std::vector<Apart> apart_;
   double time_ = 0, stride_ = 0;  // last asked for; up to which step the next stretch is the likely one

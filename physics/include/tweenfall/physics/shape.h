@@ -4,6 +4,7 @@
 
 #include <tweenfall/curves/pose.h>
 #include <tweenfall/curves/surface_mesh.h>
+#include <tweenfall/physics/convex_hull.h>
 
 #include <variant>
 
@@ -26,7 +27,12 @@ struct Plane {
   double offset = 0;     ///< points x of the surface have normal . x = offset, m
 };
 
-using Solid = std::variant<Sphere, Box, Capsule, Plane>;
+/// A convex polyhedron; its center of mass need not be its origin.
+struct Hull {
+  ConvexHull convex;
+};
+
+using Solid = std::variant<Sphere, Box, Capsule, Plane, Hull>;
 
 /// A solid and its place on the node that carries it.
 struct Shape {

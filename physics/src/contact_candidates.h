@@ -1,0 +1,26 @@
+#pragma once
+
+/// What a manifold's points are chosen from.
+
+#include <tweenfall/curves/values.h>
+
+#include <cstdint>
+#include <span>
+
+namespace tweenfall {
+
+struct ContactCandidate {
+  Vec3 position;  ///< on one of the two surfaces
+  double gap;
+  std::uint32_t feature;
+};
+
+/// Of more than four candidates four go to the front: the deepest, the farthest from it, and the two that span most
+/// area to either side.
+/// @param leaning  a direction in the contact's plane, fixed to a body: of equally deep ones the farthest along it
+/// counts
+/// @return how many are left, at most 4
+[[nodiscard]] std::size_t reduce_to_four(std::span<ContactCandidate> candidates, const Vec3& normal,
+                                         const Vec3& leaning) noexcept;
+
+}  // namespace tweenfall

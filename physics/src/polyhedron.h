@@ -1,0 +1,37 @@
+#pragma once
+
+/// Convex polyhedra where two of them meet: hulls as they are, boxes as the cube's hull stretched.
+
+#include <tweenfall/physics/shape.h>
+
+#include <array>
+#include <span>
+
+namespace tweenfall {
+
+/// A polyhedron in some space: the places of its own, the rest of its hull's.
+struct Polyhedron {
+  const ConvexHull* hull = nullptr;  ///< which vertices are joined to what
+  std::span<const Vec3> vertices{};
+  std::span<const ConvexHull::Face> faces{};
+  double size = 0;  ///< from the middle to the nearest face, m
+
+  [[nodiscard]] std::span<const std::uint32_t> corners(std::size_t face) const { return hull->corners(faces[face]); }
+
+  /// The vertex farthest along a direction, found by climbing from another one.
+  [[nodiscard]] std::uint32_t farthest(const Vec3& direction, std::uint32_t from) const;
+};
+
+/// Room for the places of a polyhedron that is not in its own space.
+struct PolyhedronRoom {
+  std::array<Vec3, ConvexHull::most_vertices> vertices;
+  std::array<ConvexHull::Face, 2 * ConvexHull::most_vertices> faces;
+};
+
+/// The polyhedron turned, then shifted, in `room`.
+[[nodiscard]] Polyhedron polyhedron(const Hull& hull, const Mat3& turn, const Vec3& shift, PolyhedronRoom& room);
+[[nodiscard]] Polyhedron polyhedron(const Box& box, const Mat3& turn, const Vec3& shift, PolyhedronRoom& room);
+/// The hull in its own space.
+[[nodiscard]] Polyhedron polyhedron(const Hull& hull);
+
+}  // namespace tweenfall
