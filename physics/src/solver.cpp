@@ -393,8 +393,11 @@ void Solver::rebound(std::vector<ContactConstraint>& constraints, Islands& islan
       if (!(point.rebound > 0)) continue;
       // Bodies still closing when it was solved are on the surface already: stopping them moves nothing.
       const double part = point.rebound / (point.rebound - std::min(0.0, point.speed_before_rebound));
-      const Vec3 moved =
-          (point.total_normal - point.before_rebound) * part * point.rebound_time * constraint.manifold.normal;
+      // A rebound that gravity nearly uses up lasts long and takes little impulse: what neighbors pass on through the
+      // point is none of it.
+      const double most = point.normal_mass * point.rebound;
+      const double own = std::clamp((point.total_normal - point.before_rebound) * part, -most, most);
+      const Vec3 moved = own * point.rebound_time * constraint.manifold.normal;
       if (moved == Vec3::Zero()) continue;
       a.push_linear -= a.inverse_mass * moved;
       a.push_angular -= a.inverse_inertia * point.arm_a.cross(moved);

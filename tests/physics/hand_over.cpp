@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "scene.h"
 
 using namespace tweenfall;
@@ -62,7 +64,9 @@ TEST_CASE("a keyed box pushes a row of five at its own speed and is not pushed")
 }
 
 TEST_CASE("momentum is what gravity, the floor and the keyed bodies gave") {
-  World world;
+  WorldSettings settings;
+  settings.sleep_after = std::numeric_limits<double>::infinity();
+  World world(settings);
   const BodyId ground = world.add({.shape = {Plane{}}, .fixed = true});
   BodySettings box;
   box.shape.solid = Box{Vec3(0.3, 0.3, 0.3)};
