@@ -1,7 +1,7 @@
-#include "clips.h"
+#include "assimp/clips.h"
 
-#include "../model_names.h"
-#include "values.h"
+#include "assimp/values.h"
+#include "model/model_names.h"
 
 #include <assimp/scene.h>
 

@@ -2,7 +2,7 @@
 
 // Animations of an assimp scene.
 
-#include "../model_problems.h"
+#include "model/model_problems.h"
 
 #include <tweenfall/importers/model.h>
 

@@ -1,6 +1,6 @@
-#include "memory_files.h"
+#include "assimp/memory_files.h"
 
-#include "../model_bytes.h"
+#include "model/model_bytes.h"
 
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>

@@ -1,7 +1,7 @@
-#include "meshes.h"
+#include "assimp/meshes.h"
 
-#include "../model_influences.h"
-#include "values.h"
+#include "assimp/values.h"
+#include "model/model_influences.h"
 
 #include <assimp/scene.h>
 

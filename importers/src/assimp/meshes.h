@@ -2,7 +2,7 @@
 
 // Meshes and skins of an assimp scene.
 
-#include "../model_problems.h"
+#include "model/model_problems.h"
 
 #include <tweenfall/importers/model.h>
 

@@ -1,11 +1,11 @@
-#include "reader.h"
+#include "assimp/reader.h"
 
-#include "../model_matrix.h"
-#include "../model_names.h"
-#include "clips.h"
-#include "meshes.h"
-#include "trial.h"
-#include "values.h"
+#include "assimp/clips.h"
+#include "assimp/meshes.h"
+#include "assimp/trial.h"
+#include "assimp/values.h"
+#include "model/model_matrix.h"
+#include "model/model_names.h"
 
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>

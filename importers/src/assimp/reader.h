@@ -2,7 +2,7 @@
 
 // FBX, Collada and OBJ through assimp, with its known faults mended or stated.
 
-#include "../model_problems.h"
+#include "model/model_problems.h"
 
 #include <tweenfall/importers/model.h>
 

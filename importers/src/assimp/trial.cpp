@@ -1,6 +1,6 @@
-#include "trial.h"
+#include "assimp/trial.h"
 
-#include "memory_files.h"
+#include "assimp/memory_files.h"
 
 #include <tweenfall/importers/model.h>
 

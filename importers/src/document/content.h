@@ -4,7 +4,7 @@
 
 #include <tweenfall/importers/document.h>
 
-#include "document/problems.h"
+#include "document/report/problems.h"
 #include "json/json_text.h"
 
 #include <filesystem>

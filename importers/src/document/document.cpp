@@ -1,9 +1,9 @@
 #include <tweenfall/importers/document.h>
 
 #include "document/content.h"
-#include "document/from_model.h"
-#include "document/grammar.h"
-#include "document/write.h"
+#include "document/grammar/grammar.h"
+#include "document/write/from_model.h"
+#include "document/write/write.h"
 
 #include <utility>
 

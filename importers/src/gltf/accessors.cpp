@@ -1,7 +1,7 @@
-#include "accessors.h"
+#include "gltf/accessors.h"
 
-#include "buffer_writer.h"
-#include "format.h"
+#include "gltf/buffer_writer.h"
+#include "gltf/format.h"
 
 #include <algorithm>
 #include <cmath>

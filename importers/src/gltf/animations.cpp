@@ -1,7 +1,7 @@
-#include "animations.h"
+#include "gltf/animations.h"
 
-#include "../model_names.h"
-#include "sampler_curves.h"
+#include "gltf/sampler_curves.h"
+#include "model/model_names.h"
 
 #include <algorithm>
 #include <set>

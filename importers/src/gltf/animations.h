@@ -2,9 +2,9 @@
 
 // The animations of a glTF document as clips, each key kind kept.
 
-#include "accessors.h"
-#include "meshes.h"
-#include "nodes.h"
+#include "gltf/accessors.h"
+#include "gltf/meshes.h"
+#include "gltf/nodes.h"
 
 #include <tweenfall/anim/clip.h>
 

@@ -1,4 +1,4 @@
-#include "buffer_writer.h"
+#include "gltf/buffer_writer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 // The binary half of a glTF file as it grows: accessors over one buffer.
 
-#include "format.h"
+#include "gltf/format.h"
 
 #include <cstdint>
 #include <map>

@@ -1,7 +1,7 @@
-#include "container.h"
+#include "gltf/container.h"
 
-#include "../model_bytes.h"
-#include "format.h"
+#include "gltf/format.h"
+#include "model/model_bytes.h"
 
 #include <array>
 #include <charconv>

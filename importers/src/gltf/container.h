@@ -2,8 +2,8 @@
 
 // The outer shell of a glTF file: its JSON and the bytes of its buffers.
 
-#include "../model_problems.h"
-#include "fields.h"
+#include "gltf/fields.h"
+#include "model/model_problems.h"
 
 #include <filesystem>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "fields.h"
+#include "gltf/fields.h"
 
 #include <cmath>
 

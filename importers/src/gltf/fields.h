@@ -2,8 +2,8 @@
 
 // Typed access to the fields of a glTF document: a field of the wrong type is a problem with its place, not a crash.
 
-#include "../json/json_text.h"
-#include "../model_problems.h"
+#include "json/json_text.h"
+#include "model/model_problems.h"
 
 #include <optional>
 #include <string>

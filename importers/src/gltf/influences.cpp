@@ -1,6 +1,6 @@
-#include "influences.h"
+#include "gltf/influences.h"
 
-#include "../model_influences.h"
+#include "model/model_influences.h"
 
 #include <algorithm>
 

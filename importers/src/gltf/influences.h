@@ -2,7 +2,7 @@
 
 // Joints and weights of a primitive's vertices.
 
-#include "accessors.h"
+#include "gltf/accessors.h"
 
 #include <tweenfall/anim/mesh.h>
 

@@ -1,4 +1,4 @@
-#include "mesh_writer.h"
+#include "gltf/mesh_writer.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "meshes.h"
+#include "gltf/meshes.h"
 
-#include "format.h"
-#include "influences.h"
+#include "gltf/format.h"
+#include "gltf/influences.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 
 // Meshes, materials' base colors and skins of a glTF document.
 
-#include "accessors.h"
+#include "gltf/accessors.h"
 
 #include <tweenfall/anim/mesh.h>
 

@@ -1,7 +1,7 @@
-#include "nodes.h"
+#include "gltf/nodes.h"
 
-#include "../model_matrix.h"
-#include "../model_names.h"
+#include "model/model_matrix.h"
+#include "model/model_names.h"
 
 #include <cmath>
 

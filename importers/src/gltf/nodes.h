@@ -2,7 +2,7 @@
 
 // The node tree of a glTF document.
 
-#include "fields.h"
+#include "gltf/fields.h"
 
 #include <tweenfall/anim/hierarchy.h>
 

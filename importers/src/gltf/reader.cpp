@@ -1,10 +1,10 @@
-#include "reader.h"
+#include "gltf/reader.h"
 
-#include "accessors.h"
-#include "animations.h"
-#include "container.h"
-#include "meshes.h"
-#include "nodes.h"
+#include "gltf/accessors.h"
+#include "gltf/animations.h"
+#include "gltf/container.h"
+#include "gltf/meshes.h"
+#include "gltf/nodes.h"
 
 #include <iterator>
 #include <map>

@@ -3,7 +3,7 @@
 // glTF 2.0, text and binary, from its own JSON and buffers.
 // Source: Khronos Group, glTF 2.0 Specification, 2021.
 
-#include "../model_problems.h"
+#include "model/model_problems.h"
 
 #include <tweenfall/importers/model.h>
 

@@ -1,4 +1,4 @@
-#include "sampler_keys.h"
+#include "gltf/sampler_keys.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // save_glb: a Model as binary glTF 2.0.
 
-#include "buffer_writer.h"
-#include "mesh_writer.h"
-#include "sampler_keys.h"
+#include "gltf/buffer_writer.h"
+#include "gltf/mesh_writer.h"
+#include "gltf/sampler_keys.h"
 
 #include <tweenfall/importers/model.h>
 #include <tweenfall/importers/whole_file.h>

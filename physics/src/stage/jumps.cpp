@@ -1,4 +1,4 @@
-#include "state.h"
+#include "stage/stage_data.h"
 
 #include <tweenfall/curves/rotation.h>
 

@@ -1,4 +1,4 @@
-#include "state.h"
+#include "stage/stage_data.h"
 
 #include <tweenfall/anim/nearest_name.h>
 

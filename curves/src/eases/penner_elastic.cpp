@@ -1,0 +1,43 @@
+#include <tweenfall/curves/elementary.h>
+
+#include <cmath>
+
+#include "eases/shapes.h"
+
+namespace tweenfall::shapes {
+namespace {
+
+// With x from 0 (there) to 1 (not yet): the wave that is left, f(x) a 2^(-10 x) sin((x + s) w), where f fades an
+// amplitude below 1 in over the first quarter of a period. Parameters: amplitude, w, s.
+Warp::Result penner_elastic_in(double u, const std::array<double, 4>& parameters) noexcept {
+  // The start is met, over a jump as large as what is left of the wave there.
+  if (u == 0) return {0, 0, 0};
+  constexpr double rate = 10 * 0x1.62e42fefa39efp-1;
+  const double a = parameters[0], w = parameters[1], s = parameters[2], x = 1 - u;
+  const double high = std::abs(a) < 1 ? 1 : a;
+  const double decay = high * elementary::exp(-rate * x);
+  const elementary::SinCos wave = elementary::sin_cos((x + s) * w);
+  const double value = decay * wave.sin;
+  const double first = decay * (w * wave.cos - rate * wave.sin);
+  const double second = decay * ((rate * rate - w * w) * wave.sin - 2 * rate * w * wave.cos);
+  double f = 1, df = 0;
+  if (const double least = std::abs(a); least < 1) {
+    f = x < s ? 1 + (least - 1) * x / s : least;
+    df = x < s ? (least - 1) / s : 0;
+  }
+  // d/du = -d/dx.
+  return {f * value, -(f * first + df * value), f * second + 2 * df * first};
+}
+
+}  // namespace
+
+// A negative amplitude swings the other way first, as Penner's does where the value falls.
+// Source: Penner, 2002, unscaled, with amplitudes below 1 as Blender fades them in: Blender, blenlib/intern/easing.c.
+Pieces penner_elastic(double amplitude, double period, Flow flow) {
+  constexpr double turn = 0x1.921fb54442d18p+2;
+  const double w = turn / period;
+  const double s = std::abs(amplitude) < 1 ? period / 4 : elementary::asin(1 / amplitude) / w;
+  return flowing(WayIn{{0, 1}, {&penner_elastic_in, {amplitude, w, s, 0}}, &reversed<&penner_elastic_in>}, flow);
+}
+
+}  // namespace tweenfall::shapes

@@ -1,0 +1,27 @@
+#pragma once
+
+// What an expression can call: operators and functions, each on numbers with their derivatives.
+
+#include <span>
+#include <string_view>
+
+#include "math/jet.h"
+
+namespace tweenfall {
+
+struct ExpressionFunction {
+  std::string_view name;       // as written: "+", "clamp"
+  std::string_view arguments;  // "x, low, high"
+  int count;                   // of the arguments
+  bool any_number;             // more are taken two by two: max(a, b, c) = max(max(a, b), c)
+  /// `way` is 1 for what follows, -1 for what went before: decides where the function jumps or kinks.
+  Jet (*apply)(const Jet* arguments, double way) noexcept;
+};
+
+/// Those with a name, in the order the documentation lists them.
+[[nodiscard]] std::span<const ExpressionFunction> expression_functions() noexcept;
+
+/// One of + - * / ^, or '_' for the sign.
+[[nodiscard]] const ExpressionFunction* expression_operator(char symbol) noexcept;
+
+}  // namespace tweenfall

@@ -1,0 +1,28 @@
+#pragma once
+
+// An expression read: steps for a machine with a stack.
+
+#include <tweenfall/curves/expression.h>
+
+#include "expression/expression_functions.h"
+
+namespace tweenfall {
+
+struct Expression::Program {
+  /// Pushes a number or a variable, or calls a function on what was pushed last.
+  struct Step {
+    const ExpressionFunction* function = nullptr;  // null: pushes
+    int variable = -1;                             // -1: the number
+    double number = 0;
+  };
+  static constexpr int most_depth = 64;
+
+  std::vector<Step> steps;
+};
+
+/// @throws ExpressionError
+[[nodiscard]] std::vector<Expression::Program::Step> read_expression(std::string_view text,
+                                                                     std::span<const std::string> variables,
+                                                                     std::span<const Expression::Parameter> parameters);
+
+}  // namespace tweenfall

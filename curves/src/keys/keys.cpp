@@ -1,0 +1,127 @@
+#include <tweenfall/curves/keys.h>
+
+#include "curve/bezier_span.h"
+#include "curve/curve_data.h"
+#include "curve/hermite_coefficients.h"
+#include "keys/key_check.h"
+#include "keys/key_tangents.h"
+#include "keys/keys_converted.h"
+#include "keys/span_slopes.h"
+
+namespace tweenfall {
+namespace {
+
+template <class T>
+const T& arrival(const Key<T>& key) {
+  return key.value_in ? *key.value_in : key.value;
+}
+
+template <class T>
+SlopeRequest request_of(std::span<const Key<T>> keys, Ends ends) {
+  constexpr std::size_t n = dimensions<T>;
+  SlopeRequest request{n, {}, {}, ends, {}, {}};
+  for (const Key<T>& key : keys) request.eases.push_back(&key.ease);
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+    const double duration = keys[i + 1].time - keys[i].time;
+    request.durations.push_back(duration);
+    for (int c = 0; c < dimensions<T>; ++c)
+      request.secants.push_back((component(arrival(keys[i + 1]), c) - component(keys[i].value, c)) / duration);
+    request.span_eases.push_back(plan_span(keys[i].ease, keys[i].out || keys[i + 1].in).slopes);
+  }
+  return request;
+}
+
+template <class T>
+void append_shape(std::vector<Span<T>>& spans, const Key<T>& from, double end, const T& to) {
+  const double duration = end - from.time;
+  const std::vector<Ease::Piece> pieces = from.ease.pieces_for(duration);
+  const T change = to - from.value;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Ease::Piece& piece = pieces[i];
+    Span<T> span{};
+    span.start = i == 0 ? from.time : from.time + piece.start * duration;
+    span.duration = (i + 1 < pieces.size() ? from.time + pieces[i + 1].start * duration : end) - span.start;
+    if (!(span.duration > 0)) continue;
+    span.degree = piece.degree;
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(piece.degree); ++k)
+      span.coefficients[k] = piece.coefficients[k] * change;
+    span.coefficients[0] += from.value;
+    span.end = piece.end == 1 ? to : T(from.value + piece.end * change);
+    span.warp = piece.warp;
+    spans.push_back(span);
+  }
+}
+
+template <class T>
+Span<T> cubic(const Key<T>& from, const Key<T>& to, const KeyTangents<T>& tangents, std::size_t i, Overlong overlong) {
+  Span<T> span{};
+  span.start = from.time;
+  span.duration = to.time - from.time;
+  span.degree = 3;
+  span.end = arrival(to);
+  const T change = span.end - from.value;
+  const T d0 = span.duration * tangents.leaving(i), d1 = span.duration * tangents.arriving(i);
+  const HandleWidths w = tangents.widths(i);
+  constexpr double third = 1.0 / 3;
+  if (w.start == third && w.end == third)
+    cubic_coefficients(from.value, change, d0, d1, span.coefficients.data());
+  else
+    fill_bezier(span, from.value, change, T(w.start * d0), T(w.end * d1), w, overlong);
+  return span;
+}
+
+// Numbers and vectors, in their own units.
+template <class T>
+Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
+  if (keys.size() == 1) return CurveAccess::one_key(keys[0].value, keys[0].time);
+  const SlopeRequest request = request_of(keys, options.ends);
+  const Slopes slopes = choose_slopes(request);
+  const KeyTangents<T> tangents(keys, request, slopes);
+  std::vector<Span<T>> spans;
+  spans.reserve(keys.size() - 1);
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+    const Key<T>&a = keys[i], &b = keys[i + 1];
+    const SpanKind kind = plan_span(a.ease, a.out || b.in).kind;
+    if (kind == SpanKind::shape) {
+      append_shape(spans, a, b.time, arrival(b));
+    } else if (kind == SpanKind::cubic) {
+      spans.push_back(cubic(a, b, tangents, i, options.overlong));
+    } else {
+      Span<T> span{};
+      span.start = a.time;
+      span.duration = b.time - a.time;
+      span.coefficients[0] = span.end = a.value;
+      if (kind == SpanKind::linear) {
+        span.degree = 1;
+        span.end = arrival(b);
+        span.coefficients[1] = span.end - a.value;
+      }
+      spans.push_back(span);
+    }
+  }
+  return CurveAccess::from_spans<T>(spans, keys.back().time, {{}, keys.front().value, tangents.before()},
+                                    {{}, keys.back().value, tangents.after()});
+}
+
+}  // namespace
+
+template <class T>
+Curve<T> keyed_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
+  check_keys(keys);
+  if constexpr (std::is_same_v<T, Quat>) {
+    return rotation_curve(keys, options);
+  } else if constexpr (std::is_same_v<T, Color>) {
+    return color_curve(keys, options);
+  } else {
+    return options.logarithmic ? logarithmic_curve(keys, options) : plain_curve(keys, options);
+  }
+}
+
+template Curve<double> keyed_curve<double>(std::span<const Key<double>>, const KeyOptions&);
+template Curve<Vec2> keyed_curve<Vec2>(std::span<const Key<Vec2>>, const KeyOptions&);
+template Curve<Vec3> keyed_curve<Vec3>(std::span<const Key<Vec3>>, const KeyOptions&);
+template Curve<Vec4> keyed_curve<Vec4>(std::span<const Key<Vec4>>, const KeyOptions&);
+template Curve<Color> keyed_curve<Color>(std::span<const Key<Color>>, const KeyOptions&);
+template Curve<Quat> keyed_curve<Quat>(std::span<const Key<Quat>>, const KeyOptions&);
+
+}  // namespace tweenfall

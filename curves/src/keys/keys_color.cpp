@@ -1,0 +1,99 @@
+#include "color/alpha.h"
+#include "keys/key_check.h"
+#include "keys/key_pins.h"
+#include "keys/keys_converted.h"
+
+namespace tweenfall {
+namespace {
+
+constexpr double full_turn = 0x1.921fb54442d18p+2;
+
+double next_hue(double from, double to, HueRule rule) noexcept {
+  double step = to - from - full_turn * std::floor((to - from) / full_turn);  // 0 to a full_turn
+  switch (rule) {
+    case HueRule::shorter:
+      if (step > full_turn / 2) step -= full_turn;
+      break;
+    case HueRule::longer:
+      if (step > 0 && step < full_turn / 2) step -= full_turn;
+      break;
+    case HueRule::increasing:
+      break;
+    case HueRule::decreasing:
+      if (step > 0) step -= full_turn;
+      break;
+  }
+  return from + step;
+}
+
+// Coordinates at a key, arriving and leaving.
+struct Stop {
+  Vec4 arriving, leaving;
+  bool jumps;  // from one color to another
+};
+
+// A color that shows no hue takes that of the other end of its span: it may arrive with one and leave with another.
+// Source: W3C, "CSS Color Module Level 4", 12.2.
+void join_hues(std::vector<Stop>& stops, ColorSpace space, HueRule rule) {
+  const int hue = hue_index(space);
+  const auto shows = [space](const Vec4& v) { return v[3] != 0 && has_hue(v, space); };
+  double last = 0;
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    Vec4 &from = stops[i].leaving, &to = stops[i + 1].arriving;
+    const bool from_shows = shows(from), to_shows = shows(to);
+    if (from_shows ? i == 0 || stops[i].jumps : to_shows)
+      last = next_hue(last, (from_shows ? from : to)[hue], HueRule::shorter);
+    from[hue] = last;
+    if (from_shows && to_shows) last = next_hue(last, to[hue], rule);
+    to[hue] = last;
+  }
+  Vec4& final = stops.back().leaving;
+  final[hue] = shows(final) ? next_hue(last, final[hue], HueRule::shorter) : last;
+}
+
+void convert_tangent(std::optional<Tangent<Vec4>>& result, const std::optional<Tangent<Color>>& tangent,
+                     const Color& color, const Vec4& coordinates, ColorSpace space) {
+  if (!tangent) return;
+  result.emplace();
+  result->kind = tangent->kind;
+  result->weight = tangent->weight;
+  Sample<Vec4> s = to_space(Sample<Color>{color, tangent->rate, Vec4::Zero()}, space);
+  const int hue = hue_index(space);
+  if (hue >= 0) s.value[hue] = coordinates[hue];
+  result->rate = premultiplied(s, hue).rate;
+}
+
+}  // namespace
+
+Curve<Color> color_curve(std::span<const Key<Color>> keys, const KeyOptions& options) {
+  if (keys.size() == 1) return CurveAccess::one_key(keys[0].value, keys[0].time);
+  const ColorSpace space = options.space;
+  const int hue = hue_index(space);
+  std::vector<Stop> stops;
+  for (const Key<Color>& key : keys)
+    stops.push_back({to_space(key.value_in ? *key.value_in : key.value, space), to_space(key.value, space),
+                     key.value_in.has_value()});
+  if (hue >= 0) join_hues(stops, space, options.hue);
+
+  std::vector<Key<Vec4>> inner;
+  const Vec4 none = Vec4::Zero();
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const Key<Color>& key = keys[i];
+    const Vec4 &arriving = stops[i].arriving, &leaving = stops[i].leaving;
+    Key<Vec4> k{key.time, premultiplied({leaving, none, none}, hue).value, key.ease};
+    const bool held = i > 0 && keys[i - 1].ease.rule() == Ease::Rule::hold && !keys[i - 1].out && !key.in;
+    if (i > 0 && !held && (key.value_in || arriving != leaving))
+      k.value_in = premultiplied({arriving, none, none}, hue).value;
+    convert_tangent(k.out, key.out, key.value, leaving, space);
+    convert_tangent(k.in, key.in, key.value_in ? *key.value_in : key.value, arriving, space);
+    inner.push_back(k);
+  }
+  KeyOptions inner_options;
+  inner_options.ends = options.ends;
+  inner_options.overlong = options.overlong;
+  return seen_through_keys<Color>(keyed_curve<Vec4>(std::span<const Key<Vec4>>(inner), inner_options),
+                                  std::make_shared<const KeyPins<Color>>(keys),
+                                  [space, hue](const Sample<Vec4>& s) { return from_space(divided(s, hue), space); });
+}
+
+}  // namespace tweenfall

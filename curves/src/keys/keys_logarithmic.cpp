@@ -1,0 +1,63 @@
+#include <tweenfall/curves/elementary.h>
+
+#include "keys/key_check.h"
+#include "keys/key_pins.h"
+#include "keys/keys_converted.h"
+
+namespace tweenfall {
+namespace {
+
+template <class T>
+Sample<T> exponential(const Sample<T>& s) noexcept {
+  Sample<T> result = s;
+  for (int c = 0; c < dimensions<T>; ++c) {
+    const double value = elementary::exp(component(s.value, c));
+    const double rate = component(s.rate, c);
+    component_of(result.value, c) = value;
+    component_of(result.rate, c) = value * rate;
+    component_of(result.acceleration, c) = value * (component(s.acceleration, c) + rate * rate);
+  }
+  return result;
+}
+
+template <class T>
+T logarithm(std::span<const Key<T>> keys, std::size_t i, const T& value) {
+  T result = value;
+  for (int c = 0; c < dimensions<T>; ++c) {
+    if (!(component(value, c) > 0))
+      refuse_key(keys, i, "is mixed by ratio, so every value must be > 0; one is " + text_of(component(value, c)));
+    component_of(result, c) = elementary::log(component(value, c));
+  }
+  return result;
+}
+
+// A slope of the value is a relative one of the logarithm.
+template <class T>
+void make_relative(std::optional<Tangent<T>>& tangent, const T& value) {
+  if (!tangent) return;
+  for (int c = 0; c < dimensions<T>; ++c) component_of(tangent->rate, c) /= component(value, c);
+}
+
+}  // namespace
+
+template <class T>
+Curve<T> logarithmic_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
+  std::vector<Key<T>> logs(keys.begin(), keys.end());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    logs[i].value = logarithm(keys, i, keys[i].value);
+    if (keys[i].value_in) logs[i].value_in = logarithm(keys, i, *keys[i].value_in);
+    make_relative(logs[i].out, keys[i].value);
+    make_relative(logs[i].in, keys[i].value_in ? *keys[i].value_in : keys[i].value);
+  }
+  KeyOptions inner = options;
+  inner.logarithmic = false;
+  return seen_through_keys<T>(keyed_curve<T>(std::span<const Key<T>>(logs), inner),
+                              std::make_shared<const KeyPins<T>>(keys), &exponential<T>);
+}
+
+template Curve<double> logarithmic_curve<double>(std::span<const Key<double>>, const KeyOptions&);
+template Curve<Vec2> logarithmic_curve<Vec2>(std::span<const Key<Vec2>>, const KeyOptions&);
+template Curve<Vec3> logarithmic_curve<Vec3>(std::span<const Key<Vec3>>, const KeyOptions&);
+template Curve<Vec4> logarithmic_curve<Vec4>(std::span<const Key<Vec4>>, const KeyOptions&);
+
+}  // namespace tweenfall

@@ -1,0 +1,128 @@
+#include <tweenfall/curves/modifiers.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "curve/curve_data.h"
+#include "modifiers/modifier_form.h"
+
+namespace tweenfall {
+
+void ModifierForm::retime(Moment&, double&) const noexcept {}
+void ModifierForm::change(Jet&, const Moment&, double) const noexcept {}
+
+void check_finite(double value, const char* name) {
+  if (!std::isfinite(value))
+    throw std::invalid_argument(std::string(name) + " must be finite; it is " + text_of(value));
+}
+
+namespace {
+
+class Stack {
+ public:
+  Stack(const Curve<double>& curve, std::span<const Modifier> modifiers) : curve_(curve) {
+    for (std::size_t i = 0; i < modifiers.size(); ++i) {
+      try {
+        add(modifiers[i]);
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument("modifier " + std::to_string(i) + ": " + error.what());
+      }
+    }
+  }
+
+  [[nodiscard]] Sample<double> sample(double time, Side side) const noexcept {
+    const Jet value = evaluate(layers_.size(), {{time, 1, 0}, side}).value;
+    return {value.v, value.d, value.dd};
+  }
+
+ private:
+  struct Layer {
+    FormPointer form;
+    std::optional<ModifierRange> range;
+    double influence;
+
+    // Of a moment inside the range; 0 outside.
+    [[nodiscard]] Jet weight(const Moment& m) const noexcept {
+      if (!range) return constant(influence);
+      const double t = m.time.v;
+      // The side decides at the ends, seen in the direction of time.
+      const bool arrives = m.side == Side::in;
+      if (t < range->start || t > range->end) return constant(0);
+      if (t == range->start && arrives && range->start < range->end) return constant(0);
+      if (t == range->end && !arrives && range->start < range->end) return constant(0);
+      const double from_start = t - range->start, to_end = range->end - t;
+      if (from_start < range->blend_in) return (influence / range->blend_in) * (m.time + -range->start);
+      if (to_end < range->blend_out) return (influence / range->blend_out) * (constant(range->end) - m.time);
+      return constant(influence);
+    }
+  };
+
+  struct Result {
+    Jet value;
+    Moment moment;
+  };
+
+  void add(const Modifier& m) {
+    if (!(m.influence >= 0 && m.influence <= 1))
+      throw std::invalid_argument("the influence must lie in 0 to 1; it is " + text_of(m.influence));
+    if (m.range) {
+      const ModifierRange& r = *m.range;
+      check_finite(r.start, "the range's start");
+      check_finite(r.end, "the range's end");
+      if (!(r.start <= r.end))
+        throw std::invalid_argument("the range must not end before it starts; it goes from " + text_of(r.start) +
+                                    " s to " + text_of(r.end) + " s");
+      for (const double blend : {r.blend_in, r.blend_out})
+        if (!(blend >= 0) || !std::isfinite(blend))
+          throw std::invalid_argument("the range's blends must be >= 0 s; one is " + text_of(blend));
+    }
+    FormPointer form = std::visit([this](const auto& kind) { return form_of(kind, curve_); }, m.kind);
+    layers_.push_back({std::move(form), m.range, m.influence});
+  }
+
+  // Through the first `count` layers.
+  [[nodiscard]] Result evaluate(std::size_t count, Moment moment) const noexcept {
+    if (count == 0) {
+      const Sample<double> s = curve_.sample(moment.time.v, moment.side);
+      return {chained(moment.time, s.value, s.rate, s.acceleration), moment};
+    }
+    const Layer& layer = layers_[count - 1];
+    double memory = 0;
+    if (const Jet weight = layer.weight(moment); weight.v != 0 || weight.d != 0) {
+      Moment inner = moment;
+      layer.form->retime(inner, memory);
+      if (weight.v == 1 && weight.d == 0)
+        moment = inner;
+      else
+        moment.time = moment.time + weight * (inner.time - moment.time);
+    }
+    Result result = evaluate(count - 1, moment);
+    if (const Jet weight = layer.weight(result.moment); weight.v != 0 || weight.d != 0) {
+      Jet changed = result.value;
+      layer.form->change(changed, result.moment, memory);
+      result.value = weight.v == 1 && weight.d == 0 ? changed : result.value + weight * (changed - result.value);
+    }
+    return result;
+  }
+
+  Curve<double> curve_;
+  std::vector<Layer> layers_;
+};
+
+}  // namespace
+
+Curve<double> modified(const Curve<double>& curve, std::span<const Modifier> modifiers) {
+  const auto stack = std::make_shared<const Stack>(curve, modifiers);
+  // A slope stated outside is that of the curve below, to which the modifiers are added.
+  const std::vector<Modifier> kept(modifiers.begin(), modifiers.end());
+  return CurveAccess::seen_through<double>(
+      [stack](double time, Side side) { return stack->sample(time, side); }, curve.start(), curve.end(), curve.knots(),
+      {curve.before(), {}, curve.rule_before().plays}, {curve.after(), {}, curve.rule_after().plays},
+      [curve, kept](const OutsideRule<double>& before, const OutsideRule<double>& after) {
+        return modified(curve.with_outside(before, after), kept);
+      });
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,54 @@
+#include <tweenfall/curves/curve.h>
+#include <tweenfall/curves/elementary.h>
+
+#include <stdexcept>
+
+#include "curve/curve_data.h"
+
+namespace tweenfall {
+namespace {
+
+Sample<Quat> turned(const Sample<Vec3>& angles, const EulerOrder& order) noexcept {
+  Quat q(1, 0, 0, 0);
+  Vec3 velocity = Vec3::Zero(), acceleration = Vec3::Zero();
+  // From the outermost turn inward, each about an axis that the turns before it carry along.
+  for (int n = 0; n < 3; ++n) {
+    const int i = order.intrinsic ? n : 2 - n;
+    const Vec3 axis = Vec3::Unit(order.axes[i]);
+    const Vec3 carried = q * axis;
+    acceleration += angles.acceleration[i] * carried + angles.rate[i] * velocity.cross(carried);
+    velocity += angles.rate[i] * carried;
+    const elementary::SinCos half = elementary::sin_cos(angles.value[i] / 2);
+    q = q * Quat(half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z());
+  }
+  return {q, velocity, acceleration};
+}
+
+}  // namespace
+
+Curve<Quat> euler_curve(const Curve<Vec3>& angles, const EulerOrder& order) {
+  for (int i = 0; i < 3; ++i)
+    if (order.axes[i] < 0 || order.axes[i] > 2 || (i > 0 && order.axes[i] == order.axes[i - 1]))
+      throw std::invalid_argument("the axes of Euler angles must be 0, 1 or 2 with neighbors that differ; they are " +
+                                  std::to_string(order.axes[0]) + ", " + std::to_string(order.axes[1]) + ", " +
+                                  std::to_string(order.axes[2]));
+  return CurveAccess::converted<Quat>(angles, [order](const Curve<Vec3>& curve, double time, Side side) {
+    return turned(curve.sample(time, side), order);
+  });
+}
+
+Curve<Quat> axis_curve(const Vec3& axis, const Curve<double>& angle) {
+  const double largest = axis.cwiseAbs().maxCoeff();
+  if (!(largest > 0) || !all_finite(axis))
+    throw std::invalid_argument("an axis must be finite and not zero; it is " + text_of(axis));
+  const Vec3 scaled = axis / largest;
+  const Vec3 unit = scaled / std::sqrt(scaled.squaredNorm());
+  return CurveAccess::converted<Quat>(angle, [unit](const Curve<double>& curve, double time, Side side) {
+    const Sample<double> s = curve.sample(time, side);
+    const elementary::SinCos half = elementary::sin_cos(s.value / 2);
+    return Sample<Quat>{Quat(half.cos, half.sin * unit.x(), half.sin * unit.y(), half.sin * unit.z()), s.rate * unit,
+                        s.acceleration * unit};
+  });
+}
+
+}  // namespace tweenfall

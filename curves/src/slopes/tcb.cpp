@@ -1,0 +1,30 @@
+#include "slopes/slope_rule.h"
+
+namespace tweenfall {
+
+// Source: Kochanek and Bartels, "Interpolating splines with local tension, continuity, and bias control", 1984,
+// with the secants weighted by durations as for Catmull-Rom on uneven times.
+void slopes_tcb(const SlopeProblem& p) {
+  const auto slope = [&p](std::size_t key, std::size_t span, bool arriving, std::size_t c) {
+    const std::size_t a = p.before(key), b = p.after(key);
+    if (a == SlopeProblem::none || b == SlopeProblem::none) return 0.0;
+    // The three numbers belong to the key; where it has none of its own (the run ends there), to the span. The last
+    // key of a loop is its first.
+    const bool seam = key == p.spans && p.eases[key]->slope_rule() != &slopes_tcb;
+    const Ease& own = *p.eases[seam ? 0 : key];
+    const auto& parameters = own.slope_rule() == &slopes_tcb ? own.parameters() : p.eases[span]->parameters();
+    const double tension = parameters[0], bias = parameters[2];
+    const double continuity = arriving ? -parameters[1] : parameters[1];
+    const double h0 = p.durations[a], h1 = p.durations[b];
+    return (1 - tension) * ((1 + continuity) * (1 + bias) * (h1 / (h0 + h1)) * p.secant(a, c) +
+                            (1 - continuity) * (1 - bias) * (h0 / (h0 + h1)) * p.secant(b, c));
+  };
+  for (std::size_t i = p.first; i < p.last; ++i)
+    for (std::size_t c = 0; c < p.dimensions; ++c) {
+      p.leaving[i * p.dimensions + c] = slope(i, i, false, c);
+      p.arriving[i * p.dimensions + c] = slope(i + 1, i, true, c);
+    }
+  p.finish_open_ends();
+}
+
+}  // namespace tweenfall

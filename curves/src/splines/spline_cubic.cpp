@@ -1,0 +1,174 @@
+#include <tweenfall/curves/splines.h>
+
+#include "curve/curve_data.h"
+#include "curve/hermite_coefficients.h"
+#include "keys/span_slopes.h"
+#include "slopes/c2_slopes.h"
+#include "splines/spline_check.h"
+
+namespace tweenfall {
+namespace {
+
+// Spans between the values, and the slopes at both ends of each, to be chosen.
+template <class T>
+struct Interpolation {
+  std::span<const double> times;
+  std::span<const T> values;
+  std::vector<double> durations, secants;
+  Slopes slopes;
+
+  Interpolation(std::span<const double> given_times, std::span<const T> given_values, const SplineEnds<T>& ends)
+      : times(given_times), values(given_values) {
+    check_spline_times(times);
+    check_spline_list(values, times.size() - (ends.closed ? 1 : 0), "value");
+    for (const SplineEnd<T>* end : {&ends.start, &ends.end}) {
+      if (!all_finite(end->given)) refuse_spline("has the non-finite number " + text_of(end->given) + " at an end");
+      if (ends.closed && end->kind != SplineEnd<T>::Kind::automatic)
+        refuse_spline("that is closed has no ends to state");
+    }
+    durations.reserve(times.size() - 1);
+    secants.reserve(durations.capacity() * static_cast<std::size_t>(dimensions<T>));
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+      durations.push_back(times[i + 1] - times[i]);
+      for (int c = 0; c < dimensions<T>; ++c)
+        secants.push_back((component(value(i + 1), c) - component(value(i), c)) / durations[i]);
+    }
+  }
+
+  [[nodiscard]] const T& value(std::size_t i) const noexcept { return values[i < values.size() ? i : 0]; }
+
+  [[nodiscard]] T slope(const std::vector<double>& of, std::size_t span) const noexcept {
+    T result = zero<T>();
+    for (int c = 0; c < dimensions<T>; ++c)
+      component_of(result, c) = of[span * static_cast<std::size_t>(dimensions<T>) + static_cast<std::size_t>(c)];
+    return result;
+  }
+
+  [[nodiscard]] Curve<T> curve() const {
+    std::vector<Span<T>> spans(durations.size());
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+      Span<T>& span = spans[i];
+      span.start = times[i];
+      span.duration = durations[i];
+      span.degree = 3;
+      span.end = value(i + 1);
+      const T change = span.end - value(i);
+      const T d0 = durations[i] * slope(slopes.leaving, i), d1 = durations[i] * slope(slopes.arriving, i);
+      cubic_coefficients(value(i), change, d0, d1, span.coefficients.data());
+    }
+    return CurveAccess::from_spans<T>(spans, times.back());
+  }
+};
+
+template <class T>
+C2End c2_end(const SplineEnd<T>& end) {
+  using Kind = typename SplineEnd<T>::Kind;
+  C2End result{end.kind == Kind::rate         ? C2End::Kind::slope
+               : end.kind == Kind::not_a_knot ? C2End::Kind::not_a_knot
+                                              : C2End::Kind::second};
+  if (end.kind == Kind::rate || end.kind == Kind::acceleration)
+    for (int c = 0; c < dimensions<T>; ++c) result.given.push_back(component(end.given, c));
+  return result;
+}
+
+bool continuous_acceleration(const Ease& ease) {
+  for (const Ease::SlopeRule rule :
+       {&slopes_natural, &slopes_natural_given, &slopes_clamped, &slopes_periodic, &slopes_not_a_knot})
+    if (ease.slope_rule() == rule) return true;
+  return false;
+}
+
+// Puts the given ends in the place of the rule's, one component at a time.
+template <class T>
+void state_ends(Interpolation<T>& frame, const SplineEnds<T>& ends) {
+  using Kind = typename SplineEnd<T>::Kind;
+  const std::size_t d = static_cast<std::size_t>(dimensions<T>), spans = frame.durations.size();
+  const Kind first = ends.start.kind, last = ends.end.kind;
+  for (std::size_t c = 0; c < d; ++c) {
+    const double start = component(ends.start.given, static_cast<int>(c));
+    const double end = component(ends.end.given, static_cast<int>(c));
+    const std::size_t at = (spans - 1) * d + c;
+    const double h0 = frame.durations[0], h1 = frame.durations[spans - 1];
+    const double d0 = frame.secants[c], d1 = frame.secants[at];
+    double &leaving = frame.slopes.leaving[c], &arriving = frame.slopes.arriving[at];
+    if (first == Kind::rate) leaving = start;
+    if (last == Kind::rate) arriving = end;
+    if (spans == 1 && first == Kind::acceleration && last == Kind::acceleration) {
+      leaving = d0 - h0 * (start / 3 + end / 6);
+      arriving = d0 + h0 * (start / 6 + end / 3);
+      continue;
+    }
+    if (first == Kind::acceleration) leaving = 0.5 * (3 * d0 - frame.slopes.arriving[c]) - 0.25 * h0 * start;
+    if (last == Kind::acceleration) arriving = 0.5 * (3 * d1 - frame.slopes.leaving[at]) + 0.25 * h1 * end;
+  }
+}
+
+}  // namespace
+
+template <class T>
+Curve<T> c2_spline(std::span<const double> times, std::span<const T> values, const SplineEnds<T>& ends) {
+  Interpolation<T> frame(times, values, ends);
+  const std::size_t spans = frame.durations.size(), d = static_cast<std::size_t>(dimensions<T>);
+  frame.slopes.leaving.resize(spans * d);
+  frame.slopes.arriving.resize(spans * d);
+  const SlopeProblem problem{spans,
+                             0,
+                             spans,
+                             d,
+                             frame.durations.data(),
+                             frame.secants.data(),
+                             Ends::secant,
+                             nullptr,
+                             frame.slopes.leaving.data(),
+                             frame.slopes.arriving.data()};
+  if (ends.closed)
+    solve_c2_periodic(problem);
+  else
+    solve_c2(problem, c2_end(ends.start), c2_end(ends.end));
+  return frame.curve();
+}
+
+template <class T>
+Curve<T> cubic_spline(std::span<const double> times, std::span<const T> values, std::span<const Ease> rules,
+                      const SplineEnds<T>& ends) {
+  Interpolation<T> frame(times, values, ends);
+  if (rules.size() != 1 && rules.size() != values.size())
+    refuse_spline("needs one rule, or " + std::to_string(values.size()) + "; " + std::to_string(rules.size()) +
+                  " were given");
+  const bool stated =
+      ends.start.kind != SplineEnd<T>::Kind::automatic || ends.end.kind != SplineEnd<T>::Kind::automatic;
+  for (std::size_t i = 0; i < rules.size(); ++i) {
+    if (!rules[i].slope_rule())
+      refuse_spline("needs rules that choose slopes; number " + std::to_string(i) + " is \"" + rules[i].name() + "\"");
+    if (stated && continuous_acceleration(rules[i]))
+      refuse_spline("by the rule \"" + rules[i].name() + "\" depends on its ends everywhere: c2_spline takes them");
+  }
+  for (const SplineEnd<T>* end : {&ends.start, &ends.end})
+    if (end->kind == SplineEnd<T>::Kind::not_a_knot)
+      refuse_spline("whose slopes a rule chooses cannot be without a knot; c2_spline can");
+  const std::size_t spans = frame.durations.size();
+  SlopeRequest request{static_cast<std::size_t>(dimensions<T>),
+                       frame.durations,
+                       frame.secants,
+                       ends.closed ? Ends::wrap : Ends::secant,
+                       {},
+                       {}};
+  for (std::size_t i = 0; i <= spans; ++i)
+    request.eases.push_back(&rules[rules.size() == 1 || i >= rules.size() ? 0 : i]);
+  request.span_eases.assign(request.eases.begin(), request.eases.end() - 1);
+  frame.slopes = choose_slopes(request);
+  state_ends(frame, ends);
+  return frame.curve();
+}
+
+#define TWEENFALL_SPLINE(T)                                                                             \
+  template Curve<T> c2_spline<T>(std::span<const double>, std::span<const T>, const SplineEnds<T>&);    \
+  template Curve<T> cubic_spline<T>(std::span<const double>, std::span<const T>, std::span<const Ease>, \
+                                    const SplineEnds<T>&);
+TWEENFALL_SPLINE(double)
+TWEENFALL_SPLINE(Vec2)
+TWEENFALL_SPLINE(Vec3)
+TWEENFALL_SPLINE(Vec4)
+#undef TWEENFALL_SPLINE
+
+}  // namespace tweenfall

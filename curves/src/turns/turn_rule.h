@@ -1,0 +1,89 @@
+#pragma once
+
+// Rules that build the spans of a run of rotation keys.
+
+#include <tweenfall/curves/ease.h>
+#include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/rotation.h>
+
+#include <cstddef>
+#include <vector>
+
+#include "keys/span_slopes.h"
+
+namespace tweenfall {
+
+/// One stretch between two keys. The turn that leads across it is about itself, so its vector is the same
+/// in the axes of both keys.
+struct Stretch {
+  double start, duration;  ///< s
+  Quat from, to;           ///< signs are those reached by turning
+  Vec3 way;                ///< rotation vector of the short way, in the axes of the keys
+  Vec3 spin;               ///< whole turns on top, in the axes of the keys
+
+  /// Where the short way arrives.
+  [[nodiscard]] Quat near_to() const noexcept { return hemisphere_aligned(to, from); }
+};
+
+/// One run of consecutive stretches that share a rule, within all stretches of a curve.
+struct TurnProblem {
+  const std::vector<Stretch>& stretches;
+  std::size_t first, last;  ///< the run: stretches first to last - 1
+  Ends ends;
+  const Slopes& slopes;  ///< angular velocities by the run's slope rule, axes of the keys, whole turns included
+  std::vector<RotationSpan>& spans;  ///< result, appended
+
+  /// What is left beside the whole turns, as rotation vectors over the span.
+  [[nodiscard]] Vec3 leaving(std::size_t i) const noexcept { return turning(slopes.leaving, i); }
+  [[nodiscard]] Vec3 arriving(std::size_t i) const noexcept { return turning(slopes.arriving, i); }
+  /// At the first and last key of the curve, where no slope is asked for.
+  [[nodiscard]] bool starts_open(std::size_t i) const noexcept { return i == 0 && ends == Ends::secant; }
+  [[nodiscard]] bool ends_open(std::size_t i) const noexcept {
+    return i + 1 == stretches.size() && ends == Ends::secant;
+  }
+  /// Where the neighbors of a span are, around a loop too; null where there is none.
+  [[nodiscard]] const Stretch* before(std::size_t i) const noexcept {
+    return i > 0 ? &stretches[i - 1] : ends == Ends::wrap ? &stretches.back() : nullptr;
+  }
+  [[nodiscard]] const Stretch* after(std::size_t i) const noexcept {
+    return i + 1 < stretches.size() ? &stretches[i + 1] : ends == Ends::wrap ? &stretches.front() : nullptr;
+  }
+  /// Whether slerps of slerps have nothing to add to the plain cubic with the slopes of the rule: all turns are about
+  /// one axis, where both are the same, or whole turns are near, which slerps cannot tell from none.
+  [[nodiscard]] bool is_plain(std::size_t i) const noexcept;
+
+ private:
+  [[nodiscard]] Vec3 turning(const std::vector<double>& slope, std::size_t i) const noexcept {
+    return stretches[i].duration * Vec3(&slope[3 * i]) - stretches[i].spin;
+  }
+};
+
+[[nodiscard]] inline Vec4 padded(const Vec3& v) noexcept {
+  return {v.x(), v.y(), v.z(), 0};
+}
+
+/// A span across the stretch with its spin, at rest.
+[[nodiscard]] inline RotationSpan blank_span(const Stretch& stretch) {
+  RotationSpan span{};
+  span.start = stretch.start;
+  span.duration = stretch.duration;
+  span.from = stretch.from;
+  span.end = stretch.to;
+  span.spin = stretch.from * stretch.spin;
+  for (Vec4& c : span.coefficients) c.setZero();
+  return span;
+}
+
+/// The cubic of rotation vectors with the angular velocities at its ends, as `leaving` and `arriving` give them.
+[[nodiscard]] RotationSpan cubic_turn(const Stretch& stretch, const Vec3& leaving, const Vec3& arriving);
+
+void turns_normalized(const TurnProblem& problem);
+void turns_squad(const TurnProblem& problem);
+void turns_de_casteljau(const TurnProblem& problem);
+void turns_barry_goldman(const TurnProblem& problem);
+void turns_natural(const TurnProblem& problem);
+
+/// Slerps of slerps between four control rotations, the first and last of them passed.
+void set_de_casteljau(RotationSpan& span, const Quat& a, const Quat& b, const Quat& c, const Quat& d);
+
+}  // namespace tweenfall

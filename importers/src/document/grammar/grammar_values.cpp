@@ -1,0 +1,212 @@
+#include <tweenfall/curves/ease.h>
+
+#include "document/grammar/grammar_parts.h"
+#include "document/read/times.h"
+#include "document/report/suggestion.h"
+
+#include <algorithm>
+
+namespace tweenfall::document {
+
+namespace {
+
+bool is_hex_color(std::string_view text) {
+  if (text.size() != 4 && text.size() != 7 && text.size() != 9) return false;
+  if (text.front() != '#') return false;
+  return std::all_of(text.begin() + 1, text.end(),
+                     [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); });
+}
+
+Shape number_of(std::string what, double low = -Shape::infinite, bool above_low = false) {
+  Shape shape;
+  shape.kind = Shape::Kind::number;
+  shape.what = std::move(what);
+  shape.low = low;
+  shape.above_low = above_low;
+  return shape;
+}
+
+Shape text_of(std::string what, std::string pattern, std::function<bool(std::string_view)> fits) {
+  Shape shape;
+  shape.kind = Shape::Kind::text;
+  shape.what = std::move(what);
+  shape.pattern = std::move(pattern);
+  shape.fits = std::move(fits);
+  return shape;
+}
+
+Shape named(Shape shape, std::string definition) {
+  shape.definition = std::move(definition);
+  return shape;
+}
+
+// Words as they are; calls by their name, with anything between the brackets: what stands there is Ease::named's to
+// judge, and it says why.
+const Shape* ease_shape(ShapeStore& store) {
+  Shape shape;
+  shape.kind = Shape::Kind::text;
+  shape.what = "an ease";
+  shape.definition = "ease";
+  std::vector<std::string> calls;
+  std::string pattern;
+  for (const std::string& form : Ease::names()) {
+    const std::size_t bracket = form.find('(');
+    const std::string word = form.substr(0, bracket);
+    if (bracket == std::string::npos) {
+      shape.words.push_back(word);
+    } else if (std::find(calls.begin(), calls.end(), word) == calls.end()) {
+      calls.push_back(word);
+      shape.hints.push_back(form);
+      pattern += (pattern.empty() ? "" : "|") + word;
+    }
+  }
+  if (!calls.empty()) shape.pattern = "^(" + pattern + ")\\(.*\\)$";
+  // The spellings that the schema knows: words as they are, calls without spaces before their bracket.
+  shape.fits = [calls](std::string_view text) {
+    const std::size_t bracket = text.find('(');
+    return bracket != std::string_view::npos &&
+           std::find(calls.begin(), calls.end(), text.substr(0, bracket)) != calls.end() &&
+           Ease::named(text).has_value();
+  };
+  shape.why = [calls](std::string_view text) -> std::string {
+    const std::size_t bracket = text.find('(');
+    if (bracket == std::string_view::npos) return {};
+    const std::string word(text.substr(0, bracket));
+    if (std::find(calls.begin(), calls.end(), word) == calls.end()) return suggestion(word, calls);
+    std::string reason;
+    (void)Ease::named(text, &reason);
+    return reason.empty() ? std::string() : "; " + reason;
+  };
+  return store.add(std::move(shape));
+}
+
+}  // namespace
+
+Shape object_of(std::string what, std::vector<Field> fields) {
+  Shape shape;
+  shape.kind = Shape::Kind::object;
+  shape.what = std::move(what);
+  shape.fields = std::move(fields);
+  return shape;
+}
+
+Shape list_of(const Shape* element, std::string what, std::size_t fewest, std::size_t most) {
+  Shape shape;
+  shape.kind = Shape::Kind::list;
+  shape.what = std::move(what);
+  shape.element = element;
+  shape.fewest = fewest;
+  shape.most = most;
+  return shape;
+}
+
+Shape words_of(std::string what, std::vector<std::string> words) {
+  Shape shape;
+  shape.kind = Shape::Kind::text;
+  shape.what = std::move(what);
+  shape.words = std::move(words);
+  return shape;
+}
+
+Shape choice_of(std::string what, std::vector<const Shape*> alternatives) {
+  Shape shape;
+  shape.kind = Shape::Kind::choice;
+  shape.what = std::move(what);
+  shape.alternatives = std::move(alternatives);
+  return shape;
+}
+
+ValueShapes::ValueShapes(ShapeStore& store) {
+  Shape truth;
+  truth.kind = Shape::Kind::boolean;
+  truth.what = "true or false";
+  boolean = store.add(truth);
+  any = store.add({});
+
+  name = store.add(text_of("a name", "^[\\s\\S]+$", [](std::string_view text) { return !text.empty(); }));
+  number = store.add(number_of("a number"));
+  positive = store.add(number_of("a number above 0", 0, true));
+  not_negative = store.add(number_of("a number of at least 0", 0));
+  const auto vector_of = [&](std::size_t size, const std::string& definition) {
+    return store.add(named(list_of(number, "a list of " + std::to_string(size) + " numbers", size, size), definition));
+  };
+  vector_2 = vector_of(2, "vector-2");
+  vector = vector_of(3, "vector-3");
+  vector_4 = vector_of(4, "vector-4");
+  any_vector = store.add(named(list_of(number, "a list of 2, 3 or 4 numbers", 2, 4), "vector"));
+  numbers = store.add(named(list_of(number, "a list of numbers"), "numbers"));
+
+  const std::string digits = "[0-9]{1,12}(\\.[0-9]{1,12})?";
+  key_time =
+      store.add(named(choice_of("a time: seconds, \"12f\", \"50%\" or \"+0.25\"",
+                                {number, store.add(text_of("", "^(\\+" + digits + "f?|" + digits + "[f%])$",
+                                                           [](std::string_view text) {
+                                                             const auto time = time_in_words(text);
+                                                             return time && (time->after_previous ||
+                                                                             time->unit != TimeInWords::Unit::seconds);
+                                                           }))}),
+                      "key-time"));
+  // A bare number in quotes is one way too many to say a time.
+  const auto frames = [](std::string_view text) {
+    const auto time = time_in_words(text);
+    return time && time->unit == TimeInWords::Unit::frames && !time->after_previous;
+  };
+  stage_time = store.add(named(choice_of("a stage time: seconds of at least 0, or \"12f\"",
+                                         {not_negative, store.add(text_of("", "^" + digits + "f$", frames))}),
+                               "stage-time"));
+  length_of_time = store.add(named(choice_of("a length of time above 0: seconds, or \"12f\"",
+                                             {positive, store.add(text_of("", "^" + digits + "f$", frames))}),
+                                   "length-of-time"));
+  ease = ease_shape(store);
+
+  color = store.add(named(text_of("a color: \"#rgb\", \"#rrggbb\" or \"#rrggbbaa\"",
+                                  "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8})$", is_hex_color),
+                          "color"));
+  scale = store.add(named(choice_of("a scale: a number, or a list of 3", {number, vector}), "scale"));
+  axis = store.add(named(choice_of("an axis: \"x\", \"y\", \"z\", \"-x\", \"-y\", \"-z\" or a list of 3 numbers",
+                                   {store.add(words_of("", {"x", "y", "z", "-x", "-y", "-z"})), vector}),
+                         "axis"));
+  euler_order =
+      store.add(named(words_of("an order of axes: capitals turn about the turned axes (\"XYZ\"), small letters about "
+                               "the fixed ones (\"xyz\")",
+                               {"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ",
+                                "xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz"}),
+                      "euler-order"));
+
+  const std::string what =
+      "a rotation: {\"euler\": [x, y, z]}, {\"axis\": \"z\", \"angle\": 90} or {\"quat\": [x, y, z, w]}, in degrees";
+  const Field euler_field{"euler", vector, "three angles in degrees, in the order's sequence", true};
+  const Field quat_field{"quat", vector_4, "x, y, z, w; need not be of unit length", true};
+  const Field axis_field{"axis", axis, "", true}, angle_field{"angle", number, "degrees, never wrapped", true};
+  const auto spelled = [&](const std::string& spelling, std::vector<Field> fields) {
+    Shape shape = object_of(what, std::move(fields));
+    shape.definition = "rotation-" + spelling;
+    shape.on_one_line = true;
+    shape.foremost_fault = [spelling](const JsonValue& value) -> std::string {
+      for (const char* other : {"euler", "quat", "angle"})
+        if (other != spelling && value.find(other) && !value.find(spelling))
+          return "rotations of one track are spelled one way; its first key has " + in_quotes(spelling) +
+                 ", this one " + in_quotes(other);
+      return {};
+    };
+    return store.add(std::move(shape));
+  };
+  euler = spelled("euler", {euler_field});
+  quaternion = spelled("quat", {quat_field});
+  axis_angle = spelled("angle", {axis_field, angle_field});
+
+  Shape rest = object_of(what, {{"euler", vector, euler_field.help},
+                                {"order", euler_order, "", false, "\"XYZ\""},
+                                {"axis", axis, ""},
+                                {"angle", number, angle_field.help},
+                                {"quat", vector_4, quat_field.help}});
+  rest.together = {exactly_one({"euler", "angle", "quat"}),
+                   {Together::Rule::first_needs_second, {"order", "euler"}},
+                   {Together::Rule::first_needs_second, {"axis", "angle"}},
+                   {Together::Rule::first_needs_second, {"angle", "axis"}}};
+  rest.definition = "rotation";
+  rest.on_one_line = true;
+  rotation = store.add(std::move(rest));
+}
+
+}  // namespace tweenfall::document

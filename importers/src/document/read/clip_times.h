@@ -1,0 +1,42 @@
+#pragma once
+
+// From times as written to seconds of a clip.
+
+#include "document/report/problems.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tweenfall::document {
+
+// Where a key or event keeps its parts; null for what is absent or faulty.
+struct KeyParts {
+  const JsonValue *time = nullptr, *value = nullptr, *ease = nullptr, *in = nullptr, *out = nullptr,
+                  *value_in = nullptr;
+};
+[[nodiscard]] KeyParts key_parts(const JsonValue& key);
+
+class ClipTimes {
+ public:
+  // `fps` empty: "12f" is a problem. `duration` empty: "50%" is one, for the given reason.
+  ClipTimes(std::optional<double> fps, std::optional<double> duration, std::string no_duration_reason)
+      : fps_(fps), duration_(duration), no_duration_reason_(std::move(no_duration_reason)) {}
+
+  // Seconds of one time; `previous` is what "+0.25" counts from. Problems are noted.
+  [[nodiscard]] std::optional<double> seconds(const JsonValue& time, std::optional<double> previous,
+                                              Problems& problems) const;
+
+  // One for each key, empty where faulty; that they increase is checked.
+  [[nodiscard]] std::vector<std::optional<double>> of_keys(const JsonValue& keys, Problems& problems) const;
+
+ private:
+  std::optional<double> fps_, duration_;
+  std::string no_duration_reason_;
+};
+
+// The duration of a clip: what it says, else its latest key or event that does not hang on a "%".
+// Infinity for functions only; 0 for nothing at all.
+[[nodiscard]] double clip_duration(const JsonValue& clip, std::optional<double> fps);
+
+}  // namespace tweenfall::document

@@ -1,0 +1,93 @@
+#include <tweenfall/importers/number_text.h>
+
+#include "document/read/values.h"
+#include "document/shape.h"
+#include "document/tracks/read_track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tweenfall::document {
+
+namespace {
+
+using Kind = JsonValue::Kind;
+
+void read_events(const JsonValue& list, const ClipTimes& times, double duration, Clip& clip, Problems& problems) {
+  const auto inside = [&](const JsonValue& time, double seconds) {
+    if (seconds >= 0 && seconds <= duration) return;
+    problems.add(time, seconds < 0
+                           ? "an event before the clip's start would never happen; found " + number_text(seconds) + " s"
+                           : "an event after the clip's end would never happen; " + number_text(seconds) +
+                                 " s is after " + number_text(duration) + " s");
+  };
+  std::optional<double> previous;
+  for (const JsonValue& item : list.items) {
+    const bool row = item.is(Kind::list);
+    if (!row && !item.is(Kind::object)) continue;
+    const auto part = [&](std::size_t i) {
+      return i < item.items.size() && !item.items[i].is(Kind::faulty) ? &item.items[i] : nullptr;
+    };
+    const JsonValue* from = row ? part(0) : usable(item, "from");
+    const JsonValue* name = row ? part(1) : usable(item, "name");
+    const JsonValue* data = row ? part(2) : usable(item, "data");
+    const JsonValue* to = row ? nullptr : usable(item, "to");
+    ClipEvent event;
+    const std::optional<double> start = from ? times.seconds(*from, previous, problems) : std::nullopt;
+    previous = start;
+    if (!start) continue;
+    inside(*from, *start);
+    event.from = event.to = *start;
+    if (to) {
+      const std::optional<double> end = times.seconds(*to, start, problems);
+      if (!end) continue;
+      if (!(*end > *start))
+        problems.add(*to, "an event ends after it starts; \"to\" is " + number_text(*end) + " s, \"from\" " +
+                              number_text(*start) + " s");
+      else
+        inside(*to, *end);
+      event.to = *end;
+    }
+    if (name) event.name = name->text;
+    if (data) event.data = on_one_line(*data);
+    clip.events.push_back(std::move(event));
+  }
+  std::stable_sort(clip.events.begin(), clip.events.end(),
+                   [](const ClipEvent& a, const ClipEvent& b) { return a.from < b.from; });
+}
+
+}  // namespace
+
+Clip read_clip(const JsonMember& member, std::optional<double> fps, Problems& problems) {
+  const JsonValue& value = member.value;
+  Clip clip;
+  clip.name = member.name;
+  if (!value.is(Kind::object)) return clip;
+
+  if (const JsonValue* said = usable(value, "duration")) (void)ClipTimes(fps, {}, "").seconds(*said, {}, problems);
+  clip.duration = clip_duration(value, fps);
+  const bool endless = std::isinf(clip.duration);
+  const bool has_share = clip.duration > 0 && !endless;
+  const ClipTimes times(
+      fps, has_share ? std::optional(clip.duration) : std::nullopt,
+      endless ? "this clip is endless; give it a \"duration\"" : "this clip has none; give it a \"duration\"");
+
+  if (const JsonValue* loop = usable(value, "loop")) {
+    const std::string mode = text_in(*loop, "mode");
+    clip.loop.mode = mode == "repeat-offset" ? LoopMode::repeat_offset
+                     : mode == "pingpong"    ? LoopMode::pingpong
+                                             : LoopMode::repeat;
+    clip.loop.count = number_in(*loop, "count", 0);
+    if (endless) problems.add(*loop, "an endless clip cannot loop; give it a \"duration\"");
+    if (clip.duration <= 0) problems.add(*loop, "a clip of no length cannot loop; give it a \"duration\"");
+  }
+  if (const JsonValue* tracks = usable(value, "tracks"))
+    for (const JsonMember& track : tracks->members)
+      if (!is_free_name(track.name))
+        if (std::optional<Track> read = read_track(track, times, problems)) clip.tracks.push_back(std::move(*read));
+  if (const JsonValue* events = usable(value, "events")) read_events(*events, times, clip.duration, clip, problems);
+  return clip;
+}
+
+}  // namespace tweenfall::document

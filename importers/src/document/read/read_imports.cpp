@@ -1,0 +1,158 @@
+#include <tweenfall/anim/nearest_name.h>
+#include <tweenfall/importers/model.h>
+
+#include "document/content.h"
+#include "document/read/values.h"
+#include "document/shape.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tweenfall::document {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int most_files = 1000;
+
+// What comes from a file, whatever its kind.
+struct Brought {
+  StageDescription stage;
+  bool names_are_free = false;
+};
+
+Brought from_model_file(const fs::path& file) {
+  Model model = load_model(file);
+  Brought out;
+  for (Node& node : model.nodes) {
+    NodeDescription description;
+    description.name = std::move(node.name);
+    description.parent = node.parent;
+    description.rest = node.rest;
+    out.stage.nodes.push_back(std::move(description));
+  }
+  out.stage.clips = std::move(model.clips);
+  out.stage.meshes = std::move(model.meshes);
+  out.stage.skins = std::move(model.skins);
+  out.stage.mesh_instances = std::move(model.instances);
+  return out;
+}
+
+// Nodes, clips and meshes under the import's name; rules, plays and the world stay behind.
+void take(Building& building, const std::string& alias, Brought brought) {
+  StageDescription& stage = building.stage;
+  const std::size_t first_node = stage.nodes.size(), first_mesh = stage.meshes.size(), first_skin = stage.skins.size();
+  const auto shift = [](std::size_t index, std::size_t by) { return index == no_node ? no_node : index + by; };
+  if (brought.names_are_free) brought.stage.nodes.clear();
+  for (NodeDescription& node : brought.stage.nodes) {
+    node.name = alias + "/" + node.name;
+    node.parent = shift(node.parent, first_node);
+    if (!node.group.empty()) node.group = alias + "/" + node.group;
+    building.nodes.emplace(node.name, stage.nodes.size());
+    stage.nodes.push_back(std::move(node));
+  }
+  for (Clip& clip : brought.stage.clips) {
+    clip.name = alias + "/" + clip.name;
+    if (brought.names_are_free)
+      building.clips_of_others.push_back(clip.name);
+    else
+      for (Track& track : clip.tracks) track.node = alias + "/" + track.node;
+    building.clips.emplace(clip.name, stage.clips.size());
+    stage.clips.push_back(std::move(clip));
+  }
+  for (Mesh& mesh : brought.stage.meshes) stage.meshes.push_back(std::move(mesh));
+  for (Skin& skin : brought.stage.skins) {
+    for (std::size_t& joint : skin.joints) joint += first_node;
+    stage.skins.push_back(std::move(skin));
+  }
+  for (MeshInstance instance : brought.stage.mesh_instances) {
+    instance.node += first_node;
+    instance.mesh += first_mesh;
+    instance.skin = shift(instance.skin, first_skin);
+    stage.mesh_instances.push_back(instance);
+  }
+}
+
+// Whether `file` lies below `folder`, links followed.
+bool is_below(const fs::path& file, const fs::path& folder) {
+  const auto [end, rest] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  // A folder's path may end with an empty part.
+  return end == folder.end() || (std::next(end) == folder.end() && end->empty());
+}
+
+class Importer {
+ public:
+  explicit Importer(Building& building) : building_(building) {}
+
+  void read(const JsonMember& member) {
+    const JsonValue& place = member.value;
+    std::error_code fault;
+    const fs::path given = building_.folder / fs::path(place.text);
+    const fs::path base = fs::weakly_canonical(building_.folder.empty() ? fs::path(".") : building_.folder, fault);
+    const fs::path file = fs::weakly_canonical(given, fault);
+    if (fault) return tell(place, in_quotes(place.text) + " is no path of a file: " + fault.message());
+    if (!building_.reading.options.allow_outside && !is_below(file, base))
+      return tell(place, in_quotes(place.text) + " lies outside the document's folder; move the file into it");
+    if (!fs::is_regular_file(file, fault))
+      return tell(place, "there is no file " + in_quotes(place.text) + in_folder(file, place.text));
+    if (std::find(building_.reading.open.begin(), building_.reading.open.end(), file) != building_.reading.open.end())
+      return tell(place, in_quotes(place.text) +
+                             " imports this document, directly or through others; a file cannot contain itself");
+    if (++building_.reading.files > most_files)
+      return tell(place, "more than " + std::to_string(most_files) + " files are imported in all");
+
+    try {
+      if (file.extension() == ".json") {
+        ReadDocument document = read_document_file(given, building_.reading);
+        take(building_, member.name, {std::move(document.stage), document.names_are_free});
+      } else {
+        take(building_, member.name, from_model_file(given));
+      }
+      building_.imports.insert(member.name);
+    } catch (const DocumentError& error) {
+      const std::size_t count = error.problems().size();
+      tell(place, in_quotes(place.text) + " has " + (count == 1 ? "a problem" : std::to_string(count) + " problems") +
+                      ", told below");
+      building_.problems.add_foreign(error.problems());
+    } catch (const ModelError& error) {
+      std::string what = error.what();
+      std::replace(what.begin(), what.end(), '\n', ';');
+      tell(place, what);
+    }
+  }
+
+ private:
+  void tell(const JsonValue& place, std::string message) { building_.problems.add(place, std::move(message)); }
+
+  // The file of that folder that was meant, if one is near.
+  static std::string in_folder(const fs::path& file, const std::string& written);
+
+  Building& building_;
+};
+
+std::string Importer::in_folder(const fs::path& file, const std::string& written) {
+  std::error_code fault;
+  std::vector<std::string> names;
+  for (fs::directory_iterator entry(file.parent_path(), fault), end; !fault && entry != end; entry.increment(fault))
+    names.push_back((fs::path(written).parent_path() / entry->path().filename()).generic_string());
+  std::sort(names.begin(), names.end());
+  const std::string nearest = nearest_name(written, names);
+  return nearest.empty() ? std::string() : "; did you mean " + in_quotes(nearest) + "?";
+}
+
+}  // namespace
+
+void read_imports(Building& building) {
+  const JsonValue* imports = usable(building.root, "import");
+  if (!imports) return;
+  Importer importer(building);
+  for (const JsonMember& member : imports->members) {
+    if (is_free_name(member.name) || !member.value.is(JsonValue::Kind::text)) continue;
+    const std::size_t problems_before = building.problems.size();
+    importer.read(member);
+    if (building.problems.size() != problems_before) building.failed_imports.insert(member.name);
+  }
+}
+
+}  // namespace tweenfall::document

@@ -1,0 +1,41 @@
+#pragma once
+
+// Values out of a tree that was held against its shape. Where the value is missing or faulty (which was reported), the
+// fallback stands in, so that all that can be checked is checked.
+
+#include <tweenfall/curves/color.h>
+#include <tweenfall/curves/rotation.h>
+
+#include "document/report/problems.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tweenfall::document {
+
+[[nodiscard]] double radians(double degrees);
+[[nodiscard]] double degrees(double radians);
+
+// A member that can be used; null when absent or faulty.
+[[nodiscard]] const JsonValue* usable(const JsonValue& object, std::string_view name);
+
+[[nodiscard]] double number_in(const JsonValue& object, std::string_view name, double fallback);
+[[nodiscard]] bool flag_in(const JsonValue& object, std::string_view name, bool fallback);
+[[nodiscard]] std::string text_in(const JsonValue& object, std::string_view name, const std::string& fallback = {});
+[[nodiscard]] Vec3 vector_in(const JsonValue& object, std::string_view name, const Vec3& fallback);
+// A name, or a list of names.
+[[nodiscard]] std::vector<std::string> names_in(const JsonValue& object, std::string_view name);
+
+[[nodiscard]] std::optional<Vec3> vector_of(const JsonValue& value);
+[[nodiscard]] std::optional<Vec3> scale_of(const JsonValue& value);  // one number is for all three axes
+[[nodiscard]] std::optional<Color> color_of(const JsonValue& value);
+[[nodiscard]] std::string color_text(const Color& color);
+
+// Unit axis; a zero one is a problem.
+[[nodiscard]] std::optional<Vec3> axis_of(const JsonValue& value, Problems& problems);
+[[nodiscard]] EulerOrder order_of(std::string_view word);
+// Any spelling; a zero quaternion or axis is a problem.
+[[nodiscard]] std::optional<Quat> rotation_of(const JsonValue& value, const EulerOrder& order, Problems& problems);
+
+}  // namespace tweenfall::document

@@ -1,0 +1,80 @@
+#include "document/tracks/read_expression.h"
+
+#include <tweenfall/curves/expression.h>
+#include <tweenfall/curves/functions.h>
+
+#include "document/read/values.h"
+
+#include <utility>
+#include <vector>
+
+namespace tweenfall::document {
+
+namespace {
+
+using Kind = JsonValue::Kind;
+
+class ExpressionReader {
+ public:
+  ExpressionReader(const JsonValue& track, Problems& problems) : problems_(problems) {
+    const JsonValue* parameters = usable(track, "parameters");
+    if (!parameters) return;
+    for (const JsonMember& each : parameters->members) {
+      if (!each.value.is(Kind::number)) continue;
+      const Expression::Parameter one{each.name, each.value.number};
+      // Names that expressions have already are found by an expression that has nothing else.
+      try {
+        (void)Expression("t", std::span<const Expression::Parameter>(&one, 1));
+        parameters_.push_back(one);
+      } catch (const std::invalid_argument& fault) {
+        problems_.add_name(each, fault.what());
+      }
+    }
+  }
+
+  std::optional<Curve<double>> number(const JsonValue& value) {
+    if (value.is(Kind::number)) return Curve<double>(value.number);
+    if (!value.is(Kind::text)) return {};
+    try {
+      return expression_curve(Expression(value.text, parameters_));
+    } catch (const ExpressionError& error) {
+      // One byte of the text is one of the file, but for the quote before it, as long as none is escaped.
+      const bool plain = value.length == value.text.size() + 2;
+      problems_.add(plain ? JsonFault{value.offset + 1 + error.place(), 1, error.fault()}
+                          : JsonFault{value.offset, value.length, error.what()});
+      return {};
+    }
+  }
+
+ private:
+  Problems& problems_;
+  std::vector<Expression::Parameter> parameters_;
+};
+
+template <class T>
+Curve<T> vector_of_parts(const std::vector<Curve<double>>& parts) {
+  std::vector<T> axes;
+  for (std::size_t i = 0; i < parts.size(); ++i) axes.push_back(T::Unit(static_cast<Eigen::Index>(i)));
+  return combined<T>(parts, axes);
+}
+
+}  // namespace
+
+std::optional<TrackCurve> read_expression(const JsonValue& track, Problems& problems) {
+  const JsonValue* expression = usable(track, "expression");
+  if (!expression) return {};
+  ExpressionReader reader(track, problems);
+  if (expression->is(Kind::text)) {
+    const std::optional<Curve<double>> curve = reader.number(*expression);
+    return curve ? std::optional<TrackCurve>(*curve) : std::nullopt;
+  }
+  std::vector<Curve<double>> parts;
+  for (const JsonValue& each : expression->items)
+    if (const std::optional<Curve<double>> part = reader.number(each)) parts.push_back(*part);
+  if (parts.size() != expression->items.size()) return {};
+  if (parts.size() == 2) return TrackCurve(parametric(parts[0], parts[1]));
+  if (parts.size() == 3) return TrackCurve(parametric(parts[0], parts[1], parts[2]));
+  return TrackCurve(vector_of_parts<Vec4>(parts));
+}
+
+}  // namespace tweenfall::document

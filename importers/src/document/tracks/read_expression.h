@@ -1,0 +1,17 @@
+#pragma once
+
+// Expressions of t, from their checked texts.
+
+#include <tweenfall/anim/track.h>
+
+#include "document/report/problems.h"
+
+#include <optional>
+
+namespace tweenfall::document {
+
+// The curve of a track's "expression", with its "parameters": a number for one text, a vector for a list.
+// Empty where it is faulty, which then is noted at the place within the text.
+[[nodiscard]] std::optional<TrackCurve> read_expression(const JsonValue& track, Problems& problems);
+
+}  // namespace tweenfall::document

@@ -1,0 +1,55 @@
+#pragma once
+
+// Functions that stand in place of keys, and what happens outside keys.
+
+#include <tweenfall/anim/track.h>
+#include <tweenfall/curves/keys.h>
+
+#include "document/report/problems.h"
+
+#include <optional>
+#include <type_traits>
+
+namespace tweenfall::document {
+
+// What a track has instead of keys.
+[[nodiscard]] bool has_function(const JsonValue& track);
+
+// Such a track's curve: a number, or a vector. Empty where it is faulty, which then is noted.
+[[nodiscard]] std::optional<TrackCurve> read_function(const JsonValue& track, Problems& problems);
+
+// The same for an angle about an axis, in radians.
+[[nodiscard]] std::optional<Curve<double>> read_angle_function(const JsonValue& track, Problems& problems);
+
+// A slope in the value's unit per second; one number is for all parts.
+template <class R>
+[[nodiscard]] R slope_of(const JsonValue& slope) {
+  if constexpr (std::is_same_v<R, double>) {
+    return slope.number;
+  } else {
+    R result = R::Constant(slope.number);
+    for (std::size_t i = 0; i < slope.items.size(); ++i) result[static_cast<Eigen::Index>(i)] = slope.items[i].number;
+    return result;
+  }
+}
+
+// What stands at "before" or "after".
+struct OutsideParts {
+  Outside rule = Outside::hold;
+  double plays = 0;
+  const JsonValue* slope = nullptr;
+};
+[[nodiscard]] OutsideParts outside_of(const JsonValue& track, std::string_view side);
+
+template <class T>
+[[nodiscard]] Curve<T> with_outside_of(const JsonValue& track, const Curve<T>& curve) {
+  const auto rule = [&track](std::string_view side) {
+    const OutsideParts parts = outside_of(track, side);
+    OutsideRule<T> result{parts.rule, {}, parts.plays};
+    if (parts.slope) result.slope = slope_of<Rate<T>>(*parts.slope);
+    return result;
+  };
+  return curve.with_outside(rule("before"), rule("after"));
+}
+
+}  // namespace tweenfall::document

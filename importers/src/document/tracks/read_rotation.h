@@ -1,0 +1,15 @@
+#pragma once
+
+// Tracks of rotations, in each of their spellings.
+
+#include <tweenfall/curves/curve.h>
+
+#include "document/read/clip_times.h"
+
+namespace tweenfall::document {
+
+// `track` is a list of keys or an object. Nothing where faulty.
+[[nodiscard]] std::optional<Curve<Quat>> read_rotation_track(const JsonValue& track, const ClipTimes& times,
+                                                             Problems& problems);
+
+}  // namespace tweenfall::document

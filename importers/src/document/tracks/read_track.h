@@ -1,0 +1,27 @@
+#pragma once
+
+// Tracks and clips, from their checked trees.
+
+#include <tweenfall/anim/clip.h>
+#include <tweenfall/curves/keys.h>
+
+#include "document/read/clip_times.h"
+#include "document/report/problems.h"
+
+#include <optional>
+
+namespace tweenfall::document {
+
+// Empty where the track is faulty, which then is noted.
+[[nodiscard]] std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times, Problems& problems);
+
+[[nodiscard]] Clip read_clip(const JsonMember& clip, std::optional<double> fps, Problems& problems);
+
+// Keys of one number in seconds of their own.
+[[nodiscard]] std::optional<Curve<double>> read_plain_keys(const JsonValue& keys, Problems& problems);
+
+// Keys of one number in stage time, for weights of plays.
+[[nodiscard]] std::optional<Curve<double>> read_weight(const JsonValue& keys, std::optional<double> fps,
+                                                       Problems& problems);
+
+}  // namespace tweenfall::document

@@ -1,0 +1,35 @@
+#include "model/model_bytes.h"
+
+#include <fstream>
+
+namespace tweenfall {
+
+std::optional<std::string> model_bytes(const std::filesystem::path& file, std::string& reason) {
+  constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 31;
+  std::error_code failed;
+  const auto status = std::filesystem::status(file, failed);
+  if (!std::filesystem::exists(status)) {
+    reason = "there is no such file";
+    return std::nullopt;
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    reason = "is not a plain file";
+    return std::nullopt;
+  }
+  const std::uintmax_t size = std::filesystem::file_size(file, failed);
+  if (failed || size > most_bytes) {
+    reason = failed ? "cannot be read: " + failed.message()
+                    : "has " + std::to_string(size) + " bytes; models of up to 2 GiB can be read";
+    return std::nullopt;
+  }
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(bytes.data(), static_cast<std::streamsize>(size));
+  if (!stream) {
+    reason = "cannot be read";
+    return std::nullopt;
+  }
+  return bytes;
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,36 @@
+#include <tweenfall/physics/contact.h>
+
+#include "collision/collide_pairs.h"
+
+namespace tweenfall {
+
+namespace {
+
+template <class A, class B>
+concept Collides = requires(const A& a, const B& b, const Placed& at) {
+  {collide(a, at, b, at, 0.0)};
+};
+
+}  // namespace
+
+Manifold collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin) noexcept {
+  const Placed at_a = place(a, pose_a);
+  const Placed at_b = place(b, pose_b);
+  return std::visit(
+      [&](const auto& solid_a, const auto& solid_b) -> Manifold {
+        using A = std::decay_t<decltype(solid_a)>;
+        using B = std::decay_t<decltype(solid_b)>;
+        if constexpr (Collides<A, B>) {
+          return collide(solid_a, at_a, solid_b, at_b, margin);
+        } else if constexpr (Collides<B, A>) {
+          Manifold manifold = collide(solid_b, at_b, solid_a, at_a, margin);
+          manifold.normal = -manifold.normal;
+          return manifold;
+        } else {
+          return {};  // two planes never meet: neither moves by itself
+        }
+      },
+      a.solid, b.solid);
+}
+
+}  // namespace tweenfall

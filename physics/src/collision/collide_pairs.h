@@ -1,0 +1,49 @@
+#pragma once
+
+/// One function a pair of solids; each reports the normal from its first argument toward its second.
+
+#include <tweenfall/physics/contact.h>
+
+#include "shapes/placed.h"
+
+namespace tweenfall {
+
+[[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Sphere& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Capsule& b, const Placed& at_b,
+                               double margin);
+[[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Capsule& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Capsule& a, const Placed& at_a, const Capsule& b, const Placed& at_b,
+                               double margin);
+[[nodiscard]] Manifold collide(const Capsule& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Sphere& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Capsule& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Hull& b, const Placed& at_b, double margin);
+
+/// Adds a point between the two surfaces, unless the gap is beyond the margin or four are there.
+inline void add_point(Manifold& manifold, const Vec3& position, double penetration, std::uint32_t feature,
+                      double margin) {
+  if (-penetration > margin || manifold.count == 4) return;
+  manifold.points[static_cast<std::size_t>(manifold.count++)] = {position, penetration, feature};
+}
+
+/// A manifold told in a solid's own space.
+[[nodiscard]] inline Manifold to_world(Manifold manifold, const Placed& at) {
+  manifold.normal = at.axes * manifold.normal;
+  for (int i = 0; i < manifold.count; ++i) {
+    Vec3& position = manifold.points[static_cast<std::size_t>(i)].position;
+    position = at.center + at.axes * position;
+  }
+  return manifold;
+}
+
+/// Contact of two balls: what every round shape comes down to.
+[[nodiscard]] Manifold collide_balls(const Vec3& center_a, double radius_a, const Vec3& center_b, double radius_b,
+                                     const Vec3& fallback_normal, std::uint32_t feature, double margin);
+
+}  // namespace tweenfall

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <tweenfall/physics/contact.h>
+
+#include "collision/polyhedron.h"
+
+namespace tweenfall {
+
+/// Contact of two polyhedra in one space, normal and places in that space, the normal from a toward b. With an infinite
+/// margin, which asks how far apart they are, separated ones get one point.
+[[nodiscard]] Manifold collide_polyhedra(const Polyhedron& a, const Polyhedron& b, double margin);
+
+}  // namespace tweenfall

@@ -1,0 +1,77 @@
+#include "collision/impact_time.h"
+
+#include <tweenfall/curves/rotation.h>
+#include <tweenfall/physics/contact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "step/keyed_step.h"
+
+namespace tweenfall {
+
+namespace {
+
+constexpr double hair = 1e-7;  // m
+constexpr int most_advances = 48;
+
+/// How fast a surface point can move along any direction because the body spins, m/s.
+double swing_speed(const Course& course) {
+  const Body& body = *course.body;
+  const double spin = course.angular.norm();
+  if (spin == 0) return 0;
+  // A ball's surface stays where it is when it spins about its center.
+  if (std::holds_alternative<Sphere>(body.shape.solid)) return 0;
+  return spin * body.radius;
+}
+
+}  // namespace
+
+Pose Prediction::node(const Body& body) const {
+  Pose pose = body.motion.pose;
+  pose.rotation = rotation;
+  pose.position = center - rotation * body.mass.center;
+  return pose;
+}
+
+Prediction Course::at(double time) const {
+  Prediction prediction{body->center + linear * time + acceleration * (0.5 * time * time), body->motion.pose.rotation};
+  if (angular != Vec3::Zero()) {
+    prediction.rotation = exp_map(angular * time) * prediction.rotation;
+    prediction.rotation.normalize();
+  }
+  return prediction;
+}
+
+Course course_of(const Body& body, const Load& load, double dt) {
+  if (body.immovable() || body.asleep) {
+    const Twist rate = body.immovable() ? displacement_rate(body, dt) : Twist{};
+    return {&body, rate.linear, rate.angular, Vec3::Zero()};
+  }
+  return {&body, body.twist.linear, body.twist.angular, load.acceleration};
+}
+
+std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
+  const double swing = swing_speed(a) + swing_speed(b);
+  double time = 0;
+  for (int i = 0; i < most_advances; ++i) {
+    const Manifold manifold = collide(a.body->shape, a.at(time).node(*a.body), b.body->shape, b.at(time).node(*b.body),
+                                      std::numeric_limits<double>::infinity());
+    double gap = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < manifold.count; ++k)
+      gap = std::min(gap, -manifold.points[static_cast<std::size_t>(k)].penetration);
+    if (gap <= hair) return time;
+    const Vec3 normal = manifold.normal;
+    const double now = normal.dot(a.linear - b.linear + (a.acceleration - b.acceleration) * time);
+    const double end = normal.dot(a.linear - b.linear + (a.acceleration - b.acceleration) * dt);
+    const double closing = std::max(now, end) + swing;
+    if (!(closing > 0)) return std::nullopt;
+    // Half a hair past the gap, so that the end comes after finitely many advances.
+    time += (gap - 0.5 * hair) / closing;
+    if (time > dt) return std::nullopt;
+  }
+  return time;
+}
+
+}  // namespace tweenfall

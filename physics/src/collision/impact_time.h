@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "forces/free_flight.h"
+
+namespace tweenfall {
+
+/// Where a body would be some time after the start of a step if nothing touched it.
+struct Prediction {
+  Vec3 center;
+  Quat rotation;
+  [[nodiscard]] Pose node(const Body& body) const;
+};
+
+/// A body's way through the step: keyed bodies along their displacement, free ones under their load.
+struct Course {
+  const Body* body = nullptr;
+  Vec3 linear{0, 0, 0};
+  Vec3 angular{0, 0, 0};
+  Vec3 acceleration{0, 0, 0};
+  [[nodiscard]] Prediction at(double time) const;
+};
+
+[[nodiscard]] Course course_of(const Body& body, const Load& load, double dt);
+
+/// The time in (0, dt] at which two separated shapes first come nearer than a hair, by conservative advancement: no
+/// step is longer than the gap divided by the greatest speed at which it can close.
+/// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, chapter 2.
+/// @return nothing when they do not meet
+[[nodiscard]] std::optional<double> impact_time(const Course& a, const Course& b, double dt);
+
+}  // namespace tweenfall

@@ -1,0 +1,109 @@
+#include "collision/polyhedra_separation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tweenfall {
+
+namespace {
+
+/// Sine of the angle below which two edges count as parallel: a face does it.
+constexpr double parallel_edges = 1e-3;
+/// Parts of a size by which a later kind of direction must be better.
+constexpr double kind_preference = 2e-3;
+
+struct FaceGap {
+  double gap = -1e300;
+  std::uint32_t face = 0, vertex = 0;
+};
+
+/// The face of one polyhedron above which all of the other lies highest, and the other's nearest vertex.
+FaceGap widest_face(const Polyhedron& one, const Polyhedron& other, double tie, double margin) {
+  FaceGap best;
+  std::uint32_t vertex = 0;
+  for (std::uint32_t i = 0; i < one.faces.size(); ++i) {
+    const ConvexHull::Face& face = one.faces[i];
+    vertex = other.farthest(-face.normal, vertex);
+    const double gap = face.normal.dot(other.vertices[vertex]) - face.offset;
+    if (gap > best.gap + (i == 0 ? 0 : tie)) best = {gap, i, vertex};
+    if (gap > margin) return {gap, i, vertex};
+  }
+  return best;
+}
+
+using EdgeList = std::array<std::uint16_t, 3 * ConvexHull::most_vertices>;
+
+/// Edges that reach farther than `level` along a direction.
+std::span<const std::uint16_t> edges_beyond(const Polyhedron& polyhedron, const Vec3& direction, double level,
+                                            EdgeList& list) {
+  std::size_t count = 0;
+  const std::span<const ConvexHull::Edge> edges = polyhedron.hull->edges();
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const double from = direction.dot(polyhedron.vertices[edges[i].from]);
+    const double to = direction.dot(polyhedron.vertices[edges[i].to]);
+    if (std::max(from, to) >= level) list[count++] = static_cast<std::uint16_t>(i);
+  }
+  return std::span(list).first(count);
+}
+
+/// Edges of which only those pairs count that touch when the polyhedra are moved together: on the sphere of directions,
+/// the arc between the normals beside one edge crosses the arc opposite to the other's.
+void try_edges(PolyhedraSeparation& best, const Polyhedron& a, const Polyhedron& b,
+               std::span<const std::uint16_t> edges_a, std::span<const std::uint16_t> edges_b, double preference) {
+  bool any = false;
+  const double needed = best.gap + 2 * preference;
+  for (const std::uint16_t index_a : edges_a) {
+    const ConvexHull::Edge& edge_a = a.hull->edges()[index_a];
+    const Vec3& left_a = a.faces[edge_a.left].normal;
+    const Vec3& right_a = a.faces[edge_a.right].normal;
+    const Vec3 along_a = a.vertices[edge_a.to] - a.vertices[edge_a.from];
+    for (const std::uint16_t index_b : edges_b) {
+      const ConvexHull::Edge& edge_b = b.hull->edges()[index_b];
+      const double left_b = b.faces[edge_b.left].normal.dot(along_a);
+      const double right_b = b.faces[edge_b.right].normal.dot(along_a);
+      if (!(left_b * right_b < 0)) continue;
+      const Vec3 along_b = b.vertices[edge_b.to] - b.vertices[edge_b.from];
+      const double right = right_a.dot(along_b);
+      if (!(left_a.dot(along_b) * right < 0) || !(left_b * right < 0)) continue;
+      Vec3 axis = along_a.cross(along_b);
+      const double length = axis.norm();
+      if (length < parallel_edges * along_a.norm() * along_b.norm()) continue;
+      axis /= axis.dot(left_a + right_a) < 0 ? -length : length;
+      const double gap = axis.dot(b.vertices[edge_b.from] - a.vertices[edge_a.from]);
+      if (gap <= (any ? best.gap + 0.1 * preference : needed)) continue;
+      best = {PolyhedraSeparation::Kind::edges, gap, axis, index_a, index_b};
+      any = true;
+    }
+  }
+}
+
+}  // namespace
+
+PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, double margin) {
+  const double size = std::min(a.size, b.size);
+  const double preference = kind_preference * size;
+  const FaceGap face_a = widest_face(a, b, 0.1 * preference, margin);
+  PolyhedraSeparation best{PolyhedraSeparation::Kind::face_a, face_a.gap, a.faces[face_a.face].normal, face_a.face,
+                           face_a.vertex};
+  if (best.gap > margin) return best;
+  const FaceGap face_b = widest_face(b, a, 0.1 * preference, margin);
+  if (face_b.gap > best.gap + preference || face_b.gap > margin)
+    best = {PolyhedraSeparation::Kind::face_b, face_b.gap, -b.faces[face_b.face].normal, face_b.face, face_b.vertex};
+  if (best.gap > margin) return best;
+
+  // Far apart, a face tells well enough by how much; near, only edges that come near each other can do better.
+  double room = 1e300;
+  if (std::isfinite(margin))
+    room = 2 * std::max(0.0, -best.gap) + margin + preference;
+  else if (best.gap > 0.1 * size)
+    return best;
+  const bool of_a = best.kind == PolyhedraSeparation::Kind::face_a;
+  const double top_a = of_a ? a.faces[best.first].offset : -b.faces[best.first].offset - best.gap;
+  EdgeList list_a, list_b;
+  const Vec3 normal = best.normal;
+  try_edges(best, a, b, edges_beyond(a, normal, top_a - room, list_a),
+            edges_beyond(b, -normal, -(top_a + best.gap) - room, list_b), preference);
+  return best;
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "forces/free_flight.h"
+
+namespace tweenfall {
+
+/// The pull of a driven body as an implicit change of velocity per unit mass:
+/// v' = (v + gain * wanted) / (1 + stiffness), so that v' is the velocity of a spring and damper taken at the step's
+/// end. Source: Catto, Soft Constraints, GDC 2011.
+struct DriveLaw {
+  double stiffness = 0;   ///< 2 z w h + w^2 h^2
+  Vec3 linear{0, 0, 0};   ///< h (w^2 (x_t - x) + 2 z w v_t), m/s
+  Vec3 angular{0, 0, 0};  ///< the same for rotation, rad/s
+};
+
+/// @param target_ahead  time from the end of this (sub-)step to the target's, s; the target is led back along its twist
+[[nodiscard]] DriveLaw drive_law(const Body& body, const Vec3& center, const Quat& rotation, double h,
+                                 double target_ahead);
+
+/// Moves a driven body that nothing touches.
+void pull(Body& body, const Load& load, Integrator integrator, double dt);
+
+}  // namespace tweenfall

@@ -1,0 +1,145 @@
+#include "forces/forces.h"
+
+#include <tweenfall/curves/rotation.h>
+
+namespace tweenfall {
+
+namespace {
+
+bool moves(const Body& body) {
+  return !body.immovable() && !body.asleep;
+}
+
+Body* find(std::vector<Body>& bodies, const BodyId& id) {
+  if (id.index >= bodies.size()) return nullptr;
+  Body& body = bodies[id.index];
+  return body.alive && body.generation == id.generation ? &body : nullptr;
+}
+const Body* find(const std::vector<Body>& bodies, const BodyId& id) {
+  if (id.index >= bodies.size()) return nullptr;
+  const Body& body = bodies[id.index];
+  return body.alive && body.generation == id.generation ? &body : nullptr;
+}
+
+/// A body as the forces see it: now, or where it would be at the end of the step.
+struct Glimpse {
+  Vec3 center, linear, angular;
+  Quat rotation;
+};
+
+Glimpse now(const Body& body) {
+  return {body.center, body.twist.linear, body.twist.angular, body.motion.pose.rotation};
+}
+
+Glimpse ahead(const Body& body, const Load& load, double dt) {
+  if (body.has_target && body.immovable()) {
+    const Vec3 arm = body.target.pose.rotation * body.mass.center;
+    const Twist twist = shifted(body.target.twist, arm);
+    return {body.target.pose.position + arm, twist.linear, twist.angular, body.target.pose.rotation};
+  }
+  if (!moves(body)) return {body.center, Vec3::Zero(), Vec3::Zero(), body.motion.pose.rotation};
+  const Vec3 angular = body.twist.angular;
+  return {body.center + body.twist.linear * dt + load.acceleration * (0.5 * dt * dt),
+          body.twist.linear + load.acceleration * dt, angular, exp_map(angular * dt) * body.motion.pose.rotation};
+}
+
+/// Force of a spring on its first end, and the arms to both ends.
+struct Pull {
+  Vec3 force, arm_a, arm_b;
+};
+
+Pull pull_of(const Spring& spring, const Body& body_a, const Glimpse& a, const Body* body_b, const Glimpse& b) {
+  Pull pull;
+  pull.arm_a = a.rotation * (spring.anchor_a - body_a.mass.center);
+  pull.arm_b = body_b ? Vec3(b.rotation * (spring.anchor_b - body_b->mass.center)) : Vec3(0, 0, 0);
+  const Vec3 end_a = a.center + pull.arm_a;
+  const Vec3 end_b = body_b ? Vec3(b.center + pull.arm_b) : spring.anchor_b;
+  const Vec3 between = end_b - end_a;
+  const double length = between.norm();
+  if (length == 0) {
+    pull.force = Vec3::Zero();
+    return pull;
+  }
+  const Vec3 direction = between / length;
+  const Vec3 velocity_a = a.linear + a.angular.cross(pull.arm_a);
+  const Vec3 velocity_b = body_b ? Vec3(b.linear + b.angular.cross(pull.arm_b)) : Vec3(0, 0, 0);
+  const double stretching = direction.dot(velocity_b - velocity_a);
+  pull.force = direction * (spring.stiffness * (length - spring.rest_length) + spring.damping * stretching);
+  return pull;
+}
+
+}  // namespace
+
+void wake_by_forces(std::vector<Body>& bodies, const std::vector<NumberedForce>& forces) {
+  for (const NumberedForce& entry : forces) {
+    if (std::holds_alternative<Field>(entry.force)) {
+      for (Body& body : bodies) body.asleep = false;
+    } else if (const auto* spring = std::get_if<Spring>(&entry.force)) {
+      Body* a = find(bodies, spring->a);
+      Body* b = find(bodies, spring->b);
+      if (!a || !b) continue;
+      const auto stirs = [](const Body& body) { return body.immovable() ? body.has_target : !body.asleep; };
+      if (stirs(*a) && !b->immovable()) b->asleep = false;
+      if (stirs(*b) && !a->immovable()) a->asleep = false;
+    }
+  }
+}
+
+void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedForce>& forces,
+                  const WorldSettings& settings, double time, double dt, std::vector<Load>& loads) {
+  loads.assign(bodies.size(), Load{});
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const Body& body = bodies[i];
+    if (!body.alive || !moves(body)) continue;
+    Load& load = loads[i];
+    load.acceleration = settings.gravity + body.force / body.mass.mass;
+    load.end_acceleration = load.acceleration;
+    load.torque = body.torque;
+    load.drag = body.linear_damping;
+    load.angular_damping = body.angular_damping;
+  }
+  if (forces.empty()) return;
+
+  // Twice: at the start, and where the bodies would be at the end (velocity Verlet for untouched bodies).
+  const double torque_share = settings.integrator == Integrator::exact_quadratic ? 0.5 : 1;
+  const auto add = [&](bool at_end) {
+    for (const NumberedForce& entry : forces) {
+      if (const auto* drag = std::get_if<Drag>(&entry.force)) {
+        if (at_end) continue;
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+          if (!bodies[i].alive || !moves(bodies[i])) continue;
+          const double speed = bodies[i].twist.linear.norm();
+          loads[i].drag += (drag->linear + drag->quadratic * speed) / bodies[i].mass.mass;
+          loads[i].angular_drag += drag->angular;
+        }
+      } else if (const auto* spring = std::get_if<Spring>(&entry.force)) {
+        const Body* a = find(bodies, spring->a);
+        const Body* b = find(bodies, spring->b);
+        if (!a || (!b && spring->b != BodyId{})) continue;  // an end was removed: the spring hangs loose
+        const Glimpse at_a = at_end ? ahead(*a, loads[spring->a.index], dt) : now(*a);
+        const Glimpse at_b = !b ? Glimpse{} : at_end ? ahead(*b, loads[spring->b.index], dt) : now(*b);
+        const Pull pull = pull_of(*spring, *a, at_a, b, at_b);
+        const auto apply = [&](const Body& body, std::size_t index, const Vec3& force, const Vec3& arm) {
+          if (!moves(body)) return;
+          Load& load = loads[index];
+          (at_end ? load.end_acceleration : load.acceleration) += force / body.mass.mass;
+          load.torque += torque_share * arm.cross(force);
+        };
+        apply(*a, spring->a.index, pull.force, pull.arm_a);
+        if (b) apply(*b, spring->b.index, -pull.force, pull.arm_b);
+      } else if (const auto* field = std::get_if<Field>(&entry.force)) {
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+          if (!bodies[i].alive || !moves(bodies[i])) continue;
+          const Glimpse at = at_end ? ahead(bodies[i], loads[i], dt) : now(bodies[i]);
+          const double mass = bodies[i].mass.mass;
+          const Vec3 force = (*field)(mass, at.center, at.linear, at_end ? time + dt : time);
+          (at_end ? loads[i].end_acceleration : loads[i].acceleration) += force / mass;
+        }
+      }
+    }
+  };
+  add(false);
+  if (settings.integrator == Integrator::exact_quadratic) add(true);
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,90 @@
+#include "forces/free_flight.h"
+
+#include <tweenfall/curves/rotation.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace tweenfall {
+
+namespace {
+
+/// Inverse of the derivative of the exponential, for rotation vectors in world axes, cut after the second bracket.
+Vec3 inverse_derivative(const Vec3& turn, const Vec3& angular) {
+  const Vec3 bracket = turn.cross(angular);
+  return angular - 0.5 * bracket + turn.cross(bracket) / 12;
+}
+
+}  // namespace
+
+Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
+  Vec3 momentum = body.world_inertia(start.rotation) * start.angular;
+  if (load.angular_drag > 0 || load.angular_damping > 0) {
+    const Mat3 inertia = body.world_inertia(start.rotation);
+    const Mat3 slowed =
+        (1 + dt * load.angular_damping) * inertia + Mat3(Vec3::Constant(dt * load.angular_drag).asDiagonal());
+    momentum = (inertia * (slowed.inverse() * momentum)).eval();
+  }
+  const Vec3 first = body.world_inverse_inertia(start.rotation) * momentum;
+  const bool steady = load.torque == Vec3::Zero();
+  Spin spin{start.rotation, first};
+  if (body.spherical && steady) {
+    if (!(load.angular_drag > 0 || load.angular_damping > 0)) spin.angular = start.angular;
+    spin.rotation = exp_map(spin.angular * dt) * start.rotation;
+    spin.rotation.normalize();
+    return spin;
+  }
+  // A tenth of a radian a piece keeps the energy of a tumbling body to parts in a billion.
+  const double angle =
+      (first.norm() + 0.5 * dt * (body.world_inverse_inertia(start.rotation) * load.torque).norm()) * dt;
+  const int pieces = static_cast<int>(std::clamp(std::ceil(angle / 0.1), 1.0, 64.0));
+  const double h = dt / pieces;
+  const auto angular_at = [&](const Vec3& turn, const Vec3& at_momentum) -> Vec3 {
+    const Quat rotation = exp_map(turn) * spin.rotation;
+    return body.world_inverse_inertia(rotation) * at_momentum;
+  };
+  for (int piece = 0; piece < pieces; ++piece) {
+    const Vec3 middle_momentum = momentum + 0.5 * h * load.torque;
+    const Vec3 end_momentum = momentum + h * load.torque;
+    const Vec3 k1 = body.world_inverse_inertia(spin.rotation) * momentum;
+    const Vec3 turn2 = 0.5 * h * k1;
+    const Vec3 k2 = inverse_derivative(turn2, angular_at(turn2, middle_momentum));
+    const Vec3 turn3 = 0.5 * h * k2;
+    const Vec3 k3 = inverse_derivative(turn3, angular_at(turn3, middle_momentum));
+    const Vec3 turn4 = h * k3;
+    const Vec3 k4 = inverse_derivative(turn4, angular_at(turn4, end_momentum));
+    const Vec3 turn = h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    spin.rotation = exp_map(turn) * spin.rotation;
+    spin.rotation.normalize();
+    momentum = end_momentum;
+  }
+  spin.angular = body.world_inverse_inertia(spin.rotation) * momentum;
+  return spin;
+}
+
+Vec3 accelerated(const Vec3& velocity, const Load& load, Integrator integrator, double dt) {
+  const Vec3 mean = integrator == Integrator::exact_quadratic ? Vec3(0.5 * (load.acceleration + load.end_acceleration))
+                                                              : load.acceleration;
+  Vec3 result = velocity + mean * dt;
+  if (load.drag > 0) result /= 1 + load.drag * dt;
+  return result;
+}
+
+void fly(Body& body, const Load& load, Integrator integrator, double dt) {
+  const Vec3 before = body.twist.linear;
+  body.twist.linear = accelerated(before, load, integrator, dt);
+  if (integrator == Integrator::semi_implicit_euler) {
+    body.center += body.twist.linear * dt;
+  } else if (load.drag > 0) {
+    // Implicit in the drag: the sum of all displacements is then exactly speed over drag.
+    body.center += body.twist.linear * dt - load.acceleration * (0.5 * dt * dt / (1 + load.drag * dt));
+  } else {
+    body.center += before * dt + load.acceleration * (0.5 * dt * dt);
+  }
+  const Spin spin = turned(body, {body.motion.pose.rotation, body.twist.angular}, load, dt);
+  body.twist.angular = spin.angular;
+  body.follow_center(spin.rotation);
+}
+
+}  // namespace tweenfall

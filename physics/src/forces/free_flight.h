@@ -1,0 +1,33 @@
+#pragma once
+
+#include "state/body.h"
+
+namespace tweenfall {
+
+/// What acts on one body during a step, apart from contacts.
+struct Load {
+  Vec3 acceleration{0, 0, 0};      ///< at the start of the step, m/s^2
+  Vec3 end_acceleration{0, 0, 0};  ///< where the body would be at its end
+  Vec3 torque{0, 0, 0};            ///< N m
+  double drag = 0;                 ///< 1/s, taken implicitly
+  double angular_drag = 0;         ///< kg m^2/s, taken implicitly
+  double angular_damping = 0;      ///< 1/s, taken implicitly
+};
+
+struct Spin {
+  Quat rotation;
+  Vec3 angular;  ///< rad/s, world axes
+};
+
+/// Turns a body that nothing touches: the angular momentum in the world changes by torque times time and by nothing
+/// else, and the rotation is carried by the exponential of the mean angular velocity, to fourth order.
+/// Source: Munthe-Kaas, High order Runge-Kutta methods on manifolds, Applied Numerical Mathematics 29, 1999.
+[[nodiscard]] Spin turned(const Body& body, const Spin& start, const Load& load, double dt);
+
+/// Linear velocity after `dt` under the load alone.
+[[nodiscard]] Vec3 accelerated(const Vec3& velocity, const Load& load, Integrator integrator, double dt);
+
+/// Moves a body that nothing touches in the step.
+void fly(Body& body, const Load& load, Integrator integrator, double dt);
+
+}  // namespace tweenfall

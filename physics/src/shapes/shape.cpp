@@ -1,0 +1,156 @@
+#include <tweenfall/physics/shape.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "shapes/placed.h"
+
+namespace tweenfall {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+void require_positive(double value, const char* name) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw std::invalid_argument(std::string(name) + " must be positive and finite, but is " + std::to_string(value));
+}
+
+/// Principal moments about the solid's own center.
+Vec3 principal_inertia(const Sphere& sphere, double mass) {
+  return Vec3::Constant(0.4 * mass * sphere.radius * sphere.radius);
+}
+
+Vec3 principal_inertia(const Box& box, double mass) {
+  const Vec3 square = box.half_extents.cwiseProduct(box.half_extents);
+  return mass / 3 * Vec3(square.y() + square.z(), square.z() + square.x(), square.x() + square.y());
+}
+
+Vec3 principal_inertia(const Capsule& capsule, double mass) {
+  const double radius = capsule.radius;
+  const double height = 2 * capsule.half_height;
+  // Volumes over pi r^2: the cylinder's is its height, the two half balls' together 4/3 r.
+  const double balls = 4 * radius / 3;
+  const double cylinder_mass = mass * height / (height + balls);
+  const double balls_mass = mass * balls / (height + balls);
+  const double square = radius * radius;
+  const double along = cylinder_mass * square / 2 + balls_mass * 0.4 * square;
+  // A half ball's center of mass lies 3/8 r above its flat side; both are carried out to the cylinder's ends.
+  const double across = cylinder_mass * (square / 4 + height * height / 12) +
+                        balls_mass * (0.4 * square + height * height / 4 + 3 * height * radius / 8);
+  return {across, along, across};
+}
+
+}  // namespace
+
+void validate(const Solid& solid) {
+  if (const auto* sphere = std::get_if<Sphere>(&solid)) {
+    require_positive(sphere->radius, "radius of a sphere");
+  } else if (const auto* box = std::get_if<Box>(&solid)) {
+    require_positive(box->half_extents.x(), "half extent x of a box");
+    require_positive(box->half_extents.y(), "half extent y of a box");
+    require_positive(box->half_extents.z(), "half extent z of a box");
+  } else if (const auto* capsule = std::get_if<Capsule>(&solid)) {
+    require_positive(capsule->radius, "radius of a capsule");
+    if (!(capsule->half_height >= 0) || !std::isfinite(capsule->half_height))
+      throw std::invalid_argument("half height of a capsule must not be negative and must be finite, but is " +
+                                  std::to_string(capsule->half_height));
+  } else if (const auto* plane = std::get_if<Plane>(&solid)) {
+    const double length = plane->normal.norm();
+    if (!(std::abs(length - 1) <= 1e-6))
+      throw std::invalid_argument("normal of a plane must have length 1, but has " + std::to_string(length));
+    if (!std::isfinite(plane->offset))
+      throw std::invalid_argument("offset of a plane must be finite, but is " + std::to_string(plane->offset));
+  }
+}
+
+double volume(const Solid& solid) noexcept {
+  if (const auto* sphere = std::get_if<Sphere>(&solid)) {
+    return 4 * pi / 3 * sphere->radius * sphere->radius * sphere->radius;
+  }
+  if (const auto* box = std::get_if<Box>(&solid)) return 8 * box->half_extents.prod();
+  if (const auto* capsule = std::get_if<Capsule>(&solid)) {
+    return pi * capsule->radius * capsule->radius * (2 * capsule->half_height + 4 * capsule->radius / 3);
+  }
+  if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.measures().volume;
+  return std::numeric_limits<double>::infinity();
+}
+
+MassProperties mass_properties(const Shape& shape, double mass) {
+  require_positive(mass, "mass");
+  Vec3 center(0, 0, 0);
+  Mat3 inertia;
+  if (const auto* sphere = std::get_if<Sphere>(&shape.solid)) {
+    inertia = principal_inertia(*sphere, mass).asDiagonal();
+  } else if (const auto* box = std::get_if<Box>(&shape.solid)) {
+    inertia = principal_inertia(*box, mass).asDiagonal();
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape.solid)) {
+    inertia = principal_inertia(*capsule, mass).asDiagonal();
+  } else if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
+    const MeshMeasures& measures = hull->convex.measures();
+    center = measures.center;
+    inertia = mass / measures.volume * measures.inertia;
+  } else {
+    throw std::invalid_argument("a plane has no mass: only fixed and keyed bodies can be planes");
+  }
+  const Mat3 axes = shape.offset.rotation.toRotationMatrix();
+  MassProperties properties;
+  properties.mass = mass;
+  properties.center = shape.offset.position + axes * center;
+  properties.inertia = axes * inertia * axes.transpose();
+  // Rounding leaves the two triangles an ulp apart.
+  properties.inertia = (0.5 * (properties.inertia + properties.inertia.transpose())).eval();
+  return properties;
+}
+
+MassProperties mass_properties(const SurfaceMesh& mesh, double mass) {
+  require_positive(mass, "mass");
+  if (!is_closed(mesh)) throw std::invalid_argument("only a closed mesh has mass properties; this one has open edges");
+  const MeshMeasures measures = measure(mesh);
+  if (!(measures.volume > 0))
+    throw std::invalid_argument("a mesh with mass must enclose a volume, its triangles wound outwards; it encloses " +
+                                std::to_string(measures.volume) + " m^3");
+  return {mass, measures.center, mass / measures.volume * measures.inertia};
+}
+
+Mat3 inertia_about(const MassProperties& properties, const Vec3& point) noexcept {
+  const Vec3 arm = point - properties.center;
+  const Mat3 shift = arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();
+  return properties.inertia + properties.mass * shift;
+}
+
+Bounds bounds(const Shape& shape, const Pose& node) noexcept {
+  const Placed placed = place(shape, node);
+  Vec3 reach = Vec3::Constant(std::numeric_limits<double>::infinity());
+  if (const auto* sphere = std::get_if<Sphere>(&shape.solid)) {
+    reach = Vec3::Constant(sphere->radius);
+  } else if (const auto* box = std::get_if<Box>(&shape.solid)) {
+    reach = placed.axes.cwiseAbs() * box->half_extents;
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape.solid)) {
+    reach = placed.axes.col(1).cwiseAbs() * capsule->half_height + Vec3::Constant(capsule->radius);
+  } else if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
+    Bounds result{reach, -reach};
+    for (const Vec3& vertex : hull->convex.vertices()) {
+      const Vec3 point = placed.axes * vertex;
+      result.low = result.low.cwiseMin(point);
+      result.high = result.high.cwiseMax(point);
+    }
+    return {placed.center + result.low, placed.center + result.high};
+  } else if (const auto* plane = std::get_if<Plane>(&shape.solid)) {
+    Bounds result{-reach, reach};
+    // Half of space is bounded in a direction only when the normal lies along it.
+    const Vec3 normal = placed.axes * plane->normal;
+    const Vec3 surface = placed.center + normal * plane->offset;
+    for (int i = 0; i < 3; ++i) {
+      if (normal[i] == 1) result.high[i] = surface[i];
+      if (normal[i] == -1) result.low[i] = surface[i];
+    }
+    return result;
+  }
+  return {placed.center - reach, placed.center + reach};
+}
+
+}  // namespace tweenfall

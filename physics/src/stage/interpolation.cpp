@@ -1,0 +1,130 @@
+#include "stage/stage_data.h"
+
+#include <tweenfall/curves/hermite.h>
+#include <tweenfall/curves/rotation.h>
+
+#include <algorithm>
+
+namespace tweenfall {
+
+namespace {
+
+bool touched(const World& world, BodyId body) {
+  return std::ranges::any_of(world.contacts(), [&](const Contact& contact) {
+    return (contact.a == body || contact.b == body) && contact.impulse > 0;
+  });
+}
+
+/// A free body between two states: pose of the origin, twist at the center of mass. Its center follows the Hermite
+/// cubic of its own places and velocities, which is the exact parabola of free flight; where a contact has
+/// changed the velocity in between, no cubic of the two ends is right, and the straight line does not overshoot.
+Motion between(const StageState& from, const StageState& to, const StagedBody& body, double time) {
+  const double span = to.time - from.time, u = (time - from.time) / span;
+  const Vec3 center = to.world.mass(body.id).center;
+  const Motion start = from.world.motion(body.id), end = to.world.motion(body.id);
+  const Twist twist_start = from.world.twist(body.id), twist_end = to.world.twist(body.id);
+  const Vec3 place_start = center_of(start, center), place_end = center_of(end, center);
+
+  const Quat relative = hemisphere_aligned(start.pose.rotation.conjugate() * end.pose.rotation, Quat(1, 0, 0, 0));
+  const Vec3 turn = log_map(relative);
+
+  Motion motion;
+  Vec3 place;
+  if (touched(to.world, body.id)) {
+    place = place_start + u * (place_end - place_start);
+    motion.pose.rotation = start.pose.rotation * exp_map(u * turn);
+    motion.twist.linear = twist_start.linear + u * (twist_end.linear - twist_start.linear);
+    motion.twist.angular = twist_start.angular + u * (twist_end.angular - twist_start.angular);
+  } else {
+    const Sample<Vec3> path =
+        hermite::sample<Vec3>(place_start, twist_start.linear, place_end, twist_end.linear, span, u);
+    place = path.value;
+    motion.twist.linear = path.rate;
+    // The rotation vector from the start's frame, with the end rates that give both angular velocities.
+    const Vec3 rate_start = start.pose.rotation.conjugate() * twist_start.angular;
+    const Vec3 rate_end = right_jacobian_inverse(turn) * (end.pose.rotation.conjugate() * twist_end.angular);
+    const Sample<Vec3> r = hermite::sample<Vec3>(Vec3(0, 0, 0), rate_start, turn, rate_end, span, u);
+    motion.pose.rotation = start.pose.rotation * exp_map(r.value);
+    motion.twist.angular = motion.pose.rotation * Vec3(right_jacobian(r.value) * r.rate);
+  }
+  motion.pose.rotation.normalize();
+  motion.pose.position = place - motion.pose.rotation * center;
+  return motion;
+}
+
+/// Pose of the origin, twist at the center of mass.
+Motion shown_motion(const StageState& from, const StageState& to, const StagedBody& body, double time) {
+  if (time >= to.time || from.world.owner(body.id) == Owner::keyed || !from.world.contains(body.id)) {
+    const StageState& state = time >= to.time ? to : from;
+    if (state.world.owner(body.id) == Owner::keyed && !state.world.is_fixed(body.id)) {
+      Motion motion = body.path.at(time);
+      motion.twist = shifted(motion.twist, motion.pose.rotation * state.world.mass(body.id).center);
+      return motion;
+    }
+    Motion motion = state.world.motion(body.id);
+    motion.twist = state.world.twist(body.id);
+    return motion;
+  }
+  return between(from, to, body, time);
+}
+
+const StagedBody& body_in_force(const StageState& from, const StageState& to, std::size_t body, double time) {
+  return time >= to.time || body >= from.bodies.size() ? to.bodies[body] : from.bodies[body];
+}
+
+/// What a node without a body follows: below a body that has its own clock, it keeps that clock.
+const Animation& animation_of(const StageState& state, NodeId node) {
+  for (NodeId i = node; i != no_node; i = (*state.nodes)[i].parent)
+    if (const StagedBody* body = state.body(i)) return body->path.animation();
+  return *state.animation;
+}
+
+}  // namespace
+
+WorldMotion body_world(const StageState& from, const StageState& to, std::size_t index, double time) {
+  const StagedBody& body = body_in_force(from, to, index, time);
+  const StageState& state = time >= to.time ? to : from;
+  if (state.world.owner(body.id) == Owner::keyed && !state.world.is_fixed(body.id)) return body.path.world(time);
+  Motion motion = shown_motion(from, to, body, time);
+  motion.twist = shifted(motion.twist, -(motion.pose.rotation * state.world.mass(body.id).center));
+  WorldMotion shape = body.shown;
+  shape.linear_rate.setZero();
+  shape.motion.twist = {};
+  shape.motion.scale_rate.setZero();
+  return carried(shape, motion);
+}
+
+Twist body_twist(const StageState& from, const StageState& to, std::size_t index, double time) {
+  return shown_motion(from, to, body_in_force(from, to, index, time), time).twist;
+}
+
+void stage_world(const StageState& from, const StageState& to, double time, std::span<WorldMotion> out) {
+  const StageState& state = time >= to.time ? to : from;
+  std::vector<const Animation*> animations(out.size(), state.animation.get());
+  for (NodeId node = 0; node < out.size(); ++node) {
+    if (state.body_of[node] != no_body) {
+      out[node] = body_world(from, to, state.body_of[node], time);
+      animations[node] = &state.bodies[state.body_of[node]].path.animation();
+      continue;
+    }
+    const std::size_t parent = (*state.nodes)[node].parent;
+    if (parent != no_node) animations[node] = animations[parent];
+    out[node] = child_of(parent == no_node ? WorldMotion{} : out[parent], animations[node]->sample_node(node, time));
+  }
+}
+
+WorldMotion node_world(const StageState& from, const StageState& to, NodeId node, double time) {
+  const StageState& state = time >= to.time ? to : from;
+  std::vector<NodeId> below;  // the chain down from the nearest body, or from the root
+  NodeId i = node;
+  while (i != no_node && state.body_of[i] == no_body) {
+    below.push_back(i);
+    i = (*state.nodes)[i].parent;
+  }
+  WorldMotion world = i == no_node ? WorldMotion{} : body_world(from, to, state.body_of[i], time);
+  const Animation& animation = animation_of(state, node);
+  for (auto it = below.rbegin(); it != below.rend(); ++it) world = child_of(world, animation.sample_node(*it, time));
+  return world;
+}
+
+}  // namespace tweenfall

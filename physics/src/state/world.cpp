@@ -1,0 +1,383 @@
+#include <tweenfall/physics/world.h>
+
+#include <tweenfall/curves/rotation.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "state/world_data.h"
+
+namespace tweenfall {
+
+namespace {
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+std::string text(double value) {
+  return std::to_string(value);
+}
+
+void require_finite(const Vec3& value, const char* name) {
+  require(value.allFinite(), std::string(name) + " must be finite, but is (" + text(value.x()) + ", " +
+                                 text(value.y()) + ", " + text(value.z()) + ")");
+}
+
+void validate(const Drive& drive) {
+  require(drive.hz >= 0,
+          "frequency of a drive must be 0 (free), positive, or infinite (keyed), but is " + text(drive.hz) + " Hz");
+  require(drive.zeta >= 0 && std::isfinite(drive.zeta),
+          "damping ratio of a drive must not be negative and must be finite, but is " + text(drive.zeta));
+  require(drive.max_force >= 0, "greatest force of a drive must not be negative, but is " + text(drive.max_force));
+  require(drive.max_torque >= 0, "greatest torque of a drive must not be negative, but is " + text(drive.max_torque));
+}
+
+Motion checked(Motion motion) {
+  require_finite(motion.pose.position, "position");
+  require_finite(motion.pose.scale, "scale");
+  require_finite(motion.twist.linear, "linear velocity");
+  require_finite(motion.twist.angular, "angular velocity");
+  const double length = motion.pose.rotation.norm();
+  require(std::isfinite(length) && length > 0, "rotation must be a quaternion that can be normalized");
+  // A unit quaternion stays as it was given, to the bit.
+  if (std::abs(length - 1) > 1e-12) motion.pose.rotation = normalized(motion.pose.rotation);
+  return motion;
+}
+
+/// Farthest point of the solid from its center of mass.
+double radius_of(const Solid& solid) {
+  if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&solid)) return box->half_extents.norm();
+  if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius + capsule->half_height;
+  if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.outer_radius();
+  return std::numeric_limits<double>::infinity();
+}
+
+void clear_work(Body& body) {
+  body.force = Vec3::Zero();
+  body.torque = Vec3::Zero();
+  body.has_target = false;
+}
+
+}  // namespace
+
+Body& World::Implementation::at(BodyId id) {
+  require(id.index < bodies.size() && bodies[id.index].alive && bodies[id.index].generation == id.generation,
+          "there is no body with index " + std::to_string(id.index) + " and generation " +
+              std::to_string(id.generation) + ": it was removed, or belongs to another world");
+  return bodies[id.index];
+}
+const Body& World::Implementation::at(BodyId id) const {
+  return const_cast<Implementation*>(this)->at(id);
+}
+
+void World::Implementation::wake(std::uint32_t index) {
+  bodies[index].asleep = false;
+  bodies[index].still_for = 0;
+}
+
+void World::Implementation::wake_neighbors(std::uint32_t index) {
+  for (const ContactConstraint& constraint : constraints) {
+    if (constraint.a != index && constraint.b != index) continue;
+    const std::uint32_t other = constraint.a == index ? constraint.b : constraint.a;
+    if (bodies[other].alive && !bodies[other].immovable()) wake(other);
+  }
+}
+
+void World::Implementation::forget_impulses(std::uint32_t index) {
+  for (ContactConstraint& constraint : constraints) {
+    if (constraint.a != index && constraint.b != index) continue;
+    constraint.rolling_impulse = Vec3::Zero();
+    for (PointConstraint& point : constraint.points) {
+      point.normal_impulse = 0;
+      point.friction_impulse = Vec3::Zero();
+    }
+  }
+}
+
+World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>()) {
+  require_finite(settings.gravity, "gravity");
+  require(settings.iterations > 0, "iterations must be at least 1, but are " + std::to_string(settings.iterations));
+  require(settings.sleep_speed >= 0, "sleep speed must not be negative, but is " + text(settings.sleep_speed));
+  require(settings.sleep_after >= 0, "sleep_after must not be negative, but is " + text(settings.sleep_after));
+  require(settings.push_out_speed >= 0, "push-out speed must not be negative, but is " + text(settings.push_out_speed));
+  implementation_->settings = settings;
+}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::World(const World& other) : implementation_(std::make_unique<Implementation>(*other.implementation_)) {}
+World& World::operator=(const World& other) {
+  if (this != &other) {
+    if (implementation_)
+      *implementation_ = *other.implementation_;  // keeps the capacity that is there
+    else
+      implementation_ = std::make_unique<Implementation>(*other.implementation_);
+  }
+  return *this;
+}
+
+BodyId World::add(const BodySettings& settings) {
+  Implementation& world = *implementation_;
+  tweenfall::validate(settings.shape.solid);
+  validate(settings.drive);
+  require(settings.friction >= 0 && std::isfinite(settings.friction),
+          "friction must not be negative and must be finite, but is " + text(settings.friction));
+  require(settings.restitution >= 0 && settings.restitution <= 1,
+          "restitution must lie in 0 to 1, but is " + text(settings.restitution));
+  require(settings.rolling_friction >= 0 && std::isfinite(settings.rolling_friction),
+          "rolling friction must not be negative and must be finite, but is " + text(settings.rolling_friction));
+  require(settings.linear_damping >= 0 && std::isfinite(settings.linear_damping),
+          "linear damping must not be negative and must be finite, but is " + text(settings.linear_damping));
+  require(settings.angular_damping >= 0 && std::isfinite(settings.angular_damping),
+          "angular damping must not be negative and must be finite, but is " + text(settings.angular_damping));
+  Body body;
+  body.shape = settings.shape;
+  const double turn = settings.shape.offset.rotation.norm();
+  require_finite(settings.shape.offset.position, "offset of a shape");
+  require(std::isfinite(turn) && turn > 0, "rotation of a shape must be a quaternion that can be normalized");
+  if (std::abs(turn - 1) > 1e-12) body.shape.offset.rotation = normalized(settings.shape.offset.rotation);
+  if (std::holds_alternative<Plane>(settings.shape.solid)) {
+    require(settings.fixed || settings.drive.owner() == Owner::keyed,
+            "a body with a plane must be fixed or keyed: it has no mass");
+    body.mass.center = settings.shape.offset.position;
+  } else {
+    const double mass = settings.mass ? *settings.mass : settings.density * volume(settings.shape.solid);
+    body.mass = mass_properties(body.shape, mass);
+    body.inverse_inertia = body.mass.inertia.inverse();
+    const double first = body.mass.inertia(0, 0);
+    body.spherical = std::holds_alternative<Sphere>(settings.shape.solid) ||
+                     (body.mass.inertia - first * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-14 * first;
+    if (body.spherical) {
+      body.mass.inertia = first * Mat3::Identity();
+      body.inverse_inertia = 1 / first * Mat3::Identity();
+    }
+  }
+  if (const auto* sphere = std::get_if<Sphere>(&settings.shape.solid)) body.roundness = sphere->radius;
+  if (const auto* capsule = std::get_if<Capsule>(&settings.shape.solid)) body.roundness = capsule->radius;
+  body.radius = radius_of(settings.shape.solid);
+  body.friction = settings.friction;
+  body.restitution = settings.restitution;
+  body.rolling_friction = settings.rolling_friction;
+  body.linear_damping = settings.linear_damping;
+  body.angular_damping = settings.angular_damping;
+  body.fixed = settings.fixed;
+  body.drive = settings.drive;
+  body.motion = checked(settings.motion);
+  if (body.fixed) {
+    body.motion.twist = {};
+    body.motion.scale_rate = Vec3::Zero();
+  }
+  body.follow_motion();
+  body.target = body.motion;
+  body.target.twist = {};
+  body.alive = true;
+
+  std::uint32_t index = 0;
+  if (world.unused.empty()) {
+    index = static_cast<std::uint32_t>(world.bodies.size());
+    world.bodies.push_back(body);
+  } else {
+    index = world.unused.back();
+    world.unused.pop_back();
+    body.generation = world.bodies[index].generation;
+    world.bodies[index] = body;
+  }
+  return {index, world.bodies[index].generation};
+}
+
+void World::remove(BodyId id) {
+  Implementation& world = *implementation_;
+  Body& body = world.at(id);
+  world.wake_neighbors(id.index);
+  body.alive = false;
+  ++body.generation;
+  std::erase_if(world.constraints, [&](const ContactConstraint& c) { return c.a == id.index || c.b == id.index; });
+  std::erase_if(world.contacts, [&](const Contact& c) { return c.a == id || c.b == id; });
+  world.unused.push_back(id.index);
+}
+
+bool World::contains(BodyId id) const noexcept {
+  const auto& bodies = implementation_->bodies;
+  return id.index < bodies.size() && bodies[id.index].alive && bodies[id.index].generation == id.generation;
+}
+
+std::vector<BodyId> World::bodies() const {
+  std::vector<BodyId> result;
+  const auto& all = implementation_->bodies;
+  for (std::uint32_t i = 0; i < all.size(); ++i)
+    if (all[i].alive) result.push_back({i, all[i].generation});
+  return result;
+}
+
+Motion World::motion(BodyId id) const {
+  return implementation_->at(id).motion;
+}
+Twist World::twist(BodyId id) const {
+  return implementation_->at(id).twist;
+}
+const MassProperties& World::mass(BodyId id) const {
+  return implementation_->at(id).mass;
+}
+const Shape& World::shape(BodyId id) const {
+  return implementation_->at(id).shape;
+}
+Owner World::owner(BodyId id) const {
+  return implementation_->at(id).drive.owner();
+}
+Drive World::drive(BodyId id) const {
+  return implementation_->at(id).drive;
+}
+bool World::is_fixed(BodyId id) const {
+  return implementation_->at(id).fixed;
+}
+double World::still_for(BodyId id) const {
+  return implementation_->at(id).still_for;
+}
+bool World::asleep(BodyId id) const {
+  return implementation_->at(id).asleep;
+}
+Vec3 World::reaction(BodyId id) const {
+  return implementation_->at(id).reaction;
+}
+double World::time() const noexcept {
+  return implementation_->time;
+}
+
+double World::kinetic_energy() const {
+  double sum = 0;
+  for (const Body& body : implementation_->bodies) {
+    if (!body.alive || body.immovable()) continue;
+    const Vec3 momentum = body.world_inertia(body.motion.pose.rotation) * body.twist.angular;
+    sum += 0.5 * body.mass.mass * body.twist.linear.squaredNorm() + 0.5 * body.twist.angular.dot(momentum);
+  }
+  return sum;
+}
+
+void World::set_motion(BodyId id, const Motion& motion) {
+  Implementation& world = *implementation_;
+  Body& body = world.at(id);
+  const Motion wanted = checked(motion);
+  world.wake_neighbors(id.index);
+  world.wake(id.index);
+  world.forget_impulses(id.index);
+  body.motion = wanted;
+  if (body.fixed) {
+    body.motion.twist = {};
+    body.motion.scale_rate = Vec3::Zero();
+  }
+  body.has_target = false;
+  body.target = body.motion;
+  body.target.twist = {};
+  body.follow_motion();
+}
+
+void World::set_drive(BodyId id, const Drive& drive) {
+  Implementation& world = *implementation_;
+  Body& body = world.at(id);
+  validate(drive);
+  if (body.drive == drive) return;
+  require(drive.owner() == Owner::keyed || body.fixed || body.mass.mass > 0,
+          "a body with a plane must stay fixed or keyed: it has no mass");
+  const Owner before = body.drive.owner();
+  body.drive = drive;
+  if (before == drive.owner() && before != Owner::driven) return;  // only numbers that this owner does not read
+  if (before == drive.owner()) {
+    world.wake(id.index);
+    return;
+  }
+  clear_work(body);
+  body.target = body.motion;
+  body.target.twist = {};
+  body.motion.scale_rate = drive.owner() == Owner::keyed ? body.motion.scale_rate : Vec3(0, 0, 0);
+  world.forget_impulses(id.index);
+  world.wake_neighbors(id.index);
+  world.wake(id.index);
+}
+
+void World::set_target(BodyId id, const Motion& end_of_step) {
+  Implementation& world = *implementation_;
+  Body& body = world.at(id);
+  require(!body.fixed, "a fixed body takes no target: it never moves");
+  require(body.drive.owner() != Owner::free, "a free body takes no target: only keyed and driven bodies have one");
+  body.target = checked(end_of_step);
+  body.has_target = true;
+  if (body.drive.owner() == Owner::driven) {
+    const bool same = body.target.pose.position == body.motion.pose.position &&
+                      body.target.pose.rotation.coeffs() == body.motion.pose.rotation.coeffs();
+    if (!same) body.asleep = false;
+  }
+}
+
+void World::apply_force(BodyId id, const Vec3& force, const Vec3& point) {
+  Body& body = implementation_->at(id);
+  require_finite(force, "force");
+  require_finite(point, "point");
+  if (body.immovable()) return;
+  implementation_->wake(id.index);
+  body.force += force;
+  body.torque += (point - body.center).cross(force);
+}
+
+void World::apply_torque(BodyId id, const Vec3& torque) {
+  Body& body = implementation_->at(id);
+  require_finite(torque, "torque");
+  if (body.immovable()) return;
+  implementation_->wake(id.index);
+  body.torque += torque;
+}
+
+void World::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {
+  Body& body = implementation_->at(id);
+  require_finite(impulse, "impulse");
+  require_finite(point, "point");
+  if (body.immovable()) return;
+  implementation_->wake(id.index);
+  body.twist.linear += impulse / body.mass.mass;
+  body.twist.angular += body.world_inverse_inertia(body.motion.pose.rotation) * (point - body.center).cross(impulse);
+  body.motion.twist = shifted(body.twist, body.motion.pose.position - body.center);
+}
+
+void World::wake(BodyId id) {
+  implementation_->at(id);
+  implementation_->wake(id.index);
+}
+
+std::size_t World::add_force(Force force) {
+  Implementation& world = *implementation_;
+  if (const auto* spring = std::get_if<Spring>(&force)) {
+    world.at(spring->a);
+    if (spring->b != BodyId{}) world.at(spring->b);
+    world.wake(spring->a.index);
+    if (spring->b != BodyId{}) world.wake(spring->b.index);
+  } else {
+    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+      if (world.bodies[i].alive) world.wake(i);
+  }
+  const std::size_t number = world.next_force++;
+  world.forces.push_back({number, std::move(force)});
+  return number;
+}
+
+void World::remove_force(std::size_t number) {
+  Implementation& world = *implementation_;
+  const std::size_t erased = std::erase_if(world.forces, [&](const NumberedForce& f) { return f.number == number; });
+  require(erased == 1, "there is no force number " + std::to_string(number));
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+    if (world.bodies[i].alive) world.wake(i);
+}
+
+void World::step(double dt) {
+  require(dt > 0 && std::isfinite(dt), "a step must be positive and finite, but is " + text(dt) + " s");
+  implementation_->step(dt);
+}
+
+std::span<const Contact> World::contacts() const noexcept {
+  return implementation_->contacts;
+}
+
+}  // namespace tweenfall

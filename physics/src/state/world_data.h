@@ -1,0 +1,50 @@
+#pragma once
+
+#include <tweenfall/physics/world.h>
+
+#include <vector>
+
+#include "forces/forces.h"
+#include "pairs/broad_phase.h"
+#include "state/body.h"
+#include "step/contact_constraint.h"
+#include "step/islands.h"
+#include "step/solver.h"
+
+namespace tweenfall {
+
+struct World::Implementation {
+  WorldSettings settings;
+  std::vector<Body> bodies;
+  std::vector<std::uint32_t> unused;  ///< indices of removed bodies
+  std::vector<NumberedForce> forces;
+  std::size_t next_force = 0;
+  double time = 0;
+  std::vector<ContactConstraint> constraints;  ///< of the last step, by pair
+  std::vector<Contact> contacts;               ///< what the caller sees of them
+
+  // Room for work, kept between steps
+  std::vector<Load> loads;
+  BroadPhase broad_phase;
+  std::vector<ContactConstraint> active;    ///< near something that stirs
+  std::vector<ContactConstraint> retained;  ///< between bodies at rest, as they were
+  std::vector<char> flags;
+  std::vector<double> stillness;
+  Islands islands;
+  Solver solver;
+
+  Body& at(BodyId id);
+  const Body& at(BodyId id) const;
+  void wake(std::uint32_t index);
+  void wake_neighbors(std::uint32_t index);
+  void forget_impulses(std::uint32_t index);  ///< what the contacts of this body remember
+  void step(double dt);
+
+  void find_constraints(double dt);
+  bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
+  void advance_bodies(double dt);
+  void let_sleep(double dt);
+  void report();
+};
+
+}  // namespace tweenfall

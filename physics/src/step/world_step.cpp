@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collision/impact_time.h"
+#include "forces/drive_law.h"
+#include "state/world_data.h"
+#include "step/keyed_step.h"
+
+namespace tweenfall {
+
+namespace {
+
+/// Gaps up to this are contacts from the start of the step, m; wider ones only when the bodies meet within it.
+constexpr double near_enough = 2e-3;
+
+bool displaces(const Body& body) {
+  return body.has_target && !body.fixed &&
+         (body.target.pose.position != body.motion.pose.position ||
+          body.target.pose.rotation.coeffs() != body.motion.pose.rotation.coeffs());
+}
+
+bool stirs(const Body& body) {
+  return body.immovable() ? displaces(body) : !body.asleep;
+}
+
+/// The points of a manifold as constraints, told about the bodies' places at the start of the step.
+void adopt(ContactConstraint& constraint, const Body& a, const Prediction& at_a, const Body& b,
+           const Prediction& at_b) {
+  const Quat back_a = a.motion.pose.rotation * at_a.rotation.conjugate();
+  const Quat back_b = b.motion.pose.rotation * at_b.rotation.conjugate();
+  const Manifold& manifold = constraint.manifold;
+  constraint.count = manifold.count;
+  for (int i = 0; i < manifold.count; ++i) {
+    const ContactPoint& from = manifold.points[static_cast<std::size_t>(i)];
+    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    point = {};
+    point.feature = from.feature;
+    point.start_arm_a = from.position - at_a.center;
+    point.start_arm_b = from.position - at_b.center;
+    point.start_gap = -from.penetration;
+    if (constraint.impact_time == 0) continue;
+    point.start_arm_a = carried(back_a, point.start_arm_a, a.roundness * manifold.normal);
+    point.start_arm_b = carried(back_b, point.start_arm_b, -b.roundness * manifold.normal);
+    point.start_gap += manifold.normal.dot((b.center + point.start_arm_b) - (a.center + point.start_arm_a));
+  }
+}
+
+/// Hands the impulses of the step before on: to points of the same features, then to what is left nearby.
+void inherit(ContactConstraint& constraint, const ContactConstraint& old, double nearby) {
+  constraint.rolling_impulse = old.rolling_impulse;
+  std::array<bool, 4> given{}, taken{};
+  const auto hand_on = [&](std::size_t from, std::size_t to) {
+    constraint.points[to].normal_impulse = old.points[from].normal_impulse;
+    constraint.points[to].friction_impulse = old.points[from].friction_impulse;
+    given[from] = taken[to] = true;
+  };
+  const auto count = static_cast<std::size_t>(constraint.count);
+  const auto old_count = static_cast<std::size_t>(old.count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t k = 0; k < old_count; ++k)
+      if (!given[k] && !taken[i] && old.points[k].feature == constraint.points[i].feature) hand_on(k, i);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (taken[i]) continue;
+    std::size_t best = old_count;
+    double least = nearby;
+    for (std::size_t k = 0; k < old_count; ++k) {
+      const double away = (old.points[k].start_arm_b - constraint.points[i].start_arm_b).norm();
+      if (given[k] || away >= least) continue;
+      least = away;
+      best = k;
+    }
+    if (best < old_count) hand_on(best, i);
+  }
+}
+
+bool before(const ContactConstraint& left, const ContactConstraint& right) {
+  return left.a != right.a ? left.a < right.a : left.b < right.b;
+}
+
+}  // namespace
+
+void World::Implementation::find_constraints(double dt) {
+  active.clear();
+  retained.clear();
+  const std::vector<Pair>& pairs = broad_phase.find(bodies, loads, near_enough, dt);
+  std::size_t next = 0;  // among the old constraints, which are sorted like the pairs
+  const auto retain_before = [&](std::uint32_t index_a, std::uint32_t index_b) {
+    for (; next < constraints.size(); ++next) {
+      const ContactConstraint& old = constraints[next];
+      if (old.a > index_a || (old.a == index_a && old.b >= index_b)) return;
+      // Nothing near it stirs: it stays as it was.
+      if (!stirs(bodies[old.a]) && !stirs(bodies[old.b])) retained.push_back(old);
+    }
+  };
+  for (const auto& [index_a, index_b] : pairs) {
+    retain_before(index_a, index_b);
+    const ContactConstraint* old = nullptr;
+    if (next < constraints.size() && constraints[next].a == index_a && constraints[next].b == index_b)
+      old = &constraints[next++];
+    const Body& a = bodies[index_a];
+    const Body& b = bodies[index_b];
+    ContactConstraint constraint;
+    constraint.a = index_a;
+    constraint.b = index_b;
+    const Course course_a = course_of(a, loads[index_a], dt);
+    const Course course_b = course_of(b, loads[index_b], dt);
+    constraint.manifold = collide(a.shape, a.motion.pose, b.shape, b.motion.pose, near_enough);
+    if (constraint.manifold.count > 0) {
+      adopt(constraint, a, {a.center, a.motion.pose.rotation}, b, {b.center, b.motion.pose.rotation});
+    } else if (const std::optional<double> meeting = impact_time(course_a, course_b, dt)) {
+      const Prediction at_a = course_a.at(*meeting);
+      const Prediction at_b = course_b.at(*meeting);
+      constraint.impact_time = *meeting;
+      constraint.manifold = collide(a.shape, at_a.node(a), b.shape, at_b.node(b), near_enough);
+      adopt(constraint, a, at_a, b, at_b);
+    }
+    if (constraint.count == 0) continue;
+    constraint.friction = std::sqrt(a.friction * b.friction);
+    constraint.restitution = std::max(a.restitution, b.restitution);
+    constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
+    constraint.began = !(old && old->touching);
+    if (old) inherit(constraint, *old, 0.05 * std::min(a.radius, b.radius));
+    active.push_back(constraint);
+  }
+  retain_before(std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max());
+}
+
+bool World::Implementation::wake_islands() {
+  islands.reset(bodies.size());
+  flags.assign(bodies.size(), 0);
+  for (const auto* list : {&active, &retained})
+    for (const ContactConstraint& constraint : *list)
+      if (!bodies[constraint.a].immovable() && !bodies[constraint.b].immovable())
+        islands.join(constraint.a, constraint.b);
+  for (std::uint32_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].alive && !bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
+  for (const ContactConstraint& constraint : active) {
+    if (bodies[constraint.a].immovable() && displaces(bodies[constraint.a])) flags[islands.of(constraint.b)] = 1;
+    if (bodies[constraint.b].immovable() && displaces(bodies[constraint.b])) flags[islands.of(constraint.a)] = 1;
+  }
+  bool any = false;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].alive || !bodies[i].asleep || !flags[islands.of(i)]) continue;
+    wake(i);
+    any = true;
+  }
+  return any;
+}
+
+void World::Implementation::advance_bodies(double dt) {
+  solver.solve(bodies, loads, active, islands, settings, dt);
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.alive) continue;
+    if (body.immovable()) {
+      arrive(body);
+      continue;
+    }
+    if (!body.asleep && !solver.moved(i)) {
+      if (body.drive.owner() == Owner::driven)
+        pull(body, loads[i], settings.integrator, dt);
+      else
+        fly(body, loads[i], settings.integrator, dt);
+    }
+    body.force = Vec3::Zero();
+    body.torque = Vec3::Zero();
+    if (body.drive.owner() == Owner::driven) body.target.twist = {};
+    body.has_target = false;
+  }
+}
+
+void World::Implementation::let_sleep(double dt) {
+  // Per island the shortest stillness counts.
+  stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.alive || body.immovable()) continue;
+    const bool still = body.asleep || (body.twist.linear.norm() < settings.sleep_speed &&
+                                       body.twist.angular.norm() * body.radius < settings.sleep_speed);
+    body.still_for = still ? body.still_for + dt : 0;
+    double& shortest = stillness[islands.of(i)];
+    shortest = std::min(shortest, body.still_for);
+  }
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.alive || body.immovable() || body.asleep || !(stillness[islands.of(i)] >= settings.sleep_after)) continue;
+    body.asleep = true;
+    body.twist = {};
+    body.motion.twist = {};
+  }
+}
+
+void World::Implementation::report() {
+  contacts.clear();
+  for (ContactConstraint& constraint : active) {
+    double normal = 0;
+    Vec3 total = Vec3::Zero();
+    double approach = 0;
+    bool overlap = false;
+    for (int i = 0; i < constraint.count; ++i) {
+      const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      normal += point.total_normal;
+      total += point.total_normal * constraint.manifold.normal + point.total_friction;
+      approach = std::max(approach, point.approach);
+      overlap = overlap || point.start_gap <= 0;
+    }
+    constraint.touching = normal > 0 || overlap;
+    if (bodies[constraint.a].immovable()) bodies[constraint.a].reaction -= total;
+    if (bodies[constraint.b].immovable()) bodies[constraint.b].reaction += total;
+    constraint.seen = {{constraint.a, bodies[constraint.a].generation},
+                       {constraint.b, bodies[constraint.b].generation},
+                       constraint.manifold,
+                       normal,
+                       total,
+                       approach,
+                       constraint.began};
+  }
+  for (ContactConstraint& constraint : retained) constraint.seen.began = false;
+  constraints.clear();
+  std::merge(active.begin(), active.end(), retained.begin(), retained.end(), std::back_inserter(constraints), before);
+  for (const ContactConstraint& constraint : constraints)
+    if (constraint.touching) contacts.push_back(constraint.seen);
+}
+
+void World::Implementation::step(double dt) {
+  wake_by_forces(bodies, forces);
+  do {
+    gather_loads(bodies, forces, settings, time, dt, loads);
+    find_constraints(dt);
+  } while (wake_islands());
+  advance_bodies(dt);
+  let_sleep(dt);
+  report();
+  time += dt;
+}
+
+}  // namespace tweenfall
