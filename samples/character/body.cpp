@@ -24,48 +24,41 @@ struct Handover {
   double half_width;  // m; the two share the skin in between
 };
 
-Influence along_chain(Joint first, std::initializer_list<Handover> chain, double position) {
-  Influence influence;
-  influence.joints[0] = first;
-  influence.weights[0] = 1;
+Influence pull_of(Joint joint, double weight) {
+  return {static_cast<std::uint32_t>(joint), weight};
+}
+
+Pulls along_chain(Joint first, std::initializer_list<Handover> chain, double position) {
+  Pulls pulls{pull_of(first, 1)};
   for (const Handover& next : chain) {
     const double share = smooth_step(next.at - next.half_width, next.at + next.half_width, position);
     if (share <= 0) break;
-    if (share >= 1) {
-      influence = {};
-      influence.joints[0] = next.to;
-      influence.weights[0] = 1;
-    } else {
-      influence.joints[1] = next.to;
-      influence.weights[1] = share;
-      influence.weights[0] = 1 - share;
+    if (share < 1) {
+      pulls[0].weight = 1 - share;
+      pulls.push_back(pull_of(next.to, share));
       break;
     }
+    pulls = {pull_of(next.to, 1)};
   }
-  return influence;
+  return pulls;
 }
 
 // Lets one more joint take `share` of the point.
-void give(Influence& influence, Joint joint, double share) {
+void give(Pulls& pulls, Joint joint, double share) {
   if (share <= 0) return;
-  for (double& weight : influence.weights) weight *= 1 - share;
-  for (std::size_t i = 0; i < 4; ++i)
-    if (influence.weights[i] == 0) {
-      influence.joints[i] = joint;
-      influence.weights[i] = share;
-      return;
-    }
+  for (Influence& pull : pulls) pull.weight *= 1 - share;
+  pulls.push_back(pull_of(joint, share));
 }
 
-Influence trunk_influence(const Vec3& p) {
-  Influence influence =
+Pulls pulls_on_trunk(const Vec3& p) {
+  Pulls pulls =
       along_chain(hips, {{spine, 1.045, 0.06}, {chest, 1.18, 0.065}, {neck, 1.455, 0.04}, {head, 1.54, 0.03}}, p.y());
   const double sideways = smooth_step(0.05, 0.17, std::abs(p.x()));
   const double at_shoulder = 0.75 * sideways * smooth_step(1.27, 1.4, p.y());
-  give(influence, p.x() > 0 ? left_shoulder : right_shoulder, at_shoulder);
+  give(pulls, p.x() > 0 ? left_shoulder : right_shoulder, at_shoulder);
   const double at_thigh = 0.5 * smooth_step(0.02, 0.12, std::abs(p.x())) * (1 - smooth_step(0.84, 0.96, p.y()));
-  give(influence, p.x() > 0 ? left_thigh : right_thigh, at_thigh);
-  return influence;
+  give(pulls, p.x() > 0 ? left_thigh : right_thigh, at_thigh);
+  return pulls;
 }
 
 void add_trunk(Mesh& mesh) {
@@ -91,7 +84,7 @@ void add_trunk(Mesh& mesh) {
   section(1.56, 0.008, 0.046, 0.046, 0.046, 2);
   loft.start_cap = 0.045;
   loft.end_cap = 0.02;
-  add_loft(mesh, loft, trunk_influence);
+  add_loft(mesh, loft, pulls_on_trunk);
 }
 
 double bell(const Vec3& p, const Vec3& center, double width) {

@@ -121,7 +121,7 @@ void add_loft(Mesh& mesh, const Loft& loft, const Weighting& weighting, const Sc
   mesh.positions.push_back(last.center + end);
   for (std::size_t i = before; i < mesh.positions.size(); ++i) {
     if (sculpt) mesh.positions[i] = sculpt(mesh.positions[i]);
-    mesh.influences.push_back(weighting(mesh.positions[i]));
+    mesh.influences.add(weighting(mesh.positions[i]));
     mesh.normals.push_back(Vec3::Zero());
   }
   add_triangles(mesh, static_cast<std::uint32_t>(before), static_cast<std::uint32_t>(loft.around),

@@ -30,7 +30,8 @@ struct Loft {
 };
 
 /// The joints that pull on a point of the bind pose.
-using Weighting = std::function<Influence(const Vec3& point)>;
+using Pulls = std::vector<Influence>;
+using Weighting = std::function<Pulls(const Vec3& point)>;
 
 /// Moves a point of the surface: dents and bumps.
 using Sculpt = std::function<Vec3(const Vec3& point)>;

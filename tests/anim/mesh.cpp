@@ -46,10 +46,9 @@ TEST_CASE("a mesh without skin follows its node, with its rest weights unless ot
 TEST_CASE("a skinned vertex is the weighted mean of what its joints make of it") {
   Mesh mesh = edge();
   mesh.rest_weights = {0, 0};
-  mesh.influences.resize(3);
-  mesh.influences[0] = {{0, 0, 0, 0}, {1, 0, 0, 0}};
-  mesh.influences[1] = {{0, 1, 0, 0}, {0.75, 0.25, 0, 0}};
-  mesh.influences[2] = {{1, 0, 0, 0}, {1, 0, 0, 0}};
+  mesh.influences.add({{0, 1}});
+  mesh.influences.add({{0, 0.75}, {1, 0.25}});
+  mesh.influences.add({{1, 1}});
   Skin skin;
   skin.joints = {2, 0};
   skin.inverse_binds = {{Mat3::Identity(), {0, 0, 0}}, {Mat3::Identity(), {-1, 0, 0}}};
@@ -62,12 +61,32 @@ TEST_CASE("a skinned vertex is the weighted mean of what its joints make of it")
   CHECK(near(out[2], Vec3(1, 1, 0), 1e-15));
 }
 
+TEST_CASE("a vertex follows each of its joints, however many there are") {
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}};
+  Skin skin;
+  std::vector<WorldMotion> world;
+  std::vector<Influence> pulls;
+  for (std::uint32_t joint = 0; joint < 8; ++joint) {
+    skin.joints.push_back(joint);
+    skin.inverse_binds.push_back({});
+    world.push_back(placed(Mat3::Identity(), {joint + 1.0, 0, 0}));
+    pulls.push_back({joint, 0.125});
+  }
+  mesh.influences.add(pulls);
+  CHECK(mesh.influences.most() == 8);
+  std::vector<Vec3> out(1);
+  deform(mesh, {}, &skin, 0, world, out);
+  CHECK(near(out[0], Vec3(4.5, 0, 0), 1e-15));
+}
+
 TEST_CASE("joints in their bind poses leave a skinned mesh where it was") {
   Random random(3);
   Mesh mesh;
   Skin skin;
   std::vector<WorldMotion> world;
-  for (std::size_t joint = 0; joint < 4; ++joint) {
+  constexpr std::size_t joints = 9;
+  for (std::size_t joint = 0; joint < joints; ++joint) {
     const Mat3 linear = random.rotation().toRotationMatrix() * random.between(0.5, 2);
     const Vec3 position = random.vector(3);
     world.push_back(placed(linear, position));
@@ -76,8 +95,14 @@ TEST_CASE("joints in their bind poses leave a skinned mesh where it was") {
   }
   for (int i = 0; i < 50; ++i) {
     mesh.positions.push_back(random.vector(2));
-    const double a = random.unit(), b = random.unit();
-    mesh.influences.push_back({{0, 1, 2, 3}, {a / 2, (1 - a) / 2, b / 2, (1 - b) / 2}});
+    std::vector<Influence> pulls;
+    double sum = 0;
+    for (std::uint32_t joint = 0; joint < joints; ++joint) {
+      pulls.push_back({joint, random.unit()});
+      sum += pulls.back().weight;
+    }
+    for (Influence& pull : pulls) pull.weight /= sum;
+    mesh.influences.add(pulls);
   }
   std::vector<Vec3> out(mesh.positions.size());
   deform(mesh, {}, &skin, 0, world, out);

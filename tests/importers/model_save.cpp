@@ -59,10 +59,7 @@ Model bar() {
     for (int corner = 0; corner < 3; ++corner) {
       mesh.positions.push_back({corner == 1 ? 0.2 : 0.0, ring * 1.0, corner == 2 ? 0.2 : 0.0});
       mesh.normals.push_back({0, 1, 0});
-      Influence influence;
-      influence.joints = {0, 1, 0, 0};
-      influence.weights = {1 - 0.5 * ring, 0.5 * ring, 0, 0};
-      mesh.influences.push_back(influence);
+      mesh.influences.add({{0, 1 - 0.5 * ring}, {1, 0.5 * ring}});
     }
   for (std::uint32_t i = 0; i < 6; ++i) mesh.triangles.insert(mesh.triangles.end(), {i, i + 1, i + 3});
   mesh.morphs.push_back({"swell", std::vector<Vec3>(9, Vec3(0.1, 0, 0.1)), {}});
@@ -113,6 +110,35 @@ TEST_CASE("a saved model reads back to the same poses") {
   CHECK(back.clips[0].duration == doctest::Approx(1));
   // The oscillator alone is not exact: straight lines 240 a second under a curvature of 79 rad/s^2.
   CHECK(difference(model, back) < 0.5 * 79.0 / 4 / 240 / 240 + 1e-6);
+}
+
+TEST_CASE("vertices that follow nine joints follow all nine when saved and read back") {
+  const ScratchFolder folder("many-joints");
+  Model model = bar();
+  model.clips.clear();
+  Skin& skin = model.skins[0];
+  while (skin.joints.size() < 9) {
+    model.nodes.push_back({"joint" + std::to_string(skin.joints.size()), 0, {}});
+    skin.joints.push_back(model.nodes.size() - 1);
+    skin.inverse_binds.push_back({});
+  }
+  Mesh& mesh = model.meshes[0];
+  mesh.influences = {};
+  for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+    std::vector<Influence> pulls;
+    for (std::uint32_t joint = 0; joint < 9; ++joint) pulls.push_back({joint, (joint + 1) / 45.0});
+    mesh.influences.add(pulls);
+  }
+  save_glb(model, folder / "many.glb");
+  const Model back = load_model(folder / "many.glb");
+  CHECK(back.repairs.empty());
+  const Influences& influences = back.meshes.at(0).influences;
+  REQUIRE(influences.size() == mesh.positions.size());
+  for (std::size_t vertex = 0; vertex < influences.size(); ++vertex) {
+    REQUIRE(influences[vertex].size() == 9);
+    for (const Influence& influence : influences[vertex])
+      CHECK(near(influence.weight, (influence.joint + 1) / 45.0, 1e-7));
+  }
 }
 
 TEST_CASE("step, linear and cubic keys keep their kind when saved") {

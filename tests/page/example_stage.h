@@ -160,13 +160,10 @@ inline StageDescription example_stage() {
       const double y = row * 1.5 / 12;
       mesh.positions.emplace_back(0.14 * side, y, 0);
       mesh.normals.emplace_back(0, 0, 1);
-      Influence influence;
       const double joint = std::min(2.0, std::max(0.0, y / 0.5 - 0.25));
       const auto low = static_cast<std::uint32_t>(joint);
       const double share = joint - low;
-      influence.joints = {low, std::min(2u, low + 1), 0, 0};
-      influence.weights = {1 - share, share, 0, 0};
-      mesh.influences.push_back(influence);
+      mesh.influences.add({{low, 1 - share}, {std::min(2u, low + 1), share}});
     }
   for (std::uint32_t row = 0; row < 12; ++row)
     for (const std::uint32_t corner : {0u, 1u, 3u, 0u, 3u, 2u}) mesh.triangles.push_back(2 * row + corner);

@@ -81,7 +81,7 @@ Skin skin_of_bones(const aiMesh& from, const std::map<std::string, std::size_t>&
                    ModelProblems& problems) {
   const std::string place = "mesh \"" + mesh.name + "\"";
   Skin skin;
-  std::vector<std::vector<WeightedJoint>> pulls(mesh.positions.size());
+  std::vector<std::vector<Influence>> pulls(mesh.positions.size());
   for (unsigned i = 0; i < from.mNumBones; ++i) {
     const aiBone& bone = *from.mBones[i];
     const auto node = nodes.find(text_of(bone.mName));
@@ -102,7 +102,7 @@ Skin skin_of_bones(const aiMesh& from, const std::map<std::string, std::size_t>&
   }
   if (skin.joints.empty()) return skin;
   InfluenceTally tally;
-  for (auto& each : pulls) mesh.influences.push_back(strongest(std::move(each), tally));
+  for (auto& each : pulls) mesh.influences.add(summing_to_one(std::move(each), tally));
   tally.report(place, problems);
   return skin;
 }

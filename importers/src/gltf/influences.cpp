@@ -39,8 +39,8 @@ std::optional<Set> read_set(const Fields& attributes, const std::string& number,
 
 }  // namespace
 
-std::vector<Influence> read_influences(const Fields& attributes, std::size_t vertices, Accessors& accessors,
-                                       std::size_t& joint_count) {
+Influences read_influences(const Fields& attributes, std::size_t vertices, Accessors& accessors,
+                           std::size_t& joint_count) {
   std::vector<Set> sets;
   for (std::size_t number = 0; attributes.has(("JOINTS_" + std::to_string(number)).c_str()) ||
                                attributes.has(("WEIGHTS_" + std::to_string(number)).c_str());
@@ -51,9 +51,9 @@ std::vector<Influence> read_influences(const Fields& attributes, std::size_t ver
   }
   if (sets.empty()) return {};
   InfluenceTally tally;
-  std::vector<Influence> all(vertices);
+  Influences all;
   for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
-    std::vector<WeightedJoint> pulls;
+    std::vector<Influence> pulls;
     for (const Set& set : sets)
       for (std::size_t slot = 0; slot < 4; ++slot) {
         const double weight = set.weights.at(vertex)[slot];
@@ -61,7 +61,7 @@ std::vector<Influence> read_influences(const Fields& attributes, std::size_t ver
         pulls.push_back({joint, weight});
         if (weight > 0) joint_count = std::max(joint_count, std::size_t{joint} + 1);
       }
-    all[vertex] = strongest(std::move(pulls), tally);
+    all.add(summing_to_one(std::move(pulls), tally));
   }
   tally.report(attributes.place(), attributes.problems());
   joint_count = std::max(joint_count, std::size_t{1});

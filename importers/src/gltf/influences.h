@@ -10,9 +10,9 @@
 
 namespace tweenfall::gltf {
 
-/// The four strongest joints of each vertex, their weights scaled to sum to 1; empty for a primitive without skin.
+/// The joints of each vertex, their weights scaled to sum to 1; empty for a primitive without skin.
 /// @param joint_count  written: one more than the largest joint with a weight
-[[nodiscard]] std::vector<Influence> read_influences(const Fields& attributes, std::size_t vertices,
-                                                     Accessors& accessors, std::size_t& joint_count);
+[[nodiscard]] Influences read_influences(const Fields& attributes, std::size_t vertices, Accessors& accessors,
+                                         std::size_t& joint_count);
 
 }  // namespace tweenfall::gltf

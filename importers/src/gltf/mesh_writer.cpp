@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 namespace tweenfall::gltf {
 
 namespace {
+
+constexpr std::size_t joints_per_set = 4;
 
 std::vector<double> flat(const std::vector<Vec3>& vectors, std::size_t count) {
   std::vector<double> all;
@@ -27,46 +30,51 @@ std::vector<double> flat_units(const std::vector<Vec3>& vectors, std::size_t cou
   return flat(units, count);
 }
 
-/// Joints and weights of one vertex as glTF wants them: no joint twice, unused slots zero, weights that sum to 1 as
-/// floats.
-Influence tidy(const Influence& influence, std::size_t joint_count) {
-  Influence out;
-  std::size_t used = 0;
+/// Joints and weights of one vertex as glTF wants them: no joint twice, weights that sum to 1 as floats; where they
+/// fill more than one set, the strongest come first.
+std::vector<Influence> tidy(std::span<const Influence> influences, std::size_t joint_count) {
+  std::vector<Influence> out;
   double sum = 0;
-  for (std::size_t slot = 0; slot < 4; ++slot) {
-    if (!(influence.weights[slot] > 0) || influence.joints[slot] >= joint_count) continue;
-    std::size_t at = 0;
-    while (at < used && out.joints[at] != influence.joints[slot]) ++at;
-    if (at == used) out.joints[used++] = influence.joints[slot];
-    out.weights[at] += influence.weights[slot];
-    sum += influence.weights[slot];
+  for (const auto& [joint, weight] : influences) {
+    if (!(weight > 0) || joint >= joint_count) continue;
+    const auto known = std::ranges::find(out, joint, &Influence::joint);
+    if (known == out.end())
+      out.push_back({joint, weight});
+    else
+      known->weight += weight;
+    sum += weight;
   }
-  if (used == 0) {
-    out.weights[0] = 1;
-    return out;
-  }
-  std::size_t largest = 0;
+  if (out.empty()) return {{0, 1}};
+  if (out.size() > joints_per_set) std::ranges::stable_sort(out, std::ranges::greater{}, &Influence::weight);
+  for (Influence& influence : out) influence.weight = static_cast<double>(static_cast<float>(influence.weight / sum));
+  const auto largest = std::ranges::max_element(out, {}, &Influence::weight);
   double others = 0;
-  for (std::size_t slot = 0; slot < used; ++slot) {
-    out.weights[slot] = static_cast<double>(static_cast<float>(out.weights[slot] / sum));
-    if (out.weights[slot] > out.weights[largest]) largest = slot;
-  }
-  for (std::size_t slot = 0; slot < used; ++slot)
-    if (slot != largest) others += out.weights[slot];
-  out.weights[largest] = 1 - others;
+  for (auto it = out.begin(); it != out.end(); ++it)
+    if (it != largest) others += it->weight;
+  largest->weight = 1 - others;
   return out;
 }
 
 void write_influences(const Mesh& mesh, std::size_t joint_count, Attributes& attributes, BufferWriter& buffer) {
-  std::vector<std::uint32_t> joints;
-  std::vector<double> weights;
-  for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-    const Influence all = tidy(vertex < mesh.influences.size() ? mesh.influences[vertex] : Influence{}, joint_count);
-    joints.insert(joints.end(), all.joints.begin(), all.joints.end());
-    weights.insert(weights.end(), all.weights.begin(), all.weights.end());
+  std::vector<std::vector<Influence>> all(mesh.positions.size());
+  std::size_t sets = 1;
+  for (std::size_t vertex = 0; vertex < all.size(); ++vertex) {
+    const bool given = vertex < mesh.influences.size();
+    all[vertex] = tidy(given ? mesh.influences[vertex] : std::span<const Influence>(), joint_count);
+    sets = std::max(sets, (all[vertex].size() + joints_per_set - 1) / joints_per_set);
   }
-  attributes["JOINTS_0"] = buffer.add_joints(joints, joint_count);
-  attributes["WEIGHTS_0"] = buffer.add_floats(weights, "VEC4", false, vertex_target);
+  for (std::size_t set = 0; set < sets; ++set) {
+    std::vector<std::uint32_t> joints;
+    std::vector<double> weights;
+    for (const std::vector<Influence>& of_vertex : all)
+      for (std::size_t slot = set * joints_per_set; slot < (set + 1) * joints_per_set; ++slot) {
+        const Influence influence = slot < of_vertex.size() ? of_vertex[slot] : Influence{};
+        joints.push_back(influence.joint);
+        weights.push_back(influence.weight);
+      }
+    attributes["JOINTS_" + std::to_string(set)] = buffer.add_joints(joints, joint_count);
+    attributes["WEIGHTS_" + std::to_string(set)] = buffer.add_floats(weights, "VEC4", false, vertex_target);
+  }
 }
 
 class MeshWriter {

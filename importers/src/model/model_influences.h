@@ -1,6 +1,6 @@
 #pragma once
 
-// Any number of joints that pull on a vertex, brought down to the four that our meshes hold.
+// Any number of joints that pull on a vertex, made to sum to 1.
 
 #include "model/model_problems.h"
 
@@ -10,21 +10,15 @@
 
 namespace tweenfall {
 
-struct WeightedJoint {
-  std::uint32_t joint;
-  double weight;
-};
-
 /// Counts what had to be mended, so that a mesh says it once.
 struct InfluenceTally {
-  std::size_t dropped = 0;   ///< vertices with more than four joints
   std::size_t unbound = 0;   ///< vertices without any weight
   std::size_t negative = 0;  ///< vertices with a weight below 0
 
   void report(const std::string& place, ModelProblems& problems) const;
 };
 
-/// The four largest weights, scaled to sum to 1. A vertex without any follows joint 0.
-[[nodiscard]] Influence strongest(std::vector<WeightedJoint> pulls, InfluenceTally& tally);
+/// All weights above 0, scaled to sum to 1, the largest first. A vertex without any follows joint 0.
+[[nodiscard]] std::vector<Influence> summing_to_one(std::vector<Influence> pulls, InfluenceTally& tally);
 
 }  // namespace tweenfall

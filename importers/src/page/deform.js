@@ -26,12 +26,12 @@ function addMorphs(mesh, weights, positions, normals) {
 }
 
 function bend(mesh, matrices, positions, normals) {
-  const {joints, jointWeights} = mesh, count = positions.length / 3;
+  const {joints, jointWeights} = mesh, count = positions.length / 3, slots = joints.length / count;
   for (let v = 0; v < count; ++v) {
     const x = positions[3 * v], y = positions[3 * v + 1], z = positions[3 * v + 2];
     const nx = normals[3 * v], ny = normals[3 * v + 1], nz = normals[3 * v + 2];
     let px = 0, py = 0, pz = 0, qx = 0, qy = 0, qz = 0;
-    for (let k = 4 * v; k < 4 * v + 4; ++k) {
+    for (let k = slots * v; k < slots * v + slots; ++k) {
       const w = jointWeights[k];
       if (!w) continue;
       const a = 12 * joints[k], m = matrices;
@@ -98,9 +98,10 @@ class DeformedMesh {
     const color = this.geometry.attributes.color, {joints, jointWeights} = this.mesh;
     const fixed = this.skin ? null : colorOf(this.node, frame);
     const ofJoint = this.skin && this.skin.joints.map(joint => colorOf(nodes[joint], frame));
+    const slots = ofJoint ? joints.length / color.count : 0;
     for (let v = 0; v < color.count; ++v) {
-      let most = 4 * v;
-      if (ofJoint) for (let k = 4 * v + 1; k < 4 * v + 4; ++k) if (jointWeights[k] > jointWeights[most]) most = k;
+      let most = slots * v;
+      if (ofJoint) for (let k = most + 1; k < slots * v + slots; ++k) if (jointWeights[k] > jointWeights[most]) most = k;
       color.array.set(fixed || ofJoint[joints[most]], 3 * v);
     }
     color.needsUpdate = true;

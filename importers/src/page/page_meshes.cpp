@@ -33,10 +33,15 @@ void append_mesh(std::string& out, const Mesh& mesh) {
   if (!mesh.influences.empty()) {
     std::vector<std::uint32_t> joints;
     std::vector<float> weights;
-    for (const Influence& influence : mesh.influences) {
-      for (const std::uint32_t joint : influence.joints) joints.push_back(joint);
-      for (const double weight : influence.weights) weights.push_back(static_cast<float>(weight));
-    }
+    // As many slots for each vertex as the one with the most joints needs.
+    const std::size_t slots = mesh.influences.most();
+    for (std::size_t vertex = 0; vertex < mesh.influences.size(); ++vertex)
+      for (std::size_t slot = 0; slot < slots; ++slot) {
+        const auto influences = mesh.influences[vertex];
+        const Influence influence = slot < influences.size() ? influences[slot] : Influence{};
+        joints.push_back(influence.joint);
+        weights.push_back(static_cast<float>(influence.weight));
+      }
     append_array(out, "joints", base64(std::span<const std::uint32_t>(joints)));
     append_array(out, "jointWeights", base64(weights));
   }

@@ -265,8 +265,9 @@ function nodeAtPoint(x, y) {
     if (!held) return hit.object.userData.node;
     if (!held.skin) return held.node;
     const {joints, jointWeights} = held.mesh;
-    let most = 4 * hit.face.a;
-    for (let k = most + 1; k < 4 * hit.face.a + 4; ++k) if (jointWeights[k] > jointWeights[most]) most = k;
+    const slots = 3 * joints.length / held.mesh.positions.length;
+    let most = slots * hit.face.a;
+    for (let k = most + 1; k < slots * hit.face.a + slots; ++k) if (jointWeights[k] > jointWeights[most]) most = k;
     return nodes[held.skin.joints[joints[most]]];
   }
   return null;

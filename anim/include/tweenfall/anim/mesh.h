@@ -5,8 +5,8 @@
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/curves/surface_mesh.h>
 
-#include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,10 +20,31 @@ struct MorphTarget {
   std::vector<Vec3> normal_offsets;    ///< one per vertex, or empty
 };
 
-/// The joints that pull on a vertex; unused entries have weight 0, weights sum to 1.
+/// One joint that pulls on a vertex.
 struct Influence {
-  std::array<std::uint32_t, 4> joints{};  ///< indices into the skin's joints
-  std::array<double, 4> weights{};
+  std::uint32_t joint = 0;  ///< index into the skin's joints
+  double weight = 0;        ///< those of one vertex sum to 1
+
+  bool operator==(const Influence&) const = default;
+};
+
+/// The joints that pull on each vertex of a mesh: as many as the artist gave it, all of them in one list.
+class Influences {
+ public:
+  /// Those of the next vertex, in order.
+  void add(std::span<const Influence> of_vertex);
+  void add(std::initializer_list<Influence> of_vertex);
+
+  [[nodiscard]] std::size_t size() const noexcept { return ends_.size(); }  ///< vertices
+  [[nodiscard]] bool empty() const noexcept { return ends_.empty(); }
+  [[nodiscard]] std::span<const Influence> operator[](std::size_t vertex) const noexcept;
+  [[nodiscard]] std::size_t most() const noexcept;  ///< of any vertex
+
+  bool operator==(const Influences&) const = default;
+
+ private:
+  std::vector<Influence> all_;
+  std::vector<std::size_t> ends_;  // where in the list those of each vertex end
 };
 
 struct Mesh {
@@ -32,7 +53,7 @@ struct Mesh {
   std::vector<Vec3> normals;              ///< unit; one per vertex, or empty
   std::vector<Vec2> texture_coordinates;  ///< one per vertex, or empty
   std::vector<std::uint32_t> triangles;   ///< three vertices each, counter-clockwise seen from outside
-  std::vector<Influence> influences;      ///< one per vertex, or empty when not skinned
+  Influences influences;                  ///< one per vertex, or empty when not skinned
   std::vector<MorphTarget> morphs;
   std::vector<double> rest_weights;  ///< one per morph target
   Color base_color{Vec4{0.8, 0.8, 0.8, 1}};
