@@ -98,8 +98,7 @@ TEST_CASE("a body whose support is removed falls") {
 
 TEST_CASE("what no body can be is refused with the number in the text") {
   World world;
-  CHECK_THROWS_WITH_AS(world.add({.friction = -1}),
-                       "friction must not be negative and must be finite, but is -1.000000", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(world.add({.friction = -1}), "friction must lie in 0 to 1e30, but is -1", std::invalid_argument);
   CHECK_THROWS_AS(world.add({.restitution = 1.5}), std::invalid_argument);
   CHECK_THROWS_AS(world.add({.shape = {Plane{}}}), std::invalid_argument);
   CHECK_THROWS_AS(world.step(0), std::invalid_argument);

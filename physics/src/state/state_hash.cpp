@@ -41,6 +41,7 @@ class Hash {
 }  // namespace
 
 std::uint64_t World::state_hash() const noexcept {
+  if (!implementation_) return 0;
   const Implementation& world = *implementation_;
   Hash hash;
   hash.add(world.time);

@@ -3,11 +3,14 @@
 #include <tweenfall/curves/rotation.h>
 
 #include <Eigen/LU>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "state/countable.h"
 #include "state/world_data.h"
 
 namespace tweenfall {
@@ -19,12 +22,34 @@ void require(bool holds, const std::string& what) {
 }
 
 std::string text(double value) {
-  return std::to_string(value);
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return {digits.data(), end};
 }
 
 void require_finite(const Vec3& value, const char* name) {
-  require(value.allFinite(), std::string(name) + " must be finite, but is (" + text(value.x()) + ", " +
-                                 text(value.y()) + ", " + text(value.z()) + ")");
+  require(countable(value), std::string(name) + " must be finite and at most 1e30, but is (" + text(value.x()) + ", " +
+                                text(value.y()) + ", " + text(value.z()) + ")");
+}
+
+void require_amount(double value, const char* name) {
+  require(value >= 0 && countable(value), std::string(name) + " must lie in 0 to 1e30, but is " + text(value));
+}
+
+void validate(const Force& force) {
+  if (const auto* drag = std::get_if<Drag>(&force)) {
+    require_amount(drag->linear, "linear drag");
+    require_amount(drag->quadratic, "quadratic drag");
+    require_amount(drag->angular, "angular drag");
+  } else if (const auto* spring = std::get_if<Spring>(&force)) {
+    require_finite(spring->anchor_a, "first anchor of a spring");
+    require_finite(spring->anchor_b, "second anchor of a spring");
+    require_amount(spring->rest_length, "rest length of a spring");
+    require_amount(spring->stiffness, "stiffness of a spring");
+    require_amount(spring->damping, "damping of a spring");
+  } else {
+    require(static_cast<bool>(std::get<Field>(force)), "a field must hold a function");
+  }
 }
 
 void validate(const Drive& drive) {
@@ -41,6 +66,7 @@ Motion checked(Motion motion) {
   require_finite(motion.pose.scale, "scale");
   require_finite(motion.twist.linear, "linear velocity");
   require_finite(motion.twist.angular, "angular velocity");
+  require_finite(motion.scale_rate, "rate of the scale");
   const double length = motion.pose.rotation.norm();
   require(std::isfinite(length) && length > 0, "rotation must be a quaternion that can be normalized");
   // A unit quaternion stays as it was given, to the bit.
@@ -110,31 +136,42 @@ World::World(const WorldSettings& settings) : implementation_(std::make_unique<I
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
-World::World(const World& other) : implementation_(std::make_unique<Implementation>(*other.implementation_)) {}
+World::World(const World& other)
+    : implementation_(other.implementation_ ? std::make_unique<Implementation>(*other.implementation_) : nullptr) {
+  if (implementation_) implementation_->stepping = false;
+}
 World& World::operator=(const World& other) {
-  if (this != &other) {
-    if (implementation_)
-      *implementation_ = *other.implementation_;  // keeps the capacity that is there
-    else
-      implementation_ = std::make_unique<Implementation>(*other.implementation_);
+  if (this == &other) return *this;
+  if (implementation_ && implementation_->stepping) throw std::logic_error("a field cannot assign to its world");
+  if (implementation_ && other.implementation_) {
+    *implementation_ = *other.implementation_;  // keeps the capacity that is there
+    implementation_->stepping = false;
+  } else {
+    *this = World(other);
   }
   return *this;
 }
 
+const World::Implementation& World::inside() const {
+  if (!implementation_) throw std::logic_error("this world was moved from: it holds nothing");
+  return *implementation_;
+}
+World::Implementation& World::changing() {
+  static_cast<void>(inside());
+  if (implementation_->stepping) throw std::logic_error("a field cannot change the world that it acts in");
+  return *implementation_;
+}
+
 BodyId World::add(const BodySettings& settings) {
-  Implementation& world = *implementation_;
+  Implementation& world = changing();
   tweenfall::validate(settings.shape.solid);
   validate(settings.drive);
-  require(settings.friction >= 0 && std::isfinite(settings.friction),
-          "friction must not be negative and must be finite, but is " + text(settings.friction));
+  require_amount(settings.friction, "friction");
   require(settings.restitution >= 0 && settings.restitution <= 1,
           "restitution must lie in 0 to 1, but is " + text(settings.restitution));
-  require(settings.rolling_friction >= 0 && std::isfinite(settings.rolling_friction),
-          "rolling friction must not be negative and must be finite, but is " + text(settings.rolling_friction));
-  require(settings.linear_damping >= 0 && std::isfinite(settings.linear_damping),
-          "linear damping must not be negative and must be finite, but is " + text(settings.linear_damping));
-  require(settings.angular_damping >= 0 && std::isfinite(settings.angular_damping),
-          "angular damping must not be negative and must be finite, but is " + text(settings.angular_damping));
+  require_amount(settings.rolling_friction, "rolling friction");
+  require_amount(settings.linear_damping, "linear damping");
+  require_amount(settings.angular_damping, "angular damping");
   Body body;
   body.shape = settings.shape;
   const double turn = settings.shape.offset.rotation.norm();
@@ -147,6 +184,7 @@ BodyId World::add(const BodySettings& settings) {
     body.mass.center = settings.shape.offset.position;
   } else {
     const double mass = settings.mass ? *settings.mass : settings.density * volume(settings.shape.solid);
+    require(mass >= smallest && mass <= largest, "mass must lie in 1e-30 kg to 1e30 kg, but is " + text(mass) + " kg");
     body.mass = mass_properties(body.shape, mass);
     body.inverse_inertia = body.mass.inertia.inverse();
     const double first = body.mass.inertia(0, 0);
@@ -160,6 +198,8 @@ BodyId World::add(const BodySettings& settings) {
   if (const auto* sphere = std::get_if<Sphere>(&settings.shape.solid)) body.roundness = sphere->radius;
   if (const auto* capsule = std::get_if<Capsule>(&settings.shape.solid)) body.roundness = capsule->radius;
   body.radius = radius_of(settings.shape.solid);
+  require(body.radius >= smallest && (std::isinf(body.radius) || body.radius <= largest),
+          "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + text(body.radius) + " m from its center");
   body.friction = settings.friction;
   body.restitution = settings.restitution;
   body.rolling_friction = settings.rolling_friction;
@@ -191,7 +231,7 @@ BodyId World::add(const BodySettings& settings) {
 }
 
 void World::remove(BodyId id) {
-  Implementation& world = *implementation_;
+  Implementation& world = changing();
   Body& body = world.at(id);
   world.wake_neighbors(id.index);
   body.alive = false;
@@ -202,55 +242,56 @@ void World::remove(BodyId id) {
 }
 
 bool World::contains(BodyId id) const noexcept {
+  if (!implementation_) return false;
   const auto& bodies = implementation_->bodies;
   return id.index < bodies.size() && bodies[id.index].alive && bodies[id.index].generation == id.generation;
 }
 
 std::vector<BodyId> World::bodies() const {
   std::vector<BodyId> result;
-  const auto& all = implementation_->bodies;
+  const auto& all = inside().bodies;
   for (std::uint32_t i = 0; i < all.size(); ++i)
     if (all[i].alive) result.push_back({i, all[i].generation});
   return result;
 }
 
 Motion World::motion(BodyId id) const {
-  return implementation_->at(id).motion;
+  return inside().at(id).motion;
 }
 Twist World::twist(BodyId id) const {
-  return implementation_->at(id).twist;
+  return inside().at(id).twist;
 }
 const MassProperties& World::mass(BodyId id) const {
-  return implementation_->at(id).mass;
+  return inside().at(id).mass;
 }
 const Shape& World::shape(BodyId id) const {
-  return implementation_->at(id).shape;
+  return inside().at(id).shape;
 }
 Owner World::owner(BodyId id) const {
-  return implementation_->at(id).drive.owner();
+  return inside().at(id).drive.owner();
 }
 Drive World::drive(BodyId id) const {
-  return implementation_->at(id).drive;
+  return inside().at(id).drive;
 }
 bool World::is_fixed(BodyId id) const {
-  return implementation_->at(id).fixed;
+  return inside().at(id).fixed;
 }
 double World::still_for(BodyId id) const {
-  return implementation_->at(id).still_for;
+  return inside().at(id).still_for;
 }
 bool World::asleep(BodyId id) const {
-  return implementation_->at(id).asleep;
+  return inside().at(id).asleep;
 }
 Vec3 World::reaction(BodyId id) const {
-  return implementation_->at(id).reaction;
+  return inside().at(id).reaction;
 }
 double World::time() const noexcept {
-  return implementation_->time;
+  return implementation_ ? implementation_->time : 0;
 }
 
 double World::kinetic_energy() const {
   double sum = 0;
-  for (const Body& body : implementation_->bodies) {
+  for (const Body& body : inside().bodies) {
     if (!body.alive || body.immovable()) continue;
     const Vec3 momentum = body.world_inertia(body.motion.pose.rotation) * body.twist.angular;
     sum += 0.5 * body.mass.mass * body.twist.linear.squaredNorm() + 0.5 * body.twist.angular.dot(momentum);
@@ -259,7 +300,7 @@ double World::kinetic_energy() const {
 }
 
 void World::set_motion(BodyId id, const Motion& motion) {
-  Implementation& world = *implementation_;
+  Implementation& world = changing();
   Body& body = world.at(id);
   const Motion wanted = checked(motion);
   world.wake_neighbors(id.index);
@@ -277,7 +318,7 @@ void World::set_motion(BodyId id, const Motion& motion) {
 }
 
 void World::set_drive(BodyId id, const Drive& drive) {
-  Implementation& world = *implementation_;
+  Implementation& world = changing();
   Body& body = world.at(id);
   validate(drive);
   if (body.drive == drive) return;
@@ -300,7 +341,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
 }
 
 void World::set_target(BodyId id, const Motion& end_of_step) {
-  Implementation& world = *implementation_;
+  Implementation& world = changing();
   Body& body = world.at(id);
   require(!body.fixed, "a fixed body takes no target: it never moves");
   require(body.drive.owner() != Owner::free, "a free body takes no target: only keyed and driven bodies have one");
@@ -314,41 +355,46 @@ void World::set_target(BodyId id, const Motion& end_of_step) {
 }
 
 void World::apply_force(BodyId id, const Vec3& force, const Vec3& point) {
-  Body& body = implementation_->at(id);
+  Implementation& world = changing();
+  Body& body = world.at(id);
   require_finite(force, "force");
   require_finite(point, "point");
   if (body.immovable()) return;
-  implementation_->wake(id.index);
+  world.wake(id.index);
   body.force += force;
   body.torque += (point - body.center).cross(force);
 }
 
 void World::apply_torque(BodyId id, const Vec3& torque) {
-  Body& body = implementation_->at(id);
+  Implementation& world = changing();
+  Body& body = world.at(id);
   require_finite(torque, "torque");
   if (body.immovable()) return;
-  implementation_->wake(id.index);
+  world.wake(id.index);
   body.torque += torque;
 }
 
 void World::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {
-  Body& body = implementation_->at(id);
+  Implementation& world = changing();
+  Body& body = world.at(id);
   require_finite(impulse, "impulse");
   require_finite(point, "point");
   if (body.immovable()) return;
-  implementation_->wake(id.index);
+  world.wake(id.index);
   body.twist.linear += impulse / body.mass.mass;
   body.twist.angular += body.world_inverse_inertia(body.motion.pose.rotation) * (point - body.center).cross(impulse);
   body.motion.twist = shifted(body.twist, body.motion.pose.position - body.center);
 }
 
 void World::wake(BodyId id) {
-  implementation_->at(id);
-  implementation_->wake(id.index);
+  Implementation& world = changing();
+  world.at(id);
+  world.wake(id.index);
 }
 
 std::size_t World::add_force(Force force) {
-  Implementation& world = *implementation_;
+  Implementation& world = changing();
+  validate(force);
   if (const auto* spring = std::get_if<Spring>(&force)) {
     world.at(spring->a);
     if (spring->b != BodyId{}) world.at(spring->b);
@@ -364,7 +410,7 @@ std::size_t World::add_force(Force force) {
 }
 
 void World::remove_force(std::size_t number) {
-  Implementation& world = *implementation_;
+  Implementation& world = changing();
   const std::size_t erased = std::erase_if(world.forces, [&](const NumberedForce& f) { return f.number == number; });
   require(erased == 1, "there is no force number " + std::to_string(number));
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
@@ -373,11 +419,11 @@ void World::remove_force(std::size_t number) {
 
 void World::step(double dt) {
   require(dt > 0 && std::isfinite(dt), "a step must be positive and finite, but is " + text(dt) + " s");
-  implementation_->step(dt);
+  changing().step(dt);
 }
 
 std::span<const Contact> World::contacts() const noexcept {
-  return implementation_->contacts;
+  return implementation_ ? std::span<const Contact>(implementation_->contacts) : std::span<const Contact>();
 }
 
 }  // namespace tweenfall

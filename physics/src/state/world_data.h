@@ -13,6 +13,13 @@
 
 namespace tweenfall {
 
+/// A body at the start of a step.
+struct Start {
+  Vec3 center;
+  Quat rotation;
+  Twist twist;
+};
+
 struct World::Implementation {
   WorldSettings settings;
   std::vector<Body> bodies;
@@ -20,11 +27,13 @@ struct World::Implementation {
   std::vector<NumberedForce> forces;
   std::size_t next_force = 0;
   double time = 0;
+  bool stepping = false;                       ///< a field may be running: nothing may change
   std::vector<ContactConstraint> constraints;  ///< of the last step, by pair
   std::vector<Contact> contacts;               ///< what the caller sees of them
 
   // Room for work, kept between steps
   std::vector<Load> loads;
+  std::vector<Start> starts;
   BroadPhase broad_phase;
   std::vector<ContactConstraint> active;    ///< near something that stirs
   std::vector<ContactConstraint> retained;  ///< between bodies at rest, as they were
@@ -40,8 +49,12 @@ struct World::Implementation {
   void forget_impulses(std::uint32_t index);  ///< what the contacts of this body remember
   void step(double dt);
 
+  void check_bodies(double dt,
+                    double at) const;  ///< @throws NotFinite for the first that is not; dt of the step before
+  void check_loads(double at) const;   ///< @throws NotFinite for the first body with one that is not
   void find_constraints(double dt);
   bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
+  void note_starts();
   void advance_bodies(double dt);
   void let_sleep(double dt);
   void report();

@@ -148,6 +148,12 @@ bool World::Implementation::wake_islands() {
   return any;
 }
 
+void World::Implementation::note_starts() {
+  starts.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    starts[i] = {bodies[i].center, bodies[i].motion.pose.rotation, bodies[i].twist};
+}
+
 void World::Implementation::advance_bodies(double dt) {
   solver.solve(bodies, loads, active, islands, settings, dt);
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -224,15 +230,24 @@ void World::Implementation::report() {
 }
 
 void World::Implementation::step(double dt) {
+  struct Stepping {
+    bool& flag;
+    ~Stepping() { flag = false; }
+  } const guard{stepping};
+  stepping = true;
+  check_bodies(0, time);
   wake_by_forces(bodies, forces);
   do {
     gather_loads(bodies, forces, settings, time, dt, loads);
+    check_loads(time + dt);
     find_constraints(dt);
   } while (wake_islands());
+  note_starts();
   advance_bodies(dt);
   let_sleep(dt);
   report();
   time += dt;
+  check_bodies(dt, time);
 }
 
 }  // namespace tweenfall

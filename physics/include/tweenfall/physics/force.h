@@ -35,7 +35,8 @@ struct Spring {
 };
 
 /// A force field: force in N on a body, from its mass and the motion of its center of mass. A world with a field keeps
-/// its bodies awake, for a field may change.
+/// its bodies awake, for a field may change. It may read the world that it acts in and throw, but not change it: calls
+/// that would change it throw std::logic_error, and it must not be destroyed or assigned to.
 using Field = std::function<Vec3(double mass, const Vec3& position, const Vec3& velocity, double time)>;
 
 using Force = std::variant<Drag, Spring, Field>;

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,17 @@ struct Contact {
   bool began = false;           ///< the pair did not touch in the step before
 };
 
+/// A body's place or velocity is no longer a number, or beyond 1e30 m, m/s or rad/s; or a force on it is not finite.
+class NotFinite : public std::runtime_error {
+ public:
+  NotFinite(BodyId body, double time, const std::string& cause);
+  BodyId body;
+  double time = 0;    ///< of the world, at the end of the step that went wrong, s
+  std::string cause;  ///< the likely one, in words that end a sentence
+};
+
+/// Bodies and what acts on them. A world that was moved from holds nothing: its `noexcept` members answer as for an
+/// empty world, all others throw std::logic_error, until another world is assigned to it.
 class World {
  public:
   explicit World(const WorldSettings& settings = {});
@@ -89,7 +101,8 @@ class World {
   [[nodiscard]] double kinetic_energy() const;  ///< of all free bodies, J
   [[nodiscard]] double time() const noexcept;   ///< sum of the steps, s
 
-  // Changes; each wakes the body
+  // Changes; each wakes the body. All throw std::invalid_argument for a stale handle, for numbers that are not finite
+  // or beyond 1e30, and for a quaternion that cannot be normalized; and std::logic_error when a field calls them.
   /// Moves the body: pose and velocity of the node's origin. Contacts across the jump use this velocity, not the jump.
   void set_motion(BodyId body, const Motion& motion);
   /// Hands the body over. Leaving `keyed`, it keeps the pose and the twist of its last target; accumulated impulses are
@@ -109,6 +122,9 @@ class World {
   // Time
   /// Advances by `dt` seconds. The result of n steps depends on their lengths alone, bit for bit.
   /// @throws std::invalid_argument when dt is not positive and finite
+  /// @throws NotFinite when a body stops being finite: `step` throws again until it is removed or moved by
+  /// `set_motion`. When a spring or a field is the cause, nothing has moved yet.
+  /// @throws what a field throws; nothing has moved then
   void step(double dt);
 
   /// Pairs that touched in the last step, in a fixed order.
@@ -119,6 +135,9 @@ class World {
 
  private:
   struct Implementation;
+  [[nodiscard]] const Implementation& inside() const;  ///< @throws std::logic_error when moved from
+  [[nodiscard]] Implementation& changing();            ///< @throws std::logic_error when moved from or in a step
+
   std::unique_ptr<Implementation> implementation_;
 };
 

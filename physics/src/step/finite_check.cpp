@@ -1,0 +1,66 @@
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "state/countable.h"
+#include "state/world_data.h"
+
+namespace tweenfall {
+
+namespace step {
+
+std::string text(double value) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return {digits.data(), end};
+}
+
+bool countable(const Body& body) {
+  return tweenfall::countable(body.center) && tweenfall::countable(body.motion.pose.position) &&
+         body.motion.pose.rotation.coeffs().allFinite() && tweenfall::countable(body.twist.linear) &&
+         tweenfall::countable(body.twist.angular) && tweenfall::countable(body.motion.twist.linear);
+}
+
+/// What most likely threw a body: the greatest of what it had and of what acted on it.
+std::string cause_of(const Twist& before, const Load& load, bool touched, double dt) {
+  const double speed = before.linear.norm(), spin = before.angular.norm();
+  const double gain = load.acceleration.norm() * dt, torque = load.torque.norm();
+  if (gain > 1e6 && gain > speed) return "forces accelerate it by " + text(load.acceleration.norm()) + " m/s^2";
+  if (torque > 1e6) return "torques of " + text(torque) + " N m turn it";
+  if (speed > 1e6) return "it already moved at " + text(speed) + " m/s in the step before";
+  if (spin > 1e6) return "it already turned at " + text(spin) + " rad/s in the step before";
+  return touched ? "its contacts throw it" : "the step of " + text(dt) + " s is too long for what acts on it";
+}
+
+}  // namespace step
+
+NotFinite::NotFinite(BodyId which, double when, const std::string& why)
+    : std::runtime_error("body " + std::to_string(which.index) + " stopped being finite at " + step::text(when) +
+                         " s: " + why),
+      body(which),
+      time(when),
+      cause(why) {}
+
+void World::Implementation::check_bodies(double dt, double at) const {
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].alive || step::countable(bodies[i])) continue;
+    // Without a step behind it, the body had been left so.
+    const std::string cause = i < starts.size() && dt > 0
+                                  ? step::cause_of(starts[i].twist, loads[i], solver.moved(i), dt)
+                                  : "it was not finite before the step";
+    throw NotFinite({i, bodies[i].generation}, at, cause);
+  }
+}
+
+void World::Implementation::check_loads(double at) const {
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    const Load& load = loads[i];
+    if (!bodies[i].alive || (countable(load.acceleration) && countable(load.end_acceleration) &&
+                             countable(load.torque) && std::isfinite(load.drag)))
+      continue;
+    throw NotFinite({i, bodies[i].generation}, at,
+                    "a spring, a field or a force accelerates it by more than 1e30 m/s^2");
+  }
+}
+
+}  // namespace tweenfall
