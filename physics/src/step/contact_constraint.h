@@ -17,7 +17,9 @@ struct PointConstraint {
   double normal_mass = 0;
   double normal_impulse = 0;       ///< of one sub-step, kept for the next, N s
   Vec3 friction_impulse{0, 0, 0};  ///< of one sub-step, world, N s
-  double total_normal = 0;         ///< of the whole step
+  double kept_normal = 0;          ///< with which the step began, of a whole sub-step, N s
+  Vec3 kept_friction{0, 0, 0};
+  double total_normal = 0;  ///< of the whole step
   Vec3 total_friction{0, 0, 0};
   double approach = 0;              ///< closing speed where they meet, m/s
   double rebound = 0;               ///< normal speed wanted at the end of the step, m/s
@@ -37,6 +39,7 @@ struct ContactConstraint {
   double restitution = 0;
   double rolling_friction = 0;
   Vec3 rolling_impulse{0, 0, 0};
+  Vec3 kept_rolling{0, 0, 0};
   Vec3 total_rolling{0, 0, 0};
   bool touching = false;  ///< an impulse passed or the shapes overlap
   bool began = false;

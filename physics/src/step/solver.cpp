@@ -19,6 +19,8 @@ constexpr double soft_cycles = 0.125;
 constexpr double soft_damping = 10;
 /// Sub-steps in a step; the passes are shared out among them.
 constexpr int sub_steps = 8;
+/// How fast a longer step is forgotten, in seconds per second.
+constexpr double forgetting = 0.02;
 /// Up to this many contacts every sub-step may take all passes: few contacts are solved to the end.
 constexpr std::size_t few = 24;
 /// A change of velocity that no longer matters, m/s.
@@ -189,7 +191,7 @@ void Solver::foresee(const std::vector<Load>& loads, ContactConstraint& constrai
     }
     point.approach = std::max(0.0, speed);
     // Slower than what gravity makes of a step or two, a rebound would only be a tremble.
-    if (point.approach <= std::max(1e-7, 2 * weight * dt)) continue;
+    if (point.approach <= std::max(1e-7, 2 * weight * whole_)) continue;
     constraint.impact = true;
     const double left = dt - time;
     const double back = constraint.restitution * point.approach;
@@ -247,6 +249,27 @@ void Solver::warm_start(ContactConstraint& constraint, double ratio) {
   constraint.rolling_impulse *= ratio;
   a.angular -= a.inverse_inertia * constraint.rolling_impulse;
   b.angular += b.inverse_inertia * constraint.rolling_impulse;
+}
+
+void Solver::keep_impulses(ContactConstraint& constraint, double ratio) {
+  constraint.rolling_impulse *= ratio;
+  constraint.kept_rolling = constraint.rolling_impulse;
+  for (int i = 0; i < constraint.count; ++i) {
+    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    point.normal_impulse *= ratio;
+    point.friction_impulse *= ratio;
+    point.kept_normal = point.normal_impulse;
+    point.kept_friction = point.friction_impulse;
+  }
+}
+
+void Solver::blend_impulses(ContactConstraint& constraint, double share) {
+  constraint.rolling_impulse += share * constraint.kept_rolling;
+  for (int i = 0; i < constraint.count; ++i) {
+    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    point.normal_impulse += share * point.kept_normal;
+    point.friction_impulse += share * point.kept_friction;
+  }
 }
 
 double Solver::solve_contact(ContactConstraint& constraint, const Softness& softness, double h) {
@@ -410,10 +433,17 @@ void Solver::rebound(std::vector<ContactConstraint>& constraints, Islands& islan
 void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
                    std::vector<ContactConstraint>& constraints, Islands& islands, const WorldSettings& settings,
                    double dt) {
+  // What a short piece of a step leaves over must not be taken for what a whole one would: softness and kept impulses
+  // refer to the longest step of late, and no ratio of lengths ever multiplies anything by more than 1.
+  const double before = whole_ > 0 ? whole_ : dt;
+  whole_ = std::max(dt, before - forgetting * dt);
+  const double shorter = std::min(1.0, whole_ / before);
+  const double part = dt / whole_;
   moved_.assign(bodies.size(), 0);
   gather(bodies, constraints, dt);
   for (ContactConstraint& constraint : constraints) {
     foresee(loads, constraint, dt);
+    keep_impulses(constraint, shorter);
     if (!constraint.impact) continue;
     at(constraint.a).impact = true;
     at(constraint.b).impact = true;
@@ -424,19 +454,17 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
   const int relaxing = std::max(1, share / 2);
   const int passes = std::max(1, share - relaxing);
   const double turn = 2 * std::numbers::pi * soft_cycles;
-  const double stiffness = turn * (2 * soft_damping + turn);
+  const double cycles = turn * part;
+  const double stiffness = cycles * (2 * soft_damping + cycles);
   const Softness hard;
-  const Softness soft{turn / (h * (2 * soft_damping + turn)), settings.push_out_speed, stiffness / (1 + stiffness),
-                      1 / (1 + stiffness)};
-  double ratio = last_sub_step_ > 0 ? h / last_sub_step_ : 1;
-  last_sub_step_ = h;
+  const Softness soft{turn * sub_steps / (whole_ * (2 * soft_damping + cycles)), settings.push_out_speed,
+                      stiffness / (1 + stiffness), 1 / (1 + stiffness)};
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h);
     for (ContactConstraint& constraint : constraints) {
       if (sub_step > 0) refresh(constraint);
-      warm_start(constraint, ratio);
+      warm_start(constraint, sub_step > 0 ? 1 : part);
     }
-    ratio = 1;
     const double remaining = dt - (sub_step + 1) * h;
     for (SolverBody& body : bodies_) body.drive_impulse = body.drive_angular_impulse = Vec3::Zero();
     const auto run = [&](const Softness& softness, int count) {
@@ -471,6 +499,8 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
     run(hard, relaxing);
     add_totals(constraints);
   }
+  if (part < 1)
+    for (ContactConstraint& constraint : constraints) blend_impulses(constraint, 1 - part);
   rebound(constraints, islands, settings.iterations);
 
   for (SolverBody& entry : bodies_) {

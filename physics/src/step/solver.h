@@ -55,6 +55,9 @@ class Solver {
   void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, const WorldSettings& settings,
                       double h);
   void refresh(ContactConstraint& constraint) const;
+  static void keep_impulses(ContactConstraint& constraint, double ratio);
+  /// The impulses to start from next time: those of this piece, and for the rest of a whole step the ones before.
+  static void blend_impulses(ContactConstraint& constraint, double share);
   void warm_start(ContactConstraint& constraint, double ratio);
   double pass(std::vector<ContactConstraint>& constraints, const Softness& softness, double h, bool backward);
   double solve_contact(ContactConstraint& constraint, const Softness& softness, double h);
@@ -70,7 +73,7 @@ class Solver {
   std::vector<char> moved_;
   std::vector<char> flags_;
   std::vector<Vec3> before_linear_, before_angular_;
-  double last_sub_step_ = 0;  ///< s; kept impulses are scaled by the ratio
+  double whole_ = 0;  ///< the longest step of late, s
 };
 
 }  // namespace tweenfall
