@@ -21,9 +21,9 @@ void check_size(std::size_t given, std::size_t wanted, const char* what) {
 
 template <class Data>
 bool is_plain(const Data& data) {
-  return !data.segments.empty() && data.warps.empty() && data.before.rule.rule == Outside::hold &&
+  return data.times && data.warps.empty() && data.before.rule.rule == Outside::hold &&
          data.after.rule.rule == Outside::hold &&
-         std::all_of(data.segments.begin(), data.segments.end(), [](const Segment& s) { return s.degree <= 3; });
+         std::ranges::all_of(data.kinds, [](const auto& kind) { return kind.degree <= 3; });
 }
 
 // 1 from the stretch's end on, and where `start` is infinitely early.
@@ -44,19 +44,18 @@ CurveBatch::CurveBatch(std::span<const Curve<double>> curves) {
     Track track{static_cast<std::uint32_t>(stretches_.size()), 0, infinity, infinity, 0};
     if (is_plain(data)) {
       add(-infinity, data.start, curve.value(data.start, Side::in));
-      for (std::size_t i = 0; i < data.segments.size(); ++i) {
-        const Segment& segment = data.segments[i];
+      for (std::size_t i = 0; i < data.span_count(); ++i) {
+        const Segment segment = data.segment(i);
         double c[4]{};
         std::copy_n(&data.pool[segment.first], segment.degree + 1, c);
-        add(segment.start, i + 1 < data.segments.size() ? data.segments[i + 1].start : data.end, c[0], c[1], c[2],
-            c[3]);
+        add(segment.start, data.knots()[i + 1], c[0], c[1], c[2], c[3]);
       }
       add(data.end, infinity, curve.value(data.end));
       track.start = data.start;
       track.end = data.end;
-      track.spans_per_second = static_cast<double>(data.segments.size()) / (data.end - data.start);
+      track.spans_per_second = static_cast<double>(data.span_count()) / (data.end - data.start);
       seconds += data.end - data.start;
-      spans += static_cast<double>(data.segments.size());
+      spans += static_cast<double>(data.span_count());
     } else {
       apart_.push_back({tracks_.size(), curve});
       add(-infinity, infinity, 0);

@@ -1,5 +1,6 @@
 #include <tweenfall/curves/curve.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -64,17 +65,28 @@ void through(const Warp::Result& w, Polynomial<V>& p) noexcept {
   p.first = p.first * w.ds;
 }
 
+// The rows of a plain turn as the polynomial that they are: it starts at no turn.
 template <class Data>
-Sample<Quat> sample_rotation(const Data& d, std::size_t i, const Warp::Result& w) noexcept {
-  const Segment& s = d.segments[i];
+Polynomial<Vec3> plain_turn(const Data& d, const Segment& s, double u) noexcept {
+  Vec3 c[max_degree + 1];
+  c[0].setZero();
+  std::copy_n(d.turns.begin() + static_cast<std::ptrdiff_t>(s.first), s.degree, c + 1);
+  return evaluate_polynomial(c, s.degree, u);
+}
+
+template <class Data>
+Sample<Quat> sample_rotation(const Data& d, std::size_t i, const Segment& s, const Warp::Result& w) noexcept {
   Sample<Quat> result;
-  if (s.form == RotationSpan::Form::nested) {
+  if (d.plain_turns) {
+    result = sample_exponential(d.starts[i], plain_turn(d, s, w.s));
+  } else if (s.form == RotationSpan::Form::nested) {
     result = sample_nested(&d.pool[s.first], w);
   } else {
     Polynomial<Vec4> p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
     if (s.warped) through(w, p);
-    result =
-        s.form == RotationSpan::Form::normalized ? sample_normalized(p, d.ends[i]) : sample_exponential(d.starts[i], p);
+    result = s.form == RotationSpan::Form::normalized
+                 ? sample_normalized(p, d.arrival(i))
+                 : sample_exponential(d.starts[i], {p.value.head<3>(), p.first.head<3>(), p.second.head<3>()});
   }
   if (!d.spins.empty() && !d.spins[i].isZero(0)) result = spun(result, d.spins[i], w);
   result.rate *= s.inverse;
@@ -83,12 +95,11 @@ Sample<Quat> sample_rotation(const Data& d, std::size_t i, const Warp::Result& w
 }
 
 template <class T, class Data>
-Sample<T> sample_segment(const Data& d, std::size_t i, double u) noexcept {
-  const Segment& s = d.segments[i];
+Sample<T> sample_segment(const Data& d, std::size_t i, const Segment& s, double u) noexcept {
   Warp::Result w{u, 1, 0};
   if (s.warped) w = d.warps[i].at(u);
   if constexpr (std::is_same_v<T, Quat>) {
-    return sample_rotation(d, i, w);
+    return sample_rotation(d, i, s, w);
   } else {
     Polynomial<typename Stored<T>::type> p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
     if (s.warped) through(w, p);
@@ -104,16 +115,49 @@ Sample<T> sample_segment(const Data& d, std::size_t i, double u) noexcept {
 // From the first knot to the last.
 template <class T, class Data>
 Sample<T> sample_inside(const Data& d, double time, Side side) noexcept {
-  if (d.segments.empty()) return d.formula(time, side);
-  std::size_t i = time < d.end ? d.locate(time) : d.segments.size();
-  const bool at_knot = i == d.segments.size() || time == d.knots[i];
-  if (at_knot && i > 0 && (side == Side::in || i == d.segments.size())) {
-    Sample<T> arrival = sample_segment<T>(d, i - 1, 1);
-    arrival.value = d.ends[i - 1];
+  const std::size_t count = d.span_count();
+  if (count == 0) return d.formula(time, side);
+  const std::size_t i = time < d.end ? d.times->locate(time) : count;
+  const bool at_knot = i == count || time == d.times->knots()[i];
+  if (at_knot && i > 0 && (side == Side::in || i == count)) {
+    Sample<T> arrival = sample_segment<T>(d, i - 1, d.segment(i - 1), 1);
+    arrival.value = d.arrival(i - 1);
     return arrival;
   }
-  const Segment& s = d.segments[i];
-  return sample_segment<T>(d, i, s.position(time));
+  const Segment s = d.segment(i);
+  return sample_segment<T>(d, i, s, s.position(time));
+}
+
+// Whether all spans have coefficients of the same shape, so that one description does for all of them.
+template <class SpanType>
+bool are_alike(std::span<const SpanType> spans) {
+  return std::ranges::all_of(spans, [&](const SpanType& s) {
+    if constexpr (std::is_same_v<SpanType, RotationSpan>)
+      if (s.form != spans[0].form) return false;
+    return s.degree == spans[0].degree && !s.warp.function;
+  });
+}
+
+// Whether nothing but even or cubic turns from one rotation to the next is there, as keys alone make.
+bool are_plain_turns(std::span<const RotationSpan> spans) {
+  return are_alike(spans) && std::ranges::all_of(spans, [](const RotationSpan& s) {
+           if (s.form != RotationSpan::Form::exponential || !s.spin.isZero(0)) return false;
+           for (std::size_t k = 0; k <= static_cast<std::size_t>(s.degree); ++k)
+             if (s.coefficients[k][3] != 0) return false;
+           return s.coefficients[0].isZero(0);
+         });
+}
+
+// Whether each span ends, to the bit, with what leaves it there.
+template <class SpanType>
+bool are_joined(std::span<const SpanType> spans) {
+  for (std::size_t i = 0; i + 1 < spans.size(); ++i)
+    if constexpr (std::is_same_v<SpanType, RotationSpan>) {
+      if (spans[i].end.coeffs() != spans[i + 1].from.coeffs()) return false;
+    } else {
+      if (!(spans[i].end == spans[i + 1].coefficients[0])) return false;
+    }
+  return true;
 }
 
 // What arrives at the first knot, or leaves the last.
@@ -149,48 +193,56 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   d.after = after;
   if (!std::isfinite(end - d.start))
     throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
-  d.knots.reserve(spans.size() + 1);
-  for (const auto& s : spans) d.knots.push_back(s.start);
-  d.knots.push_back(end);
-  for (const auto& s : spans)
-    if (s.warp.function) {
-      d.warps.resize(spans.size());
-      break;
-    }
-  d.segments.reserve(spans.size());
-  for (std::size_t i = 0; i < spans.size(); ++i) {
+  std::vector<double> knots;
+  knots.reserve(spans.size() + 1);
+  for (const auto& s : spans) knots.push_back(s.start);
+  knots.push_back(end);
+  d.times = shared_times(knots);
+
+  const std::size_t count = spans.size();
+  const auto has_warp = [](const auto& s) { return s.warp.function != nullptr; };
+  if (std::ranges::any_of(spans, has_warp))
+    for (const auto& s : spans) d.warps.push_back(s.warp);
+  bool joined = are_joined(spans);
+  std::size_t unread = 0;  // coefficients that are known without being stored
+  if constexpr (std::is_same_v<T, Quat>) {
+    d.plain_turns = are_plain_turns(spans);
+    joined = joined && d.plain_turns;
+    unread = d.plain_turns ? 1 : 0;
+    d.starts.reserve(count);
+    for (const RotationSpan& s : spans) d.starts.push_back(s.from);
+    if (std::ranges::any_of(spans, [](const RotationSpan& s) { return !s.spin.isZero(0); }))
+      for (const RotationSpan& s : spans) d.spins.push_back(s.spin);
+  }
+
+  std::size_t rows = 0;
+  for (const auto& s : spans) rows += static_cast<std::size_t>(rows_of(s)) - unread;
+  d.rows = static_cast<std::uint32_t>(rows_of(spans[0])) - static_cast<std::uint32_t>(unread);
+  if (unread)
+    d.turns.reserve(rows);
+  else
+    d.pool.reserve(rows);
+  const bool alike = are_alike(spans);
+  d.kinds.reserve(alike ? 1 : count);
+  d.ends.reserve(joined ? 1 : count);
+  for (std::size_t i = 0; i < count; ++i) {
     const auto& s = spans[i];
-    const double duration = d.knots[i + 1] - d.knots[i];
-    Segment segment{s.start,
-                    duration,
-                    1 / duration,
-                    static_cast<std::uint32_t>(d.pool.size()),
-                    static_cast<std::int16_t>(s.degree),
-                    s.warp.function != nullptr,
-                    RotationSpan::Form::exponential};
-    for (int k = 0; k < rows_of(s); ++k) {
-      const auto& c = s.coefficients[static_cast<std::size_t>(k)];
+    if (!alike || i == 0) {
+      typename Curve<T>::Data::Kind kind{static_cast<std::uint32_t>(d.pool.size()), static_cast<std::int16_t>(s.degree),
+                                         has_warp(s), RotationSpan::Form::exponential};
+      if constexpr (std::is_same_v<T, Quat>) kind.form = s.form;
+      d.kinds.push_back(kind);
+    }
+    for (std::size_t k = unread; k < static_cast<std::size_t>(rows_of(s)); ++k) {
+      const auto& c = s.coefficients[k];
       if constexpr (std::is_same_v<T, Color>)
         d.pool.push_back(c.rgba);
+      else if constexpr (std::is_same_v<T, Quat>)
+        d.plain_turns ? d.turns.push_back(c.template head<3>()) : d.pool.push_back(c);
       else
         d.pool.push_back(c);
     }
-    if constexpr (std::is_same_v<T, Quat>) {
-      segment.form = s.form;
-      d.starts.push_back(s.from);
-      if (!s.spin.isZero(0)) d.spins.resize(spans.size(), Vec3(0, 0, 0));
-      if (!d.spins.empty()) d.spins[i] = s.spin;
-    }
-    d.ends.push_back(s.end);
-    d.segments.push_back(segment);
-    if (segment.warped) d.warps[i] = s.warp;
-  }
-  if (spans.size() > 1) {
-    const std::size_t count = spans.size();
-    d.bucket_scale = static_cast<double>(2 * count) / (d.end - d.start);
-    d.buckets.assign(2 * count + 1, 0);
-    for (std::size_t i = 0; i < count; ++i) ++d.buckets[d.bucket(d.knots[i]) + 1];
-    for (std::size_t b = 1; b < d.buckets.size(); ++b) d.buckets[b] += d.buckets[b - 1];
+    if (!joined || i + 1 == count) d.ends.push_back(s.end);
   }
   return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
 }
@@ -280,7 +332,7 @@ const OutsideRule<T>& Curve<T>::rule_after() const noexcept {
 
 template <class T>
 std::span<const double> Curve<T>::knots() const noexcept {
-  return data_->knots;
+  return data_->knots();
 }
 
 template <class T>
@@ -306,8 +358,8 @@ T Curve<T>::value(double time, Side side) const noexcept {
   if constexpr (std::is_same_v<T, double>) {
     // The most frequent question of all, without the work for rates.
     const Data& d = *data_;
-    if (time >= d.start && time < d.end && side == Side::out && d.warps.empty() && !d.segments.empty()) {
-      const Segment& s = d.segments[d.locate(time)];
+    if (time >= d.start && time < d.end && side == Side::out && d.warps.empty() && d.times) {
+      const Segment s = d.segment(d.times->locate(time));
       return polynomial_value(&d.pool[s.first], s.degree, s.position(time));
     }
   }
@@ -318,9 +370,9 @@ template <class T>
 std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
   const Data& d = *data_;
   std::vector<typename SpanOf<T>::type> result;
-  result.reserve(d.segments.size());
-  for (std::size_t i = 0; i < d.segments.size(); ++i) {
-    const Segment& s = d.segments[i];
+  result.reserve(d.span_count());
+  for (std::size_t i = 0; i < d.span_count(); ++i) {
+    const Segment s = d.segment(i);
     typename SpanOf<T>::type span{};
     span.start = s.start;
     span.duration = s.duration;
@@ -332,12 +384,18 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
       if (!d.spins.empty()) span.spin = d.spins[i];
     }
     for (std::size_t k = 0; k < static_cast<std::size_t>(rows_of(span)); ++k) {
-      if constexpr (std::is_same_v<T, Color>)
+      if constexpr (std::is_same_v<T, Color>) {
         span.coefficients[k].rgba = d.pool[s.first + k];
-      else
+      } else if constexpr (std::is_same_v<T, Quat>) {
+        if (!d.plain_turns)
+          span.coefficients[k] = d.pool[s.first + k];
+        else if (k > 0)
+          span.coefficients[k].template head<3>() = d.turns[s.first + k - 1];
+      } else {
         span.coefficients[k] = d.pool[s.first + k];
+      }
     }
-    span.end = d.ends[i];
+    span.end = d.arrival(i);
     if (s.warped) span.warp = d.warps[i];
     result.push_back(span);
   }

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "curve/components.h"
+#include "curve/span_times.h"
 
 namespace tweenfall {
 
@@ -35,9 +36,10 @@ struct CurveEnd {
   [[nodiscard]] const std::optional<Rate<T>>& straight() const noexcept { return rule.slope ? rule.slope : slope; }
 };
 
+// One span as it is evaluated.
 struct Segment {
   double start, duration, inverse;
-  std::uint32_t first;  // index of coefficient 0 in the pool
+  std::size_t first;  // index of its first row of coefficients
   std::int16_t degree;
   bool warped;
   RotationSpan::Form form;  // rotations only
@@ -48,45 +50,59 @@ struct Segment {
 
 template <class T>
 struct Curve<T>::Data {
+  // What spans are like: one for each of them, or a single one where all are alike.
+  struct Kind {
+    std::uint32_t first;  // row of coefficients; where all are alike they follow each other
+    std::int16_t degree;
+    bool warped;
+    RotationSpan::Form form;
+  };
+
   CurveEnd<T> before, after;
   double start = 0, end = 0;
 
-  std::vector<double> knots;
-  std::vector<Segment> segments;
+  std::shared_ptr<const SpanTimes> times;  // null where there is a formula
+  std::vector<Kind> kinds;
+  std::uint32_t rows = 0;  // for each span, where all are alike
   std::vector<typename Stored<T>::type> pool;
-  std::vector<T> ends;      // values on arrival, one a segment
-  std::vector<T> starts;    // rotations only: what the exponential multiplies
-  std::vector<Warp> warps;  // empty, or one a segment
-  std::vector<Vec3> spins;  // rotations only: empty, or one a segment
+  // Values on arrival, one for each span; only the last where each arrives at what leaves.
+  std::vector<T> ends;
+  std::vector<Warp> warps;  // empty, or one for each span
 
-  // Where to look for a time: entry b counts the knots in buckets below b, buckets being equal shares of the duration.
-  // Two a span, so that where keys are spread evenly no bucket has more than one.
-  std::vector<std::uint32_t> buckets;
-  double bucket_scale = 0;
+  // Rotations only: what the exponential multiplies, one for each span, and its rows where all are exponentials of the
+  // same degree without warp or spin: three numbers each, from the first power on. They stand in place of the pool.
+  std::vector<T> starts;
+  std::vector<Vec3> turns;
+  bool plain_turns = false;
+  std::vector<Vec3> spins;  // empty, or one for each span
 
-  Formula formula;  // empty where there are spans
+  std::vector<double> marks;  // knots that a formula states
+  Formula formula;            // empty where there are spans
   // Set where the formula answers at every time by itself and makes the curve anew with other rules outside.
   std::function<Curve(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt;
 
-  [[nodiscard]] std::size_t bucket(double time) const noexcept {
-    const double b = (time - start) * bucket_scale;
-    const std::size_t last = buckets.size() - 2;
-    return b < static_cast<double>(last) ? static_cast<std::size_t>(b) : last;
+  [[nodiscard]] std::size_t span_count() const noexcept { return times ? times->count() : 0; }
+  [[nodiscard]] std::span<const double> knots() const noexcept {
+    return times ? times->knots() : std::span<const double>(marks);
+  }
+  [[nodiscard]] Segment segment(std::size_t i) const noexcept {
+    const bool alike = kinds.size() == 1;
+    const Kind& kind = kinds[alike ? 0 : i];
+    return {times->knots()[i], times->duration(i), times->inverse(i), alike ? i * rows : kind.first,
+            kind.degree,       kind.warped,        kind.form};
+  }
+  [[nodiscard]] T arrival(std::size_t i) const noexcept {
+    if (ends.size() == span_count()) return ends[i];
+    if (i + 1 == span_count()) return ends[0];
+    return departure(i + 1);
   }
 
-  // Index of the segment that leaves the last knot at or before `time`, for start <= time < end.
-  [[nodiscard]] std::size_t locate(double time) const noexcept {
-    if (segments.size() == 1) return 0;
-    const std::size_t b = bucket(time);
-    std::size_t low = buckets[b], high = buckets[b + 1];  // knots below the bucket, and up to its end
-    // Without a branch that depends on the time; a knot beyond the bucket is later than `time` anyway.
-    if (high - low <= 1) return low + (knots[low] <= time ? 1 : 0) - 1;
-    while (high - low > 4) {
-      const std::size_t middle = (low + high) / 2;
-      (knots[middle] <= time ? low : high) = knots[middle] <= time ? middle + 1 : middle;
-    }
-    while (low < high && knots[low] <= time) ++low;
-    return low - 1;
+ private:
+  [[nodiscard]] T departure(std::size_t i) const noexcept {
+    if constexpr (std::is_same_v<T, Quat>)
+      return starts[i];
+    else
+      return T{pool[segment(i).first]};
   }
 };
 
@@ -102,7 +118,7 @@ struct CurveAccess {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = [value](double, Side) { return Sample<T>{value, zero_rate<Rate<T>>(), zero_rate<Rate<T>>()}; };
     data->start = data->end = time;
-    data->knots = {time};
+    data->marks = {time};
     data->before = before;
     data->after = after;
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
@@ -135,7 +151,7 @@ struct CurveAccess {
     data->formula = std::move(formula);
     data->start = start;
     data->end = end;
-    data->knots.assign(knots.begin(), knots.end());
+    data->marks.assign(knots.begin(), knots.end());
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
@@ -148,7 +164,7 @@ struct CurveAccess {
     data->formula = std::move(formula);
     data->start = start;
     data->end = end;
-    data->knots.assign(knots.begin(), knots.end());
+    data->marks.assign(knots.begin(), knots.end());
     data->before.rule = before;
     data->after.rule = after;
     data->rebuilt = std::move(rebuilt);

@@ -161,7 +161,7 @@ void check_times(double from, double to) {
 template <class T>
 bool has_spans(const Curve<T>& curve) {
   const auto& data = CurveAccess::data(curve);
-  return !data.segments.empty() || (curve.start() == curve.end() && !data.rebuilt);
+  return data.times || (curve.start() == curve.end() && !data.rebuilt);
 }
 
 template <class T>

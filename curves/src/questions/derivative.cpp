@@ -62,7 +62,7 @@ double through_handles(const LongPolynomial& y, const LongPolynomial& x, double 
 
 template <class T, class Data>
 T segment_derivative(const Data& d, std::size_t i, double u, int order) noexcept {
-  const Segment& segment = d.segments[i];
+  const Segment segment = d.segment(i);
   T result = zero<T>();
   const T* c = &d.pool[segment.first];
   if (!segment.warped) {
@@ -95,10 +95,10 @@ template <class Data>
 void check_order(const Data& d, int order) {
   if (order < 0 || order > highest_order) refuse_order(order, "orders go from 0 to " + std::to_string(highest_order));
   if (order <= 2 || (d.start == d.end && !d.rebuilt)) return;
-  if (d.segments.empty()) refuse_order(order, "a formula gives two");
+  if (!d.times) refuse_order(order, "a formula gives two");
   for (std::size_t i = 0; i < d.warps.size(); ++i)
-    if (d.warps[i].function && d.segments[i].degree > 0 && !is_time_bezier(d.warps[i]))
-      refuse_order(order, "the ease from " + text_of(d.knots[i]) + " s gives two");
+    if (d.warps[i].function && d.segment(i).degree > 0 && !is_time_bezier(d.warps[i]))
+      refuse_order(order, "the ease from " + text_of(d.knots()[i]) + " s gives two");
 }
 
 // Precondition: the order is known.
@@ -109,7 +109,7 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
     return order == 0 ? s.value : order == 1 ? s.rate : s.acceleration;
   }
   const auto& d = CurveAccess::data(curve);
-  if (d.segments.empty()) return zero<T>();
+  if (!d.times) return zero<T>();
   double sign = 1;
   const bool early = time < d.start || (time == d.start && side == Side::in);
   if (early || time > d.end || (time == d.end && side == Side::out)) {
@@ -125,8 +125,8 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
       if (order % 2 != 0) sign = -1;
     }
   }
-  std::size_t i = time < d.end ? d.locate(std::max(time, d.start)) : d.segments.size() - 1;
-  double u = std::min((time - d.knots[i]) / d.segments[i].duration, 1.0);
+  std::size_t i = time < d.end ? d.times->locate(std::max(time, d.start)) : d.span_count() - 1;
+  double u = std::min((time - d.knots()[i]) / d.times->duration(i), 1.0);
   if (side == Side::in && u == 0 && i > 0) {
     i -= 1;
     u = 1;

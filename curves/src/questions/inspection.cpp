@@ -28,8 +28,8 @@ template <class T>
 bool knows_all_derivatives(const Curve<T>& curve) {
   const auto& d = CurveAccess::data(curve);
   for (std::size_t i = 0; i < d.warps.size(); ++i)
-    if (d.warps[i].function && d.segments[i].degree > 0 && !is_time_bezier(d.warps[i])) return false;
-  return !d.segments.empty();
+    if (d.warps[i].function && d.segment(i).degree > 0 && !is_time_bezier(d.warps[i])) return false;
+  return d.times != nullptr;
 }
 
 // Whether the curve stays near the straight line between two values.

@@ -6,8 +6,8 @@
 
 namespace tweenfall {
 
-Sample<Quat> sample_exponential(const Quat& from, const Polynomial<Vec4>& p) noexcept {
-  MovingRotation turned = exponential({p.value.head<3>(), p.first.head<3>(), p.second.head<3>()});
+Sample<Quat> sample_exponential(const Quat& from, const Polynomial<Vec3>& p) noexcept {
+  MovingRotation turned = exponential({p.value, p.first, p.second});
   turned.value = from * turned.value;
   return outer(turned);
 }

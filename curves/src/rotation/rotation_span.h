@@ -10,7 +10,7 @@
 namespace tweenfall {
 
 /// `from` exp(r) with r, r', r'' given: the rotation, its angular velocity and acceleration in the outer axes.
-[[nodiscard]] Sample<Quat> sample_exponential(const Quat& from, const Polynomial<Vec4>& r) noexcept;
+[[nodiscard]] Sample<Quat> sample_exponential(const Quat& from, const Polynomial<Vec3>& r) noexcept;
 
 /// p / |p| with p = (x, y, z, w) and its derivatives; `fallback` where p vanishes.
 [[nodiscard]] Sample<Quat> sample_normalized(const Polynomial<Vec4>& p, const Quat& fallback) noexcept;
