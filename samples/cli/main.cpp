@@ -1,9 +1,13 @@
-// tweenfall: a thin program on the libraries. Here are the table of verbs and the exit codes; each verb has its file.
+// tweenfall: a thin program on the libraries. Here are the exit codes; each verb has its file below verbs/.
 
-#include "faults.h"
-#include "terminal.h"
-#include "verbs.h"
+#include "report/faults.h"
+#include "report/terminal.h"
+#include "verbs/verbs.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <exception>
 #include <new>
 #include <string>
@@ -12,24 +16,6 @@
 namespace tweenfall::cli {
 
 namespace {
-
-constexpr Verb verbs[] = {
-    {"check", "validate documents and models; print every problem with its place", "tweenfall check swing.json", check},
-    {"inspect", "tables of nodes, clips, tracks, speeds, jumps and bodies, of documents and models",
-     "tweenfall inspect Fox.glb", inspect},
-    {"sample", "evaluate a clip's tracks, and where its nodes are in the world",
-     "tweenfall sample swing.json --at 0,0.25,0.5 --rates", sample},
-    {"run", "advance the stage with physics: a summary, or a recording as .json .csv .svg .html .glb",
-     "tweenfall run swing.json --until 3 -o swing.glb", run},
-    {"plot", "draw curves with keys, tangents, rates, events and hand-offs as SVG",
-     "tweenfall plot swing.json -o swing.svg", plot},
-    {"view", "write the moving picture as one HTML page", "tweenfall view swing.json -o swing.html", view},
-    {"import", "turn a model's nodes and clips into a document", "tweenfall import Fox.glb -o fox.json", import_model},
-    {"new", "write a commented starting document", "tweenfall new first.json", new_document},
-    {"schema", "print the JSON Schema of documents", "tweenfall schema > tweenfall.schema.json", schema},
-    {"completion", "print the completion of a shell", "source <(tweenfall completion bash)", completion},
-    {"bench", "time sampling and stepping on this machine", "tweenfall bench", bench},
-};
 
 constexpr const char* overview =
     "tweenfall: scripted and simulated motion on one timeline\n"
@@ -40,7 +26,17 @@ constexpr const char* overview =
     "\n"
     "tweenfall --help lists all verbs, tweenfall VERB --help says more of one.\n";
 
+/// Files that are opened would take the numbers of streams that whoever called has closed, and messages would be
+/// written into them.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      // For reading alone, so that a result that is printed to nowhere is still a fault.
+      static_cast<void>(open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY));
+}
+
 int command(const std::vector<std::string>& arguments) {
+  occupy_closed_streams();
   if (arguments.empty()) {
     say(overview);
     return 2;
@@ -61,10 +57,6 @@ int command(const std::vector<std::string>& arguments) {
 }
 
 }  // namespace
-
-std::span<const Verb> all_verbs() {
-  return verbs;
-}
 
 }  // namespace tweenfall::cli
 

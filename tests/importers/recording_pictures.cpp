@@ -145,5 +145,5 @@ TEST_CASE("a name cannot break out of the page") {
   }
   CHECK(count(html, "</script>") == 3);
   CHECK(html.find("<script>alert") == std::string::npos);
-  CHECK(html.find("&lt;/script>&lt;script>alert(1)") != std::string::npos);
+  CHECK(html.find("&lt;/script&gt;&lt;script&gt;alert(1)") != std::string::npos);
 }

@@ -8,6 +8,7 @@
 #include "recording/key_lanes.h"
 #include "recording/words.h"
 
+#include <algorithm>
 #include <map>
 
 namespace tweenfall {
@@ -89,9 +90,15 @@ std::string owner_runs(const std::vector<Owner>& owners) {
   return out + "]";
 }
 
+/// One part of a color; of what is no color, or brighter than floats can say, the nearest that is.
+double drawn(double part) {
+  constexpr double brightest = 1e6;
+  return part > -brightest ? std::min(part, brightest) : part < 0 ? -brightest : 0;
+}
+
 std::string color_json(const Color& color) {
   std::string out = "[";
-  for (int i = 0; i < 4; ++i) (i > 0 ? out += ',' : out) += short_text(color.rgba[i], 4);
+  for (int i = 0; i < 4; ++i) (i > 0 ? out += ',' : out) += short_text(drawn(color.rgba[i]), 4);
   return out + "]";
 }
 
@@ -115,7 +122,7 @@ std::string node_json(const NodeRecord& node, const NodeDescription* description
   if (!node.color.empty()) {
     numbers.clear();
     for (const Color& color : node.color)
-      for (int i = 0; i < 4; ++i) numbers.push_back(static_cast<float>(color.rgba[i]));
+      for (int i = 0; i < 4; ++i) numbers.push_back(static_cast<float>(drawn(color.rgba[i])));
     drop_repeats(numbers, 4);
     append_quoted(out, "colors", base64(numbers));
   } else if (description && description->color) {

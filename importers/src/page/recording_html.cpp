@@ -1,34 +1,15 @@
 #include <tweenfall/importers/recording_file.h>
+#include <tweenfall/importers/shown_text.h>
 
 #include "page/page_data.h"
 #include "page/page_files.h"
-#include "recording/check.h"
 
 #include <stdexcept>
 
 namespace tweenfall {
 
-namespace {
-
-/// `text` with `&` and `<` told as entities.
-std::string html_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
-}  // namespace
-
 std::string recording_html(const Recording& recording, const StageDescription& stage) {
-  check_recording(recording);
+  check_drawable(recording, stage);
   if (recording.times.empty())
     throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to show");
   const std::string three = page::part("three.js");
@@ -47,7 +28,7 @@ std::string recording_html(const Recording& recording, const StageDescription& s
     out.append(frame, at, open - at);
     const std::string part = frame.substr(open + 2, close - open - 2);
     if (part == "title") {
-      out += html_text(name.empty() ? "recording" : name);
+      out += markup_text(name.empty() ? "recording" : name);
     } else if (part == "data") {
       out += page_data(recording, stage);
     } else if (part == "three.js") {

@@ -1,30 +1,74 @@
 #include "plot/axis.h"
 
+#include <tweenfall/importers/number_text.h>
+
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace tweenfall {
 
+namespace {
+
+/// The power of ten at or below `size`, found by multiplication, so that every machine finds the same one.
+double power_of_ten_below(double size) {
+  double power = 1;
+  while (power > size) power /= 10;
+  while (power * 10 <= size) power *= 10;
+  return power;
+}
+
+/// With `digits` after the first one, and no more zeros than needed: "-1.25e300".
+std::string exponent_text(double number, int digits) {
+  if (number == 0) return "0";
+  char buffer[40];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::scientific, digits).ptr;
+  const std::string text(buffer, end);
+  const std::size_t mark = text.find('e');
+  std::string mantissa = text.substr(0, mark), exponent = text.substr(mark + 1);
+  if (mantissa.find('.') != std::string::npos) mantissa.erase(mantissa.find_last_not_of('0') + 1);
+  if (mantissa.back() == '.') mantissa.pop_back();
+  const bool is_negative = exponent[0] == '-';
+  exponent.erase(0, std::min(exponent.find_first_not_of("+-0"), exponent.size() - 1));
+  return mantissa + (is_negative ? "e-" : "e") + exponent;
+}
+
+}  // namespace
+
 std::vector<double> ticks(const Axis& axis, int count) {
   const double rough = (axis.high - axis.low) / std::max(1, count);
-  // Powers of ten by multiplication, so that every machine finds the same ones.
-  double power = 1;
-  while (power > rough) power /= 10;
-  while (power * 10 <= rough) power *= 10;
+  // Below this the powers of ten are not exact enough, or are none.
+  if (!(rough > 1e-290) || !std::isfinite(rough)) return {};
+  const double power = power_of_ten_below(rough);
   double step = 10 * power;
   for (const double factor : {5.0, 2.0, 1.0})
     if (factor * power >= rough) step = factor * power;
-  std::vector<double> values;
   const double first = std::ceil(axis.low / step - 1e-9);
+  // Ticks that cannot be told apart are no help.
+  if (!(std::abs(first) < 1e15)) return {};
+  std::vector<double> values;
   for (double k = first; k * step <= axis.high + 1e-9 * step && values.size() < 100; ++k) values.push_back(k * step);
   return values;
 }
 
-int tick_decimals(const std::vector<double>& ticks) {
-  if (ticks.size() < 2) return 3;
-  int decimals = 0;
-  for (double step = ticks[1] - ticks[0]; step < 1 - 1e-9 && decimals < 9; step *= 10) ++decimals;
-  return decimals;
+std::vector<std::string> tick_texts(const std::vector<double>& ticks) {
+  constexpr double longest = 1e6;
+  constexpr int most_decimals = 5;
+  double largest = 0;
+  for (const double tick : ticks) largest = std::max(largest, std::abs(tick));
+  const double step = ticks.size() < 2 ? largest : ticks[1] - ticks[0];
+  int decimals = ticks.size() < 2 ? 3 : 0;
+  for (double rest = step; rest > 0 && rest < 1 - 1e-9 && decimals <= most_decimals && ticks.size() > 1; rest *= 10)
+    ++decimals;
+  int digits = 0;
+  if (step > 0 && largest > 0)
+    for (double size = power_of_ten_below(largest * (1 + 1e-9)); size > step * (1 + 1e-9) && digits < 16; size /= 10)
+      ++digits;
+  std::vector<std::string> texts;
+  for (const double tick : ticks)
+    texts.push_back(largest < longest && decimals <= most_decimals ? short_text(tick, decimals)
+                                                                   : exponent_text(tick, std::max(digits, 1)));
+  return texts;
 }
 
 void add_room(double& low, double& high) {

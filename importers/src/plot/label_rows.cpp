@@ -27,20 +27,27 @@ std::string shortened(const std::string& text, double width) {
   return out + "\xe2\x80\xa6";
 }
 
-LabelRows::Place LabelRows::place(double x, const std::string& text) {
+LabelRows::Place LabelRows::place(double x, const std::string& text, const IsTaken& is_taken) {
   constexpr double gap = 4;
   const double width = text_width(text);
   double from = x + gap;
   if (from + width > right_) from = std::max(left_, x - gap - width);
-  for (std::size_t row = 0;; ++row) {
-    auto& taken = rows_[row];
-    const bool is_free = std::none_of(taken.begin(), taken.end(), [&](const auto& other) {
+  const auto lies_over_labels = [&](const auto& row) {
+    return std::any_of(row.begin(), row.end(), [&](const auto& other) {
       return from < other.second + gap && other.first < from + width + gap;
     });
-    if (!is_free && row + 1 < rows_.size()) continue;
-    taken.emplace_back(from, from + width);
-    return {from, row};
+  };
+  std::size_t chosen = rows_.size();
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    if (lies_over_labels(rows_[row])) continue;
+    if (chosen == rows_.size()) chosen = row;
+    if (is_taken && is_taken(from, from + width, row)) continue;
+    chosen = row;
+    break;
   }
+  chosen = std::min(chosen, rows_.size() - 1);
+  rows_[chosen].emplace_back(from, from + width);
+  return {from, chosen};
 }
 
 }  // namespace tweenfall

@@ -2,6 +2,7 @@
 
 // Labels along a line of time, each in the first row where it lies over no other.
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,8 +23,11 @@ class LabelRows {
     double x;  ///< where the text begins, px
     std::size_t row;
   };
-  /// Beside `x`, right of it where there is room, else left. The last row takes all that finds no place.
-  [[nodiscard]] Place place(double x, const std::string& text);
+  /// Whether something else lies where a text of this width would stand in a row.
+  using IsTaken = std::function<bool(double from, double to, std::size_t row)>;
+  /// Beside `x`, right of it where there is room, else left; in the first row where it lies over nothing, else in the
+  /// first where it lies over no other label. The last row takes all that finds no place.
+  [[nodiscard]] Place place(double x, const std::string& text, const IsTaken& is_taken = {});
 
  private:
   double left_, right_;

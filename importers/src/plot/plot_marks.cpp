@@ -41,6 +41,7 @@ void draw_handles(SvgWriter& svg, const Panel& panel, const PlottedKey& key, std
     const TrackPoint& side = handle.time < 0 ? key.in : key.out;
     const Vec2 place(panel.time.place(key.time), panel.value.place(side.values[component]));
     const Vec2 way(across * handle.time, up * handle.change);
+    if (!place.allFinite() || !way.allFinite()) continue;
     const double share = share_within(panel, place, way);
     draw_arm(svg, place, place + share * way, share == 1);
   }
@@ -56,7 +57,8 @@ void draw_slopes(SvgWriter& svg, const Panel& panel, const PlottedKey& key, std:
     if ((arrives ? key.first : key.last) || component >= side.rates.size()) continue;
     const Vec2 place(panel.time.place(key.time), panel.value.place(side.values[component]));
     const Vec2 way(across, up * side.rates[component]);
-    const Vec2 tip = way * ((arrives ? -length : length) / way.norm());
+    if (!place.allFinite() || !way.allFinite()) continue;
+    const Vec2 tip = way.stableNormalized() * (arrives ? -length : length);
     svg.leaf("path", {{"class", "slope"},
                       {"d", "M" + px(place.x()) + " " + px(place.y()) + "l" + px(tip.x()) + " " + px(tip.y())},
                       {"stroke", gray}});
@@ -72,15 +74,21 @@ void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) 
   const bool has_handles =
       std::any_of(plotted.keys.begin(), plotted.keys.end(), [](const PlottedKey& key) { return !key.handles.empty(); });
   const bool rotates = std::holds_alternative<Curve<Quat>>(plotted.track->curve);
+  std::vector<Vec2> last(panel.names.size(), Vec2(-HUGE_VAL, -HUGE_VAL));  // px
   for (const PlottedKey& key : plotted.keys) {
     for (std::size_t i = 0; i < panel.names.size() && i < key.out.values.size(); ++i) {
+      if (std::isnan(key.out.values[i]) || std::isnan(key.in.values[i])) continue;
+      const Vec2 place(panel.time.place(key.time), panel.value.place(key.out.values[i]));
+      // Marks on top of each other are one.
+      if (is_close && (place - last[i]).norm() < 0.25) continue;
+      last[i] = place;
       if (!is_close) {
         if (has_handles)
           draw_handles(svg, panel, key, i);
         else if (!rotates || panel.names.size() == 1)
           draw_slopes(svg, panel, key, i);
       }
-      const double x = panel.time.place(key.time), y = panel.value.place(key.out.values[i]);
+      const double x = place.x(), y = place.y();
       const std::string half = is_close ? "1.8" : "3.5";
       svg.leaf("path", {{"class", "key"},
                         {"d", "M" + px(x) + " " + px(y - (is_close ? 1.8 : 3.5)) + "l" + half + " " + half + "l-" +
@@ -91,31 +99,71 @@ void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) 
 }
 
 void draw_moments(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
-  for (const PlottedMoment& moment : plotted.moments)
-    svg.leaf("path",
-             {{"class", moment.handoff ? "handoff" : "event"},
-              {"d", "M" + px(panel.time.place(moment.time)) + " " + px(panel.value.from) + "V" + px(panel.value.to)},
-              {"stroke", moment.handoff ? "#d97a00" : gray},
-              {"stroke-width", moment.handoff ? "1.8" : "1"},
-              {"stroke-dasharray", moment.handoff ? "none" : "2 3"}});
+  double last[] = {-HUGE_VAL, -HUGE_VAL};  // px, of an event and of a hand-off
+  for (const PlottedMoment& moment : plotted.moments) {
+    const double x = panel.time.place(moment.time);
+    // Closer lines are one.
+    if (std::abs(x - last[moment.handoff]) < 0.5) continue;
+    last[moment.handoff] = x;
+    svg.leaf("path", {{"class", moment.handoff ? "handoff" : "event"},
+                      {"d", "M" + px(x) + " " + px(panel.value.from) + "V" + px(panel.value.to)},
+                      {"stroke", moment.handoff ? "#d97a00" : gray},
+                      {"stroke-width", moment.handoff ? "1.8" : "1"},
+                      {"stroke-dasharray", moment.handoff ? "none" : "2 3"}});
+  }
 }
 
+namespace {
+
+/// Whether any curve passes through a box of the panel, px.
+bool passes_through(const Panel& panel, const std::vector<TrackPoint>& points, double from, double to, double top,
+                    double bottom) {
+  // The points of the box, and one on each side, from which lines lead into it.
+  const auto before = [&](const TrackPoint& point, double x) { return panel.time.place(point.time) < x; };
+  auto first = std::lower_bound(points.begin(), points.end(), from, before);
+  auto last = std::lower_bound(first, points.end(), to, before);
+  if (first != points.begin()) --first;
+  if (last != points.end()) ++last;
+  for (std::size_t i = 0; i < panel.names.size(); ++i) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (auto point = first; point != last; ++point) {
+      const std::vector<double>& row = numbers(*point, panel.shows);
+      if (i >= row.size() || std::isnan(row[i])) continue;
+      low = std::min(low, panel.value.place(row[i]));
+      high = std::max(high, panel.value.place(row[i]));
+    }
+    if (low < bottom && high > top) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 void draw_moment_names(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
+  constexpr std::size_t most = 300;  // nobody reads more of them on top of each other
   const auto rows = static_cast<std::size_t>((panel.value.from - panel.value.to) / 2 / row_height);
   LabelRows above(panel.time.from, panel.time.to, rows), below(panel.time.from, panel.time.to, rows);
-  for (const PlottedMoment& moment : plotted.moments) {
+  for (std::size_t i = 0; i < std::min(plotted.moments.size(), most); ++i) {
+    const PlottedMoment& moment = plotted.moments[i];
+    const auto baseline = [&](std::size_t row) {
+      const double down = row_height * static_cast<double>(row);
+      return moment.handoff ? panel.value.to + 12 + down : panel.value.from - 5 - down;
+    };
+    const auto is_taken = [&](double from, double to, std::size_t row) {
+      const double bottom = baseline(row) + 2, top = bottom - row_height;
+      return passes_through(panel, plotted.curve, from, to, top, bottom) ||
+             std::any_of(plotted.simulated.begin(), plotted.simulated.end(),
+                         [&](const auto& points) { return passes_through(panel, points, from, to, top, bottom); });
+    };
     const std::string name = shortened(moment.name, panel.time.to - panel.time.from - 8);
-    const LabelRows::Place place = (moment.handoff ? above : below).place(panel.time.place(moment.time), name);
-    const double down = row_height * static_cast<double>(place.row);
-    // A rim of the ground's color, so that curves do not run through the letters.
+    const LabelRows::Place place =
+        (moment.handoff ? above : below).place(panel.time.place(moment.time), name, is_taken);
     svg.text("text",
-             {{"x", px(place.x)},
-              {"y", px(moment.handoff ? panel.value.to + 12 + down : panel.value.from - 5 - down)},
+             {{"class", "moment"},
+              {"x", px(place.x)},
+              {"y", px(baseline(place.row))},
               {"font-size", "10"},
-              {"fill", moment.handoff ? "#a85f00" : "#6d7178"},
-              {"stroke", "#ffffff"},
-              {"stroke-width", "3"},
-              {"paint-order", "stroke"}},
+              {"fill", moment.handoff ? "#a85f00" : "#6d7178"}},
              name);
   }
 }
@@ -140,6 +188,22 @@ void draw_texts(SvgWriter& svg, const Panel& panel, const StepCurve<std::string>
   }
 }
 
+namespace {
+
+/// "#rrggbb", the nearest that screens have; of what is no color the black of those parts.
+std::string color_text(const std::vector<double>& linear) {
+  const Vec4 parts = to_space(Color{{linear[0], linear[1], linear[2], 1}}, ColorSpace::srgb);
+  std::string text = "#";
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const int byte = parts[i] > 0 ? static_cast<int>(std::floor(std::min(parts[i], 1.0) * 255 + 0.5)) : 0;
+    text += "0123456789abcdef"[byte / 16];
+    text += "0123456789abcdef"[byte % 16];
+  }
+  return text;
+}
+
+}  // namespace
+
 void draw_colors(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
   std::string before;
   double from = panel.time.from;
@@ -155,15 +219,7 @@ void draw_colors(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted
     from = to;
   };
   for (const TrackPoint& point : plotted.curve) {
-    const Vec4 parts = to_space(Color{{point.values[0], point.values[1], point.values[2], 1}}, ColorSpace::srgb)
-                           .cwiseMax(0)
-                           .cwiseMin(1);
-    std::string color = "#";
-    for (Eigen::Index i = 0; i < 3; ++i) {
-      const int byte = static_cast<int>(std::floor(parts[i] * 255 + 0.5));
-      color += "0123456789abcdef"[byte / 16];
-      color += "0123456789abcdef"[byte % 16];
-    }
+    const std::string color = color_text(point.values);
     const double x = panel.time.place(point.time);
     // A strip of three pixels' width is as fine as eyes see here; jumps stand where they are.
     if (color == before || (!before.empty() && x < from + 3 && !point.starts)) continue;

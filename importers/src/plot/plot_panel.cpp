@@ -1,7 +1,5 @@
 #include "plot/plot_panel.h"
 
-#include <tweenfall/importers/number_text.h>
-
 #include "plot/label_rows.h"
 
 #include <algorithm>
@@ -40,24 +38,27 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels) {
                         {"fill", "#eeeeea"}});
   std::vector<double> levels;
   if (!panel.names.empty()) levels = ticks(panel.value, static_cast<int>((bottom - top) / 28));
-  for (const double level : levels) {
+  const std::vector<std::string> level_texts = tick_texts(levels);
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const double level = levels[i];
     const double y = panel.value.place(level);
     svg.leaf("path",
              {{"d", "M" + px(left) + " " + px(y) + "H" + px(right)}, {"stroke", level == 0 ? "#b5b5b0" : "#e9e8e5"}});
     svg.text(
         "text",
         {{"x", px(left - 6)}, {"y", px(y + 3.5)}, {"font-size", "10"}, {"text-anchor", "end"}, {"fill", "#6d7178"}},
-        short_text(level, tick_decimals(levels)));
+        level_texts[i]);
   }
   const std::vector<double> moments = ticks(panel.time, static_cast<int>((right - left) / 55));
-  for (const double moment : moments) {
-    const double x = panel.time.place(moment);
+  const std::vector<std::string> moment_texts = tick_texts(moments);
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const double x = panel.time.place(moments[i]);
     svg.leaf("path", {{"d", "M" + px(x) + " " + px(bottom) + "V" + px(bottom - 4)}, {"stroke", "#b5b5b0"}});
     if (time_labels)
       svg.text(
           "text",
           {{"x", px(x)}, {"y", px(bottom + 14)}, {"font-size", "10"}, {"text-anchor", "middle"}, {"fill", "#6d7178"}},
-          short_text(moment, tick_decimals(moments)) + " s");
+          moment_texts[i] + " s");
   }
   // From the right: the components, as many as half the width takes; a plain number needs no name.
   double x = right;
@@ -126,6 +127,11 @@ void draw_curves(SvgWriter& svg, const Panel& panel, const std::vector<TrackPoin
     for (const TrackPoint& point : points) {
       const std::vector<double>& row = numbers(point, panel.shows);
       if (i >= row.size()) continue;
+      if (std::isnan(row[i])) {
+        append_line(path, places);
+        places.clear();
+        continue;
+      }
       const bool jumps =
           point.time == time_before && std::abs(row[i] - number_before) > 1e-9 * std::max(1.0, std::abs(number_before));
       if (point.starts || jumps) {

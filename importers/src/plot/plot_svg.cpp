@@ -31,6 +31,7 @@ Axis value_axis(const PlottedTrack& plotted, Shows shows, double top, double hei
   const auto take = [&](const std::vector<TrackPoint>& points) {
     for (const TrackPoint& point : points)
       for (const double number : numbers(point, shows)) {
+        if (std::isnan(number)) continue;
         low = std::min(low, number);
         high = std::max(high, number);
       }
@@ -42,23 +43,29 @@ Axis value_axis(const PlottedTrack& plotted, Shows shows, double top, double hei
   return {low, high, top + height, top};
 }
 
+std::string unit_text(const std::string& unit, bool lacks_some) {
+  const std::string left_out = lacks_some ? "beyond 1e300 not drawn" : "";
+  return unit + (unit.empty() || left_out.empty() ? "" : "; ") + left_out;
+}
+
 void draw_block(SvgWriter& svg, const PlottedTrack& plotted, const PlotOptions& options, Axis time, double top) {
   top += title_room;
   const Panel values{time,
                      value_axis(plotted, Shows::values, top, value_height),
                      Shows::values,
                      plotted.title,
-                     plotted.unit,
+                     unit_text(plotted.unit, plotted.lacks_values),
                      plotted.names,
                      plotted.first_key,
                      plotted.last_key};
   draw_frame(svg, values, !has_rates(plotted, options));
   if (std::holds_alternative<Curve<Color>>(plotted.track->curve)) draw_colors(svg, values, plotted);
   draw_moments(svg, values, plotted);
+  // Below the curves, which names may cross but must not hide.
+  draw_moment_names(svg, values, plotted);
   draw_curves(svg, values, plotted.curve, false);
   for (const auto& points : plotted.simulated) draw_curves(svg, values, points, true);
   draw_keys(svg, values, plotted);
-  draw_moment_names(svg, values, plotted);
   if (const auto* texts = std::get_if<StepCurve<std::string>>(&plotted.track->curve)) draw_texts(svg, values, *texts);
   if (!has_rates(plotted, options)) return;
   top += value_height + between;
@@ -67,7 +74,7 @@ void draw_block(SvgWriter& svg, const PlottedTrack& plotted, const PlotOptions& 
                     value_axis(plotted, Shows::rates, top, rate_height),
                     Shows::rates,
                     turns ? "angular velocity" : "rate",
-                    plotted.rate_unit.empty() ? "per second" : plotted.rate_unit,
+                    unit_text(plotted.rate_unit.empty() ? "per second" : plotted.rate_unit, plotted.lacks_rates),
                     plotted.rate_names,
                     plotted.first_key,
                     plotted.last_key};
@@ -83,7 +90,8 @@ std::string plot_svg(const StageDescription& stage, const Recording* recording, 
   if (options.columns < 1 || options.columns > 6)
     throw std::invalid_argument("a plot has 1 to 6 columns; found " + std::to_string(options.columns));
   const PlottedStage plotted = plotted_tracks(stage, recording, options);
-  const std::size_t columns = std::min(static_cast<std::size_t>(options.columns), plotted.tracks.size());
+  const std::size_t columns =
+      std::clamp(plotted.tracks.size(), std::size_t{1}, static_cast<std::size_t>(options.columns));
   const double width = column_width(static_cast<int>(columns));
   std::vector<double> tops = {head};  // of the rows, and of what follows them
   for (std::size_t i = 0; i < plotted.tracks.size(); i += columns) {
@@ -96,7 +104,10 @@ std::string plot_svg(const StageDescription& stage, const Recording* recording, 
   svg.leaf("rect", {{"width", "100%"}, {"height", "100%"}, {"fill", "#f7f7f5"}});
   svg.text("text", {{"x", "14"}, {"y", "23"}, {"font-size", "14"}, {"font-weight", "600"}, {"fill", "#23262b"}},
            stage.name.empty() ? "tracks" : stage.name);
-  draw_legend(svg, plotted, 14, 42);
+  if (plotted.tracks.empty())
+    svg.text("text", {{"x", "14"}, {"y", "42"}, {"fill", "#6d7178"}}, "no tracks");
+  else
+    draw_legend(svg, plotted, 14, 42);
   for (std::size_t i = 0; i < plotted.tracks.size(); ++i) {
     const double left = width * static_cast<double>(i % columns);
     draw_block(svg, plotted.tracks[i], options,

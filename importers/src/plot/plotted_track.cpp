@@ -1,5 +1,7 @@
 #include "plot/plotted_track.h"
 
+#include <tweenfall/importers/track_sample.h>
+
 #include "plot/track_angles.h"
 #include "plot/track_handles.h"
 #include "recording/check.h"
@@ -8,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -25,12 +28,10 @@ struct Shown {
   const Play* play;
 
   [[nodiscard]] TrackPoint at(const Track& track, double time, Side side) const {
-    if (!play) return sample_track(track.curve, time, side);
-    const ClipClock clock = clock_at(*play, *clip, time, side);
-    TrackPoint point = sample_track(track.curve, clock.time, clock.side);
-    point.time = time;
-    for (double& rate : point.rates) rate *= clock.rate;
-    return point;
+    const ClipClock clock =
+        play ? clock_at(*play, *clip, time, side) : ClipClock{.time = time, .rate = 1, .side = side};
+    TrackSample sample = sample_track(*clip, track, clock);
+    return {time, std::move(sample.value), std::move(sample.rate), false};
   }
 };
 
@@ -53,7 +54,8 @@ std::vector<Shown> shown_clips(const StageDescription& stage, bool recorded, con
 }
 
 /// Times of the keys, as often as they are passed.
-std::vector<double> passed_keys(const StageDescription& stage, const Shown& shown, const Track& track, double from,
+/// @param lanes  of the stage; empty where clips are shown as they are
+std::vector<double> passed_keys(const std::vector<KeyLane>& lanes, const Shown& shown, const Track& track, double from,
                                 double until) {
   std::vector<double> times;
   if (!shown.play) {
@@ -61,7 +63,7 @@ std::vector<double> passed_keys(const StageDescription& stage, const Shown& show
       if (time >= from && time <= until) times.push_back(time);
     return times;
   }
-  for (const KeyLane& lane : key_lanes(stage, from, until))
+  for (const KeyLane& lane : lanes)
     if (lane.node == track.node && lane.property == track.property) times = lane.times;
   return times;
 }
@@ -105,10 +107,11 @@ std::optional<std::pair<double, double>> keyed_stretch(const TrackCurve& curve) 
 }
 
 /// Whether a track that ends goes on moving a little beyond that end.
-bool moves_beyond(const Track& track, double end, double step) {
-  const TrackPoint rest = sample_track(track.curve, end + step / 2, Side::out);
+bool moves_beyond(const Clip& clip, const Track& track, double end, double step) {
+  const Shown shown{&clip, nullptr};
+  const TrackPoint rest = shown.at(track, end + step / 2, Side::out);
   for (int i = 1; i <= 3; ++i) {
-    const TrackPoint point = sample_track(track.curve, end + step * i, Side::out);
+    const TrackPoint point = shown.at(track, end + step * i, Side::out);
     if (point.values != rest.values && !point.rates.empty()) return true;
   }
   return false;
@@ -196,6 +199,28 @@ void add_curve(PlottedTrack& plotted, const Shown& shown, const std::vector<doub
     std::tie(plotted.first_key, plotted.last_key) = *keyed;
 }
 
+/// What no axis can hold becomes not-a-number, which is not drawn.
+void leave_out_unplottable(PlottedTrack& plotted) {
+  const auto leave_out = [&](std::vector<double>& numbers, bool& some) {
+    for (double& number : numbers)
+      if (!(std::abs(number) <= largest_plotted)) {
+        number = std::numeric_limits<double>::quiet_NaN();
+        some = true;
+      }
+  };
+  const auto leave_out_of = [&](TrackPoint& point) {
+    leave_out(point.values, plotted.lacks_values);
+    leave_out(point.rates, plotted.lacks_rates);
+  };
+  for (TrackPoint& point : plotted.curve) leave_out_of(point);
+  for (PlottedKey& key : plotted.keys) {
+    leave_out_of(key.in);
+    leave_out_of(key.out);
+  }
+  for (std::vector<TrackPoint>& points : plotted.simulated)
+    for (TrackPoint& point : points) leave_out_of(point);
+}
+
 bool is_below(const Recording& recording, std::size_t node, const std::string& name) {
   for (; node != no_node; node = recording.nodes[node].parent)
     if (recording.nodes[node].name == name) return true;
@@ -252,6 +277,10 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
   }
   // A formula has no end, a single moment no length: show ten seconds, or one.
   if (!(result.until > result.from)) result.until = result.from + (recording ? 1 : 10);
+  // So short a time that points within it cannot be told apart is shown as one that is a little longer.
+  constexpr double shortest = 1e-100, finest = 1e-12;
+  result.until =
+      std::max(result.until, result.from + std::max(shortest, finest * std::max(std::abs(result.from), result.until)));
   const auto is_wanted = [&](const Track& track) {
     return options.tracks.empty() ||
            std::find(options.tracks.begin(), options.tracks.end(), track.name()) != options.tracks.end();
@@ -263,13 +292,14 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
       for (const Track& track : shown.clip->tracks) {
         const auto keyed = keyed_stretch(track.curve);
         if (!keyed || !is_wanted(track)) continue;
-        if (keyed->second > 0.75 * length && moves_beyond(track, keyed->second, length / 17))
+        if (keyed->second > 0.75 * length && moves_beyond(*shown.clip, track, keyed->second, length / 17))
           result.until = std::max(result.until, length * 1.5);
-        if (keyed->first < 0.25 * length && moves_beyond(track, keyed->first, -length / 17))
+        if (keyed->first < 0.25 * length && moves_beyond(*shown.clip, track, keyed->first, -length / 17))
           result.from = std::min(result.from, -length / 4);
       }
   }
 
+  const std::vector<KeyLane> lanes = recording ? key_lanes(stage, result.from, result.until) : std::vector<KeyLane>();
   std::vector<std::string> missing = options.tracks;
   std::string names;
   for (const Shown& shown : clips) {
@@ -287,18 +317,18 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
       // What is not keyed says nothing of the time outside its clip.
       const bool is_cut = !recording && !keyed_stretch(track.curve);
       const double from = is_cut ? 0 : result.from, until = is_cut ? clip_end : result.until;
-      add_curve(plotted, shown, passed_keys(stage, shown, track, from, until), from, until);
+      add_curve(plotted, shown, passed_keys(lanes, shown, track, from, until), from, until);
       if (is_cut) std::tie(plotted.first_key, plotted.last_key) = std::pair(from, until);
       add_events(plotted, shown, recording);
       if (recording) add_recorded(plotted, *recording);
       name_parts(plotted);
+      leave_out_unplottable(plotted);
       result.tracks.push_back(std::move(plotted));
     }
   }
   if (!missing.empty())
     throw std::invalid_argument("there is no track \"" + missing.front() + "\"" +
                                 (names.empty() ? "" : "; there are: " + names));
-  if (result.tracks.empty()) throw std::invalid_argument("there are no tracks to plot");
   return result;
 }
 

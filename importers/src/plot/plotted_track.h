@@ -30,16 +30,20 @@ struct PlottedMoment {
   bool handoff = false;
 };
 
+/// Numbers beyond this are not drawn: their differences, with room around them, would not be numbers.
+inline constexpr double largest_plotted = 1e300;
+
 struct PlottedTrack {
   const Track* track = nullptr;
   std::string title;
   std::vector<std::string> names, rate_names;  ///< of the components
   std::string unit, rate_unit;                 ///< empty where the unit is the author's
-  std::vector<TrackPoint> curve;
+  std::vector<TrackPoint> curve;               ///< NaN: not drawn
   std::vector<PlottedKey> keys;
   std::vector<PlottedMoment> moments;
   std::vector<std::vector<TrackPoint>> simulated;     ///< each a stretch in which the body was not keyed
   double first_key = -HUGE_VAL, last_key = HUGE_VAL;  ///< s; what lies beyond is not keyed
+  bool lacks_values = false, lacks_rates = false;     ///< some are too large or no numbers, and NaN here
 };
 
 struct PlottedStage {
@@ -48,8 +52,7 @@ struct PlottedStage {
   std::size_t left_out = 0;  ///< tracks beyond the most that a plot shows
 };
 
-/// @throws std::invalid_argument naming what exists, for a clip or a track that does not, or when there is nothing to
-/// plot.
+/// @throws std::invalid_argument naming what exists, for a clip or a track that does not.
 [[nodiscard]] PlottedStage plotted_tracks(const StageDescription& stage, const Recording* recording,
                                           const PlotOptions& options);
 

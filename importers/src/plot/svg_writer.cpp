@@ -1,28 +1,9 @@
 #include "plot/svg_writer.h"
 
 #include <tweenfall/importers/number_text.h>
+#include <tweenfall/importers/shown_text.h>
 
 namespace tweenfall {
-
-namespace {
-
-void append_escaped(std::string& out, std::string_view text) {
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else if (static_cast<unsigned char>(c) < 0x20 && c != '\n') {
-      out += ' ';
-    } else {
-      out += c;
-    }
-  }
-}
-
-}  // namespace
 
 SvgWriter::SvgWriter(double width, double height) {
   open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
@@ -38,7 +19,7 @@ void SvgWriter::begin(std::string_view element, Attributes attributes) {
   (out_ += '<') += element;
   for (const auto& [name, value] : attributes) {
     ((out_ += ' ') += name) += "=\"";
-    append_escaped(out_, value);
+    out_ += markup_text(value);
     out_ += '"';
   }
 }
@@ -64,7 +45,7 @@ void SvgWriter::leaf(std::string_view element, Attributes attributes) {
 void SvgWriter::text(std::string_view element, Attributes attributes, std::string_view content) {
   begin(element, attributes);
   out_ += '>';
-  append_escaped(out_, content);
+  out_ += markup_text(content);
   ((out_ += "</") += element) += ">\n";
 }
 

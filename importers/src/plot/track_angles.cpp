@@ -84,7 +84,8 @@ class Angles {
         angles.push_back(nearest_turn(way[static_cast<Eigen::Index>(i)], expected[i]));
         distance += std::abs(angles[i] - expected[i]);
       }
-      if (distance < least) {
+      // What is not a number is no nearer than anything, but still an answer.
+      if (best.empty() || distance < least) {
         least = distance;
         best = angles;
       }

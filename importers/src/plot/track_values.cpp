@@ -1,48 +1,14 @@
 #include "plot/track_values.h"
 
-#include <type_traits>
-
 namespace tweenfall {
 
 namespace {
 
-std::vector<double> parts(double value) {
-  return {value};
-}
-std::vector<double> parts(const Color& color) {
-  return {color.rgba[0], color.rgba[1], color.rgba[2], color.rgba[3]};
+std::vector<double> parts(const Vec3& vector) {
+  return {vector.x(), vector.y(), vector.z()};
 }
 std::vector<double> parts(const Quat& q) {
   return {q.x(), q.y(), q.z(), q.w()};
-}
-template <int Size>
-std::vector<double> parts(const Eigen::Matrix<double, Size, 1, Eigen::DontAlign>& vector) {
-  return {vector.data(), vector.data() + Size};
-}
-
-template <class T>
-TrackPoint sample(const Curve<T>& curve, double time, Side side) {
-  const Sample<T> sampled = curve.sample(time, side);
-  return {time, parts(sampled.value), parts(sampled.rate), false};
-}
-
-TrackPoint sample(const WeightCurves& curves, double time, Side side) {
-  TrackPoint point;
-  point.time = time;
-  for (const Curve<double>& curve : curves) {
-    const Sample<double> sampled = curve.sample(time, side);
-    point.values.push_back(sampled.value);
-    point.rates.push_back(sampled.rate);
-  }
-  return point;
-}
-
-TrackPoint sample(const StepCurve<bool>& curve, double time, Side side) {
-  return {time, {curve.value(time, side) ? 1.0 : 0.0}, {}, false};
-}
-
-TrackPoint sample(const StepCurve<std::string>&, double time, Side) {
-  return {time, {}, {}, false};
 }
 
 }  // namespace
@@ -66,10 +32,6 @@ std::vector<std::string> rate_names(const TrackCurve& curve) {
   if (std::holds_alternative<Curve<Quat>>(curve)) return {"x", "y", "z"};
   if (std::holds_alternative<StepCurve<bool>>(curve)) return {};
   return component_names(curve);
-}
-
-TrackPoint sample_track(const TrackCurve& curve, double clip_time, Side side) {
-  return std::visit([&](const auto& held) { return sample(held, clip_time, side); }, curve);
 }
 
 std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t node, Property property,

@@ -21,9 +21,6 @@ struct TrackPoint {
 [[nodiscard]] std::vector<std::string> component_names(const TrackCurve& curve);
 [[nodiscard]] std::vector<std::string> rate_names(const TrackCurve& curve);
 
-/// Value and rate at one clip time.
-[[nodiscard]] TrackPoint sample_track(const TrackCurve& curve, double clip_time, Side side);
-
 /// What is left of the motion of a recorded node, relative to its parent, as a track of `property` would say it; empty
 /// for properties other than position and rotation.
 /// @param first, last  frames, both included

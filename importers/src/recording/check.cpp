@@ -1,17 +1,21 @@
 #include "recording/check.h"
 
 #include <tweenfall/importers/number_text.h>
+#include <tweenfall/importers/recording_file.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tweenfall {
 
 namespace {
 
 [[noreturn]] void fail(const Recording& recording, const std::string& what) {
-  throw std::invalid_argument("recording \"" + recording.name + "\": " + what);
+  throw std::invalid_argument((recording.name.empty() ? "" : "recording \"" + recording.name + "\": ") + what);
 }
 
 void check_length(const Recording& recording, const NodeRecord& node, std::size_t length, const char* list) {
@@ -37,7 +41,42 @@ void check_node(const Recording& recording, std::size_t index) {
       fail(recording, "node \"" + node.name + "\" is not at a finite place or speed at " +
                           number_text(recording.times[frame]) + " s (frame " + std::to_string(frame) +
                           "); the simulation has gone astray there");
+    if (!node.weights.empty() && !std::all_of(node.weights[frame].begin(), node.weights[frame].end(),
+                                              [](double weight) { return std::isfinite(weight); }))
+      fail(recording, "a morph weight of node \"" + node.name + "\" is not finite at " +
+                          number_text(recording.times[frame]) + " s");
   }
+}
+
+/// The largest of what a file of floats would hold of a node at one frame, and what it is.
+std::pair<double, const char*> largest_number(const NodeRecord& node, std::size_t frame) {
+  std::pair<double, const char*> largest(0, "");
+  const auto take = [&](double size, const char* what) {
+    if (size > largest.first) largest = {size, what};
+  };
+  take(node.world[frame].motion.pose.position.cwiseAbs().maxCoeff(), "m from the origin");
+  take(node.world[frame].linear.cwiseAbs().maxCoeff(), "times its size");
+  take(node.world[frame].motion.pose.scale.cwiseAbs().maxCoeff(), "times its size");
+  take(node.twist[frame].linear.cwiseAbs().maxCoeff(), "m/s fast");
+  take(node.twist[frame].angular.cwiseAbs().maxCoeff(), "radians a second fast");
+  if (!node.weights.empty())
+    for (const double weight : node.weights[frame]) take(std::abs(weight), "times morphed");
+  return largest;
+}
+
+double largest_number(const Shape& shape) {
+  struct Sizes {
+    double operator()(const Sphere& sphere) const { return sphere.radius; }
+    double operator()(const Box& box) const { return box.half_extents.maxCoeff(); }
+    double operator()(const Capsule& capsule) const { return capsule.radius + capsule.half_height; }
+    double operator()(const Plane& plane) const { return std::abs(plane.offset); }
+    double operator()(const Hull& hull) const {
+      double size = 0;
+      for (const Vec3& vertex : hull.convex.vertices()) size = std::max(size, vertex.cwiseAbs().maxCoeff());
+      return size;
+    }
+  };
+  return std::max(std::visit(Sizes{}, shape.solid), shape.offset.position.cwiseAbs().maxCoeff());
 }
 
 }  // namespace
@@ -61,6 +100,21 @@ void check_recording(const Recording& recording) {
         fail(recording, "event \"" + event.name + "\" at " + number_text(event.time) + " s names node " +
                             std::to_string(node) + ", but there are " + std::to_string(recording.nodes.size()) +
                             " nodes");
+}
+
+void check_drawable(const Recording& recording, const StageDescription& stage) {
+  check_recording(recording);
+  constexpr double largest_float = std::numeric_limits<float>::max();
+  constexpr const char* limit = ", beyond the 3.4e+38 that pages and .glb files hold";
+  for (const NodeRecord& node : recording.nodes)
+    for (std::size_t frame = 0; frame < recording.times.size(); ++frame)
+      if (const auto [size, what] = largest_number(node, frame); size > largest_float)
+        fail(recording, "node \"" + node.name + "\" is " + brief_text(size) + " " + what + " at " +
+                            number_text(recording.times[frame]) + " s" + limit);
+  for (const NodeDescription& node : stage.nodes)
+    if (node.body && largest_number(node.body->shape) > largest_float)
+      fail(recording, "the shape of node \"" + node.name + "\" is " + brief_text(largest_number(node.body->shape)) +
+                          " m large" + limit);
 }
 
 }  // namespace tweenfall

@@ -44,25 +44,32 @@ bool drives(const Play& play, const std::string& node) {
 }
 
 /// Adds the stage times at which `play` passes the clip times `keys`.
-void add_passes(const Play& play, const Clip& clip, const std::vector<double>& keys, double from, double until,
+/// @return whether some times around were left out, because there are too many
+bool add_passes(const Play& play, const Clip& clip, std::vector<double> keys, double from, double until,
                 std::vector<double>& out) {
-  const double speed = std::abs(play.speed);
-  if (keys.empty() || speed == 0) return;
-  const double length = clip.duration;
+  const double speed = std::abs(play.speed), length = clip.duration;
+  std::erase_if(keys, [&](double key) { return key < 0 || (std::isfinite(length) && key > length); });
+  if (keys.empty() || speed == 0) return false;
   const bool cycles = clip.loop.mode != LoopMode::once && std::isfinite(length) && length > 0;
   const double plays = !cycles ? 1 : clip.loop.count > 0 ? clip.loop.count : HUGE_VAL;
-  for (double cycle = 0; cycle < plays && out.size() < most_keys; ++cycle) {
-    if (play.at + (cycles ? cycle * length : 0) / speed > until) return;
+  // The first and the last time around of which something is seen.
+  const double around = cycles ? length / speed : 0;
+  const double first = cycles ? std::max(0.0, std::floor((from - play.at) / around) - 1) : 0;
+  const double last = cycles ? std::min(std::ceil(plays) - 1, std::floor((until - play.at) / around) + 1) : 0;
+  const double room = std::max(1.0, std::floor(most_keys / static_cast<double>(keys.size())));
+  const double stride = std::max(1.0, std::ceil((last - first + 1) / room));
+  for (double cycle = first; cycle <= last; cycle += stride) {
     const bool odd = std::fmod(cycle, 2) == 1;
     const bool backwards = (play.speed < 0) != (clip.loop.mode == LoopMode::pingpong && odd);
     for (const double key : keys) {
-      if (key < 0 || (std::isfinite(length) && key > length)) continue;
       const double passed = (cycles ? cycle * length : 0) + (backwards && std::isfinite(length) ? length - key : key);
       if (cycles && passed > plays * length) continue;
       const double time = play.at + passed / speed;
       if (time >= from && time <= until && out.size() < most_keys) out.push_back(time);
     }
+    if (!(cycle + stride > cycle)) break;
   }
+  return stride > 1;
 }
 
 }  // namespace
@@ -82,8 +89,9 @@ std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, doubl
     for (const Track& track : clip.tracks) {
       if (!drives(play, track.node)) continue;
       const auto [place, is_new] = lane_of.try_emplace(track.name(), lanes.size());
-      if (is_new) lanes.push_back({track.node, track.property, {}});
-      add_passes(play, clip, key_times(track.curve), from, until, lanes[place->second].times);
+      if (is_new) lanes.push_back({track.node, track.property, {}, false});
+      KeyLane& lane = lanes[place->second];
+      if (add_passes(play, clip, key_times(track.curve), from, until, lane.times)) lane.is_thinned = true;
     }
   }
   for (KeyLane& lane : lanes) sort_and_unite(lane.times);

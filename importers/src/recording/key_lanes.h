@@ -13,10 +13,12 @@ namespace tweenfall {
 struct KeyLane {
   std::string node, property;
   std::vector<double> times;  ///< stage time of each key passed, s, increasing; empty for a formula
+  bool is_thinned = false;    ///< only some of the times around a short loop are there
 };
 
 /// A lane for each track that a play drives, in order of the plays; a track in two plays has one lane with the keys of
-/// both. Keys of loops are there once for each time around, between `from` and `until`; a lane holds 20,000 at most.
+/// both. Keys of loops are there once for each time around, between `from` and `until`; a lane
+/// holds 20,000 at most, and of a loop that goes around more often it has some times around, evenly chosen.
 [[nodiscard]] std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, double until);
 
 /// Times of a track's keys in clip time, s.

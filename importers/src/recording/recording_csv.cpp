@@ -1,6 +1,7 @@
 #include <tweenfall/importers/recording_file.h>
 
 #include <tweenfall/importers/number_text.h>
+#include <tweenfall/importers/shown_text.h>
 
 #include "recording/check.h"
 #include "recording/words.h"
@@ -9,8 +10,14 @@ namespace tweenfall {
 
 namespace {
 
-/// A field as RFC 4180 has it: quoted when it holds a comma, a quote or a line break.
-std::string field(const std::string& text) {
+/// A field as RFC 4180 has it: quoted when it holds a comma, a quote or a line break. No other control character stays,
+/// for readers of tables end at a zero or refuse them.
+std::string field(const std::string& name) {
+  std::string text;
+  for (const char c : utf8_text(name)) {
+    const bool is_control = (static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
+    is_control ? text += "\xef\xbf\xbd" : text += c;
+  }
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) {

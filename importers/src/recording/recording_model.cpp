@@ -1,10 +1,10 @@
 #include "recording/recording_model.h"
 
-#include "recording/check.h"
 #include "recording/figures.h"
 #include "recording/shape_mesh.h"
 
 #include <tweenfall/curves/keys.h>
+#include <tweenfall/importers/recording_file.h>
 
 #include <map>
 #include <stdexcept>
@@ -94,7 +94,7 @@ void add_meshes(Model& model, const StageDescription& stage, std::vector<bool>& 
 }  // namespace
 
 Model recording_model(const Recording& recording, const StageDescription& stage) {
-  check_recording(recording);
+  check_drawable(recording, stage);
   if (recording.times.empty())
     throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to write");
   Model model;

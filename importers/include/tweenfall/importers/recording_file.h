@@ -12,6 +12,10 @@ namespace tweenfall {
 // All of these throw std::invalid_argument naming the node and the time when the recording does not hold together:
 // lists of different lengths, numbers that are not finite, times that do not increase, nodes that are not there.
 
+/// Whether pages and .glb files can hold the recording, whose numbers are 32-bit floats.
+/// @throws std::invalid_argument naming the node, the time and the number that is beyond 3.4e+38.
+void check_drawable(const Recording& recording, const StageDescription& stage);
+
 /// One object: "times", "nodes" (position, rotation x y z w, velocity and angular velocity at the center of mass,
 /// owner), "handoffs", "events". Numbers have the fewest digits that read back to the same bits; minus zero is -0.0.
 [[nodiscard]] std::string recording_json(const Recording& recording);

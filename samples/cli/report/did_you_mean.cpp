@@ -1,0 +1,26 @@
+#include "report/did_you_mean.h"
+
+#include <tweenfall/anim/nearest_name.h>
+
+#include <algorithm>
+
+namespace tweenfall::cli {
+
+std::string did_you_mean(std::string_view typed, std::span<const std::string> names) {
+  const std::string nearest = nearest_name(typed, names);
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
+std::string listed(std::span<const std::string> names) {
+  constexpr std::size_t most = 12;
+  const std::size_t shown = std::min(names.size(), most);
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i) {
+    if (i > 0) text += i + 1 == names.size() ? " and " : ", ";
+    text += names[i];
+  }
+  if (shown < names.size()) text += " and " + std::to_string(names.size() - shown) + " more";
+  return text;
+}
+
+}  // namespace tweenfall::cli

@@ -1,0 +1,54 @@
+#include "report/faults.h"
+
+#include "report/counted.h"
+#include "report/terminal.h"
+
+#include <tweenfall/importers/document.h>
+#include <tweenfall/importers/model.h>
+
+#include <sstream>
+
+namespace tweenfall::cli {
+
+namespace {
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> found;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty()) found.push_back(line);
+  return found;
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& text : texts) all += (all.empty() ? "" : "\n") + text;
+  return all;
+}
+
+}  // namespace
+
+Faults::Faults(std::vector<std::string> texts) : std::runtime_error(joined(texts)), texts_(std::move(texts)) {}
+
+std::vector<std::string> faults_of(const std::exception& error, const std::string& source) {
+  if (const auto* faults = dynamic_cast<const Faults*>(&error)) return faults->texts();
+  if (const auto* document = dynamic_cast<const DocumentError*>(&error)) {
+    std::vector<std::string> texts;
+    for (const Problem& problem : document->problems()) texts.push_back(problem.text());
+    return texts;
+  }
+  if (dynamic_cast<const ModelError*>(&error)) return lines(error.what());
+  // A head and what it heads, indented: one fault a line of these.
+  std::vector<std::string> all = lines(error.what());
+  if (all.size() > 1 && all[1].starts_with(' ')) all.erase(all.begin());
+  for (std::string& text : all)
+    text = source + ": error: " + text.substr(std::min(text.size(), text.find_first_not_of(' ')));
+  return all;
+}
+
+void say_faults(const std::vector<std::string>& texts) {
+  for (const std::string& text : texts) say(text);
+  say(counted(texts.size(), "problem"));
+}
+
+}  // namespace tweenfall::cli

@@ -1,0 +1,135 @@
+// tweenfall check: every problem of every file, with its place.
+
+#include "files/stage_file.h"
+#include "report/counted.h"
+#include "report/faults.h"
+#include "report/json_text.h"
+#include "report/terminal.h"
+#include "verbs/verbs.h"
+
+#include <tweenfall/anim/nearest_name.h>
+#include <tweenfall/importers/document.h>
+
+#include <charconv>
+
+namespace tweenfall::cli {
+
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> files;
+  bool json = false;
+};
+
+/// What was found in one file.
+struct Finding {
+  std::string summary;             ///< of a file without problems
+  std::vector<std::string> texts;  ///< a problem each, as people read it
+  std::vector<std::string> jsons;  ///< the same, as JSON objects
+  std::vector<std::string> notes;  ///< what is no fault, a line each
+};
+
+std::string problem_json(const Problem& problem) {
+  return "{\"file\": " + json_string(problem.file) + ", \"line\": " + std::to_string(problem.line) +
+         ", \"column\": " + std::to_string(problem.column) + ", \"length\": " + std::to_string(problem.length) +
+         ", \"pointer\": " + json_string(problem.pointer) + ", \"message\": " + json_string(problem.message) + "}";
+}
+
+std::string contents_of(const StageDescription& stage) {
+  std::size_t tracks = 0, bodies = 0;
+  for (const Clip& clip : stage.clips) tracks += clip.tracks.size();
+  for (const NodeDescription& node : stage.nodes) bodies += node.body ? 1 : 0;
+  std::string text = counted(stage.nodes.size(), "node") + ", " + counted(stage.clips.size(), "clip") + ", " +
+                     counted(tracks, "track");
+  if (bodies > 0) text += ", " + counted(bodies, "body", "bodies");
+  if (!stage.rules.empty()) text += ", " + counted(stage.rules.size(), "hand-off rule");
+  return text;
+}
+
+/// Tracks of the user's own whose names are nearly those of ours; they are right, but perhaps not what was meant.
+std::vector<std::string> notes_on(const StageDescription& stage, const std::string& file) {
+  const std::string ours[] = {"position", "rotation", "scale", "color", "weights"};
+  std::vector<std::string> notes;
+  for (const Clip& clip : stage.clips)
+    for (const Track& track : clip.tracks) {
+      if (property_named(track.property) != Property::user) continue;
+      const std::string meant = nearest_name(track.property, ours);
+      if (!meant.empty())
+        notes.push_back(file + ": note: \"" + track.name() +
+                        "\" is a property of your own, which moves nothing; did you mean \"" + track.node + "." +
+                        meant + "\"?");
+    }
+  return notes;
+}
+
+/// A line "FILE: error: ..." or "FILE:LINE:COLUMN: error: ..." taken apart; any other is the message.
+Problem problem_of(const std::string& text, const std::string& file) {
+  Problem problem;
+  problem.file = file;
+  problem.message = text;
+  const std::string mark = ": error: ";
+  const std::size_t at = text.find(mark, file.size());
+  if (!text.starts_with(file) || at == std::string::npos) return problem;
+  const char* const end = text.data() + at;
+  std::size_t line = 0, column = 0;
+  if (at > file.size()) {
+    if (text[file.size()] != ':') return problem;
+    const auto first = std::from_chars(text.data() + file.size() + 1, end, line);
+    if (first.ptr == end || *first.ptr != ':' || std::from_chars(first.ptr + 1, end, column).ptr != end) return problem;
+  }
+  problem.line = line;
+  problem.column = column;
+  problem.message = text.substr(at + mark.size());
+  return problem;
+}
+
+Finding check_file(const std::string& file) {
+  Finding finding;
+  try {
+    const StageFile read = read_stage_file(file);
+    // What a document alone cannot tell: whether its parts make a stage that can be stepped.
+    static_cast<void>(make_stage(read.stage, file));
+    finding.summary = contents_of(read.stage);
+    finding.notes = notes_on(read.stage, file);
+  } catch (const DocumentError& error) {
+    finding.texts = faults_of(error, file);
+    for (const Problem& problem : error.problems()) finding.jsons.push_back(problem_json(problem));
+  } catch (const std::exception& error) {
+    finding.texts = faults_of(error, file);
+    for (const std::string& text : finding.texts) finding.jsons.push_back(problem_json(problem_of(text, file)));
+  }
+  return finding;
+}
+
+int check_files(const CheckOptions& options) {
+  std::vector<std::string> problems, files;
+  for (const std::string& file : options.files) {
+    const Finding finding = check_file(file);
+    problems.insert(problems.end(), finding.texts.begin(), finding.texts.end());
+    files.push_back("{\"file\": " + json_string(file) + ", \"valid\": " + (finding.texts.empty() ? "true" : "false") +
+                    ", \"problems\": " + json_array(finding.jsons) + "}");
+    if (options.json) continue;
+    if (finding.texts.empty()) tell(file + ": valid; " + finding.summary);
+    for (const std::string& text : finding.texts) say(text);
+    for (const std::string& note : finding.notes) say(note);
+  }
+  if (options.json)
+    print("{\"files\": " + json_array(files) + ", \"problems\": " + std::to_string(problems.size()) + "}\n");
+  else if (!problems.empty())
+    say(counted(problems.size(), "problem"));
+  return problems.empty() ? 0 : 1;
+}
+
+Run declare_check(Arguments& arguments) {
+  auto options = std::make_shared<CheckOptions>();
+  arguments.files("FILE", options->files, "documents and models; - is a document on standard input");
+  arguments.flag("--json", options->json, "one JSON object for tools, on standard output");
+  return [options] { return check_files(*options); };
+}
+
+}  // namespace
+
+const Verb check_verb{"check", "validate documents and models; print every problem with its place",
+                      "tweenfall check swing.json", declare_check};
+
+}  // namespace tweenfall::cli

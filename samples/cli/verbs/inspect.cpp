@@ -1,0 +1,155 @@
+// tweenfall inspect: what is in a document or a model, in tables.
+
+#include "files/stage_file.h"
+#include "motion/clip_sampling.h"
+#include "motion/track_survey.h"
+#include "report/counted.h"
+#include "report/table.h"
+#include "report/terminal.h"
+#include "verbs/verbs.h"
+
+#include <tweenfall/importers/number_text.h>
+
+#include <algorithm>
+
+namespace tweenfall::cli {
+
+namespace {
+
+std::string loop_text(const Loop& loop) {
+  constexpr const char* modes[] = {"once", "repeat", "repeat-offset", "pingpong"};
+  std::string text = modes[static_cast<int>(loop.mode)];
+  if (loop.mode != LoopMode::once && loop.count > 0) text += " x " + brief_text(loop.count);
+  return text;
+}
+
+std::string times_text(const std::vector<double>& times) {
+  constexpr std::size_t most = 4;
+  std::string text;
+  for (std::size_t i = 0; i < times.size() && i < most; ++i) text += (i > 0 ? ", " : "at ") + brief_text(times[i]);
+  if (times.size() > most) text += " and " + std::to_string(times.size() - most) + " more";
+  return text;
+}
+
+std::string shape_text(const Shape& shape) {
+  struct Words {
+    std::string operator()(const Sphere& sphere) const { return "sphere, radius " + brief_text(sphere.radius); }
+    std::string operator()(const Box& box) const { return "box, half " + brief_text(box.half_extents); }
+    std::string operator()(const Capsule& capsule) const {
+      return "capsule, radius " + brief_text(capsule.radius) + ", half height " + brief_text(capsule.half_height);
+    }
+    std::string operator()(const Plane& plane) const { return "plane, normal " + brief_text(plane.normal); }
+    std::string operator()(const Hull& hull) const {
+      return "hull, " + std::to_string(hull.convex.vertices().size()) + " vertices, " +
+             std::to_string(hull.convex.faces().size()) + " faces";
+    }
+  };
+  return std::visit(Words{}, shape.solid);
+}
+
+std::string nodes_table(const StageDescription& stage) {
+  Table table(counted(stage.nodes.size(), "node"), {"name", "parent", "position, m", "shown"});
+  for (std::size_t i = 0; i < stage.nodes.size(); ++i) {
+    const NodeDescription& node = stage.nodes[i];
+    std::string shown = node.body ? "body" : "";
+    for (const MeshInstance& instance : stage.mesh_instances) {
+      if (instance.node != i) continue;
+      const Mesh& mesh = stage.meshes[instance.mesh];
+      shown += (shown.empty() ? "" : ", ") + std::string(instance.skin == no_node ? "" : "skinned ") + "mesh, " +
+               counted(mesh.triangles.size() / 3, "triangle");
+      if (!mesh.morphs.empty()) shown += ", " + counted(mesh.morphs.size(), "morph");
+    }
+    table.row({node.name, node.parent == no_node ? "" : stage.nodes[node.parent].name, brief_text(node.rest.position),
+               shown});
+  }
+  return table.text(styled_output());
+}
+
+std::string clips_table(const StageDescription& stage) {
+  Table table(counted(stage.clips.size(), "clip"),
+              {"name", ">duration, s", "loop", ">tracks", ">keys", ">events", "plays"});
+  for (std::size_t i = 0; i < stage.clips.size(); ++i) {
+    const Clip& clip = stage.clips[i];
+    std::size_t keys = 0;
+    for (const Track& track : clip.tracks) keys += survey(track, clip).keys;
+    std::string plays;
+    for (const Play& play : stage.plays) {
+      if (play.clip != i) continue;
+      plays += (plays.empty() ? "from " : ", from ") + brief_text(play.at) + " s";
+      if (play.speed != 1) plays += " at " + brief_text(play.speed) + " x";
+    }
+    table.row({clip.name, brief_text(clip.duration), loop_text(clip.loop), std::to_string(clip.tracks.size()),
+               std::to_string(keys), std::to_string(clip.events.size()), plays});
+  }
+  return table.text(styled_output());
+}
+
+std::string tracks_table(const Clip& clip) {
+  Table table("tracks of " + clip.name, {"track", "kind", ">keys", ">from, s", ">to, s", ">top speed, 1/s", ">at, s",
+                                         "value jumps", "slope jumps"});
+  for (const Track& track : clip.tracks) {
+    const TrackSurvey found = survey(track, clip);
+    const bool is_formula = found.keys == 0;
+    const bool is_step = track.curve.index() >= 7;
+    table.row({track.name(), kind_of(track.curve), is_formula ? "formula" : std::to_string(found.keys),
+               is_formula ? "" : brief_text(found.from), is_formula ? "" : brief_text(found.to),
+               is_step ? "" : brief_text(found.top_speed), is_step ? "" : brief_text(found.top_speed_at),
+               times_text(found.value_jumps), times_text(found.slope_jumps)});
+  }
+  return table.text(styled_output());
+}
+
+std::string events_table(const Clip& clip) {
+  Table table("events of " + clip.name, {">time, s", ">to, s", "name", "data"});
+  for (const ClipEvent& event : clip.events)
+    table.row({brief_text(event.from), event.is_interval() ? brief_text(event.to) : "", event.name, event.data});
+  return table.empty() ? "" : table.text(styled_output());
+}
+
+/// A body that no file gives an owner starts keyed where a playing clip moves it or an ancestor.
+std::string owner_text(const NodeDescription& node, bool animated) {
+  if (node.body->fixed) return "static";
+  if (!node.body->drive) return animated ? "keyed" : "free";
+  const Drive& drive = *node.body->drive;
+  if (drive.owner() == Owner::driven) return "driven, " + brief_text(drive.hz) + " Hz";
+  return drive.owner() == Owner::keyed ? "keyed" : "free";
+}
+
+std::string bodies_table(const StageDescription& stage, const std::string& file) {
+  Table table("", {"body", "shape", ">mass, kg", ">friction", ">restitution", "starts"});
+  const Stage made = make_stage(stage, file);
+  for (std::size_t i = 0; i < stage.nodes.size(); ++i) {
+    const NodeDescription& node = stage.nodes[i];
+    if (!node.body) continue;
+    const double mass = node.body->mass.value_or(node.body->density * volume(node.body->shape.solid));
+    table.row({node.name, shape_text(node.body->shape), node.body->fixed ? "" : brief_text(mass),
+               brief_text(node.body->friction), brief_text(node.body->restitution),
+               owner_text(node, made.owner(i) == Owner::keyed)});
+  }
+  if (table.empty()) return "";
+  return "bodies; gravity " + brief_text(stage.world.gravity) + " m/s^2, " + brief_text(1 / stage.step) +
+         " steps a second, " + counted(stage.rules.size(), "hand-off rule") + "\n" + table.text(styled_output());
+}
+
+int inspect_file(const std::string& file) {
+  const StageFile read = read_stage_file(file);
+  const StageDescription& stage = read.stage;
+  std::string out = nodes_table(stage) + clips_table(stage);
+  for (const Clip& clip : stage.clips) out += tracks_table(clip) + events_table(clip);
+  out += bodies_table(stage, file);
+  print(out);
+  return 0;
+}
+
+Run declare_inspect(Arguments& arguments) {
+  auto file = std::make_shared<std::string>();
+  arguments.file("FILE", *file, "a document or a model; - is a document on standard input");
+  return [file] { return inspect_file(*file); };
+}
+
+}  // namespace
+
+const Verb inspect_verb{"inspect", "tables of nodes, clips, tracks, speeds, jumps and bodies, of documents and models",
+                        "tweenfall inspect Fox.glb", declare_inspect};
+
+}  // namespace tweenfall::cli

@@ -1,0 +1,113 @@
+// tweenfall run: the stage with physics, as a recording or a summary.
+
+#include "files/output_file.h"
+#include "motion/frame_times.h"
+#include "motion/stage_run.h"
+#include "report/table.h"
+#include "report/terminal.h"
+#include "verbs/verbs.h"
+
+#include <tweenfall/importers/number_text.h>
+#include <tweenfall/importers/recording_file.h>
+#include <tweenfall/importers/shown_text.h>
+
+namespace tweenfall::cli {
+
+namespace {
+
+struct RunFileOptions : RunOptions {
+  std::optional<double> frames_per_second;
+  std::optional<std::string> output;
+  bool json = false;
+};
+
+const char* word(Owner owner) {
+  constexpr const char* words[] = {"keyed", "driven", "free"};
+  return words[static_cast<int>(owner)];
+}
+
+const char* word(Cause cause) {
+  constexpr const char* words[] = {"start", "time", "marker", "event", "clip end", "contact", "asleep", "caller"};
+  return words[static_cast<int>(cause)];
+}
+
+std::string handoffs_table(const Recording& recording) {
+  Table table("hand-offs", {">time, s", "body", "from", "to", "cause", "velocity before, m/s", "after, m/s"});
+  for (const HandOff& handoff : recording.handoffs)
+    table.row({brief_text(handoff.time), recording.nodes[handoff.node].name, word(handoff.from), word(handoff.to),
+               word(handoff.cause), brief_text(handoff.before.twist.linear), brief_text(handoff.after.twist.linear)});
+  if (table.empty()) table.note("none");
+  return table.text(styled_output());
+}
+
+std::string events_table(const Recording& recording) {
+  constexpr std::size_t most = 40;
+  Table table("events", {">time, s", "name", "nodes", ">impulse, N s"});
+  for (std::size_t i = 0; i < recording.events.size() && i < most; ++i) {
+    const StageEvent& event = recording.events[i];
+    std::string nodes;
+    for (const NodeId node : event.nodes) nodes += (nodes.empty() ? "" : ", ") + recording.nodes[node].name;
+    table.row({brief_text(event.time), event.name, nodes, event.nodes.empty() ? "" : brief_text(event.impulse)});
+  }
+  if (table.empty()) table.note("none");
+  if (recording.events.size() > most)
+    table.note("and " + std::to_string(recording.events.size() - most) + " more; --json has them all");
+  return table.text(styled_output());
+}
+
+std::string ends_table(const Recording& recording, const StageDescription& stage) {
+  constexpr std::size_t most = 40;
+  Table table("bodies at " + brief_text(recording.times.back()) + " s",
+              {"body", "owner", "position, m", ">speed, m/s"});
+  std::size_t bodies = 0;
+  for (std::size_t i = 0; i < stage.nodes.size(); ++i) {
+    if (!stage.nodes[i].body || stage.nodes[i].body->fixed || ++bodies > most) continue;
+    const NodeRecord& node = recording.nodes[i];
+    table.row({node.name, word(node.owner.back()), brief_text(node.world.back().motion.pose.position),
+               brief_text(node.twist.back().linear.norm())});
+  }
+  if (bodies > most) table.note("and " + std::to_string(bodies - most) + " more; --json has them all");
+  return table.empty() ? "" : table.text(styled_output());
+}
+
+int run_file(RunFileOptions options) {
+  const std::vector<std::string> endings{".json", ".csv", ".svg", ".html", ".glb"};
+  if (options.output) require_output(*options.output, options.file, endings);
+  options.fps = options.frames_per_second.value_or(60);
+  require_frames(options.fps, options.until.value_or(0));
+  StageFile read = read_stage_file(options.file);
+  choose_play(read, options.clip, options.file);
+  const Recording recording = run_stage(read.stage, options);
+  const bool to_stdout = options.json || options.output == "-";
+  if (options.output && *options.output != "-") {
+    save_recording(recording, read.stage, *options.output);
+    say_written(*options.output, summary_of(recording, options.fps), options.json);
+  }
+  if (to_stdout) {
+    print(recording_json(recording));
+  } else if (!options.output) {
+    const std::string name = read.stage.name.empty() ? options.file : read.stage.name;
+    print(terminal_text(name + ": " + summary_of(recording, options.fps)) + "\n" + handoffs_table(recording) +
+          events_table(recording) + ends_table(recording, read.stage));
+  }
+  return 0;
+}
+
+Run declare_run(Arguments& arguments) {
+  auto options = std::make_shared<RunFileOptions>();
+  arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
+  arguments.text("--clip", "NAME", options->clip, "let this clip play alone");
+  arguments.number("--until", "T", options->until, "to stage time T, s; else until it has shown what it has");
+  arguments.number("--fps", "N", options->frames_per_second, "frames a second, 60 by default");
+  arguments.text("-o,--output", "OUT", options->output,
+                 "the recording: .json .csv .svg .html or .glb; - prints the JSON; without it a summary");
+  arguments.flag("--json", options->json, "print the recording as JSON");
+  return [options] { return run_file(*options); };
+}
+
+}  // namespace
+
+const Verb run_verb{"run", "advance the stage with physics: a summary, or a recording as .json .csv .svg .html .glb",
+                    "tweenfall run swing.json --until 3 -o swing.glb", declare_run};
+
+}  // namespace tweenfall::cli
