@@ -16,16 +16,6 @@ namespace {
 constexpr double hair = 1e-7;  // m
 constexpr int most_advances = 48;
 
-/// How fast a surface point can move along any direction because the body spins, m/s.
-double swing_speed(const Course& course) {
-  const Body& body = *course.body;
-  const double spin = course.angular.norm();
-  if (spin == 0) return 0;
-  // A ball's surface stays where it is when it spins about its center.
-  if (std::holds_alternative<Sphere>(body.shape.solid)) return 0;
-  return spin * body.radius;
-}
-
 }  // namespace
 
 Pose Prediction::node(const Body& body) const {
@@ -46,10 +36,19 @@ Prediction Course::at(double time) const {
 
 Course course_of(const Body& body, const Load& load, double dt) {
   if (body.immovable() || body.asleep) {
-    const Twist rate = body.immovable() ? displacement_rate(body, dt) : Twist{};
-    return {&body, rate.linear, rate.angular, Vec3::Zero()};
+    const KeyedCourse course = body.immovable() ? keyed_course(body, dt) : KeyedCourse{};
+    return {&body, course.mean.linear - 0.5 * course.gain.linear, course.mean.angular, course.gain.linear / dt};
   }
   return {&body, body.twist.linear, body.twist.angular, load.acceleration};
+}
+
+double swing_speed(const Course& course) {
+  const Body& body = *course.body;
+  const double spin = course.angular.norm();
+  if (spin == 0 || std::isinf(body.radius)) return 0;
+  // A ball's surface stays where it is when it spins about its center.
+  if (std::holds_alternative<Sphere>(body.shape.solid)) return 0;
+  return spin * body.radius;
 }
 
 std::optional<double> impact_time(const Course& a, const Course& b, double dt) {

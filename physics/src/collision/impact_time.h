@@ -24,6 +24,9 @@ struct Course {
 
 [[nodiscard]] Course course_of(const Body& body, const Load& load, double dt);
 
+/// How fast a surface point can move along any direction because the body spins, m/s. A plane is taken not to spin.
+[[nodiscard]] double swing_speed(const Course& course);
+
 /// The time in (0, dt] at which two separated shapes first come nearer than a hair, by conservative advancement: no
 /// step is longer than the gap divided by the greatest speed at which it can close.
 /// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, chapter 2.

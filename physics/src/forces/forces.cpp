@@ -2,6 +2,8 @@
 
 #include <tweenfall/curves/rotation.h>
 
+#include "step/keyed_step.h"
+
 namespace tweenfall {
 
 namespace {
@@ -90,8 +92,10 @@ void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedFor
   loads.assign(bodies.size(), Load{});
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
-    if (!body.alive || !moves(body)) continue;
+    if (!body.alive) continue;
     Load& load = loads[i];
+    if (body.immovable()) load.acceleration = load.end_acceleration = keyed_course(body, dt).gain.linear / dt;
+    if (!moves(body)) continue;
     load.acceleration = settings.gravity + body.force / body.mass.mass;
     load.end_acceleration = load.acceleration;
     load.torque = body.torque;

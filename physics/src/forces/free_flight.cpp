@@ -11,9 +11,23 @@ namespace tweenfall {
 namespace {
 
 /// Inverse of the derivative of the exponential, for rotation vectors in world axes, cut after the second bracket.
+/// Beyond a radian the series says nothing: then the plain midpoint is left, which turns by no more than the spin can.
 Vec3 inverse_derivative(const Vec3& turn, const Vec3& angular) {
+  if (turn.squaredNorm() > 1) return angular;
   const Vec3 bracket = turn.cross(angular);
   return angular - 0.5 * bracket + turn.cross(bracket) / 12;
+}
+
+/// Turns a body with this angular momentum by the little that brings its energy to what it was. The gradient of the
+/// energy over turns of the body is w x L.
+void keep_energy(const Body& body, const Vec3& momentum, double energy, Spin& spin) {
+  const Vec3 gradient = spin.angular.cross(momentum);
+  const double off = energy - 0.5 * spin.angular.dot(momentum);
+  // About a principal axis no turn changes the energy, and none is needed.
+  if (!(std::abs(off) < 1e-3 * gradient.norm())) return;
+  spin.rotation = exp_map(gradient * (off / gradient.squaredNorm())) * spin.rotation;
+  spin.rotation.normalize();
+  spin.angular = body.world_inverse_inertia(spin.rotation) * momentum;
 }
 
 }  // namespace
@@ -60,6 +74,7 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
     momentum = end_momentum;
   }
   spin.angular = body.world_inverse_inertia(spin.rotation) * momentum;
+  if (steady) keep_energy(body, momentum, 0.5 * first.dot(momentum), spin);
   return spin;
 }
 

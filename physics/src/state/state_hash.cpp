@@ -67,13 +67,15 @@ std::uint64_t World::state_hash() const noexcept {
   }
   for (const ContactConstraint& constraint : world.constraints) {
     hash.add(std::uint64_t{constraint.a} << 32 | constraint.b);
-    hash.add(constraint.rolling_impulse);
+    hash.add(constraint.kept_rolling);
+    hash.add(constraint.kept_step);
+    hash.add(constraint.passed_over);
     hash.add(std::uint64_t{constraint.touching});
     for (int i = 0; i < constraint.count; ++i) {
       const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       hash.add(std::uint64_t{point.feature});
-      hash.add(point.normal_impulse);
-      hash.add(point.friction_impulse);
+      hash.add(point.kept_normal);
+      hash.add(point.kept_friction);
     }
   }
   return hash.value();

@@ -117,10 +117,10 @@ void World::Implementation::wake_neighbors(std::uint32_t index) {
 void World::Implementation::forget_impulses(std::uint32_t index) {
   for (ContactConstraint& constraint : constraints) {
     if (constraint.a != index && constraint.b != index) continue;
-    constraint.rolling_impulse = Vec3::Zero();
+    constraint.kept_rolling = Vec3::Zero();
     for (PointConstraint& point : constraint.points) {
-      point.normal_impulse = 0;
-      point.friction_impulse = Vec3::Zero();
+      point.kept_normal = 0;
+      point.kept_friction = Vec3::Zero();
     }
   }
 }

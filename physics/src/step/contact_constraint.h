@@ -15,18 +15,18 @@ struct PointConstraint {
   Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};              ///< in the current sub-step
   double gap = 0;
   double normal_mass = 0;
-  double normal_impulse = 0;       ///< of one sub-step, kept for the next, N s
-  Vec3 friction_impulse{0, 0, 0};  ///< of one sub-step, world, N s
-  double kept_normal = 0;          ///< with which the step began, of a whole sub-step, N s
+  double kept_normal = 0;  ///< of the last sub-step worth keeping: where the next begins, N s
   Vec3 kept_friction{0, 0, 0};
-  double total_normal = 0;  ///< of the whole step
+  double normal_impulse = 0;       ///< of one sub-step, N s
+  Vec3 friction_impulse{0, 0, 0};  ///< of one sub-step, world, N s
+  double total_normal = 0;         ///< of the whole step
   Vec3 total_friction{0, 0, 0};
   double approach = 0;              ///< closing speed where they meet, m/s
-  double rebound = 0;               ///< normal speed wanted at the end of the step, m/s
-  double rebound_time = 0;          ///< how long the rebound moves the bodies in this step, s
-  double push_impulse = 0;          ///< of the push-out, kg m
+  double rebound = 0;               ///< normal speed wanted at the end of the sub-step, m/s
+  double rebound_time = 0;          ///< how long the rebound moves the bodies in this sub-step, s
   double speed_before_rebound = 0;  ///< m/s
-  double before_rebound = 0;        ///< total normal impulse when the rebound began
+  double normal_before_rebound = 0;
+  Vec3 friction_before_rebound{0, 0, 0};
 };
 
 /// A pair in contact, kept from step to step.
@@ -38,12 +38,15 @@ struct ContactConstraint {
   double friction = 0;
   double restitution = 0;
   double rolling_friction = 0;
-  Vec3 rolling_impulse{0, 0, 0};
   Vec3 kept_rolling{0, 0, 0};
+  double kept_step = 0;    ///< length of the sub-step that kept impulses are of, s; 0: none are
+  double passed_over = 0;  ///< time since then in sub-steps too short to be kept, s
+  Vec3 rolling_impulse{0, 0, 0};
   Vec3 total_rolling{0, 0, 0};
   bool touching = false;  ///< an impulse passed or the shapes overlap
   bool began = false;
   bool impact = false;     ///< some point meets fast enough to rebound
+  bool rebounds = false;   ///< in an island that does, in this sub-step
   double impact_time = 0;  ///< s after the start of the step
   Contact seen;            ///< what the caller gets to see
 };

@@ -4,11 +4,38 @@
 
 namespace tweenfall {
 
-Twist displacement_rate(const Body& body, double dt) {
-  if (body.fixed || !body.has_target) return {};
-  const Vec3 end = body.target.pose.position + body.target.pose.rotation * body.mass.center;
-  const Quat turn = body.target.pose.rotation * body.motion.pose.rotation.conjugate();
-  return {(end - body.center) / dt, log_map(turn) / dt};
+namespace {
+
+/// Parts of the change of velocity by which a path's mean velocity may be off the mean of its ends.
+constexpr double evenness = 0.1;
+/// A rate of displacement that is uncertain by more than this, m/s or rad/s, is rounding and no rate.
+constexpr double certain = 1e-6;
+constexpr double rounding = 4e-16;
+
+/// One half of a course, from the displacement and the path's own velocities.
+void fit(const Vec3& displacement, const Vec3& start, const Vec3& end, double size, double dt, Vec3& mean, Vec3& gain) {
+  if (rounding * size > certain * dt) {
+    mean = end;
+    return;
+  }
+  mean = displacement / dt;
+  const Vec3 change = end - start;
+  if ((mean - 0.5 * (start + end)).norm() <= evenness * change.norm()) gain = change;
+}
+
+}  // namespace
+
+KeyedCourse keyed_course(const Body& body, double dt) {
+  KeyedCourse course;
+  if (body.fixed || !body.has_target) return course;
+  const Vec3 arm = body.target.pose.rotation * body.mass.center;
+  const Vec3 end = body.target.pose.position + arm;
+  const Twist twist = shifted(body.target.twist, arm);
+  const Vec3 turn = log_map(body.target.pose.rotation * body.motion.pose.rotation.conjugate());
+  const double size = end.norm() + body.center.norm();
+  fit(end - body.center, body.twist.linear, twist.linear, size, dt, course.mean.linear, course.gain.linear);
+  fit(turn, body.twist.angular, twist.angular, 1, dt, course.mean.angular, course.gain.angular);
+  return course;
 }
 
 void arrive(Body& body) {

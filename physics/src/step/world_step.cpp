@@ -48,11 +48,13 @@ void adopt(ContactConstraint& constraint, const Body& a, const Prediction& at_a,
 
 /// Hands the impulses of the step before on: to points of the same features, then to what is left nearby.
 void inherit(ContactConstraint& constraint, const ContactConstraint& old, double nearby) {
-  constraint.rolling_impulse = old.rolling_impulse;
+  constraint.kept_rolling = old.kept_rolling;
+  constraint.kept_step = old.kept_step;
+  constraint.passed_over = old.passed_over;
   std::array<bool, 4> given{}, taken{};
   const auto hand_on = [&](std::size_t from, std::size_t to) {
-    constraint.points[to].normal_impulse = old.points[from].normal_impulse;
-    constraint.points[to].friction_impulse = old.points[from].friction_impulse;
+    constraint.points[to].kept_normal = old.points[from].kept_normal;
+    constraint.points[to].kept_friction = old.points[from].kept_friction;
     given[from] = taken[to] = true;
   };
   const auto count = static_cast<std::size_t>(constraint.count);
@@ -105,14 +107,19 @@ void World::Implementation::find_constraints(double dt) {
     constraint.b = index_b;
     const Course course_a = course_of(a, loads[index_a], dt);
     const Course course_b = course_of(b, loads[index_b], dt);
+    const double swing = swing_speed(course_a) + swing_speed(course_b);
     constraint.manifold = collide(a.shape, a.motion.pose, b.shape, b.motion.pose, near_enough);
     if (constraint.manifold.count > 0) {
+      if (swing * dt > near_enough)
+        constraint.manifold = collide(a.shape, a.motion.pose, b.shape, b.motion.pose, near_enough + swing * dt);
       adopt(constraint, a, {a.center, a.motion.pose.rotation}, b, {b.center, b.motion.pose.rotation});
     } else if (const std::optional<double> meeting = impact_time(course_a, course_b, dt)) {
       const Prediction at_a = course_a.at(*meeting);
       const Prediction at_b = course_b.at(*meeting);
       constraint.impact_time = *meeting;
-      constraint.manifold = collide(a.shape, at_a.node(a), b.shape, at_b.node(b), near_enough);
+      // What a spin brings down in what is left of the step, too.
+      const double reach = near_enough + swing * (dt - *meeting);
+      constraint.manifold = collide(a.shape, at_a.node(a), b.shape, at_b.node(b), reach);
       adopt(constraint, a, at_a, b, at_b);
     }
     if (constraint.count == 0) continue;

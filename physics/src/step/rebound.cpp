@@ -1,0 +1,196 @@
+#include <tweenfall/curves/rotation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "step/contact_rows.h"
+#include "step/solver.h"
+
+namespace tweenfall {
+
+using step::point_velocity;
+
+namespace {
+
+/// A change of velocity by the rebound that no longer matters, m/s.
+constexpr double quiet = 1e-14;
+
+}  // namespace
+
+/// Marks the islands in which a point that shall rebound was reached.
+bool Solver::find_rebounds(std::vector<ContactConstraint>& constraints, Islands& islands) {
+  bool any = false;
+  for (const ContactConstraint& constraint : constraints)
+    for (int i = 0; i < constraint.count; ++i) {
+      const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      if (!(point.rebound > 0 && point.normal_impulse > 0)) continue;
+      if (!any) flags_.assign(slots_.size(), 0);
+      any = true;
+      flags_[island_of(constraint, islands)] = 1;
+    }
+  return any;
+}
+
+double Solver::rebound_pass(std::vector<ContactConstraint>& constraints, bool backward) {
+  double most = 0;
+  const std::size_t count = constraints.size();
+  for (std::size_t n = 0; n < count; ++n) {
+    ContactConstraint& constraint = constraints[backward ? count - 1 - n : n];
+    SolverBody& a = at(constraint.a);
+    SolverBody& b = at(constraint.b);
+    // Only what the rebound reaches.
+    if (!constraint.rebounds || !(a.stirred || b.stirred)) continue;
+    const Vec3& normal = constraint.manifold.normal;
+    double change = 0;
+    for (int i = 0; i < constraint.count; ++i) {
+      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      if (constraint.friction > 0 && constraint.impact)
+        change = std::max(change, step::solve_friction(a, b, point, point.friction_impulse,
+                                                       constraint.friction * point.normal_impulse, normal));
+      if (point.normal_impulse == 0 && point.gap > 0) continue;
+      change = std::max(change, step::solve_normal(a, b, point, point.normal_impulse, point.rebound, normal));
+    }
+    if (change > quiet) {
+      a.stirred = a.movable;
+      b.stirred = b.movable;
+    }
+    most = std::max(most, change);
+  }
+  return most;
+}
+
+/// The rebound began inside the sub-step: what is left of it, it moved the bodies.
+void Solver::move_by_rebound(const ContactConstraint& constraint) {
+  SolverBody& a = at(constraint.a);
+  SolverBody& b = at(constraint.b);
+  for (int i = 0; i < constraint.count; ++i) {
+    const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    if (!(point.rebound > 0)) continue;
+    // Bodies still closing when it was solved are on the surface already: stopping them moves nothing.
+    const double part = point.rebound / (point.rebound - std::min(0.0, point.speed_before_rebound));
+    // A rebound that gravity nearly uses up lasts long and takes little impulse: what neighbors pass on through the
+    // point is none of it.
+    const double most = point.normal_mass * point.rebound;
+    const double own = std::clamp((point.normal_impulse - point.normal_before_rebound) * part, -most, most);
+    const Vec3 moved = own * point.rebound_time * constraint.manifold.normal;
+    if (moved == Vec3::Zero()) continue;
+    const auto move = [](SolverBody& body, const Vec3& by, const Vec3& arm) {
+      body.center += body.inverse_mass * by;
+      const Vec3 turning = body.inverse_inertia * arm.cross(by);
+      if (turning == Vec3::Zero()) return;
+      const Quat turn = exp_map(turning);
+      body.rotation = turn * body.rotation;
+      body.rotation.normalize();
+      body.turn = turn * body.turn;
+      body.turn.normalize();
+    };
+    move(a, -moved, point.arm_a);
+    move(b, moved, point.arm_b);
+  }
+}
+
+/// Takes back as much of the rebound as would leave an island more energy than it had and than was put into it.
+void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads,
+                          std::vector<ContactConstraint>& constraints, Islands& islands) {
+  energies_.assign(slots_.size(), {});
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const SolverBody& entry = bodies_[i];
+    if (!entry.movable || !flags_[islands.of(entry.index)]) continue;
+    IslandEnergy& energy = energies_[islands.of(entry.index)];
+    const Body& body = bodies[entry.index];
+    const Load& load = loads[entry.index];
+    const SubStepStart& start = starts_[i];
+    const double mass = body.mass.mass;
+    const Vec3 force = 0.5 * mass * (load.acceleration + load.end_acceleration);
+    energy.limit += 0.5 * mass * start.linear.squaredNorm() +
+                    0.5 * start.angular.dot(body.world_inertia(start.rotation) * start.angular) +
+                    force.dot(entry.center - start.center);
+    if (load.torque != Vec3::Zero())
+      energy.limit += load.torque.dot(log_map(entry.rotation * start.rotation.conjugate()));
+    // A drive's work is not known: the island is left as it is.
+    if (body.drive.owner() == Owner::driven) energy.limit = std::numeric_limits<double>::infinity();
+    const Mat3 inertia = body.world_inertia(entry.rotation);
+    const Vec3 linear = entry.linear - start.linear_before_rebound;
+    const Vec3 angular = entry.angular - start.angular_before_rebound;
+    const Vec3 momentum = inertia * start.angular_before_rebound;
+    energy.without +=
+        0.5 * mass * start.linear_before_rebound.squaredNorm() + 0.5 * start.angular_before_rebound.dot(momentum);
+    energy.slope += mass * linear.dot(start.linear_before_rebound) + angular.dot(momentum);
+    energy.curvature += 0.5 * mass * linear.squaredNorm() + 0.5 * angular.dot(inertia * angular);
+  }
+  // What moves by its own will does work on what it pushes.
+  for (const ContactConstraint& constraint : constraints) {
+    if (!constraint.rebounds) continue;
+    const SolverBody& a = at(constraint.a);
+    const SolverBody& b = at(constraint.b);
+    if (a.movable == b.movable) continue;
+    IslandEnergy& energy = energies_[island_of(constraint, islands)];
+    for (int i = 0; i < constraint.count; ++i) {
+      const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      const Vec3 impulse = point.normal_impulse * constraint.manifold.normal + point.friction_impulse;
+      energy.limit +=
+          a.movable ? -impulse.dot(point_velocity(b, point.arm_b)) : impulse.dot(point_velocity(a, point.arm_a));
+    }
+  }
+  const auto share_of = [](const IslandEnergy& energy) {
+    const double excess = energy.without - energy.limit;
+    if (!(excess + energy.slope + energy.curvature > 0)) return 1.0;
+    if (!(energy.curvature > 0)) return 1.0;
+    const double square = energy.slope * energy.slope - 4 * energy.curvature * excess;
+    if (!(square >= 0) || excess > 0) return 0.0;
+    return std::clamp((std::sqrt(square) - energy.slope) / (2 * energy.curvature), 0.0, 1.0);
+  };
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    SolverBody& entry = bodies_[i];
+    if (!entry.movable || !flags_[islands.of(entry.index)]) continue;
+    const double share = share_of(energies_[islands.of(entry.index)]);
+    if (share == 1) continue;
+    entry.linear = starts_[i].linear_before_rebound + share * (entry.linear - starts_[i].linear_before_rebound);
+    entry.angular = starts_[i].angular_before_rebound + share * (entry.angular - starts_[i].angular_before_rebound);
+  }
+  for (ContactConstraint& constraint : constraints) {
+    if (!constraint.rebounds) continue;
+    const double share = share_of(energies_[island_of(constraint, islands)]);
+    if (share == 1) continue;
+    for (int i = 0; i < constraint.count; ++i) {
+      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      point.normal_impulse = point.normal_before_rebound + share * (point.normal_impulse - point.normal_before_rebound);
+      point.friction_impulse =
+          point.friction_before_rebound + share * (point.friction_impulse - point.friction_before_rebound);
+    }
+  }
+}
+
+void Solver::rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads,
+                     std::vector<ContactConstraint>& constraints, Islands& islands, int passes) {
+  if (!find_rebounds(constraints, islands)) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    bodies_[i].stirred = false;
+    starts_[i].linear_before_rebound = bodies_[i].linear;
+    starts_[i].angular_before_rebound = bodies_[i].angular;
+  }
+  for (ContactConstraint& constraint : constraints) {
+    constraint.rebounds = flags_[island_of(constraint, islands)] != 0;
+    if (!constraint.rebounds) continue;
+    SolverBody& a = at(constraint.a);
+    SolverBody& b = at(constraint.b);
+    for (int i = 0; i < constraint.count; ++i) {
+      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      point.normal_before_rebound = point.normal_impulse;
+      point.friction_before_rebound = point.friction_impulse;
+      point.speed_before_rebound =
+          constraint.manifold.normal.dot(point_velocity(b, point.arm_b) - point_velocity(a, point.arm_a));
+      if (!(point.rebound > 0 && point.normal_impulse > 0)) continue;
+      a.stirred = a.stirred || a.movable;
+      b.stirred = b.stirred || b.movable;
+    }
+  }
+  for (int k = 0; k < passes; ++k)
+    if (rebound_pass(constraints, k % 2 == 1) < quiet) break;
+  for (const ContactConstraint& constraint : constraints)
+    if (constraint.rebounds) move_by_rebound(constraint);
+  bound_energy(bodies, loads, constraints, islands);
+}
+
+}  // namespace tweenfall
