@@ -1,0 +1,39 @@
+#pragma once
+
+// What is attacked: each kind makes case number n from a seed alone, so that any case can be run again by its number.
+
+#include "random.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace tweenfall::attack {
+
+using test::Random;
+
+/// One kind of attack, ready to run any of its cases.
+class Attack {
+ public:
+  virtual ~Attack() = default;
+  /// Runs case `number`. @returns what went wrong, in a sentence; empty when all held. A crash ends the process.
+  [[nodiscard]] virtual std::string run(std::uint64_t number) = 0;
+  /// What case `number` feeds to the program, to be looked at.
+  [[nodiscard]] virtual std::string show(std::uint64_t number) = 0;
+};
+
+std::unique_ptr<Attack> attack_documents(std::uint64_t seed);
+/// @param ending  of the models to start from, such as ".fbx"
+std::unique_ptr<Attack> attack_models(std::uint64_t seed, const std::string& ending);
+std::unique_ptr<Attack> attack_stage(std::uint64_t seed);
+
+/// The bytes of a file; none where it cannot be read.
+[[nodiscard]] std::string bytes_of(const std::filesystem::path& file);
+
+/// The numbers of one case.
+inline Random random_of(std::uint64_t seed, std::uint64_t number) {
+  return Random(seed * 0x9e3779b97f4a7c15u ^ (number + 1) * 0xd1342543de82ef95u);
+}
+
+}  // namespace tweenfall::attack

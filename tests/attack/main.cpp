@@ -1,0 +1,156 @@
+// attack KIND [--count N] [--from K] [--seed S] [--jobs J]   run cases of a kind, each job in a process of its own
+// attack KIND --show K [--seed S]                            print what case K feeds to the program
+//
+// KIND: documents, stage, or the ending of models: .gltf, .glb, .fbx, .bvh, .dae, .obj
+// A case that crashes, takes longer than 10 s or more than 4 GB is told by its number, and the run goes on behind it.
+
+#include "attack/attack.h"
+
+#include <CLI/CLI.hpp>
+
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <mutex>
+#include <thread>
+
+#ifndef __has_feature
+#define __has_feature(x) 0
+#endif
+
+namespace tweenfall::attack {
+
+namespace {
+
+constexpr double most_seconds = 10;
+constexpr rlim_t most_bytes = rlim_t{4} << 30;
+
+std::unique_ptr<Attack> attack_of(const std::string& kind, std::uint64_t seed) {
+  if (kind == "documents") return attack_documents(seed);
+  if (kind == "stage") return attack_stage(seed);
+  return attack_models(seed, kind);
+}
+
+/// What a worker tells its parent, in memory that both see.
+struct Progress {
+  std::atomic<std::uint64_t> next{0};   ///< the case it is at
+  std::atomic<std::uint64_t> faults{0};
+  std::atomic<std::uint64_t> most_kilobytes{0};
+};
+
+void work(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::uint64_t to, std::uint64_t stride,
+          Progress& progress) {
+#if !defined(__SANITIZE_ADDRESS__) && !__has_feature(address_sanitizer)
+  // A sanitizer reserves more than any limit before it begins.
+  const rlimit memory{most_bytes, most_bytes};
+  setrlimit(RLIMIT_AS, &memory);
+#endif
+  const std::unique_ptr<Attack> attack = attack_of(kind, seed);
+  for (std::uint64_t number = from; number < to; number += stride) {
+    progress.next = number;
+    std::string fault;
+    try {
+      fault = attack->run(number);
+    } catch (const std::bad_alloc&) {
+      fault = "memory ran out";
+    } catch (const std::exception& error) {
+      fault = error.what();
+    }
+    if (!fault.empty()) {
+      ++progress.faults;
+      std::printf("case %llu: %s\n", static_cast<unsigned long long>(number), fault.c_str());
+      std::fflush(stdout);
+    }
+    rusage used{};
+    getrusage(RUSAGE_SELF, &used);
+    progress.most_kilobytes = static_cast<std::uint64_t>(used.ru_maxrss);
+  }
+  progress.next = to;
+}
+
+/// Runs one worker until its cases are through, over crashes and hangs. @returns how many cases went wrong.
+std::uint64_t watch(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::uint64_t to,
+                    std::uint64_t stride, std::uint64_t& most_kilobytes) {
+  auto* progress = static_cast<Progress*>(
+      mmap(nullptr, sizeof(Progress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
+  new (progress) Progress;
+  std::uint64_t lost = 0;
+  while (from < to) {
+    progress->next = from;
+    const pid_t worker = fork();
+    if (worker == 0) {
+      work(kind, seed, from, to, stride, *progress);
+      std::fflush(nullptr);
+      _exit(0);
+    }
+    std::uint64_t at = from;
+    double waited = 0;
+    int status = 0;
+    bool hung = false;
+    while (waitpid(worker, &status, WNOHANG) == 0) {
+      usleep(50'000);
+      waited = progress->next == at ? waited + 0.05 : 0;
+      at = progress->next;
+      if (waited <= most_seconds) continue;
+      hung = true;
+      kill(worker, SIGKILL);
+      waitpid(worker, &status, 0);
+      break;
+    }
+    at = progress->next;
+    most_kilobytes = std::max<std::uint64_t>(most_kilobytes, progress->most_kilobytes);
+    if (!hung && WIFEXITED(status) && WEXITSTATUS(status) == 0) break;
+    ++lost;
+    std::printf("case %llu: %s\n", static_cast<unsigned long long>(at), hung ? "took longer than 10 s" : "crashed");
+    std::fflush(stdout);
+    from = at + stride;
+  }
+  return lost + progress->faults;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Attacks the toolkit with cases made from a seed; each can be run again by its number.");
+  std::string kind;
+  std::uint64_t count = 1000, from = 0, seed = 1, show = 0;
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  app.add_option("kind", kind, "documents, stage, or an ending of models such as .fbx")->required();
+  app.add_option("--count", count, "how many cases")->capture_default_str();
+  app.add_option("--from", from, "the first case")->capture_default_str();
+  app.add_option("--seed", seed, "other cases")->capture_default_str();
+  app.add_option("--jobs", jobs, "processes at once")->capture_default_str();
+  const CLI::Option* showing = app.add_option("--show", show, "print what this case feeds to the program, and end");
+  CLI11_PARSE(app, argc, argv);
+  if (showing->count()) {
+    const std::string text = attack_of(kind, seed)->show(show);
+    std::fwrite(text.data(), 1, text.size(), stdout);
+    return 0;
+  }
+
+  std::uint64_t faults = 0, most_kilobytes = 0;
+  std::vector<std::thread> watchers;
+  std::mutex mutex;
+  for (unsigned job = 0; job < jobs; ++job) {
+    watchers.emplace_back([&, job] {
+      std::uint64_t kilobytes = 0;
+      const std::uint64_t found = watch(kind, seed, from + job, from + count, jobs, kilobytes);
+      const std::lock_guard lock(mutex);
+      faults += found;
+      most_kilobytes = std::max(most_kilobytes, kilobytes);
+    });
+  }
+  for (std::thread& watcher : watchers) watcher.join();
+  std::printf("%s: %llu cases, %llu went wrong, at most %llu MB\n", kind.c_str(), static_cast<unsigned long long>(count),
+              static_cast<unsigned long long>(faults), static_cast<unsigned long long>(most_kilobytes / 1024));
+  return faults ? 1 : 0;
+}
+
+}  // namespace
+
+}  // namespace tweenfall::attack
+
+int main(int argc, char** argv) { return tweenfall::attack::run(argc, argv); }

@@ -1,0 +1,43 @@
+#include "attack/written.h"
+
+#include <cctype>
+
+namespace tweenfall::attack {
+
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const std::size_t more = first < 0x80 ? 0 : first >= 0xc2 && first < 0xe0 ? 1 : (first & 0xf0) == 0xe0 ? 2 : 3;
+    if (first >= 0x80 && (first < 0xc2 || first > 0xf4)) return false;
+    if (i + more >= text.size()) return false;
+    std::uint32_t code = more == 0 ? first : first & (0x3f >> more);
+    for (std::size_t k = 1; k <= more; ++k) {
+      const auto next = static_cast<unsigned char>(text[i + k]);
+      if ((next & 0xc0) != 0x80) return false;
+      code = code << 6 | (next & 0x3f);
+    }
+    if (more == 2 && (code < 0x800 || (code >= 0xd800 && code < 0xe000))) return false;
+    if (more == 3 && (code < 0x10000 || code > 0x10ffff)) return false;
+    i += more + 1;
+  }
+  return true;
+}
+
+std::string fault_of_text(const std::string& text) {
+  if (!is_utf8(text)) return "not UTF-8";
+  // As a word of its own, also in the attributes of a picture. No document to begin with has such a name.
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    for (const std::string_view word : {"nan", "NaN", "inf", "Infinity"}) {
+      if (text.compare(i, word.size(), word) != 0) continue;
+      const auto beside = [&](std::size_t at) {
+        return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+      };
+      if (!(i > 0 && beside(i - 1)) && !beside(i + word.size())) {
+        return "\"" + std::string(word) + "\" where a number belongs, after \"" + text.substr(i < 40 ? 0 : i - 40, 40) + "\"";
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace tweenfall::attack

@@ -1,0 +1,30 @@
+#pragma once
+
+// What may never stand in anything that is written.
+
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace tweenfall::attack {
+
+/// Whether `text` is UTF-8 throughout.
+[[nodiscard]] bool is_utf8(std::string_view text);
+
+/// A NaN or an infinity in place of a number, or bytes that are not UTF-8; empty when there is none.
+[[nodiscard]] std::string fault_of_text(const std::string& text);
+
+/// What is wrong with what `write` makes. That it refuses in words (std::runtime_error, std::invalid_argument) is right.
+template <class Write>
+[[nodiscard]] std::string written(const Write& write, bool only_numbers = true) {
+  try {
+    const std::string text = write();
+    return only_numbers ? fault_of_text(text) : is_utf8(text) ? std::string() : "not UTF-8";
+  } catch (const std::runtime_error&) {
+    return {};
+  } catch (const std::invalid_argument&) {
+    return {};
+  }
+}
+
+}  // namespace tweenfall::attack
