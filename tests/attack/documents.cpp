@@ -104,6 +104,8 @@ class Documents final : public Attack {
 
 }  // namespace
 
-std::unique_ptr<Attack> attack_documents(std::uint64_t seed) { return std::make_unique<Documents>(seed); }
+std::unique_ptr<Attack> attack_documents(std::uint64_t seed) {
+  return std::make_unique<Documents>(seed);
+}
 
 }  // namespace tweenfall::attack

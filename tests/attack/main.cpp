@@ -38,7 +38,7 @@ std::unique_ptr<Attack> attack_of(const std::string& kind, std::uint64_t seed) {
 
 /// What a worker tells its parent, in memory that both see.
 struct Progress {
-  std::atomic<std::uint64_t> next{0};   ///< the case it is at
+  std::atomic<std::uint64_t> next{0};  ///< the case it is at
   std::atomic<std::uint64_t> faults{0};
   std::atomic<std::uint64_t> most_kilobytes{0};
 };
@@ -144,8 +144,9 @@ int run(int argc, char** argv) {
     });
   }
   for (std::thread& watcher : watchers) watcher.join();
-  std::printf("%s: %llu cases, %llu went wrong, at most %llu MB\n", kind.c_str(), static_cast<unsigned long long>(count),
-              static_cast<unsigned long long>(faults), static_cast<unsigned long long>(most_kilobytes / 1024));
+  std::printf("%s: %llu cases, %llu went wrong, at most %llu MB\n", kind.c_str(),
+              static_cast<unsigned long long>(count), static_cast<unsigned long long>(faults),
+              static_cast<unsigned long long>(most_kilobytes / 1024));
   return faults ? 1 : 0;
 }
 
@@ -153,4 +154,6 @@ int run(int argc, char** argv) {
 
 }  // namespace tweenfall::attack
 
-int main(int argc, char** argv) { return tweenfall::attack::run(argc, argv); }
+int main(int argc, char** argv) {
+  return tweenfall::attack::run(argc, argv);
+}

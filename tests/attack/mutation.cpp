@@ -33,12 +33,24 @@ void mutate_bytes(Random& random, std::string& bytes) {
     const std::size_t at = below(random, bytes.size());
     const std::size_t length = std::min(1 + below(random, 1u << below(random, 10)), bytes.size() - at);
     switch (below(random, 8)) {
-      case 0: bytes[at] = static_cast<char>(random.bits()); break;
-      case 1: bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(random, 8))); break;
-      case 2: bytes.erase(at, length); break;
-      case 3: bytes.insert(at, bytes.substr(at, length)); break;
-      case 4: bytes.insert(below(random, bytes.size()), bytes.substr(at, length)); break;
-      case 5: bytes.resize(at); break;
+      case 0:
+        bytes[at] = static_cast<char>(random.bits());
+        break;
+      case 1:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1 << below(random, 8)));
+        break;
+      case 2:
+        bytes.erase(at, length);
+        break;
+      case 3:
+        bytes.insert(at, bytes.substr(at, length));
+        break;
+      case 4:
+        bytes.insert(below(random, bytes.size()), bytes.substr(at, length));
+        break;
+      case 5:
+        bytes.resize(at);
+        break;
       case 6: {
         // A length or an offset of a binary file, or a digit of one that is text.
         static constexpr std::uint32_t odd[] = {0, 1, 0x7fffffff, 0x80000000, 0xffffffff, 0x10000, 0xffff, 0x3fffffff};
@@ -49,8 +61,9 @@ void mutate_bytes(Random& random, std::string& bytes) {
         break;
       }
       default: {
-        static constexpr const char* words[] = {"\"", "{", "}", "[", "]", ",", ":", "null", "1e999", "-", "\\u0000", "//",
-                                                "\xff", "\xef\xbf\xbe", "0", "99999999999", "\n", "\0"};
+        static constexpr const char* words[] = {"\"",   "{",           "}",  "[",       "]",  ",",    ":",
+                                                "null", "1e999",       "-",  "\\u0000", "//", "\xff", "\xef\xbf\xbe",
+                                                "0",    "99999999999", "\n", "\0"};
         bytes.insert(at, words[below(random, std::size(words))]);
       }
     }
@@ -68,19 +81,51 @@ void gather(Json& value, std::vector<Json*>& places) {
 }
 
 Json odd_value(Random& random) {
-  static const char* words[] = {"",     "+0.1",  "50%",     "12f",  "-3f",  "1e400%", "free",   "keyed",   "hold",
-                                "auto", "ball",  "bezier(0,1e300,1,-1e300)", "spring(0.3s,1e300)", "steps(0)",
-                                "repeat", "pingpong", "tcb(1,1,1)", "*", "../x.json", "#12345", "#fff", "a.b.c",
-                                "1/0", "1/240", "cubic-in-out", "elastic-out(1,0.001)", "linear(0, 1)", "back-in(-1e300)"};
+  static const char* words[] = {"",
+                                "+0.1",
+                                "50%",
+                                "12f",
+                                "-3f",
+                                "1e400%",
+                                "free",
+                                "keyed",
+                                "hold",
+                                "auto",
+                                "ball",
+                                "bezier(0,1e300,1,-1e300)",
+                                "spring(0.3s,1e300)",
+                                "steps(0)",
+                                "repeat",
+                                "pingpong",
+                                "tcb(1,1,1)",
+                                "*",
+                                "../x.json",
+                                "#12345",
+                                "#fff",
+                                "a.b.c",
+                                "1/0",
+                                "1/240",
+                                "cubic-in-out",
+                                "elastic-out(1,0.001)",
+                                "linear(0, 1)",
+                                "back-in(-1e300)"};
   switch (below(random, 9)) {
-    case 0: return nullptr;
-    case 1: return true;
-    case 2: return words[below(random, std::size(words))];
-    case 3: return Json::array();
-    case 4: return Json::object();
-    case 5: return Json::array({odd_number(random), odd_number(random), odd_number(random)});
-    case 6: return static_cast<std::int64_t>(random.bits());
-    default: return odd_number(random);
+    case 0:
+      return nullptr;
+    case 1:
+      return true;
+    case 2:
+      return words[below(random, std::size(words))];
+    case 3:
+      return Json::array();
+    case 4:
+      return Json::object();
+    case 5:
+      return Json::array({odd_number(random), odd_number(random), odd_number(random)});
+    case 6:
+      return static_cast<std::int64_t>(random.bits());
+    default:
+      return odd_number(random);
   }
 }
 
@@ -101,15 +146,19 @@ void rename_a_member(Random& random, Json& object) {
 }  // namespace
 
 void mutate_structure(Random& random, Json& document) {
-  const std::size_t changes = 1 + below(random, 4);
+  const std::size_t changes = 1 + below(random, 3);
   for (std::size_t change = 0; change < changes; ++change) {
     std::vector<Json*> places;
     gather(document, places);
     Json& place = *places[below(random, places.size())];
     const Json other = *places[below(random, places.size())];
-    switch (below(random, 10)) {
-      case 0: place = odd_value(random); break;
-      case 1: place = other; break;
+    switch (below(random, 24)) {
+      case 0:
+        place = odd_value(random);
+        break;
+      case 1:
+        place = other;
+        break;
       case 2:
         if (place.is_object() && !place.empty()) rename_a_member(random, place);
         break;

@@ -20,6 +20,8 @@ void mutate_bytes(Random& random, std::string& bytes);
 void mutate_structure(Random& random, nlohmann::ordered_json& document);
 
 /// From 0 to below `count`.
-inline std::size_t below(Random& random, std::size_t count) { return count ? random.bits() % count : 0; }
+inline std::size_t below(Random& random, std::size_t count) {
+  return count ? random.bits() % count : 0;
+}
 
 }  // namespace tweenfall::attack

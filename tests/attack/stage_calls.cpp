@@ -32,7 +32,9 @@ class StageCalls final : public Attack {
   std::uint64_t seed_;
 };
 
-Vec3 place(Random& random, double size) { return random.vector(size); }
+Vec3 place(Random& random, double size) {
+  return random.vector(size);
+}
 
 Vec3 odd_vector(Random& random) {
   return {odd_number(random, true), odd_number(random, true), odd_number(random, true)};
@@ -40,10 +42,14 @@ Vec3 odd_vector(Random& random) {
 
 Shape some_shape(Random& random) {
   switch (below(random, 4)) {
-    case 0: return {Sphere{random.between(0.05, 0.4)}};
-    case 1: return {Box{Vec3(random.between(0.05, 0.4), random.between(0.05, 0.4), random.between(0.05, 0.4))}};
-    case 2: return {Capsule{random.between(0.05, 0.2), random.between(0.05, 0.3)}};
-    default: return {Sphere{0.25}};
+    case 0:
+      return {Sphere{random.between(0.05, 0.4)}};
+    case 1:
+      return {Box{Vec3(random.between(0.05, 0.4), random.between(0.05, 0.4), random.between(0.05, 0.4))}};
+    case 2:
+      return {Capsule{random.between(0.05, 0.2), random.between(0.05, 0.3)}};
+    default:
+      return {Sphere{0.25}};
   }
 }
 
@@ -63,10 +69,11 @@ StageDescription some_stage(Random& random) {
   }
   Clip clip{.name = "move", .duration = 1};
   for (std::size_t i = 0; i < count; i += 2) {
-    clip.tracks.push_back({"body" + std::to_string(i), "position",
-                           keyed_curve<Vec3>({{.time = 0, .value = place(random, 1) + Vec3(0, 1, 0)},
-                                              {.time = random.between(0.2, 0.8), .value = place(random, 1) + Vec3(0, 1, 0)},
-                                              {.time = 1, .value = place(random, 1) + Vec3(0, 1, 0)}})});
+    clip.tracks.push_back(
+        {"body" + std::to_string(i), "position",
+         keyed_curve<Vec3>({{.time = 0, .value = place(random, 1) + Vec3(0, 1, 0)},
+                            {.time = random.between(0.2, 0.8), .value = place(random, 1) + Vec3(0, 1, 0)},
+                            {.time = 1, .value = place(random, 1) + Vec3(0, 1, 0)}})});
   }
   description.clips.push_back(clip);
   description.plays.push_back({.clip = 0, .at = random.between(0, 0.2), .speed = below(random, 5) ? 1 : -0.7});
@@ -77,14 +84,17 @@ StageDescription some_stage(Random& random) {
 std::string StageCalls::play(std::uint64_t number, std::ostringstream* log) const {
   Random random = random_of(seed_, number);
   Stage stage(some_stage(random));
-  const auto any_node = [&]() -> NodeId { return below(random, 12) ? below(random, stage.nodes().size()) : random.bits(); };
+  const auto any_node = [&]() -> NodeId {
+    return below(random, 12) ? below(random, stage.nodes().size()) : random.bits();
+  };
   const auto note = [&](const char* call, double argument) {
     if (log) *log << call << ' ' << argument << " at " << stage.time() << '\n';
   };
   if (below(random, 3) == 0) {
     // What a caller does inside of a callback.
     stage.on_contact([&stage](const StageEvent& event) {
-      if (event.nodes.size() == 2 && stage.has_body(event.nodes[0])) stage.apply_impulse(event.nodes[0], Vec3(0, 1e-3, 0), Vec3(0, 0, 0));
+      if (event.nodes.size() == 2 && stage.has_body(event.nodes[0]))
+        stage.apply_impulse(event.nodes[0], Vec3(0, 1e-3, 0), Vec3(0, 0, 0));
     });
   }
   for (int call = 0; call < calls_per_case; ++call) {
@@ -107,17 +117,24 @@ std::string StageCalls::play(std::uint64_t number, std::ostringstream* log) cons
           stage.seek(to);
           break;
         }
-        case 4: note("release", 0), stage.release(any_node()); break;
-        case 5: note("recover", 0), stage.recover(any_node()); break;
+        case 4:
+          note("release", 0), stage.release(any_node());
+          break;
+        case 5:
+          note("recover", 0), stage.recover(any_node());
+          break;
         case 6: {
           const NodeId node = any_node();
           note("impulse", static_cast<double>(node));
-          stage.apply_impulse(node, odd ? odd_vector(random) : place(random, 2), odd ? odd_vector(random) : place(random, 1));
+          stage.apply_impulse(node, odd ? odd_vector(random) : place(random, 2),
+                              odd ? odd_vector(random) : place(random, 1));
           break;
         }
         case 7: {
-          NodeDescription node{.name = "new" + std::to_string(call), .rest = {.position = odd ? odd_vector(random) : place(random, 2)}};
-          if (below(random, 2)) node.body = BodyDescription{.shape = some_shape(random), .mass = odd ? odd_number(random, true) : 1};
+          NodeDescription node{.name = "new" + std::to_string(call),
+                               .rest = {.position = odd ? odd_vector(random) : place(random, 2)}};
+          if (below(random, 2))
+            node.body = BodyDescription{.shape = some_shape(random), .mass = odd ? odd_number(random, true) : 1};
           if (below(random, 3) == 0) node.parent = any_node();
           note("add", node.rest.position.y());
           (void)stage.add(node);
@@ -160,6 +177,8 @@ std::string StageCalls::play(std::uint64_t number, std::ostringstream* log) cons
 
 }  // namespace
 
-std::unique_ptr<Attack> attack_stage(std::uint64_t seed) { return std::make_unique<StageCalls>(seed); }
+std::unique_ptr<Attack> attack_stage(std::uint64_t seed) {
+  return std::make_unique<StageCalls>(seed);
+}
 
 }  // namespace tweenfall::attack

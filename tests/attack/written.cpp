@@ -33,7 +33,8 @@ std::string fault_of_text(const std::string& text) {
         return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
       };
       if (!(i > 0 && beside(i - 1)) && !beside(i + word.size())) {
-        return "\"" + std::string(word) + "\" where a number belongs, after \"" + text.substr(i < 40 ? 0 : i - 40, 40) + "\"";
+        return "\"" + std::string(word) + "\" where a number belongs, after \"" + text.substr(i < 40 ? 0 : i - 40, 40) +
+               "\"";
       }
     }
   }
