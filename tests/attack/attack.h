@@ -21,6 +21,11 @@ class Attack {
   [[nodiscard]] virtual std::string run(std::uint64_t number) = 0;
   /// What case `number` feeds to the program, to be looked at.
   [[nodiscard]] virtual std::string show(std::uint64_t number) = 0;
+  /// How many cases so far were taken as valid, and so went all the way.
+  [[nodiscard]] std::uint64_t taken() const { return taken_; }
+
+ protected:
+  std::uint64_t taken_ = 0;
 };
 
 std::unique_ptr<Attack> attack_documents(std::uint64_t seed);

@@ -22,6 +22,7 @@ class Documents final : public Attack {
     const Case made = text_of(number);
     try {
       const Document document = Document::parse(made.text, "attack.json", made.folder);
+      ++taken_;
       const std::string text = document.text();
       if (const std::string fault = fault_of_text(text); !fault.empty()) return "the document written again: " + fault;
       return run_stage(document.stage());
@@ -58,7 +59,7 @@ class Documents final : public Attack {
   static std::vector<std::filesystem::path> seed_documents() {
     const std::filesystem::path source = TWEENFALL_SOURCE_DIR;
     std::vector<std::filesystem::path> files;
-    for (const char* folder : {"samples/documents", "tests/data/documents", "../shared/faults"}) {
+    for (const char* folder : {"samples/documents", "tests/data/documents/good", "../shared/faults"}) {
       if (!std::filesystem::exists(source / folder)) continue;
       for (const auto& entry : std::filesystem::recursive_directory_iterator(source / folder)) {
         if (entry.path().extension() == ".json" && entry.file_size() < 40'000) files.push_back(entry.path());

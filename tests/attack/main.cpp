@@ -41,6 +41,7 @@ struct Progress {
   std::atomic<std::uint64_t> next{0};  ///< the case it is at
   std::atomic<std::uint64_t> faults{0};
   std::atomic<std::uint64_t> most_kilobytes{0};
+  std::atomic<std::uint64_t> taken{0};
 };
 
 void work(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::uint64_t to, std::uint64_t stride,
@@ -51,6 +52,7 @@ void work(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::
   setrlimit(RLIMIT_AS, &memory);
 #endif
   const std::unique_ptr<Attack> attack = attack_of(kind, seed);
+  std::uint64_t taken = 0;
   for (std::uint64_t number = from; number < to; number += stride) {
     progress.next = number;
     std::string fault;
@@ -66,6 +68,8 @@ void work(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::
       std::printf("case %llu: %s\n", static_cast<unsigned long long>(number), fault.c_str());
       std::fflush(stdout);
     }
+    progress.taken += attack->taken() - taken;
+    taken = attack->taken();
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
     progress.most_kilobytes = static_cast<std::uint64_t>(used.ru_maxrss);
@@ -73,13 +77,16 @@ void work(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::
   progress.next = to;
 }
 
-/// Runs one worker until its cases are through, over crashes and hangs. @returns how many cases went wrong.
-std::uint64_t watch(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::uint64_t to,
-                    std::uint64_t stride, std::uint64_t& most_kilobytes) {
+struct Result {
+  std::uint64_t faults = 0, taken = 0, most_kilobytes = 0;
+};
+
+/// Runs one worker until its cases are through, over crashes and hangs.
+Result watch(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::uint64_t to, std::uint64_t stride) {
   auto* progress = static_cast<Progress*>(
       mmap(nullptr, sizeof(Progress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
   new (progress) Progress;
-  std::uint64_t lost = 0;
+  Result result;
   while (from < to) {
     progress->next = from;
     const pid_t worker = fork();
@@ -103,14 +110,16 @@ std::uint64_t watch(const std::string& kind, std::uint64_t seed, std::uint64_t f
       break;
     }
     at = progress->next;
-    most_kilobytes = std::max<std::uint64_t>(most_kilobytes, progress->most_kilobytes);
+    result.most_kilobytes = std::max<std::uint64_t>(result.most_kilobytes, progress->most_kilobytes);
     if (!hung && WIFEXITED(status) && WEXITSTATUS(status) == 0) break;
-    ++lost;
+    ++result.faults;
     std::printf("case %llu: %s\n", static_cast<unsigned long long>(at), hung ? "took longer than 10 s" : "crashed");
     std::fflush(stdout);
     from = at + stride;
   }
-  return lost + progress->faults;
+  result.faults += progress->faults;
+  result.taken = progress->taken;
+  return result;
 }
 
 int run(int argc, char** argv) {
@@ -131,23 +140,23 @@ int run(int argc, char** argv) {
     return 0;
   }
 
-  std::uint64_t faults = 0, most_kilobytes = 0;
+  Result all;
   std::vector<std::thread> watchers;
   std::mutex mutex;
   for (unsigned job = 0; job < jobs; ++job) {
     watchers.emplace_back([&, job] {
-      std::uint64_t kilobytes = 0;
-      const std::uint64_t found = watch(kind, seed, from + job, from + count, jobs, kilobytes);
+      const Result result = watch(kind, seed, from + job, from + count, jobs);
       const std::lock_guard lock(mutex);
-      faults += found;
-      most_kilobytes = std::max(most_kilobytes, kilobytes);
+      all.faults += result.faults;
+      all.taken += result.taken;
+      all.most_kilobytes = std::max(all.most_kilobytes, result.most_kilobytes);
     });
   }
   for (std::thread& watcher : watchers) watcher.join();
-  std::printf("%s: %llu cases, %llu went wrong, at most %llu MB\n", kind.c_str(),
-              static_cast<unsigned long long>(count), static_cast<unsigned long long>(faults),
-              static_cast<unsigned long long>(most_kilobytes / 1024));
-  return faults ? 1 : 0;
+  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  std::printf("%s: %llu cases, %llu of them taken, %llu went wrong, at most %llu MB\n", kind.c_str(), number(count),
+              number(all.taken), number(all.faults), number(all.most_kilobytes / 1024));
+  return all.faults ? 1 : 0;
 }
 
 }  // namespace

@@ -28,8 +28,15 @@ double odd_number(Random& random, bool hostile) {
 }
 
 void mutate_bytes(Random& random, std::string& bytes) {
-  const std::size_t changes = 1 + below(random, 8);
+  const std::size_t changes = 1 + below(random, 3);
   for (std::size_t change = 0; change < changes && !bytes.empty(); ++change) {
+    if (below(random, 3)) {
+      // Most changes leave the form as it is: another digit, or another byte of a number.
+      std::size_t digit = bytes.find_first_of("0123456789", below(random, bytes.size()));
+      if (digit == std::string::npos) digit = below(random, bytes.size());
+      bytes[digit] = static_cast<char>('0' + below(random, 10));
+      continue;
+    }
     const std::size_t at = below(random, bytes.size());
     const std::size_t length = std::min(1 + below(random, 1u << below(random, 10)), bytes.size() - at);
     switch (below(random, 8)) {

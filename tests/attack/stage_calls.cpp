@@ -18,7 +18,10 @@ class StageCalls final : public Attack {
  public:
   explicit StageCalls(std::uint64_t seed) : seed_(seed) {}
 
-  std::string run(std::uint64_t number) override { return play(number, nullptr); }
+  std::string run(std::uint64_t number) override {
+    ++taken_;
+    return play(number, nullptr);
+  }
 
   std::string show(std::uint64_t number) override {
     std::ostringstream log;
