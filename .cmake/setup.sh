@@ -18,6 +18,13 @@ install_missing() {
     <(dpkg-query -W -f '${db:Status-Status} ${Package}\n' $wanted 2> /dev/null | sed -n 's/^installed //p' | sort))
   [ -n "$missing" ] || return 0
   missing=$(tr '\n' ' ' <<< "$missing")
+  # One at a time: the second of two first runs finds done what it would do.
+  if [ -z "${tweenfall_install_lock:-}" ] && command -v flock > /dev/null; then
+    mkdir -p "$HOME/.cache/tweenfall"
+    local tweenfall_install_lock=held
+    { flock 8; install_missing "$@"; } 8> "$HOME/.cache/tweenfall/install.lock"
+    return
+  fi
   say "installing from Debian: $missing"
   if [ "$(id -u)" != 0 ]; then
     command -v sudo > /dev/null || fail "neither root nor sudo; as root, run: apt-get install $missing"
@@ -25,8 +32,9 @@ install_missing() {
   fi
   local log
   log=$(mktemp)
-  { "${as_root[@]}" apt-get update &&
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing
+  # apt waits for others' locks too; lists that another run of it holds are as new as ours would be.
+  { { "${as_root[@]}" apt-get update || sleep 5; } &&
+    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends $missing
   } > "$log" 2>&1 < /dev/null || { cat "$log" >&2; fail "could not install: $missing"; }
   rm -f "$log"
 }
@@ -46,8 +54,16 @@ configure() {
 build() {
   local preset=$1 folder=$cache_folder/$1
   shift
-  configure "$preset"
-  ninja -C "$folder" "$@" 2>&1 < /dev/null | show_build "$preset" >&2 || fail "the $preset build failed"
+  mkdir -p "$folder"
+  # Two builds in one folder write over each other: the second waits, and then finds little to do.
+  {
+    if command -v flock > /dev/null; then
+      flock -n 8 || { say "another run builds here ($preset); waiting for it"; flock 8; }
+    fi
+    configure "$preset"
+    # What ninja leaves running must not hold the lock.
+    ninja -C "$folder" "$@" 2>&1 < /dev/null 8>&- | show_build "$preset" >&2 8>&- || fail "the $preset build failed"
+  } 8> "$folder/build.lock"
 }
 
 # What ninja says, less what nobody needs: progress on a terminal, else only that it builds and what compilers say.

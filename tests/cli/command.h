@@ -83,6 +83,11 @@ struct Ran {
   std::string out, err;
 };
 
+/// What a shell runs as the command: for a minute at most, then its code is 124.
+inline std::string command_word() {
+  return "timeout 60 " + detail::quoted(TWEENFALL_COMMAND);
+}
+
 /// A new empty folder, removed at the end; the command runs in it.
 class Folder {
  public:
@@ -99,6 +104,9 @@ class Folder {
 
   /// @param arguments  as a shell reads them
   [[nodiscard]] Ran run(const std::string& arguments, const std::string& input = "") const;
+
+  /// A script of a shell, in which `command_word()` is the command.
+  [[nodiscard]] Ran shell(const std::string& script, const std::string& input = "") const;
 
   /// Everything that the command prints when its output is a terminal. @param environment  "NAME=VALUE ..."
   [[nodiscard]] std::string run_on_terminal(const std::string& arguments, const std::string& environment) const;
@@ -142,9 +150,13 @@ inline std::vector<std::string> Folder::names() const {
 }
 
 inline Ran Folder::run(const std::string& arguments, const std::string& input) const {
+  return shell(command_word() + " " + arguments, input);
+}
+
+inline Ran Folder::shell(const std::string& script, const std::string& input) const {
   std::ofstream(detail::beside(path_, "in"), std::ios::binary) << input;
-  const std::string line = "cd " + detail::quoted(path_.string()) + " && " + detail::quoted(TWEENFALL_COMMAND) + " " +
-                           arguments + " <" + detail::quoted(detail::beside(path_, "in").string()) + " >" +
+  const std::string line = "cd " + detail::quoted(path_.string()) + " && ( " + script + " ) <" +
+                           detail::quoted(detail::beside(path_, "in").string()) + " >" +
                            detail::quoted(detail::beside(path_, "out").string()) + " 2>" +
                            detail::quoted(detail::beside(path_, "err").string());
   const int status = std::system(line.c_str());

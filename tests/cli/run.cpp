@@ -7,8 +7,6 @@ using namespace tweenfall;
 using namespace tweenfall::test;
 using nlohmann::json;
 
-namespace {}  // namespace
-
 TEST_CASE("a thrown ball is keyed, then free with the clip's own velocity, and falls as a projectile") {
   const Folder folder;
   folder.write("thrown.json", thrown_document);
@@ -103,6 +101,26 @@ TEST_CASE("a file that cannot be written is named, with exit code 1") {
     CHECK(ran.err.find("none/out.") != std::string::npos);
   }
   CHECK(folder.names() == std::vector<std::string>{"thrown.json"});
+}
+
+TEST_CASE("frames that nobody counted are fewer where the usual ones would not fit, and that is said") {
+  const Folder folder;
+  folder.write("thrown.json", thrown_document);
+  const Ran ran = folder.run("run thrown.json --until 100 --limit 0.1 --json");
+  CHECK_MESSAGE(ran.code == 0, ran.err);
+  CHECK(ran.err.find("MB of recording, above 0.1; there are") != std::string::npos);
+  CHECK(ran.out.size() < 200'000);
+  CHECK(json::parse(ran.out)["times"].back() == 100);
+}
+
+TEST_CASE("standard input without end is read no further than a document may be long") {
+  const Folder folder;
+  const Ran ran = folder.shell(command_word() + " check - < /dev/zero");
+  CHECK(ran.code == 1);
+  CHECK(ran.err.find("larger than 256 MiB") != std::string::npos);
+  const Ran device = folder.run("check /dev/zero");
+  CHECK(device.code == 1);
+  CHECK(device.err.find("larger than 256 MiB") != std::string::npos);
 }
 
 TEST_CASE("a clip that is named plays alone") {

@@ -201,3 +201,21 @@ TEST_CASE("a model's clips are sampled to the library's bits") {
     CHECK(found["tracks"][track.name()]["value"][0] == json{q.x(), q.y(), q.z(), q.w()});
   }
 }
+
+TEST_CASE("at a clip's last instant sample tells the motion with which a hand-off there lets go") {
+  const Folder folder;
+  const std::string thrown = R"({"tweenfall": 1,
+    "nodes": {"ball": {"body": {"shape": {"sphere": {"radius": 0.1}}}}},
+    "clips": {"throw": {"tracks": {"ball.position": [[0, [0, 2, 0], "quad-in"], [0.7, [3, 2, 0]]]}}},
+    "handoff": [{"body": "ball", "when": {"clip_end": true}, "to": "free"}]})";
+  folder.write("thrown.json", thrown);
+  const Ran sampled = folder.run("sample thrown.json --at 0.7 --rates --json");
+  REQUIRE_MESSAGE(sampled.code == 0, sampled.err);
+  const Vec3 rate = vec(json::parse(sampled.out)["tracks"]["ball.position"]["rate"][0]);
+  const Ran ran = folder.run("run thrown.json --until 1 --json");
+  REQUIRE_MESSAGE(ran.code == 0, ran.err);
+  const json handoffs = json::parse(ran.out)["handoffs"];
+  REQUIRE(handoffs.size() == 1);
+  CHECK(near(rate, Vec3(2 * 3 / 0.7, 0, 0), 1e-12));
+  CHECK(near(vec(handoffs[0]["after"]["linear"]), rate, 1e-12));
+}

@@ -42,6 +42,27 @@ TEST_CASE("the overall help lists every verb and none of a later release") {
   CHECK(!holds(ran.out, "\n  fit "));
 }
 
+TEST_CASE("output that cannot be written is a fault of every verb, and of help") {
+  if (!std::filesystem::exists("/dev/full")) {
+    MESSAGE("SKIPPED: no /dev/full");
+    return;
+  }
+  const Folder folder;
+  folder.write("ball.json", ball_document);
+  for (const std::string arguments :
+       {"--help", "--version", "check --help", "check ball.json", "check ball.json --json", "inspect ball.json",
+        "sample ball.json --at 0", "sample ball.json --at 0 --json", "run ball.json", "run ball.json --json",
+        "run ball.json -o out.json", "plot ball.json", "plot ball.json -o out.svg", "view ball.json --until 0.1", "new",
+        "schema", "completion bash"}) {
+    CAPTURE(arguments);
+    const Ran full = folder.shell(command_word() + " " + arguments + " > /dev/full");
+    CHECK(full.code == 1);
+    CHECK(holds(full.err, "standard output takes no more"));
+    const Ran closed = folder.shell(command_word() + " " + arguments + " >&-");
+    CHECK(closed.code == 1);
+  }
+}
+
 TEST_CASE("the version is printed") {
   const Folder folder;
   const Ran ran = folder.run("--version");
@@ -76,6 +97,10 @@ TEST_CASE("wrong usage ends with 2, says what was probably meant, and prints no 
            {"check", "FILE"},
            {"run ball.json --until -1", "--until"},
            {"run ball.json --until 1e9", "million frames"},
+           {"run ball.json --until 1e8 --fps 0.001", "2.4e+10 steps"},
+           {"run ball.json --until 30 --fps 50000", "million frames"},
+           {"run ball.json --until 600 --fps 1000 --limit 10", "MB of recording, above 10"},
+           {"view ball.json --limit 0", "--limit must be above 0"},
            {"run ball.json -o moving.png", ".html"},
            {"run ball.json -o ball.json", "the file that is read"},
            {"plot ball.json -o ball.png", ".svg"},

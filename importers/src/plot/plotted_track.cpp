@@ -1,10 +1,10 @@
 #include "plot/plotted_track.h"
 
+#include <tweenfall/importers/recording_file.h>
 #include <tweenfall/importers/track_sample.h>
 
 #include "plot/track_angles.h"
 #include "plot/track_handles.h"
-#include "recording/check.h"
 #include "recording/key_lanes.h"
 #include "recording/words.h"
 

@@ -1,7 +1,6 @@
-#include "recording/check.h"
+#include <tweenfall/importers/recording_file.h>
 
 #include <tweenfall/importers/number_text.h>
-#include <tweenfall/importers/recording_file.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,16 +89,25 @@ void check_recording(const Recording& recording) {
                           number_text(recording.times[frame - 1]) + " s");
   }
   for (std::size_t index = 0; index < recording.nodes.size(); ++index) check_node(recording, index);
-  for (const HandOff& handoff : recording.handoffs)
+  const auto is_finite = [](const Twist& twist) { return twist.linear.allFinite() && twist.angular.allFinite(); };
+  for (const HandOff& handoff : recording.handoffs) {
     if (handoff.node >= recording.nodes.size())
       fail(recording, "a hand-off at " + number_text(handoff.time) + " s names node " + std::to_string(handoff.node) +
                           ", but there are " + std::to_string(recording.nodes.size()) + " nodes");
-  for (const StageEvent& event : recording.events)
+    if (!std::isfinite(handoff.time) || !is_finite(handoff.before.twist) || !is_finite(handoff.after.twist))
+      fail(recording, "the hand-off of \"" + recording.nodes[handoff.node].name + "\" at " + number_text(handoff.time) +
+                          " s has no finite speed");
+  }
+  for (const StageEvent& event : recording.events) {
+    if (!std::isfinite(event.time) || !std::isfinite(event.impulse))
+      fail(recording, "event \"" + event.name + "\" at " + number_text(event.time) + " s has an impulse of " +
+                          number_text(event.impulse) + " N s");
     for (const NodeId node : event.nodes)
       if (node >= recording.nodes.size())
         fail(recording, "event \"" + event.name + "\" at " + number_text(event.time) + " s names node " +
                             std::to_string(node) + ", but there are " + std::to_string(recording.nodes.size()) +
                             " nodes");
+  }
 }
 
 void check_drawable(const Recording& recording, const StageDescription& stage) {

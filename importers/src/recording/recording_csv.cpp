@@ -3,7 +3,6 @@
 #include <tweenfall/importers/number_text.h>
 #include <tweenfall/importers/shown_text.h>
 
-#include "recording/check.h"
 #include "recording/words.h"
 
 namespace tweenfall {

@@ -3,7 +3,6 @@
 #include <tweenfall/importers/number_text.h>
 
 #include "json/json_string.h"
-#include "recording/check.h"
 #include "recording/words.h"
 
 namespace tweenfall {

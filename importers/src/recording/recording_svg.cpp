@@ -3,7 +3,6 @@
 #include <tweenfall/importers/number_text.h>
 
 #include "plot/svg_writer.h"
-#include "recording/check.h"
 #include "recording/figures.h"
 #include "recording/keyframes.h"
 #include "recording/words.h"

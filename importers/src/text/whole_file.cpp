@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <istream>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -168,6 +169,19 @@ void write_whole_file(const std::filesystem::path& file, std::string_view conten
   part.is_there = false;
   const Descriptor parent(::open(target.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (parent.number() >= 0) static_cast<void>(::fsync(parent.number()));
+}
+
+std::optional<std::string> read_within(std::istream& stream, std::size_t most) {
+  constexpr std::size_t piece = std::size_t{1} << 16;
+  std::string text;
+  while (stream && text.size() <= most) {
+    const std::size_t before = text.size(), wanted = std::min(piece, most - before + 1);
+    text.resize(before + wanted);
+    stream.read(text.data() + before, static_cast<std::streamsize>(wanted));
+    text.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
+  if (text.size() > most) return std::nullopt;
+  return text;
 }
 
 }  // namespace tweenfall

@@ -7,11 +7,13 @@
 
 #include <tweenfall/importers/document.h>
 #include <tweenfall/importers/model.h>
+#include <tweenfall/importers/recording_file.h>
+#include <tweenfall/importers/whole_file.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
+#include <new>
 
 namespace tweenfall::cli {
 
@@ -44,21 +46,12 @@ std::size_t clip_called(const StageDescription& stage, const std::string& name, 
                    listed(names));
 }
 
-}  // namespace
-
-bool is_model_name(const std::string& file) {
-  std::string ending = std::filesystem::path(file).extension().string();
-  for (char& c : ending)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  const std::vector<std::string> endings{".glb", ".gltf", ".fbx", ".bvh", ".dae", ".obj"};
-  return std::find(endings.begin(), endings.end(), ending) != endings.end();
-}
-
-StageFile read_stage_file(const std::string& file) {
+StageFile unjudged_file(const std::string& file) {
   StageFile read;
   if (file == "-") {
-    const std::string text{std::istreambuf_iterator<char>(std::cin), std::istreambuf_iterator<char>()};
-    read.stage = Document::parse(text, "<stdin>", ".").stage();
+    const std::optional<std::string> text = read_within(std::cin, largest_document);
+    if (!text) throw Faults({"<stdin>: error: is larger than " + std::to_string(largest_document >> 20) + " MiB"});
+    read.stage = Document::parse(*text, "<stdin>", ".").stage();
     read.name = "stdin";
     return read;
   }
@@ -70,6 +63,30 @@ StageFile read_stage_file(const std::string& file) {
     read.stage = stage_of(std::move(model));
   } else {
     read.stage = Document::read(file).stage();
+  }
+  return read;
+}
+
+}  // namespace
+
+bool is_model_name(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::vector<std::string> endings{".glb", ".gltf", ".fbx", ".bvh", ".dae", ".obj"};
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+StageFile read_stage_file(const std::string& file) {
+  StageFile read = unjudged_file(file);
+  // What a file alone does not tell: whether its parts make a stage that can be stepped and shown.
+  Stage stage = make_stage(read.stage, file);
+  try {
+    check_drawable(record(stage, 0, 1), read.stage);
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw Faults(faults_of(error, file));
   }
   return read;
 }

@@ -19,7 +19,8 @@ struct StageFile {
 [[nodiscard]] bool is_model_name(const std::string& file);
 
 /// Reads `file`, "-" being a document on stdin. Repairs of a model are said on stderr.
-/// @throws DocumentError, ModelError; Faults when the parts do not make a stage.
+/// The one place where files are judged, so that all verbs agree on what is valid.
+/// @throws DocumentError, ModelError; Faults when the parts do not make a stage that can be stepped and shown.
 [[nodiscard]] StageFile read_stage_file(const std::string& file);
 
 /// The stage, ready to run. @throws Faults with everything that does not fit, `file` before it.

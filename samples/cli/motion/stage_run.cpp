@@ -6,24 +6,88 @@
 #include "report/terminal.h"
 
 #include <tweenfall/importers/number_text.h>
+#include <tweenfall/importers/recording_file.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace tweenfall::cli {
 
+namespace {
+
+constexpr double megabyte = 1e6, most_steps = 2e7;
+
+/// What one frame holds of one node.
+constexpr double bytes_of_a_pose = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner) + sizeof(Color);
+
+double bytes_of_a_frame(const StageDescription& stage) {
+  double weights = 0;
+  for (const Mesh& mesh : stage.meshes) weights += static_cast<double>(mesh.morphs.size()) * sizeof(double);
+  return static_cast<double>(stage.nodes.size()) * bytes_of_a_pose + weights + sizeof(double);
+}
+
+/// @throws UsageError saying how much is too much.
+double chosen_fps(const StageDescription& stage, const RunOptions& options, double until) {
+  const double most_bytes = options.limit.value_or(options.usual_limit) * megabyte;
+  const double fps = options.fps.value_or(options.usual_fps), bytes = bytes_of_a_frame(stage) * (until * fps + 1);
+  if (bytes <= most_bytes) return fps;
+  const std::string amount = brief_text(until) + " s at " + brief_text(fps) + " frames a second of " +
+                             counted(stage.nodes.size(), "node") + " would be " + brief_text(bytes / megabyte) +
+                             " MB of recording, above " + brief_text(most_bytes / megabyte);
+  const double fewer = until > 0 ? std::floor(1e3 * (most_bytes / bytes_of_a_frame(stage) - 1) / until) / 1e3 : 0;
+  if (options.fps || !(fewer > 0))
+    throw UsageError(amount + "; ask for less with --until or --fps, or for more with --limit");
+  say(options.file + ": note: " + amount + "; there are " + brief_text(fewer) +
+      " frames a second, and more with --limit or a shorter --until");
+  return fewer;
+}
+
+}  // namespace
+
+void declare_amount(Arguments& arguments, RunOptions& options) {
+  arguments.number("--until", "T", options.until, "to stage time T, s; else until it has shown what it has");
+  arguments.number("--fps", "N", options.fps, "frames a second; 60 without it, fewer of what is very long or large");
+  arguments.number("--limit", "MB", options.limit, "at most so many megabytes of recording in memory");
+}
+
+void require_amount(const RunOptions& options) {
+  if (options.limit && !(*options.limit > 0))
+    throw UsageError("--limit must be above 0, not " + brief_text(*options.limit));
+  require_frames(options.fps.value_or(options.usual_fps), options.until.value_or(0));
+}
+
 Recording run_stage(const StageDescription& description, const RunOptions& options) {
-  const double until = options.until.value_or(natural_length(description));
-  require_frames(options.fps, until);
+  const double natural = natural_length(description), until = options.until.value_or(natural);
+  if (until / description.step > most_steps)
+    throw UsageError(brief_text(until) + " s are " + brief_text(until / description.step) + " steps of " +
+                     brief_text(description.step) + " s, above the " + brief_text(most_steps) +
+                     " that are taken at most; ask for less with --until");
+  require_amount(options);
+  const double fps = chosen_fps(description, options, until);
+  if (!options.until)
+    for (const Play& play : description.plays)
+      if (const double end = end_time(play, description.clips[play.clip]); std::isfinite(end) && end > until) {
+        say(options.file + ": note: \"" + description.clips[play.clip].name + "\" plays until " + brief_text(end) +
+            " s, of which the first " + brief_text(until) + " s are shown; --until says otherwise");
+        break;
+      }
   const Progress progress("running " + options.file + " to " + brief_text(until) + " s");
   Stage stage = make_stage(description, options.file);
   try {
-    return record(stage, until, options.fps);
+    Recording recording = record(stage, until, fps);
+    check_recording(recording);
+    return recording;
   } catch (const std::invalid_argument& error) {
+    throw Faults(faults_of(error, options.file));
+  } catch (const std::runtime_error& error) {
     throw Faults(faults_of(error, options.file));
   }
 }
 
-std::string summary_of(const Recording& recording, double fps) {
-  std::string text = counted(recording.nodes.size(), "node") + " over " + brief_text(recording.times.back()) +
-                     " s at " + brief_text(fps) + " frames a second";
+std::string summary_of(const Recording& recording) {
+  std::string text = counted(recording.nodes.size(), "node") + " over " + brief_text(recording.times.back()) + " s";
+  if (recording.times.size() > 1)
+    text += " at " + brief_text(1 / (recording.times[1] - recording.times[0])) + " frames a second";
   if (!recording.handoffs.empty()) text += ", " + counted(recording.handoffs.size(), "hand-off");
   if (!recording.events.empty()) text += ", " + counted(recording.events.size(), "event");
   return text;

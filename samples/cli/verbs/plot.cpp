@@ -28,6 +28,7 @@ constexpr int most_columns = 6;
 
 /// The clips that a plot shows: the one asked for, else the only one, else all that play.
 std::vector<std::size_t> shown_clips(const StageDescription& stage, const PlotFileOptions& options) {
+  if (stage.clips.empty() && !options.clip) return {};
   if (options.clip || stage.clips.size() < 2 || stage.plays.empty())
     return {choose_clip(stage, options.clip, options.file)};
   std::vector<std::size_t> clips;
@@ -60,6 +61,7 @@ std::vector<std::string> chosen_tracks(const StageDescription& stage, const std:
 }
 
 int plot_file(const PlotFileOptions& options) {
+  require_amount(options);
   require_output(options.output, options.file, std::vector<std::string>{".svg"});
   const double columns = options.columns.value_or(1);
   if (!(columns >= 1 && columns <= most_columns && columns == std::floor(columns)))
@@ -90,6 +92,7 @@ int plot_file(const PlotFileOptions& options) {
     names += (names.empty() ? "" : ", ") + stage.clips[clip].name;
   }
   const bool is_cut = plotted.tracks.empty() && tracks > plotted.most;
+  if (clips.empty()) names = "no clip";
   std::string shows = (is_cut ? std::to_string(plotted.most) + " of " : "") + counted(tracks, "track") + " of " +
                       names + ": values with keys and handles" + (plotted.rates ? ", rates below" : "");
   if (is_cut) shows += "; name others with --track";
@@ -102,7 +105,7 @@ int plot_file(const PlotFileOptions& options) {
 Run declare_plot(Arguments& arguments) {
   auto options = std::make_shared<PlotFileOptions>();
   options->output = "-";
-  options->fps = 120;
+  options->usual_fps = 120;
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
   arguments.output(options->output, "OUT.svg", "where to write; standard output without it");
   arguments.texts("--track", "NAME", options->tracks,

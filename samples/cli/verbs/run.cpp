@@ -1,7 +1,6 @@
 // tweenfall run: the stage with physics, as a recording or a summary.
 
 #include "files/output_file.h"
-#include "motion/frame_times.h"
 #include "motion/stage_run.h"
 #include "report/table.h"
 #include "report/terminal.h"
@@ -16,7 +15,6 @@ namespace tweenfall::cli {
 namespace {
 
 struct RunFileOptions : RunOptions {
-  std::optional<double> frames_per_second;
   std::optional<std::string> output;
   bool json = false;
 };
@@ -70,24 +68,23 @@ std::string ends_table(const Recording& recording, const StageDescription& stage
   return table.empty() ? "" : table.text(styled_output());
 }
 
-int run_file(RunFileOptions options) {
+int run_file(const RunFileOptions& options) {
   const std::vector<std::string> endings{".json", ".csv", ".svg", ".html", ".glb"};
   if (options.output) require_output(*options.output, options.file, endings);
-  options.fps = options.frames_per_second.value_or(60);
-  require_frames(options.fps, options.until.value_or(0));
+  require_amount(options);
   StageFile read = read_stage_file(options.file);
   choose_play(read, options.clip, options.file);
   const Recording recording = run_stage(read.stage, options);
   const bool to_stdout = options.json || options.output == "-";
   if (options.output && *options.output != "-") {
     save_recording(recording, read.stage, *options.output);
-    say_written(*options.output, summary_of(recording, options.fps), options.json);
+    say_written(*options.output, summary_of(recording), options.json);
   }
   if (to_stdout) {
     print(recording_json(recording));
   } else if (!options.output) {
     const std::string name = read.stage.name.empty() ? options.file : read.stage.name;
-    print(terminal_text(name + ": " + summary_of(recording, options.fps)) + "\n" + handoffs_table(recording) +
+    print(terminal_text(name + ": " + summary_of(recording)) + "\n" + handoffs_table(recording) +
           events_table(recording) + ends_table(recording, read.stage));
   }
   return 0;
@@ -97,8 +94,7 @@ Run declare_run(Arguments& arguments) {
   auto options = std::make_shared<RunFileOptions>();
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
   arguments.text("--clip", "NAME", options->clip, "let this clip play alone");
-  arguments.number("--until", "T", options->until, "to stage time T, s; else until it has shown what it has");
-  arguments.number("--fps", "N", options->frames_per_second, "frames a second, 60 by default");
+  declare_amount(arguments, *options);
   arguments.text("-o,--output", "OUT", options->output,
                  "the recording: .json .csv .svg .html or .glb; - prints the JSON; without it a summary");
   arguments.flag("--json", options->json, "print the recording as JSON");

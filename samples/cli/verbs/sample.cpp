@@ -129,13 +129,18 @@ std::string samples_tables(const Clip& clip, const std::vector<std::size_t>& tra
 
 int sample_file(const SampleOptions& options) {
   const StageFile read = read_stage_file(options.file);
-  const std::size_t index = choose_clip(read.stage, options.clip, options.file);
-  const Clip& clip = read.stage.clips[index];
+  StageDescription stage = read.stage;
+  if (stage.clips.empty() && !options.clip) {
+    say(options.file + ": note: there is no clip in it; what rests is told");
+    stage.clips.emplace_back();
+  }
+  const std::size_t index = choose_clip(stage, options.clip, options.file);
+  const Clip& clip = stage.clips[index];
   const std::vector<std::size_t> tracks = choose_tracks(clip, options.tracks);
   const std::vector<double> times = times_of(options, clip);
   std::optional<Animation> world;
   try {
-    if (options.world) world = animation_of(read.stage, index);
+    if (options.world) world = animation_of(stage, index);
   } catch (const std::invalid_argument& error) {
     throw Faults(faults_of(error, options.file));
   }

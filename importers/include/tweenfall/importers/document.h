@@ -42,6 +42,9 @@ class DocumentError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
+/// Longer texts are no documents of people, and are refused before they fill memory.
+inline constexpr std::size_t largest_document = std::size_t{1} << 28;  // bytes
+
 struct ReadOptions {
   bool allow_outside = false;  ///< imports may leave the document's folder
 };

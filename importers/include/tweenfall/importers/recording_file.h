@@ -9,8 +9,11 @@
 
 namespace tweenfall {
 
-// All of these throw std::invalid_argument naming the node and the time when the recording does not hold together:
-// lists of different lengths, numbers that are not finite, times that do not increase, nodes that are not there.
+/// @throws std::invalid_argument naming the node and the time when the recording does not hold together: lists of
+/// different lengths, numbers that are not finite, times that do not increase, nodes that are not there.
+void check_recording(const Recording& recording);
+
+// All that follow throw as `check_recording` does.
 
 /// Whether pages and .glb files can hold the recording, whose numbers are 32-bit floats.
 /// @throws std::invalid_argument naming the node, the time and the number that is beyond 3.4e+38.

@@ -3,6 +3,9 @@
 /// Files that are there whole or not at all.
 
 #include <filesystem>
+#include <iosfwd>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace tweenfall {
@@ -15,5 +18,9 @@ namespace tweenfall {
 /// block them.
 /// @throws std::runtime_error with the file and the system's reason.
 void write_whole_file(const std::filesystem::path& file, std::string_view content);
+
+/// All that a stream, which may be a pipe or a device without end, has to give; nothing when it is more than `most`
+/// bytes, of which no more than that are read.
+[[nodiscard]] std::optional<std::string> read_within(std::istream& stream, std::size_t most);
 
 }  // namespace tweenfall

@@ -1,4 +1,5 @@
 #include <tweenfall/importers/number_text.h>
+#include <tweenfall/importers/whole_file.h>
 
 #include "document/content.h"
 #include "document/grammar/grammar.h"
@@ -6,7 +7,7 @@
 #include "document/report/check.h"
 
 #include <fstream>
-#include <iterator>
+#include <optional>
 #include <utility>
 
 namespace tweenfall::document {
@@ -56,10 +57,10 @@ ReadDocument read_document_file(const std::filesystem::path& file, Reading& read
   if (std::filesystem::is_directory(file, fault)) throw DocumentError({file_problem(name, "this is a folder")});
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw DocumentError({file_problem(name, "cannot be opened; is it there, and may it be read?")});
-  const std::uintmax_t size = std::filesystem::file_size(file, fault);
-  if (!fault && size > largest_text)
-    throw DocumentError({file_problem(name, "is larger than " + std::to_string(largest_text >> 20) + " MiB")});
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::optional<std::string> read = read_within(stream, largest_document);
+  if (!read)
+    throw DocumentError({file_problem(name, "is larger than " + std::to_string(largest_document >> 20) + " MiB")});
+  const std::string& text = *read;
   if (stream.bad()) throw DocumentError({file_problem(name, "cannot be read to its end")});
   reading.open.push_back(std::filesystem::weakly_canonical(file, fault));
   struct Leave {

@@ -1,0 +1,170 @@
+// Documents that once went wrong, as a user meets them: what the verbs say of each.
+
+#include "command.h"
+
+#include <tweenfall/importers/shown_text.h>
+
+#include <set>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Those of the project, and those of the shared folder, which a clone alone does not have.
+std::vector<fs::path> fault_documents() {
+  std::vector<fs::path> files;
+  const auto add = [&](const fs::path& folder) {
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".json") files.push_back(fs::canonical(entry.path()));
+  };
+  add(data_folder() / "documents/faults");
+  const fs::path shared = fs::path(TWEENFALL_SOURCE_DIR) / "../shared/faults";
+  if (fs::is_directory(shared))
+    add(shared);
+  else
+    MESSAGE("SKIPPED: no folder ../shared/faults; only the project's own documents with faults are tried");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// The document of this name, of the project or shared.
+std::vector<fs::path> named(const std::string& name) {
+  std::vector<fs::path> found;
+  for (const fs::path& file : fault_documents())
+    if (file.stem() == name) found.push_back(file);
+  CHECK(!found.empty());
+  return found;
+}
+
+std::string shell_word(const fs::path& file) {
+  return detail::quoted(file.string());
+}
+
+/// Whether there is nothing that a terminal would obey or that changes the order of letters.
+bool is_tame(const std::string& text) {
+  return terminal_lines(text) == text;
+}
+
+bool is_well_formed_svg(const std::string& svg) {
+  if (utf8_text(svg) != svg || svg.find("]]>") != std::string::npos) return false;
+  if (svg.find("nan") != std::string::npos || svg.find("inf") != std::string::npos) return false;
+  for (const char* never : {"\xef\xbf\xbe", "\xef\xbf\xbf", "\x01"})
+    if (svg.find(never) != std::string::npos) return false;
+  return svg.find('\0') == std::string::npos && svg.ends_with("</svg>\n");
+}
+
+/// Documents of which some verb's answer is not settled yet.
+const std::set<std::string> open_questions{"stiff_spring", "loop_counted_backwards"};
+
+struct Verb {
+  std::string arguments;  ///< with FILE for the document
+  std::string writes;
+};
+
+const std::vector<Verb> five{{"check FILE", ""},
+                             {"run FILE --until 0.3 --fps 30", ""},
+                             {"sample FILE --at 0,0.1", ""},
+                             {"plot FILE --until 0.3 -o out.svg", "out.svg"},
+                             {"view FILE --until 0.3 -o out.html", "out.html"}};
+
+std::string with_file(std::string arguments, const fs::path& file) {
+  return arguments.replace(arguments.find("FILE"), 4, shell_word(file));
+}
+
+}  // namespace
+
+TEST_CASE("what check calls valid, run, sample, plot and view take; what it refuses, they refuse") {
+  std::vector<fs::path> files = fault_documents();
+  for (const fs::path& folder :
+       {fs::path(TWEENFALL_SOURCE_DIR) / "samples/documents", data_folder() / "documents/good"})
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".json") files.push_back(entry.path());
+  const Folder folder;
+  for (const fs::path& file : files) {
+    if (open_questions.count(file.stem().string()) > 0) continue;
+    CAPTURE(file.string());
+    const int verdict = folder.run(with_file(five[0].arguments, file)).code;
+    CHECK((verdict == 0 || verdict == 1));
+    for (std::size_t i = 1; i < five.size(); ++i) {
+      CAPTURE(five[i].arguments);
+      const Ran ran = folder.run(with_file(five[i].arguments, file));
+      CAPTURE(ran.err);
+      // Of several clips the verbs ask which, and that is a question and no verdict.
+      const bool asks = ran.code == 2 && ran.err.find("--clip") != std::string::npos;
+      if (verdict == 0)
+        CHECK((ran.code == 0 || asks));
+      else
+        CHECK(ran.code == 1);
+      CHECK(is_tame(ran.err));
+    }
+  }
+}
+
+TEST_CASE("plots of steep, short and boundless curves are pictures") {
+  const Folder folder;
+  for (const char* name : {"plot_of_a_huge_slope", "plot_of_a_steep_color", "plot_of_a_tiny_duration",
+                           "plot_of_a_short_clip", "plot_of_eases_without_bound"}) {
+    CAPTURE(name);
+    for (const fs::path& file : fault_documents()) {
+      if (file.stem() != name) continue;
+      const Ran ran = folder.run("plot " + shell_word(file) + " -o out.svg");
+      CHECK_MESSAGE(ran.code == 0, ran.err);
+      CHECK(is_well_formed_svg(folder.read("out.svg")));
+      CHECK(folder.read("out.svg").size() < 300'000);
+    }
+  }
+}
+
+TEST_CASE("pictures are well-formed whatever names hold") {
+  const Folder folder;
+  for (const char* name : {"markup_in_names", "noncharacter_in_a_name"})
+    for (const fs::path& file : named(name)) {
+      CAPTURE(file.string());
+      CHECK(folder.run("plot " + shell_word(file) + " -o plot.svg").code == 0);
+      CHECK(folder.run("run " + shell_word(file) + " -o run.svg").code == 0);
+      CHECK(is_well_formed_svg(folder.read("plot.svg")));
+      CHECK(is_well_formed_svg(folder.read("run.svg")));
+    }
+}
+
+TEST_CASE("names that would drive a terminal are spelled out in tables and messages") {
+  const Folder folder;
+  for (const fs::path& file : named("terminal_codes_in_names"))
+    for (const char* verb : {"inspect ", "run --until 1 ", "sample --at 0.5 "}) {
+      CAPTURE(verb);
+      const Ran ran = folder.run(verb + shell_word(file));
+      CHECK(is_tame(ran.out));
+      CHECK(is_tame(ran.err));
+      CHECK((ran.out + ran.err).find("\\u") != std::string::npos);
+    }
+}
+
+TEST_CASE("what no page can hold is refused with the node, by check as well") {
+  const Folder folder;
+  for (const fs::path& file : named("beyond_float_in_the_page"))
+    for (const char* verb : {"check ", "view --until 0.1 -o out.html ", "run --until 0.1 -o out.glb "}) {
+      CAPTURE(verb);
+      const Ran ran = folder.run(verb + shell_word(file));
+      CHECK(ran.code == 1);
+      CHECK_MESSAGE((ran.err.find("\"a\"") != std::string::npos || ran.err.find("\"far\"") != std::string::npos),
+                    ran.err);
+      CHECK(folder.names().empty());
+    }
+}
+
+TEST_CASE("very long and very short clips take memory and time that can be had, and say what is left out") {
+  const Folder folder;
+  for (const fs::path& file : named("clip_without_end_in_sight")) {
+    const Ran ran = folder.run("run -o out.json " + shell_word(file));
+    CHECK_MESSAGE(ran.code == 0, ran.err);
+    CHECK(ran.err.find("plays until 1e+300 s, of which the first 600 s are shown") != std::string::npos);
+  }
+  for (const fs::path& file : named("loop_of_a_nanosecond")) {
+    const Ran ran = folder.run("view --until 4 -o out.html " + shell_word(file));
+    CHECK_MESSAGE(ran.code == 0, ran.err);
+    CHECK(folder.read("out.html").size() < 20'000'000);
+  }
+}
