@@ -1,13 +1,18 @@
-#include "stage/stage_data.h"
-
 #include <tweenfall/curves/hermite.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
 
-namespace tweenfall {
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
 
 namespace {
+
+/// Whether what is shown is the later of two states: beside it, a body is where its own velocity takes it.
+bool at_end(const StageState& from, const StageState& to, double time) {
+  return &from == &to || time >= to.time;
+}
 
 bool touched(const World& world, BodyId body) {
   return std::ranges::any_of(world.contacts(), [&](const Contact& contact) {
@@ -54,14 +59,16 @@ Motion between(const StageState& from, const StageState& to, const StagedBody& b
 
 /// Pose of the origin, twist at the center of mass.
 Motion shown_motion(const StageState& from, const StageState& to, const StagedBody& body, double time) {
-  if (time >= to.time || from.world.owner(body.id) == Owner::keyed || !from.world.contains(body.id)) {
-    const StageState& state = time >= to.time ? to : from;
+  if (at_end(from, to, time) || from.world.owner(body.id) == Owner::keyed || !from.world.contains(body.id)) {
+    const StageState& state = at_end(from, to, time) ? to : from;
     if (state.world.owner(body.id) == Owner::keyed && !state.world.is_fixed(body.id)) {
       Motion motion = body.path.at(time);
       motion.twist = shifted(motion.twist, motion.pose.rotation * state.world.mass(body.id).center);
       return motion;
     }
-    Motion motion = state.world.motion(body.id);
+    const bool still = state.world.is_fixed(body.id) || state.world.asleep(body.id);
+    const double since = still || !at_end(from, to, time) ? 0 : time - state.time;
+    Motion motion = moved_on(state.world.motion(body.id), state.world.mass(body.id).center, since);
     motion.twist = state.world.twist(body.id);
     return motion;
   }
@@ -69,7 +76,7 @@ Motion shown_motion(const StageState& from, const StageState& to, const StagedBo
 }
 
 const StagedBody& body_in_force(const StageState& from, const StageState& to, std::size_t body, double time) {
-  return time >= to.time || body >= from.bodies.size() ? to.bodies[body] : from.bodies[body];
+  return at_end(from, to, time) || body >= from.bodies.size() ? to.bodies[body] : from.bodies[body];
 }
 
 /// What a node without a body follows: below a body that has its own clock, it keeps that clock.
@@ -83,7 +90,7 @@ const Animation& animation_of(const StageState& state, NodeId node) {
 
 WorldMotion body_world(const StageState& from, const StageState& to, std::size_t index, double time) {
   const StagedBody& body = body_in_force(from, to, index, time);
-  const StageState& state = time >= to.time ? to : from;
+  const StageState& state = at_end(from, to, time) ? to : from;
   if (state.world.owner(body.id) == Owner::keyed && !state.world.is_fixed(body.id)) return body.path.world(time);
   Motion motion = shown_motion(from, to, body, time);
   motion.twist = shifted(motion.twist, -(motion.pose.rotation * state.world.mass(body.id).center));
@@ -99,7 +106,7 @@ Twist body_twist(const StageState& from, const StageState& to, std::size_t index
 }
 
 void stage_world(const StageState& from, const StageState& to, double time, std::span<WorldMotion> out) {
-  const StageState& state = time >= to.time ? to : from;
+  const StageState& state = at_end(from, to, time) ? to : from;
   std::vector<const Animation*> animations(out.size(), state.animation.get());
   for (NodeId node = 0; node < out.size(); ++node) {
     if (state.body_of[node] != no_body) {
@@ -114,7 +121,7 @@ void stage_world(const StageState& from, const StageState& to, double time, std:
 }
 
 WorldMotion node_world(const StageState& from, const StageState& to, NodeId node, double time) {
-  const StageState& state = time >= to.time ? to : from;
+  const StageState& state = at_end(from, to, time) ? to : from;
   std::vector<NodeId> below;  // the chain down from the nearest body, or from the root
   NodeId i = node;
   while (i != no_node && state.body_of[i] == no_body) {
@@ -127,4 +134,4 @@ WorldMotion node_world(const StageState& from, const StageState& to, NodeId node
   return world;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::staging

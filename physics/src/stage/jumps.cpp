@@ -1,10 +1,11 @@
-#include "stage/stage_data.h"
-
 #include <tweenfall/curves/rotation.h>
 
+#include <algorithm>
 #include <cmath>
 
-namespace tweenfall {
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
 
 namespace {
 
@@ -40,45 +41,62 @@ void collect(const Curve<T>& curve, const Clip& clip, bool accumulates, std::vec
     add(0);
 }
 
-/// A clip without tracks whose events are the jumps of the given one.
-Clip jumps_of(const Clip& clip) {
-  Clip shadow;
-  shadow.duration = clip.duration;
-  shadow.loop = clip.loop;
-  for (const Track& track : clip.tracks) {
-    const Property property = property_named(track.property);
-    if (property == Property::position) {
-      if (const auto* curve = std::get_if<Curve<Vec3>>(&track.curve)) collect(*curve, clip, true, shadow.events);
-    } else if (property == Property::rotation) {
-      if (const auto* curve = std::get_if<Curve<Quat>>(&track.curve)) collect(*curve, clip, true, shadow.events);
-    } else if (property == Property::scale) {
-      // A parent's scale moves its children.
-      if (const auto* curve = std::get_if<Curve<Vec3>>(&track.curve)) collect(*curve, clip, false, shadow.events);
-    }
+/// By node: whether it or something below it has a body that can move.
+std::vector<char> carriers(const StageState& state) {
+  std::vector<char> carries(state.nodes->size(), 0);
+  for (NodeId node = carries.size(); node-- > 0;) {
+    const StagedBody* body = state.body(node);
+    if (body && !state.world.is_fixed(body->id)) carries[node] = 1;
+    const std::size_t parent = (*state.nodes)[node].parent;
+    if (carries[node] && parent != no_node) carries[parent] = 1;
   }
-  return shadow;
+  return carries;
 }
 
 }  // namespace
 
-std::shared_ptr<const std::vector<Clip>> clip_jumps(std::span<const Clip> clips) {
-  auto jumps = std::make_shared<std::vector<Clip>>();
-  for (const Clip& clip : clips) jumps->push_back(jumps_of(clip));
+std::shared_ptr<const Jumps> find_jumps(const StageState& state) {
+  auto jumps = std::make_shared<Jumps>();
+  const std::vector<char> carries = carriers(state);
+  for (const Clip& clip : state.animation->clips()) {
+    Clip shadow;
+    shadow.duration = clip.duration;
+    shadow.loop = clip.loop;
+    bool moves = false;
+    for (const Track& track : clip.tracks) {
+      // What moves no body may jump as it likes: physics need not know.
+      const auto node = state.nodes->find(track.node);
+      if (!node || !carries[*node]) continue;
+      const Property property = property_named(track.property);
+      if (property == Property::position || property == Property::scale) {
+        // A parent's scale moves its children.
+        if (const auto* curve = std::get_if<Curve<Vec3>>(&track.curve))
+          collect(*curve, clip, property == Property::position, shadow.events);
+        moves = true;
+      } else if (property == Property::rotation) {
+        if (const auto* curve = std::get_if<Curve<Quat>>(&track.curve)) collect(*curve, clip, true, shadow.events);
+        moves = true;
+      }
+    }
+    jumps->clips.push_back(std::move(shadow));
+    jumps->carries_body.push_back(moves);
+  }
   return jumps;
 }
 
 double next_jump(const StageState& state, const Animation& animation, double from, double to) {
   double first = infinity;
   for (const Play& play : animation.plays()) {
+    if (!state.jumps->carries_body[play.clip]) continue;
     // Where a play begins it may replace what was below it.
     if (play.at > from && play.at <= to) first = std::min(first, play.at);
     for (const double knot : play.weight.knots())
       if (knot > from && knot <= to && play.weight.value(knot, Side::in) != play.weight.value(knot))
         first = std::min(first, knot);
-    const std::vector<FiredEvent> jumps = events_between(play, (*state.jumps)[play.clip], from, to);
+    const std::vector<FiredEvent> jumps = events_between(play, state.jumps->clips[play.clip], from, to);
     if (!jumps.empty()) first = std::min(first, jumps.front().time);
   }
   return first;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::staging

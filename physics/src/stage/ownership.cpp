@@ -1,10 +1,10 @@
-#include "stage/stage_data.h"
-
 #include <tweenfall/curves/rotation.h>
 
 #include <stdexcept>
 
-namespace tweenfall {
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
 
 namespace {
 
@@ -46,51 +46,55 @@ Twist take_over_twist(const StagedBody& body, const Motion& arriving, const Take
 
 }  // namespace
 
-void change_owner(StageState& state, std::size_t index, const Drive& to, Cause cause, const TakeOver& take_over,
-                  const HandBack& hand_back, double step, std::vector<Happening>& happenings) {
+void change_owner(StageState& state, std::size_t index, const Drive& to, Cause cause, double instant,
+                  const TakeOver& take_over, const HandBack& hand_back, double step,
+                  std::vector<Happening>& happenings) {
   StagedBody& body = state.bodies[index];
   World& world = state.world;
   if (world.is_fixed(body.id))
     throw std::invalid_argument("\"" + (*state.nodes)[body.node].name + "\" is static: nothing can take it over");
   if (world.drive(body.id) == to) return;
   const Vec3 center = world.mass(body.id).center;
+  const double onward = state.time - instant;
   HandOff handoff{.node = body.node,
                   .from = world.owner(body.id),
                   .to = to.owner(),
-                  .time = state.time,
+                  .time = instant,
                   .cause = cause,
                   .before = {},
                   .after = {}};
 
   if (handoff.from == Owner::keyed) {
     // The motion shown up to now is the one that arrives.
-    body.shown = body.path.world(state.time, Side::in);
-    body.released_at = state.time;
-    Motion motion = body.shown.motion;
-    motion.pose.scale = Vec3(1, 1, 1);
-    motion.scale_rate.setZero();
+    body.shown = body.path.world(instant, Side::in);
+    body.released_at = instant;
+    Motion motion = rigid(body.shown.motion);
     handoff.before = about_center(motion, center);
-    const Twist twist = take_over_twist(body, motion, take_over, state.time, step, center);
+    const Twist twist = take_over_twist(body, motion, take_over, instant, step, center);
     motion.twist = shifted(twist, -(motion.pose.rotation * center));
     world.set_drive(body.id, to);
-    world.set_motion(body.id, motion);
+    Motion released = moved_on(motion, center, onward);
+    // A velocity that is late by a sliver of fall would be wrong for as long as it falls.
+    released.twist.linear += onward * state.gravity;
+    world.set_motion(body.id, released);
     handoff.after = handoff.before;
     handoff.after.twist = twist;
   } else {
-    const Motion motion = world.motion(body.id);
+    const Motion motion = moved_on(world.motion(body.id), center, -onward);
     handoff.before = about_center(motion, center);
     handoff.after = handoff.before;
+    // Taken back, or from free to a drive, it follows a path again.
+    const bool follows = handoff.to == Owner::keyed ||
+                         (handoff.to == Owner::driven && (handoff.from == Owner::free || !hand_back.clip.empty()));
+    const Path path = follows ? body.path.recovered(instant, hand_back, motion, body.released_at) : body.path;
     world.set_drive(body.id, to);
+    body.path = path;
     if (handoff.to == Owner::keyed) {
-      body.path = body.path.recovered(state.time, hand_back, motion, body.released_at);
-      Motion onward = body.path.at(state.time);
-      onward.pose.scale = Vec3(1, 1, 1);
-      onward.scale_rate.setZero();
-      world.set_motion(body.id, onward);
-      handoff.after = about_center(onward, center);
+      world.set_motion(body.id, rigid(body.path.at(state.time)));
+      handoff.after = about_center(rigid(body.path.at(instant)), center);
     }
   }
-  happenings.push_back({state.time, handoff});
+  happenings.push_back({instant, handoff});
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::staging

@@ -1,9 +1,11 @@
-#include "stage/stage_data.h"
-
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-namespace tweenfall {
+#include "stage/scaled_shape.h"
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
 
 namespace {
 
@@ -13,11 +15,9 @@ Motion about_origin(Motion motion, const Twist& at_center, const Vec3& center) {
   return motion;
 }
 
-/// Puts the description's body on its node.
-void add_body(StageState& state, NodeId node, const BodyDescription& body) {
-  Path path(state.animation, node, state.time);
-  const WorldMotion start = path.world(state.time);
-  BodySettings settings{.shape = body.shape,
+/// What the world is told of the description's body.
+BodySettings settings_of(const StageState& state, NodeId node, const BodyDescription& body, const WorldMotion& start) {
+  BodySettings settings{.shape = scaled(body.shape, rest_scale(*state.nodes, node)),
                         .mass = body.mass,
                         .density = body.density,
                         .friction = body.friction,
@@ -27,13 +27,20 @@ void add_body(StageState& state, NodeId node, const BodyDescription& body) {
                         .angular_damping = body.angular_damping,
                         .fixed = body.fixed};
   settings.drive = body.drive ? *body.drive : state.animation->animates(node) ? Drive::keyed() : Drive::free();
-  settings.motion = start.motion;
-  settings.motion.pose.scale = Vec3(1, 1, 1);
+  settings.motion = rigid(start.motion);
+  if (!body.twist.linear.allFinite() || !body.twist.angular.allFinite())
+    throw std::invalid_argument("velocities must be finite");
+  return settings;
+}
+
+/// Puts the description's body on its node. When it throws, nothing has changed.
+void add_body(StageState& state, NodeId node, const BodyDescription& body) {
+  Path path(state.animation, node, state.time);
+  const WorldMotion start = path.world(state.time);
+  const BodySettings settings = settings_of(state, node, body, start);
   const BodyId id = state.world.add(settings);
-  if (!body.fixed && settings.drive.owner() == Owner::free) {
-    Motion moving = about_origin(settings.motion, body.twist, state.world.mass(id).center);
-    state.world.set_motion(id, moving);
-  }
+  if (!body.fixed && settings.drive.owner() == Owner::free)
+    state.world.set_motion(id, about_origin(settings.motion, body.twist, state.world.mass(id).center));
 
   StagedBody staged{.node = node, .id = id, .path = std::move(path), .shown = start};
   staged.released_at = state.time;
@@ -49,7 +56,7 @@ bool names_body(const StageState& state, const StagedBody& body, const std::stri
 
 void arm_on(StageState& state, std::size_t rule, std::size_t body) {
   ArmedRule armed{.body = body, .rule = rule};
-  armed.latched.assign(state.rules[rule].when.triggers.size(), 0);
+  armed.latched.assign(state.rules[rule]->when.triggers.size(), 0);
   const auto place = std::ranges::upper_bound(state.armed, std::pair(body, rule), {},
                                               [](const ArmedRule& other) { return std::pair(other.body, other.rule); });
   state.armed.insert(place, std::move(armed));
@@ -58,10 +65,30 @@ void arm_on(StageState& state, std::size_t rule, std::size_t body) {
 void validate(const Rule& rule) {
   if (rule.when.triggers.empty()) throw std::invalid_argument("a hand-off rule needs a trigger");
   if (rule.to.hz < 0 || std::isnan(rule.to.hz)) throw std::invalid_argument("a drive's hz must be 0 or more");
+  for (const Trigger& trigger : rule.when.triggers) {
+    const auto* at = std::get_if<when::At>(&trigger);
+    const auto* hit = std::get_if<when::ContactHit>(&trigger);
+    const auto* asleep = std::get_if<when::Asleep>(&trigger);
+    if ((at && std::isnan(at->time)) || (hit && (std::isnan(hit->impulse) || std::isnan(hit->speed))) ||
+        (asleep && std::isnan(asleep->seconds)))
+      throw std::invalid_argument("a trigger's time, impulse, speed and stillness must be numbers");
+  }
   if (!(rule.hand_back.settle.seconds > 0) || !std::isfinite(rule.hand_back.settle.seconds))
     throw std::invalid_argument("a settle needs a time above 0 s");
   if (!(rule.take_over.average_over > 0) || !std::isfinite(rule.take_over.average_over))
     throw std::invalid_argument("a velocity is averaged over a time above 0 s");
+}
+
+/// @throws std::invalid_argument for a rest pose that is none
+Node checked_node(const NodeDescription& node) {
+  Pose rest = node.rest;
+  const double turn = rest.rotation.norm();
+  if (!rest.position.allFinite() || !rest.scale.allFinite() || !std::isfinite(turn) || !(turn > 0))
+    throw std::invalid_argument("the rest pose of \"" + node.name +
+                                "\" needs finite numbers and a rotation that can be normalized");
+  // A unit quaternion stays as it was given, to the bit.
+  if (std::abs(turn - 1) > 1e-12) rest.rotation.normalize();
+  return {node.name, node.parent, rest};
 }
 
 }  // namespace
@@ -71,12 +98,13 @@ StageState initial_state(const StageDescription& description) {
   if (!(description.step >= least_step) || !std::isfinite(description.step))
     throw std::invalid_argument("the stage's step must be a microsecond or more, not " +
                                 std::to_string(description.step) + " s");
-  StageState state{.world = World(description.world)};
+  StageState state;
+  state.world = World(description.world);
+  state.gravity = description.world.gravity;
   std::vector<Node> nodes;
-  for (const NodeDescription& node : description.nodes) nodes.push_back({node.name, node.parent, node.rest});
+  for (const NodeDescription& node : description.nodes) nodes.push_back(checked_node(node));
   state.nodes = std::make_shared<const Hierarchy>(std::move(nodes));
   state.animation = std::make_shared<const Animation>(state.nodes, description.clips, description.plays);
-  state.jumps = clip_jumps(state.animation->clips());
   state.present.assign(state.nodes->size(), 1);
   state.body_of.assign(state.nodes->size(), no_body);
   for (NodeId node = 0; node < description.nodes.size(); ++node) {
@@ -106,28 +134,54 @@ StageState initial_state(const StageDescription& description) {
       state.world.add_force(spring);
     }
   }
+  state.jumps = find_jumps(state);
   for (const Rule& rule : description.rules) arm_rule(state, rule);
   return state;
 }
 
 void arm_rule(StageState& state, const Rule& rule) {
   validate(rule);
-  std::vector<std::size_t> meant;
-  for (const std::string& pattern : rule.bodies) {
-    bool any = false;
-    for (std::size_t body = 0; body < state.bodies.size(); ++body)
-      if (names_body(state, state.bodies[body], pattern)) {
-        any = true;
-        if (std::ranges::find(meant, body) == meant.end()) meant.push_back(body);
-      }
-    if (!any) throw std::invalid_argument("no node with a body is named \"" + pattern + "\"");
-  }
-  if (rule.to.owner() == Owner::keyed && !rule.hand_back.clip.empty()) {
+  if (!rule.hand_back.clip.empty()) {
     const auto clips = state.animation->clips();
     if (std::ranges::find(clips, rule.hand_back.clip, &Clip::name) == clips.end())
       throw std::invalid_argument("there is no clip \"" + rule.hand_back.clip + "\" to hand back to");
   }
-  state.rules.push_back(rule);
+  std::vector<std::size_t> meant;
+  for (const std::string& pattern : rule.bodies) {
+    const bool one = pattern.find('*') == std::string::npos;
+    const std::size_t before = meant.size();
+    bool any = false;
+    const auto take = [&](std::size_t index) {
+      const StagedBody& body = state.bodies[index];
+      any = true;
+      // Of those that a pattern names, what can be taken is taken: what is static, or has no mass, stays as it is.
+      if (!one &&
+          (state.world.is_fixed(body.id) || (rule.to.owner() != Owner::keyed && !(state.world.mass(body.id).mass > 0))))
+        return;
+      meant.push_back(index);
+    };
+    if (one) {
+      const auto node = state.nodes->find(pattern);
+      if (node && state.body_of[*node] != no_body) take(state.body_of[*node]);
+    } else {
+      for (std::size_t body = 0; body < state.bodies.size(); ++body)
+        if (names_body(state, state.bodies[body], pattern)) take(body);
+    }
+    if (!any) throw std::invalid_argument("no node with a body is named \"" + pattern + "\"");
+    if (!one && meant.size() == before)
+      throw std::invalid_argument("all bodies named \"" + pattern +
+                                  "\" are static or without mass: nothing can take them");
+  }
+  for (const std::size_t index : meant) {
+    const StagedBody& body = state.bodies[index];
+    const std::string name = "\"" + (*state.nodes)[body.node].name + "\"";
+    if (state.world.is_fixed(body.id)) throw std::invalid_argument(name + " is static: nothing can take it over");
+    if (rule.to.owner() != Owner::keyed && !(state.world.mass(body.id).mass > 0))
+      throw std::invalid_argument(name + " is a plane, which has no mass: it stays keyed");
+  }
+  std::ranges::sort(meant);
+  meant.erase(std::ranges::unique(meant).begin(), meant.end());
+  state.rules.push_back(std::make_shared<const Rule>(rule));
   for (const std::size_t body : meant) arm_on(state, state.rules.size() - 1, body);
 }
 
@@ -149,19 +203,36 @@ void rebind(StageState& state, std::vector<Node> nodes) {
 }  // namespace
 
 NodeId add_node(StageState& state, const NodeDescription& node) {
+  Node added = checked_node(node);
+  if (node.parent != no_node && (node.parent >= state.present.size() || !state.present[node.parent]))
+    throw std::invalid_argument("the parent of \"" + node.name + "\" is not on the stage");
   std::vector<Node> nodes(state.nodes->nodes().begin(), state.nodes->nodes().end());
   // A removed node keeps its place; its name is free again.
-  for (NodeId old = 0; old < nodes.size(); ++old)
-    if (nodes[old].name == node.name && !state.present[old]) nodes[old].name += "#removed" + std::to_string(old);
-  if (node.parent != no_node && (node.parent >= nodes.size() || !state.present[node.parent]))
-    throw std::invalid_argument("the parent of \"" + node.name + "\" is not on the stage");
-  nodes.push_back({node.name, node.parent, node.rest});
-  rebind(state, std::move(nodes));
-  state.present.push_back(1);
-  state.colors.push_back(node.color);
-  state.body_of.push_back(no_body);
-  const NodeId id = state.present.size() - 1;
-  if (node.body) add_body(state, id, *node.body);
+  if (const auto old = state.nodes->find(node.name); old && !state.present[*old])
+    nodes[*old].name += "#removed" + std::to_string(*old);
+  nodes.push_back(std::move(added));
+  // Bound on the side, so that a node that cannot be added changes nothing.
+  const std::shared_ptr<const Hierarchy> old_nodes = state.nodes;
+  const std::shared_ptr<const Animation> old_animation = state.animation;
+  std::vector<Path> old_paths;
+  for (const StagedBody& body : state.bodies) old_paths.push_back(body.path);
+  const NodeId id = state.present.size();
+  try {
+    rebind(state, std::move(nodes));
+    state.present.push_back(1);
+    state.colors.push_back(node.color);
+    state.body_of.push_back(no_body);
+    if (node.body) add_body(state, id, *node.body);
+  } catch (...) {
+    state.nodes = old_nodes;
+    state.animation = old_animation;
+    for (std::size_t i = 0; i < old_paths.size(); ++i) state.bodies[i].path = old_paths[i];
+    state.present.resize(id);
+    state.colors.resize(id);
+    state.body_of.resize(id);
+    throw;
+  }
+  if (node.body && !node.body->fixed) state.jumps = find_jumps(state);
   return id;
 }
 
@@ -184,4 +255,4 @@ void remove_node(StageState& state, NodeId node) {
   }
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::staging

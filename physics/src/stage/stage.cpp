@@ -1,184 +1,100 @@
-#include "stage/stage_data.h"
+#include <tweenfall/curves/nearest_name.h>
 
-#include <tweenfall/anim/nearest_name.h>
-
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "stage/timeline.h"
+
 namespace tweenfall {
 
-/// The world is simulated to the first step boundary at or after `now`. `before` is the boundary left of it, and what
-/// the caller reads lies between the two. A change by the caller goes into `commands` and the step is taken again from
-/// `before`, split at the change, so it acts at its exact time and going back finds it again.
-struct Stage::Implementation {
-  StageDescription description;
-  StageState initial;
-  StageState before, state;
-  std::vector<StageState> splits;     ///< states at the splits between the two
-  std::vector<Command> commands;      ///< in order of time
-  std::vector<Happening> happenings;  ///< of the current step
-  std::size_t told = 0;               ///< how many of them have been
-  double now = 0;
-  bool telling = false;
+namespace staging {
 
-  std::vector<StageEvent> events;
-  std::vector<HandOff> handoffs;
-  std::function<void(const StageEvent&)> event_callback, contact_callback;
-  std::function<void(const HandOff&)> handoff_callback;
+/// More steps than this in one call are taken for a mistake: it would seem never to end.
+constexpr double most_steps = 1e7;
 
-  explicit Implementation(StageDescription described)
-      : description(std::move(described)), initial(initial_state(description)), before(initial), state(initial) {
-    take(description.step);
-  }
+void require_reachable(double from, double to, double step) {
+  const double steps = (to - from) / step;
+  if (steps <= most_steps) return;
+  throw std::invalid_argument("from " + std::to_string(from) + " s to " + std::to_string(to) + " s a stage takes " +
+                              std::to_string(steps) + " steps of " + std::to_string(step) +
+                              " s; one call takes 10 million at most");
+}
 
-  void take(double step) {
-    splits.clear();
-    take_step(state, step, commands, splits, happenings);
-    std::ranges::stable_sort(happenings, {}, &Happening::time);
-  }
+void require_node(const StageState& shown, NodeId node) {
+  if (node >= shown.present.size() || !shown.present[node])
+    throw std::invalid_argument("node number " + std::to_string(node) + " is not on the stage");
+}
 
-  void next_step() {
-    before = state;
-    happenings.clear();
-    told = 0;
-    take(description.step);
-  }
+std::size_t body_index(const StageState& shown, NodeId node) {
+  require_node(shown, node);
+  const std::size_t body = shown.body_of[node];
+  if (body == no_body) throw std::invalid_argument("\"" + (*shown.nodes)[node].name + "\" has no body");
+  return body;
+}
 
-  /// The current step once more, with the commands as they now are; what was told stays told.
-  void retake() {
-    state = before;
-    happenings.clear();
-    take(description.step);
-  }
+}  // namespace staging
 
-  void tell(bool aloud, double until) {
-    struct Telling {
-      bool& flag;
-      const bool before = std::exchange(flag, true);
-      ~Telling() { flag = before; }
-    } guard{telling};
-    while (told < happenings.size() && happenings[told].time <= until) {
-      const Happening happening = happenings[told++];
-      now = std::max(now, happening.time);
-      if (const auto* handoff = std::get_if<HandOff>(&happening.what)) {
-        handoffs.push_back(*handoff);
-        const auto callback = handoff_callback;  // a copy: it may put another in its place
-        if (aloud && callback) callback(*handoff);
-      } else {
-        const StageEvent& event = std::get<StageEvent>(happening.what);
-        events.push_back(event);
-        const auto callback = event.nodes.empty() ? event_callback : contact_callback;
-        if (aloud && callback) callback(event);
-      }
-    }
-  }
-
-  void run_to(double target, bool aloud) {
-    for (;;) {
-      tell(aloud, target);
-      if (state.time >= target) break;
-      next_step();
-    }
-    now = std::max(now, target);
-  }
-
-  /// Makes a change at exactly `now`. When it cannot be made, nothing has changed.
-  void command(std::function<void(StageState&, std::vector<Happening>&)> run) {
-    const std::vector<Command> kept = commands;
-    // A change made in the past begins another future.
-    std::erase_if(commands, [&](const Command& other) { return other.time > now; });
-    // What lies at `before` is settled; a change there comes right after it.
-    const double time = state.steps > 0 ? std::max(now, std::nextafter(before.time, 1e300)) : now;
-    commands.push_back({time, std::move(run)});
-    try {
-      retake();
-    } catch (...) {
-      commands = kept;
-      retake();
-      throw;
-    }
-    if (!telling) tell(true, time);
-  }
-
-  void restart() {
-    before = initial;
-    state = initial;
-    happenings.clear();
-    events.clear();
-    handoffs.clear();
-    told = 0;
-    now = 0;
-    take(description.step);
-  }
-
-  /// The two states between which `now` lies without a split.
-  [[nodiscard]] std::pair<const StageState*, const StageState*> around() const {
-    if (now >= state.time) return {&state, &state};
-    const StageState* from = &before;
-    for (const StageState& split : splits) {
-      if (split.time > now) return {from, &split};
-      from = &split;
-    }
-    return {from, &state};
-  }
-
-  [[nodiscard]] const StageState& current() const { return *around().first; }
-
-  void require(NodeId node) const {
-    const StageState& shown = current();
-    if (node >= shown.present.size() || !shown.present[node])
-      throw std::invalid_argument("node number " + std::to_string(node) + " is not on the stage");
-  }
-
-  [[nodiscard]] std::size_t body_index(NodeId node) const {
-    require(node);
-    const std::size_t body = current().body_of[node];
-    if (body == no_body) throw std::invalid_argument("\"" + (*current().nodes)[node].name + "\" has no body");
-    return body;
-  }
+struct Stage::Implementation : staging::Timeline {
+  using Timeline::Timeline;
 };
 
 Stage::Stage(StageDescription description)
-    : implementation_(std::make_unique<Implementation>(std::move(description))) {}
-Stage::~Stage() = default;
+    : implementation_(std::make_shared<Implementation>(std::move(description))) {}
+Stage::~Stage() {
+  if (implementation_) implementation_->abandoned = true;
+}
 Stage::Stage(Stage&&) noexcept = default;
-Stage& Stage::operator=(Stage&&) noexcept = default;
+Stage& Stage::operator=(Stage&& other) noexcept {
+  if (this == &other) return *this;
+  if (implementation_) implementation_->abandoned = true;
+  implementation_ = std::move(other.implementation_);
+  return *this;
+}
+
+Stage::Implementation& Stage::inside() const {
+  if (!implementation_) throw std::logic_error("a stage that was moved from can only be assigned to or destroyed");
+  return *implementation_;
+}
 
 void Stage::advance(double dt) {
   if (!(dt >= 0) || !std::isfinite(dt))
     throw std::invalid_argument("a stage advances by 0 s or more, not " + std::to_string(dt));
-  if (implementation_->telling) throw std::logic_error("a callback cannot advance the stage that called it");
-  implementation_->run_to(implementation_->now + dt, true);
+  advance_to(inside().now() + dt);
 }
 
 void Stage::advance_to(double time) {
-  if (!(time >= implementation_->now) || !std::isfinite(time))
-    throw std::invalid_argument("a stage at " + std::to_string(implementation_->now) + " s cannot advance to " +
+  const std::shared_ptr<Implementation> held = implementation_;  // a callback may destroy the stage
+  Implementation& timeline = inside();
+  if (!(time >= timeline.now()) || !std::isfinite(time))
+    throw std::invalid_argument("a stage at " + std::to_string(timeline.now()) + " s cannot advance to " +
                                 std::to_string(time) + " s; seek goes back");
-  if (implementation_->telling) throw std::logic_error("a callback cannot advance the stage that called it");
-  implementation_->run_to(time, true);
+  timeline.require_not_telling("advance");
+  staging::require_reachable(timeline.now(), time, timeline.description.step);
+  timeline.run_to(time, true);
 }
 
 void Stage::seek(double time) {
+  const std::shared_ptr<Implementation> held = implementation_;
+  Implementation& timeline = inside();
   if (!(time >= 0) || !std::isfinite(time))
     throw std::invalid_argument("a stage has no time " + std::to_string(time) + "; times start at 0");
-  if (implementation_->telling) throw std::logic_error("a callback cannot seek the stage that called it");
-  if (time < implementation_->now) implementation_->restart();
-  implementation_->run_to(time, false);
+  timeline.require_not_telling("seek");
+  const bool back = time < timeline.now();
+  staging::require_reachable(back ? 0 : timeline.now(), time, timeline.description.step);
+  if (back) timeline.restart();
+  timeline.run_to(time, false);
 }
 
 double Stage::time() const noexcept {
-  return implementation_->now;
+  return implementation_ ? implementation_->now() : 0;
 }
 double Stage::step() const noexcept {
-  return implementation_->description.step;
+  return implementation_ ? implementation_->description.step : 0;
 }
 
 NodeId Stage::node(std::string_view name) const {
-  const StageState& state = implementation_->current();
+  const staging::StageState& state = inside().current();
   if (const auto found = state.nodes->find(name); found && state.present[*found]) return *found;
   std::vector<std::string> names;
   for (NodeId i = 0; i < state.nodes->size(); ++i)
@@ -189,49 +105,52 @@ NodeId Stage::node(std::string_view name) const {
 }
 
 std::span<const Node> Stage::nodes() const noexcept {
+  if (!implementation_) return {};
   return implementation_->current().nodes->nodes();
 }
 
 bool Stage::contains(NodeId node) const noexcept {
-  const StageState& state = implementation_->current();
+  if (!implementation_) return false;
+  const staging::StageState& state = implementation_->current();
   return node < state.present.size() && state.present[node];
 }
 
 bool Stage::has_body(NodeId node) const noexcept {
-  return contains(node) && implementation_->current().body_of[node] != no_body;
+  return contains(node) && implementation_->current().body_of[node] != staging::no_body;
 }
 
 WorldMotion Stage::world(NodeId node) const {
-  implementation_->require(node);
-  const auto [from, to] = implementation_->around();
-  return node_world(*from, *to, node, time());
+  const auto [from, to] = inside().around();
+  staging::require_node(*from, node);
+  return staging::node_world(*from, *to, node, time());
 }
 
 void Stage::world(std::span<WorldMotion> out) const {
+  const auto [from, to] = inside().around();
   if (out.size() != nodes().size())
     throw std::invalid_argument("the stage has " + std::to_string(nodes().size()) + " nodes; there is room for " +
                                 std::to_string(out.size()));
-  const auto [from, to] = implementation_->around();
-  stage_world(*from, *to, time(), out);
+  staging::stage_world(*from, *to, time(), out);
 }
 
 Twist Stage::twist(NodeId node) const {
-  implementation_->require(node);
-  const auto [from, to] = implementation_->around();
+  const auto [from, to] = inside().around();
+  staging::require_node(*from, node);
   const std::size_t body = from->body_of[node];
-  return body == no_body ? node_world(*from, *to, node, time()).motion.twist : body_twist(*from, *to, body, time());
+  return body == staging::no_body ? staging::node_world(*from, *to, node, time()).motion.twist
+                                  : staging::body_twist(*from, *to, body, time());
 }
 
 Owner Stage::owner(NodeId node) const {
-  implementation_->require(node);
-  const StageState& state = implementation_->current();
-  const StagedBody* body = state.body(node);
+  const staging::StageState& state = inside().current();
+  staging::require_node(state, node);
+  const staging::StagedBody* body = state.body(node);
   return body ? state.world.owner(body->id) : Owner::keyed;
 }
 
 NodeLook Stage::look(NodeId node) const {
-  implementation_->require(node);
-  const StageState& state = implementation_->current();
+  const staging::StageState& state = inside().current();
+  staging::require_node(state, node);
   NodeLook look = state.animation->look(node, time());
   if (!look.color && state.colors[node])
     look.color = Sample<Color>{*state.colors[node], Vec4(0, 0, 0, 0), Vec4(0, 0, 0, 0)};
@@ -239,79 +158,87 @@ NodeLook Stage::look(NodeId node) const {
 }
 
 Vec3 Stage::reaction(NodeId node) const {
-  const std::size_t body = implementation_->body_index(node);
-  const StageState& state = implementation_->current();
-  return state.world.reaction(state.bodies[body].id);
+  const staging::StageState& state = inside().current();
+  return state.world.reaction(state.bodies[staging::body_index(state, node)].id);
 }
 
 Path Stage::path(NodeId node) const {
-  implementation_->require(node);
-  const StageState& state = implementation_->current();
-  if (const StagedBody* body = state.body(node)) return body->path;
+  const staging::StageState& state = inside().current();
+  staging::require_node(state, node);
+  if (const staging::StagedBody* body = state.body(node)) return body->path;
   return Path(state.animation, node);
 }
 
-const StageDescription& Stage::description() const noexcept {
-  return implementation_->description;
+const StageDescription& Stage::description() const {
+  return inside().description;
 }
 
 void Stage::release(NodeId node, const TakeOver& settings) {
-  const std::size_t body = implementation_->body_index(node);
-  const double step = implementation_->description.step;
-  implementation_->command([=](StageState& state, std::vector<Happening>& happenings) {
-    change_owner(state, body, Drive::free(), Cause::caller, settings, {}, step, happenings);
+  const std::shared_ptr<Implementation> held = implementation_;
+  const std::size_t body = staging::body_index(inside().current(), node);
+  const double step = inside().description.step;
+  inside().command([=](staging::StageState& state, double instant, std::vector<staging::Happening>& happenings) {
+    staging::change_owner(state, body, Drive::free(), Cause::caller, instant, settings, {}, step, happenings);
   });
 }
 
 void Stage::recover(NodeId node, const HandBack& settings) {
-  const std::size_t body = implementation_->body_index(node);
-  const double step = implementation_->description.step;
-  implementation_->command([=](StageState& state, std::vector<Happening>& happenings) {
-    change_owner(state, body, Drive::keyed(), Cause::caller, {}, settings, step, happenings);
+  const std::shared_ptr<Implementation> held = implementation_;
+  const std::size_t body = staging::body_index(inside().current(), node);
+  const double step = inside().description.step;
+  inside().command([=](staging::StageState& state, double instant, std::vector<staging::Happening>& happenings) {
+    staging::change_owner(state, body, Drive::keyed(), Cause::caller, instant, {}, settings, step, happenings);
   });
 }
 
 void Stage::arm(Rule rule) {
-  implementation_->command(
-      [rule = std::move(rule)](StageState& state, std::vector<Happening>&) { arm_rule(state, rule); });
+  inside().command([rule = std::move(rule)](staging::StageState& state, double, std::vector<staging::Happening>&) {
+    staging::arm_rule(state, rule);
+  });
 }
 
 NodeId Stage::add(const NodeDescription& node) {
-  implementation_->command([node](StageState& state, std::vector<Happening>&) { (void)add_node(state, node); });
+  inside().command([node](staging::StageState& state, double, std::vector<staging::Happening>&) {
+    (void)staging::add_node(state, node);
+  });
   return this->node(node.name);
 }
 
 void Stage::remove(NodeId node) {
-  implementation_->require(node);
-  implementation_->command([node](StageState& state, std::vector<Happening>&) { remove_node(state, node); });
+  staging::require_node(inside().current(), node);
+  inside().command([node](staging::StageState& state, double, std::vector<staging::Happening>&) {
+    staging::remove_node(state, node);
+  });
 }
 
 void Stage::apply_impulse(NodeId node, const Vec3& impulse, const Vec3& point) {
-  const std::size_t body = implementation_->body_index(node);
-  implementation_->command([=](StageState& state, std::vector<Happening>&) {
+  const std::size_t body = staging::body_index(inside().current(), node);
+  inside().command([=](staging::StageState& state, double, std::vector<staging::Happening>&) {
     state.world.apply_impulse(state.bodies[body].id, impulse, point);
   });
 }
 
 void Stage::on_event(std::function<void(const StageEvent&)> callback) {
-  implementation_->event_callback = std::move(callback);
+  inside().on_event = std::move(callback);
 }
 void Stage::on_contact(std::function<void(const StageEvent&)> callback) {
-  implementation_->contact_callback = std::move(callback);
+  inside().on_contact = std::move(callback);
 }
 void Stage::on_handoff(std::function<void(const HandOff&)> callback) {
-  implementation_->handoff_callback = std::move(callback);
+  inside().on_handoff = std::move(callback);
 }
 
 std::span<const HandOff> Stage::handoffs() const noexcept {
+  if (!implementation_) return {};
   return implementation_->handoffs;
 }
 std::span<const StageEvent> Stage::events() const noexcept {
+  if (!implementation_) return {};
   return implementation_->events;
 }
 
 std::uint64_t Stage::state_hash() const noexcept {
-  return implementation_->state.world.state_hash();
+  return implementation_ ? implementation_->ahead().world.state_hash() : 0;
 }
 
 }  // namespace tweenfall

@@ -7,18 +7,33 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::staging {
 
 inline constexpr std::size_t no_body = static_cast<std::size_t>(-1);
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Instants nearer to each other than this are handled together, and those so near to the end of a step at it, s. What
+/// leaves its path there leaves from where the path was at its own instant, moved on at the path's own velocity.
+inline constexpr double sliver = 1e-9;
 
 /// Where a motion has the point that is `center` in its own coordinates.
 [[nodiscard]] inline Vec3 center_of(const Motion& motion, const Vec3& center) {
   return motion.pose.position + motion.pose.rotation * center;
 }
+
+/// A motion without what deforms.
+[[nodiscard]] inline Motion rigid(Motion motion) {
+  motion.pose.scale = Vec3(1, 1, 1);
+  motion.scale_rate.setZero();
+  return motion;
+}
+
+/// The motion of a node some time later, when nothing acts on it; its twist stays that of the origin.
+[[nodiscard]] Motion moved_on(const Motion& motion, const Vec3& center, double seconds);
 
 struct StagedBody {
   NodeId node = no_node;
@@ -29,6 +44,15 @@ struct StagedBody {
   bool present = true;
 };
 
+/// What became of a rule so far, for `Stage::unfired_rules`.
+struct Attempt {
+  bool waited = false;   ///< its body was at some time not yet where the rule takes it
+  bool touched = false;  ///< for contacts: something that the rule names
+  double impulse = 0;    ///< greatest of those, N s
+  double speed = 0;      ///< greatest of those, m/s
+  double still = 0;      ///< longest, s
+};
+
 /// One rule waiting on one body.
 struct ArmedRule {
   std::size_t body = no_body;
@@ -36,9 +60,24 @@ struct ArmedRule {
   std::vector<char> latched;  ///< for `all`: by trigger, whether its instant has come
   bool done = false;
   bool was_true = false;  ///< for a rule that fires again: it must have been false in between
+  Attempt attempt = {};   ///< what came of it so far
 };
 
-/// What happened during a step, to be told when the stage's time gets there.
+/// A contact that began and is not over: what it has taken so far is not yet the whole blow.
+struct Blow {
+  BodyId a, b;
+  double began = 0;    ///< end of the piece in which it did, s
+  double impulse = 0;  ///< N s
+  double speed = 0;    ///< m/s
+};
+
+/// Where the plays make bodies jump.
+struct Jumps {
+  std::vector<Clip> clips;         ///< for each clip one without tracks, whose events are its jumps
+  std::vector<char> carries_body;  ///< by clip: whether it moves a body at all
+};
+
+/// What happened during a piece, to be told when the stage's time gets there.
 struct Happening {
   double time = 0;
   std::variant<StageEvent, HandOff> what;
@@ -47,65 +86,81 @@ struct Happening {
 struct StageState {
   double time = 0;
   std::int64_t steps = -1;  ///< whole steps taken; -1 before the instant 0 has been handled
+  double handled = -1;      ///< all that was due up to here has been done; a sliver after `time`
+  int splits = 0;           ///< of the current step, by rules and jumps
   World world;
+  Vec3 gravity{0, 0, 0};
   std::shared_ptr<const Hierarchy> nodes;
   std::shared_ptr<const Animation> animation;
-  std::shared_ptr<const std::vector<Clip>> jumps;  ///< see clip_jumps
-  std::vector<char> present;                       ///< by node
-  std::vector<std::optional<Color>> colors;        ///< by node, where none is animated
+  std::shared_ptr<const Jumps> jumps;
+  std::vector<char> present;                 ///< by node
+  std::vector<std::optional<Color>> colors;  ///< by node, where none is animated
   std::vector<StagedBody> bodies;
   std::vector<std::size_t> body_of;  ///< by node; `no_body` for none
   std::vector<NodeId> node_of;       ///< by index of the world's body
-  std::vector<Rule> rules;
+  std::vector<std::shared_ptr<const Rule>> rules;
   std::vector<ArmedRule> armed;  ///< by body, then by rule
+  std::vector<Blow> blows;       ///< by pair, in the order of the world's contacts
   bool jumped = true;            ///< some path may have jumped at `time`: keyed bodies are put on it before going on
 
   [[nodiscard]] StagedBody* body(NodeId node) {
     return node < body_of.size() && body_of[node] != no_body ? &bodies[body_of[node]] : nullptr;
   }
   [[nodiscard]] const StagedBody* body(NodeId node) const { return const_cast<StageState*>(this)->body(node); }
+  [[nodiscard]] std::string_view name_of(BodyId body) const { return (*nodes)[node_of[body.index]].name; }
 };
 
-/// A change made by the caller, at an exact time.
+/// A change made by the caller, at an exact time. When it throws, it has changed nothing.
 struct Command {
   double time = 0;
-  std::function<void(StageState&, std::vector<Happening>&)> run;
+  std::function<void(StageState&, double instant, std::vector<Happening>&)> run;
 };
 
-// cast.cpp: who is on the stage
+// roster.cpp: who is on the stage
 [[nodiscard]] StageState initial_state(const StageDescription& description);
 NodeId add_node(StageState& state, const NodeDescription& node);
 void remove_node(StageState& state, NodeId node);
 void arm_rule(StageState& state, const Rule& rule);
 
 // ownership.cpp: who moves a body
-void change_owner(StageState& state, std::size_t body, const Drive& to, Cause cause, const TakeOver& take_over,
-                  const HandBack& hand_back, double step, std::vector<Happening>& happenings);
+/// @param instant  when it happens; the state's time is at most a sliver away, or later when splits were capped
+void change_owner(StageState& state, std::size_t body, const Drive& to, Cause cause, double instant,
+                  const TakeOver& take_over, const HandBack& hand_back, double step,
+                  std::vector<Happening>& happenings);
 
 // triggers.cpp: when that changes
-/// The first moment in (from, to] at which something may trigger or jump; `to` when there is none.
-[[nodiscard]] double next_instant(const StageState& state, double from, double to);
-/// Fires the rules whose triggers lie in (from, state.time]; contact triggers are pulled by latching them before.
+/// The first moment in (state.handled, to] at which something may trigger or jump; infinity when there is none.
+[[nodiscard]] double next_instant(const StageState& state, double to);
+/// Fires the rules that are due in (from, state.handled], in order of time; contact triggers are pulled by latching
+/// them before.
 void fire_rules(StageState& state, double from, double step, std::vector<Happening>& happenings);
-/// Whether an impulse of this size and approach speed from `other` pulls the trigger.
-[[nodiscard]] bool struck(const when::ContactHit& hit, double impulse, double speed, std::string_view other);
+/// Whether the rule waits for its trigger: its body is not yet where the rule would take it.
+[[nodiscard]] bool waits(const StageState& state, const ArmedRule& armed);
 
-// step.cpp: one fixed step
-/// Takes `state` to the end of its next step, split where it must be; every state at a split goes to `splits`.
-void take_step(StageState& state, double step, std::span<const Command> commands, std::vector<StageState>& splits,
-               std::vector<Happening>& happenings);
+// piece.cpp: from one instant to the next
+/// Takes `state` to the next instant, or to the end of its step when there is none before. What happens is added in
+/// order of time.
+/// @param arrived  the state at that instant before the changes of the caller, when there are some: what is read before
+/// a change must not know of it
+/// @throws what the world throws; `state` is of no use then
+void take_piece(StageState& state, double step, std::span<const Command> commands, std::vector<Happening>& happenings,
+                std::optional<StageState>& arrived);
+/// Tells driven and keyed bodies where their paths want them at `end`.
+void set_targets(StageState& state, double end);
+
+// blows.cpp: what contacts trigger
+/// Moves the world to `end`, or to the first impact before it that pulls a trigger.
+void move_world(StageState& state, double end, double step, std::vector<Happening>& happenings);
 
 // jumps.cpp: where paths are not continuous
-/// For each clip one without tracks, whose events are the moments at which its poses jump.
-[[nodiscard]] std::shared_ptr<const std::vector<Clip>> clip_jumps(std::span<const Clip> clips);
-/// First stage time in (from, to] at which `animation` may jump; infinity for none.
+[[nodiscard]] std::shared_ptr<const Jumps> find_jumps(const StageState& state);
+/// First stage time in (from, to] at which `animation` may make a body jump; infinity for none.
 [[nodiscard]] double next_jump(const StageState& state, const Animation& animation, double from, double to);
 
-// reading.cpp: what a stage shows
-/// World motion of a body between two states that follow each other without a split.
+// interpolation.cpp: what a stage shows, between two states that follow each other or, with one twice, beside one
 [[nodiscard]] WorldMotion body_world(const StageState& from, const StageState& to, std::size_t body, double time);
 [[nodiscard]] Twist body_twist(const StageState& from, const StageState& to, std::size_t body, double time);
 void stage_world(const StageState& from, const StageState& to, double time, std::span<WorldMotion> out);
 [[nodiscard]] WorldMotion node_world(const StageState& from, const StageState& to, NodeId node, double time);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::staging

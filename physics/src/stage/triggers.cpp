@@ -1,9 +1,9 @@
-#include "stage/stage_data.h"
-
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall {
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
 
 namespace {
 
@@ -48,76 +48,95 @@ double instant_of(const Trigger& trigger, const StageState& state, const StagedB
   return inside(time, from, to) ? time : infinity;
 }
 
-bool waits(const StageState& state, const ArmedRule& armed) {
-  if (armed.done) return false;
-  const Drive& to = state.rules[armed.rule].to;
-  return state.world.drive(state.bodies[armed.body].id) != to;
-}
-
 Cause cause_of(const Trigger& trigger) {
   constexpr Cause causes[] = {Cause::at, Cause::marker, Cause::event, Cause::clip_end, Cause::contact, Cause::asleep};
   static_assert(std::variant_size_v<Trigger> == std::size(causes));
   return causes[trigger.index()];
 }
 
+/// First instant of the rule in (from, to], infinity for none.
+double first_instant(const StageState& state, const ArmedRule& armed, double from, double to) {
+  double first = infinity;
+  for (const Trigger& trigger : state.rules[armed.rule]->when.triggers)
+    first = std::min(first, instant_of(trigger, state, state.bodies[armed.body], from, to));
+  return first;
+}
+
 /// Whether the rule fires now, and through which trigger.
 std::optional<Cause> fires(const StageState& state, ArmedRule& armed, double from) {
   const StagedBody& body = state.bodies[armed.body];
-  const When& when = state.rules[armed.rule].when;
+  const Rule& rule = *state.rules[armed.rule];
   std::optional<Cause> cause;
   std::size_t holding = 0;
-  for (std::size_t i = 0; i < when.triggers.size(); ++i) {
-    const Trigger& trigger = when.triggers[i];
-    bool holds = std::isfinite(instant_of(trigger, state, body, from, state.time));
-    if (holds && when.all) armed.latched[i] = 1;
+  for (std::size_t i = 0; i < rule.when.triggers.size(); ++i) {
+    const Trigger& trigger = rule.when.triggers[i];
+    bool holds = std::isfinite(instant_of(trigger, state, body, from, state.handled));
+    if (holds && rule.when.all) armed.latched[i] = 1;
     if (std::holds_alternative<when::ContactHit>(trigger) && armed.latched[i]) {
       holds = true;
-      if (!when.all) armed.latched[i] = 0;
+      if (!rule.when.all) armed.latched[i] = 0;
     }
-    if (const auto* asleep = std::get_if<when::Asleep>(&trigger))
-      holds = state.world.owner(body.id) == Owner::free && state.world.still_for(body.id) >= asleep->seconds;
+    if (const auto* asleep = std::get_if<when::Asleep>(&trigger)) {
+      const double still = state.world.owner(body.id) == Owner::free ? state.world.still_for(body.id) : 0;
+      armed.attempt.still = std::max(armed.attempt.still, still);
+      holds = state.world.owner(body.id) == Owner::free && still >= asleep->seconds;
+    }
     if (holds || armed.latched[i]) ++holding;
     if (holds) cause = cause_of(trigger);
   }
-  const bool is_true = when.all ? holding == when.triggers.size() : cause.has_value();
+  const bool is_true = rule.when.all ? holding == rule.when.triggers.size() : cause.has_value();
   const bool rising = is_true && !armed.was_true;
-  armed.was_true = is_true && !state.rules[armed.rule].once;
+  armed.was_true = is_true && !rule.once;
   if (!rising || !cause) return std::nullopt;
   return cause;
 }
 
 }  // namespace
 
-bool struck(const when::ContactHit& hit, double impulse, double speed, std::string_view other) {
-  return impulse > 0 && impulse >= hit.impulse && speed >= hit.speed && (hit.with.empty() || matches(hit.with, other));
+bool waits(const StageState& state, const ArmedRule& armed) {
+  if (armed.done) return false;
+  return state.world.drive(state.bodies[armed.body].id) != state.rules[armed.rule]->to;
 }
 
-double next_instant(const StageState& state, double from, double to) {
+double next_instant(const StageState& state, double to) {
+  const double from = state.handled;
   double next = next_jump(state, *state.animation, from, to);
   for (const StagedBody& body : state.bodies)
     if (body.present && &body.path.animation() != state.animation.get())
       next = std::min(next, next_jump(state, body.path.animation(), from, to));
-  for (const ArmedRule& armed : state.armed) {
-    if (!waits(state, armed)) continue;
-    for (const Trigger& trigger : state.rules[armed.rule].when.triggers)
-      next = std::min(next, instant_of(trigger, state, state.bodies[armed.body], from, to));
-  }
-  return std::min(next, to);
+  for (const ArmedRule& armed : state.armed)
+    if (waits(state, armed)) next = std::min(next, first_instant(state, armed, from, std::min(next, to)));
+  return next;
 }
 
 void fire_rules(StageState& state, double from, double step, std::vector<Happening>& happenings) {
+  // In order of time, then of bodies: one instant may take a body and the next, a moment later, give it back.
+  struct Due {
+    double instant = 0;
+    std::size_t armed = 0;
+  };
+  std::vector<Due> order;
+  order.reserve(state.armed.size());
   for (std::size_t i = 0; i < state.armed.size(); ++i) {
-    if (!waits(state, state.armed[i])) {
-      std::ranges::fill(state.armed[i].latched, 0);
+    if (state.armed[i].done) continue;
+    const double instant = first_instant(state, state.armed[i], from, state.handled);
+    order.push_back({std::isfinite(instant) ? std::max(0.0, instant) : state.time, i});
+  }
+  std::ranges::stable_sort(order, {}, &Due::instant);
+  for (const Due& due : order) {
+    ArmedRule& armed = state.armed[due.armed];
+    if (!waits(state, armed)) {
+      std::ranges::fill(armed.latched, 0);
       continue;
     }
-    const std::optional<Cause> cause = fires(state, state.armed[i], from);
+    armed.attempt.waited = true;
+    const std::optional<Cause> cause = fires(state, armed, from);
     if (!cause) continue;
-    const Rule rule = state.rules[state.armed[i].rule];
-    if (rule.once) state.armed[i].done = true;
-    std::ranges::fill(state.armed[i].latched, 0);
-    change_owner(state, state.armed[i].body, rule.to, *cause, rule.take_over, rule.hand_back, step, happenings);
+    const std::shared_ptr<const Rule> rule = state.rules[armed.rule];
+    if (rule->once) armed.done = true;
+    std::ranges::fill(armed.latched, 0);
+    change_owner(state, armed.body, rule->to, *cause, due.instant, rule->take_over, rule->hand_back, step, happenings);
   }
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::staging

@@ -62,7 +62,7 @@ class Stage {
   [[nodiscard]] NodeLook look(NodeId node) const;
   [[nodiscard]] Vec3 reaction(NodeId node) const;  ///< sum of contact impulses taken by a keyed or fixed body, N s
   [[nodiscard]] Path path(NodeId node) const;      ///< where the animation wants the node
-  [[nodiscard]] const StageDescription& description() const noexcept;
+  [[nodiscard]] const StageDescription& description() const;
 
   // Hand-off by the caller, at exactly `time()`
   void release(NodeId node, const TakeOver& settings = {});
@@ -86,7 +86,9 @@ class Stage {
 
  private:
   struct Implementation;
-  std::unique_ptr<Implementation> implementation_;
+  [[nodiscard]] Implementation& inside() const;  ///< @throws std::logic_error when moved from
+
+  std::shared_ptr<Implementation> implementation_;  ///< shared with the call that a callback is called from
 };
 
 }  // namespace tweenfall

@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "stage/meetings.h"
+
+namespace tweenfall::staging {
+
+namespace {
+
+bool has_contact_trigger(const Rule& rule) {
+  return std::ranges::any_of(rule.when.triggers,
+                             [](const Trigger& t) { return std::holds_alternative<when::ContactHit>(t); });
+}
+
+/// What a contact did to one body.
+struct Touch {
+  BodyId other;
+  double impulse = 0;
+  double speed = 0;
+};
+
+/// All that touched the body in the last piece; a blow that is still going on, with all it has taken.
+std::vector<Touch> touches(const StageState& state, BodyId body) {
+  std::vector<Touch> found;
+  for (const Contact& contact : state.world.contacts()) {
+    if ((contact.a != body && contact.b != body) || !(contact.impulse > 0)) continue;
+    Touch touch{contact.a == body ? contact.b : contact.a, contact.impulse, contact.approach_speed};
+    for (const Blow& blow : state.blows) {
+      if (blow.a != contact.a || blow.b != contact.b) continue;
+      touch.impulse = std::max(touch.impulse, blow.impulse);
+      touch.speed = std::max(touch.speed, blow.speed);
+    }
+    found.push_back(touch);
+  }
+  return found;
+}
+
+bool pulls(const StageState& state, const Trigger& trigger, const Touch& touch) {
+  const auto* hit = std::get_if<when::ContactHit>(&trigger);
+  return hit && touch.impulse >= hit->impulse && touch.speed >= hit->speed &&
+         (hit->with.empty() || matches(hit->with, state.name_of(touch.other)));
+}
+
+/// Remembers which of the rule's contact triggers were pulled; whether that is enough for it to fire.
+bool latch(ArmedRule& armed, const StageState& state) {
+  const Rule& rule = *state.rules[armed.rule];
+  bool any = false;
+  for (const Touch& touch : touches(state, state.bodies[armed.body].id)) {
+    bool named = false;
+    for (std::size_t t = 0; t < rule.when.triggers.size(); ++t) {
+      const auto* hit = std::get_if<when::ContactHit>(&rule.when.triggers[t]);
+      named = named || (hit && (hit->with.empty() || matches(hit->with, state.name_of(touch.other))));
+      if (!pulls(state, rule.when.triggers[t], touch)) continue;
+      armed.latched[t] = 1;
+      any = true;
+    }
+    if (!named) continue;
+    armed.attempt.touched = true;
+    armed.attempt.impulse = std::max(armed.attempt.impulse, touch.impulse);
+    armed.attempt.speed = std::max(armed.attempt.speed, touch.speed);
+  }
+  return any && (!rule.when.all || std::ranges::all_of(armed.latched, [](char latched) { return latched != 0; }));
+}
+
+bool any_pulled(const StageState& state, const ArmedRule& armed) {
+  const std::vector<Touch> all = touches(state, state.bodies[armed.body].id);
+  return std::ranges::any_of(state.rules[armed.rule]->when.triggers, [&](const Trigger& trigger) {
+    return std::ranges::any_of(all, [&](const Touch& touch) { return pulls(state, trigger, touch); });
+  });
+}
+
+/// The state with the body of an armed rule handed over, moved on to `end`: what its blow would be.
+StageState tried(const StageState& state, std::size_t armed, double end, double step) {
+  const Rule& rule = *state.rules[state.armed[armed].rule];
+  StageState trial = state;
+  std::vector<Happening> unheard;
+  change_owner(trial, state.armed[armed].body, rule.to, Cause::contact, state.time, rule.take_over, rule.hand_back,
+               step, unheard);
+  set_targets(trial, end);
+  trial.blows.clear();
+  trial.world.step(end - trial.time);
+  return trial;
+}
+
+void fire(StageState& state, std::size_t armed, double step, std::vector<Happening>& happenings) {
+  const std::shared_ptr<const Rule> rule = state.rules[state.armed[armed].rule];
+  state.armed[armed].done = rule->once;
+  std::ranges::fill(state.armed[armed].latched, 0);
+  change_owner(state, state.armed[armed].body, rule->to, Cause::contact, state.time, rule->take_over, rule->hand_back,
+               step, happenings);
+}
+
+/// How fast a contact still closes, m/s.
+double closing_speed(const World& world, const Contact& contact) {
+  const auto velocity = [&](BodyId body, const Vec3& point) {
+    const Motion motion = world.motion(body);
+    return velocity_at(motion.twist, point - motion.pose.position);
+  };
+  double closing = 0;
+  for (int i = 0; i < contact.manifold.count; ++i) {
+    const Vec3& point = contact.manifold.points[static_cast<std::size_t>(i)].position;
+    const Vec3 apart = velocity(contact.b, point) - velocity(contact.a, point);
+    closing = std::max(closing, -contact.manifold.normal.dot(apart));
+  }
+  return closing;
+}
+
+/// Adds what the contacts of the last piece took to the blows that they belong to, and tells those that are over. A
+/// blow that falls on the end of a piece goes on in the next: it is over when the bodies no longer close.
+void follow_blows(StageState& state, double step, std::vector<Happening>& happenings) {
+  constexpr double closes = 1e-3;  // of the speed at which they met
+  std::vector<Blow> going_on;
+  const auto tell = [&](const Blow& blow) {
+    StageEvent event;
+    event.time = state.time;
+    event.name = "contact";
+    event.nodes = {state.node_of[blow.a.index], state.node_of[blow.b.index]};
+    event.impulse = blow.impulse;
+    happenings.push_back({state.time, std::move(event)});
+  };
+  std::vector<char> met(state.blows.size(), 0);
+  for (const Contact& contact : state.world.contacts()) {
+    const auto before =
+        std::ranges::find_if(state.blows, [&](const Blow& blow) { return blow.a == contact.a && blow.b == contact.b; });
+    const bool goes_on = before != state.blows.end();
+    if (goes_on) met[static_cast<std::size_t>(before - state.blows.begin())] = 1;
+    if (!goes_on && !contact.began) continue;
+    Blow blow = goes_on ? *before : Blow{contact.a, contact.b, state.time, 0, 0};
+    blow.impulse += contact.impulse;
+    blow.speed = std::max(blow.speed, contact.approach_speed);
+    if (!(blow.impulse > 0)) continue;
+    if (state.time - blow.began < 0.999 * step && closing_speed(state.world, contact) > closes * blow.speed)
+      going_on.push_back(blow);
+    else
+      tell(blow);
+  }
+  for (std::size_t i = 0; i < met.size(); ++i)
+    if (!met[i] && state.world.contains(state.blows[i].a) && state.world.contains(state.blows[i].b))
+      tell(state.blows[i]);
+  state.blows = std::move(going_on);
+}
+
+void step_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
+  set_targets(state, end);
+  state.world.step(end - state.time);
+  state.time = end;
+  follow_blows(state, step, happenings);
+}
+
+/// Moves the world to just before an impact on a keyed body, which then leaves from its own path. Until then it stands,
+/// so that nothing of the blow comes early: contacts are foreseen as flat and near ones may act before shapes touch.
+void approach(StageState& state, BodyId body, double end, double step, std::vector<Happening>& happenings) {
+  const bool presses = std::ranges::any_of(
+      state.world.contacts(), [&](const Contact& c) { return (c.a == body || c.b == body) && c.impulse > 0; });
+  set_targets(state, end);
+  if (!presses) state.world.set_target(body, state.world.motion(body));
+  state.world.step(end - state.time);
+  state.time = end;
+  follow_blows(state, step, happenings);
+}
+
+/// A contact between two bodies that physics does not move: the world knows nothing of it.
+void report_touch(const StageState& state, const Meeting& meeting, const Touch& touch,
+                  std::vector<Happening>& happenings) {
+  StageEvent event;
+  event.time = state.time;
+  event.name = "contact";
+  event.nodes = {state.bodies[meeting.body].node, state.node_of[meeting.other.index]};
+  event.impulse = touch.impulse;
+  happenings.push_back({state.time, std::move(event)});
+}
+
+/// Moves `state` to the first impact before `end` at which a rule frees its keyed body, and fires it there: judged by
+/// the whole blow that the body would take if it were free, otherwise what struck it would bounce off an infinite mass
+/// and the difference in momentum would vanish. @return whether there was one; if not, `state` is where it was
+bool fire_at_impact(StageState& state, double end, double step, std::vector<Happening>& happenings) {
+  std::vector<char> watched(state.bodies.size(), 0);
+  bool any = false;
+  for (const ArmedRule& armed : state.armed) {
+    if (!has_contact_trigger(*state.rules[armed.rule]) || !waits(state, armed)) continue;
+    if (state.world.owner(state.bodies[armed.body].id) != Owner::keyed) continue;
+    watched[armed.body] = 1;
+    any = true;
+  }
+  if (!any) return false;
+  for (const Meeting& meeting : meetings(state, end, watched)) {
+    const BodyId body = state.bodies[meeting.body].id;
+    // No piece is shorter than a sliver.
+    const double time = std::min(meeting.time, end - 2 * sliver);
+    StageState there = state;
+    std::vector<Happening> before;
+    if (time - state.time >= sliver) approach(there, body, time, step, before);
+    std::optional<Touch> touch;
+    for (std::size_t i = 0; i < there.armed.size(); ++i) {
+      ArmedRule& armed = there.armed[i];
+      if (armed.body != meeting.body || !has_contact_trigger(*there.rules[armed.rule]) || !waits(there, armed))
+        continue;
+      const StageState trial = tried(there, i, there.time + step / 16, step);
+      ArmedRule after = trial.armed[i];
+      const bool fires = latch(after, trial);
+      state.armed[i].attempt = armed.attempt = after.attempt;
+      if (!fires) {
+        state.armed[i].latched = armed.latched = after.latched;  // of an `all`: this one has come, others have not
+        for (const Touch& one : touches(trial, body))
+          if (one.other == meeting.other) touch = one;
+        continue;
+      }
+      happenings.insert(happenings.end(), before.begin(), before.end());
+      fire(there, i, step, happenings);
+      state = std::move(there);
+      return true;
+    }
+    const bool unmoved = there.world.is_fixed(meeting.other) || there.world.owner(meeting.other) == Owner::keyed;
+    if (touch && unmoved) report_touch(there, meeting, *touch, happenings);
+  }
+  return false;
+}
+
+}  // namespace
+
+void move_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
+  const bool watched = std::ranges::any_of(state.armed, [&](const ArmedRule& armed) {
+    return !armed.done && has_contact_trigger(*state.rules[armed.rule]);
+  });
+  if (!watched) {
+    step_world(state, end, step, happenings);
+    return;
+  }
+  if (fire_at_impact(state, end, step, happenings)) return;
+
+  // What presses without a blow, or is struck through others, is judged by what it took in the piece, and freed at the
+  // piece's start. Freeing one may strike the next, so this goes on until no more are freed; each rule fires once.
+  StageState start = state;
+  std::vector<Happening> moved;
+  step_world(state, end, step, moved);
+  std::vector<char> judged(state.armed.size(), 0);
+  std::vector<Happening> fired;
+  for (bool freed = true; freed;) {
+    freed = false;
+    for (std::size_t i = 0; i < state.armed.size() && !freed; ++i) {
+      if (judged[i] || !has_contact_trigger(*state.rules[state.armed[i].rule]) || !waits(state, state.armed[i]))
+        continue;
+      if (state.world.owner(state.bodies[state.armed[i].body].id) != Owner::keyed) {
+        static_cast<void>(latch(state.armed[i], state));  // fired at the end of the piece, with all others
+        continue;
+      }
+      if (!any_pulled(state, state.armed[i])) continue;
+      const StageState trial = tried(start, i, end, step);
+      ArmedRule after = trial.armed[i];
+      const bool fires = latch(after, trial);
+      start.armed[i].attempt = state.armed[i].attempt = after.attempt;
+      if (!fires) {
+        state.armed[i].latched = start.armed[i].latched = after.latched;
+        continue;
+      }
+      fire(start, i, step, fired);
+      judged[i] = 1;
+      freed = true;
+      state = start;
+      moved.clear();
+      step_world(state, end, step, moved);
+    }
+  }
+  happenings.insert(happenings.end(), fired.begin(), fired.end());
+  happenings.insert(happenings.end(), moved.begin(), moved.end());
+}
+
+}  // namespace tweenfall::staging

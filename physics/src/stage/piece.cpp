@@ -1,0 +1,129 @@
+#include <tweenfall/curves/rotation.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
+
+namespace {
+
+/// Rules and jumps split a step at most so often; what is left then is handled at its end, and told.
+constexpr int most_splits = 1024;
+
+/// First jump of any path after what has been handled; infinity for none until `to`.
+double first_jump(const StageState& state, double to) {
+  double next = next_jump(state, *state.animation, state.handled, to);
+  for (const StagedBody& body : state.bodies)
+    if (body.present && &body.path.animation() != state.animation.get())
+      next = std::min(next, next_jump(state, body.path.animation(), state.handled, to));
+  return next;
+}
+
+void report_events(const StageState& state, double from, double to, std::vector<Happening>& happenings) {
+  std::vector<FiredEvent> fired;
+  for (const Play& play : state.animation->plays()) {
+    const Clip& clip = state.animation->clips()[play.clip];
+    std::vector<FiredEvent> more = events_between(play, clip, std::max(from, 0.0), to, from < 0);
+    fired.insert(fired.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+  }
+  std::ranges::stable_sort(fired, {}, &FiredEvent::time);
+  for (FiredEvent& event : fired)
+    happenings.push_back(
+        {event.time, StageEvent{.time = event.time, .name = event.name, .data = event.data, .nodes = {}}});
+}
+
+/// The caller's changes that are due after `from`, in order of time.
+std::span<const Command> commands_after(std::span<const Command> commands, double from) {
+  const auto first = std::ranges::upper_bound(commands, from, {}, &Command::time);
+  return commands.subspan(static_cast<std::size_t>(first - commands.begin()));
+}
+
+/// All that is due up to a sliver after now: events told, rules fired, the caller's changes made.
+void handle_instant(StageState& state, double step, std::span<const Command> commands,
+                    std::vector<Happening>& happenings, std::optional<StageState>& arrived) {
+  const double from = state.handled;
+  state.handled = state.time + sliver;
+  report_events(state, from, state.handled, happenings);
+  fire_rules(state, from, step, happenings);
+  for (const Command& command : commands_after(commands, from)) {
+    if (command.time > state.handled) break;
+    if (!arrived) arrived = state;
+    command.run(state, command.time, happenings);
+  }
+  state.jumped = true;
+}
+
+void report_cap(const StageState& state, std::vector<Happening>& happenings) {
+  const std::string many = std::to_string(most_splits);
+  happenings.push_back(
+      {state.time,
+       StageEvent{.time = state.time, .name = "split limit", .data = "{\"splits\": " + many + "}", .nodes = {}}});
+}
+
+}  // namespace
+
+Motion moved_on(const Motion& motion, const Vec3& center, double seconds) {
+  if (seconds == 0) return motion;
+  const Vec3 arm = motion.pose.rotation * center;
+  const Twist twist = shifted(motion.twist, arm);
+  Motion later = motion;
+  later.pose.rotation = exp_map(twist.angular * seconds) * motion.pose.rotation;
+  later.pose.rotation.normalize();
+  const Vec3 turned = later.pose.rotation * center;
+  later.pose.position = motion.pose.position + arm + twist.linear * seconds - turned;
+  later.twist = shifted(twist, -turned);
+  return later;
+}
+
+void set_targets(StageState& state, double end) {
+  // A path that jumps just before the end is followed to the jump and on at its own velocity: the jump is no movement.
+  const double jump = std::min(end, first_jump(state, end));
+  for (StagedBody& body : state.bodies) {
+    if (!body.present || state.world.is_fixed(body.id)) continue;
+    const Owner owner = state.world.owner(body.id);
+    if (owner == Owner::free) continue;
+    const Vec3& center = state.world.mass(body.id).center;
+    if (state.jumped && owner == Owner::keyed) {
+      const double landed = std::max(state.time, std::min(state.handled, end));
+      const Motion leaving = moved_on(rigid(body.path.at(landed)), center, state.time - landed);
+      const Motion here = state.world.motion(body.id);
+      if (!leaving.pose.position.isApprox(here.pose.position, 1e-12) ||
+          std::abs(leaving.pose.rotation.dot(here.pose.rotation)) < 1 - 1e-15)
+        state.world.set_motion(body.id, leaving);
+    }
+    state.world.set_target(body.id, moved_on(rigid(body.path.at(jump, Side::in)), center, end - jump));
+  }
+  state.jumped = false;
+}
+
+void take_piece(StageState& state, double step, std::span<const Command> commands, std::vector<Happening>& happenings,
+                std::optional<StageState>& arrived) {
+  arrived.reset();
+  const std::size_t first = happenings.size();
+  if (state.steps < 0) {
+    state.steps = 0;
+    handle_instant(state, step, commands, happenings, arrived);
+  } else {
+    const double end = static_cast<double>(state.steps + 1) * step, last = end - sliver;
+    double to = next_instant(state, last);
+    const bool own = to < last, capped = own && state.splits >= most_splits;
+    if (capped) to = infinity;
+    if (const auto coming = commands_after(commands, state.handled); !coming.empty())
+      to = std::min(to, coming.front().time);
+    if (!(to < last)) to = end;
+    move_world(state, to, step, happenings);
+    if (own && !capped) ++state.splits;
+    if (state.time == end) {
+      if (capped) report_cap(state, happenings);
+      ++state.steps;
+      state.splits = 0;
+    }
+    handle_instant(state, step, commands, happenings, arrived);
+  }
+  std::ranges::stable_sort(happenings.begin() + static_cast<std::ptrdiff_t>(first), happenings.end(), {},
+                           &Happening::time);
+}
+
+}  // namespace tweenfall::staging

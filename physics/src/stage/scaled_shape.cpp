@@ -1,0 +1,94 @@
+#include "stage/scaled_shape.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tweenfall::staging {
+
+namespace {
+
+constexpr double hairline = 1e-9;  // relative to the largest factor
+
+std::string number(double value) {
+  std::array<char, 32> digits;
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+std::string triple(const Vec3& value) {
+  return "(" + number(value.x()) + ", " + number(value.y()) + ", " + number(value.z()) + ")";
+}
+
+bool is_diagonal(const Mat3& matrix) {
+  const Mat3 rest = matrix - Mat3(matrix.diagonal().asDiagonal());
+  return rest.cwiseAbs().maxCoeff() <= hairline * matrix.cwiseAbs().maxCoeff();
+}
+
+double uniform(const Vec3& scale, const char* what) {
+  const Vec3 size = scale.cwiseAbs();
+  if (size.maxCoeff() - size.minCoeff() > hairline * size.maxCoeff())
+    throw std::invalid_argument(std::string(what) + " takes the same scale along all axes, but its node is scaled by " +
+                                triple(scale) + "; make it a hull, or scale its node evenly");
+  return size.x();
+}
+
+}  // namespace
+
+Vec3 rest_scale(const Hierarchy& nodes, std::size_t node) {
+  Mat3 linear = Mat3::Identity(), turn = Mat3::Identity();
+  bool even = true;
+  for (std::size_t i = node; i != no_node; i = nodes[i].parent) {
+    const Pose& rest = nodes[i].rest;
+    even = even && rest.scale == Vec3(1, 1, 1);
+    const Mat3 rotation = rest.rotation.toRotationMatrix();
+    linear = (rotation * Mat3(rest.scale.asDiagonal()) * linear).eval();
+    turn = (rotation * turn).eval();
+  }
+  if (even) return {1, 1, 1};
+  const Mat3 own = turn.transpose() * linear;
+  if (!is_diagonal(own))
+    throw std::invalid_argument(
+        "a scaled parent shears its node, and a body keeps its angles; scale that parent evenly");
+  const Vec3 scale = own.diagonal();
+  if (!scale.allFinite() || scale.cwiseAbs().minCoeff() == 0)
+    throw std::invalid_argument("its node is scaled by " + triple(scale) + "; a body needs factors other than 0");
+  return scale;
+}
+
+Shape scaled(const Shape& shape, const Vec3& scale) {
+  if (scale == Vec3(1, 1, 1)) return shape;
+  Shape result = shape;
+  result.offset.position = scale.cwiseProduct(shape.offset.position);
+  // In the axes of the solid, which may be turned on its node.
+  const Mat3 turn = shape.offset.rotation.normalized().toRotationMatrix();
+  const Mat3 own = turn.transpose() * Mat3(scale.asDiagonal()) * turn;
+  if (auto* sphere = std::get_if<Sphere>(&result.solid)) {
+    sphere->radius *= uniform(scale, "a sphere");
+  } else if (auto* capsule = std::get_if<Capsule>(&result.solid)) {
+    const double factor = uniform(scale, "a capsule");
+    capsule->radius *= factor;
+    capsule->half_height *= factor;
+  } else if (auto* box = std::get_if<Box>(&result.solid)) {
+    if (!is_diagonal(own))
+      throw std::invalid_argument(
+          "a box that is turned on its node takes the same scale along all axes, but its node is "
+          "scaled by " +
+          triple(scale) + "; turn the node, or make it a hull");
+    box->half_extents = box->half_extents.cwiseProduct(Vec3(own.diagonal().cwiseAbs()));
+  } else if (auto* plane = std::get_if<Plane>(&result.solid)) {
+    if (!is_diagonal(own)) (void)uniform(scale, "a plane that is turned on its node");
+    const Vec3 normal = plane->normal.cwiseQuotient(Vec3(own.diagonal()));
+    plane->offset /= normal.norm();
+    plane->normal = normal.normalized();
+  } else if (auto* hull = std::get_if<Hull>(&result.solid)) {
+    std::vector<Vec3> points;
+    for (const Vec3& point : hull->convex.vertices()) points.push_back(own * point);
+    hull->convex = ConvexHull(points);
+  }
+  return result;
+}
+
+}  // namespace tweenfall::staging

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
+
+/// The stage in time. What the caller reads lies between two states without an instant between them: the world is
+/// simulated to the first instant at or after `now`. A change by the caller takes that piece again, up to `now`, and
+/// acts on the state there; it is kept, so that going back finds it again. However many instants a step has, no more
+/// than two states are held.
+class Timeline {
+ public:
+  explicit Timeline(StageDescription described);
+
+  /// @param aloud  whether callbacks are called
+  void run_to(double target, bool aloud);
+  void restart();
+  /// Makes a change at exactly `now`. When it throws, nothing has changed.
+  void command(std::function<void(StageState&, double instant, std::vector<Happening>&)> run);
+
+  [[nodiscard]] double now() const noexcept { return now_; }
+  /// The two states between which `now` lies; twice the same where it lies at one.
+  [[nodiscard]] std::pair<const StageState*, const StageState*> around() const noexcept;
+  [[nodiscard]] const StageState& current() const noexcept { return *around().first; }
+  /// At the end of the piece in which `now` lies.
+  [[nodiscard]] const StageState& ahead() const noexcept { return to_; }
+  /// Throws std::logic_error inside a callback: it cannot do `what`.
+  void require_not_telling(const char* what) const;
+
+  const StageDescription description;
+  std::vector<StageEvent> events;
+  std::vector<HandOff> handoffs;
+  std::function<void(const StageEvent&)> on_event, on_contact;
+  std::function<void(const HandOff&)> on_handoff;
+  bool abandoned = false;  ///< the stage is gone, from inside a callback: nothing more is told
+
+ private:
+  void take(StageState& state);
+  void next_piece();
+  void tell(bool aloud, double until);
+  void keep_told();
+  void reach_now();
+
+  StageState initial_;
+  StageState from_, to_;
+  std::optional<StageState> arrived_;  ///< `to_` before the caller's changes there
+  std::vector<Command> commands_;      ///< in order of time
+  std::vector<Happening> happenings_;  ///< not all told
+  std::size_t told_ = 0;               ///< how many of them have been
+  std::size_t of_piece_ = 0;           ///< the first of them that belongs to the current piece
+  double now_ = 0;
+  bool telling_ = false;
+};
+
+}  // namespace tweenfall::staging

@@ -1,0 +1,167 @@
+#include "physics/handoff/scenes.h"
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+Rule on_contact(const std::string& body, const when::ContactHit& hit, const Drive& to = Drive::free()) {
+  Rule rule;
+  rule.bodies = {body};
+  rule.when.triggers = {hit};
+  rule.to = to;
+  return rule;
+}
+
+Curve<Vec3> moving(const Vec3& start, const Vec3& velocity) {
+  return Curve<Vec3>(
+      [=](double t, Side) {
+        return Sample<Vec3>{start + t * velocity, velocity, Vec3(0, 0, 0)};
+      },
+      -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
+}
+
+StageDescription played(StageDescription stage, const std::string& node, const std::string& property,
+                        const decltype(Track::curve)& curve) {
+  Clip clip;
+  clip.name = "c";
+  clip.duration = std::numeric_limits<double>::infinity();
+  clip.tracks = {{node, property, curve}};
+  stage.clips = {clip};
+  stage.plays = {{.clip = 0}};
+  return stage;
+}
+
+double greatest_contact(const Stage& stage) {
+  double most = 0;
+  for (const StageEvent& event : stage.events()) most = std::max(most, event.impulse);
+  return most;
+}
+
+}  // namespace
+
+TEST_CASE("a blow without rebound frees what it strikes at the impact, wherever in a step it falls") {
+  const double whole = 0.7 * 3 / 3.7 * 6.3;
+  for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+    for (int i = 0; i < 40; ++i) {
+      CAPTURE(step);
+      CAPTURE(i);
+      const double start = -2 - 0.0071 * i;
+      StageDescription stage;
+      stage.step = step;
+      stage.world.gravity = {0, 0, 0};
+      stage.nodes = {
+          {.name = "s", .body = BodyDescription{.shape = {Sphere{0.3}}, .mass = 3.0, .drive = Drive::keyed()}},
+          {.name = "ball",
+           .rest = {.position = {start, 0, 0}},
+           .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 0.7, .twist = {{5, 0, 0}, {0, 0, 0}}}}};
+      stage.rules = {on_contact("s", {.impulse = 3.5})};
+      Stage run(played(stage, "s", "position", moving({0, 0, 0}, {-1.3, 0, 0})));
+      run.advance_to(1);
+      REQUIRE(run.handoffs().size() == 1);
+      CHECK(std::abs(run.handoffs()[0].time - (-start - 0.4) / 6.3) < 1e-6);
+      CHECK(run.handoffs()[0].after.twist.linear.x() == doctest::Approx(-1.3).epsilon(1e-9));
+      const double common = (0.7 * 5 - 3 * 1.3) / 3.7;
+      CHECK(std::abs(run.twist(0).linear.x() - common) < 1e-6);
+      CHECK(std::abs(run.twist(1).linear.x() - common) < 1e-6);
+      CHECK(std::abs(greatest_contact(run) - whole) < 1e-6 * whole);
+      // A little more than the blow does not fire.
+      stage.rules = {on_contact("s", {.impulse = 1.001 * whole})};
+      Stage kept(played(stage, "s", "position", moving({0, 0, 0}, {-1.3, 0, 0})));
+      kept.advance_to(1);
+      CHECK(kept.handoffs().empty());
+    }
+  }
+}
+
+TEST_CASE("a reported blow is the whole blow, wherever in a step it falls") {
+  for (int i = 0; i < 40; ++i) {
+    CAPTURE(i);
+    StageDescription stage;
+    stage.step = 1.0 / 60;
+    stage.world.gravity = {0, 0, 0};
+    stage.nodes = {{.name = "wall",
+                    .rest = {.position = {1, 0, 0}},
+                    .body = BodyDescription{.shape = {Box{{0.5, 1, 1}}}, .fixed = true}},
+                   {.name = "ball",
+                    .rest = {.position = {-1 - 0.0037 * i, 0, 0}},
+                    .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 2.0, .twist = {{4, 0, 0}, {0, 0, 0}}}}};
+    Stage run(stage);
+    run.advance_to(1);
+    REQUIRE(!run.events().empty());
+    CHECK(run.events()[0].impulse == doctest::Approx(8).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a body struck on a curved path leaves it where it is struck, with the curve's own velocity") {
+  for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+    for (int i = 0; i < 40; ++i) {
+      CAPTURE(step);
+      CAPTURE(i);
+      const double angle = 0.5 + 0.013 * i;
+      StageDescription stage;
+      stage.step = step;
+      stage.world.gravity = {0, 0, 0};
+      const BodyDescription ball{.shape = {Sphere{0.1}}, .mass = 1.0, .restitution = 0.5};
+      stage.nodes = {{.name = "p"},
+                     {.name = "s", .parent = 0, .rest = {.position = {1, 0, 0}}, .body = ball},
+                     {.name = "b", .rest = {.position = {std::cos(angle), std::sin(angle), 0}}, .body = ball}};
+      stage.rules = {on_contact("s", {})};
+      const Curve<double> turning(
+          [](double t, Side) {
+            return Sample<double>{4 * t, 4, 0};
+          },
+          -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
+      Stage run(played(stage, "p", "rotation", axis_curve({0, 0, 1}, turning)));
+      run.advance_to(0.6);
+      REQUIRE(run.handoffs().size() == 1);
+      const double time = (angle - 2 * std::asin(0.1)) / 4;
+      CHECK(std::abs(run.handoffs()[0].time - time) < 1e-6);
+      const Vec3 velocity(-4 * std::sin(4 * time), 4 * std::cos(4 * time), 0);
+      CHECK(near(run.handoffs()[0].after.twist.linear, velocity, 1e-5));
+      CHECK(near(run.twist(1).linear + run.twist(2).linear, velocity, 1e-5));
+    }
+  }
+}
+
+TEST_CASE("a keyed body that runs into the floor or into another keyed one is freed there") {
+  for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+    for (int i = 0; i < 40; ++i) {
+      for (const bool other_is_keyed : {false, true}) {
+        CAPTURE(step);
+        CAPTURE(i);
+        const double height = 1 + 0.0091 * i;
+        StageDescription stage;
+        stage.step = step;
+        stage.nodes = {
+            {.name = "floor",
+             .rest = {.position = {0, -0.5, 0}},
+             .body = BodyDescription{.shape = {Box{{5, 0.5, 5}}}, .fixed = !other_is_keyed, .drive = Drive::keyed()}},
+            {.name = "cup", .body = BodyDescription{.shape = {Box{{0.1, 0.1, 0.1}}}, .mass = 0.4}}};
+        stage.rules = {on_contact("cup", {.speed = 0.1})};
+        Stage run(played(stage, "cup", "position", moving({0, height, 0}, {0, -2, 0})));
+        run.advance_to(1.5);
+        REQUIRE(run.handoffs().size() == 1);
+        CHECK(std::abs(run.handoffs()[0].time - (height - 0.1) / 2) < 1e-6);
+        CHECK(run.handoffs()[0].after.twist.linear.y() == doctest::Approx(-2).epsilon(1e-9));
+        CHECK(std::abs(run.world(1).motion.pose.position.y() - 0.1) < 2e-3);
+        // The weight of the rest of the step comes on top.
+        CHECK(greatest_contact(run) >= 0.8 * (1 - 1e-6));
+        CHECK(greatest_contact(run) <= 0.8 + 0.4 * standard_gravity * step + 1e-6);
+      }
+    }
+  }
+}
+
+TEST_CASE("two keyed bodies that touch are told of, though neither is freed") {
+  StageDescription stage;
+  stage.nodes = {{.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}},
+                 {.name = "cup", .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 0.4}}};
+  stage.rules = {on_contact("cup", {.impulse = 100})};
+  Stage run(played(stage, "cup", "position", moving({0, 1, 0}, {0, -2, 0})));
+  run.advance_to(1);
+  CHECK(run.handoffs().empty());
+  REQUIRE(run.events().size() == 1);
+  CHECK(run.events()[0].name == "contact");
+  CHECK(run.events()[0].impulse == doctest::Approx(0.8).epsilon(0.02));
+}
