@@ -281,6 +281,20 @@ Curve<T>::Curve(Formula formula, double start, double end) {
 }
 
 template <class T>
+Curve<T>::Curve(Formula formula, std::vector<double> knots) {
+  if (!formula) throw std::invalid_argument("a curve needs a formula; an empty function was given");
+  if (knots.empty()) throw std::invalid_argument("a formula between knots needs one at least");
+  for (std::size_t i = 0; i < knots.size(); ++i)
+    if (!std::isfinite(knots[i]) || (i > 0 && !(knots[i] > knots[i - 1])))
+      throw std::invalid_argument("knots must be finite and increase; knot " + std::to_string(i) + " is " +
+                                  text_of(knots[i]) + " s");
+  const auto rebuilt = [formula, knots](const OutsideRule<T>& before, const OutsideRule<T>& after) {
+    return CurveAccess::formula_with_knots<T>(formula, knots.front(), knots.back(), knots).with_outside(before, after);
+  };
+  data_ = CurveAccess::seen_through<T>(formula, knots.front(), knots.back(), knots, {}, {}, rebuilt).data_;
+}
+
+template <class T>
 Curve<T> Curve<T>::with_outside(Outside before, Outside after) const {
   return with_outside(OutsideRule<T>{before}, OutsideRule<T>{after});
 }

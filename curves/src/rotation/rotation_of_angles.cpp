@@ -6,26 +6,6 @@
 #include "curve/curve_data.h"
 
 namespace tweenfall {
-namespace {
-
-Sample<Quat> turned(const Sample<Vec3>& angles, const EulerOrder& order) noexcept {
-  Quat q(1, 0, 0, 0);
-  Vec3 velocity = Vec3::Zero(), acceleration = Vec3::Zero();
-  // From the outermost turn inward, each about an axis that the turns before it carry along.
-  for (int n = 0; n < 3; ++n) {
-    const int i = order.intrinsic ? n : 2 - n;
-    const Vec3 axis = Vec3::Unit(order.axes[i]);
-    const Vec3 carried = q * axis;
-    acceleration += angles.acceleration[i] * carried + angles.rate[i] * velocity.cross(carried);
-    velocity += angles.rate[i] * carried;
-    const elementary::SinCos half = elementary::sin_cos(angles.value[i] / 2);
-    q = q * Quat(half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z());
-  }
-  return {q, velocity, acceleration};
-}
-
-}  // namespace
-
 Curve<Quat> euler_curve(const Curve<Vec3>& angles, const EulerOrder& order) {
   for (int i = 0; i < 3; ++i)
     if (order.axes[i] < 0 || order.axes[i] > 2 || (i > 0 && order.axes[i] == order.axes[i - 1]))
@@ -33,7 +13,7 @@ Curve<Quat> euler_curve(const Curve<Vec3>& angles, const EulerOrder& order) {
                                   std::to_string(order.axes[0]) + ", " + std::to_string(order.axes[1]) + ", " +
                                   std::to_string(order.axes[2]));
   return CurveAccess::converted<Quat>(angles, [order](const Curve<Vec3>& curve, double time, Side side) {
-    return turned(curve.sample(time, side), order);
+    return from_euler(curve.sample(time, side), order);
   });
 }
 

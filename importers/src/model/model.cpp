@@ -1,5 +1,6 @@
 #include "assimp/reader.h"
 #include "bvh/reader.h"
+#include "fbx/reader.h"
 #include "gltf/reader.h"
 #include "model/model_bytes.h"
 #include "model/model_problems.h"
@@ -23,7 +24,8 @@ Model read_any(const std::string& bytes, const std::filesystem::path& file, Mode
   const std::string ending = ending_of(file);
   if (ending == ".glb" || ending == ".gltf" || bytes.starts_with("glTF")) return gltf::read(bytes, file, problems);
   if (ending == ".bvh") return read_bvh(bytes, file, problems);
-  if (ending == ".fbx" || ending == ".dae" || ending == ".obj") return read_with_assimp(bytes, file, problems);
+  if (ending == ".fbx") return fbx::read(bytes, file, problems);
+  if (ending == ".dae" || ending == ".obj") return read_with_assimp(bytes, file, problems);
   throw ModelError(file.string() + ": error: files ending in \"" + ending +
                    "\" cannot be read; .glb, .gltf, .fbx, .bvh, .dae and .obj can");
 }

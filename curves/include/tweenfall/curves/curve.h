@@ -60,6 +60,11 @@ class Curve {
   /// A formula that is its own derivative-giver; `start` and `end` may be infinite. Must not throw.
   Curve(Formula formula, double start, double end);
 
+  /// A formula that answers at every time by itself, beyond its ends too, and has `knots`, s: where it begins, changes
+  /// and ends. Other rules outside take its place there.
+  /// @throws std::invalid_argument for no formula, no knots, or knots that do not strictly increase.
+  Curve(Formula formula, std::vector<double> knots);
+
   /// The same curve with other rules outside its knots.
   [[nodiscard]] Curve with_outside(Outside before, Outside after) const;
   /// @throws std::invalid_argument for a non-finite slope or plays not >= 0.

@@ -55,4 +55,18 @@ struct EulerOrder {
 /// Angles in the order's sequence; at gimbal lock the third is 0.
 [[nodiscard]] Vec3 to_euler(const Quat& q, const EulerOrder& order = {}) noexcept;
 
+/// The same with their rates: moving angles as a turning rotation, and back. Where the axes of the first and third
+/// angle fall together, the third angle is 0 and its rates too.
+[[nodiscard]] Sample<Quat> from_euler(const Sample<Vec3>& angles, const EulerOrder& order = {}) noexcept;
+[[nodiscard]] Sample<Vec3> to_euler(const Sample<Quat>& rotation, const EulerOrder& order = {}) noexcept;
+
+/// a b, with its rates: b turns within a.
+[[nodiscard]] Sample<Quat> product(const Sample<Quat>& a, const Sample<Quat>& b) noexcept;
+
+/// The rotation that undoes `q`, with its rates.
+[[nodiscard]] Sample<Quat> inverse(const Sample<Quat>& q) noexcept;
+
+/// From a (weight 0) along the shorter arc to b (weight 1), all three moving.
+[[nodiscard]] Sample<Quat> slerp(const Sample<Quat>& a, const Sample<Quat>& b, const Sample<double>& weight) noexcept;
+
 }  // namespace tweenfall

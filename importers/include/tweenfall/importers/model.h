@@ -2,10 +2,10 @@
 
 /// Models: meshes, nodes, skins and clips from glTF, FBX, BVH, Collada and OBJ files.
 ///
-/// glTF and BVH are read from the file itself, so that STEP, LINEAR and CUBICSPLINE keys keep their
-/// kind and tangents and frames their exact times. FBX, Collada and OBJ come through assimp, in the
-/// file's own units; their keys are joined by straight lines, and FBX tangents, holds and layers are
-/// lost. A malformed file can end assimp's process, so a child process tries each such file first.
+/// glTF, FBX (7.0 and later, text and binary) and BVH are read from the file itself, so that keys keep
+/// their kind and tangents, layers their weights, and frames their exact times; units, axes and clocks
+/// are the file's. Collada and OBJ come through assimp; their keys are joined by straight lines. A
+/// malformed file can end assimp's process, so a child process tries each such file first.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/hierarchy.h>

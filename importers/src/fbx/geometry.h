@@ -1,0 +1,35 @@
+#pragma once
+
+// A geometry of an FBX file as triangles, and which of its control points each vertex came from.
+
+#include "fbx/objects.h"
+
+#include <tweenfall/anim/mesh.h>
+
+#include <vector>
+
+namespace tweenfall::fbx {
+
+/// Triangles of one color.
+struct Part {
+  Mesh mesh;
+  std::vector<std::uint32_t> control_points;  ///< one per vertex
+};
+
+struct Geometry {
+  std::size_t control_points = 0;  ///< how many there are
+  std::vector<Part> parts;         ///< one per color that the materials have
+};
+
+/// @param colors  of the node's materials, in order
+/// @throws ModelError with the place of what points past the lists.
+[[nodiscard]] Geometry read_geometry(const Object& geometry, const std::vector<Color>& colors, const Objects& objects,
+                                     ModelProblems& problems);
+
+/// The base color of a material.
+[[nodiscard]] Color base_color(const Object& material, const Objects& objects);
+
+/// What is there before any material says otherwise.
+[[nodiscard]] Color plain_color();
+
+}  // namespace tweenfall::fbx

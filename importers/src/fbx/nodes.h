@@ -1,0 +1,65 @@
+#pragma once
+
+// The nodes of an FBX scene, and where a stack moves them.
+
+#include "fbx/placement.h"
+
+#include <tweenfall/anim/clip.h>
+#include <tweenfall/anim/hierarchy.h>
+
+#include <map>
+
+namespace tweenfall::fbx {
+
+/// How a node takes over its parent's scale. Source: Autodesk, FBX SDK, FbxTransform::EInheritType.
+enum class Inherit {
+  factors,  ///< RrSs: the parent's factors times its own, along its own axes
+  normal,   ///< RSrs: the whole placement of the parent
+  none,     ///< Rrs: not its parent's own scale
+};
+
+/// A model of the file among ours.
+struct FileNode {
+  std::size_t object = 0;
+  std::size_t parent = no_node;  ///< among the file's nodes
+  Inherit inherit = Inherit::normal;
+  std::size_t node = no_node;  ///< ours of that name
+  /// Ours that has its place and turn but not its scale, for children that do not take it over; else the same node.
+  std::size_t frame = no_node;
+};
+
+class Nodes {
+ public:
+  /// @throws ModelError
+  Nodes(const Objects& objects, ModelProblems& problems);
+
+  /// Parents first; axes and units are the file's.
+  [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
+  [[nodiscard]] const std::vector<FileNode>& files() const { return files_; }
+  /// Ours for a model; no_node for none.
+  [[nodiscard]] std::size_t of(std::size_t object) const;
+
+  /// Where a model rests in the world.
+  [[nodiscard]] WorldMotion at_rest(std::size_t object) const;
+
+  /// Tracks of all nodes that the stack moves.
+  [[nodiscard]] std::vector<Track> tracks(const Stack& stack) const;
+
+ private:
+  /// The placement of each file node, as its own node and its frame have it.
+  struct Placed {
+    Placement placement;
+    Channel<Vec3> passed_on;  ///< scale that children which take factors multiply
+  };
+
+  void find_models(ModelProblems& problems);
+  void make_nodes();
+  [[nodiscard]] std::vector<Placed> placed(const Stack* stack) const;
+
+  const Objects& objects_;
+  std::vector<FileNode> files_;
+  std::vector<Node> nodes_;
+  std::map<std::size_t, std::size_t> by_object_;
+};
+
+}  // namespace tweenfall::fbx

@@ -1,0 +1,26 @@
+#pragma once
+
+// An FBX file taken apart into records, from its text or its binary form.
+// Source: A. Cruz and others, "FBX binary file format specification", code.blender.org, 2013; for the 64-bit headers of
+// version 7500 and the text, the files themselves.
+
+#include "fbx/record.h"
+#include "fbx/source.h"
+
+namespace tweenfall::fbx {
+
+struct File {
+  std::int64_t version = 0;  ///< 7400 for 7.4
+  Record root;
+};
+
+/// Whether the bytes are those of a binary file.
+[[nodiscard]] bool is_binary(std::string_view bytes) noexcept;
+
+/// @throws ModelError with the place for what is no FBX.
+[[nodiscard]] File read_records(const Source& source);
+
+[[nodiscard]] File read_binary_records(const Source& source);
+[[nodiscard]] File read_text_records(const Source& source);
+
+}  // namespace tweenfall::fbx

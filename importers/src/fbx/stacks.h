@@ -1,0 +1,47 @@
+#pragma once
+
+// The animation stacks of an FBX file: what each drives, in which layers.
+
+#include "fbx/moving.h"
+#include "fbx/objects.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tweenfall::fbx {
+
+/// How a layer's values join those below it. Source: Autodesk, FBX SDK, FbxAnimLayer.
+struct Layer {
+  enum class Blend { add, replace, mix };
+
+  Blend blend = Blend::add;
+  Curve<double> weight{1.0};
+  bool whole_rotations = true;  ///< rotations are turned by each other, not angle by angle
+  bool factors = true;          ///< scales are multiplied, not added
+};
+
+/// One animated property: its parts' curves and what the parts without one are.
+struct Driver {
+  std::size_t layer = 0;
+  std::vector<Curve<double>> parts;  ///< in the file's units; three, or one for a number
+};
+
+struct Stack {
+  std::string name;
+  double end = 0;  ///< s; 0 where the file does not say
+  std::vector<Layer> layers;
+  /// By object and property, lowest layer first.
+  std::map<std::pair<std::size_t, std::string>, std::vector<Driver>> drivers;
+
+  /// What drives a property; null for nothing.
+  [[nodiscard]] const std::vector<Driver>* driving(std::size_t object, const std::string& property) const {
+    const auto found = drivers.find({object, property});
+    return found == drivers.end() ? nullptr : &found->second;
+  }
+};
+
+/// All stacks in the file's order. @throws ModelError
+[[nodiscard]] std::vector<Stack> read_stacks(const Objects& objects, ModelProblems& problems);
+
+}  // namespace tweenfall::fbx
