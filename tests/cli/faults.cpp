@@ -168,3 +168,23 @@ TEST_CASE("very long and very short clips take memory and time that can be had, 
     CHECK(folder.read("out.html").size() < 20'000'000);
   }
 }
+
+TEST_CASE("names that are not UTF-8 are taken for Latin-1, and every file of them is one that others read") {
+  const Folder folder;
+  const std::string joint = "h\xe9p\xe9";
+  folder.write("old.bvh",
+               "HIERARCHY\nROOT " + joint +
+                   "\n{\nOFFSET 0 0 0\nCHANNELS 3 Xposition Yposition Zposition\nEnd Site\n{\nOFFSET 0 1 0\n}\n}\n"
+                   "MOTION\nFrames: 2\nFrame Time: 0.1\n0 0 0\n1 0 0\n");
+  folder.write("old.obj", "o caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  CHECK(folder.run("inspect old.bvh").out.find("h\xc3\xa9p\xc3\xa9") != std::string::npos);
+  for (const std::string model : {"old.bvh", "old.obj"}) {
+    CAPTURE(model);
+    CHECK(folder.run("run " + model + " --until 0.1 -o run.json").code == 0);
+    CHECK(nlohmann::json::accept(folder.read("run.json")));
+    CHECK(folder.run("run " + model + " --until 0.1 -o run.svg").code == 0);
+    CHECK(is_well_formed_svg(folder.read("run.svg")));
+  }
+  CHECK(folder.run("import old.bvh -o old.json").code == 0);
+  CHECK(folder.run("check old.json").code == 0);
+}

@@ -1,6 +1,8 @@
 #pragma once
 
-// Names that are there once: the second "arm" becomes "arm#2".
+// Names that are there once, the second "arm" becomes "arm#2", and are UTF-8, whatever program wrote them.
+
+#include <tweenfall/importers/shown_text.h>
 
 #include <string>
 #include <unordered_map>
@@ -11,7 +13,8 @@ namespace tweenfall {
 class UniqueNames {
  public:
   /// `name` itself the first time, then "name#2", "name#3", ...
-  [[nodiscard]] std::string unique(const std::string& name) {
+  [[nodiscard]] std::string unique(const std::string& written) {
+    const std::string name = utf8_or_latin1(written);
     std::size_t& count = seen_[name];
     std::string result = ++count == 1 ? name : name + "#" + std::to_string(count);
     while (!taken_.insert(result).second) result = name + "#" + std::to_string(++count);

@@ -89,6 +89,22 @@ std::string utf8_text(std::string_view text) {
   return out;
 }
 
+std::string utf8_or_latin1(std::string_view text) {
+  std::string out = utf8_text(text);
+  if (out == text) return out;
+  out.clear();
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80) {
+      out += c;
+    } else {
+      out += static_cast<char>(0xc0 | byte >> 6);
+      out += static_cast<char>(0x80 | (byte & 0x3f));
+    }
+  }
+  return out;
+}
+
 std::string markup_text(std::string_view text) {
   std::string out;
   while (!text.empty()) {

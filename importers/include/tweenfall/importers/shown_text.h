@@ -21,6 +21,9 @@ struct Character {
 /// UTF-8: U+FFFD in place of each byte that is none.
 [[nodiscard]] std::string utf8_text(std::string_view text);
 
+/// UTF-8 as it is; what is not, as old programs wrote it: each byte is the character of that number, ISO 8859-1.
+[[nodiscard]] std::string utf8_or_latin1(std::string_view text);
+
 /// As content or as an attribute's value in XML and HTML: markup as entities, U+FFFD in place of control characters
 /// (save tab and line ends) and of noncharacters, which XML forbids or discourages.
 [[nodiscard]] std::string markup_text(std::string_view text);
