@@ -107,6 +107,6 @@ TEST_CASE("the right Jacobian takes the rate of a rotation vector to the body's 
 }
 
 TEST_CASE("a zero quaternion is refused with its numbers") {
-  CHECK_THROWS_WITH_AS(static_cast<void>(normalized(Quat(0, 0, 0, 0))), doctest::Contains("w 0.0"),
+  CHECK_THROWS_WITH_AS(static_cast<void>(normalized(Quat(0, 0, 0, 0))), doctest::Contains("w 0)"),
                        std::invalid_argument);
 }

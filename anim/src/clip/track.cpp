@@ -1,4 +1,5 @@
 #include <tweenfall/anim/track.h>
+#include <tweenfall/curves/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,8 +17,8 @@ StepCurve<T>::StepCurve(std::vector<std::pair<double, T>> steps) : steps_(std::m
       throw std::invalid_argument("the time of step " + std::to_string(i) + " is not finite");
     if (i > 0 && !(steps_[i].first > steps_[i - 1].first))
       throw std::invalid_argument("step times must increase; step " + std::to_string(i) + " at " +
-                                  std::to_string(steps_[i].first) + " s is not after the one before it, " +
-                                  std::to_string(steps_[i - 1].first) + " s");
+                                  number_text(steps_[i].first) + " s is not after the one before it, " +
+                                  number_text(steps_[i - 1].first) + " s");
   }
 }
 

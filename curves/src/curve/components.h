@@ -2,10 +2,10 @@
 
 // Value types as rows of plain numbers, for rules that work component by component.
 
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/values.h>
 
 #include <cmath>
-#include <sstream>
 #include <string>
 
 namespace tweenfall {
@@ -56,12 +56,9 @@ bool all_finite(const T& v) noexcept {
   return true;
 }
 
-// For error texts: 12 digits, vectors in parentheses.
+// For error texts: vectors in parentheses.
 inline std::string text_of(double v) {
-  std::ostringstream out;
-  out.precision(12);
-  out << v;
-  return out.str();
+  return number_text(v);
 }
 template <class T>
 std::string text_of(const T& v) {

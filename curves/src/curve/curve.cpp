@@ -198,6 +198,11 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   for (const auto& s : spans) knots.push_back(s.start);
   knots.push_back(end);
   d.times = shared_times(knots);
+  if (std::any_of(spans.begin() + 1, spans.end(), [](const auto& s) { return !s.starts_at_key; })) {
+    for (std::size_t i = 0; i < spans.size(); ++i)
+      if (i == 0 || spans[i].starts_at_key) d.keys.push_back(knots[i]);
+    d.keys.push_back(end);
+  }
 
   const std::size_t count = spans.size();
   const auto has_warp = [](const auto& s) { return s.warp.function != nullptr; };
@@ -350,6 +355,11 @@ std::span<const double> Curve<T>::knots() const noexcept {
 }
 
 template <class T>
+std::span<const double> Curve<T>::key_times() const noexcept {
+  return data_->keys.empty() ? data_->knots() : data_->keys;
+}
+
+template <class T>
 Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
   const Data& d = *data_;
   if ((time > d.start || (time == d.start && side == Side::out)) &&
@@ -385,6 +395,7 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
   const Data& d = *data_;
   std::vector<typename SpanOf<T>::type> result;
   result.reserve(d.span_count());
+  auto key = d.keys.begin();
   for (std::size_t i = 0; i < d.span_count(); ++i) {
     const Segment s = d.segment(i);
     typename SpanOf<T>::type span{};
@@ -411,6 +422,10 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
     }
     span.end = d.arrival(i);
     if (s.warped) span.warp = d.warps[i];
+    if (!d.keys.empty()) {
+      span.starts_at_key = *key == s.start;
+      if (span.starts_at_key) ++key;
+    }
     result.push_back(span);
   }
   return result;

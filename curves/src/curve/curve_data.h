@@ -36,6 +36,12 @@ struct CurveEnd {
   [[nodiscard]] const std::optional<Rate<T>>& straight() const noexcept { return rule.slope ? rule.slope : slope; }
 };
 
+/// The knots of a curve, and which of them are keys.
+struct Breaks {
+  std::vector<double> knots;
+  std::vector<double> keys{};  // empty where all knots are keys
+};
+
 // One span as it is evaluated.
 struct Segment {
   double start, duration, inverse;
@@ -77,6 +83,7 @@ struct Curve<T>::Data {
   std::vector<Vec3> spins;  // empty, or one for each span
 
   std::vector<double> marks;  // knots that a formula states
+  std::vector<double> keys;   // the knots that are keys; empty where all are
   Formula formula;            // empty where there are spans
   // Set where the formula answers at every time by itself and makes the curve anew with other rules outside.
   std::function<Curve(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt;
@@ -107,6 +114,12 @@ struct Curve<T>::Data {
 };
 
 struct CurveAccess {
+  template <class T>
+  static Breaks breaks(const Curve<T>& curve) {
+    const std::span<const double> knots = curve.knots();
+    return {{knots.begin(), knots.end()}, curve.data_->keys};
+  }
+
   template <class T>
   static const typename Curve<T>::Data& data(const Curve<T>& curve) noexcept {
     return *curve.data_;
@@ -145,26 +158,27 @@ struct CurveAccess {
 
   /// A formula between knots, with the usual rules outside.
   template <class T>
-  static Curve<T> formula_with_knots(typename Curve<T>::Formula formula, double start, double end,
-                                     std::span<const double> knots) {
+  static Curve<T> formula_with_knots(typename Curve<T>::Formula formula, double start, double end, Breaks breaks) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = std::move(formula);
     data->start = start;
     data->end = end;
-    data->marks.assign(knots.begin(), knots.end());
+    data->marks = std::move(breaks.knots);
+    data->keys = std::move(breaks.keys);
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
   /// A curve that another one is made into: it answers at all times, `rebuilt` makes it anew with other rules outside.
   template <class T>
-  static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end,
-                               std::span<const double> knots, const OutsideRule<T>& before, const OutsideRule<T>& after,
+  static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end, Breaks breaks,
+                               const OutsideRule<T>& before, const OutsideRule<T>& after,
                                std::function<Curve<T>(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = std::move(formula);
     data->start = start;
     data->end = end;
-    data->marks.assign(knots.begin(), knots.end());
+    data->marks = std::move(breaks.knots);
+    data->keys = std::move(breaks.keys);
     data->before.rule = before;
     data->after.rule = after;
     data->rebuilt = std::move(rebuilt);
@@ -178,7 +192,7 @@ struct CurveAccess {
     const OutsideRule<Inner>&before = inner.rule_before(), &after = inner.rule_after();
     return seen_through<T>(
         [inner, sampler](double time, Side side) { return sampler(inner, time, side); }, inner.start(), inner.end(),
-        inner.knots(), {before.rule, {}, before.plays}, {after.rule, {}, after.plays},
+        breaks(inner), {before.rule, {}, before.plays}, {after.rule, {}, after.plays},
         [inner, sampler](const OutsideRule<T>& early, const OutsideRule<T>& late) {
           const Curve<T> again =
               converted<T>(inner.with_outside({early.rule, {}, early.plays}, {late.rule, {}, late.plays}), sampler);

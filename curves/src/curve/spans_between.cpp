@@ -98,6 +98,7 @@ struct Plays {
         u1 = 1 - u1;
       }
       result.push_back(span_part(spans[backward ? n - 1 - j : j], u0, u1, low, high));
+      if (backward) result.back().starts_at_key = j == 0 || spans[n - j].starts_at_key;
       offset_span<T>(result.back(), first, last, offset);
     }
   }

@@ -1,18 +1,13 @@
 #pragma once
 
-// Writing the names of easings: numbers in the shortest form that reads back to the same bits.
+// Writing the calls of eases as they are read back.
 
-#include <charconv>
+#include <tweenfall/curves/number_text.h>
+
 #include <initializer_list>
 #include <string>
 
 namespace tweenfall {
-
-inline std::string number_text(double v) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, v).ptr;
-  return std::string(buffer, end);
-}
 
 inline std::string call_text(const std::string& name, std::initializer_list<double> numbers) {
   std::string text = name + "(";

@@ -42,7 +42,7 @@ Curve<T> trimmed(const Curve<T>& curve, double from, double to) {
   if (has_spans(curve)) return CurveAccess::from_spans<T>(spans_between(curve, from, to), to, before, after);
   const std::vector<double> knots = curve.knots().empty() ? std::vector<double>{} : seams_between(curve, from, to);
   const Curve<T> part = CurveAccess::formula_with_knots<T>(
-      [curve](double time, Side side) { return curve.sample(time, side); }, from, to, knots);
+      [curve](double time, Side side) { return curve.sample(time, side); }, from, to, {knots});
   return CurveAccess::with_ends(part, before, after);
 }
 
@@ -62,15 +62,19 @@ Curve<T> joined(const Curve<T>& first, const Curve<T>& second) {
                                 " s; it starts at " + text_of(second.start()) + " s");
   std::vector<typename SpanOf<T>::type> spans = first.spans(), more = second.spans();
   if (spans.empty() || more.empty()) {
-    std::vector<double> knots(first.knots().begin(), first.knots().end());
-    for (const double knot : second.knots())
-      if (knots.empty() || knot > knots.back()) knots.push_back(knot);
+    const auto united = [](std::span<const double> early, std::span<const double> late) {
+      std::vector<double> times(early.begin(), early.end());
+      for (const double time : late)
+        if (times.empty() || time > times.back()) times.push_back(time);
+      return times;
+    };
+    const Breaks breaks{united(first.knots(), second.knots()), united(first.key_times(), second.key_times())};
     const Curve<T> whole = CurveAccess::formula_with_knots<T>(
         [first, second, seam](double time, Side side) {
           const bool early = time < seam || (time == seam && side == Side::in);
           return (early ? first : second).sample(time, side);
         },
-        first.start(), second.end(), knots);
+        first.start(), second.end(), breaks);
     return CurveAccess::with_ends(whole, end_of(first, true), end_of(second, false));
   }
   more.front().start = seam;
@@ -93,6 +97,7 @@ Curve<T> with_knot(const Curve<T>& curve, double time) {
   const double u = (time - knots[i]) / (knots[i + 1] - knots[i]);
   spans[i] = span_part(whole, 0, u, knots[i], time);
   spans.insert(spans.begin() + static_cast<std::ptrdiff_t>(i) + 1, span_part(whole, u, 1, time, knots[i + 1]));
+  spans[i + 1].starts_at_key = true;
   return CurveAccess::from_spans<T>(spans, curve.end(), end_of(curve, true), end_of(curve, false));
 }
 

@@ -33,8 +33,10 @@ auto times(double factor) {
 // Another time for everything: `later(t)` is the new time of the old t, `earlier` its inverse, both rising.
 template <class T, class Later, class Earlier>
 Curve<T> retimed(const Curve<T>& curve, const Later& later, const Earlier& earlier, double factor) {
-  std::vector<double> knots;
-  for (const double knot : curve.knots()) knots.push_back(later(knot));
+  Breaks breaks = CurveAccess::breaks(curve);
+  for (std::vector<double>* times : {&breaks.knots, &breaks.keys})
+    for (double& time : *times) time = later(time);
+  const std::vector<double>& knots = breaks.knots;
   std::vector<typename SpanOf<T>::type> spans = curve.spans();
   if (spans.empty())
     return CurveAccess::seen_through<T>(
@@ -44,7 +46,7 @@ Curve<T> retimed(const Curve<T>& curve, const Later& later, const Earlier& earli
           s.acceleration = s.acceleration / (factor * factor);
           return s;
         },
-        later(curve.start()), later(curve.end()), knots, with_slope(curve.rule_before(), times<T>(1 / factor)),
+        later(curve.start()), later(curve.end()), breaks, with_slope(curve.rule_before(), times<T>(1 / factor)),
         with_slope(curve.rule_after(), times<T>(1 / factor)),
         [curve, later, earlier, factor](const OutsideRule<T>& before, const OutsideRule<T>& after) {
           return retimed(curve.with_outside(with_slope(before, times<T>(factor)), with_slope(after, times<T>(factor))),
@@ -84,13 +86,17 @@ template <class T>
 Curve<T> reversed(const Curve<T>& curve) {
   check_times(curve.start(), curve.end());
   const double mirror = curve.start() + curve.end();
-  std::vector<double> knots;
-  for (auto knot = curve.knots().rbegin(); knot != curve.knots().rend(); ++knot) knots.push_back(mirror - *knot);
-  // The ends stay where they are, whatever the rounding.
-  if (knots.size() > 1) {
-    knots.front() = curve.start();
-    knots.back() = curve.end();
+  Breaks breaks = CurveAccess::breaks(curve);
+  for (std::vector<double>* times : {&breaks.knots, &breaks.keys}) {
+    std::reverse(times->begin(), times->end());
+    for (double& time : *times) time = mirror - time;
+    // The ends stay where they are, whatever the rounding.
+    if (times->size() > 1) {
+      times->front() = curve.start();
+      times->back() = curve.end();
+    }
   }
+  const std::vector<double>& knots = breaks.knots;
   const std::vector<typename SpanOf<T>::type> spans = curve.spans();
   if (spans.empty())
     return CurveAccess::seen_through<T>(
@@ -99,14 +105,16 @@ Curve<T> reversed(const Curve<T>& curve) {
           s.rate = -s.rate;
           return s;
         },
-        curve.start(), curve.end(), knots, with_slope(curve.rule_after(), times<T>(-1)),
+        curve.start(), curve.end(), breaks, with_slope(curve.rule_after(), times<T>(-1)),
         with_slope(curve.rule_before(), times<T>(-1)),
         [curve](const OutsideRule<T>& before, const OutsideRule<T>& after) {
           return reversed(curve.with_outside(with_slope(after, times<T>(-1)), with_slope(before, times<T>(-1))));
         });
   std::vector<typename SpanOf<T>::type> result;
-  for (std::size_t i = 0; i < spans.size(); ++i)
+  for (std::size_t i = 0; i < spans.size(); ++i) {
     result.push_back(span_part(spans[spans.size() - 1 - i], 1, 0, knots[i], knots[i + 1]));
+    result.back().starts_at_key = i == 0 || spans[spans.size() - i].starts_at_key;
+  }
   const auto& data = CurveAccess::data(curve);
   return CurveAccess::from_spans<T>(result, knots.back(), with_slopes(data.after, times<T>(-1)),
                                     with_slopes(data.before, times<T>(-1)));

@@ -48,6 +48,7 @@ void append_shape(std::vector<Span<T>>& spans, const Key<T>& from, double end, c
     span.coefficients[0] += from.value;
     span.end = piece.end == 1 ? to : T(from.value + piece.end * change);
     span.warp = piece.warp;
+    span.starts_at_key = span.start == from.time;
     spans.push_back(span);
   }
 }

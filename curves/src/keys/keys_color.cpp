@@ -8,22 +8,24 @@ namespace {
 
 constexpr double full_turn = 0x1.921fb54442d18p+2;
 
-double next_hue(double from, double to, HueRule rule) noexcept {
-  double step = to - from - full_turn * std::floor((to - from) / full_turn);  // 0 to a full_turn
+// The turn from one hue to another, both from 0 to a full turn.
+// Source: W3C, "CSS Color Module Level 4", 12.4: between equal hues the longer way is all the way around, upward.
+double hue_step(double from, double to, HueRule rule) noexcept {
+  constexpr double same = 1e-9;  // hues that are equal but for the rounding of their colors
+  double step = to - from;       // the shorter way
+  if (step > full_turn / 2) step -= full_turn;
+  if (step < -full_turn / 2) step += full_turn;
   switch (rule) {
     case HueRule::shorter:
-      if (step > full_turn / 2) step -= full_turn;
-      break;
+      return step;
     case HueRule::longer:
-      if (step > 0 && step < full_turn / 2) step -= full_turn;
-      break;
+      return step > same ? step - full_turn : step + full_turn;
     case HueRule::increasing:
-      break;
+      return step < 0 ? step + full_turn : step;
     case HueRule::decreasing:
-      if (step > 0) step -= full_turn;
-      break;
+      return step > 0 ? step - full_turn : step;
   }
-  return from + step;
+  return step;
 }
 
 // Coordinates at a key, arriving and leaving.
@@ -32,23 +34,43 @@ struct Stop {
   bool jumps;  // from one color to another
 };
 
+// A hue with the turns on top of it that led there.
+class TurnedHue {
+ public:
+  [[nodiscard]] double angle() const noexcept { return angle_; }
+  void turn_to(double hue, HueRule rule) noexcept {
+    // From 0 to a full turn, as the angle of the color alone: the turns would round it.
+    const double to = hue < 0 ? hue + full_turn : hue;
+    angle_ += hue_step(hue_, to, rule);
+    hue_ = to;
+  }
+  /// To the very hue where it is, as a color without one takes that of the other.
+  void turn_to_itself(HueRule rule) noexcept { angle_ += hue_step(hue_, hue_, rule); }
+
+ private:
+  double hue_ = 0, angle_ = 0;
+};
+
 // A color that shows no hue takes that of the other end of its span: it may arrive with one and leave with another.
 // Source: W3C, "CSS Color Module Level 4", 12.2.
 void join_hues(std::vector<Stop>& stops, ColorSpace space, HueRule rule) {
   const int hue = hue_index(space);
   const auto shows = [space](const Vec4& v) { return v[3] != 0 && has_hue(v, space); };
-  double last = 0;
+  TurnedHue last;
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     Vec4 &from = stops[i].leaving, &to = stops[i + 1].arriving;
     const bool from_shows = shows(from), to_shows = shows(to);
-    if (from_shows ? i == 0 || stops[i].jumps : to_shows)
-      last = next_hue(last, (from_shows ? from : to)[hue], HueRule::shorter);
-    from[hue] = last;
-    if (from_shows && to_shows) last = next_hue(last, to[hue], rule);
-    to[hue] = last;
+    if (from_shows ? i == 0 || stops[i].jumps : to_shows) last.turn_to((from_shows ? from : to)[hue], HueRule::shorter);
+    from[hue] = last.angle();
+    if (from_shows && to_shows)
+      last.turn_to(to[hue], rule);
+    else if (from_shows || to_shows)
+      last.turn_to_itself(rule);
+    to[hue] = last.angle();
   }
   Vec4& final = stops.back().leaving;
-  final[hue] = shows(final) ? next_hue(last, final[hue], HueRule::shorter) : last;
+  if (shows(final)) last.turn_to(final[hue], HueRule::shorter);
+  final[hue] = last.angle();
 }
 
 void convert_tangent(std::optional<Tangent<Vec4>>& result, const std::optional<Tangent<Color>>& tangent,

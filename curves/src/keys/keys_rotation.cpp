@@ -103,6 +103,7 @@ void append_shape(std::vector<RotationSpan>& spans, const Key<Quat>& from, const
       span.coefficients[k] = padded(piece.coefficients[k] * way);
     if (piece.end != 1) span.end = stretch.from * exp_map(piece.end * way);
     span.warp = piece.warp;
+    span.starts_at_key = start == stretch.start;
     spans.push_back(span);
   }
 }

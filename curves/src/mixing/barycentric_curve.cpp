@@ -26,15 +26,18 @@ void mend(std::span<Sample<double>> weights) noexcept {
 
 // Where any of them may jump or kink.
 template <class T>
-std::vector<double> all_knots(std::span<const Curve<T>> values, std::span<const Curve<double>> weights) {
-  std::vector<double> result;
+Breaks all_breaks(std::span<const Curve<T>> values, std::span<const Curve<double>> weights) {
+  Breaks result;
   const auto add = [&result](const auto& curve) {
-    result.insert(result.end(), curve.knots().begin(), curve.knots().end());
+    result.knots.insert(result.knots.end(), curve.knots().begin(), curve.knots().end());
+    result.keys.insert(result.keys.end(), curve.key_times().begin(), curve.key_times().end());
   };
   std::for_each(values.begin(), values.end(), add);
   std::for_each(weights.begin(), weights.end(), add);
-  std::sort(result.begin(), result.end());
-  result.erase(std::unique(result.begin(), result.end()), result.end());
+  for (std::vector<double>* times : {&result.knots, &result.keys}) {
+    std::sort(times->begin(), times->end());
+    times->erase(std::unique(times->begin(), times->end()), times->end());
+  }
   return result;
 }
 
@@ -59,7 +62,7 @@ Curve<T> mixed_curve(std::span<const Curve<T>> values, std::span<const Curve<dou
         return mix(std::span<const Sample<T>>(parts.data(), of.size()),
                    std::span<const Sample<double>>(shares.data(), of.size()));
       },
-      -endless, endless, all_knots(values, weights));
+      -endless, endless, all_breaks(values, weights));
 }
 
 }  // namespace

@@ -118,8 +118,9 @@ Curve<double> modified(const Curve<double>& curve, std::span<const Modifier> mod
   // A slope stated outside is that of the curve below, to which the modifiers are added.
   const std::vector<Modifier> kept(modifiers.begin(), modifiers.end());
   return CurveAccess::seen_through<double>(
-      [stack](double time, Side side) { return stack->sample(time, side); }, curve.start(), curve.end(), curve.knots(),
-      {curve.before(), {}, curve.rule_before().plays}, {curve.after(), {}, curve.rule_after().plays},
+      [stack](double time, Side side) { return stack->sample(time, side); }, curve.start(), curve.end(),
+      CurveAccess::breaks(curve), {curve.before(), {}, curve.rule_before().plays},
+      {curve.after(), {}, curve.rule_after().plays},
       [curve, kept](const OutsideRule<double>& before, const OutsideRule<double>& after) {
         return modified(curve.with_outside(before, after), kept);
       });

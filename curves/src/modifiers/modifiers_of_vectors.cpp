@@ -45,7 +45,7 @@ Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> 
         }
         return result;
       },
-      curve.start(), curve.end(), curve.knots(), {curve.before(), {}, curve.rule_before().plays},
+      curve.start(), curve.end(), CurveAccess::breaks(curve), {curve.before(), {}, curve.rule_before().plays},
       {curve.after(), {}, curve.rule_after().plays},
       [curve, kept](const OutsideRule<T>& before, const OutsideRule<T>& after) {
         return modified<T>(curve.with_outside(before, after), std::span<const std::vector<Modifier>>(kept));

@@ -155,11 +155,12 @@ Curve<T> formula_of_rate(const Curve<T>& curve, const CurveEnd<T>& before, const
     return Sample<T>{s.rate, s.acceleration, known_derivative(curve, 3, time, side)};
   };
   const Curve<T> rate = CurveAccess::with_ends(
-      CurveAccess::formula_with_knots<T>(sampler, curve.start(), curve.end(), curve.knots()), before, after);
+      CurveAccess::formula_with_knots<T>(sampler, curve.start(), curve.end(), CurveAccess::breaks(curve)), before,
+      after);
   if (is_plain_outside(curve.rule_before()) && is_plain_outside(curve.rule_after())) return rate;
   // Else the curve itself tells what its rate is outside.
   return CurveAccess::seen_through<T>(
-      sampler, curve.start(), curve.end(), curve.knots(), {curve.before(), {}, curve.rule_before().plays},
+      sampler, curve.start(), curve.end(), CurveAccess::breaks(curve), {curve.before(), {}, curve.rule_before().plays},
       {curve.after(), {}, curve.rule_after().plays},
       [rate](const OutsideRule<T>& early, const OutsideRule<T>& late) { return rate.with_outside(early, late); });
 }

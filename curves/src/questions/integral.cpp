@@ -109,7 +109,7 @@ Curve<T> antiderivative(const Curve<T>& curve, const T& first) {
     sum = sum + piece_integral(piece, 1);
   }
   return CurveAccess::formula_with_knots<T>([area](double time, Side side) { return (*area)(time, side); },
-                                            curve.start(), curve.end(), curve.knots())
+                                            curve.start(), curve.end(), CurveAccess::breaks(curve))
       .with_outside(before, after);
 }
 

@@ -1,4 +1,5 @@
 #include <tweenfall/curves/elementary.h>
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <cmath>
@@ -75,8 +76,8 @@ Quat normalized(const Quat& q) {
   const double largest = c.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !std::isfinite(c.sum())) {
     throw std::invalid_argument("a rotation needs a finite quaternion other than zero; this one is (x " +
-                                std::to_string(c.x()) + ", y " + std::to_string(c.y()) + ", z " +
-                                std::to_string(c.z()) + ", w " + std::to_string(c.w()) + ")");
+                                number_text(c.x()) + ", y " + number_text(c.y()) + ", z " + number_text(c.z()) +
+                                ", w " + number_text(c.w()) + ")");
   }
   // Scaled first, so that squares neither overflow nor vanish; left alone when it is unit already,
   // so that normalizing twice is normalizing once.

@@ -7,6 +7,8 @@
 #include "model/model_matrix.h"
 #include "model/model_names.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
@@ -48,7 +50,7 @@ Pose rest_of(const aiNode& node, const std::string& name, ModelProblems& problem
   const TakenApart parts = take_apart(linear, translation);
   if (parts.shear > 1e-4)
     problems.repair("node \"" + name + "\"", "its placement holds shear, which was dropped; it moved points by up to " +
-                                                 std::to_string(parts.shear) + " of their distance");
+                                                 number_text(parts.shear) + " of their distance");
   return parts.pose;
 }
 

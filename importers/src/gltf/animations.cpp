@@ -3,6 +3,8 @@
 #include "gltf/sampler_curves.h"
 #include "model/model_names.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <algorithm>
 #include <set>
 #include <stdexcept>
@@ -116,9 +118,8 @@ class AnimationReader {
     Sampler kept{sampler.interpolation, {}, {}, sampler.width};
     for (std::size_t i = 0; i < times.size(); ++i) {
       if (i > 0 && times[i] < times[i - 1]) {
-        root_.problems().add(place, "times must increase; key " + std::to_string(i) + " at " +
-                                        std::to_string(times[i]) + " s comes after " + std::to_string(times[i - 1]) +
-                                        " s");
+        root_.problems().add(place, "times must increase; key " + std::to_string(i) + " at " + number_text(times[i]) +
+                                        " s comes after " + number_text(times[i - 1]) + " s");
         return false;
       }
       if (i + 1 < times.size() && times[i + 1] == times[i]) continue;

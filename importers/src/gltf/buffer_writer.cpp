@@ -1,5 +1,7 @@
 #include "gltf/buffer_writer.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -34,7 +36,7 @@ std::size_t BufferWriter::add_floats(const std::vector<double>& numbers, const s
   for (const double number : numbers) {
     floats.push_back(static_cast<float>(number));
     if (!std::isfinite(floats.back()))
-      throw std::runtime_error("a number does not fit glTF's 32-bit floats: " + std::to_string(number));
+      throw std::runtime_error("a number does not fit glTF's 32-bit floats: " + number_text(number));
   }
   const std::size_t accessor = add(floats, float_component, type, target);
   if (with_bounds) {

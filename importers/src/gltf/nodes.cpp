@@ -3,6 +3,8 @@
 #include "model/model_matrix.h"
 #include "model/model_names.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <cmath>
 
 namespace tweenfall::gltf {
@@ -20,13 +22,12 @@ Quat rotation_of(const Fields& node) {
   const Quat q(v[3], v[0], v[1], v[2]);
   const double length = q.norm();
   if (!(length > 1e-6 && length < 1e100)) {
-    node.problems().add(node.place_of("rotation"),
-                        "must be a unit quaternion; its length is " + std::to_string(length));
+    node.problems().add(node.place_of("rotation"), "must be a unit quaternion; its length is " + number_text(length));
     return Quat::Identity();
   }
   if (std::abs(length - 1) > 1e-2)
     node.problems().repair(node.place_of("rotation"),
-                           "had length " + std::to_string(length) + " and was scaled to a unit quaternion");
+                           "had length " + number_text(length) + " and was scaled to a unit quaternion");
   return Quat(v[3] / length, v[0] / length, v[1] / length, v[2] / length);
 }
 
@@ -43,7 +44,7 @@ Pose rest_of(const Fields& node) {
   const TakenApart parts = take_apart(linear, Vec3(m[12], m[13], m[14]));
   if (parts.shear > 1e-4)
     node.problems().repair(node.place_of("matrix"), "holds shear, which was dropped; it moved points by up to " +
-                                                        std::to_string(parts.shear) + " of their distance");
+                                                        number_text(parts.shear) + " of their distance");
   return parts.pose;
 }
 

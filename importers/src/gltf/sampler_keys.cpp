@@ -1,5 +1,7 @@
 #include "gltf/sampler_keys.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -236,7 +238,7 @@ SamplerKeys baked_keys(const FlatCurve& curve, double duration, double fps) {
   constexpr double most_keys = 1e7;
   if (!(duration * fps <= most_keys))
     throw std::runtime_error("a clip without end, or of more than ten million frames, cannot be written; it lasts " +
-                             std::to_string(duration) + " s");
+                             number_text(duration) + " s");
   std::vector<double> times;
   for (std::size_t frame = 0; static_cast<double>(frame) / fps < duration; ++frame)
     times.push_back(static_cast<double>(frame) / fps);

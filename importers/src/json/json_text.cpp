@@ -1,6 +1,6 @@
 #include "json/json_text.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "page/page_data.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "json/json_string.h"
 #include "page/page_meshes.h"

@@ -1,6 +1,6 @@
 #include "plot/axis.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
 #include "plot/svg_writer.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/shown_text.h>
 
 namespace tweenfall {

@@ -13,8 +13,8 @@ constexpr std::size_t most_keys = 20000;
 
 template <class T>
 std::vector<double> times_of(const Curve<T>& curve) {
-  const std::span<const double> knots = curve.knots();
-  return {knots.begin(), knots.end()};
+  const std::span<const double> keys = curve.key_times();
+  return {keys.begin(), keys.end()};
 }
 
 template <class T>
@@ -27,8 +27,8 @@ std::vector<double> times_of(const StepCurve<T>& curve) {
 std::vector<double> times_of(const WeightCurves& curves) {
   std::vector<double> times;
   for (const Curve<double>& curve : curves) {
-    const std::span<const double> knots = curve.knots();
-    times.insert(times.end(), knots.begin(), knots.end());
+    const std::vector<double> keys = times_of(curve);
+    times.insert(times.end(), keys.begin(), keys.end());
   }
   return times;
 }

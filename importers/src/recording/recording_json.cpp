@@ -1,6 +1,6 @@
 #include <tweenfall/importers/recording_file.h>
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "json/json_string.h"
 #include "recording/words.h"

@@ -1,6 +1,6 @@
 #include <tweenfall/importers/recording_file.h>
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "plot/svg_writer.h"
 #include "recording/figures.h"

@@ -1,3 +1,4 @@
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/physics/handoff/settle_offset.h>
 
@@ -22,7 +23,7 @@ Mat3 left_jacobian_inverse(const Vec3& r) {
 SettleOffset::SettleOffset(const Settle& settle, double time, const Motion& path, const Motion& body)
     : settle_(settle), start_(time), any_(true), body_(body) {
   if (!(settle.seconds > 0) || !std::isfinite(settle.seconds))
-    throw std::invalid_argument("a settle needs a time above 0, not " + std::to_string(settle.seconds) + " s");
+    throw std::invalid_argument("a settle needs a time above 0, not " + number_text(settle.seconds) + " s");
 
   const Vec3 offset = body.pose.position - path.pose.position;
   const Vec3 offset_rate = body.twist.linear - path.twist.linear;

@@ -1,3 +1,4 @@
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/physics/convex_hull.h>
 
 #include <algorithm>
@@ -38,15 +39,15 @@ void require_usable(std::span<const Vec3> points) {
     const Vec3& point = points[i];
     if (!point.allFinite())
       throw std::invalid_argument("points of a convex hull must be finite, but point " + std::to_string(i) + " is (" +
-                                  std::to_string(point.x()) + ", " + std::to_string(point.y()) + ", " +
-                                  std::to_string(point.z()) + ")");
+                                  number_text(point.x()) + ", " + number_text(point.y()) + ", " +
+                                  number_text(point.z()) + ")");
     low = low.cwiseMin(point);
     high = high.cwiseMax(point);
   }
   const double extent = (high - low).maxCoeff();
   if (extent > greatest_extent || (extent > 0 && extent < least_extent))
-    throw std::invalid_argument("a convex hull must be between 1e-6 m and 1e6 m wide, but is " +
-                                std::to_string(extent) + " m wide");
+    throw std::invalid_argument("a convex hull must be between 1e-6 m and 1e6 m wide, but is " + number_text(extent) +
+                                " m wide");
 }
 
 [[noreturn]] void refuse_rounding(std::size_t count) {

@@ -1,3 +1,4 @@
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/physics/shape.h>
 
 #include <cmath>
@@ -16,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 
 void require_positive(double value, const char* name) {
   if (!(value > 0) || !std::isfinite(value))
-    throw std::invalid_argument(std::string(name) + " must be positive and finite, but is " + std::to_string(value));
+    throw std::invalid_argument(std::string(name) + " must be positive and finite, but is " + number_text(value));
 }
 
 /// Principal moments about the solid's own center.
@@ -57,13 +58,13 @@ void validate(const Solid& solid) {
     require_positive(capsule->radius, "radius of a capsule");
     if (!(capsule->half_height >= 0) || !std::isfinite(capsule->half_height))
       throw std::invalid_argument("half height of a capsule must not be negative and must be finite, but is " +
-                                  std::to_string(capsule->half_height));
+                                  number_text(capsule->half_height));
   } else if (const auto* plane = std::get_if<Plane>(&solid)) {
     const double length = plane->normal.norm();
     if (!(std::abs(length - 1) <= 1e-6))
-      throw std::invalid_argument("normal of a plane must have length 1, but has " + std::to_string(length));
+      throw std::invalid_argument("normal of a plane must have length 1, but has " + number_text(length));
     if (!std::isfinite(plane->offset))
-      throw std::invalid_argument("offset of a plane must be finite, but is " + std::to_string(plane->offset));
+      throw std::invalid_argument("offset of a plane must be finite, but is " + number_text(plane->offset));
   }
 }
 
@@ -112,7 +113,7 @@ MassProperties mass_properties(const SurfaceMesh& mesh, double mass) {
   const MeshMeasures measures = measure(mesh);
   if (!(measures.volume > 0))
     throw std::invalid_argument("a mesh with mass must enclose a volume, its triangles wound outwards; it encloses " +
-                                std::to_string(measures.volume) + " m^3");
+                                number_text(measures.volume) + " m^3");
   return {mass, measures.center, mass / measures.volume * measures.inertia};
 }
 

@@ -1,3 +1,4 @@
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/physics/stage/recording.h>
 
 #include <algorithm>
@@ -48,7 +49,7 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
 
 Recording record(Stage& stage, double until, double fps) {
   if (!(fps > 0) || !std::isfinite(fps))
-    throw std::invalid_argument("frames per second must be above 0, not " + std::to_string(fps));
+    throw std::invalid_argument("frames per second must be above 0, not " + number_text(fps));
   if (!std::isfinite(until)) throw std::invalid_argument("a recording needs an end");
   Recording recording;
   recording.name = stage.description().name;

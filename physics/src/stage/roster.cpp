@@ -1,3 +1,5 @@
+#include <tweenfall/curves/number_text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -96,8 +98,8 @@ Node checked_node(const NodeDescription& node) {
 StageState initial_state(const StageDescription& description) {
   constexpr double least_step = 1e-6;
   if (!(description.step >= least_step) || !std::isfinite(description.step))
-    throw std::invalid_argument("the stage's step must be a microsecond or more, not " +
-                                std::to_string(description.step) + " s");
+    throw std::invalid_argument("the stage's step must be a microsecond or more, not " + number_text(description.step) +
+                                " s");
   StageState state;
   state.world = World(description.world);
   state.gravity = description.world.gravity;

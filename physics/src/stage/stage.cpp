@@ -1,4 +1,5 @@
 #include <tweenfall/curves/nearest_name.h>
+#include <tweenfall/curves/number_text.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -59,7 +60,7 @@ Stage::Implementation& Stage::inside() const {
 
 void Stage::advance(double dt) {
   if (!(dt >= 0) || !std::isfinite(dt))
-    throw std::invalid_argument("a stage advances by 0 s or more, not " + std::to_string(dt));
+    throw std::invalid_argument("a stage advances by 0 s or more, not " + number_text(dt));
   advance_to(inside().now() + dt);
 }
 
@@ -68,7 +69,7 @@ void Stage::advance_to(double time) {
   Implementation& timeline = inside();
   if (!(time >= timeline.now()) || !std::isfinite(time))
     throw std::invalid_argument("a stage at " + std::to_string(timeline.now()) + " s cannot advance to " +
-                                std::to_string(time) + " s; seek goes back");
+                                number_text(time) + " s; seek goes back");
   timeline.require_not_telling("advance");
   staging::require_reachable(timeline.now(), time, timeline.description.step);
   timeline.run_to(time, true);
@@ -78,7 +79,7 @@ void Stage::seek(double time) {
   const std::shared_ptr<Implementation> held = implementation_;
   Implementation& timeline = inside();
   if (!(time >= 0) || !std::isfinite(time))
-    throw std::invalid_argument("a stage has no time " + std::to_string(time) + "; times start at 0");
+    throw std::invalid_argument("a stage has no time " + number_text(time) + "; times start at 0");
   timeline.require_not_telling("seek");
   const bool back = time < timeline.now();
   staging::require_reachable(back ? 0 : timeline.now(), time, timeline.description.step);

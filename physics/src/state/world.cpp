@@ -1,10 +1,9 @@
 #include <tweenfall/physics/world.h>
 
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <Eigen/LU>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -21,19 +20,13 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
 }
 
-std::string text(double value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return {digits.data(), end};
-}
-
 void require_finite(const Vec3& value, const char* name) {
-  require(countable(value), std::string(name) + " must be finite and at most 1e30, but is (" + text(value.x()) + ", " +
-                                text(value.y()) + ", " + text(value.z()) + ")");
+  require(countable(value), std::string(name) + " must be finite and at most 1e30, but is (" + number_text(value.x()) +
+                                ", " + number_text(value.y()) + ", " + number_text(value.z()) + ")");
 }
 
 void require_amount(double value, const char* name) {
-  require(value >= 0 && countable(value), std::string(name) + " must lie in 0 to 1e30, but is " + text(value));
+  require(value >= 0 && countable(value), std::string(name) + " must lie in 0 to 1e30, but is " + number_text(value));
 }
 
 void validate(const Force& force) {
@@ -53,12 +46,14 @@ void validate(const Force& force) {
 }
 
 void validate(const Drive& drive) {
-  require(drive.hz >= 0,
-          "frequency of a drive must be 0 (free), positive, or infinite (keyed), but is " + text(drive.hz) + " Hz");
+  require(drive.hz >= 0, "frequency of a drive must be 0 (free), positive, or infinite (keyed), but is " +
+                             number_text(drive.hz) + " Hz");
   require(drive.zeta >= 0 && std::isfinite(drive.zeta),
-          "damping ratio of a drive must not be negative and must be finite, but is " + text(drive.zeta));
-  require(drive.max_force >= 0, "greatest force of a drive must not be negative, but is " + text(drive.max_force));
-  require(drive.max_torque >= 0, "greatest torque of a drive must not be negative, but is " + text(drive.max_torque));
+          "damping ratio of a drive must not be negative and must be finite, but is " + number_text(drive.zeta));
+  require(drive.max_force >= 0,
+          "greatest force of a drive must not be negative, but is " + number_text(drive.max_force));
+  require(drive.max_torque >= 0,
+          "greatest torque of a drive must not be negative, but is " + number_text(drive.max_torque));
 }
 
 Motion checked(Motion motion) {
@@ -128,9 +123,10 @@ void World::Implementation::forget_impulses(std::uint32_t index) {
 World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>()) {
   require_finite(settings.gravity, "gravity");
   require(settings.iterations > 0, "iterations must be at least 1, but are " + std::to_string(settings.iterations));
-  require(settings.sleep_speed >= 0, "sleep speed must not be negative, but is " + text(settings.sleep_speed));
-  require(settings.sleep_after >= 0, "sleep_after must not be negative, but is " + text(settings.sleep_after));
-  require(settings.push_out_speed >= 0, "push-out speed must not be negative, but is " + text(settings.push_out_speed));
+  require(settings.sleep_speed >= 0, "sleep speed must not be negative, but is " + number_text(settings.sleep_speed));
+  require(settings.sleep_after >= 0, "sleep_after must not be negative, but is " + number_text(settings.sleep_after));
+  require(settings.push_out_speed >= 0,
+          "push-out speed must not be negative, but is " + number_text(settings.push_out_speed));
   implementation_->settings = settings;
 }
 World::~World() = default;
@@ -168,7 +164,7 @@ BodyId World::add(const BodySettings& settings) {
   validate(settings.drive);
   require_amount(settings.friction, "friction");
   require(settings.restitution >= 0 && settings.restitution <= 1,
-          "restitution must lie in 0 to 1, but is " + text(settings.restitution));
+          "restitution must lie in 0 to 1, but is " + number_text(settings.restitution));
   require_amount(settings.rolling_friction, "rolling friction");
   require_amount(settings.linear_damping, "linear damping");
   require_amount(settings.angular_damping, "angular damping");
@@ -184,7 +180,8 @@ BodyId World::add(const BodySettings& settings) {
     body.mass.center = settings.shape.offset.position;
   } else {
     const double mass = settings.mass ? *settings.mass : settings.density * volume(settings.shape.solid);
-    require(mass >= smallest && mass <= largest, "mass must lie in 1e-30 kg to 1e30 kg, but is " + text(mass) + " kg");
+    require(mass >= smallest && mass <= largest,
+            "mass must lie in 1e-30 kg to 1e30 kg, but is " + number_text(mass) + " kg");
     body.mass = mass_properties(body.shape, mass);
     body.inverse_inertia = body.mass.inertia.inverse();
     const double first = body.mass.inertia(0, 0);
@@ -199,7 +196,8 @@ BodyId World::add(const BodySettings& settings) {
   if (const auto* capsule = std::get_if<Capsule>(&settings.shape.solid)) body.roundness = capsule->radius;
   body.radius = radius_of(settings.shape.solid);
   require(body.radius >= smallest && (std::isinf(body.radius) || body.radius <= largest),
-          "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + text(body.radius) + " m from its center");
+          "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + number_text(body.radius) +
+              " m from its center");
   body.friction = settings.friction;
   body.restitution = settings.restitution;
   body.rolling_friction = settings.rolling_friction;
@@ -418,7 +416,7 @@ void World::remove_force(std::size_t number) {
 }
 
 void World::step(double dt) {
-  require(dt > 0 && std::isfinite(dt), "a step must be positive and finite, but is " + text(dt) + " s");
+  require(dt > 0 && std::isfinite(dt), "a step must be positive and finite, but is " + number_text(dt) + " s");
   changing().step(dt);
 }
 

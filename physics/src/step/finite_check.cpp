@@ -1,5 +1,5 @@
-#include <array>
-#include <charconv>
+#include <tweenfall/curves/number_text.h>
+
 #include <cmath>
 
 #include "state/countable.h"
@@ -8,12 +8,6 @@
 namespace tweenfall {
 
 namespace step {
-
-std::string text(double value) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  return {digits.data(), end};
-}
 
 bool countable(const Body& body) {
   return tweenfall::countable(body.center) && tweenfall::countable(body.motion.pose.position) &&
@@ -25,17 +19,17 @@ bool countable(const Body& body) {
 std::string cause_of(const Twist& before, const Load& load, bool touched, double dt) {
   const double speed = before.linear.norm(), spin = before.angular.norm();
   const double gain = load.acceleration.norm() * dt, torque = load.torque.norm();
-  if (gain > 1e6 && gain > speed) return "forces accelerate it by " + text(load.acceleration.norm()) + " m/s^2";
-  if (torque > 1e6) return "torques of " + text(torque) + " N m turn it";
-  if (speed > 1e6) return "it already moved at " + text(speed) + " m/s in the step before";
-  if (spin > 1e6) return "it already turned at " + text(spin) + " rad/s in the step before";
-  return touched ? "its contacts throw it" : "the step of " + text(dt) + " s is too long for what acts on it";
+  if (gain > 1e6 && gain > speed) return "forces accelerate it by " + number_text(load.acceleration.norm()) + " m/s^2";
+  if (torque > 1e6) return "torques of " + number_text(torque) + " N m turn it";
+  if (speed > 1e6) return "it already moved at " + number_text(speed) + " m/s in the step before";
+  if (spin > 1e6) return "it already turned at " + number_text(spin) + " rad/s in the step before";
+  return touched ? "its contacts throw it" : "the step of " + number_text(dt) + " s is too long for what acts on it";
 }
 
 }  // namespace step
 
 NotFinite::NotFinite(BodyId which, double when, const std::string& why)
-    : std::runtime_error("body " + std::to_string(which.index) + " stopped being finite at " + step::text(when) +
+    : std::runtime_error("body " + std::to_string(which.index) + " stopped being finite at " + number_text(when) +
                          " s: " + why),
       body(which),
       time(when),

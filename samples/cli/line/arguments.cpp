@@ -3,7 +3,7 @@
 #include "report/did_you_mean.h"
 #include "report/terminal.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include <CLI/CLI.hpp>
 

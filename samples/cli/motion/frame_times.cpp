@@ -2,7 +2,7 @@
 
 #include "line/arguments.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include <cmath>
 

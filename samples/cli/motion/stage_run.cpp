@@ -5,7 +5,7 @@
 #include "report/faults.h"
 #include "report/terminal.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/recording_file.h>
 
 #include <algorithm>

@@ -84,7 +84,7 @@ struct Surveyor {
   TrackSurvey operator()(const Curve<T>& curve) const {
     TrackSurvey found;
     const auto knots = curve.knots();
-    found.keys = knots.size();
+    found.keys = curve.key_times().size();
     found.from = curve.start();
     found.to = curve.end();
     std::vector<double> ends{0};

@@ -9,7 +9,7 @@
 namespace tweenfall::cli {
 
 struct TrackSurvey {
-  std::size_t keys = 0;     ///< knots; 0 for a constant or a formula
+  std::size_t keys = 0;     ///< as written; 0 for a constant or a formula
   double from = 0, to = 0;  ///< first and last knot, s; infinite for an endless formula
   double top_speed = 0;     ///< greatest length of the rate found within the clip, per second (rotations: rad/s)
   double top_speed_at = 0;  ///< clip time, s

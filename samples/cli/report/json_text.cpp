@@ -1,6 +1,6 @@
 #include "report/json_text.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/shown_text.h>
 
 #include <cmath>

@@ -6,8 +6,8 @@
 
 #include <tweenfall/anim/animation.h>
 #include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/rotation.h>
-#include <tweenfall/importers/number_text.h>
 #include <tweenfall/physics/world.h>
 
 #include <chrono>

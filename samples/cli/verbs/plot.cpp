@@ -7,7 +7,7 @@
 #include "report/terminal.h"
 #include "verbs/verbs.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/plot.h>
 
 #include <algorithm>

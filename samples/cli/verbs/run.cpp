@@ -6,7 +6,7 @@
 #include "report/terminal.h"
 #include "verbs/verbs.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/recording_file.h>
 #include <tweenfall/importers/shown_text.h>
 

@@ -82,6 +82,10 @@ class Curve {
   /// another space, a logarithmic scale, angles as a rotation) has the knots of the curve it is made of.
   [[nodiscard]] std::span<const double> knots() const noexcept;
 
+  /// The knots that are keys, in order, s: those less the ones within an ease of several pieces, which nobody wrote,
+  /// such as half way through quad-in-out.
+  [[nodiscard]] std::span<const double> key_times() const noexcept;
+
   /// Value, rate and acceleration at any finite time.
   [[nodiscard]] Sample<T> sample(double time, Side side = Side::out) const noexcept;
   [[nodiscard]] T value(double time, Side side = Side::out) const noexcept;

@@ -46,6 +46,7 @@ struct Span {
   std::array<T, max_degree + 1> coefficients;  ///< power basis in s; entries above degree are not read
   T end;                                       ///< value on arrival at start + duration, exactly
   Warp warp = {};
+  bool starts_at_key = true;  ///< false within a shape of several pieces, as half way through quad-in-out
 };
 
 /// Rows of coefficients that a stretch of rotation has room for.
@@ -70,6 +71,7 @@ struct RotationSpan {
   Quat end{1, 0, 0, 0};
   Warp warp = {};
   Vec3 spin{0, 0, 0};  ///< outer axes; where spans are to join, whole turns about the way that the form goes
+  bool starts_at_key = true;
 };
 
 template <class T>

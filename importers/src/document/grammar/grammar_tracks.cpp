@@ -1,5 +1,5 @@
 #include <tweenfall/curves/barycentric.h>
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/grammar/grammar_functions.h"
 #include "document/grammar/grammar_parts.h"

@@ -1,6 +1,6 @@
 #include "document/read/clip_times.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/read/times.h"
 #include "document/read/values.h"

@@ -1,4 +1,4 @@
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/read/values.h"
 #include "document/shape.h"

@@ -1,6 +1,6 @@
 #include <tweenfall/anim/animation.h>
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/content.h"
 #include "document/read/clip_times.h"

@@ -1,7 +1,7 @@
 #include "document/report/check.h"
 
 #include <tweenfall/anim/nearest_name.h>
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/report/suggestion.h"
 

@@ -3,7 +3,7 @@
 #include <tweenfall/curves/barycentric.h>
 #include <tweenfall/curves/elementary.h>
 #include <tweenfall/curves/modifiers.h>
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/read/values.h"
 #include "document/tracks/read_functions.h"

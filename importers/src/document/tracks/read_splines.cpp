@@ -1,7 +1,7 @@
 #include "document/tracks/read_splines.h"
 
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/splines.h>
-#include <tweenfall/importers/number_text.h>
 
 #include "document/read/values.h"
 

@@ -2,7 +2,7 @@
 
 #include <tweenfall/curves/barycentric.h>
 #include <tweenfall/curves/functions.h>
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/read/values.h"
 #include "document/tracks/read_functions.h"

@@ -2,11 +2,14 @@
 
 #include "support.h"
 
-#include <tweenfall/importers/number_text.h>
+#include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/number_text.h>
 
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <locale>
+#include <stdexcept>
 
 using namespace tweenfall;
 
@@ -57,4 +60,19 @@ TEST_CASE("a text that is not one finite number is none") {
     CAPTURE(text);
     CHECK(!parse_number(text).has_value());
   }
+}
+
+TEST_CASE("error texts show small numbers, in any locale") {
+  struct Comma : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+  };
+  const std::locale before = std::locale::global(std::locale(std::locale(), new Comma));
+  CHECK_THROWS_WITH_AS((void)Ease::bezier(1.0000001, 0, 1, 1), doctest::Contains("1.0000001"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)Ease::spring(-1e-7, 1), doctest::Contains("-1e-07"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)keyed_curve<double>({{1234567.5, 0}, {1e-7, 1}}), doctest::Contains("time 1e-07 s"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)normalized(Quat(1e-7, NAN, 0, 0)), doctest::Contains("w 1e-07"), std::invalid_argument);
+  std::locale::global(before);
 }
