@@ -271,6 +271,10 @@ TEST_CASE("the longer way between equal hues is all the way around, upward, as C
     for (const auto& [from, to] :
          {std::pair{red, red}, {red, dark}, {dark, red}, {red, gray}, {gray, red}, {red, unseen}, {unseen, red}}) {
       CAPTURE(static_cast<int>(space));
+      // A darker red has another hue in CIE LCH.
+      if (space == ColorSpace::lch && from.rgba != to.rgba && from.rgba[3] > 0 && to.rgba[3] > 0 &&
+          has_hue(to_space(from, space), space) && has_hue(to_space(to, space), space))
+        continue;
       const Color& shown = has_hue(to_space(from, space), space) && from.rgba[3] > 0 ? from : to;
       const double start = to_space(shown, space)[hue_index(space)];
       const auto turned = [&](HueRule rule, double t) {

@@ -15,15 +15,16 @@ double hue_step(double from, double to, HueRule rule) noexcept {
   double step = to - from;       // the shorter way
   if (step > full_turn / 2) step -= full_turn;
   if (step < -full_turn / 2) step += full_turn;
+  const bool equal = std::abs(step) <= same;
   switch (rule) {
     case HueRule::shorter:
       return step;
     case HueRule::longer:
-      return step > same ? step - full_turn : step + full_turn;
+      return step > 0 && !equal ? step - full_turn : step + full_turn;
     case HueRule::increasing:
-      return step < 0 ? step + full_turn : step;
+      return step < 0 && !equal ? step + full_turn : step;
     case HueRule::decreasing:
-      return step > 0 ? step - full_turn : step;
+      return step > 0 && !equal ? step - full_turn : step;
   }
   return step;
 }

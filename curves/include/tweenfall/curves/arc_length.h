@@ -22,6 +22,10 @@ template <class T>
 template <class T>
 class MeasuredPath {
  public:
+  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  MeasuredPath(const MeasuredPath&) noexcept = default;
+  MeasuredPath& operator=(const MeasuredPath&) noexcept = default;
+
   /// @throws std::invalid_argument for an endless curve.
   explicit MeasuredPath(const Curve<T>& path);
 

@@ -50,6 +50,10 @@ class Curve {
  public:
   using Formula = std::function<Sample<T>(double time, Side side)>;
 
+  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  Curve(const Curve&) noexcept = default;
+  Curve& operator=(const Curve&) noexcept = default;
+
   /// The constant `value`, at every time.
   explicit Curve(const T& value);
 

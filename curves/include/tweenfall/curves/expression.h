@@ -40,6 +40,10 @@ class Expression {
     double value = 0;
   };
 
+  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  Expression(const Expression&) noexcept = default;
+  Expression& operator=(const Expression&) noexcept = default;
+
   /// @param text       up to 4000 characters, nested up to 60 deep
   /// @param variables  names in the order in which `sample` takes their values
   /// @throws ExpressionError with the column and, for a name that is none, the nearest that is one.
