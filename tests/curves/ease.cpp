@@ -1,4 +1,5 @@
 #include <tweenfall/curves/ease.h>
+#include <tweenfall/curves/keys.h>
 
 #include <map>
 
@@ -98,7 +99,7 @@ TEST_CASE("every plain word is known, and its name reads back as the same ease")
   for (const std::string& form : Ease::names()) {
     CAPTURE(form);
     std::string word = form.substr(0, form.find('('));
-    if (form == "bezier(x1,y1,x2,y2)") word = "bezier(0.4, 0, 0.2, 1)";
+    if (form.ends_with("bezier(x1,y1,x2,y2)")) word = "bezier(0.4, 0, 0.2, 1)";
     if (form == "steps(count,jump)") word = "steps(4,jump-end)";
     if (form == "spring(period,damping)") word = "spring(0.3s,0.5)";
     if (form == "tcb(tension,continuity,bias)") word = "tcb(0,0.5,-1)";
@@ -136,7 +137,7 @@ TEST_CASE("a word that is none, or a number out of range, is refused with a reas
   CHECK(reason("linear(0, 0.5 0.6, 1)").find("\"0.5 0.6\"") != std::string::npos);
   CHECK(reason("linear(0, , 1)").find("no output") != std::string::npos);
   CHECK(reason("poly-in(0)").find("exponent") != std::string::npos);
-  CHECK(reason("natural(1)").find("1 values were given") != std::string::npos);
+  CHECK(reason("natural(1)").find("1 value was given") != std::string::npos);
   CHECK(reason("clamped(x,1)").find("not a number") != std::string::npos);
 }
 
@@ -175,4 +176,80 @@ TEST_CASE("one stop holds its output, and a stop at the wrong place moves to the
   const Ease pushed = Ease::named("linear(0, 0.5 60%, 0.75 40%, 1)").value();
   CHECK(pushed.progress(0.6, Side::in).value == doctest::Approx(0.5));
   CHECK(pushed.progress(0.6).value == doctest::Approx(0.75));
+}
+
+TEST_CASE("the names that CSS has for eases are read") {
+  const auto name = [](const char* word) { return Ease::named(word).value().name(); };
+  CHECK(name("cubic-bezier(0.4, 0, 0.2, 1)") == "bezier(0.4,0,0.2,1)");
+  CHECK(name("steps(3, start)") == "steps(3,jump-start)");
+  CHECK(name("steps(3, end)") == "steps(3,jump-end)");
+  CHECK(Ease::named("step-start")->progress(0.3).value == 1);
+  CHECK(Ease::named("step-end")->progress(0.7).value == 0);
+  for (const char* word : {"ease", "ease-in", "ease-out", "ease-in-out", "step-start", "step-end"})
+    CHECK(name(word) == word);
+}
+
+TEST_CASE("a name that other programs have for an ease is answered with ours") {
+  constexpr const char* cases[][2] = {{"easeInQuad", "quad-in"},
+                                      {"easeOutBounce", "bounce-out"},
+                                      {"InOutCubic", "cubic-in-out"},
+                                      {"quadIn", "quad-in"},
+                                      {"Sine.easeInOut", "sine-in-out"},
+                                      {"power2.inOut", "cubic-in-out"},
+                                      {"SINE", "sine-in"},
+                                      {"BACK", "back-out"},
+                                      {"BEZIER", "smooth-clamped"},
+                                      {"CONSTANT", "hold"},
+                                      {"LINEAR", "linear"},
+                                      {"spline", "smooth"},
+                                      {"plateau", "smooth-clamped"},
+                                      {"stepped", "hold"},
+                                      {"fixed", "smooth"},
+                                      {"easeInOut", "ease-in-out"},
+                                      {"stepStart", "step-start"},
+                                      {"catmullRom", "catmull-rom"},
+                                      {"cubicBezier(0.1,0,1,1)", "cubic-bezier(0.1,0,1,1)"}};
+  for (const auto& [theirs, ours] : cases) {
+    CAPTURE(theirs);
+    std::string reason;
+    CHECK_FALSE(Ease::named(theirs, &reason).has_value());
+    CHECK(reason.find("\"" + std::string(ours) + "\"") != std::string::npos);
+    CHECK(Ease::ours(theirs) == ours);
+    CHECK(Ease::named(ours).has_value());
+  }
+  for (const char* word : {"", "wobble", "in", "ease", "quad-in", "(", "in-out"}) CHECK(Ease::ours(word).empty());
+}
+
+TEST_CASE("eases with absurd numbers are refused, those at the edge of what is taken are finite everywhere") {
+  for (const char* word :
+       {"spring(0.3s,1e300)", "spring(1e-300s,1)", "spring(1e300s,1)", "back-in(-1e300)", "poly-in(1e300)",
+        "poly-in(1e-300)", "elastic-in(1e300,1)", "elastic-in(1,1e-300)", "penner-elastic-out(-1e300,1)",
+        "bezier(0,1e300,1,1)", "linear(0,1e300)", "linear(0,0.5 1e300%,1)", "tcb(1e300,0,0)"}) {
+    CAPTURE(word);
+    std::string reason;
+    CHECK_FALSE(Ease::named(word, &reason).has_value());
+    CHECK(reason.find("must lie in") != std::string::npos);
+  }
+  for (const char* word :
+       {"spring(1e-6s,1e6)", "spring(1e6s,0)", "spring(1e-6s,5e-324)", "back-in-out(-1e6)", "back-out(5e-324)",
+        "poly-in(1e6)", "poly-out(1e-6)", "poly-in(1.0000000000000002)", "elastic-in-out(1e6,1e-6)",
+        "penner-elastic-in(1e6,1e-6)", "penner-elastic-in(0,1)", "penner-elastic-in(5e-324,1e6)",
+        "bezier(0,1e6,0,-1e6)", "bezier(1,0,0,1)", "bezier(5e-324,0,1,1)", "linear(-1e6,1e6 5e-324%,1)",
+        "linear(0,1 50%,2 50.00000000000001%,3)", "steps(100000,jump-both)"}) {
+    CAPTURE(word);
+    const Ease ease = Ease::named(word).value();
+    const auto is_finite = [](const Sample<double>& s) {
+      return std::isfinite(s.value) && std::isfinite(s.rate) && std::isfinite(s.acceleration);
+    };
+    bool finite = true;
+    const Curve<double> slow = keyed_curve<double>({{0, -1e6, ease}, {1e6, 1e6}});
+    const Curve<double> fast = keyed_curve<double>({{1, -1e6, ease}, {1 + 0x1p-52, 1e6}});
+    for (int i = 0; i <= 2000; ++i)
+      for (const Side side : {Side::in, Side::out}) {
+        const double u = i / 2000.0;
+        finite = finite && is_finite(ease.progress(u, side)) && is_finite(slow.sample(1e6 * u, side)) &&
+                 is_finite(fast.sample(1 + u * 0x1p-52, side));
+      }
+    CHECK(finite);
+  }
 }

@@ -36,3 +36,13 @@ TEST_CASE("an expression and a measured path that were moved from are what they 
   CHECK(path.length() == doctest::Approx(5));
   CHECK(taken_path.length() == path.length());
 }
+
+TEST_CASE("an ease that was moved from still makes curves") {
+  for (const char* word : {"quad-in-out", "smooth", "spring(0.3s,0.5)", "hold"}) {
+    Ease ease = Ease::named(word).value();
+    const Ease taken = std::move(ease);
+    CHECK(ease == taken);
+    CHECK(ease.name() == word);
+    CHECK_NOTHROW((void)keyed_curve<double>({{0, 1, ease}, {1, 2}}));
+  }
+}

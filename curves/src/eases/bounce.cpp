@@ -1,6 +1,6 @@
-#include "eases/shapes.h"
+#include "eases/ease_row.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 namespace {
 
 // A parabola 121/16 (u - center)^2 + height over [from, to], in the piece's own position.
@@ -18,7 +18,7 @@ Span<double> hop(double from, double to, double center, double height, double en
 }  // namespace
 
 // Source: Penner, 2002: four hops at 4/11, 8/11 and 10/11.
-Pieces bounce(Flow flow) {
+static Pieces bounce(Flow flow) {
   Pieces out = {hop(0, 4.0 / 11, 0, 0, 1), hop(4.0 / 11, 8.0 / 11, 6.0 / 11, 0.75, 1),
                 hop(8.0 / 11, 10.0 / 11, 9.0 / 11, 15.0 / 16, 1), hop(10.0 / 11, 1, 21.0 / 22, 63.0 / 64, 1)};
   // Every later hop begins at 1, where the one before touched.
@@ -28,4 +28,6 @@ Pieces bounce(Flow flow) {
   return flow == Flow::out ? out : flowing(in, flow);
 }
 
-}  // namespace tweenfall::shapes
+extern const FamilyRow bounce_family{"bounce", [](const Numbers&, Flow flow) { return bounce(flow); }};
+
+}  // namespace tweenfall::eases

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eases/shapes.h"
+#include "eases/ease_row.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 namespace {
 
 // 1 - sqrt(1 - u^2), written so that small values keep their digits; the slope at 1 is limited to a million.
@@ -15,8 +15,10 @@ Warp::Result circular_in(double u, const std::array<double, 4>&) noexcept {
 
 }  // namespace
 
-Pieces circular(Flow flow) {
+static Pieces circular(Flow flow) {
   return flowing(WayIn{{0, 1}, {&circular_in, {}}, &reversed<&circular_in>}, flow);
 }
 
-}  // namespace tweenfall::shapes
+extern const FamilyRow circular_family{"circ", [](const Numbers&, Flow flow) { return circular(flow); }};
+
+}  // namespace tweenfall::eases

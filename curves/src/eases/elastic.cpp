@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "eases/ease_row.h"
 #include "eases/exponential.h"
-#include "eases/shapes.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 namespace {
 
 // amplitude decay(1 - u) sin((1 - u) frequency + phase); parameters: amplitude, frequency, phase.
@@ -28,11 +28,15 @@ Warp::Result elastic_in(double u, const std::array<double, 4>& parameters) noexc
 }  // namespace
 
 // Source: Penner, 2002, with the tail taken off as for the exponential.
-Pieces elastic(double amplitude, double period, Flow flow) {
+static Pieces elastic(double amplitude, double period, Flow flow) {
   constexpr double turn = 0x1.921fb54442d18p+2;
   const double a = std::max(amplitude, 1.0);
   return flowing(WayIn{{0, 1}, {&elastic_in, {a, turn / period, elementary::asin(1 / a), 0}}, &reversed<&elastic_in>},
                  flow);
 }
 
-}  // namespace tweenfall::shapes
+extern const FamilyRow elastic_family{"elastic",
+                                      [](const Numbers& n, Flow flow) { return elastic(n[0], n[1], flow); },
+                                      {{{"amplitude", 1, 1, 1e6}, {"period", 0.3, 1e-6, 1e6}}}};
+
+}  // namespace tweenfall::eases

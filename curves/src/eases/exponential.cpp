@@ -2,9 +2,9 @@
 
 #include <tweenfall/curves/elementary.h>
 
-#include "eases/shapes.h"
+#include "eases/ease_row.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 
 Decay decay(double x) noexcept {
   constexpr double rate = 10 * 0x1.62e42fefa39efp-1;
@@ -23,8 +23,10 @@ Warp::Result exponential_in(double u, const std::array<double, 4>&) noexcept {
 
 }  // namespace
 
-Pieces exponential(Flow flow) {
+static Pieces exponential(Flow flow) {
   return flowing(WayIn{{0, 1}, {&exponential_in, {}}, &reversed<&exponential_in>}, flow);
 }
 
-}  // namespace tweenfall::shapes
+extern const FamilyRow exponential_family{"expo", [](const Numbers&, Flow flow) { return exponential(flow); }};
+
+}  // namespace tweenfall::eases

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 
 /// 2^(-10 x), shifted and scaled so that it leads from exactly 1 at 0 to exactly 0 at 1, with its derivatives.
 struct Decay {
@@ -8,4 +8,4 @@ struct Decay {
 };
 [[nodiscard]] Decay decay(double x) noexcept;
 
-}  // namespace tweenfall::shapes
+}  // namespace tweenfall::eases

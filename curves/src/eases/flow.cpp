@@ -2,7 +2,7 @@
 
 #include "eases/shapes.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 namespace {
 
 Span<double> piece(double start, double duration, const std::vector<double>& coefficients, double end,
@@ -67,4 +67,4 @@ Pieces flowing(const Pieces& way_in, Flow flow) {
   return result;
 }
 
-}  // namespace tweenfall::shapes
+}  // namespace tweenfall::eases

@@ -1,10 +1,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eases/shapes.h"
+#include "eases/ease_row.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 namespace {
+
+// A stop of CSS linear(): an output, and none, one or two inputs in percent at which it stands.
+struct LinearStop {
+  double output;
+  std::vector<double> percents{};
+};
 
 struct Point {
   double input, output;
@@ -62,7 +68,7 @@ Span<double> straight(const Point& a, const Point& b, double from, double to) {
 
 // Source: W3C, "CSS Easing Functions Level 2", output of a linear easing function: outside the points the line through
 // the first two, or the last two, goes on; where these share an input, the second one's output holds.
-Pieces linear(const std::vector<LinearStop>& stops) {
+static Pieces linear(const std::vector<LinearStop>& stops) {
   std::vector<Point> points = placed(stops);
   if (points.size() == 1) points.push_back(points[0]);
   Pieces result;
@@ -70,7 +76,8 @@ Pieces linear(const std::vector<LinearStop>& stops) {
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     const bool last = i + 2 == points.size();
     const double to = last ? 1 : std::clamp(points[i + 1].input, 0.0, 1.0);
-    if (!(to > from)) continue;
+    // Nearer than this the slope between them means nothing.
+    if (!(to - from > 1e-12)) continue;
     // Two points at one input are a jump, except at either end, where they are all there is to go by.
     const bool jump = !(points[i + 1].input > points[i].input);
     if (jump && i > 0 && !last) continue;
@@ -80,4 +87,55 @@ Pieces linear(const std::vector<LinearStop>& stops) {
   return result;
 }
 
-}  // namespace tweenfall::shapes
+namespace {
+
+// An output, and up to two percentages before or after it.
+LinearStop linear_stop(std::string_view text) {
+  std::optional<double> output;
+  std::vector<double> percents;
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    std::string_view part = rest.substr(0, rest.find(' '));
+    rest = trimmed(rest.substr(part.size()));
+    const bool percent = part.back() == '%';
+    const std::optional<double> number = number_in(percent ? part.substr(0, part.size() - 1) : part);
+    const bool expected = percent ? percents.size() < 2 : !output;
+    if (!number || !expected)
+      refuse(quoted(text) + " in linear(...) must be a number with none, one or two percentages, as 0.5 25% 75%");
+    if (percent)
+      percents.push_back(*number);
+    else
+      output = number;
+  }
+  if (!output) refuse(quoted(text) + " in linear(...) has no output, as the 0.5 of 0.5 25%");
+  check_range("an output in linear(...)", *output, -1e6, 1e6);
+  for (const double percent : percents) check_range("a percentage in linear(...)", percent, -1e6, 1e6);
+  return {*output, percents};
+}
+
+Ease linear_stops(const Call& call) {
+  if (call.arguments.empty()) refuse("linear(...) needs at least one stop; none was given");
+  std::vector<LinearStop> stops;
+  std::string name;
+  for (const std::string_view argument : call.arguments) {
+    stops.push_back(linear_stop(argument));
+    name += (name.empty() ? "linear(" : ",") + number_text(stops.back().output);
+    for (const double percent : stops.back().percents) name += " " + number_text(percent) + "%";
+  }
+  return Ease::shape(name + ")", linear(stops));
+}
+
+}  // namespace
+
+extern const Row linear_row{"linear", &Ease::linear, "(stop,...)", &linear_stops};
+
+}  // namespace tweenfall::eases
+
+namespace tweenfall {
+
+Ease Ease::linear() {
+  static const Ease ease(Form{.rule = Rule::linear, .name = "linear"});
+  return ease;
+}
+
+}  // namespace tweenfall

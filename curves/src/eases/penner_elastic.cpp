@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "eases/shapes.h"
+#include "eases/ease_row.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 namespace {
 
 // With x from 0 (there) to 1 (not yet): the wave that is left, f(x) a 2^(-10 x) sin((x + s) w), where f fades an
@@ -33,11 +33,16 @@ Warp::Result penner_elastic_in(double u, const std::array<double, 4>& parameters
 
 // A negative amplitude swings the other way first, as Penner's does where the value falls.
 // Source: Penner, 2002, unscaled, with amplitudes below 1 as Blender fades them in: Blender, blenlib/intern/easing.c.
-Pieces penner_elastic(double amplitude, double period, Flow flow) {
+static Pieces penner_elastic(double amplitude, double period, Flow flow) {
   constexpr double turn = 0x1.921fb54442d18p+2;
   const double w = turn / period;
   const double s = std::abs(amplitude) < 1 ? period / 4 : elementary::asin(1 / amplitude) / w;
   return flowing(WayIn{{0, 1}, {&penner_elastic_in, {amplitude, w, s, 0}}, &reversed<&penner_elastic_in>}, flow);
 }
 
-}  // namespace tweenfall::shapes
+extern const FamilyRow penner_elastic_family{
+    "penner-elastic",
+    [](const Numbers& n, Flow flow) { return penner_elastic(n[0], n[1], flow); },
+    {{{"amplitude", 1, -1e6, 1e6}, {"period", 0.3, 1e-6, 1e6}}}};
+
+}  // namespace tweenfall::eases

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "eases/shapes.h"
+#include "eases/ease_row.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 namespace {
 
 // u^e for any e > 0. A slope or a bend that is infinite at 0 is limited to a million.
@@ -21,20 +21,29 @@ Warp::Result powered(double u, const std::array<double, 4>& parameters) noexcept
 }  // namespace
 
 // Source: Penner, "Robert Penner's Programming Macromedia Flash MX", 2002, chapter 7.
-Pieces power(int degree, Flow flow) {
+static Pieces power(int degree, Flow flow) {
   std::vector<double> c(static_cast<std::size_t>(degree) + 1, 0.0);
   c.back() = 1;
   return flowing(WayIn{c}, flow);
 }
 
-Pieces power(double exponent, Flow flow) {
+static Pieces power(double exponent, Flow flow) {
   if (exponent == std::floor(exponent) && exponent <= max_degree) return power(static_cast<int>(exponent), flow);
   return flowing(WayIn{{0, 1}, {&powered, {exponent, 0, 0, 0}}, &reversed<&powered>}, flow);
 }
 
 // u^2 ((overshoot + 1) u - overshoot).
-Pieces back(double overshoot, Flow flow) {
+static Pieces back(double overshoot, Flow flow) {
   return flowing(WayIn{{0, 0, -overshoot, overshoot + 1}}, flow);
 }
 
-}  // namespace tweenfall::shapes
+extern const FamilyRow quad_family{"quad", [](const Numbers&, Flow flow) { return power(2, flow); }};
+extern const FamilyRow cubic_family{"cubic", [](const Numbers&, Flow flow) { return power(3, flow); }};
+extern const FamilyRow quart_family{"quart", [](const Numbers&, Flow flow) { return power(4, flow); }};
+extern const FamilyRow quint_family{"quint", [](const Numbers&, Flow flow) { return power(5, flow); }};
+extern const FamilyRow poly_family{
+    "poly", [](const Numbers& n, Flow flow) { return power(n[0], flow); }, {{{"exponent", 3, 1e-6, 1e6}}}};
+extern const FamilyRow back_family{
+    "back", [](const Numbers& n, Flow flow) { return back(n[0], flow); }, {{{"overshoot", 1.70158, -1e6, 1e6}}}};
+
+}  // namespace tweenfall::eases

@@ -1,14 +1,13 @@
 #pragma once
 
-// The shapes that re-time a span, each built in a file of its own.
+// What the shapes that re-time a span are built from; each has a file of its own.
 
 #include <tweenfall/curves/span.h>
 
 #include <array>
-#include <string_view>
 #include <vector>
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 
 using Pieces = std::vector<Span<double>>;
 
@@ -35,26 +34,4 @@ Warp::Result reversed(double u, const std::array<double, 4>& parameters) noexcep
   return {1 - r.s, r.ds, -r.dds};
 }
 
-[[nodiscard]] Pieces power(int degree, Flow flow);       ///< u^degree; degree 1 to 5
-[[nodiscard]] Pieces power(double exponent, Flow flow);  ///< u^exponent; exponent > 0
-[[nodiscard]] Pieces sine(Flow flow);
-[[nodiscard]] Pieces exponential(Flow flow);
-[[nodiscard]] Pieces circular(Flow flow);
-[[nodiscard]] Pieces back(double overshoot, Flow flow);
-[[nodiscard]] Pieces elastic(double amplitude, double period, Flow flow);
-[[nodiscard]] Pieces penner_elastic(double amplitude, double period, Flow flow);
-[[nodiscard]] Pieces bounce(Flow flow);
-[[nodiscard]] Pieces bezier(double x1, double y1, double x2, double y2);
-/// @param jump  "jump-start", "jump-end", "jump-none", "jump-both"
-[[nodiscard]] Pieces steps(int count, std::string_view jump);
-/// A stop of CSS linear(): an output, and none, one or two inputs in percent at which it stands.
-struct LinearStop {
-  double output;
-  std::vector<double> percents{};
-};
-/// @param stops  one or more
-[[nodiscard]] Pieces linear(const std::vector<LinearStop>& stops);
-/// @param parameters  undamped period in seconds, damping ratio
-[[nodiscard]] Pieces spring(double duration, const std::array<double, 4>& parameters);
-
-}  // namespace tweenfall::shapes
+}  // namespace tweenfall::eases

@@ -1,8 +1,8 @@
 #include <tweenfall/curves/elementary.h>
 
-#include "eases/shapes.h"
+#include "eases/ease_row.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 namespace {
 
 // 1 - cos(u pi/2), from the half angle so that small values keep their digits.
@@ -16,8 +16,10 @@ Warp::Result sine_in(double u, const std::array<double, 4>&) noexcept {
 
 }  // namespace
 
-Pieces sine(Flow flow) {
+static Pieces sine(Flow flow) {
   return flowing(WayIn{{0, 1}, {&sine_in, {}}, &reversed<&sine_in>}, flow);
 }
 
-}  // namespace tweenfall::shapes
+extern const FamilyRow sine_family{"sine", [](const Numbers&, Flow flow) { return sine(flow); }};
+
+}  // namespace tweenfall::eases

@@ -1,7 +1,9 @@
-#include "eases/shapes.h"
+#include <algorithm>
+
+#include "eases/ease_row.h"
 #include "formulas/spring_response.h"
 
-namespace tweenfall::shapes {
+namespace tweenfall::eases {
 namespace {
 
 struct Response {
@@ -25,9 +27,10 @@ Warp::Result sprung(double u, const std::array<double, 4>& parameters) noexcept 
 
 }  // namespace
 
-Pieces spring(double duration, const std::array<double, 4>& parameters) {
+static Pieces spring(double duration, const std::array<double, 4>& parameters) {
   constexpr double turn = 0x1.921fb54442d18p+2;
-  const double w = turn * duration / parameters[0];
+  // Beyond this no digit of the phase is left.
+  const double w = std::min(turn * duration / parameters[0], 1e15);
   Span<double> p{};
   p.degree = 1;
   p.coefficients = {0, 1, 0, 0, 0, 0};
@@ -36,4 +39,24 @@ Pieces spring(double duration, const std::array<double, 4>& parameters) {
   return {p};
 }
 
-}  // namespace tweenfall::shapes
+extern const Row spring_row{"spring", nullptr, "(period,damping)", [](const Call& call) {
+                              call.expect(2, 2, "spring(period,damping), as spring(0.3s,0.5)");
+                              return Ease::spring(call.number(0, "s"), call.number(1));
+                            }};
+
+}  // namespace tweenfall::eases
+
+namespace tweenfall {
+
+Ease Ease::spring(double period, double damping_ratio) {
+  eases::check_range("a spring's period", period, 1e-6, 1e6);
+  eases::check_range("a spring's damping ratio", damping_ratio, 0, 1e6);
+  const std::array<double, 4> parameters = {period, damping_ratio, 0, 0};
+  return Ease(Form{.rule = Rule::shape,
+                   .name = "spring(" + number_text(period) + "s," + number_text(damping_ratio) + ")",
+                   .parameters = parameters,
+                   .shape = &eases::spring,
+                   .pieces = eases::spring(1, parameters)});
+}
+
+}  // namespace tweenfall

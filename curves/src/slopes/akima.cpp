@@ -1,9 +1,10 @@
+#include "eases/ease_row.h"
 #include "slopes/akima_slopes.h"
 
 namespace tweenfall {
 
 // Source: Akima, "A new method of interpolation and smooth curve fitting based on local procedures", J. ACM 17, 1970.
-void slopes_akima(const SlopeProblem& p) {
+static void slopes_akima(const SlopeProblem& p) {
   akima_slopes(p, [](double m0, double m1, double m2, double m3) {
     const double w1 = std::abs(m3 - m2), w2 = std::abs(m1 - m0);
     // Where both pairs of secants agree but for rounding, their weights are nothing but that rounding.
@@ -12,5 +13,14 @@ void slopes_akima(const SlopeProblem& p) {
     return w1 / (w1 + w2) * m1 + w2 / (w1 + w2) * m2;
   });
 }
+
+Ease Ease::akima() {
+  static const Ease ease(Form{.name = "akima", .slopes = &slopes_akima});
+  return ease;
+}
+
+namespace eases {
+extern const Row akima_row{"akima", &Ease::akima};
+}  // namespace eases
 
 }  // namespace tweenfall

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eases/ease_row.h"
 #include "slopes/slope_rule.h"
 
 namespace tweenfall {
@@ -48,16 +49,43 @@ void slopes_by_distance(const SlopeProblem& p, Advance advance) {
 
 }  // namespace
 
-void slopes_uniform(const SlopeProblem& p) {
+static void slopes_uniform(const SlopeProblem& p) {
   slopes_by_distance(p, [](double) { return 1.0; });
 }
 
-void slopes_centripetal(const SlopeProblem& p) {
+static void slopes_centripetal(const SlopeProblem& p) {
   slopes_by_distance(p, [](double distance) { return std::sqrt(distance); });
 }
 
-void slopes_chordal(const SlopeProblem& p) {
+static void slopes_chordal(const SlopeProblem& p) {
   slopes_by_distance(p, [](double distance) { return distance; });
 }
+
+Ease Ease::uniform() {
+  static const Ease ease(Form{.name = "uniform", .slopes = &slopes_uniform});
+  return ease;
+}
+
+namespace eases {
+extern const Row uniform_row{"uniform", &Ease::uniform};
+}  // namespace eases
+
+Ease Ease::centripetal() {
+  static const Ease ease(Form{.name = "centripetal", .slopes = &slopes_centripetal});
+  return ease;
+}
+
+namespace eases {
+extern const Row centripetal_row{"centripetal", &Ease::centripetal};
+}  // namespace eases
+
+Ease Ease::chordal() {
+  static const Ease ease(Form{.name = "chordal", .slopes = &slopes_chordal});
+  return ease;
+}
+
+namespace eases {
+extern const Row chordal_row{"chordal", &Ease::chordal};
+}  // namespace eases
 
 }  // namespace tweenfall

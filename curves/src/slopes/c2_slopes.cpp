@@ -1,5 +1,10 @@
 #include "slopes/c2_slopes.h"
 
+#include <tweenfall/curves/number_text.h>
+
+#include <cmath>
+#include <stdexcept>
+
 #include "math/tridiagonal.h"
 
 namespace tweenfall {
@@ -100,6 +105,12 @@ void solve_c2_automatic(const SlopeProblem& p, C2End::Kind usual) {
     return p.ends == Ends::flat && at_end_of_curve ? C2End::Kind::slope : usual;
   };
   solve_c2(p, {kind(p.first == 0)}, {kind(p.last == p.spans)});
+}
+
+void check_ends(const char* what, double start, double end) {
+  for (const double v : {start, end})
+    if (!std::isfinite(v))
+      throw std::invalid_argument(std::string("the ") + what + " at the ends must be finite; one is " + number_text(v));
 }
 
 }  // namespace tweenfall

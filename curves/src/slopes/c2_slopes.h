@@ -27,4 +27,7 @@ void solve_c2_periodic(const SlopeProblem& problem);
 /// options say so; else `usual`.
 void solve_c2_automatic(const SlopeProblem& problem, C2End::Kind usual);
 
+/// @throws std::invalid_argument unless both numbers at the ends of a run are finite.
+void check_ends(const char* what, double start, double end);
+
 }  // namespace tweenfall

@@ -1,4 +1,6 @@
+#include "eases/ease_row.h"
 #include "slopes/slope_rule.h"
+#include "turns/turn_rule.h"
 
 namespace tweenfall {
 
@@ -31,5 +33,14 @@ void slopes_catmull_rom(const SlopeProblem& p) {
   });
   p.finish_open_ends();
 }
+
+Ease Ease::catmull_rom() {
+  static const Ease ease(Form{.name = "catmull-rom", .slopes = &slopes_catmull_rom, .turns = &turns_de_casteljau});
+  return ease;
+}
+
+namespace eases {
+extern const Row catmull_rom_row{"catmull-rom", &Ease::catmull_rom};
+}  // namespace eases
 
 }  // namespace tweenfall

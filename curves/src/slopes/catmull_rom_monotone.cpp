@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eases/ease_row.h"
 #include "slopes/slope_rule.h"
 
 namespace tweenfall {
@@ -17,7 +18,7 @@ double limited(double slope, double d0, double d1) noexcept {
 
 // Source: Dougherty, Edelman, Hyman, "Nonnegativity-, monotonicity-, or convexity-preserving cubic and quintic Hermite
 // interpolation", Math. Comp. 52, 1989, equation 4.2, on Catmull-Rom slopes.
-void slopes_catmull_rom_monotone(const SlopeProblem& p) {
+static void slopes_catmull_rom_monotone(const SlopeProblem& p) {
   slopes_catmull_rom(p);
   for (std::size_t i = p.first; i < p.last; ++i)
     for (std::size_t c = 0; c < p.dimensions; ++c) {
@@ -31,5 +32,14 @@ void slopes_catmull_rom_monotone(const SlopeProblem& p) {
   // From limited neighbors these lie within the limits themselves.
   p.finish_open_ends();
 }
+
+Ease Ease::catmull_rom_monotone() {
+  static const Ease ease(Form{.name = "catmull-rom-monotone", .slopes = &slopes_catmull_rom_monotone});
+  return ease;
+}
+
+namespace eases {
+extern const Row catmull_rom_monotone_row{"catmull-rom-monotone", &Ease::catmull_rom_monotone};
+}  // namespace eases
 
 }  // namespace tweenfall

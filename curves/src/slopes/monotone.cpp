@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "eases/ease_row.h"
 #include "slopes/slope_rule.h"
 
 namespace tweenfall {
@@ -20,7 +21,7 @@ double end_slope(double h0, double h1, double d0, double d1) noexcept {
 }  // namespace
 
 // Source: Fritsch and Butland, "A method for constructing local monotone piecewise cubic interpolants", 1984.
-void slopes_monotone(const SlopeProblem& p) {
+static void slopes_monotone(const SlopeProblem& p) {
   p.for_each_key([&p](std::size_t key, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
     if (a == SlopeProblem::none || b == SlopeProblem::none) {
@@ -37,5 +38,14 @@ void slopes_monotone(const SlopeProblem& p) {
     return 1 / (w0 / d0 + w1 / d1);
   });
 }
+
+Ease Ease::monotone() {
+  static const Ease ease(Form{.name = "monotone", .slopes = &slopes_monotone});
+  return ease;
+}
+
+namespace eases {
+extern const Row monotone_row{"monotone", &Ease::monotone};
+}  // namespace eases
 
 }  // namespace tweenfall

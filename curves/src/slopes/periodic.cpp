@@ -1,9 +1,19 @@
+#include "eases/ease_row.h"
 #include "slopes/c2_slopes.h"
 
 namespace tweenfall {
 
-void slopes_periodic(const SlopeProblem& p) {
+static void slopes_periodic(const SlopeProblem& p) {
   solve_c2_periodic(p);
 }
+
+Ease Ease::periodic() {
+  static const Ease ease(Form{.name = "periodic", .slopes = &slopes_periodic, .continuous_acceleration = true});
+  return ease;
+}
+
+namespace eases {
+extern const Row periodic_row{"periodic", &Ease::periodic};
+}  // namespace eases
 
 }  // namespace tweenfall

@@ -47,21 +47,7 @@ struct SlopeProblem {
   void finish_open_ends() const;
 };
 
-void slopes_smooth(const SlopeProblem& problem);
-void slopes_smooth_clamped(const SlopeProblem& problem);
-void slopes_monotone(const SlopeProblem& problem);
-void slopes_akima(const SlopeProblem& problem);
-void slopes_makima(const SlopeProblem& problem);
-void slopes_natural(const SlopeProblem& problem);
-void slopes_natural_given(const SlopeProblem& problem);  ///< parameters: second derivative at the start, at the end
-void slopes_clamped(const SlopeProblem& problem);        ///< parameters: slope at the start, at the end
-void slopes_periodic(const SlopeProblem& problem);
-void slopes_not_a_knot(const SlopeProblem& problem);
+/// On which other rules build.
 void slopes_catmull_rom(const SlopeProblem& problem);
-void slopes_catmull_rom_monotone(const SlopeProblem& problem);
-void slopes_uniform(const SlopeProblem& problem);
-void slopes_centripetal(const SlopeProblem& problem);
-void slopes_chordal(const SlopeProblem& problem);
-void slopes_tcb(const SlopeProblem& problem);
 
 }  // namespace tweenfall

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eases/ease_row.h"
 #include "slopes/slope_rule.h"
 
 namespace tweenfall {
@@ -12,7 +13,7 @@ double end_slope(const SlopeProblem& p, std::size_t own_span, std::size_t c) noe
 
 }  // namespace
 
-void slopes_smooth(const SlopeProblem& p) {
+static void slopes_smooth(const SlopeProblem& p) {
   p.for_each_key([&p](std::size_t key, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
     if (a == SlopeProblem::none) return end_slope(p, b, c);
@@ -23,7 +24,7 @@ void slopes_smooth(const SlopeProblem& p) {
 
 // Three times the smaller secant keeps a cubic between its two values.
 // Source: Fritsch and Carlson, "Monotone piecewise cubic interpolation", SIAM J. Numer. Anal. 17, 1980.
-void slopes_smooth_clamped(const SlopeProblem& p) {
+static void slopes_smooth_clamped(const SlopeProblem& p) {
   p.for_each_key([&p](std::size_t key, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
     if (a == SlopeProblem::none) return end_slope(p, b, c);
@@ -34,5 +35,24 @@ void slopes_smooth_clamped(const SlopeProblem& p) {
     return std::clamp(0.5 * d0 + 0.5 * d1, -limit, limit);
   });
 }
+
+Ease Ease::smooth() {
+  static const Ease ease(Form{.rule = Rule::smooth, .name = "smooth", .slopes = &slopes_smooth});
+  return ease;
+}
+
+namespace eases {
+extern const Row smooth_row{"smooth", &Ease::smooth};
+}  // namespace eases
+
+Ease Ease::smooth_clamped() {
+  static const Ease ease(
+      Form{.rule = Rule::smooth_clamped, .name = "smooth-clamped", .slopes = &slopes_smooth_clamped});
+  return ease;
+}
+
+namespace eases {
+extern const Row smooth_clamped_row{"smooth-clamped", &Ease::smooth_clamped};
+}  // namespace eases
 
 }  // namespace tweenfall

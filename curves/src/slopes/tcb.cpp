@@ -1,10 +1,12 @@
+#include "eases/ease_row.h"
 #include "slopes/slope_rule.h"
+#include "turns/turn_rule.h"
 
 namespace tweenfall {
 
 // Source: Kochanek and Bartels, "Interpolating splines with local tension, continuity, and bias control", 1984,
 // with the secants weighted by durations as for Catmull-Rom on uneven times.
-void slopes_tcb(const SlopeProblem& p) {
+static void slopes_tcb(const SlopeProblem& p) {
   const auto slope = [&p](std::size_t key, std::size_t span, bool arriving, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
     if (a == SlopeProblem::none || b == SlopeProblem::none) return 0.0;
@@ -26,5 +28,22 @@ void slopes_tcb(const SlopeProblem& p) {
     }
   p.finish_open_ends();
 }
+
+Ease Ease::tcb(double tension, double continuity, double bias) {
+  eases::check_range("the tension of tcb", tension, -1e6, 1e6);
+  eases::check_range("the continuity of tcb", continuity, -1e6, 1e6);
+  eases::check_range("the bias of tcb", bias, -1e6, 1e6);
+  return Ease(Form{.name = eases::call_text("tcb", std::array{tension, continuity, bias}),
+                   .slopes = &slopes_tcb,
+                   .parameters = {tension, continuity, bias, 0},
+                   .turns = &turns_de_casteljau});
+}
+
+namespace eases {
+extern const Row tcb_row{"tcb", nullptr, "(tension,continuity,bias)", [](const Call& call) {
+                           call.expect(3, 3, "tcb(tension,continuity,bias)");
+                           return Ease::tcb(call.number(0), call.number(1), call.number(2));
+                         }};
+}  // namespace eases
 
 }  // namespace tweenfall

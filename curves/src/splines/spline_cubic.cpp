@@ -2,6 +2,7 @@
 
 #include "curve/curve_data.h"
 #include "curve/hermite_coefficients.h"
+#include "eases/ease_form.h"
 #include "keys/span_slopes.h"
 #include "slopes/c2_slopes.h"
 #include "splines/spline_check.h"
@@ -71,13 +72,6 @@ C2End c2_end(const SplineEnd<T>& end) {
   return result;
 }
 
-bool continuous_acceleration(const Ease& ease) {
-  for (const Ease::SlopeRule rule :
-       {&slopes_natural, &slopes_natural_given, &slopes_clamped, &slopes_periodic, &slopes_not_a_knot})
-    if (ease.slope_rule() == rule) return true;
-  return false;
-}
-
 // Puts the given ends in the place of the rule's, one component at a time.
 template <class T>
 void state_ends(Interpolation<T>& frame, const SplineEnds<T>& ends) {
@@ -140,7 +134,7 @@ Curve<T> cubic_spline(std::span<const double> times, std::span<const T> values, 
   for (std::size_t i = 0; i < rules.size(); ++i) {
     if (!rules[i].slope_rule())
       refuse_spline("needs rules that choose slopes; number " + std::to_string(i) + " is \"" + rules[i].name() + "\"");
-    if (stated && continuous_acceleration(rules[i]))
+    if (stated && rules[i].form().continuous_acceleration)
       refuse_spline("by the rule \"" + rules[i].name() + "\" depends on its ends everywhere: c2_spline takes them");
   }
   for (const SplineEnd<T>* end : {&ends.start, &ends.end})

@@ -1,3 +1,5 @@
+#include "eases/ease_row.h"
+#include "slopes/slope_rule.h"
 #include "turns/turn_rule.h"
 
 namespace tweenfall {
@@ -5,7 +7,7 @@ namespace tweenfall {
 // Beyond an end that has no neighbor, one is taken as far off in time as the other key, and such that the slope
 // there is what the slope rule says.
 // Source: Barry and Goldman, "A recursive evaluation algorithm for a class of Catmull-Rom splines", 1988.
-void turns_barry_goldman(const TurnProblem& p) {
+static void turns_barry_goldman(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];
     if (p.is_plain(i)) {
@@ -29,5 +31,14 @@ void turns_barry_goldman(const TurnProblem& p) {
     p.spans.push_back(span);
   }
 }
+
+Ease Ease::barry_goldman() {
+  static const Ease ease(Form{.name = "barry-goldman", .slopes = &slopes_catmull_rom, .turns = &turns_barry_goldman});
+  return ease;
+}
+
+namespace eases {
+extern const Row barry_goldman_row{"barry-goldman", &Ease::barry_goldman};
+}  // namespace eases
 
 }  // namespace tweenfall

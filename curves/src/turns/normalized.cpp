@@ -1,8 +1,9 @@
+#include "eases/ease_row.h"
 #include "turns/turn_rule.h"
 
 namespace tweenfall {
 
-void turns_normalized(const TurnProblem& p) {
+static void turns_normalized(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     RotationSpan span = blank_span(p.stretches[i]);
     span.form = RotationSpan::Form::normalized;
@@ -12,5 +13,14 @@ void turns_normalized(const TurnProblem& p) {
     p.spans.push_back(span);
   }
 }
+
+Ease Ease::nlerp() {
+  static const Ease ease(Form{.rule = Rule::linear, .name = "nlerp", .turns = &turns_normalized});
+  return ease;
+}
+
+namespace eases {
+extern const Row nlerp_row{"nlerp", &Ease::nlerp};
+}  // namespace eases
 
 }  // namespace tweenfall

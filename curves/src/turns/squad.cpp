@@ -1,6 +1,8 @@
 #include <algorithm>
 
+#include "eases/ease_row.h"
 #include "rotation/moving_rotation.h"
+#include "slopes/slope_rule.h"
 #include "turns/turn_rule.h"
 
 namespace tweenfall {
@@ -8,7 +10,7 @@ namespace tweenfall {
 // slerp(slerp(from, to, s), slerp(b, c, s), 2 s (1 - s)): leaving, it turns with the straight way plus twice the way
 // to the control b, so that b follows from the angular velocity wanted. With that of Catmull and Rom this is
 // Shoemake's rule on even times. Source: Shoemake, "Quaternion calculus and fast animation", 1987.
-void turns_squad(const TurnProblem& p) {
+static void turns_squad(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];
     const Vec3 leaving = p.leaving(i) - stretch.way, arriving = p.arriving(i) - stretch.way;
@@ -32,5 +34,14 @@ void turns_squad(const TurnProblem& p) {
     p.spans.push_back(span);
   }
 }
+
+Ease Ease::squad() {
+  static const Ease ease(Form{.name = "squad", .slopes = &slopes_catmull_rom, .turns = &turns_squad});
+  return ease;
+}
+
+namespace eases {
+extern const Row squad_row{"squad", &Ease::squad};
+}  // namespace eases
 
 }  // namespace tweenfall

@@ -77,10 +77,8 @@ struct TurnProblem {
 /// The cubic of rotation vectors with the angular velocities at its ends, as `leaving` and `arriving` give them.
 [[nodiscard]] RotationSpan cubic_turn(const Stretch& stretch, const Vec3& leaving, const Vec3& arriving);
 
-void turns_normalized(const TurnProblem& problem);
-void turns_squad(const TurnProblem& problem);
+/// For slope rules that have them.
 void turns_de_casteljau(const TurnProblem& problem);
-void turns_barry_goldman(const TurnProblem& problem);
 void turns_natural(const TurnProblem& problem);
 
 /// Slerps of slerps between four control rotations, the first and last of them passed.

@@ -6,6 +6,7 @@
 #include <tweenfall/curves/span.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,7 +73,7 @@ class Ease {
   [[nodiscard]] static Ease uniform();
   [[nodiscard]] static Ease centripetal();
   [[nodiscard]] static Ease chordal();
-  /// Kochanek and Bartels, 1984: tension, continuity and bias at this key; 0, 0, 0 is catmull_rom. Any finite numbers.
+  /// Kochanek and Bartels, 1984: tension, continuity and bias at this key; 0, 0, 0 is catmull_rom; -1e6 to 1e6 each.
   [[nodiscard]] static Ease tcb(double tension, double continuity, double bias);
   /// Rotations: the straight way between the two quaternions, scaled to unit length. Anything else: linear.
   [[nodiscard]] static Ease nlerp();
@@ -82,9 +83,9 @@ class Ease {
   [[nodiscard]] static Ease barry_goldman();
   /// An exact damped spring let go at this key towards the next: undamped period in seconds, damping ratio.
   /// What is left of its motion at the next key is taken away smoothly over the span.
-  /// @throws std::invalid_argument unless period > 0 and damping_ratio >= 0.
+  /// @throws std::invalid_argument unless period lies in 1e-6 to 1e6 and damping_ratio in 0 to 1e6.
   [[nodiscard]] static Ease spring(double period, double damping_ratio);
-  /// CSS cubic-bezier. @throws std::invalid_argument unless x1 and x2 lie in 0 to 1.
+  /// CSS cubic-bezier. @throws std::invalid_argument unless x1 and x2 lie in 0 to 1, y1 and y2 in -1e6 to 1e6.
   [[nodiscard]] static Ease bezier(double x1, double y1, double x2, double y2);
 
   /// A progress curve over the unit interval, in pieces; (0, 0) to (1, 1) unless it means to jump.
@@ -94,6 +95,10 @@ class Ease {
   /// Empty where there is none of that name or its numbers are out of range; `reason` then says why.
   [[nodiscard]] static std::optional<Ease> named(std::string_view word, std::string* reason = nullptr);
 
+  /// Our word for an ease that other programs call by this name: Penner's libraries ("easeInQuad", "quadIn"), CSS in
+  /// camel case, Blender ("BEZIER", "SINE"), Maya ("spline", "plateau"). Empty where no such name is known.
+  [[nodiscard]] static std::string ours(std::string_view foreign);
+
   /// All the words and call forms that `named` knows, in the order the documentation lists them.
   [[nodiscard]] static std::vector<std::string> names();
 
@@ -101,32 +106,31 @@ class Ease {
   /// are converted to another unit.
   [[nodiscard]] Ease scaled(double factor) const;
 
-  [[nodiscard]] Rule rule() const noexcept { return rule_; }
-  [[nodiscard]] const std::string& name() const noexcept { return name_; }  ///< as `named` would read it back
+  [[nodiscard]] Rule rule() const noexcept;
+  [[nodiscard]] const std::string& name() const noexcept;  ///< as `named` would read it back
   /// The pieces of a shape over the unit interval; for a spring those of a span of one second.
-  [[nodiscard]] const std::vector<Piece>& pieces() const noexcept { return pieces_; }
+  [[nodiscard]] const std::vector<Piece>& pieces() const noexcept;
   /// The pieces for a span of `duration` seconds.
   [[nodiscard]] std::vector<Piece> pieces_for(double duration) const;
-  [[nodiscard]] SlopeRule slope_rule() const noexcept { return slope_rule_; }
-  [[nodiscard]] TurnRule turn_rule() const noexcept { return turn_rule_; }  ///< null: slerp, hold, shape or Hermite
-  [[nodiscard]] const std::array<double, 4>& parameters() const noexcept { return parameters_; }
+  [[nodiscard]] SlopeRule slope_rule() const noexcept;
+  [[nodiscard]] TurnRule turn_rule() const noexcept;  ///< null: slerp, hold, shape or Hermite
+  [[nodiscard]] const std::array<double, 4>& parameters() const noexcept;
 
-  bool operator==(const Ease& other) const noexcept { return name_ == other.name_; }
+  bool operator==(const Ease& other) const noexcept { return form_ == other.form_ || name() == other.name(); }
 
   /// Progress at `u` in 0 to 1 of a shape, with derivatives in u. Precondition: rule() == Rule::shape.
   [[nodiscard]] Sample<double> progress(double u, Side side = Side::out) const noexcept;
 
- private:
-  Ease(Rule rule, std::string name, SlopeRule slope_rule = nullptr, const std::array<double, 4>& parameters = {},
-       TurnRule turn_rule = nullptr);
+  struct Form;  ///< private to the library
+  explicit Ease(Form form);
+  [[nodiscard]] const Form& form() const noexcept { return *form_; }
 
-  Rule rule_;
-  std::string name_;
-  SlopeRule slope_rule_ = nullptr;
-  TurnRule turn_rule_ = nullptr;
-  ShapeRule shape_rule_ = nullptr;
-  std::array<double, 4> parameters_{};
-  std::vector<Piece> pieces_;
+  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  Ease(const Ease&) noexcept = default;
+  Ease& operator=(const Ease&) noexcept = default;
+
+ private:
+  std::shared_ptr<const Form> form_;
 };
 
 }  // namespace tweenfall

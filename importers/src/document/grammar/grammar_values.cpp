@@ -69,6 +69,8 @@ const Shape* ease_shape(ShapeStore& store) {
            Ease::named(text).has_value();
   };
   shape.why = [calls](std::string_view text) -> std::string {
+    // What other programs call it.
+    if (const std::string ours = Ease::ours(text); !ours.empty()) return "; did you mean \"" + ours + "\"?";
     const std::size_t bracket = text.find('(');
     if (bracket == std::string_view::npos) return {};
     const std::string word(text.substr(0, bracket));

@@ -1,0 +1,21 @@
+#pragma once
+
+// What an ease is made of.
+
+#include <tweenfall/curves/ease.h>
+
+namespace tweenfall {
+
+struct Ease::Form {
+  Rule rule = Rule::slopes;
+  std::string name;
+  SlopeRule slopes = nullptr;
+  std::array<double, 4> parameters{};
+  TurnRule turns = nullptr;
+  ShapeRule shape = nullptr;  ///< where the pieces depend on the duration
+  std::vector<Piece> pieces{};
+  bool continuous_acceleration = false;                   ///< of the slopes
+  Ease (*with_ends)(double start, double end) = nullptr;  ///< the same with the first two parameters stated anew
+};
+
+}  // namespace tweenfall
