@@ -17,8 +17,8 @@ constexpr double most_steps = 1e7;
 void require_reachable(double from, double to, double step) {
   const double steps = (to - from) / step;
   if (steps <= most_steps) return;
-  throw std::invalid_argument("from " + std::to_string(from) + " s to " + std::to_string(to) + " s a stage takes " +
-                              std::to_string(steps) + " steps of " + std::to_string(step) +
+  throw std::invalid_argument("from " + number_text(from) + " s to " + number_text(to) + " s a stage takes " +
+                              number_text(steps) + " steps of " + number_text(step) +
                               " s; one call takes 10 million at most");
 }
 
@@ -68,7 +68,7 @@ void Stage::advance_to(double time) {
   const std::shared_ptr<Implementation> held = implementation_;  // a callback may destroy the stage
   Implementation& timeline = inside();
   if (!(time >= timeline.now()) || !std::isfinite(time))
-    throw std::invalid_argument("a stage at " + std::to_string(timeline.now()) + " s cannot advance to " +
+    throw std::invalid_argument("a stage at " + number_text(timeline.now()) + " s cannot advance to " +
                                 number_text(time) + " s; seek goes back");
   timeline.require_not_telling("advance");
   staging::require_reachable(timeline.now(), time, timeline.description.step);
