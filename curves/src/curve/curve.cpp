@@ -294,9 +294,10 @@ Curve<T>::Curve(Formula formula, std::vector<double> knots) {
       throw std::invalid_argument("knots must be finite and increase; knot " + std::to_string(i) + " is " +
                                   text_of(knots[i]) + " s");
   const auto rebuilt = [formula, knots](const OutsideRule<T>& before, const OutsideRule<T>& after) {
-    return CurveAccess::formula_with_knots<T>(formula, knots.front(), knots.back(), knots).with_outside(before, after);
+    return CurveAccess::formula_with_knots<T>(formula, knots.front(), knots.back(), {knots})
+        .with_outside(before, after);
   };
-  data_ = CurveAccess::seen_through<T>(formula, knots.front(), knots.back(), knots, {}, {}, rebuilt).data_;
+  data_ = CurveAccess::seen_through<T>(formula, knots.front(), knots.back(), {knots}, {}, {}, rebuilt).data_;
 }
 
 template <class T>
