@@ -1,19 +1,18 @@
 #include "eases/ease_row.h"
 
 // All kinds of eases, in the order of the documentation: a row each, defined in the file of its kind.
-#define TWEENFALL_EASES(ROW)                                                                                     \
-  ROW(hold)                                                                                                      \
-  ROW(step_next)                                                                                                 \
-  ROW(linear) ROW(smooth) ROW(smooth_clamped) ROW(monotone) ROW(akima) ROW(makima) ROW(natural) ROW(clamped)     \
-      ROW(periodic) ROW(not_a_knot) ROW(catmull_rom) ROW(catmull_rom_monotone) ROW(uniform) ROW(centripetal)     \
-          ROW(chordal) ROW(tcb) ROW(nlerp) ROW(squad) ROW(barry_goldman) ROW(css_ease) ROW(css_ease_in)          \
-              ROW(css_ease_out) ROW(css_ease_in_out) ROW(step_start) ROW(step_end) ROW(bezier) ROW(cubic_bezier) \
-                  ROW(steps) ROW(spring)
-#define TWEENFALL_EASE_FAMILIES(ROW)                                                                                   \
-  ROW(sine)                                                                                                            \
-  ROW(quad)                                                                                                            \
-  ROW(cubic) ROW(quart) ROW(quint) ROW(poly) ROW(exponential) ROW(circular) ROW(back) ROW(elastic) ROW(penner_elastic) \
-      ROW(bounce)
+// clang-format off
+#define TWEENFALL_EASES(ROW)                                                                      \
+  ROW(hold) ROW(step_next) ROW(linear) ROW(smooth) ROW(smooth_clamped) ROW(monotone) ROW(akima)   \
+  ROW(makima) ROW(natural) ROW(clamped) ROW(periodic) ROW(not_a_knot) ROW(catmull_rom)            \
+  ROW(catmull_rom_monotone) ROW(uniform) ROW(centripetal) ROW(chordal) ROW(tcb) ROW(nlerp)        \
+  ROW(squad) ROW(barry_goldman) ROW(css_ease) ROW(css_ease_in) ROW(css_ease_out)                  \
+  ROW(css_ease_in_out) ROW(step_start) ROW(step_end) ROW(bezier) ROW(cubic_bezier) ROW(steps)     \
+  ROW(spring)
+#define TWEENFALL_EASE_FAMILIES(ROW)                                                              \
+  ROW(sine) ROW(quad) ROW(cubic) ROW(quart) ROW(quint) ROW(poly) ROW(exponential) ROW(circular)   \
+  ROW(back) ROW(elastic) ROW(penner_elastic) ROW(bounce)
+// clang-format on
 
 namespace tweenfall::eases {
 

@@ -12,10 +12,10 @@ struct SinCos {
   double sin, cos;
 };
 
-[[nodiscard]] double sin(double x) noexcept;      ///< x in radians, any finite number; NaN for infinities
-[[nodiscard]] double cos(double x) noexcept;      ///< x in radians, any finite number; NaN for infinities
-[[nodiscard]] SinCos sin_cos(double x) noexcept;  ///< both at once
-[[nodiscard]] double tan(double x) noexcept;      ///< x in radians, any finite number; NaN for infinities
+[[nodiscard]] double sin(double x) noexcept;              ///< x in radians, any finite number; NaN for infinities
+[[nodiscard]] double cos(double x) noexcept;              ///< x in radians, any finite number; NaN for infinities
+[[nodiscard]] SinCos sin_cos(double x) noexcept;          ///< both at once
+[[nodiscard]] double tan(double x) noexcept;              ///< x in radians, any finite number; NaN for infinities
 [[nodiscard]] double atan(double x) noexcept;             ///< -pi/2 to pi/2
 [[nodiscard]] double atan2(double y, double x) noexcept;  ///< -pi to pi; 0 for (0, 0)
 [[nodiscard]] double asin(double x) noexcept;             ///< argument clamped to -1..1
