@@ -53,3 +53,14 @@ TEST_CASE("the spring decay solves x'' + 2 y x' + y^2 x = 0") {
     CHECK(s.value == doctest::Approx((1.5 + (-2 + y * 1.5) * t) * std::exp(-y * t)));
   }
 }
+
+TEST_CASE("a decay of next to nothing is met with no more than the stated acceleration") {
+  for (const double rate : {-1.0, -50.0, -300.0, -1000.0, 700.0}) {
+    for (const double offset : {1e-18, 1e-9, 1e-3}) {
+      CAPTURE(rate);
+      CAPTURE(offset);
+      const QuinticDecay decay(offset, rate, 3);
+      CHECK(std::abs(decay.sample(0).acceleration) <= 4000 * (1 + 1e-9));
+    }
+  }
+}

@@ -6,13 +6,14 @@
 
 namespace tweenfall {
 
-QuinticDecay::QuinticDecay(double offset, double rate, double blend_time, double floor) {
+QuinticDecay::QuinticDecay(double offset, double rate, double blend_time, double floor, double acceleration) {
   if (offset == 0 && rate == 0) return;
   // The rule is told for a positive offset; the other sign is its mirror image.
   const double sign = offset < 0 || (offset == 0 && rate < 0) ? -1 : 1;
   const double x = sign * offset, v = sign * rate;
   double t = blend_time;
-  if (v < 0) t = std::max(std::min(t, -5 * x / v), std::min(floor, blend_time));
+  const double least = std::min(std::max(floor, -8 * v / acceleration), blend_time);
+  if (v < 0) t = std::max(std::min(t, -5 * x / v), least);
   const double a = std::max(0.0, (-8 * v * t - 20 * x) / (t * t));
   duration = t;
   // Value, rate and acceleration are given at 0 and vanish at t.

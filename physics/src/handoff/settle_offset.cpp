@@ -18,6 +18,16 @@ Mat3 left_jacobian_inverse(const Vec3& r) {
   return right_jacobian_inverse(-r);
 }
 
+/// The motion turned further by a rotation vector that changes, world axes.
+Motion turned(Motion motion, const Vec3& turn, const Vec3& turn_rate) {
+  if (turn.isZero(0) && turn_rate.isZero(0)) return motion;
+  const Quat relative = exp_map(turn);
+  motion.pose.rotation = relative * motion.pose.rotation;
+  motion.pose.rotation.normalize();
+  motion.twist.angular = left_jacobian(turn) * turn_rate + relative * motion.twist.angular;
+  return motion;
+}
+
 }  // namespace
 
 SettleOffset::SettleOffset(const Settle& settle, double time, const Motion& path, const Motion& body)
@@ -37,6 +47,8 @@ SettleOffset::SettleOffset(const Settle& settle, double time, const Motion& path
     const double value = i < 3 ? offset[i] : turn[i - 3], rate = i < 3 ? offset_rate[i] : turn_rate[i - 3];
     if (settle.kind == Settle::Kind::quintic)
       quintic_[static_cast<std::size_t>(i)] = QuinticDecay(value, rate, settle.seconds);
+    if (settle.kind == Settle::Kind::dead_blend && i >= 3)
+      extrapolated_[static_cast<std::size_t>(i - 3)] = {value, rate};
     if (settle.kind == Settle::Kind::half_life) spring_[static_cast<std::size_t>(i)] = {value, rate, settle.seconds};
   }
 }
@@ -47,16 +59,21 @@ Motion SettleOffset::apply(double time, const Motion& path) const noexcept {
   if (since < 0) return path;
 
   if (settle_.kind == Settle::Kind::dead_blend) {
-    // Source: Holden, "Dead Blending", 2023: extrapolate what was, cross-fade to what shall be.
+    // Source: Holden, "Dead Blending", 2023: extrapolate what was, cross-fade to what shall be. Rotation fades as the
+    // turn from the path, told as one vector: so any number of turns is unwound, and none is taken for its opposite.
     if (since >= settle_.seconds) return path;
-    Motion onward = body_;
-    onward.pose.position += since * body_.twist.linear;
-    onward.pose.rotation = exp_map(since * body_.twist.angular) * body_.pose.rotation;
-    const double u = since / settle_.seconds;
-    Motion mixed = mix(onward, path, u * u * (3 - 2 * u), 6 * u * (1 - u) / settle_.seconds);
-    mixed.pose.scale = path.pose.scale;
-    mixed.scale_rate = path.scale_rate;
-    return mixed;
+    const double u = since / settle_.seconds, fade = u * u * (3 - 2 * u), rate = 6 * u * (1 - u) / settle_.seconds;
+    Motion mixed = path;
+    const Vec3 apart = body_.pose.position + since * body_.twist.linear - path.pose.position;
+    mixed.pose.position += (1 - fade) * apart;
+    mixed.twist.linear += (1 - fade) * (body_.twist.linear - path.twist.linear) - rate * apart;
+    Vec3 turn, turn_rate;
+    for (int i = 0; i < 3; ++i) {
+      const auto& [value, speed] = extrapolated_[static_cast<std::size_t>(i)];
+      turn[i] = (1 - fade) * (value + speed * since);
+      turn_rate[i] = (1 - fade) * speed - rate * (value + speed * since);
+    }
+    return turned(mixed, turn, turn_rate);
   }
 
   Vec3 offset, offset_rate, turn, turn_rate;
@@ -70,13 +87,7 @@ Motion SettleOffset::apply(double time, const Motion& path) const noexcept {
   Motion settled = path;
   settled.pose.position += offset;
   settled.twist.linear += offset_rate;
-  if (!turn.isZero(0) || !turn_rate.isZero(0)) {
-    const Quat relative = exp_map(turn);
-    settled.pose.rotation = relative * path.pose.rotation;
-    settled.pose.rotation.normalize();
-    settled.twist.angular = left_jacobian(turn) * turn_rate + relative * path.twist.angular;
-  }
-  return settled;
+  return turned(settled, turn, turn_rate);
 }
 
 }  // namespace tweenfall

@@ -86,6 +86,7 @@ StageState tried(const StageState& state, std::size_t armed, double end, double 
 void fire(StageState& state, std::size_t armed, double step, std::vector<Happening>& happenings) {
   const std::shared_ptr<const Rule> rule = state.rules[state.armed[armed].rule];
   state.armed[armed].done = rule->once;
+  state.armed[armed].attempt.fired = true;
   std::ranges::fill(state.armed[armed].latched, 0);
   change_owner(state, state.armed[armed].body, rule->to, Cause::contact, state.time, rule->take_over, rule->hand_back,
                step, happenings);

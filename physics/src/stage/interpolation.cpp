@@ -80,13 +80,21 @@ const StagedBody& body_in_force(const StageState& from, const StageState& to, st
 }
 
 /// What a node without a body follows: below a body that has its own clock, it keeps that clock.
-const Animation& animation_of(const StageState& state, NodeId node) {
+const StagedBody* body_above(const StageState& state, NodeId node) {
   for (NodeId i = node; i != no_node; i = (*state.nodes)[i].parent)
-    if (const StagedBody* body = state.body(i)) return body->path.animation();
-  return *state.animation;
+    if (const StagedBody* body = state.body(i)) return body;
+  return nullptr;
 }
 
 }  // namespace
+
+Motion local_motion(const StageState& state, const StagedBody* above, NodeId node, double time, Side side) {
+  const Animation& animation = above ? above->path.animation() : *state.animation;
+  const Motion local = animation.sample_node(node, time, side);
+  if (!above || !above->below) return local;
+  const auto found = std::ranges::lower_bound(*above->below, node, {}, &SettlingNode::node);
+  return found != above->below->end() && found->node == node ? found->offset.apply(time, local) : local;
+}
 
 WorldMotion body_world(const StageState& from, const StageState& to, std::size_t index, double time) {
   const StagedBody& body = body_in_force(from, to, index, time);
@@ -107,16 +115,16 @@ Twist body_twist(const StageState& from, const StageState& to, std::size_t index
 
 void stage_world(const StageState& from, const StageState& to, double time, std::span<WorldMotion> out) {
   const StageState& state = at_end(from, to, time) ? to : from;
-  std::vector<const Animation*> animations(out.size(), state.animation.get());
+  std::vector<const StagedBody*> above(out.size(), nullptr);
   for (NodeId node = 0; node < out.size(); ++node) {
     if (state.body_of[node] != no_body) {
       out[node] = body_world(from, to, state.body_of[node], time);
-      animations[node] = &state.bodies[state.body_of[node]].path.animation();
+      above[node] = &state.bodies[state.body_of[node]];
       continue;
     }
     const std::size_t parent = (*state.nodes)[node].parent;
-    if (parent != no_node) animations[node] = animations[parent];
-    out[node] = child_of(parent == no_node ? WorldMotion{} : out[parent], animations[node]->sample_node(node, time));
+    if (parent != no_node) above[node] = above[parent];
+    out[node] = child_of(parent == no_node ? WorldMotion{} : out[parent], local_motion(state, above[node], node, time));
   }
 }
 
@@ -129,8 +137,9 @@ WorldMotion node_world(const StageState& from, const StageState& to, NodeId node
     i = (*state.nodes)[i].parent;
   }
   WorldMotion world = i == no_node ? WorldMotion{} : body_world(from, to, state.body_of[i], time);
-  const Animation& animation = animation_of(state, node);
-  for (auto it = below.rbegin(); it != below.rend(); ++it) world = child_of(world, animation.sample_node(*it, time));
+  const StagedBody* above = body_above(state, node);
+  for (auto it = below.rbegin(); it != below.rend(); ++it)
+    world = child_of(world, local_motion(state, above, *it, time));
   return world;
 }
 

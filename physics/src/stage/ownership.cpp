@@ -44,6 +44,23 @@ Twist take_over_twist(const StagedBody& body, const Motion& arriving, const Take
   return twist;
 }
 
+/// The nodes without bodies below a body that changes from one path to another at `time`, each from where it is shown.
+std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState& state, const StagedBody& body,
+                                                                const Path& next, const Settle& settle, double time) {
+  if (&next.animation() == &body.path.animation()) return body.below;
+  auto below = std::make_shared<std::vector<SettlingNode>>();
+  std::vector<char> carried(state.nodes->size(), 0);
+  carried[body.node] = 1;
+  for (NodeId node = body.node + 1; node < carried.size(); ++node) {
+    const std::size_t parent = (*state.nodes)[node].parent;
+    if (parent == no_node || !carried[parent] || state.body_of[node] != no_body) continue;
+    carried[node] = 1;
+    const Motion shown = local_motion(state, &body, node, time, Side::in);
+    below->push_back({node, SettleOffset(settle, time, next.animation().sample_node(node, time), shown)});
+  }
+  return below;
+}
+
 }  // namespace
 
 void change_owner(StageState& state, std::size_t index, const Drive& to, Cause cause, double instant,
@@ -86,8 +103,10 @@ void change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
     // Taken back, or from free to a drive, it follows a path again.
     const bool follows = handoff.to == Owner::keyed ||
                          (handoff.to == Owner::driven && (handoff.from == Owner::free || !hand_back.clip.empty()));
+    const auto below = [&](const Path& next) { return settling_below(state, body, next, hand_back.settle, instant); };
     const Path path = follows ? body.path.recovered(instant, hand_back, motion, body.released_at) : body.path;
     world.set_drive(body.id, to);
+    body.below = below(path);
     body.path = path;
     if (handoff.to == Owner::keyed) {
       world.set_motion(body.id, rigid(body.path.at(state.time)));

@@ -45,12 +45,28 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
   }
 }
 
+void require_affordable(const Stage& stage, double until, double fps) {
+  constexpr double most_bytes = 1024.0 * 1024 * 1024, most_steps = 1e7;
+  const double length = std::max(0.0, until - stage.time()), frames = length * fps + 1, steps = length / stage.step();
+  constexpr double frame_bytes = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner);
+  const double bytes = frames * static_cast<double>(stage.nodes().size()) * frame_bytes;
+  const auto whole = [](double value) { return std::to_string(std::llround(std::min(value, 1e18))); };
+  if (steps > most_steps)
+    throw std::invalid_argument("a recording of " + whole(length) + " s takes " + whole(steps) +
+                                " steps; 10 million are allowed: end it earlier, or take longer steps");
+  if (bytes > most_bytes)
+    throw std::invalid_argument("a recording of " + whole(frames) + " frames of " +
+                                std::to_string(stage.nodes().size()) + " nodes takes " + whole(bytes / (1024 * 1024)) +
+                                " MiB; 1024 are allowed: end it earlier, or take fewer frames a second");
+}
+
 }  // namespace
 
 Recording record(Stage& stage, double until, double fps) {
   if (!(fps > 0) || !std::isfinite(fps))
     throw std::invalid_argument("frames per second must be above 0, not " + number_text(fps));
   if (!std::isfinite(until)) throw std::invalid_argument("a recording needs an end");
+  require_affordable(stage, until, fps);
   Recording recording;
   recording.name = stage.description().name;
   std::vector<WorldMotion> world;
@@ -73,20 +89,22 @@ Recording record(Stage& stage, double until, double fps) {
   }
   recording.handoffs.assign(stage.handoffs().begin(), stage.handoffs().end());
   recording.events.assign(stage.events().begin(), stage.events().end());
+  recording.unfired = stage.unfired_rules();
   return recording;
 }
 
 double natural_length(const StageDescription& description) {
-  constexpr double to_come_to_rest = 3, endless = 4, most = 600;
+  constexpr double to_come_to_rest = 3, endless = 4, hour = 3600, most = 600;
   double length = 0;
   bool simulated = false;
   for (const Play& play : description.plays) {
+    if (play.clip >= description.clips.size()) continue;
     const Clip& clip = description.clips[play.clip];
     const double end = end_time(play, clip);
-    if (std::isfinite(end))
+    if (end < hour)
       length = std::max(length, end);
     else
-      length = std::max(length, play.at + (std::isfinite(clip.duration) ? std::max(endless, clip.duration) : endless));
+      length = std::max(length, play.at + (clip.duration < hour ? std::max(endless, clip.duration) : endless));
   }
   for (const Rule& rule : description.rules) {
     simulated = true;

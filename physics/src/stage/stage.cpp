@@ -238,6 +238,10 @@ std::span<const StageEvent> Stage::events() const noexcept {
   return implementation_->events;
 }
 
+std::vector<UnfiredRule> Stage::unfired_rules() const {
+  return staging::unfired_rules(inside().current());
+}
+
 std::uint64_t Stage::state_hash() const noexcept {
   return implementation_ ? implementation_->ahead().world.state_hash() : 0;
 }

@@ -35,6 +35,12 @@ inline constexpr double sliver = 1e-9;
 /// The motion of a node some time later, when nothing acts on it; its twist stays that of the origin.
 [[nodiscard]] Motion moved_on(const Motion& motion, const Vec3& center, double seconds);
 
+/// How the nodes without bodies below a body settle after it changed its clock, each in its parent's axes.
+struct SettlingNode {
+  NodeId node = no_node;
+  SettleOffset offset;
+};
+
 struct StagedBody {
   NodeId node = no_node;
   BodyId id = {};
@@ -42,10 +48,12 @@ struct StagedBody {
   double released_at = 0;  ///< stage time at which it last left its path
   WorldMotion shown = {};  ///< the path at that time; its scale and shear stay on the free body
   bool present = true;
+  std::shared_ptr<const std::vector<SettlingNode>> below = {};  ///< in order of nodes; null for none
 };
 
 /// What became of a rule so far, for `Stage::unfired_rules`.
 struct Attempt {
+  bool fired = false;
   bool waited = false;   ///< its body was at some time not yet where the rule takes it
   bool touched = false;  ///< for contacts: something that the rule names
   double impulse = 0;    ///< greatest of those, N s
@@ -116,6 +124,9 @@ struct Command {
   std::function<void(StageState&, double instant, std::vector<Happening>&)> run;
 };
 
+// unfired.cpp: what was waited for in vain
+[[nodiscard]] std::vector<UnfiredRule> unfired_rules(const StageState& state);
+
 // roster.cpp: who is on the stage
 [[nodiscard]] StageState initial_state(const StageDescription& description);
 NodeId add_node(StageState& state, const NodeDescription& node);
@@ -161,6 +172,9 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
 [[nodiscard]] WorldMotion body_world(const StageState& from, const StageState& to, std::size_t body, double time);
 [[nodiscard]] Twist body_twist(const StageState& from, const StageState& to, std::size_t body, double time);
 void stage_world(const StageState& from, const StageState& to, double time, std::span<WorldMotion> out);
+/// Local motion of a node without a body. @param above  the nearest body above it; null for none
+[[nodiscard]] Motion local_motion(const StageState& state, const StagedBody* above, NodeId node, double time,
+                                  Side side = Side::out);
 [[nodiscard]] WorldMotion node_world(const StageState& from, const StageState& to, NodeId node, double time);
 
 }  // namespace tweenfall::staging

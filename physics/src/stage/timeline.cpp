@@ -13,7 +13,20 @@ Timeline::Timeline(StageDescription described)
 }
 
 void Timeline::take(StageState& state) {
-  take_piece(state, description.step, commands_, happenings_, arrived_);
+  take(state, commands_, happenings_, arrived_);
+}
+
+void Timeline::take(StageState& state, std::span<const Command> commands, std::vector<Happening>& happenings,
+                    std::optional<StageState>& arrived) const {
+  try {
+    take_piece(state, description.step, commands, happenings, arrived);
+  } catch (const NotFinite& fault) {
+    const std::size_t index = fault.body.index;
+    const NodeId node = index < state.node_of.size() ? state.node_of[index] : no_node;
+    throw std::runtime_error("the motion of \"" +
+                             (node == no_node ? std::string("a body") : (*state.nodes)[node].name) +
+                             "\" is no longer finite at " + std::to_string(fault.time) + " s: " + fault.cause);
+  }
 }
 
 void Timeline::keep_told() {
@@ -81,7 +94,7 @@ void Timeline::reach_now() {
   std::vector<Happening> again;
   const std::vector<Command> stop{{now_, [](StageState&, double, std::vector<Happening>&) {}}};
   std::optional<StageState> unchanged;
-  while (piece.time < now_) take_piece(piece, description.step, stop, again, unchanged);
+  while (piece.time < now_) take(piece, stop, again, unchanged);
   // What the piece has told stays told and is not told again.
   for (std::size_t i = of_piece_; i < told_; ++i) {
     const auto* told = std::get_if<StageEvent>(&happenings_[i].what);

@@ -36,6 +36,9 @@ class Timeline {
 
  private:
   void take(StageState& state);
+  /// @throws std::runtime_error naming the node whose motion is no longer finite
+  void take(StageState& state, std::span<const Command> commands, std::vector<Happening>& happenings,
+            std::optional<StageState>& arrived) const;
   void next_piece();
   void tell(bool aloud, double until);
   void keep_told();

@@ -134,6 +134,7 @@ void fire_rules(StageState& state, double from, double step, std::vector<Happeni
     if (!cause) continue;
     const std::shared_ptr<const Rule> rule = state.rules[armed.rule];
     if (rule->once) armed.done = true;
+    armed.attempt.fired = true;
     std::ranges::fill(armed.latched, 0);
     change_owner(state, armed.body, rule->to, *cause, due.instant, rule->take_over, rule->hand_back, step, happenings);
   }

@@ -20,8 +20,12 @@ struct QuinticDecay {
   /// @param offset, rate  any unit U, U/s, either sign
   /// @param blend_time    s; > 0
   /// @param floor         least duration, s (default: 0.02); shortening never goes below it
+  /// @param acceleration  shortening never goes so far that the start acceleration, at most 8 |rate| / duration,
+  /// exceeds
+  ///                      this, U/s^2 (default: 4000): an offset of next to nothing would otherwise be met with any
+  ///                      force
   QuinticDecay() = default;
-  QuinticDecay(double offset, double rate, double blend_time, double floor = 0.02);
+  QuinticDecay(double offset, double rate, double blend_time, double floor = 0.02, double acceleration = 4000);
 
   [[nodiscard]] Sample<double> sample(double seconds) const noexcept;  ///< 0 from `duration` on, exactly
 };

@@ -31,6 +31,10 @@ class SettleOffset {
   Motion body_ = {};                       ///< what the dead blend extrapolates
   std::array<QuinticDecay, 6> quintic_{};  ///< x, y, z, then the parts of the rotation vector, world axes
   std::array<SpringDecay, 6> spring_{};
+  struct Extrapolated {
+    double value = 0, rate = 0;
+  };
+  std::array<Extrapolated, 3> extrapolated_{};  ///< of the dead blend: the parts of the rotation vector
 };
 
 }  // namespace tweenfall

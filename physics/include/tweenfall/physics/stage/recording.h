@@ -26,13 +26,16 @@ struct Recording {
   std::vector<NodeRecord> nodes;
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
+  std::vector<UnfiredRule> unfired;  ///< rules that waited to the end in vain
 };
 
 /// Runs `stage` from its current time to `until`, taking a frame at the start and every 1/fps after, and at `until`.
+/// @throws std::invalid_argument, saying how much it would be, for more than 10 million steps or 1 GiB of frames
 [[nodiscard]] Recording record(Stage& stage, double until, double fps);
 
 /// A time at which the stage has shown what it has: the end of its plays or its last timed hand-off, and a while for
-/// bodies to come to rest; 4 s of what has no end, 600 s at most.
+/// bodies to come to rest; 4 s of what has no end or
+/// lasts longer than an hour, 600 s at most. Plays of clips that do not exist do not count.
 [[nodiscard]] double natural_length(const StageDescription& description);
 
 }  // namespace tweenfall

@@ -35,6 +35,13 @@ struct StageEvent {
   double impulse = 0;         ///< of a contact: N s
 };
 
+/// A rule that waited for one of its bodies in vain.
+struct UnfiredRule {
+  std::size_t rule = 0;  ///< in the order in which rules were given
+  std::size_t node = 0;
+  std::string reason;  ///< what is known of each trigger, in words
+};
+
 class Stage {
  public:
   /// @throws std::invalid_argument listing everything that does not fit together.
@@ -44,6 +51,8 @@ class Stage {
   Stage& operator=(Stage&&) noexcept;
 
   // Time
+  // All three throw std::invalid_argument when a call would take more than 10 million steps, and std::runtime_error
+  // naming node, time and likely cause when the motion of a body is no longer finite.
   void advance(double dt);       ///< @throws std::invalid_argument when dt is negative or not finite
   void advance_to(double time);  ///< to exactly `time`. @throws std::invalid_argument when that lies behind
   void seek(double time);        ///< any time >= 0; calls no callbacks
@@ -81,7 +90,11 @@ class Stage {
   [[nodiscard]] std::span<const HandOff> handoffs() const noexcept;   ///< up to `time()`
   [[nodiscard]] std::span<const StageEvent> events() const noexcept;  ///< up to `time()`, contacts included
 
-  /// A number that changes when any bit of any body does, at the end of the step that `time()` lies in.
+  /// What has not fired until now, by node and then by rule: never touched, not as hard as asked for, no such marker,
+  /// its time still to come. Of a pattern each body by itself.
+  [[nodiscard]] std::vector<UnfiredRule> unfired_rules() const;
+
+  /// A number that changes when any bit of any body does, at the next instant or step after `time()`.
   [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
  private:

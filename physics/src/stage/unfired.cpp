@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
+
+namespace {
+
+std::string number(double value) {
+  std::array<char, 32> digits;
+  return {digits.data(),
+          std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 5).ptr};
+}
+
+/// Whether a clip that counts has an event of this name. @param body  when given, only plays that move its node count
+bool has_event(const Animation& animation, const std::string& name, const StagedBody* body) {
+  for (std::size_t p = 0; p < animation.plays().size(); ++p) {
+    if (body && !animation.moved_by(body->node, p)) continue;
+    const Clip& clip = animation.clips()[animation.plays()[p].clip];
+    if (std::ranges::find(clip.events, name, &ClipEvent::name) != clip.events.end()) return true;
+  }
+  return false;
+}
+
+struct Reason {
+  const StageState& state;
+  const StagedBody& body;
+  const Attempt& attempt;
+
+  std::string operator()(const when::At& at) const {
+    if (at.time > state.handled)
+      return number(at.time) + " s lies beyond the end of the run, " + number(state.time) + " s";
+    return "at " + number(at.time) + " s the body was where the rule would take it, or the rule came later";
+  }
+  std::string operator()(const when::Marker& marker) const {
+    if (!has_event(body.path.animation(), marker.name, &body))
+      return "no playing clip that moves the body has an event \"" + marker.name + "\"";
+    return "the event \"" + marker.name + "\" did not come while it waited";
+  }
+  std::string operator()(const when::Event& event) const {
+    if (!has_event(*state.animation, event.name, nullptr)) return "no playing clip has an event \"" + event.name + "\"";
+    return "the event \"" + event.name + "\" did not come while it waited";
+  }
+  std::string operator()(const when::ClipEnd&) const { return "no clip that moves the body ended while it waited"; }
+  std::string operator()(const when::ContactHit& hit) const {
+    const std::string what = hit.with.empty() ? "nothing" : "nothing named \"" + hit.with + "\"";
+    if (!attempt.touched) return what + " touched the body";
+    return "the greatest blow was " + number(attempt.impulse) + " N s at " + number(attempt.speed) +
+           " m/s; it waits for " + number(hit.impulse) + " N s at " + number(hit.speed) + " m/s";
+  }
+  std::string operator()(const when::Asleep& asleep) const {
+    return "it was free and still for " + number(attempt.still) + " s at most; the rule waits for " +
+           number(asleep.seconds) + " s";
+  }
+};
+
+}  // namespace
+
+std::vector<UnfiredRule> unfired_rules(const StageState& state) {
+  std::vector<UnfiredRule> unfired;
+  for (const ArmedRule& armed : state.armed) {
+    if (armed.attempt.fired) continue;
+    const StagedBody& body = state.bodies[armed.body];
+    const Rule& rule = *state.rules[armed.rule];
+    std::string reason;
+    if (!armed.attempt.waited) {
+      constexpr std::array owners = {"keyed", "driven", "free"};
+      reason = std::string("the body was ") + owners[static_cast<std::size_t>(rule.to.owner())] +
+               " all the time, which is what the rule makes it";
+    } else {
+      for (const Trigger& trigger : rule.when.triggers)
+        reason += (reason.empty() ? "" : "; ") + std::visit(Reason{state, body, armed.attempt}, trigger);
+    }
+    unfired.push_back({armed.rule, body.node, std::move(reason)});
+  }
+  return unfired;
+}
+
+}  // namespace tweenfall::staging

@@ -1,0 +1,77 @@
+#include "physics/handoff/scenes.h"
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+
+Clip held(const std::string& name, const std::string& node, const Vec3& place) {
+  Clip clip;
+  clip.name = name;
+  clip.duration = endless;
+  clip.tracks = {{node, "position", Curve<Vec3>(place)}};
+  return clip;
+}
+
+}  // namespace
+
+TEST_CASE("a dead blend over many turns has a continuous and bounded angular velocity") {
+  Motion body, path;
+  body.twist.angular = {0, 0, 900};
+  body.pose.rotation = Quat(std::cos(0.7), 0, 0, std::sin(0.7));
+  const SettleOffset offset({Settle::Kind::dead_blend, 0.5}, 0, path, body);
+  Motion last = offset.apply(0, path);
+  CHECK(last.twist.angular.z() == doctest::Approx(900));
+  const double h = 1e-5;
+  for (double t = h; t < 0.6; t += h) {
+    const Motion now = offset.apply(t, path);
+    CHECK(now.twist.angular.norm() < 1000);
+    CHECK((now.twist.angular - last.twist.angular).norm() < 0.3);
+    CHECK(std::abs(last.pose.rotation.dot(now.pose.rotation)) > std::cos(0.5 * 1000 * h));
+    last = now;
+  }
+  CHECK(last.pose.rotation.coeffs() == path.pose.rotation.coeffs());
+}
+
+TEST_CASE("the nodes below a body that is handed back settle with it") {
+  StageDescription description;
+  description.nodes = {
+      {.name = "hip", .rest = {.position = {0, 5, 0}}, .body = BodyDescription{.shape = {Sphere{0.1}}}},
+      {.name = "leg", .parent = 0},
+      {.name = "foot", .parent = 1}};
+  description.clips = {held("walk", "foot", {0, -1, 0}), held("rise", "foot", {0.3, -0.8, 0.1})};
+  description.clips[1].tracks.push_back({"hip", "position", Curve<Vec3>(Vec3(0, 4, 0))});
+  description.plays = {{.clip = 0}};
+  HandBack back;
+  back.clip = "rise";
+  description.rules = {release_at(0.1, "hip"), recover_at(0.6, "hip", back)};
+  description.nodes[0].body->drive = Drive::keyed();
+  Stage stage(description);
+  stage.advance_to(0.6 - 1e-7);
+  const Vec3 before = stage.world(2).motion.pose.position;
+  stage.advance_to(0.6 + 1e-7);
+  CHECK(near(stage.world(2).motion.pose.position, before, 2e-6));
+  CHECK(near(stage.world(2).motion.twist.linear, stage.world(0).motion.twist.linear, 1e-3));
+  stage.advance_to(1.0);
+  CHECK(near(stage.world(2).motion.pose.position, Vec3(0.3, 3.2, 0.1), 1e-12));
+}
+
+TEST_CASE("a rule to a drive follows the path it names, and settles onto it") {
+  StageDescription description;
+  description.world.gravity = {0, 0, 0};
+  description.nodes = {{.name = "b",
+                        .rest = {.position = {0.5, 0, 0}},
+                        .body = BodyDescription{.shape = {Sphere{0.05}}, .drive = Drive::free()}}};
+  description.clips = {held("there", "b", {-1, 2, 0})};
+  Rule rule = recover_at(0.3, "b", {.clip = "there"});
+  rule.to = {.hz = 8};
+  description.rules = {rule};
+  Stage stage(description);
+  stage.advance_to(0.31);
+  CHECK(near(stage.world(0).motion.pose.position, Vec3(0.5, 0, 0), 0.02));
+  stage.advance_to(2);
+  CHECK(stage.owner(0) == Owner::driven);
+  CHECK(near(stage.world(0).motion.pose.position, Vec3(-1, 2, 0), 1e-6));
+}

@@ -1,0 +1,142 @@
+#include "physics/handoff/scenes.h"
+
+#include <tweenfall/physics/stage/recording.h>
+
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+StageDescription falling_ball() {
+  StageDescription stage;
+  stage.nodes = {
+      {.name = "ball", .rest = {.position = {0, 1, 0}}, .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 1.0}}};
+  return stage;
+}
+
+}  // namespace
+
+TEST_CASE("a stage that was moved from says so") {
+  Stage first(falling_ball());
+  const Stage second(std::move(first));
+  CHECK_THROWS_AS(first.advance(1), std::logic_error);
+  CHECK_THROWS_AS(first.release(0), std::logic_error);
+  CHECK_THROWS_AS((void)first.world(0), std::logic_error);
+  CHECK(first.time() == 0);
+  CHECK(first.nodes().empty());
+  CHECK_FALSE(first.contains(0));
+  CHECK(second.contains(0));
+  first = Stage(falling_ball());
+  first.advance(0.1);
+}
+
+TEST_CASE("a callback may destroy the stage that calls it") {
+  StageDescription description = falling_ball();
+  description.rules = {release_at(0.1, "ball"), recover_at(0.05, "ball")};
+  std::optional<Stage> stage(std::in_place, description);
+  int told = 0;
+  stage->on_handoff([&](const HandOff&) {
+    ++told;
+    stage.reset();
+  });
+  stage->advance(1);
+  CHECK(told == 1);
+}
+
+TEST_CASE("what would never end is refused") {
+  Stage stage(falling_ball());
+  CHECK_THROWS_AS(stage.advance(1e9), std::invalid_argument);
+  CHECK_THROWS_AS(stage.seek(1e300), std::invalid_argument);
+  CHECK_THROWS_AS(stage.advance_to(1e300), std::invalid_argument);
+  CHECK_THROWS_AS((void)record(stage, 1e8, 0.001), std::invalid_argument);
+  CHECK_THROWS_WITH_AS((void)record(stage, 4e4, 1e5), doctest::Contains("MiB"), std::invalid_argument);
+  CHECK(stage.time() == 0);
+}
+
+TEST_CASE("poses that are none, and times that are none, are refused") {
+  for (const Pose& rest : {Pose{.position = {std::nan(""), 0, 0}}, Pose{.rotation = Quat(0, 0, 0, 0)},
+                           Pose{.scale = {1, std::numeric_limits<double>::infinity(), 1}}}) {
+    StageDescription description = falling_ball();
+    description.nodes.push_back({.name = "bad", .rest = rest});
+    CHECK_THROWS_WITH_AS(Stage{description}, doctest::Contains("\"bad\""), std::invalid_argument);
+    Stage stage(falling_ball());
+    CHECK_THROWS_AS((void)stage.add({.name = "bad", .rest = rest}), std::invalid_argument);
+    CHECK(stage.nodes().size() == 1);
+  }
+  StageDescription description = falling_ball();
+  description.rules = {release_at(std::nan(""), "ball")};
+  CHECK_THROWS_AS(Stage{description}, std::invalid_argument);
+}
+
+TEST_CASE("a play of no clip does not count for the natural length, nor a clip that lasts for ages") {
+  StageDescription description = falling_ball();
+  description.plays = {{.clip = 7}};
+  CHECK(natural_length(description) == 3);
+  description.clips = {Clip{.name = "long", .duration = 1e300}};
+  description.plays = {{.clip = 0}};
+  CHECK(natural_length(description) == 7);
+}
+
+TEST_CASE("a node's scale and its parents' scale what collides") {
+  for (const bool of_parent : {false, true}) {
+    StageDescription description;
+    description.nodes = {{.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}},
+                         {.name = "parent"},
+                         {.name = "box",
+                          .parent = 1,
+                          .rest = {.position = {0, 2, 0}},
+                          .body = BodyDescription{.shape = {Box{{0.2, 0.2, 0.2}}}, .mass = 1.0}}};
+    description.nodes[of_parent ? 1 : 2].rest.scale = {3, 3, 3};
+    Stage stage(description);
+    stage.advance_to(4);
+    CHECK(std::abs(stage.world(2).motion.pose.position.y() - 0.6) < 1e-4);
+    description.nodes[2].body->shape = {Sphere{0.2}};
+    Stage round(description);
+    round.advance_to(4);
+    CHECK(std::abs(round.world(2).motion.pose.position.y() - 0.6) < 1e-4);
+    description.nodes[of_parent ? 1 : 2].rest.scale = {3, 1, 3};
+    CHECK_THROWS_WITH_AS(Stage{description}, doctest::Contains("same scale along all axes"), std::invalid_argument);
+  }
+}
+
+TEST_CASE("a pattern takes what can be taken, a name alone must be takeable") {
+  StageDescription description = falling_ball();
+  description.nodes.push_back({.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});
+  description.rules = {recover_at(0.1, "*")};
+  Stage stage(description);
+  stage.advance(0.2);
+  CHECK(stage.handoffs().size() == 1);
+  description.rules = {recover_at(0.1, "floor")};
+  CHECK_THROWS_WITH_AS(Stage{description}, doctest::Contains("static"), std::invalid_argument);
+}
+
+TEST_CASE("rules that waited in vain are listed with what is known of them") {
+  StageDescription description = falling_ball();
+  description.nodes.push_back({.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});
+  const auto rule = [&](const Trigger& trigger) {
+    Rule one = recover_at(0, "ball");
+    one.when.triggers = {trigger};
+    description.rules.push_back(one);
+  };
+  rule(when::At{9});
+  rule(when::Marker{"let go"});
+  rule(when::ContactHit{.impulse = 1000});
+  rule(when::ContactHit{.with = "nobody"});
+  rule(when::Asleep{50});
+  description.rules.push_back(release_at(0.1, "ball"));
+  Stage stage(description);
+  const Recording recording = record(stage, 2, 10);
+  REQUIRE(recording.unfired.size() == 6);
+  const char* words[] = {"9 s lies beyond the end",  "no playing clip that moves the body has an event \"let go\"",
+                         "the greatest blow was 4.", "nothing named \"nobody\" touched",
+                         "the rule waits for 50 s",  "free all the time"};
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(recording.unfired[i].rule == i);
+    CHECK(recording.unfired[i].node == 0);
+    CHECK_MESSAGE(recording.unfired[i].reason.find(words[i]) != std::string::npos, recording.unfired[i].reason);
+  }
+}
