@@ -209,6 +209,7 @@ class HullAndCapsule {
   }
 
   void leave(const HullExit& exit) {
+    if (exit.face < 0 && exit.edge < 0) return;  // a pose that is no number has no way out
     if (exit.face >= 0 && lie_on_face(exit.face)) return;
     manifold_.normal = exit.normal;
     if (exit.face >= 0) {

@@ -39,6 +39,8 @@ Course course_of(const Body& body, const Load& load, double dt) {
     const KeyedCourse course = body.immovable() ? keyed_course(body, dt) : KeyedCourse{};
     return {&body, course.mean.linear - 0.5 * course.gain.linear, course.mean.angular, course.gain.linear / dt};
   }
+  // A drive may be stiff enough to take the body anywhere within the step.
+  if (body.drive.owner() == Owner::driven) return {&body, load.pulled.linear, load.pulled.angular, Vec3::Zero()};
   return {&body, body.twist.linear, body.twist.angular, load.acceleration};
 }
 

@@ -26,14 +26,12 @@ DriveLaw drive_law(const Body& body, const Vec3& center, const Quat& rotation, d
   return law;
 }
 
-void pull(Body& body, const Load& load, Integrator integrator, double dt) {
+Twist pulled(const Body& body, const Load& load, Integrator integrator, double dt) {
   const DriveLaw law = drive_law(body, body.center, body.motion.pose.rotation, dt, 0);
   const Vec3 unpulled = accelerated(body.twist.linear, load, integrator, dt);
   Vec3 impulse = body.mass.mass * ((unpulled + law.linear) / (1 + law.stiffness) - unpulled);
   const double most = body.drive.max_force * dt;
   if (impulse.norm() > most) impulse *= most / impulse.norm();
-  body.twist.linear = unpulled + impulse / body.mass.mass;
-  body.center += body.twist.linear * dt;
 
   const Quat start = body.motion.pose.rotation;
   const Vec3 spun = turned(body, {start, body.twist.angular}, load, dt).angular;
@@ -41,8 +39,13 @@ void pull(Body& body, const Load& load, Integrator integrator, double dt) {
   const double turning = (body.world_inertia(start) * change).norm();
   const double most_turning = body.drive.max_torque * dt;
   if (turning > most_turning) change *= most_turning / turning;
-  body.twist.angular = spun + change;
-  Quat rotation = exp_map(body.twist.angular * dt) * start;
+  return {unpulled + impulse / body.mass.mass, spun + change};
+}
+
+void pull(Body& body, const Load& load, double dt) {
+  body.twist = load.pulled;
+  body.center += body.twist.linear * dt;
+  Quat rotation = exp_map(body.twist.angular * dt) * body.motion.pose.rotation;
   rotation.normalize();
   body.follow_center(rotation);
 }

@@ -17,7 +17,10 @@ struct DriveLaw {
 [[nodiscard]] DriveLaw drive_law(const Body& body, const Vec3& center, const Quat& rotation, double h,
                                  double target_ahead);
 
+/// Velocity of a driven body at the end of a step in which nothing touches it, and with which it gets there.
+[[nodiscard]] Twist pulled(const Body& body, const Load& load, Integrator integrator, double dt);
+
 /// Moves a driven body that nothing touches.
-void pull(Body& body, const Load& load, Integrator integrator, double dt);
+void pull(Body& body, const Load& load, double dt);
 
 }  // namespace tweenfall

@@ -2,6 +2,7 @@
 
 #include <tweenfall/curves/rotation.h>
 
+#include "forces/drive_law.h"
 #include "step/keyed_step.h"
 
 namespace tweenfall {
@@ -10,17 +11,6 @@ namespace {
 
 bool moves(const Body& body) {
   return !body.immovable() && !body.asleep;
-}
-
-Body* find(std::vector<Body>& bodies, const BodyId& id) {
-  if (id.index >= bodies.size()) return nullptr;
-  Body& body = bodies[id.index];
-  return body.alive && body.generation == id.generation ? &body : nullptr;
-}
-const Body* find(const std::vector<Body>& bodies, const BodyId& id) {
-  if (id.index >= bodies.size()) return nullptr;
-  const Body& body = bodies[id.index];
-  return body.alive && body.generation == id.generation ? &body : nullptr;
 }
 
 /// A body as the forces see it: now, or where it would be at the end of the step.
@@ -70,26 +60,36 @@ Pull pull_of(const Spring& spring, const Body& body_a, const Glimpse& a, const B
   return pull;
 }
 
+/// Above this a spring would ring through the step, and above 4 it would grow.
+constexpr double most_springiness = 1;
+
+void add_springiness(const std::vector<Body>& bodies, const Spring& spring, double dt, std::vector<Load>& loads) {
+  const Body* a = find_body(bodies, spring.a);
+  const Body* b = find_body(bodies, spring.b);
+  if (!a || (!b && spring.b != BodyId{})) return;
+  const auto inverse_mass = [](const Body& body, const Vec3& anchor) {
+    if (!moves(body)) return 0.0;
+    return 1 / body.mass.mass + (anchor - body.mass.center).squaredNorm() * body.inverse_inertia.norm();
+  };
+  const double stiffness = spring.stiffness * dt * dt + spring.damping * dt;
+  const double felt = inverse_mass(*a, spring.anchor_a) + (b ? inverse_mass(*b, spring.anchor_b) : 0);
+  if (moves(*a)) loads[spring.a.index].springiness += stiffness * felt;
+  if (b && moves(*b)) loads[spring.b.index].springiness += stiffness * felt;
+}
+
 }  // namespace
 
-void wake_by_forces(std::vector<Body>& bodies, const std::vector<NumberedForce>& forces) {
-  for (const NumberedForce& entry : forces) {
-    if (std::holds_alternative<Field>(entry.force)) {
-      for (Body& body : bodies) body.asleep = false;
-    } else if (const auto* spring = std::get_if<Spring>(&entry.force)) {
-      Body* a = find(bodies, spring->a);
-      Body* b = find(bodies, spring->b);
-      if (!a || !b) continue;
-      const auto stirs = [](const Body& body) { return body.immovable() ? body.has_target : !body.asleep; };
-      if (stirs(*a) && !b->immovable()) b->asleep = false;
-      if (stirs(*b) && !a->immovable()) a->asleep = false;
-    }
-  }
+const Body* find_body(const std::vector<Body>& bodies, const BodyId& id) {
+  if (id.index >= bodies.size()) return nullptr;
+  const Body& body = bodies[id.index];
+  return body.alive && body.generation == id.generation ? &body : nullptr;
 }
 
 void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedForce>& forces,
-                  const WorldSettings& settings, double time, double dt, std::vector<Load>& loads) {
+                  const WorldSettings& settings, double time, double dt, std::vector<Load>& loads,
+                  std::vector<SpringRow>& stiff) {
   loads.assign(bodies.size(), Load{});
+  stiff.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Body& body = bodies[i];
     if (!body.alive) continue;
@@ -102,7 +102,28 @@ void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedFor
     load.drag = body.linear_damping;
     load.angular_damping = body.angular_damping;
   }
-  if (forces.empty()) return;
+  for (const NumberedForce& entry : forces)
+    if (const auto* spring = std::get_if<Spring>(&entry.force)) add_springiness(bodies, *spring, dt, loads);
+  const auto too_stiff = [&](const Spring& spring, const Body* b) {
+    return loads[spring.a.index].springiness > most_springiness ||
+           (b && loads[spring.b.index].springiness > most_springiness);
+  };
+  for (const NumberedForce& entry : forces) {
+    const auto* spring = std::get_if<Spring>(&entry.force);
+    if (!spring) continue;
+    const Body* a = find_body(bodies, spring->a);
+    const Body* b = find_body(bodies, spring->b);
+    if (!a || (!b && spring->b != BodyId{}) || !too_stiff(*spring, b)) continue;
+    SpringRow row;
+    row.a = spring->a.index;
+    if (b) row.b = spring->b.index;
+    row.local_a = spring->anchor_a - a->mass.center;
+    row.local_b = b ? Vec3(spring->anchor_b - b->mass.center) : spring->anchor_b;
+    row.rest_length = spring->rest_length;
+    row.stiffness = spring->stiffness;
+    row.damping = spring->damping;
+    stiff.push_back(row);
+  }
 
   // Twice: at the start, and where the bodies would be at the end (velocity Verlet for untouched bodies).
   const double torque_share = settings.integrator == Integrator::exact_quadratic ? 0.5 : 1;
@@ -117,9 +138,10 @@ void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedFor
           loads[i].angular_drag += drag->angular;
         }
       } else if (const auto* spring = std::get_if<Spring>(&entry.force)) {
-        const Body* a = find(bodies, spring->a);
-        const Body* b = find(bodies, spring->b);
+        const Body* a = find_body(bodies, spring->a);
+        const Body* b = find_body(bodies, spring->b);
         if (!a || (!b && spring->b != BodyId{})) continue;  // an end was removed: the spring hangs loose
+        if (too_stiff(*spring, b)) continue;
         const Glimpse at_a = at_end ? ahead(*a, loads[spring->a.index], dt) : now(*a);
         const Glimpse at_b = !b ? Glimpse{} : at_end ? ahead(*b, loads[spring->b.index], dt) : now(*b);
         const Pull pull = pull_of(*spring, *a, at_a, b, at_b);
@@ -142,8 +164,13 @@ void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedFor
       }
     }
   };
-  add(false);
-  if (settings.integrator == Integrator::exact_quadratic) add(true);
+  if (!forces.empty()) {
+    add(false);
+    if (settings.integrator == Integrator::exact_quadratic) add(true);
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].alive && moves(bodies[i]) && bodies[i].drive.owner() == Owner::driven)
+      loads[i].pulled = pulled(bodies[i], loads[i], settings.integrator, dt);
 }
 
 }  // namespace tweenfall

@@ -4,6 +4,7 @@
 
 #include "forces/free_flight.h"
 #include "state/body.h"
+#include "step/spring_row.h"
 
 namespace tweenfall {
 
@@ -12,11 +13,13 @@ struct NumberedForce {
   Force force;
 };
 
-/// Loads of all bodies for a step of length `dt` that starts at `time`; `loads` is sized like `bodies`.
+/// Loads of all bodies for a step of length `dt` that starts at `time`; `loads` is sized like `bodies`. Springs that
+/// are too stiff for the step go into `stiff` and into no load.
 void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedForce>& forces,
-                  const WorldSettings& settings, double time, double dt, std::vector<Load>& loads);
+                  const WorldSettings& settings, double time, double dt, std::vector<Load>& loads,
+                  std::vector<SpringRow>& stiff);
 
-/// Wakes bodies on a spring whose other end moves, and all bodies when there is a field.
-void wake_by_forces(std::vector<Body>& bodies, const std::vector<NumberedForce>& forces);
+/// The body of a handle; null when it is gone, or for the world itself.
+[[nodiscard]] const Body* find_body(const std::vector<Body>& bodies, const BodyId& id);
 
 }  // namespace tweenfall

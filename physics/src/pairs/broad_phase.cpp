@@ -1,10 +1,14 @@
 #include "pairs/broad_phase.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace tweenfall {
 
 namespace {
+
+/// Two bodies that both have so many neighbors already are no pair: thousands at one place part all the same.
+constexpr std::uint32_t most_pairs = 128;
 
 bool overlap(const Bounds& a, const Bounds& b) {
   for (int i = 0; i < 3; ++i)
@@ -31,7 +35,7 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, const
     const Body& body = bodies[i];
     if (!body.alive) continue;
     const bool immovable = body.immovable();
-    Entry entry{bounds(body.shape, body.motion.pose), i, immovable ? body.has_target : !body.asleep, !immovable};
+    Entry entry{bounds(body.shape, body.motion.pose), i, body.stirs(), !immovable, 0};
     if (std::holds_alternative<Plane>(body.shape.solid)) {
       planes_.push_back(entry);
       continue;
@@ -42,10 +46,14 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, const
       const Bounds end = bounds(body.shape, body.target.pose);
       entry.bounds.low = entry.bounds.low.cwiseMin(end.low);
       entry.bounds.high = entry.bounds.high.cwiseMax(end.high);
-    } else if (entry.dynamic) {
-      travel = body.twist.linear * dt;
+      // Between its ends an arc bulges out over both.
+      const double cosine = std::abs(body.target.pose.rotation.dot(body.motion.pose.rotation));
+      swing = body.radius * (1 - std::min(1.0, cosine));
+    } else if (!immovable && !body.asleep) {
+      const Twist& twist = body.drive.owner() == Owner::driven ? loads[i].pulled : body.twist;
+      travel = twist.linear * dt;
       if (!body.spherical || body.mass.center != Vec3::Zero() || std::holds_alternative<Hull>(body.shape.solid))
-        swing = std::min(body.twist.angular.norm() * dt, 2.0) * body.radius;
+        swing = std::min(twist.angular.norm() * dt, 2.0) * body.radius;
       swing += loads[i].acceleration.norm() * dt * dt;
     }
     const Vec3 room = Vec3::Constant(0.5 * margin + swing);
@@ -68,9 +76,15 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, const
     pairs_.emplace_back(std::min(a.index, b.index), std::max(a.index, b.index));
   };
   for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const Entry& a = entries_[i];
-    for (std::size_t j = i + 1; j < entries_.size() && entries_[j].bounds.low[axis] <= a.bounds.high[axis]; ++j)
-      if (matters(a, entries_[j]) && overlap(a.bounds, entries_[j].bounds)) add(a, entries_[j]);
+    Entry& a = entries_[i];
+    for (std::size_t j = i + 1; j < entries_.size() && entries_[j].bounds.low[axis] <= a.bounds.high[axis]; ++j) {
+      Entry& b = entries_[j];
+      if (a.pairs >= most_pairs && b.pairs >= most_pairs && a.movable && b.movable) continue;
+      if (!matters(a, b) || !overlap(a.bounds, b.bounds)) continue;
+      ++a.pairs;
+      ++b.pairs;
+      add(a, b);
+    }
   }
   for (const Entry& plane : planes_)
     for (const Entry& entry : entries_)

@@ -21,8 +21,9 @@ class BroadPhase {
   struct Entry {
     Bounds bounds;
     std::uint32_t index;
-    bool dynamic;  ///< awake and movable, or keyed and on its way
+    bool dynamic;  ///< awake and movable, keyed and on its way, or newly placed
     bool movable;
+    std::uint32_t pairs;  ///< found so far
   };
   std::vector<Entry> entries_;
   std::vector<Entry> planes_;

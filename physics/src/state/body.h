@@ -27,7 +27,9 @@ struct Body {
   Motion motion;            ///< of the node's origin, exactly as told while keyed
   Vec3 center{0, 0, 0};     ///< center of mass, world
   Twist twist;              ///< at the center of mass
+  bool placed = true;       ///< added or moved by the caller since the last step: what sleeps beside it wakes
   bool has_target = false;  ///< a target was set since the last step
+  bool led = false;         ///< driven, and its target moved
   Motion target;            ///< of the node's origin at the end of the step
   Vec3 force{0, 0, 0};      ///< accumulated for the next step, N
   Vec3 torque{0, 0, 0};     ///< N m
@@ -36,6 +38,14 @@ struct Body {
   bool asleep = false;
 
   [[nodiscard]] bool immovable() const { return fixed || drive.owner() == Owner::keyed; }
+  /// On its way to another place in this step.
+  [[nodiscard]] bool displaces() const {
+    return has_target && !fixed &&
+           (target.pose.position != motion.pose.position ||
+            target.pose.rotation.coeffs() != motion.pose.rotation.coeffs());
+  }
+  /// May change what touches it.
+  [[nodiscard]] bool stirs() const { return placed || (immovable() ? displaces() : !asleep); }
   [[nodiscard]] Mat3 world_inertia(const Quat& rotation) const;
   [[nodiscard]] Mat3 world_inverse_inertia(const Quat& rotation) const;
 

@@ -58,7 +58,7 @@ std::uint64_t World::state_hash() const noexcept {
     hash.add(body.drive.max_force);
     hash.add(body.drive.max_torque);
     hash.add(body.target);
-    hash.add(std::uint64_t{body.has_target});
+    hash.add(std::uint64_t{body.has_target} | std::uint64_t{body.placed} << 1 | std::uint64_t{body.led} << 2);
     hash.add(body.force);
     hash.add(body.torque);
     hash.add(body.reaction);

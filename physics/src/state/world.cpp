@@ -232,6 +232,12 @@ void World::remove(BodyId id) {
   Implementation& world = changing();
   Body& body = world.at(id);
   world.wake_neighbors(id.index);
+  for (const NumberedForce& entry : world.forces) {
+    const auto* spring = std::get_if<Spring>(&entry.force);
+    if (!spring || (spring->a != id && spring->b != id)) continue;
+    for (const BodyId& end : {spring->a, spring->b})
+      if (contains(end)) world.wake(end.index);
+  }
   body.alive = false;
   ++body.generation;
   std::erase_if(world.constraints, [&](const ContactConstraint& c) { return c.a == id.index || c.b == id.index; });
@@ -305,6 +311,7 @@ void World::set_motion(BodyId id, const Motion& motion) {
   world.wake(id.index);
   world.forget_impulses(id.index);
   body.motion = wanted;
+  body.placed = true;
   if (body.fixed) {
     body.motion.twist = {};
     body.motion.scale_rate = Vec3::Zero();
@@ -334,6 +341,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
   body.target.twist = {};
   body.motion.scale_rate = drive.owner() == Owner::keyed ? body.motion.scale_rate : Vec3(0, 0, 0);
   world.forget_impulses(id.index);
+  body.placed = true;
   world.wake_neighbors(id.index);
   world.wake(id.index);
 }
@@ -343,13 +351,14 @@ void World::set_target(BodyId id, const Motion& end_of_step) {
   Body& body = world.at(id);
   require(!body.fixed, "a fixed body takes no target: it never moves");
   require(body.drive.owner() != Owner::free, "a free body takes no target: only keyed and driven bodies have one");
+  const Pose before = body.target.pose;
   body.target = checked(end_of_step);
   body.has_target = true;
-  if (body.drive.owner() == Owner::driven) {
-    const bool same = body.target.pose.position == body.motion.pose.position &&
-                      body.target.pose.rotation.coeffs() == body.motion.pose.rotation.coeffs();
-    if (!same) body.asleep = false;
-  }
+  if (body.drive.owner() != Owner::driven) return;
+  body.led = body.led || body.target.pose.position != before.position ||
+             body.target.pose.rotation.coeffs() != before.rotation.coeffs() ||
+             body.target.twist.linear != Vec3::Zero() || body.target.twist.angular != Vec3::Zero();
+  if (body.led) world.wake(id.index);
 }
 
 void World::apply_force(BodyId id, const Vec3& force, const Vec3& point) {

@@ -18,6 +18,7 @@ struct Start {
   Vec3 center;
   Quat rotation;
   Twist twist;
+  bool led = false;  ///< by a drive whose target moves
 };
 
 struct World::Implementation {
@@ -33,11 +34,14 @@ struct World::Implementation {
 
   // Room for work, kept between steps
   std::vector<Load> loads;
+  std::vector<SpringRow> stiff_springs;
   std::vector<Start> starts;
   BroadPhase broad_phase;
   std::vector<ContactConstraint> active;    ///< near something that stirs
   std::vector<ContactConstraint> retained;  ///< between bodies at rest, as they were
   std::vector<char> flags;
+  std::vector<char> carried;  ///< by island: something keyed moves it
+  std::vector<std::uint32_t> contact_counts;
   std::vector<double> stillness;
   Islands islands;
   Solver solver;
@@ -53,6 +57,7 @@ struct World::Implementation {
                     double at) const;  ///< @throws NotFinite for the first that is not; dt of the step before
   void check_loads(double at) const;   ///< @throws NotFinite for the first body with one that is not
   void find_constraints(double dt);
+  void wake_by_fields();
   bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
   void note_starts();
   void advance_bodies(double dt);

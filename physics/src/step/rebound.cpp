@@ -108,8 +108,8 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Loa
                     force.dot(entry.center - start.center);
     if (load.torque != Vec3::Zero())
       energy.limit += load.torque.dot(log_map(entry.rotation * start.rotation.conjugate()));
-    // A drive's work is not known: the island is left as it is.
-    if (body.drive.owner() == Owner::driven) energy.limit = std::numeric_limits<double>::infinity();
+    // The work of a drive or a stiff spring is not known: the island is left as it is.
+    if (entry.sprung || body.drive.owner() == Owner::driven) energy.limit = std::numeric_limits<double>::infinity();
     const Mat3 inertia = body.world_inertia(entry.rotation);
     const Vec3 linear = entry.linear - start.linear_before_rebound;
     const Vec3 angular = entry.angular - start.angular_before_rebound;

@@ -33,6 +33,10 @@ constexpr double unhurried = 1e-3 / sub_steps;
 /// mostly rounding, which would grow with the ratio of lengths.
 constexpr double long_enough = 0.5;
 
+bool pulls_without_limit(const Body& body) {
+  return body.drive.owner() == Owner::driven && std::isinf(body.drive.max_force) && std::isinf(body.drive.max_torque);
+}
+
 /// When and how fast a gap closes within a span of time; `span` and 0 when it does not.
 struct Meeting {
   double time, speed;
@@ -60,7 +64,8 @@ Closing closing_of(const std::vector<Load>& loads, const ContactConstraint& cons
 
 }  // namespace
 
-void Solver::gather(const std::vector<Body>& bodies, std::vector<ContactConstraint>& constraints, double dt) {
+void Solver::gather(const std::vector<Body>& bodies, std::vector<ContactConstraint>& constraints,
+                    const std::vector<SpringRow>& springs, double dt) {
   bodies_.clear();
   slots_.assign(bodies.size(), 0xffffffffu);
   const auto add = [&](std::uint32_t index) {
@@ -92,6 +97,12 @@ void Solver::gather(const std::vector<Body>& bodies, std::vector<ContactConstrai
     add(constraint.a);
     add(constraint.b);
   }
+  for (const SpringRow& spring : springs)
+    for (const std::uint32_t end : {spring.a, spring.b}) {
+      if (end == SpringRow::world) continue;
+      add(end);
+      at(end).sprung = at(end).touched = at(end).movable;
+    }
   starts_.resize(bodies_.size());
 }
 
@@ -154,7 +165,8 @@ void Solver::refresh(ContactConstraint& constraint) const {
 }
 
 void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads,
-                            const WorldSettings& settings, double h, double share) {
+                            const WorldSettings& settings, double h, int sub_step) {
+  const double share = static_cast<double>(sub_step) / sub_steps;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     SolverBody& entry = bodies_[i];
     entry.pressed = false;
@@ -178,6 +190,15 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
     const Spin spin = turned(body, {entry.rotation, entry.angular}, load, h);
     entry.angular = spin.angular;
     entry.inverse_inertia = body.world_inverse_inertia(spin.rotation);
+    if (!pulls_without_limit(body)) continue;
+    // Implicit in the pull: contacts, too, have to move what it holds.
+    const DriveLaw law = drive_law(body, entry.center, entry.rotation, h, (sub_steps - sub_step - 1) * h);
+    entry.pulled = true;
+    const double given = 1 / (1 + law.stiffness);
+    entry.linear = given * (entry.linear + law.linear);
+    entry.angular = given * (entry.angular + law.angular);
+    entry.inverse_mass = given / body.mass.mass;
+    entry.inverse_inertia *= given;
   }
 }
 
@@ -222,7 +243,7 @@ double Solver::solve_contact(ContactConstraint& constraint, const Softness& soft
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
     // A gap may close within the sub-step, but not further.
-    const bool soft = point.gap <= 0 && !constraint.impact;
+    const bool soft = point.gap <= 0 && !constraint.impact && !a.pulled && !b.pulled;
     const double wanted = point.gap > 0 ? -point.gap / h : std::min(-softness.rate * point.gap, softness.speed);
     change = std::max(change, step::solve_normal(a, b, point, point.normal_impulse, wanted, normal,
                                                  soft ? softness.firm : 1, soft ? softness.giving : 0));
@@ -232,7 +253,7 @@ double Solver::solve_contact(ContactConstraint& constraint, const Softness& soft
 
 double Solver::solve_drive(const std::vector<Body>& bodies, SolverBody& entry, double h, double remaining) {
   const Body& body = bodies[entry.index];
-  if (!entry.movable || body.drive.owner() != Owner::driven) return 0;
+  if (!entry.movable || body.drive.owner() != Owner::driven || pulls_without_limit(body)) return 0;
   const DriveLaw law = drive_law(body, entry.center, entry.rotation, h, remaining);
   // Velocity as it would be without the pull: contacts included, the drive's own impulse taken out.
   const Vec3 linear = entry.linear - entry.inverse_mass * entry.drive_impulse;
@@ -281,7 +302,7 @@ void Solver::find_lags(const std::vector<ContactConstraint>& constraints) {
     }
   }
   for (SolverBody& body : bodies_)
-    if (body.impact && body.pressed) body.lag = Vec3::Zero();
+    if (body.sprung || body.pulled || (body.impact && body.pressed)) body.lag = Vec3::Zero();
 }
 
 void Solver::add_totals(std::vector<ContactConstraint>& constraints, double h) {
@@ -319,7 +340,7 @@ void Solver::end_sub_step(double h) {
     // Under steady forces the mean velocity is exact.
     const Vec3 linear = entry.linear + entry.lag;
     Vec3 angular = entry.angular;
-    if (entry.movable && (!entry.pressed || (entry.round && !entry.impact)))
+    if (entry.movable && !entry.sprung && !entry.pulled && (!entry.pressed || (entry.round && !entry.impact)))
       angular = 0.5 * (angular + starts_[i].angular);
     entry.center += linear * h;
     if (angular == Vec3::Zero()) continue;
@@ -332,10 +353,10 @@ void Solver::end_sub_step(double h) {
 }
 
 void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
-                   std::vector<ContactConstraint>& constraints, Islands& islands, const WorldSettings& settings,
-                   double dt) {
+                   std::vector<ContactConstraint>& constraints, std::vector<SpringRow>& springs, Islands& islands,
+                   const WorldSettings& settings, double dt) {
   moved_.assign(bodies.size(), 0);
-  gather(bodies, constraints, dt);
+  gather(bodies, constraints, springs, dt);
   for (ContactConstraint& constraint : constraints) {
     foresee(loads, constraint, dt);
     if (!constraint.impact) continue;
@@ -354,17 +375,19 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
   const Softness soft{hurry * hurry * turn / (h * (2 * soft_damping + turn)), settings.push_out_speed,
                       stiffness / (1 + stiffness), 1 / (1 + stiffness)};
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
-    begin_sub_step(bodies, loads, settings, h, static_cast<double>(sub_step) / sub_steps);
+    begin_sub_step(bodies, loads, settings, h, sub_step);
     for (ContactConstraint& constraint : constraints) {
       if (sub_step > 0) refresh(constraint);
       if (constraint.restitution > 0) meet(loads, constraint, h, dt);
     }
     for (ContactConstraint& constraint : constraints) warm_start(constraint, h);
+    for (SpringRow& spring : springs) spring.begin(end_of(spring.a), end_of(spring.b), h);
     const double remaining = dt - (sub_step + 1) * h;
     for (SolverBody& body : bodies_) body.drive_impulse = body.drive_angular_impulse = Vec3::Zero();
     const auto run = [&](const Softness& softness, int count) {
       for (int k = 0; k < count; ++k) {
         double change = 0;
+        for (SpringRow& spring : springs) change = std::max(change, spring.solve(end_of(spring.a), end_of(spring.b)));
         for (SolverBody& body : bodies_) change = std::max(change, solve_drive(bodies, body, h, remaining));
         change = std::max(change, pass(constraints, softness, h, k % 2 == 1));
         if (change < settled) break;

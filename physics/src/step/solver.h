@@ -5,30 +5,10 @@
 #include "forces/free_flight.h"
 #include "step/contact_constraint.h"
 #include "step/islands.h"
-#include "step/keyed_step.h"
+#include "step/solver_body.h"
+#include "step/spring_row.h"
 
 namespace tweenfall {
-
-/// A body while contacts are being solved.
-struct SolverBody {
-  std::uint32_t index = 0;
-  bool movable = false;
-  bool impact = false;   ///< meets something in this step: its velocity jumps
-  bool touched = false;  ///< an impulse reached it in this step
-  bool pressed = false;  ///< an impulse reached it in this sub-step
-  bool round = false;    ///< a ball: no contact can rock it
-  bool stirred = false;  ///< by the rebound of this sub-step
-  Vec3 lag{0, 0, 0};     ///< from the velocity at the end of the sub-step to its mean, m/s
-  double roundness = 0;  ///< m
-  double inverse_mass = 0;
-  Mat3 inverse_inertia = Mat3::Zero();
-  Vec3 center{0, 0, 0}, start_center{0, 0, 0};
-  Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
-  Quat turn{1, 0, 0, 0};  ///< from the start of the step to now
-  Vec3 linear{0, 0, 0}, angular{0, 0, 0};
-  KeyedCourse course;  ///< of an immovable body
-  Vec3 drive_impulse{0, 0, 0}, drive_angular_impulse{0, 0, 0};
-};
 
 /// How an overlapping contact gives way while positions are corrected.
 struct Softness {
@@ -58,18 +38,20 @@ struct IslandEnergy {
 /// Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024 (soft contacts and relaxation).
 class Solver {
  public:
-  /// Moves all bodies that `constraints` touch by `dt`; fills in the constraints' impulses.
+  /// Moves all bodies that `constraints` touch or `springs` hold by `dt`; fills in the constraints' impulses.
   /// Afterwards `moved(index)` says whether a body was moved here.
+  /// @param springs  those too stiff to be part of the loads
   void solve(std::vector<Body>& bodies, const std::vector<Load>& loads, std::vector<ContactConstraint>& constraints,
-             Islands& islands, const WorldSettings& settings, double dt);
+             std::vector<SpringRow>& springs, Islands& islands, const WorldSettings& settings, double dt);
   [[nodiscard]] bool moved(std::size_t index) const { return moved_[index] != 0; }
 
  private:
-  void gather(const std::vector<Body>& bodies, std::vector<ContactConstraint>& constraints, double dt);
+  void gather(const std::vector<Body>& bodies, std::vector<ContactConstraint>& constraints,
+              const std::vector<SpringRow>& springs, double dt);
   void foresee(const std::vector<Load>& loads, ContactConstraint& constraint, double dt) const;
   void meet(const std::vector<Load>& loads, ContactConstraint& constraint, double h, double dt) const;
   void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, const WorldSettings& settings,
-                      double h, double share);
+                      double h, int sub_step);
   void refresh(ContactConstraint& constraint) const;
   void warm_start(ContactConstraint& constraint, double h);
   double pass(std::vector<ContactConstraint>& constraints, const Softness& softness, double h, bool backward);
@@ -91,6 +73,7 @@ class Solver {
     return islands.of(at(constraint.a).movable ? constraint.a : constraint.b);
   }
 
+  SolverBody* end_of(std::uint32_t index) { return index == SpringRow::world ? nullptr : &at(index); }
   SolverBody& at(std::uint32_t index) { return bodies_[slots_[index]]; }
   const SolverBody& at(std::uint32_t index) const { return bodies_[slots_[index]]; }
 

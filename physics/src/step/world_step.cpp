@@ -13,16 +13,8 @@ namespace {
 
 /// Gaps up to this are contacts from the start of the step, m; wider ones only when the bodies meet within it.
 constexpr double near_enough = 2e-3;
-
-bool displaces(const Body& body) {
-  return body.has_target && !body.fixed &&
-         (body.target.pose.position != body.motion.pose.position ||
-          body.target.pose.rotation.coeffs() != body.motion.pose.rotation.coeffs());
-}
-
-bool stirs(const Body& body) {
-  return body.immovable() ? displaces(body) : !body.asleep;
-}
+/// Two bodies that both have so many contacts already get none with each other.
+constexpr std::uint32_t most_contacts = 32;
 
 /// The points of a manifold as constraints, told about the bodies' places at the start of the step.
 void adopt(ContactConstraint& constraint, const Body& a, const Prediction& at_a, const Body& b,
@@ -86,13 +78,14 @@ void World::Implementation::find_constraints(double dt) {
   active.clear();
   retained.clear();
   const std::vector<Pair>& pairs = broad_phase.find(bodies, loads, near_enough, dt);
+  contact_counts.assign(bodies.size(), 0);
   std::size_t next = 0;  // among the old constraints, which are sorted like the pairs
   const auto retain_before = [&](std::uint32_t index_a, std::uint32_t index_b) {
     for (; next < constraints.size(); ++next) {
       const ContactConstraint& old = constraints[next];
       if (old.a > index_a || (old.a == index_a && old.b >= index_b)) return;
       // Nothing near it stirs: it stays as it was.
-      if (!stirs(bodies[old.a]) && !stirs(bodies[old.b])) retained.push_back(old);
+      if (!bodies[old.a].stirs() && !bodies[old.b].stirs()) retained.push_back(old);
     }
   };
   for (const auto& [index_a, index_b] : pairs) {
@@ -102,6 +95,8 @@ void World::Implementation::find_constraints(double dt) {
       old = &constraints[next++];
     const Body& a = bodies[index_a];
     const Body& b = bodies[index_b];
+    const bool crowded = contact_counts[index_a] >= most_contacts && contact_counts[index_b] >= most_contacts;
+    if (crowded && !a.immovable() && !b.immovable()) continue;
     ContactConstraint constraint;
     constraint.a = index_a;
     constraint.b = index_b;
@@ -122,57 +117,38 @@ void World::Implementation::find_constraints(double dt) {
       constraint.manifold = collide(a.shape, at_a.node(a), b.shape, at_b.node(b), reach);
       adopt(constraint, a, at_a, b, at_b);
     }
-    if (constraint.count == 0) continue;
+    if (constraint.count == 0 || !constraint.manifold.normal.allFinite()) continue;
     constraint.friction = std::sqrt(a.friction * b.friction);
     constraint.restitution = std::max(a.restitution, b.restitution);
     constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
     constraint.began = !(old && old->touching);
     if (old) inherit(constraint, *old, 0.05 * std::min(a.radius, b.radius));
     active.push_back(constraint);
+    ++contact_counts[index_a];
+    ++contact_counts[index_b];
   }
   retain_before(std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max());
-}
-
-bool World::Implementation::wake_islands() {
-  islands.reset(bodies.size());
-  flags.assign(bodies.size(), 0);
-  for (const auto* list : {&active, &retained})
-    for (const ContactConstraint& constraint : *list)
-      if (!bodies[constraint.a].immovable() && !bodies[constraint.b].immovable())
-        islands.join(constraint.a, constraint.b);
-  for (std::uint32_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].alive && !bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
-  for (const ContactConstraint& constraint : active) {
-    if (bodies[constraint.a].immovable() && displaces(bodies[constraint.a])) flags[islands.of(constraint.b)] = 1;
-    if (bodies[constraint.b].immovable() && displaces(bodies[constraint.b])) flags[islands.of(constraint.a)] = 1;
-  }
-  bool any = false;
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].alive || !bodies[i].asleep || !flags[islands.of(i)]) continue;
-    wake(i);
-    any = true;
-  }
-  return any;
 }
 
 void World::Implementation::note_starts() {
   starts.resize(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i)
-    starts[i] = {bodies[i].center, bodies[i].motion.pose.rotation, bodies[i].twist};
+    starts[i] = {bodies[i].center, bodies[i].motion.pose.rotation, bodies[i].twist, bodies[i].led};
 }
 
 void World::Implementation::advance_bodies(double dt) {
-  solver.solve(bodies, loads, active, islands, settings, dt);
+  solver.solve(bodies, loads, active, stiff_springs, islands, settings, dt);
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     if (!body.alive) continue;
+    body.placed = body.led = false;
     if (body.immovable()) {
       arrive(body);
       continue;
     }
     if (!body.asleep && !solver.moved(i)) {
       if (body.drive.owner() == Owner::driven)
-        pull(body, loads[i], settings.integrator, dt);
+        pull(body, loads[i], dt);
       else
         fly(body, loads[i], settings.integrator, dt);
     }
@@ -180,27 +156,6 @@ void World::Implementation::advance_bodies(double dt) {
     body.torque = Vec3::Zero();
     if (body.drive.owner() == Owner::driven) body.target.twist = {};
     body.has_target = false;
-  }
-}
-
-void World::Implementation::let_sleep(double dt) {
-  // Per island the shortest stillness counts.
-  stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    Body& body = bodies[i];
-    if (!body.alive || body.immovable()) continue;
-    const bool still = body.asleep || (body.twist.linear.norm() < settings.sleep_speed &&
-                                       body.twist.angular.norm() * body.radius < settings.sleep_speed);
-    body.still_for = still ? body.still_for + dt : 0;
-    double& shortest = stillness[islands.of(i)];
-    shortest = std::min(shortest, body.still_for);
-  }
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    Body& body = bodies[i];
-    if (!body.alive || body.immovable() || body.asleep || !(stillness[islands.of(i)] >= settings.sleep_after)) continue;
-    body.asleep = true;
-    body.twist = {};
-    body.motion.twist = {};
   }
 }
 
@@ -243,9 +198,9 @@ void World::Implementation::step(double dt) {
   } const guard{stepping};
   stepping = true;
   check_bodies(0, time);
-  wake_by_forces(bodies, forces);
+  wake_by_fields();
   do {
-    gather_loads(bodies, forces, settings, time, dt, loads);
+    gather_loads(bodies, forces, settings, time, dt, loads, stiff_springs);
     check_loads(time + dt);
     find_constraints(dt);
   } while (wake_islands());

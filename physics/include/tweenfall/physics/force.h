@@ -23,7 +23,8 @@ struct Drag {
   double angular = 0;    ///< kg m^2/s
 };
 
-/// A damped spring between a point of a body and a point of another, or of the world.
+/// A damped spring between a point of a body and a point of another, or of the world. Of any stiffness: one that would
+/// swing by about a radian or more within a step is taken implicitly, which is stable and damps it.
 struct Spring {
   BodyId a;                ///< pulled
   BodyId b = {};           ///< pulled the other way; the default handle means the world

@@ -1,0 +1,109 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "state/world_data.h"
+
+namespace tweenfall {
+
+namespace step {
+
+/// A driven body is never quite still while it nears its target: parts of the speed below which others are.
+constexpr double driven_share = 1e-3;
+/// A spring that would bring a body to this part of that speed before it fell asleep keeps it awake.
+constexpr double pulling_share = 0.1;
+/// Displacements of this part of a place are rounding.
+constexpr double rounding = 1e-14;
+
+/// Whether a body is slow and has hardly moved: what is taken out of an overlap moves without a speed.
+bool still(const Body& body, const Start& start, double speed, double dt) {
+  if (!(body.twist.linear.norm() < speed && body.twist.angular.norm() * body.radius < speed)) return false;
+  const double turn = 2 * (body.motion.pose.rotation * start.rotation.conjugate()).vec().norm();
+  return (body.center - start.center).norm() <= speed * dt + rounding * body.center.norm() &&
+         turn * body.radius <= speed * dt + rounding * body.radius;
+}
+
+}  // namespace step
+
+void World::Implementation::wake_by_fields() {
+  for (const NumberedForce& entry : forces) {
+    if (!std::holds_alternative<Field>(entry.force)) continue;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+      if (bodies[i].alive) wake(i);
+    return;
+  }
+}
+
+bool World::Implementation::wake_islands() {
+  islands.reset(bodies.size());
+  flags.assign(bodies.size(), 0);
+  carried.assign(bodies.size(), 0);
+  const auto each_link = [&](const auto& visit) {
+    for (const auto* list : {&active, &retained})
+      for (const ContactConstraint& constraint : *list) visit(constraint.a, constraint.b);
+    for (const NumberedForce& entry : forces) {
+      const auto* spring = std::get_if<Spring>(&entry.force);
+      if (spring && find_body(bodies, spring->a) && find_body(bodies, spring->b))
+        visit(spring->a.index, spring->b.index);
+    }
+  };
+  each_link([&](std::uint32_t a, std::uint32_t b) {
+    if (!bodies[a].immovable() && !bodies[b].immovable()) islands.join(a, b);
+  });
+  for (std::uint32_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].alive && !bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
+  const auto disturb = [&](const Body& by, std::uint32_t other) {
+    if (!by.immovable() || bodies[other].immovable() || !by.stirs()) return;
+    flags[islands.of(other)] = 1;
+    if (by.displaces()) carried[islands.of(other)] = 1;
+  };
+  each_link([&](std::uint32_t a, std::uint32_t b) {
+    disturb(bodies[a], b);
+    disturb(bodies[b], a);
+  });
+  bool any = false;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].alive || !bodies[i].asleep || !flags[islands.of(i)]) continue;
+    wake(i);
+    any = true;
+  }
+  return any;
+}
+
+void World::Implementation::let_sleep(double dt) {
+  // Whom a spring pulls may start slowly.
+  flags.assign(bodies.size(), 0);
+  for (const NumberedForce& entry : forces) {
+    const auto* spring = std::get_if<Spring>(&entry.force);
+    if (!spring) continue;
+    for (const BodyId& end : {spring->a, spring->b})
+      if (find_body(bodies, end)) flags[end.index] = 1;
+  }
+  // Per island the shortest stillness counts.
+  stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.alive || body.immovable()) continue;
+    if (!body.asleep) {
+      const bool driven = body.drive.owner() == Owner::driven;
+      const double speed = settings.sleep_speed * (driven ? step::driven_share : 1);
+      bool still = !carried[islands.of(i)] && !starts[i].led && step::still(body, starts[i], speed, dt);
+      if (flags[i] && !solver.moved(i))
+        still = still && loads[i].acceleration.norm() * settings.sleep_after < step::pulling_share * speed;
+      body.still_for = still ? body.still_for + dt : 0;
+    } else {
+      body.still_for += dt;
+    }
+    double& shortest = stillness[islands.of(i)];
+    shortest = std::min(shortest, body.still_for);
+  }
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.alive || body.immovable() || body.asleep || !(stillness[islands.of(i)] >= settings.sleep_after)) continue;
+    body.asleep = true;
+    body.twist = {};
+    body.motion.twist = {};
+  }
+}
+
+}  // namespace tweenfall
