@@ -46,6 +46,20 @@ export class Page {
     return page;
   }
 
+  // Another address in the same window.
+  async visit(url) {
+    this.loaded = new Promise(resolve => { this.onLoad = resolve; });
+    this.requests.length = this.problems.length = 0;
+    await this.send("Page.navigate", {url});
+    await this.loaded;
+  }
+
+  async resize(width, height) {
+    await this.send("Emulation.setDeviceMetricsOverride", {width, height, deviceScaleFactor: 1, mobile: false});
+    await this.until(`innerWidth === ${width} && innerHeight === ${height}`);
+    await this.drawn();
+  }
+
   receive(message) {
     if (message.id) {
       const {resolve, reject} = this.waiting.get(message.id);
@@ -103,6 +117,15 @@ export class Page {
   async mouse(type, x, y, buttons = 0) {
     await this.send("Input.dispatchMouseEvent", {type, x, y, buttons, button: type === "mouseMoved" && !buttons ? "none" : "left",
       clickCount: type === "mouseMoved" ? 0 : 1});
+  }
+
+  async wheel(x, y, deltaY, deltaX = 0) {
+    await this.send("Input.dispatchMouseEvent", {type: "mouseWheel", x, y, deltaX, deltaY});
+    await this.drawn();
+  }
+
+  async type(text) {
+    await this.send("Input.insertText", {text});
   }
 
   async drag(x0, y0, x1, y1) {

@@ -100,13 +100,16 @@ inline Moment example_moment(std::size_t node, double t) {
     default: {  // the strip's three joints, each bent a little more
       const int joint = static_cast<int>(node) - 5;
       Vec3 at(2.0, 0, -0.4);
-      double angle = 0;
-      const double bend = 0.5 * std::sin(2 * pi * t / 1.5);
-      for (int i = 0; i <= joint; ++i) {
-        if (i > 0) at += Vec3(-std::sin(angle), std::cos(angle), 0) * 0.5;
-        if (i > 0) angle += bend;
+      Vec3 velocity(0, 0, 0);
+      double angle = 0, turning = 0;
+      const double bend = 0.5 * std::sin(2 * pi * t / 1.5), bending = 0.5 * (2 * pi / 1.5) * std::cos(2 * pi * t / 1.5);
+      for (int i = 1; i <= joint; ++i) {
+        at += Vec3(-std::sin(angle), std::cos(angle), 0) * 0.5;
+        velocity += Vec3(-std::cos(angle), -std::sin(angle), 0) * (0.5 * turning);
+        angle += bend;
+        turning += bending;
       }
-      return {placed(at, turned(angle, z), {})};
+      return {placed(at, turned(angle, z), {velocity, Vec3(0, 0, turning)})};
     }
   }
 }
@@ -197,8 +200,9 @@ inline Recording example_recording(double fps = 60) {
     recording.nodes.push_back(record);
   }
   const auto handoff = [&](std::size_t node, Owner from, Owner to, double time, Cause cause) {
-    const Motion motion = example_moment(node, time).world.motion;
-    recording.handoffs.push_back({node, from, to, time, cause, motion, motion});
+    const Motion before = example_moment(node, time - 1e-9).world.motion;
+    const Motion after = example_moment(node, time + 1e-9).world.motion;
+    recording.handoffs.push_back({node, from, to, time, cause, before, after});
   };
   handoff(2, Owner::keyed, Owner::free, release_time, Cause::event);
   handoff(3, Owner::keyed, Owner::driven, 1.0, Cause::at);

@@ -1,13 +1,166 @@
-// Writes the example as a page and in every other form, to be tested and looked at: write_page FOLDER
+// Writes what the page test looks at: write_page FOLDER
+//
+// example.*: the example as a page and in every other form; example_fine.json: the same, four times as often.
+// models/NAME.html, .svg: every model of ../shared/models, or, where there is none, of the project.
+// hostile/NAME.html: recordings that hardly fit a page.
 
+#include <tweenfall/importers/model.h>
 #include <tweenfall/importers/plot.h>
 #include <tweenfall/importers/recording_file.h>
 
 #include "page/example_stage.h"
 
+#include <algorithm>
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <limits>
+
+namespace {
+
+using namespace tweenfall;
+namespace fs = std::filesystem;
+
+void write_example(const fs::path& folder) {
+  const StageDescription stage = test::example_stage();
+  const Recording recording = test::example_recording();
+  for (const char* name : {"example.html", "example.json", "example.svg", "example.csv", "example.glb"})
+    save_recording(recording, stage, folder / name);
+  std::ofstream(folder / "example_plot.svg") << plot_svg(stage, &recording);
+  save_recording(test::example_recording(240), stage, folder / "example_fine.json");
+}
+
+std::vector<fs::path> model_files() {
+  const fs::path source = TWEENFALL_SOURCE_DIR, shared = source / ".." / "shared" / "models";
+  std::vector<fs::path> files;
+  if (fs::exists(shared)) {
+    for (const char* kind : {"gltf", "fbx", "bvh", "dae"})
+      for (const auto& entry : fs::directory_iterator(shared / kind))
+        if (entry.path().extension() != ".bin") files.push_back(entry.path());
+  } else {
+    std::cerr << "SKIPPED: models of ../shared/models: there are none; the project's own are looked at\n";
+  }
+  files.push_back(source / "samples/documents/character.glb");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+void write_models(const fs::path& folder) {
+  fs::create_directories(folder);
+  for (const fs::path& file : model_files()) {
+    Model model = load_model(file);
+    StageDescription stage;
+    stage.name = model.name;
+    for (const Node& node : model.nodes)
+      stage.nodes.push_back(
+          {.name = node.name, .parent = node.parent, .rest = node.rest, .body = {}, .group = {}, .color = {}});
+    stage.clips = std::move(model.clips);
+    stage.meshes = std::move(model.meshes);
+    stage.skins = std::move(model.skins);
+    stage.mesh_instances = std::move(model.instances);
+    if (!stage.clips.empty()) stage.plays = {{.clip = 0}};
+    Stage shown(stage);
+    const Recording recording = record(shown, std::min(natural_length(stage), 8.0), 30);
+    for (const char* ending : {".html", ".svg"})
+      save_recording(recording, stage, folder / (file.filename().string() + ending));
+  }
+}
+
+Recording still(const StageDescription& stage, const std::vector<double>& times) {
+  Recording recording{.name = stage.name, .times = times, .nodes = {}, .handoffs = {}, .events = {}};
+  for (const NodeDescription& node : stage.nodes) {
+    NodeRecord record{
+        .name = node.name, .parent = node.parent, .world = {}, .twist = {}, .owner = {}, .color = {}, .weights = {}};
+    record.world.assign(times.size(), test::placed(node.rest.position, node.rest.rotation, {}));
+    record.twist.resize(times.size());
+    record.owner.assign(times.size(), Owner::keyed);
+    recording.nodes.push_back(record);
+  }
+  return recording;
+}
+
+NodeDescription ball(const std::string& name, const Vec3& position) {
+  BodyDescription body;
+  body.shape.solid = Sphere{0.2};
+  return {.name = name, .parent = no_node, .rest = {.position = position}, .body = body, .group = {}, .color = {}};
+}
+
+void write_hostile(const fs::path& folder) {
+  fs::create_directories(folder);
+  const auto save = [&](const std::string& name, StageDescription stage, const Recording& recording) {
+    stage.name = recording.name;
+    save_recording(recording, stage, folder / (name + ".html"));
+  };
+  StageDescription stage;
+  stage.name = "beyond float";
+  stage.nodes = {ball("near", {0, 1, 0}), ball("far", {1e200, 0, 0}), ball("wide", {1, 1, 0})};
+  Recording recording = still(stage, {0, 0.5, 1});
+  recording.nodes[2].world[1].linear *= 1e60;
+  recording.nodes[0].twist[1].linear = Vec3(1e308, -1e308, 0);
+  save("beyond_float", stage, recording);
+
+  stage.nodes.clear();
+  for (int i = 0; i < 20000; ++i)
+    stage.nodes.push_back({.name = "node " + std::to_string(i),
+                           .parent = i % 3 == 0 ? no_node : static_cast<std::size_t>(i - 1),
+                           .rest = {.position = Vec3(i % 141, 0.1 * (i % 7), i / 141)},
+                           .body = {},
+                           .group = {},
+                           .color = {}});
+  recording = still(stage, {0, 0.5, 1});
+  recording.name = "20,000 nodes";
+  for (std::size_t i = 0; i < recording.nodes.size(); ++i)
+    recording.nodes[i].world[2].motion.pose.position.y() += 0.01 * static_cast<double>(i % 100);
+  save("many_nodes", stage, recording);
+
+  stage.nodes = {ball("alone", {0, 0, 0})};
+  recording = still(stage, {2.5});
+  recording.name = "one frame";
+  save("one_frame", stage, recording);
+
+  stage.nodes.clear();
+  recording = still(stage, {0, 1});
+  recording.name = "";
+  save("no_nodes", stage, recording);
+
+  const std::string markup =
+      "</script><script>window.hurt = 1</script><img src=x onerror='window.hurt = 1'>]]>&\" {{data}}";
+  stage.nodes = {ball(markup, {0, 0, 0}), ball(std::string(5000, 'w'), {1, 0, 0}), ball("", {2, 0, 0})};
+  stage.clips = {{.name = markup, .duration = 1, .tracks = {}, .events = {}},
+                 {.name = "empty", .duration = 0, .tracks = {}, .events = {}}};
+  stage.plays = {{.clip = 0}, {.clip = 1}};
+  recording = still(stage, {0, 1});
+  recording.name = markup;
+  recording.events.push_back({.time = 0.5, .name = markup, .data = "", .nodes = {0, 1}, .impulse = 1});
+  save("markup", stage, recording);
+
+  // Ten minutes of a hundred balls at 60 frames a second.
+  stage = {};
+  for (int i = 0; i < 100; ++i) stage.nodes.push_back(ball("ball " + std::to_string(i), Vec3(i, 0, 0)));
+  std::vector<double> times;
+  for (int frame = 0; frame <= 36000; ++frame) times.push_back(frame / 60.0);
+  recording = still(stage, times);
+  recording.name = "long";
+  for (std::size_t i = 0; i < recording.nodes.size(); ++i)
+    for (std::size_t frame = 0; frame < times.size(); ++frame) {
+      Motion& motion = recording.nodes[i].world[frame].motion;
+      motion.pose.position.y() = std::sin(times[frame]);
+      motion.twist.linear.y() = std::cos(times[frame]);
+      recording.nodes[i].twist[frame] = motion.twist;
+    }
+  save("long", stage, recording);
+
+  // Far from the origin, and very small.
+  stage.nodes = {ball("speck", {1e6, 0, 0}), ball("other", {1e6 + 1e-3, 0, 0})};
+  for (NodeDescription& node : stage.nodes) std::get<Sphere>(node.body->shape.solid).radius = 1e-4;
+  stage.nodes[0].rest.position = Vec3(1, 0, 0);
+  stage.nodes[1].rest.position = Vec3(1 + 1e-3, 0, 0);
+  recording = still(stage, {0, 1});
+  recording.name = "small";
+  save("small", stage, recording);
+}
+
+}  // namespace
 
 int main(int count, char** arguments) {
   if (count != 2) {
@@ -15,13 +168,11 @@ int main(int count, char** arguments) {
     return 2;
   }
   try {
-    const std::filesystem::path folder = arguments[1];
-    std::filesystem::create_directories(folder);
-    const tweenfall::StageDescription stage = tweenfall::test::example_stage();
-    const tweenfall::Recording recording = tweenfall::test::example_recording();
-    for (const char* name : {"example.html", "example.json", "example.svg", "example.csv", "example.glb"})
-      tweenfall::save_recording(recording, stage, folder / name);
-    std::ofstream(folder / "example_plot.svg") << tweenfall::plot_svg(stage, &recording);
+    const fs::path folder = arguments[1];
+    fs::create_directories(folder);
+    write_example(folder);
+    write_models(folder / "models");
+    write_hostile(folder / "hostile");
   } catch (const std::exception& problem) {
     std::cerr << problem.what() << "\n";
     return 1;

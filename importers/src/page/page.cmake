@@ -1,7 +1,12 @@
 # The page's own text and Debian's three.js become part of the library, so that a page needs no network and no file beside it.
 set(page ${CMAKE_CURRENT_SOURCE_DIR}/src/page)
-set(page_scripts data.js state.js canvas.js geometry.js deform.js orbit.js scene.js overlay.js timeline.js curves.js
-                 controls.js main.js)
+set(page_scripts
+  data/recording.js data/rotation.js data/motion.js
+  controls/store.js controls/playback.js
+  timeline/canvas.js
+  scene/geometry.js scene/deform.js scene/bounds.js scene/orbit.js scene/cast.js scene/scene.js scene/looking.js scene/overlay.js
+  timeline/axis.js timeline/rows.js timeline/strips.js timeline/timeline.js timeline/series.js timeline/curves.js
+  controls/readout.js controls/actions.js controls/controls.js controls/main.js)
 find_file(TWEENFALL_THREE three.min.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH
           DOC "three.js as Debian's libjs-three installs it; the 3-D page carries it")
 

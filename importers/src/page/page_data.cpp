@@ -3,6 +3,7 @@
 #include <tweenfall/curves/number_text.h>
 
 #include "json/json_string.h"
+#include "page/page_frames.h"
 #include "page/page_meshes.h"
 #include "recording/base64.h"
 #include "recording/key_lanes.h"
@@ -22,10 +23,12 @@ struct Overloaded : Ts... {
 template <class... Ts>
 Overloaded(Ts...) -> Overloaded<Ts...>;
 
-void append_matrix(std::vector<float>& out, const WorldMotion& world) {
-  for (int column = 0; column < 3; ++column)
-    for (int row = 0; row < 3; ++row) out.push_back(static_cast<float>(world.linear(row, column)));
-  for (int row = 0; row < 3; ++row) out.push_back(static_cast<float>(world.motion.pose.position[row]));
+void add_vector(std::vector<float>& out, const Vec3& vector) {
+  for (int i = 0; i < 3; ++i) out.push_back(single(vector[i]));
+}
+
+void add_matrix(std::vector<float>& out, const Mat3& matrix) {
+  for (int column = 0; column < 3; ++column) add_vector(out, matrix.col(column));
 }
 
 /// One frame alone when all frames are alike, so that what stands still costs nothing.
@@ -80,12 +83,12 @@ std::string shape_json(const Shape& shape) {
 }
 
 /// Owners as runs: [[first frame, word], ...].
-std::string owner_runs(const std::vector<Owner>& owners) {
+std::string owner_runs(const std::vector<Owner>& owners, const std::vector<std::size_t>& frames) {
   std::string out = "[";
-  for (std::size_t frame = 0; frame < owners.size(); ++frame) {
-    if (frame > 0 && owners[frame] == owners[frame - 1]) continue;
-    if (frame > 0) out += ',';
-    out += "[" + std::to_string(frame) + ",\"" + owner_word(owners[frame]) + "\"]";
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (i > 0 && owners[frames[i]] == owners[frames[i - 1]]) continue;
+    if (i > 0) out += ',';
+    out += "[" + std::to_string(i) + ",\"" + owner_word(owners[frames[i]]) + "\"]";
   }
   return out + "]";
 }
@@ -96,51 +99,83 @@ double drawn(double part) {
   return part > -brightest ? std::min(part, brightest) : part < 0 ? -brightest : 0;
 }
 
+/// Numbers that `append` gives for each of `frames`, or for one alone when they never change.
+template <class Append>
+std::vector<float> gathered(const std::vector<std::size_t>& frames, std::size_t stride, Append append) {
+  std::vector<float> numbers;
+  numbers.reserve(frames.size() * stride);
+  for (const std::size_t frame : frames) append(numbers, frame);
+  drop_repeats(numbers, stride);
+  return numbers;
+}
+
+/// How the linear part changes beside turning, world axes, 1/s.
+Mat3 stretching(const WorldMotion& world) {
+  const Vec3& w = world.motion.twist.angular;
+  Mat3 turning;
+  turning << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
+  return world.linear_rate - turning * world.linear;
+}
+
+/// Places and rates of a node, frame by frame.
+void append_motion(std::string& out, const NodeRecord& node, const std::vector<std::size_t>& frames) {
+  append_quoted(out, "matrices", base64(gathered(frames, 12, [&](std::vector<float>& to, std::size_t frame) {
+                  add_matrix(to, node.world[frame].linear);
+                  add_vector(to, node.world[frame].motion.pose.position);
+                })));
+  append_quoted(out, "twists", base64(gathered(frames, 6, [&](std::vector<float>& to, std::size_t frame) {
+                  add_vector(to, node.twist[frame].linear);
+                  add_vector(to, node.twist[frame].angular);
+                })));
+  const auto any = [&](auto differs) { return std::any_of(frames.begin(), frames.end(), differs); };
+  // The origin's own velocity, where it is not that of the center of mass.
+  if (any([&](std::size_t frame) { return node.world[frame].motion.twist.linear != node.twist[frame].linear; }))
+    append_quoted(out, "velocities", base64(gathered(frames, 3, [&](std::vector<float>& to, std::size_t frame) {
+                    add_vector(to, node.world[frame].motion.twist.linear);
+                  })));
+  if (any([&](std::size_t frame) {
+        return !node.world[frame].linear_rate.isZero(0) && !stretching(node.world[frame]).isZero(1e-9);
+      }))
+    append_quoted(out, "stretches", base64(gathered(frames, 9, [&](std::vector<float>& to, std::size_t frame) {
+                    add_matrix(to, stretching(node.world[frame]));
+                  })));
+}
+
 std::string color_json(const Color& color) {
   std::string out = "[";
   for (int i = 0; i < 4; ++i) (i > 0 ? out += ',' : out) += short_text(drawn(color.rgba[i]), 4);
   return out + "]";
 }
 
-std::string node_json(const NodeRecord& node, const NodeDescription* description) {
+std::string node_json(const NodeRecord& node, const NodeDescription* description,
+                      const std::vector<std::size_t>& frames) {
   std::string out = "{\"name\":";
   append_json_string(out, node.name);
   out += ",\"parent\":" + (node.parent == no_node ? std::string("-1") : std::to_string(node.parent));
-  out += ",\"owner\":" + owner_runs(node.owner);
-
-  std::vector<float> numbers;
-  for (const WorldMotion& world : node.world) append_matrix(numbers, world);
-  drop_repeats(numbers, 12);
-  append_quoted(out, "matrices", base64(numbers));
-  numbers.clear();
-  for (const Twist& twist : node.twist) {
-    for (int i = 0; i < 3; ++i) numbers.push_back(static_cast<float>(twist.linear[i]));
-    for (int i = 0; i < 3; ++i) numbers.push_back(static_cast<float>(twist.angular[i]));
-  }
-  drop_repeats(numbers, 6);
-  append_quoted(out, "twists", base64(numbers));
+  out += ",\"owner\":" + owner_runs(node.owner, frames);
+  append_motion(out, node, frames);
   if (!node.color.empty()) {
-    numbers.clear();
-    for (const Color& color : node.color)
-      for (int i = 0; i < 4; ++i) numbers.push_back(static_cast<float>(drawn(color.rgba[i])));
-    drop_repeats(numbers, 4);
-    append_quoted(out, "colors", base64(numbers));
+    append_quoted(out, "colors", base64(gathered(frames, 4, [&](std::vector<float>& to, std::size_t frame) {
+                    for (int i = 0; i < 4; ++i) to.push_back(single(drawn(node.color[frame].rgba[i])));
+                  })));
   } else if (description && description->color) {
     out += ",\"color\":" + color_json(*description->color);
   }
   if (!node.weights.empty() && !node.weights.front().empty()) {
     const std::size_t count = node.weights.front().size();
-    numbers.clear();
-    for (const std::vector<double>& weights : node.weights)
-      for (std::size_t i = 0; i < count; ++i)
-        numbers.push_back(i < weights.size() ? static_cast<float>(weights[i]) : 0);
-    drop_repeats(numbers, count);
     out += ",\"weightCount\":" + std::to_string(count);
-    append_quoted(out, "weights", base64(numbers));
+    append_quoted(out, "weights", base64(gathered(frames, count, [&](std::vector<float>& to, std::size_t frame) {
+                    const std::vector<double>& weights = node.weights[frame];
+                    for (std::size_t i = 0; i < count; ++i) to.push_back(i < weights.size() ? single(weights[i]) : 0);
+                  })));
   }
   if (description && description->body) {
     out += ",\"shape\":" + shape_json(description->body->shape);
     if (description->body->fixed) out += ",\"fixed\":true";
+    if (!std::holds_alternative<Plane>(description->body->shape.solid)) {
+      out += ",\"center\":";
+      append_vector(out, mass_properties(description->body->shape, 1).center);
+    }
   }
   return out + "}";
 }
@@ -149,6 +184,27 @@ std::string lane_json(const KeyLane& lane, std::size_t node) {
   std::string out = "{\"node\":" + std::to_string(node) + ",\"property\":";
   append_json_string(out, lane.property);
   append_quoted(out, "times", base64(std::span<const double>(lane.times)));
+  append_quoted(out, "keyOf", base64(std::span<const std::uint32_t>(lane.key_of)));
+  out += ",\"keys\":[";
+  for (std::size_t i = 0; i < lane.keys.size(); ++i) {
+    out += i > 0 ? ",{\"value\":" : "{\"value\":";
+    append_json_string(out, lane.keys[i].value);
+    out += ",\"ease\":";
+    append_json_string(out, lane.keys[i].ease);
+    out += '}';
+  }
+  return out + "]}";
+}
+
+std::string motion_json(const Motion& motion) {
+  std::string out = "{\"position\":";
+  append_vector(out, motion.pose.position);
+  out += ",\"rotation\":";
+  append_rotation(out, motion.pose.rotation);
+  out += ",\"velocity\":";
+  append_vector(out, motion.twist.linear);
+  out += ",\"angular\":";
+  append_vector(out, motion.twist.angular);
   return out + "}";
 }
 
@@ -157,7 +213,7 @@ std::string handoff_json(const HandOff& handoff) {
   append_quoted(out, "from", owner_word(handoff.from));
   append_quoted(out, "to", owner_word(handoff.to));
   append_quoted(out, "cause", cause_word(handoff.cause));
-  return out + "}";
+  return out + ",\"before\":" + motion_json(handoff.before) + ",\"after\":" + motion_json(handoff.after) + "}";
 }
 
 std::string event_json(const StageEvent& event) {
@@ -192,10 +248,14 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
 
   std::string out = "{\"name\":";
   append_json_string(out, recording.name.empty() ? stage.name : recording.name);
-  append_quoted(out, "times", base64(std::span<const double>(recording.times)));
+  const std::vector<std::size_t> frames = page_frames(recording);
+  std::vector<double> times;
+  for (const std::size_t frame : frames) times.push_back(recording.times[frame]);
+  append_quoted(out, "times", base64(std::span<const double>(times)));
+  out += ",\"recordedFrames\":" + std::to_string(recording.times.size());
   append_items(out, "nodes", recording.nodes, [&](const NodeRecord& node) {
     const auto found = description_of.find(node.name);
-    return node_json(node, found == description_of.end() ? nullptr : found->second);
+    return node_json(node, found == description_of.end() ? nullptr : found->second, frames);
   });
   const double from = recording.times.empty() ? 0 : recording.times.front();
   const double until = recording.times.empty() ? 0 : recording.times.back();

@@ -9,7 +9,7 @@
 namespace tweenfall {
 
 std::string recording_html(const Recording& recording, const StageDescription& stage) {
-  check_drawable(recording, stage);
+  check_recording(recording);
   if (recording.times.empty())
     throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to show");
   const std::string three = page::part("three.js");

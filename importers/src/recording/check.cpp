@@ -113,7 +113,7 @@ void check_recording(const Recording& recording) {
 void check_drawable(const Recording& recording, const StageDescription& stage) {
   check_recording(recording);
   constexpr double largest_float = std::numeric_limits<float>::max();
-  constexpr const char* limit = ", beyond the 3.4e+38 that pages and .glb files hold";
+  constexpr const char* limit = ", beyond the 3.4e+38 that .glb files hold";
   for (const NodeRecord& node : recording.nodes)
     for (std::size_t frame = 0; frame < recording.times.size(); ++frame)
       if (const auto [size, what] = largest_number(node, frame); size > largest_float)

@@ -12,15 +12,6 @@ namespace tweenfall {
 
 namespace {
 
-double reach(const Solid& solid) {
-  if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&solid)) return box->half_extents.norm();
-  if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius + capsule->half_height;
-  if (const auto* hull = std::get_if<Hull>(&solid))
-    return hull->convex.measures().center.norm() + hull->convex.outer_radius();
-  return 0;
-}
-
 bool is_plane(const BodyDescription& body) {
   return std::holds_alternative<Plane>(body.shape.solid);
 }
@@ -57,7 +48,7 @@ std::vector<Vec2> outlined(const std::vector<Vec2>& points, std::size_t vertices
   return result;
 }
 
-/// Points of one shape on a node, in the node's space.
+/// Points of one shape on a node, in the node's space; `scale` is the node's.
 std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
   std::vector<Vec3> points;
   if (const auto* sphere = std::get_if<Sphere>(&shape.solid)) {
@@ -82,9 +73,14 @@ std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
   return points;
 }
 
-std::vector<Vec3> box_around(const Mesh& mesh) {
-  Vec3 low = mesh.positions.front(), high = low;
-  for (const Vec3& position : mesh.positions) {
+/// The corners of the box around a mesh as its morph weights mold it.
+std::vector<Vec3> box_around(const Mesh& mesh, const std::vector<double>& weights) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Vec3 low = Vec3::Constant(infinite), high = Vec3::Constant(-infinite);
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    Vec3 position = mesh.positions[v];
+    for (std::size_t i = 0; i < std::min(weights.size(), mesh.morphs.size()); ++i)
+      if (weights[i] != 0) position += weights[i] * mesh.morphs[i].position_offsets[v];
     low = low.cwiseMin(position);
     high = high.cwiseMax(position);
   }
@@ -95,11 +91,77 @@ std::vector<Vec3> box_around(const Mesh& mesh) {
   return corners;
 }
 
-void place(Figure& figure, const NodeRecord& node, const std::vector<Vec3>& points, const SideView& view) {
+/// As seen from the side, in meters, y downward.
+Vec2 flattened(const Vec3& point, int across) {
+  return {point[across], -point.y()};
+}
+
+void place(Figure& figure, const NodeRecord& node, const std::vector<Vec3>& points, int across) {
   for (const WorldMotion& world : node.world) {
     std::vector<Vec2>& placed = figure.points.emplace_back();
-    for (const Vec3& point : points) placed.push_back(view.place(world.point(point)));
+    for (const Vec3& point : points) placed.push_back(flattened(world.point(point), across));
   }
+}
+
+void place_mesh(Figure& figure, const NodeRecord& node, const Mesh& mesh, int across) {
+  const bool molded = !mesh.morphs.empty() && !node.weights.empty();
+  std::vector<Vec3> corners = box_around(mesh, mesh.rest_weights);
+  for (std::size_t frame = 0; frame < node.world.size(); ++frame) {
+    if (molded && (frame == 0 || node.weights[frame] != node.weights[frame - 1]))
+      corners = box_around(mesh, node.weights[frame]);
+    std::vector<Vec2>& placed = figure.points.emplace_back();
+    for (const Vec3& corner : corners) placed.push_back(flattened(node.world[frame].point(corner), across));
+  }
+}
+
+/// The least rectangle around a figure at a frame, in its own units; nothing for one without points.
+struct Rectangle {
+  Vec2 low = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 high = Vec2::Constant(-std::numeric_limits<double>::infinity());
+
+  void add(const Vec2& point, double radius = 0) {
+    low = low.cwiseMin(point - Vec2::Constant(radius));
+    high = high.cwiseMax(point + Vec2::Constant(radius));
+  }
+  [[nodiscard]] bool empty() const { return !(low.x() <= high.x()); }
+};
+
+std::vector<Rectangle> rectangles(const std::vector<Figure>& list) {
+  std::vector<Rectangle> all;
+  for (const Figure& figure : list)
+    for (const std::vector<Vec2>& points : figure.points) {
+      Rectangle around;
+      for (const Vec2& point : points) around.add(point, figure.radius);
+      if (!around.empty() && around.low.allFinite() && around.high.allFinite()) all.push_back(around);
+    }
+  return all;
+}
+
+/// Around everything, or, where that is far larger than what holds 96 of 100 rectangles, around these alone: what flies
+/// off does not make the rest a dot.
+Rectangle around_most(const std::vector<Rectangle>& all) {
+  Rectangle whole;
+  for (const Rectangle& each : all) {
+    whole.add(each.low);
+    whole.add(each.high);
+  }
+  constexpr std::size_t few = 50;
+  constexpr double far = 6;
+  if (all.size() < few) return whole;
+  Rectangle most;
+  for (int axis = 0; axis < 2; ++axis) {
+    std::vector<double> lows, highs;
+    for (const Rectangle& each : all) {
+      lows.push_back(each.low[axis]);
+      highs.push_back(each.high[axis]);
+    }
+    std::sort(lows.begin(), lows.end());
+    std::sort(highs.begin(), highs.end());
+    most.low[axis] = lows[all.size() / few];
+    most.high[axis] = highs[all.size() - 1 - all.size() / few];
+  }
+  const double size = (most.high - most.low).maxCoeff();
+  return (whole.high - whole.low).maxCoeff() > far * size ? most : whole;
 }
 
 bool ever_apart(const Recording& recording, std::size_t a, std::size_t b) {
@@ -122,47 +184,35 @@ std::vector<const NodeDescription*> descriptions(const Recording& recording, con
   return list;
 }
 
-SideView side_view(const Recording& recording, const StageDescription& stage, double left, double top, double width,
-                   double height) {
-  const std::vector<const NodeDescription*> described = descriptions(recording, stage);
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  double low[3] = {infinite, infinite, infinite}, high[3] = {-infinite, -infinite, -infinite};
-  for (std::size_t i = 0; i < recording.nodes.size(); ++i) {
-    const NodeDescription* node = described[i];
-    double room = 0;
-    if (node && node->body) {
-      if (is_plane(*node->body)) continue;
-      room = reach(node->body->shape.solid);
+namespace {
+
+/// The outline of a mesh that a skin bends, for one whose joints make no bones to draw.
+Figure skinned_figure(const Recording& recording, const StageDescription& stage, const MeshInstance& instance,
+                      const std::vector<std::size_t>& record_of, int across) {
+  const Mesh& mesh = stage.meshes[instance.mesh];
+  Figure figure;
+  figure.kind = Figure::Kind::hull;
+  figure.node = record_of[stage.skins[instance.skin].joints.front()];
+  std::vector<WorldMotion> world(stage.nodes.size());
+  std::vector<Vec3> vertices(mesh.positions.size());
+  for (std::size_t frame = 0; frame < recording.times.size(); ++frame) {
+    for (std::size_t i = 0; i < world.size(); ++i)
+      if (record_of[i] != no_node) world[i] = recording.nodes[record_of[i]].world[frame];
+    const bool molded = instance.node < record_of.size() && record_of[instance.node] != no_node &&
+                        !recording.nodes[record_of[instance.node]].weights.empty();
+    deform(mesh, molded ? recording.nodes[record_of[instance.node]].weights[frame] : std::vector<double>{},
+           &stage.skins[instance.skin], instance.node, world, vertices);
+    std::vector<Vec2> points(1, Vec2::Zero());
+    for (const Vec3& vertex : vertices) {
+      points.push_back(flattened(vertex, across));
+      points.front() += points.back() / static_cast<double>(vertices.size());
     }
-    for (int axis = 0; axis < 3; ++axis) {
-      std::vector<double> places;
-      for (const WorldMotion& world : recording.nodes[i].world) places.push_back(world.motion.pose.position[axis]);
-      if (places.empty()) continue;
-      std::sort(places.begin(), places.end());
-      low[axis] = std::min(low[axis], places[places.size() / 50] - room);
-      high[axis] = std::max(high[axis], places[places.size() - 1 - places.size() / 50] + room);
-    }
+    figure.points.push_back(outlined(points, vertices.size()));
   }
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(low[axis] <= high[axis])) {
-      low[axis] = -1;
-      high[axis] = 1;
-    }
-  SideView view;
-  view.across = high[2] - low[2] > 1.5 * (high[0] - low[0]) ? 2 : 0;
-  const double wide = std::max(1e-6, high[view.across] - low[view.across]) * 1.08;
-  const double tall = std::max(1e-6, high[1] - low[1]) * 1.12;
-  view.scale = std::min(width / wide, height / tall);
-  view.left = left;
-  view.top = top;
-  view.width = width;
-  view.height = std::min(height, std::max(0.45 * height, tall * view.scale));
-  view.low = (low[view.across] + high[view.across]) / 2 - width / view.scale / 2;
-  view.high = (low[1] + high[1]) / 2 + view.height / view.scale / 2;
-  return view;
+  return figure;
 }
 
-std::vector<Figure> figures(const Recording& recording, const StageDescription& stage, const SideView& view) {
+std::vector<Figure> flat_figures(const Recording& recording, const StageDescription& stage, int across) {
   const std::vector<const NodeDescription*> described = descriptions(recording, stage);
   std::map<std::string, std::size_t> index_of;
   for (std::size_t i = 0; i < recording.nodes.size(); ++i) index_of.emplace(recording.nodes[i].name, i);
@@ -179,8 +229,9 @@ std::vector<Figure> figures(const Recording& recording, const StageDescription& 
     Figure figure;
     figure.node = i;
     figure.fixed = described[i]->body->fixed;
-    const std::vector<Vec3> points = outline(described[i]->body->shape, figure, view.scale);
-    place(figure, recording.nodes[i], points, view);
+    const double scale = std::cbrt(std::abs(recording.nodes[i].world.front().linear.determinant()));
+    const std::vector<Vec3> points = outline(described[i]->body->shape, figure, scale);
+    place(figure, recording.nodes[i], points, across);
     if (const auto* hull = std::get_if<Hull>(&described[i]->body->shape.solid))
       for (std::vector<Vec2>& placed : figure.points) placed = outlined(placed, hull->convex.vertices().size());
     list.push_back(std::move(figure));
@@ -193,7 +244,7 @@ std::vector<Figure> figures(const Recording& recording, const StageDescription& 
       continue;
     Figure figure;
     figure.node = node;
-    place(figure, recording.nodes[node], box_around(stage.meshes[instance.mesh]), view);
+    place_mesh(figure, recording.nodes[node], stage.meshes[instance.mesh], across);
     list.push_back(std::move(figure));
     drawn[node] = true;
   }
@@ -221,11 +272,68 @@ std::vector<Figure> figures(const Recording& recording, const StageDescription& 
       std::vector<Vec2>& placed = figure.points.emplace_back();
       for (const std::size_t each : ends)
         for (const std::size_t end : {recording.nodes[each].parent, each})
-          placed.push_back(view.place(recording.nodes[end].world[frame].motion.pose.position));
+          placed.push_back(flattened(recording.nodes[end].world[frame].motion.pose.position, across));
     }
     list.push_back(std::move(figure));
   }
+  std::vector<std::size_t> record_of(stage.nodes.size());
+  for (std::size_t i = 0; i < record_of.size(); ++i) record_of[i] = recorded(i);
+  for (const MeshInstance& instance : stage.mesh_instances) {
+    if (instance.skin >= stage.skins.size() || instance.mesh >= stage.meshes.size()) continue;
+    const std::vector<std::size_t>& joints = stage.skins[instance.skin].joints;
+    const auto has_bones = [&](std::size_t each) {
+      return recorded(each) == no_node || tree.contains(root[recorded(each)]);
+    };
+    if (joints.empty() || std::any_of(joints.begin(), joints.end(), has_bones) ||
+        stage.meshes[instance.mesh].positions.empty())
+      continue;
+    list.push_back(skinned_figure(recording, stage, instance, record_of, across));
+  }
   return list;
+}
+
+/// Brings figures from meters into the picture.
+void into_picture(std::vector<Figure>& list, const SideView& view) {
+  for (Figure& figure : list) {
+    figure.radius *= view.scale;
+    for (std::vector<Vec2>& points : figure.points)
+      for (Vec2& point : points)
+        point = Vec2(view.left + (point.x() - view.low) * view.scale, view.top + (view.high + point.y()) * view.scale);
+  }
+}
+
+}  // namespace
+
+SideScene side_scene(const Recording& recording, const StageDescription& stage, double left, double top, double width,
+                     double height) {
+  SideScene scene;
+  scene.figures = flat_figures(recording, stage, 0);
+  Rectangle around = around_most(rectangles(scene.figures));
+  SideView& view = scene.view;
+  std::vector<Figure> other = flat_figures(recording, stage, 2);
+  const Rectangle around_other = around_most(rectangles(other));
+  if (!around.empty() && around_other.high.x() - around_other.low.x() > 1.5 * (around.high.x() - around.low.x())) {
+    view.across = 2;
+    scene.figures = std::move(other);
+    around = around_other;
+  }
+  if (around.empty()) {
+    around.low = Vec2(-1, -1);
+    around.high = Vec2(1, 1);
+  }
+  constexpr double room = 1.1;  // lines have a width, and things should not touch the edge
+  const double least =
+      1e-6 * std::max(1.0, std::max(around.low.cwiseAbs().maxCoeff(), around.high.cwiseAbs().maxCoeff()));
+  const Vec2 size = room * (around.high - around.low).cwiseMax(least), middle = (around.low + around.high) / 2;
+  view.scale = std::min(width / size.x(), height / size.y());
+  view.left = left;
+  view.top = top;
+  view.width = width;
+  view.height = std::min(height, std::max(0.45 * height, size.y() * view.scale));
+  view.low = middle.x() - width / view.scale / 2;
+  view.high = -middle.y() + view.height / view.scale / 2;
+  into_picture(scene.figures, view);
+  return scene;
 }
 
 }  // namespace tweenfall

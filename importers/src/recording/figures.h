@@ -22,11 +22,6 @@ struct SideView {
   }
 };
 
-/// A view that holds what moves, for most of the time, in at most `width` by `height` px with the upper left corner at
-/// (left, top). Where a node is for less than a fiftieth of the time does not count.
-[[nodiscard]] SideView side_view(const Recording& recording, const StageDescription& stage, double left, double top,
-                                 double width, double height);
-
 inline constexpr std::size_t hull_outline = 24;
 
 struct Figure {
@@ -44,10 +39,17 @@ struct Figure {
   std::vector<std::vector<Vec2>> points;  ///< [frame][point], px
 };
 
+struct SideScene {
+  SideView view;
+  std::vector<Figure> figures;
+};
+
 /// Bodies that are not planes, meshes without skin as their boxes, and one stick figure for each skin and for each tree
-/// of other nodes without bodies and meshes.
-[[nodiscard]] std::vector<Figure> figures(const Recording& recording, const StageDescription& stage,
-                                          const SideView& view);
+/// of other nodes without bodies and meshes; in a view that holds all of them throughout, in at most `width` by
+/// `height` px with the upper left corner at (left, top). What flies off, out of all proportion to the rest, does not
+/// count.
+[[nodiscard]] SideScene side_scene(const Recording& recording, const StageDescription& stage, double left, double top,
+                                   double width, double height);
 
 /// The description of each recorded node, null for one that the stage does not have.
 [[nodiscard]] std::vector<const NodeDescription*> descriptions(const Recording& recording,

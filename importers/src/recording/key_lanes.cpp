@@ -1,5 +1,7 @@
 #include "recording/key_lanes.h"
 
+#include "recording/key_words.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -43,29 +45,39 @@ bool drives(const Play& play, const std::string& node) {
                                           [&](const std::string& pattern) { return matches(pattern, node); });
 }
 
-/// Adds the stage times at which `play` passes the clip times `keys`.
+/// A key passed: when, and which of the lane's keys it is.
+struct Pass {
+  double time;
+  std::uint32_t key;
+};
+
+/// Adds the stage times at which `play` passes the clip times `keys`, which are numbered from `first_key` on.
 /// @return whether some times around were left out, because there are too many
-bool add_passes(const Play& play, const Clip& clip, std::vector<double> keys, double from, double until,
-                std::vector<double>& out) {
+bool add_passes(const Play& play, const Clip& clip, const std::vector<double>& keys, std::uint32_t first_key,
+                double from, double until, std::vector<Pass>& out) {
   const double speed = std::abs(play.speed), length = clip.duration;
-  std::erase_if(keys, [&](double key) { return key < 0 || (std::isfinite(length) && key > length); });
-  if (keys.empty() || speed == 0) return false;
+  const auto outside = [&](double key) { return key < 0 || (std::isfinite(length) && key > length); };
+  const auto inside = keys.size() - static_cast<std::size_t>(std::count_if(keys.begin(), keys.end(), outside));
+  if (inside == 0 || speed == 0) return false;
   const bool cycles = clip.loop.mode != LoopMode::once && std::isfinite(length) && length > 0;
   const double plays = !cycles ? 1 : clip.loop.count > 0 ? clip.loop.count : HUGE_VAL;
   // The first and the last time around of which something is seen.
   const double around = cycles ? length / speed : 0;
   const double first = cycles ? std::max(0.0, std::floor((from - play.at) / around) - 1) : 0;
   const double last = cycles ? std::min(std::ceil(plays) - 1, std::floor((until - play.at) / around) + 1) : 0;
-  const double room = std::max(1.0, std::floor(most_keys / static_cast<double>(keys.size())));
+  const double room = std::max(1.0, std::floor(most_keys / static_cast<double>(inside)));
   const double stride = std::max(1.0, std::ceil((last - first + 1) / room));
   for (double cycle = first; cycle <= last; cycle += stride) {
     const bool odd = std::fmod(cycle, 2) == 1;
     const bool backwards = (play.speed < 0) != (clip.loop.mode == LoopMode::pingpong && odd);
-    for (const double key : keys) {
-      const double passed = (cycles ? cycle * length : 0) + (backwards && std::isfinite(length) ? length - key : key);
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+      if (outside(keys[i])) continue;
+      const double passed =
+          (cycles ? cycle * length : 0) + (backwards && std::isfinite(length) ? length - keys[i] : keys[i]);
       if (cycles && passed > plays * length) continue;
       const double time = play.at + passed / speed;
-      if (time >= from && time <= until && out.size() < most_keys) out.push_back(time);
+      if (time >= from && time <= until && out.size() < most_keys)
+        out.push_back({time, first_key + static_cast<std::uint32_t>(i)});
     }
     if (!(cycle + stride > cycle)) break;
   }
@@ -82,6 +94,7 @@ std::vector<double> key_times(const TrackCurve& curve) {
 
 std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, double until) {
   std::vector<KeyLane> lanes;
+  std::vector<std::vector<Pass>> passes;
   std::map<std::string, std::size_t> lane_of;
   for (const Play& play : stage.plays) {
     if (play.clip >= stage.clips.size()) continue;
@@ -89,12 +102,39 @@ std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, doubl
     for (const Track& track : clip.tracks) {
       if (!drives(play, track.node)) continue;
       const auto [place, is_new] = lane_of.try_emplace(track.name(), lanes.size());
-      if (is_new) lanes.push_back({track.node, track.property, {}, false});
+      if (is_new) {
+        lanes.push_back({.node = track.node,
+                         .property = track.property,
+                         .times = {},
+                         .key_of = {},
+                         .keys = {},
+                         .is_thinned = false});
+        passes.emplace_back();
+      }
       KeyLane& lane = lanes[place->second];
-      if (add_passes(play, clip, key_times(track.curve), from, until, lane.times)) lane.is_thinned = true;
+      std::vector<double> keys = key_times(track.curve);
+      if (keys.size() > most_keys) keys.resize(most_keys);
+      if (add_passes(play, clip, keys, static_cast<std::uint32_t>(lane.keys.size()), from, until,
+                     passes[place->second]))
+        lane.is_thinned = true;
+      const std::vector<std::string> eases = key_ease_texts(track.curve, keys);
+      for (std::size_t k = 0; k < keys.size(); ++k)
+        lane.keys.push_back({key_value_text(track.curve, keys[k]), eases[k]});
     }
   }
-  for (KeyLane& lane : lanes) sort_and_unite(lane.times);
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    // Where two times around meet, the key that begins the later one says how it goes on.
+    std::stable_sort(passes[i].begin(), passes[i].end(), [](const Pass& a, const Pass& b) { return a.time < b.time; });
+    for (const Pass& pass : passes[i]) {
+      const bool again = !lanes[i].times.empty() && lanes[i].times.back() == pass.time;
+      if (!again) {
+        lanes[i].times.push_back(pass.time);
+        lanes[i].key_of.push_back(pass.key);
+      } else {
+        lanes[i].key_of.back() = pass.key;
+      }
+    }
+  }
   return lanes;
 }
 

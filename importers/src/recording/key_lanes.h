@@ -4,6 +4,7 @@
 
 #include <tweenfall/physics/stage/description.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,16 @@ namespace tweenfall {
 
 /// One animated track.
 struct KeyLane {
+  /// A key as it was written, in words.
+  struct Key {
+    std::string value, ease;
+  };
+
   std::string node, property;
-  std::vector<double> times;  ///< stage time of each key passed, s, increasing; empty for a formula
-  bool is_thinned = false;    ///< only some of the times around a short loop are there
+  std::vector<double> times;          ///< stage time of each key passed, s, increasing; empty for a formula
+  std::vector<std::uint32_t> key_of;  ///< which of `keys` is passed at each of `times`
+  std::vector<Key> keys;              ///< each written key once, in order of the plays and of time
+  bool is_thinned = false;            ///< only some of the times around a short loop are there
 };
 
 /// A lane for each track that a play drives, in order of the plays; a track in two plays has one lane with the keys of

@@ -282,9 +282,9 @@ void draw_head(Drawing& drawing, const std::string& name) {
   }
 }
 
-std::string draw(const Recording& recording, const StageDescription& stage, double tolerance) {
+std::string draw(const Recording& recording, const StageDescription& stage, const SideScene& scene, double tolerance) {
   const std::vector<std::size_t> lanes = lane_nodes(recording);
-  const SideView view = side_view(recording, stage, margin, picture_head, picture_width - 2 * margin, most_height);
+  const auto& [view, list] = scene;
   const double bar = picture_head + view.height + 10;
   const double height = bar + static_cast<double>(lanes.size()) * (lane_height + 4) + 28;
   Drawing drawing{recording,
@@ -305,7 +305,6 @@ std::string draw(const Recording& recording, const StageDescription& stage, doub
   svg.close();
   svg.open("g", {{"clip-path", "url(#view)"}});
   draw_ground(drawing, stage);
-  const std::vector<Figure> list = figures(recording, stage, view);
   for (const Figure& figure : list) draw_trail(drawing, figure);
   for (const Figure& figure : list) draw_figure(drawing, figure);
   svg.close();
@@ -319,9 +318,10 @@ std::string recording_svg(const Recording& recording, const StageDescription& st
   check_recording(recording);
   if (recording.times.empty())
     throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to show");
+  const SideScene scene = side_scene(recording, stage, margin, picture_head, picture_width - 2 * margin, most_height);
   // As exact as the size allows.
   for (double tolerance = 0.4;; tolerance *= 2) {
-    std::string text = draw(recording, stage, tolerance);
+    std::string text = draw(recording, stage, scene, tolerance);
     if (text.size() <= most_bytes || tolerance > 20) return text;
   }
 }

@@ -15,7 +15,7 @@ void check_recording(const Recording& recording);
 
 // All that follow throw as `check_recording` does.
 
-/// Whether pages and .glb files can hold the recording, whose numbers are 32-bit floats.
+/// Whether .glb files can hold the recording, whose numbers are 32-bit floats.
 /// @throws std::invalid_argument naming the node, the time and the number that is beyond 3.4e+38.
 void check_drawable(const Recording& recording, const StageDescription& stage);
 
@@ -35,7 +35,8 @@ void check_drawable(const Recording& recording, const StageDescription& stage);
 [[nodiscard]] std::string recording_svg(const Recording& recording, const StageDescription& stage);
 
 /// One self-contained page: 3-D view, play, scrub, step back, timeline with key lanes, curves of the chosen node,
-/// owners in color. A program can drive it through `window.tweenfall`; "#t=0.8&node=ball" opens it at that time.
+/// owners in color. Long recordings are thinned and say so; nodes beyond 1e30 m are left out and named. A program can
+/// drive it through `window.tweenfall`; "#t=0.8&node=ball" opens it at that time.
 /// @throws std::runtime_error when the library was built without three.js.
 [[nodiscard]] std::string recording_html(const Recording& recording, const StageDescription& stage);
 

@@ -50,3 +50,15 @@ function showTip(event, text) {
   tip.style.left = Math.max(4, Math.min(innerWidth - box.width - 6, event.clientX + 12)) + "px";
   tip.style.top = Math.max(4, event.clientY - box.height - 10) + "px";
 }
+
+// `text` cut with an ellipsis to at most `width` px.
+function fitted(context, text, width) {
+  if (text.length > 400) text = text.slice(0, 400);
+  if (context.measureText(text).width <= width) return text;
+  let low = 0, high = text.length;
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (context.measureText(text.slice(0, middle) + "\u2026").width <= width) low = middle; else high = middle - 1;
+  }
+  return text.slice(0, low) + "\u2026";
+}

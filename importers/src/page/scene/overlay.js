@@ -2,15 +2,26 @@
 
 const overlay = document.getElementById("overlay");
 
+// The path of a node's middle, twice as dense as the frames where those are few.
+let pathOf = {node: null};
+function pathPoints(node) {
+  if (pathOf.node === node) return pathOf.points;
+  const count = Math.min(1200, Math.max(2 * recording.frameCount, 200)), points = [];
+  for (let i = 0; i <= count; ++i) {
+    const time = recording.startTime + recording.duration * i / count;
+    points.push({time, place: centerOf(node, cursorAt(recording, time)),
+      owner: node.fixed ? "fixed" : recording.ownerAt(node, time)});
+  }
+  pathOf = {node, points};
+  return points;
+}
+
 function drawTrail(context, node) {
-  const stride = Math.max(1, Math.ceil(frameCount / 1200));
   let last = null, lastOwner = "";
-  for (let frame = 0; frame < frameCount; frame += stride) {
-    const place = toView(centerOf(node, frame)), owner = node.fixed ? "fixed" : ownerOf(node, frame);
-    if (place && last) {
-      context.globalAlpha = frame <= state.frame ? 0.95 : 0.35;
-      line(context, last[0], last[1], place[0], place[1], colors[owner], frame <= state.frame ? 2.5 : 1.5);
-    }
+  for (const {time, place: point, owner} of pathPoints(node)) {
+    const place = toView(point), past = time <= state.time;
+    context.globalAlpha = past ? 0.95 : 0.35;
+    if (place && last) line(context, last[0], last[1], place[0], place[1], colors[owner], past ? 2.5 : 1.5);
     if (place && last && owner !== lastOwner) {
       context.globalAlpha = 1;
       context.fillStyle = colors.panel;
@@ -28,9 +39,9 @@ function drawTrail(context, node) {
 }
 
 function drawVelocity(context, node) {
-  const center = centerOf(node, state.frame), twist = twistOf(node, state.frame);
+  const center = centerOf(node, cursorNow()), twist = twistAt(recording, node, cursorNow());
   const speed = Math.hypot(twist[0], twist[1], twist[2]);
-  if (!(speed > 1e-3)) return;
+  if (!(speed * cast.unit > 1e-3)) return;
   const from = toView(center), to = toView(center.map((value, axis) => value + 0.15 * twist[axis]));
   if (!from || !to) return;
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
@@ -46,29 +57,28 @@ function drawVelocity(context, node) {
 }
 
 function drawName(context, node) {
-  const place = toView(centerOf(node, state.frame));
+  const place = toView(centerOf(node, cursorNow()));
   if (!place) return;
   context.font = font(12, 600);
-  const width = context.measureText(node.name).width + 14;
+  const name = fitted(context, node.name, Math.min(260, context.width - 30)), width = context.measureText(name).width + 16;
   const x = Math.max(4, Math.min(context.width - width - 4, place[0] + 18));
   const y = Math.max(4, Math.min(context.height - 26, place[1] - 34));
-  context.globalAlpha = 0.88;
+  context.globalAlpha = 0.9;
   context.fillStyle = colors.panel;
-  context.beginPath();
-  context.rect(x, y, width, 21);
-  context.fill();
+  context.fillRect(x, y, width, 21);
   context.globalAlpha = 1;
-  context.fillStyle = colors[node.hasBody ? shownOwner(node, state.frame) : "quiet"];
+  context.fillStyle = colors[node.hasBody ? recording.shownOwner(node, state.time) : "quiet"];
   context.fillRect(x, y, 3, 21);
   context.fillStyle = colors.ink;
+  context.textAlign = "left";
   context.textBaseline = "middle";
-  context.fillText(node.name, x + 9, y + 11);
+  context.fillText(name, x + 9, y + 11);
 }
 
 function drawJoints(context) {
   for (const node of nodes) {
-    if (node.hasBody) continue;
-    const place = toView(positionOf(node, state.frame));
+    if (node.hasBody || !node.shown) continue;
+    const place = toView(placeAt(recording, node, cursorNow()).position);
     if (!place) continue;
     context.fillStyle = node === state.chosen ? colors.accent : colors.quiet;
     context.beginPath();
@@ -82,9 +92,8 @@ function drawOverlay() {
   if (!context || !renderer) return;
   if (state.skeleton) drawJoints(context);
   const node = state.chosen;
-  if (!node) return;
-  const moves = node.matrices.length > 12;
-  if (state.trail && moves) drawTrail(context, node);
-  if (moves) drawVelocity(context, node);
+  if (!node || !node.shown) return;
+  if (state.trail && node.moves) drawTrail(context, node);
+  if (node.moves) drawVelocity(context, node);
   drawName(context, node);
 }

@@ -1,9 +1,12 @@
 // A camera that a mouse turns about a target, moves and zooms.
 
+const framed = 0.88;  // the share of the view that what is framed may fill
+
 class Orbit {
   constructor(camera, element, changed) {
-    Object.assign(this, {camera, element, changed, target: new THREE.Vector3(), distance: 5, yaw: 0.5, pitch: 0.3});
+    Object.assign(this, {camera, element, changed, target: new THREE.Vector3(), distance: 5, yaw: 0.42, pitch: 0.24});
     this.pointers = new Map();
+    this.travelled = 0;
     element.addEventListener("pointerdown", event => this.down(event));
     element.addEventListener("pointermove", event => this.move(event));
     for (const name of ["pointerup", "pointercancel"]) element.addEventListener(name, event => this.up(event));
@@ -27,7 +30,7 @@ class Orbit {
   }
 
   zoom(factor) {
-    this.distance = Math.max(1e-3, this.distance * factor);
+    this.distance = Math.min(1e6, Math.max(1e-6, this.distance * factor));
     this.apply();
   }
 
@@ -67,6 +70,11 @@ class Orbit {
     this.apply();
   }
 
+  shift(by) {
+    this.target.add(by);
+    this.apply();
+  }
+
   pinch(event) {
     const [a, b] = [...this.pointers.entries()].map(([id, place]) => ({id, ...place}));
     const still = a.id === event.pointerId ? b : a, moving = a.id === event.pointerId ? a : b;
@@ -75,22 +83,23 @@ class Orbit {
     if (before > 0 && after > 0) this.zoom(before / after);
   }
 
-  // Looks at all `points` from the present side, as near as they allow.
-  frame(points) {
-    const high = Math.tan(this.camera.fov * Math.PI / 360), wide = high * this.camera.aspect;
+  // Looks from the present side at all that `reach` measures (the largest dot product of a direction with a point), as
+  // near as the four sides of the view allow. A point p is right of no side when (r + w b) . p <= (r + w b) . C, for the
+  // camera's place C, its right r, its back b and the side's slope w; the same goes for the three others.
+  frame(reach, least) {
+    const high = framed * Math.tan(this.camera.fov * Math.PI / 360), wide = high * this.camera.aspect;
     this.target.set(0, 0, 0);
     this.distance = 1;
     this.apply();
-    const axes = [0, 1, 2].map(i => new THREE.Vector3().setFromMatrixColumn(this.camera.matrix, i));
-    // In the camera's axes, about the target: how far left and right, up and down, and how near things are.
-    const placed = points.map(point => axes.map(axis => axis.dot(point)));
-    const [x, y, z] = [0, 1, 2].map(i => {
-      const values = placed.map(place => place[i]);
-      return (Math.min(...values) + Math.max(...values)) / 2;
-    });
-    axes.forEach((axis, i) => this.target.addScaledVector(axis, [x, y, z][i]));
-    this.distance = 1.06 * Math.max(1e-3, ...placed.map(place => place[2] - z +
-      Math.max(Math.abs(place[0] - x) / wide, Math.abs(place[1] - y) / high)));
+    const [right, up, back] = [0, 1, 2].map(i => new THREE.Vector3().setFromMatrixColumn(this.camera.matrix, i));
+    const along = (axis, sign, slope) => reach(axis.clone().multiplyScalar(sign).addScaledVector(back, slope).toArray());
+    const sides = [along(right, 1, wide), along(right, -1, wide), along(up, 1, high), along(up, -1, high)];
+    if (!sides.every(Number.isFinite)) return;
+    const near = reach(back.toArray()), far = -reach(back.clone().negate().toArray()), middle = (near + far) / 2;
+    const depth = Math.max((sides[0] + sides[1]) / (2 * wide), (sides[2] + sides[3]) / (2 * high), middle + least);
+    this.target.addScaledVector(right, (sides[0] - sides[1]) / 2).addScaledVector(up, (sides[2] - sides[3]) / 2)
+      .addScaledVector(back, middle);
+    this.distance = depth - middle;
     this.apply();
   }
 }

@@ -89,12 +89,26 @@ function gridGeometry(step, cells) {
   return geometry;
 }
 
-// How far the shape reaches from its node.
-function reachOf(shape) {
-  const away = Math.hypot(...shape.position);
-  if (shape.sphere !== undefined) return away + shape.sphere;
-  if (shape.box) return away + Math.hypot(...shape.box);
-  if (shape.capsule) return away + shape.capsule[0] + shape.capsule[1];
-  if (shape.hull) return away + Math.max(...shape.hull.vertices.map((vertex) => Math.hypot(...vertex)));
-  return 0;
+// The outline of what collides, as lines: three great circles of a ball, sides and rims of a capsule, edges of the others.
+function wireGeometry(shape) {
+  if (shape.box) return new THREE.EdgesGeometry(boxGeometry(shape.box));
+  if (shape.hull) return new THREE.EdgesGeometry(hullGeometry(shape.hull), 1);
+  const [radius, half] = shape.capsule || [shape.sphere, 0], points = [];
+  const arc = (from, to, place) => {
+    const count = Math.ceil((to - from) / (Math.PI / 24));
+    for (let i = 0; i < count; ++i)
+      for (const end of [i, i + 1]) {
+        const angle = from + (to - from) * end / count;
+        points.push(...place(radius * Math.cos(angle), radius * Math.sin(angle)));
+      }
+  };
+  for (const lift of half > 0 ? [half, -half] : [0]) arc(0, 2 * Math.PI, (c, s) => [c, lift, s]);
+  for (const place of [(c, s, y) => [c, s + y, 0], (c, s, y) => [0, s + y, c]]) {
+    arc(0, Math.PI, (c, s) => place(c, s, half));
+    arc(Math.PI, 2 * Math.PI, (c, s) => place(c, s, -half));
+    if (half > 0) for (const side of [-radius, radius]) points.push(...place(side, 0, half), ...place(side, 0, -half));
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+  return geometry;
 }

@@ -1,13 +1,13 @@
-// Meshes bent by morph targets and skins, on the processor: a few thousand vertices a frame.
+// Meshes bent by morph targets and skins, on the processor: a few thousand vertices at a time.
 
-const jointMatrix = new Float32Array(16);
+const jointMatrix = new Float64Array(16);
 
 // Matrices that take rest positions to world positions, 12 numbers a joint, column by column.
-function jointMatrices(skin, frame, out) {
+function jointMatrices(skin, cursor, out) {
   skin.joints.forEach((joint, j) => {
     const b = skin.inverseBinds, at = 12 * j;
     if (joint < 0) { out.fill(0, at, at + 12); return; }
-    matrixOf(nodes[joint], frame, jointMatrix);
+    matrixAt(recording, nodes[joint], cursor, jointMatrix);
     const m = jointMatrix;
     for (let column = 0; column < 4; ++column)
       for (let row = 0; row < 3; ++row)
@@ -26,12 +26,12 @@ function addMorphs(mesh, weights, positions, normals) {
 }
 
 function bend(mesh, matrices, positions, normals) {
-  const {joints, jointWeights} = mesh, count = positions.length / 3, slots = joints.length / count;
+  const {joints, jointWeights, influences} = mesh, count = positions.length / 3;
   for (let v = 0; v < count; ++v) {
     const x = positions[3 * v], y = positions[3 * v + 1], z = positions[3 * v + 2];
     const nx = normals[3 * v], ny = normals[3 * v + 1], nz = normals[3 * v + 2];
     let px = 0, py = 0, pz = 0, qx = 0, qy = 0, qz = 0;
-    for (let k = slots * v; k < slots * v + slots; ++k) {
+    for (let k = influences * v; k < influences * (v + 1); ++k) {
       const w = jointWeights[k];
       if (!w) continue;
       const a = 12 * joints[k], m = matrices;
@@ -48,12 +48,20 @@ function bend(mesh, matrices, positions, normals) {
   }
 }
 
-// A mesh hung on the stage: its geometry, and how to bring it to a frame.
+// Which joint pulls a vertex most.
+function strongestJoint(mesh, vertex) {
+  const {joints, jointWeights, influences} = mesh;
+  let most = influences * vertex;
+  for (let k = most + 1; k < influences * (vertex + 1); ++k) if (jointWeights[k] > jointWeights[most]) most = k;
+  return joints[most];
+}
+
+// A mesh hung on the stage: its geometry, and how to bring it to a time.
 class DeformedMesh {
   constructor(instance) {
     this.node = nodes[instance.node];
-    this.mesh = meshes[instance.mesh];
-    this.skin = instance.skin >= 0 && this.mesh.joints ? skins[instance.skin] : null;
+    this.mesh = recording.meshes[instance.mesh];
+    this.skin = instance.skin >= 0 && this.mesh.joints ? recording.skins[instance.skin] : null;
     const geometry = this.geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(this.mesh.positions.slice(), 3));
     geometry.setIndex(new THREE.BufferAttribute(this.mesh.triangles, 1));
@@ -62,27 +70,27 @@ class DeformedMesh {
       this.mesh.normals = geometry.attributes.normal.array.slice();
     }
     geometry.setAttribute("normal", new THREE.BufferAttribute(this.mesh.normals.slice(), 3));
-    geometry.setAttribute("color", new THREE.BufferAttribute(
-      new Float32Array(this.mesh.positions.length).fill(1), 3));
-    if (this.skin) this.matrices = new Float32Array(12 * this.skin.joints.length);
+    geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(this.mesh.positions.length).fill(1), 3));
+    if (this.skin) this.matrices = new Float64Array(12 * this.skin.joints.length);
+    this.shown = this.skin ? this.skin.joints.every(joint => joint < 0 || nodes[joint].shown) : this.node.shown;
+    this.shown = this.shown && allFinite(this.mesh.positions);
     this.changes = !!this.skin || this.mesh.morphs.length > 0;
     this.painted = "";
   }
 
-  weightsAt(frame) {
+  weightsAt(cursor) {
     if (!this.node || !this.node.weights) return this.mesh.restWeights;
-    const {weights, weightCount} = this.node, at = offsetOf(weights, frame, weightCount);
-    return weights.subarray(at, at + weightCount);
+    return valuesAt(recording, this.node, this.node.weights, this.node.weightCount, cursor);
   }
 
-  update(frame) {
-    if (!this.changes) return;
+  update(cursor) {
+    if (!this.changes || !this.shown) return;
     const position = this.geometry.attributes.position, normal = this.geometry.attributes.normal;
     position.array.set(this.mesh.positions);
     normal.array.set(this.mesh.normals);
-    addMorphs(this.mesh, this.weightsAt(frame), position.array, normal.array);
+    addMorphs(this.mesh, this.weightsAt(cursor), position.array, normal.array);
     if (this.skin) {
-      jointMatrices(this.skin, frame, this.matrices);
+      jointMatrices(this.skin, cursor, this.matrices);
       bend(this.mesh, this.matrices, position.array, normal.array);
     }
     position.needsUpdate = normal.needsUpdate = true;
@@ -90,20 +98,14 @@ class DeformedMesh {
   }
 
   // Each vertex in the color of the joint that pulls it most; `colorOf` gives [r, g, b] of a node.
-  paint(frame, colorOf) {
-    const key = state.byOwner + "|" + (this.skin ? this.skin.joints : [this.node.index])
-      .map(joint => colorOf(nodes[joint], frame).join()).join(";");
+  paint(colorOf) {
+    const key = (this.skin ? this.skin.joints : [this.node.index]).map(joint => colorOf(nodes[joint]).join()).join(";");
     if (key === this.painted) return;
     this.painted = key;
-    const color = this.geometry.attributes.color, {joints, jointWeights} = this.mesh;
-    const fixed = this.skin ? null : colorOf(this.node, frame);
-    const ofJoint = this.skin && this.skin.joints.map(joint => colorOf(nodes[joint], frame));
-    const slots = ofJoint ? joints.length / color.count : 0;
-    for (let v = 0; v < color.count; ++v) {
-      let most = slots * v;
-      if (ofJoint) for (let k = most + 1; k < slots * v + slots; ++k) if (jointWeights[k] > jointWeights[most]) most = k;
-      color.array.set(fixed || ofJoint[joints[most]], 3 * v);
-    }
+    const color = this.geometry.attributes.color;
+    const fixed = this.skin ? null : colorOf(this.node);
+    const ofJoint = this.skin && this.skin.joints.map(joint => colorOf(nodes[joint]));
+    for (let v = 0; v < color.count; ++v) color.array.set(fixed || ofJoint[strongestJoint(this.mesh, v)], 3 * v);
     color.needsUpdate = true;
   }
 }

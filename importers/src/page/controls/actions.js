@@ -1,0 +1,64 @@
+// What keys do: one list, from which the keyboard and the help sheet follow.
+
+const toggle = name => change({[name]: !state[name]});
+
+// [keys, words, action]; keys as `event.key` has them.
+const actionList = timeline => [
+  ["Time", [
+    [[" "], "play or pause", () => (state.playing ? pause() : play()), "space"],
+    [["ArrowLeft"], "one frame back; with shift ten", event => step(event.shiftKey ? -10 : -1), "\u2190"],
+    [["ArrowRight"], "one frame forward; with shift ten", event => step(event.shiftKey ? 10 : 1), "\u2192"],
+    [["Home"], "to the start", () => toFrame(0)],
+    [["End"], "to the end", () => { pause(); toFrame(recording.frameCount - 1); }],
+    [[","], "to the key before", () => toNext(allKeyTimes(), -1)],
+    [["."], "to the next key", () => toNext(allKeyTimes(), 1)],
+    [["["], "to the event or hand-off before", () => toNext(allEventTimes(), -1)],
+    [["]"], "to the next event or hand-off", () => toNext(allEventTimes(), 1)],
+    [["l"], "play again from the start, or stop at the end", () => toggle("loop")],
+  ]],
+  ["View", [
+    [["a"], "show everything", frameAll],
+    [["f"], "show the chosen node", frameChosen],
+    [["g"], "go along with the chosen node", () => toggle("follow")],
+    [["c"], "colors of owners, or own colors", () => toggle("byOwner")],
+    [["t"], "path of the chosen node", () => toggle("trail")],
+    [["b"], "lines between nodes", () => toggle("skeleton")],
+    [["x"], "shapes that collide", () => toggle("colliders")],
+  ]],
+  ["Nodes and timeline", [
+    [["ArrowUp"], "choose the node above", () => chooseNext(timeline, -1), "\u2191"],
+    [["ArrowDown"], "choose the node below", () => chooseNext(timeline, 1), "\u2193"],
+    [["Escape"], "choose nothing; close this sheet", () => (state.help ? change({help: false}) : change({chosen: null})), "esc"],
+    [["/"], "find a node; enter chooses it", () => element("find").focus()],
+    [["+", "="], "less time in the timeline (or wheel)", () => zoomTime(1 / 1.5), "+"],
+    [["-"], "more time in the timeline (or wheel)", () => zoomTime(1.5), "\u2212"],
+    [["0"], "all time in the timeline", showAllTime],
+    [["e"], "fold the chosen node", () => state.chosen && toggleFold(state.chosen)],
+    [["E"], "fold or open all", toggleAllFolds],
+    [["s"], "snap to keys and events; alt not this time", () => toggle("snap")],
+    [["o"], "curves in the parent's axes, or the world's", () => toggle("local")],
+    [["?"], "this sheet", () => toggle("help")],
+  ]],
+];
+
+function fillHelp(list) {
+  element("help-lists").replaceChildren(...list.map(([title, entries]) => {
+    const part = document.createElement("section"), table = document.createElement("dl");
+    for (const [keys, words, , shown] of entries) table.append(cell("dt", shown || keys[0]), cell("dd", words));
+    part.append(cell("h3", title), table);
+    return part;
+  }));
+}
+
+function wireKeys(list) {
+  const actions = new Map(list.flatMap(([, entries]) => entries.flatMap(([keys, , action]) => keys.map(key => [key, action]))));
+  document.addEventListener("keydown", event => {
+    if (event.ctrlKey || event.metaKey || event.altKey || /^(text|search)$/.test(event.target.type || "")) return;
+    if (event.target.tagName === "SELECT") return;
+    const action = actions.get(event.key);
+    if (!action) return;
+    event.preventDefault();
+    if (event.key === " " && event.target.blur) event.target.blur();
+    action(event);
+  });
+}

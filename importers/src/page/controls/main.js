@@ -1,0 +1,141 @@
+// Puts the page together, and lets a program drive it through `window.tweenfall`.
+
+let drawQueued = false;
+function requestDraw() {
+  if (drawQueued) return;
+  drawQueued = true;
+  requestAnimationFrame(() => {
+    drawQueued = false;
+    drawScene();
+    drawOverlay();
+    curves.draw();
+  });
+}
+
+state.skeleton = cast.links.length > 0 && recording.instances.length === 0;
+// Where nothing can change hands, owners' colors say nothing.
+state.byOwner = nodes.some(node => node.hasBody && !node.fixed);
+
+const timeline = new Timeline(), curves = new Curves(), actions = actionList(timeline);
+
+store.onChange(changed => {
+  keepTimeInSight();
+  updateScene();
+  follow();
+  timeline.update(changed);
+  updateReadout();
+  updateControls();
+  requestDraw();
+});
+curvesBox.addEventListener("scroll", requestDraw);
+
+function layOut() {
+  readColors();
+  applyColors();
+  fitView();
+  if (framedWhole) frameAll();
+  updateScene();
+  timeline.draw();
+  requestDraw();
+}
+
+// The node that most likely interests: one that changes hands, else one that moves.
+function firstChoice() {
+  const handed = recording.handoffs.length ? nodes[recording.handoffs[0].node] : null;
+  return handed || nodes.find(node => node.hasBody && !node.fixed && node.shown) || nodes.find(node => node.moves && node.shown) ||
+    nodes[0] || null;
+}
+
+showLegend();
+showLimits();
+fillHelp(actions);
+wireKeys(actions);
+wireControls();
+layOut();
+new ResizeObserver(layOut).observe(document.body);
+new ResizeObserver(layOut).observe(view);
+new ResizeObserver(requestDraw).observe(curvesBox);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", layOut);
+
+// #t=0.8&node=ball opens the page at that time with that node chosen.
+const asked = new URLSearchParams(location.hash.slice(1));
+change({chosen: recording.named.get(asked.get("node")) || firstChoice()});
+if (asked.has("t") && Number.isFinite(Number(asked.get("t")))) seek(Number(asked.get("t")));
+updateReadout();
+updateControls();
+requestAnimationFrame(tick);
+
+const known = name => {
+  const node = recording.named.get(name);
+  if (!node) throw new Error(`there is no node "${name}"`);
+  return node;
+};
+
+window.tweenfall = {
+  ready: true,
+  webgl: !!renderer,
+  times: Array.from(times),
+  nodes: nodes.map(node => node.name),
+  lanes: recording.lanes.map(lane => ({name: `${lane.node.name}.${lane.property}`, keys: Array.from(lane.times),
+    values: Array.from(lane.keyOf, i => lane.keys[i].value), eases: Array.from(lane.keyOf, i => lane.keys[i].ease)})),
+  handoffs: recording.handoffs.map(handoff => ({...handoff, node: nodes[handoff.node].name})),
+  limits: recording.limits(),
+  get frame() { return recording.frameNear(state.time); },
+  get time() { return state.time; },
+  get playing() { return state.playing; },
+  get chosen() { return state.chosen ? state.chosen.name : null; },
+  get shownTime() { return [state.from, state.until]; },
+  get rows() { return timeline.list.rows.map(row => (row.lane ? `${row.node.name}.${row.lane.property}` : row.node.name)); },
+  seek, play, pause, step, frameAll, frameChosen, zoomTime, panTime, showAllTime,
+  choose: name => change({chosen: name === null ? null : known(name)}),
+  fold: name => toggleFold(known(name)),
+  set: values => change(values),
+  // In the world, column-major, at the present time.
+  worldMatrixOf: name => Array.from(matrixAt(recording, known(name), cursorNow(), new Float64Array(16))),
+  // As the 3-D object that is drawn has it, brought back from the scene to the world.
+  drawnMatrixOf: name => {
+    const group = cast.groups.get(known(name));
+    return group && new THREE.Matrix4().getInverse(cast.root.matrixWorld).multiply(group.matrixWorld).toArray();
+  },
+  twistOf: name => twistAt(recording, known(name), cursorNow()),
+  ownerOf: name => recording.ownerAt(known(name), state.time),
+  colorOf: owner => colors[owner],
+  // In CSS pixels of the page; null when behind the camera.
+  screenPositionOf: name => {
+    const place = toView(centerOf(known(name), cursorNow())), box = view.getBoundingClientRect();
+    return place && {x: box.left + place[0], y: box.top + place[1]};
+  },
+  // World positions of the vertices of mesh instance `index`, as drawn.
+  verticesOf: index => Array.from(cast.deformed[index].geometry.attributes.position.array),
+  // The corners of all triangles that are drawn now, ground left out, and the places of nodes where bones alone are drawn.
+  drawnPoints: () => {
+    const points = [], back = new THREE.Matrix4().getInverse(cast.root.matrixWorld), point = new THREE.Vector3();
+    cast.root.traverseVisible(object => {
+      if (!object.isMesh || (object.userData.node && object.userData.node.shape.plane)) return;
+      const place = object.geometry.attributes.position, stride = Math.max(1, Math.floor(place.count / 3000));
+      for (let i = 0; i < place.count; i += stride)
+        points.push(point.fromBufferAttribute(place, i).applyMatrix4(object.matrixWorld).applyMatrix4(back).toArray());
+    });
+    if (!recording.instances.length && state.skeleton)
+      for (const node of nodes) if (node.shown && !node.hasBody) points.push(placeAt(recording, node, cursorNow()).position);
+    return points;
+  },
+  // The boxes [low x, y, z, high x, y, z] that all that is drawn fills over the recording, and where a point of the world
+  // is in the view, in CSS pixels from its corner.
+  boundsOf: () => cast.bounds.box(),
+  placeInView: toView,
+  // The outlines of what collides with node `name`, in the world: [x, y, z, ...].
+  colliderOf: name => {
+    if (!cast.wires) cast.addWires();
+    updateScene();
+    const held = cast.wires.find(({node}) => node === known(name)), points = [];
+    if (!held) return points;
+    const back = new THREE.Matrix4().getInverse(cast.root.matrixWorld).multiply(held.wire.matrixWorld);
+    const place = held.wire.geometry.attributes.position, point = new THREE.Vector3();
+    for (let i = 0; i < place.count; ++i) points.push(...point.fromBufferAttribute(place, i).applyMatrix4(back).toArray());
+    return points;
+  },
+  // What the curves show of all frames, panel by panel: position [x, y, z], velocity, rotation, angular velocity, ...
+  curvesOf: name => gather(known(name)).panels.map(panel => panel.series.map(values => Array.from(values))),
+  panelsOf: name => gather(known(name)).panels.map(({name: panel, unit, names}) => ({name: panel, unit, names})),
+};

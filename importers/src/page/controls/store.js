@@ -1,0 +1,36 @@
+// What the person looking has set: values by name, and those who want to know of changes.
+
+class Store {
+  constructor(values) {
+    this.values = values;
+    this.listeners = [];
+  }
+
+  onChange(listener) {
+    this.listeners.push(listener);
+  }
+
+  change(values) {
+    let any = false;
+    for (const name in values)
+      if (!Object.is(this.values[name], values[name])) { this.values[name] = values[name]; any = true; }
+    if (any) for (const listener of this.listeners) listener(values);
+  }
+}
+
+const recording = new Recording(JSON.parse(document.getElementById("data").textContent));
+const {nodes, times} = recording;
+
+// `from` and `until`: what the timeline and the curves show; `folded`: nodes whose rows are hidden below them.
+const store = new Store({time: recording.startTime, playing: false, speed: 1, loop: true, snap: true, chosen: null, byOwner: true,
+  trail: true, skeleton: false, colliders: false, follow: false, local: false, help: false, find: "", folded: new Set(),
+  from: recording.startTime, until: recording.endTime});
+const state = store.values;
+const change = values => store.change(values);
+
+// Where the present time is among the frames.
+let lastCursor = null;
+function cursorNow() {
+  if (!lastCursor || lastCursor.time !== state.time) lastCursor = cursorAt(recording, state.time);
+  return lastCursor;
+}

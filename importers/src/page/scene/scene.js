@@ -1,0 +1,101 @@
+// The scene around the cast: camera, light, ground, and colors.
+
+const scene = new THREE.Scene();
+const camera = new THREE.PerspectiveCamera(38, 1, 0.01, 1000);
+const view = document.getElementById("view");
+let renderer = null;
+try {
+  // Asked first, because three.js complains aloud.
+  if (!document.createElement("canvas").getContext("webgl")) throw new Error("no WebGL");
+  renderer = new THREE.WebGLRenderer({canvas: document.getElementById("scene"), antialias: true});
+  renderer.gammaOutput = true;
+  renderer.gammaFactor = 2.2;
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = THREE.PCFSoftShadowMap;
+} catch (problem) {
+  document.getElementById("no-webgl").hidden = false;
+}
+
+const linear = css => new THREE.Color(css).convertSRGBToLinear();
+let ownerColors = {};
+
+const cast = new Cast();
+scene.add(cast.root);
+const grids = [];
+
+function addGrid(parent, normal, offset) {
+  const grid = new THREE.LineSegments(gridGeometry(cast.gridStep, 40), new THREE.LineBasicMaterial({transparent: true}));
+  const up = new THREE.Vector3(...normal);
+  grid.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), up);
+  grid.position.copy(up).multiplyScalar(offset + 0.0008 * cast.radius / cast.unit);
+  parent.add(grid);
+  grids.push(grid);
+}
+
+for (const {node, mesh} of cast.grounds) addGrid(mesh, node.shape.plane, node.shape.offset);
+if (!cast.grounds.length) {
+  const base = new THREE.Group(), size = cast.radius / cast.unit;
+  base.position.set(Math.hypot(cast.center[0], cast.center[2]) < 20 * size ? 0 : cast.center[0],
+    Math.abs(cast.low[1]) < 0.2 * size ? Math.min(0, cast.low[1]) : cast.low[1],
+    Math.hypot(cast.center[0], cast.center[2]) < 20 * size ? 0 : cast.center[2]);
+  cast.root.add(base);
+  addGrid(base, [0, 1, 0], 0);
+}
+
+const middle = new THREE.Vector3(...cast.toScene(cast.center));
+const skyLight = new THREE.HemisphereLight(0xffffff, 0x77746f, 0.62);
+const sun = new THREE.DirectionalLight(0xffffff, 0.48);
+sun.position.copy(middle).add(new THREE.Vector3(0.5, 1.6, 0.8).multiplyScalar(2 * cast.radius));
+sun.target.position.copy(middle);
+sun.castShadow = true;
+sun.shadow.mapSize.set(1024, 1024);
+sun.shadow.bias = -0.0006;
+Object.assign(sun.shadow.camera, {left: -1.6 * cast.radius, right: 1.6 * cast.radius, top: 1.6 * cast.radius,
+  bottom: -1.6 * cast.radius, near: 0.1 * cast.radius, far: 8 * cast.radius});
+scene.add(skyLight, sun, sun.target);
+
+const neutral = [0.55, 0.55, 0.55];
+function ownColor(node) {
+  for (let n = node; n; n = nodes[n.parent]) {
+    if (n.colors) return valuesAt(recording, n, n.colors, 4, cursorNow()).slice(0, 3);
+    if (n.color) return n.color.slice(0, 3);
+    if (n.hasBody) break;
+  }
+  return null;
+}
+const colorAt = (node, material) =>
+  (state.byOwner ? ownerColors[recording.shownOwner(node, state.time)] : ownColor(node) || material || neutral);
+
+function applyColors() {
+  for (const word of ["keyed", "driven", "free", "fixed"]) ownerColors[word] = linear(colors[word]).toArray();
+  // This release of three.js neither encodes the background nor the fog.
+  scene.background = new THREE.Color(colors.sky);
+  scene.fog = new THREE.Fog(scene.background.getHex(), 1, 2);
+  for (const grid of grids) grid.material.color.copy(linear(colors.grid));
+  for (const {material} of cast.grounds) material.color.copy(linear(colors.ground));
+  cast.linkLines.material.color.copy(linear(colors.ink));
+  for (const held of cast.deformed) held.painted = "";
+}
+
+function updateScene() {
+  cast.update(cursorNow(), colorAt);
+  scene.updateMatrixWorld();
+}
+
+function fitView() {
+  const width = view.clientWidth, height = view.clientHeight;
+  if (!width || !height) return;
+  camera.aspect = width / height;
+  camera.updateProjectionMatrix();
+  if (renderer) {
+    renderer.setPixelRatio(window.devicePixelRatio || 1);
+    renderer.setSize(width, height, false);
+  }
+}
+
+function drawScene() {
+  if (!renderer) return;
+  scene.fog.near = 1.2 * orbit.distance + cast.radius;
+  scene.fog.far = 5 * orbit.distance + 7 * cast.radius;
+  renderer.render(scene, camera);
+}

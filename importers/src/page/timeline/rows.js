@@ -1,0 +1,50 @@
+// Which rows the timeline has: a row for each node, below it a lane for each of its tracks and its children, unless it is
+// folded; or, while searching, all whose name has the text.
+
+// What moves comes first; things that only stand there come last.
+const standsThere = node => node.fixed && !node.children.length;
+const rootNodes = nodes.filter(node => node.parent < 0).sort((a, b) => standsThere(a) - standsThere(b));
+const rowHeight = row => (row.lane ? 18 : 23);
+
+function visibleRows() {
+  const rows = [], wanted = state.find.trim().toLowerCase();
+  let top = 0;
+  const add = row => {
+    rows.push({...row, top});
+    top += rowHeight(row);
+  };
+  const open = (node, depth) => {
+    const folds = node.lanes.length + node.children.length > 0, folded = !wanted && state.folded.has(node);
+    add({node, lane: null, depth, folds, folded});
+    if (!folded) for (const lane of node.lanes) add({node, lane, depth});
+    return !folded;
+  };
+  if (wanted) {
+    for (const node of nodes) if (node.name.toLowerCase().includes(wanted)) open(node, 0);
+    return {rows, height: top};
+  }
+  // Without recursion: chains of nodes may be thousands long.
+  const waiting = rootNodes.map(node => [node, 0]).reverse();
+  while (waiting.length) {
+    const [node, depth] = waiting.pop();
+    if (open(node, depth)) for (let i = node.children.length - 1; i >= 0; --i) waiting.push([node.children[i], depth + 1]);
+  }
+  return {rows, height: top};
+}
+
+function toggleFold(node, all = false) {
+  const folded = new Set(state.folded), fold = !folded.has(node);
+  const family = new Set([node]);
+  if (all) for (const other of nodes) if (other.parent >= 0 && family.has(nodes[other.parent])) family.add(other);
+  for (const each of family) if (fold) folded.add(each); else folded.delete(each);
+  change({folded});
+}
+function toggleAllFolds() {
+  change({folded: state.folded.size ? new Set() : new Set(nodes.filter(node => node.lanes.length + node.children.length > 0))});
+}
+// Opens what hides a node.
+function unfoldTo(node) {
+  const folded = new Set(state.folded);
+  for (let n = nodes[node.parent]; n; n = nodes[n.parent]) folded.delete(n);
+  if (folded.size !== state.folded.size) change({folded});
+}

@@ -1,0 +1,20 @@
+#pragma once
+
+// What a key says, in words: its value and how the curve goes on from it.
+
+#include <tweenfall/anim/track.h>
+
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// The value of a track at a key, with four decimals at most: "(0, 1.5, 0)", rotations as "90° about (0, 0, 1)", colors
+/// as linear "(r, g, b, a)".
+[[nodiscard]] std::string key_value_text(const TrackCurve& curve, double clip_time);
+
+/// How the curve goes on from each key: "hold", "linear", "eased" (a straight way re-timed), "quadratic", "cubic",
+/// "quintic", "several" where components differ, or "end" for the last key.
+[[nodiscard]] std::vector<std::string> key_ease_texts(const TrackCurve& curve, const std::vector<double>& clip_times);
+
+}  // namespace tweenfall

@@ -1,0 +1,59 @@
+// Nothing overlaps and nothing is cut off, from a desk's screen to a phone's, by the rectangles of the elements.
+
+import {check} from "./checks.mjs";
+
+const parts = ["header", "#view", "#readout", "#curves", "#transport", "#timeline"];
+const controls = "header h1, header #legend, header button, #transport button, #clock, #transport label, #transport select, #find";
+
+const rectangles = (page, selector) => page.evaluate(`[...document.querySelectorAll(${JSON.stringify(selector)})]
+  .filter(e => e.offsetParent !== null).map(e => {
+    const b = e.getBoundingClientRect();
+    return {name: e.id || e.textContent.trim() || e.tagName, box: [b.left, b.top, b.right, b.bottom],
+      over: e.tagName === "H1" || e.tagName === "SELECT" || e.tagName === "INPUT" ? 0 : e.scrollWidth - e.clientWidth,
+      holds: [...e.querySelectorAll("*")].map(inner => inner.id || inner.textContent.trim() || inner.tagName)};
+  })`);
+
+const apart = (a, b) => a.box[2] <= b.box[0] + 0.5 || b.box[2] <= a.box[0] + 0.5 || a.box[3] <= b.box[1] + 0.5 || b.box[3] <= a.box[1] + 0.5;
+
+function checkRectangles(list, width, height) {
+  for (const {name, box: [left, top, right, bottom], over} of list) {
+    check(left >= -0.5 && top >= -0.5 && right <= width + 0.5 && bottom <= height + 0.5,
+      `"${name}" is inside ${width} by ${height}: ${[left, top, right, bottom]}`);
+    check(over <= 1, `"${name}" is not cut off at ${width}: ${over} px too long`);
+  }
+  list.forEach((a, i) => list.slice(i + 1).forEach(b => {
+    if (!a.holds.includes(b.name) && !b.holds.includes(a.name))
+      check(apart(a, b), `"${a.name}" and "${b.name}" do not overlap at ${width} by ${height}: ${a.box} and ${b.box}`);
+  }));
+}
+
+async function fitsTheWindow(page, width, height) {
+  await page.resize(width, height);
+  const shown = await rectangles(page, parts.join(", "));
+  check(shown.length === parts.length, `all parts are shown at ${width} by ${height}`);
+  for (const {name, box: [left, top, right, bottom]} of shown)
+    check(right - left > 150 && bottom - top > (name === "header" || name === "transport" ? 20 : 28), `"${name}" has room at ${width} by ${height}`);
+  checkRectangles(shown, width, height);
+  checkRectangles(await rectangles(page, controls), width, height);
+  // What does not fit beside the rest waits behind a button.
+  const toggles = await rectangles(page, "#options label");
+  if (!toggles.length) {
+    await page.evaluate("document.getElementById('show-options').click()");
+    const opened = await rectangles(page, "#options label");
+    check(opened.length === 5, `the button shows what can be shown at ${width} by ${height}: ${opened.length}`);
+    checkRectangles(opened, width, height);
+    await page.evaluate("document.getElementById('show-options').click()");
+  } else {
+    checkRectangles(toggles.concat(await rectangles(page, "header h1, #legend, header button")), width, height);
+  }
+  // Rows and their names.
+  const rows = await rectangles(page, "#rows .row .label");
+  check(rows.length > 3, `the timeline has rows at ${width} by ${height}`);
+  for (const {box: [left, , right]} of rows) check(left >= 0 && right <= 0.45 * width, `names leave room for time at ${width}: ${right}`);
+}
+
+export async function fitsAllWidths(page) {
+  for (const [width, height] of [[390, 844], [390, 640], [640, 480], [640, 900], [800, 600], [1024, 700], [1280, 800], [2200, 1300]])
+    await fitsTheWindow(page, width, height);
+  await page.resize(1280, 800);
+}
