@@ -145,3 +145,98 @@ TEST_CASE("before a play starts its first frame holds, with the weight it has th
   const Animation whole(arm(), {clip}, {{.clip = 0, .at = 1}});
   CHECK(near(whole.sample_node(3, 0.5).pose.position, Vec3(0, 4, 0), 1e-15));
 }
+
+namespace {
+
+bool same(const Motion& a, const Motion& b) {
+  return a.pose.position == b.pose.position && a.pose.rotation.coeffs() == b.pose.rotation.coeffs() &&
+         a.pose.scale == b.pose.scale && a.twist.linear == b.twist.linear && a.twist.angular == b.twist.angular &&
+         a.scale_rate == b.scale_rate;
+}
+
+// Everything at once: a fade, a mask, a play that starts later, a loop with offset, a relative track.
+Animation busy() {
+  const auto fade =
+      keyed_curve<double>({{.time = 0.5, .value = 0.0, .ease = Ease::smooth()}, {.time = 1.5, .value = 1.0}});
+  Clip lifted = waving("lifted", 40);
+  lifted.loop = {LoopMode::repeat_offset, 0};
+  lifted.tracks.push_back({"hat", "position", places(50), true});
+  return {arm(),
+          {waving("a", 1), waving("b", 20), lifted},
+          {{.clip = 0},
+           {.clip = 1, .at = 0.25, .speed = 0.7, .weight = fade},
+           {.clip = 2, .at = 1, .speed = 1.3, .mask = {"hat", "wr*"}}}};
+}
+
+}  // namespace
+
+TEST_CASE("a whole pose and its nodes one by one are the same bits") {
+  const Animation animation = busy();
+  const ClockOverride later{.stage = 2, .timeline = 0.8},
+      alone{.stage = 1.2, .timeline = 1, .clip = 1, .starts_by = 0.5};
+  for (const ClockOverride& clock : {ClockOverride{}, later, alone})
+    for (const Side side : {Side::in, Side::out})
+      for (const double time : {0.0, 0.25, 0.4, 1.0, 1.31, 1.5, 2.0, 5.7}) {
+        std::vector<Motion> pose(4);
+        animation.sample(time, pose, side, clock);
+        for (std::size_t node = 0; node < 4; ++node)
+          CHECK(same(pose[node], animation.sample_node(node, time, side, clock)));
+      }
+}
+
+TEST_CASE("by another clock plays and their weights are where they were to be at its time") {
+  const Animation animation = busy();
+  const ClockOverride held{.stage = 3, .timeline = 1.125};
+  for (const double since : {0.0, 0.25, 0.875})
+    for (std::size_t node = 0; node < 4; ++node)
+      CHECK(same(animation.sample_node(node, 3 + since, Side::out, held),
+                 animation.sample_node(node, 1.125 + since, Side::out)));
+}
+
+TEST_CASE("a clip alone is followed whole, by the play that it has or from where it is said to start") {
+  const Animation animation = busy();
+  const Animation pure(arm(), {waving("b", 20)}, {{.clip = 0, .at = 0.25, .speed = 0.7}});
+  const Animation none(arm(), {waving("a", 1), waving("b", 20)}, {{.clip = 0}});
+  const Animation fresh(arm(), {waving("b", 20)}, {{.clip = 0, .at = 2}});
+  const ClockOverride alone{.clip = 1, .starts_by = 2};
+  for (const double time : {2.0, 2.5, 3.25})
+    for (std::size_t node = 0; node < 4; ++node) {
+      CHECK(same(animation.sample_node(node, time, Side::out, alone), pure.sample_node(node, time)));
+      CHECK(same(none.sample_node(node, time, Side::out, alone), fresh.sample_node(node, time)));
+    }
+  std::vector<double> starts;
+  none.for_each_play(alone, 2, [&](const Play& play) { starts.push_back(play.at); });
+  CHECK(starts == std::vector<double>{2});
+  starts.clear();
+  none.for_each_play(alone, 3, [&](const Play& play) { starts.push_back(play.at); });
+  CHECK(starts.empty());
+}
+
+TEST_CASE("the first play's morph weights and color fade from what the node shows at rest") {
+  Node face{"face"};
+  face.color = Color{Vec4(1, 0, 0, 1)};
+  face.weights = {0.5, 1};
+  const auto nodes = std::make_shared<const Hierarchy>(std::vector<Node>{face, {"plain"}});
+  const auto fade = keyed_curve<double>({{.time = 0, .value = 0.0, .ease = Ease::linear()}, {.time = 2, .value = 1.0}});
+  const Curve<Color> green(Color{Vec4(0, 1, 0, 1)});
+  const WeightCurves weights{Curve<double>(1.0), Curve<double>(0.0), Curve<double>(0.25)};
+  Clip clip{.name = "look", .duration = 5};
+  clip.tracks = {{"face", "color", green}, {"face", "weights", weights}, {"plain", "weights", weights}};
+  const Animation animation(nodes, {clip}, {{.clip = 0, .weight = fade}});
+
+  const NodeLook half = animation.look(0, 1);
+  REQUIRE(half.color);
+  CHECK(near(half.color->value.rgba, Vec4(0.5, 0.5, 0, 1), 1e-15));
+  CHECK(near(half.color->rate, Vec4(-0.5, 0.5, 0, 0), 1e-15));
+  REQUIRE(half.weights.size() == 3);
+  CHECK(half.weights[0].value == 0.75);
+  CHECK(half.weights[0].rate == 0.25);
+  CHECK(half.weights[1].value == 0.5);
+  CHECK(half.weights[1].rate == -0.5);
+  CHECK(half.weights[2].value == 0.125);  // of a target that the node says nothing of: from 0
+  CHECK(animation.look(0, 0).color->value == *face.color);
+  CHECK(animation.look(0, 0).weights[1].value == 1);
+  CHECK(animation.look(0, 3).color->value == Color{Vec4(0, 1, 0, 1)});
+  CHECK(animation.look(0, 3).weights[1].value == 0);
+  CHECK(animation.look(1, 1).weights[0].value == 0.5);
+}

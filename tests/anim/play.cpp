@@ -131,10 +131,43 @@ TEST_CASE("an event at the turn of a ping-pong is told once") {
   CHECK(told(events_between({}, clip, 0, 5, true)) == "0:low 1:high 2:low 3:high ");
 }
 
-TEST_CASE("a loop too short to count tells nothing rather than hanging") {
-  Clip clip;
+TEST_CASE("a hundred thousand loops tell every one of their events, and too many are an error that names the clip") {
+  Clip clip{.name = "buzz", .duration = 1e-5, .loop = {LoopMode::repeat, 0}};
+  clip.events = {{.from = 5e-6, .to = 5e-6, .name = "tick", .data = {}}};
+  CHECK(events_between({}, clip, 0, 1, true).size() == 100'000);
   clip.duration = 1e-9;
-  clip.loop = {LoopMode::repeat, 0};
-  clip.events = {{.from = 0, .to = 0, .name = "blur", .data = {}}};
-  CHECK(events_between({}, clip, 0, 1, true).empty());
+  CHECK_THROWS_WITH_AS(static_cast<void>(events_between({}, clip, 0, 1, true)),
+                       "clip \"buzz\" goes around every 1e-09 s and has more than a million events from 0 s to 1 s: "
+                       "lengthen its loop or leave out its events",
+                       std::length_error);
+}
+
+TEST_CASE("the first event of a tiny loop is found at once, and of one that does not have it none") {
+  Clip clip{.name = "buzz", .duration = 1e-9, .loop = {LoopMode::repeat, 0}};
+  clip.events = {{.from = 5e-10, .to = 5e-10, .name = "tick", .data = {}}};
+  const auto first = first_event({}, clip, 0.25, 600);
+  REQUIRE(first);
+  CHECK(first->time > 0.25);
+  CHECK(first->time < 0.25 + 2e-9);
+  CHECK(first_event({.speed = -1}, clip, 0.25, 600)->time < 0.25 + 2e-9);
+  CHECK_FALSE(first_event({}, clip, 0, 600, true, "tock"));
+  clip.loop = {LoopMode::repeat, 3};
+  CHECK_FALSE(first_event({}, clip, 0.25, 600));
+}
+
+TEST_CASE("a loop of 1e17 plays runs backwards from its end like one of few") {
+  for (const LoopMode mode : {LoopMode::repeat, LoopMode::pingpong}) {
+    const Clip few = two_seconds(mode, 1000), many = two_seconds(mode, 1e17);
+    const Play play{.at = 0.25, .speed = -1};
+    CHECK(told(events_between(play, many, 0, 7, true)) == told(events_between(play, few, 0, 7, true)));
+    for (const double time : {0.0, 0.25, 1.0, 2.25, 3.5, 6.0})
+      for (const Side side : {Side::in, Side::out}) {
+        CAPTURE(time);
+        const ClipClock a = clock_at(play, many, time, side), b = clock_at(play, few, time, side);
+        CHECK(a.time == b.time);
+        CHECK(a.rate == b.rate);
+        CHECK(a.side == b.side);
+        CHECK_FALSE(a.ended);
+      }
+  }
 }

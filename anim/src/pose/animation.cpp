@@ -1,319 +1,320 @@
 #include <tweenfall/anim/animation.h>
-#include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
+
+#include "pose/bound_clip.h"
 
 namespace tweenfall {
 
+using pose::BoundClip;
+using pose::Parts;
+
+struct Animation::BoundClips {
+  std::vector<BoundClip> clips;
+};
+
+struct Animation::BoundPlays {
+  struct OfPlay {
+    std::vector<char> masked;  // by entry of the clip: whether the mask keeps the play off; empty for no mask
+    std::vector<Parts> below;  // by entry of the clip: what plays below drive of the node
+  };
+  std::vector<OfPlay> plays;
+  std::vector<char> animated;  // by node: it or an ancestor is moved by some play
+};
+
+namespace pose {
 namespace {
 
-/// The tracks of one play that drive one node.
-struct NodeTracks {
-  const Track* position = nullptr;
-  const Track* rotation = nullptr;
-  const Track* scale = nullptr;
-  const Track* color = nullptr;
-  const Track* weights = nullptr;
+bool is_whole(const Sample<double>& weight) noexcept {
+  return weight.value == 1 && weight.rate == 0;
+}
 
-  [[nodiscard]] bool moves() const { return position || rotation || scale; }
+bool is_nothing(const Sample<double>& weight) noexcept {
+  return weight.value == 0 && weight.rate == 0;
+}
+
+/// Takes these parts of `from`, so that everything else keeps its bits.
+void take(Parts parts, const Motion& from, Motion& motion) noexcept {
+  if (parts & position_part) {
+    motion.pose.position = from.pose.position;
+    motion.twist.linear = from.twist.linear;
+  }
+  if (parts & rotation_part) {
+    motion.pose.rotation = from.pose.rotation;
+    motion.twist.angular = from.twist.angular;
+  }
+  if (parts & scale_part) {
+    motion.pose.scale = from.pose.scale;
+    motion.scale_rate = from.scale_rate;
+  }
+}
+
+bool passes(const std::vector<std::string>& mask, std::string_view node) {
+  return mask.empty() || std::ranges::any_of(mask, [&](const std::string& pattern) { return matches(pattern, node); });
+}
+
+// A play as it runs by a clock that may not be the stage's.
+struct Running {
+  const BoundClip* clip;
+  const std::vector<char>* masked = nullptr;  // null: the whole clip
+  const std::vector<Parts>* below = nullptr;  // null: all of it or nothing, as the next says
+  bool covered = false;
+  double at = 0, speed = 1;
+  const Curve<double>* weight = nullptr;  // null: 1
+  double weight_time = 0;
+
+  [[nodiscard]] bool drives(std::uint32_t entry) const noexcept {
+    return entry != BoundClip::no_entry && (!masked || masked->empty() || !(*masked)[entry]);
+  }
+  [[nodiscard]] ClipClock clock(double stage_time, Side side) const noexcept {
+    return clock_at(at, speed, clip->clip(), stage_time, side);
+  }
+  [[nodiscard]] Sample<double> weight_at(Side side) const noexcept {
+    return weight ? weight->sample(weight_time, side) : Sample<double>{1, 0, 0};
+  }
+  /// Before a play starts it has no say, save where nothing below it drives the part: there its first frame holds.
+  [[nodiscard]] Parts parts(std::uint32_t entry, bool started) const noexcept {
+    const Parts all = clip->entries()[entry].parts;
+    if (started) return all;
+    if (!below) return covered ? Parts{0} : all;
+    return static_cast<Parts>(all & ~(*below)[entry]);
+  }
 };
 
-/// A bound play: its index and what it drives.
-struct Layer {
-  std::size_t play;
-  NodeTracks tracks;
-};
+void lay_over(const Running& play, std::uint32_t entry, const Hierarchy& nodes, const ClipClock& clock,
+              const Sample<double>& weight, Motion& motion) noexcept {
+  const Parts parts = play.parts(entry, clock.started);
+  if (parts == 0 || is_nothing(weight)) return;
+  Motion over = motion;
+  play.clip->sample_entry(entry, nodes, clock, over);
+  take(parts, is_whole(weight) ? over : mix(motion, over, weight.value, weight.rate), motion);
+}
+
+Motion at_rest_on(const Node& node) noexcept {
+  Motion motion;
+  motion.pose = node.rest;
+  return motion;
+}
 
 template <class T>
-Sample<T> per_stage_second(Sample<T> sample, double clock_rate) {
+Sample<T> per_stage_second(Sample<T> sample, double clock_rate) noexcept {
   sample.rate *= clock_rate;
   sample.acceleration *= clock_rate * clock_rate;
   return sample;
 }
 
-/// What a repeat-offset loop has gained after whole plays.
-Vec3 gained(const Curve<Vec3>& curve, const Clip& clip, int cycle) {
-  return cycle * (curve.value(clip.duration, Side::in) - curve.value(0.0));
+// The plain numbers of a value that is mixed by its parts.
+double& numbers(double& value) noexcept {
+  return value;
 }
-Quat gained(const Curve<Quat>& curve, const Clip& clip, int cycle) {
-  const Vec3 once = log_map(curve.value(clip.duration, Side::in) * curve.value(0.0).conjugate());
-  return exp_map(cycle * once);
-}
-
-struct Layered {
-  const Clip& clip;
-  ClipClock clock;
-
-  [[nodiscard]] bool accumulates() const { return clip.loop.mode == LoopMode::repeat_offset && clock.cycle != 0; }
-
-  Sample<Vec3> position(const Track& track) const {
-    const auto& curve = std::get<Curve<Vec3>>(track.curve);
-    Sample<Vec3> sample = per_stage_second(curve.sample(clock.time, clock.side), clock.rate);
-    if (accumulates()) sample.value += gained(curve, clip, clock.cycle);
-    return sample;
-  }
-  Sample<Quat> rotation(const Track& track) const {
-    const auto& curve = std::get<Curve<Quat>>(track.curve);
-    Sample<Quat> sample = per_stage_second(curve.sample(clock.time, clock.side), clock.rate);
-    if (accumulates()) {
-      const Quat turned = gained(curve, clip, clock.cycle);
-      sample.value = turned * sample.value;
-      sample.rate = turned * sample.rate;
-    }
-    return sample;
-  }
-  Sample<Vec3> scale(const Track& track) const {
-    return per_stage_second(std::get<Curve<Vec3>>(track.curve).sample(clock.time, clock.side), clock.rate);
-  }
-};
-
-/// Replaces in `motion` what the tracks drive.
-void apply(const NodeTracks& tracks, const Layered& layer, const Pose& rest, Motion& motion) {
-  if (tracks.position) {
-    const Sample<Vec3> sample = layer.position(*tracks.position);
-    if (tracks.position->relative) {
-      motion.pose.position = rest.position + rest.rotation * Vec3(rest.scale.cwiseProduct(sample.value));
-      motion.twist.linear = rest.rotation * Vec3(rest.scale.cwiseProduct(sample.rate));
-    } else {
-      motion.pose.position = sample.value;
-      motion.twist.linear = sample.rate;
-    }
-  }
-  if (tracks.rotation) {
-    const Sample<Quat> sample = layer.rotation(*tracks.rotation);
-    if (tracks.rotation->relative) {
-      motion.pose.rotation = rest.rotation * sample.value;
-      motion.twist.angular = rest.rotation * sample.rate;
-    } else {
-      motion.pose.rotation = sample.value;
-      motion.twist.angular = sample.rate;
-    }
-  }
-  if (tracks.scale) {
-    const Sample<Vec3> sample = layer.scale(*tracks.scale);
-    const bool relative = tracks.scale->relative;
-    motion.pose.scale = relative ? Vec3(rest.scale.cwiseProduct(sample.value)) : sample.value;
-    motion.scale_rate = relative ? Vec3(rest.scale.cwiseProduct(sample.rate)) : sample.rate;
-  }
-}
-
-/// Takes from `mixed` what the tracks drive, so that everything else keeps its bits.
-void take_driven(const NodeTracks& tracks, const Motion& mixed, Motion& motion) {
-  if (tracks.position) {
-    motion.pose.position = mixed.pose.position;
-    motion.twist.linear = mixed.twist.linear;
-  }
-  if (tracks.rotation) {
-    motion.pose.rotation = mixed.pose.rotation;
-    motion.twist.angular = mixed.twist.angular;
-  }
-  if (tracks.scale) {
-    motion.pose.scale = mixed.pose.scale;
-    motion.scale_rate = mixed.scale_rate;
-  }
-}
-
-/// Before a play starts it has no say, save where nothing below it drives the property: there its first frame holds.
-NodeTracks uncovered(NodeTracks tracks, const NodeTracks& below) {
-  if (below.position) tracks.position = nullptr;
-  if (below.rotation) tracks.rotation = nullptr;
-  if (below.scale) tracks.scale = nullptr;
-  return tracks;
-}
-
-void cover(NodeTracks& below, const NodeTracks& tracks) {
-  if (tracks.position) below.position = tracks.position;
-  if (tracks.rotation) below.rotation = tracks.rotation;
-  if (tracks.scale) below.scale = tracks.scale;
-}
-
-bool driven_by(const Play& play, std::string_view node) {
-  if (play.mask.empty()) return true;
-  for (const std::string& pattern : play.mask)
-    if (matches(pattern, node)) return true;
-  return false;
+Vec4& numbers(Color& value) noexcept {
+  return value.rgba;
 }
 
 template <class T>
-const Track* require(const Track& track, const Clip& clip, const char* expected, std::string& problems) {
-  if (std::holds_alternative<T>(track.curve)) return &track;
-  problems += "\n  clip \"" + clip.name + "\": track \"" + track.name() + "\" must carry " + expected;
-  return nullptr;
+void fade(Sample<T>& under, Sample<T> over, const Sample<double>& weight) noexcept {
+  if (is_whole(weight)) {
+    under = over;
+    return;
+  }
+  using Numbers = Rate<T>;
+  const Numbers difference = numbers(over.value) - numbers(under.value), rate_difference = over.rate - under.rate;
+  under.acceleration += weight.value * (over.acceleration - under.acceleration) + 2 * weight.rate * rate_difference +
+                        weight.acceleration * difference;
+  under.rate += weight.value * rate_difference + weight.rate * difference;
+  if (weight.value == 1)
+    under.value = over.value;
+  else
+    numbers(under.value) += weight.value * difference;
+}
+
+void fade_color(const Curve<Color>& curve, const ClipClock& clock, const Sample<double>& weight, const Node& node,
+                std::optional<Sample<Color>>& look) {
+  const Sample<Color> over = per_stage_second(curve.sample(clock.time, clock.side), clock.rate);
+  if (!look && !node.color) {
+    look = over;  // there is nothing to fade from
+    return;
+  }
+  if (!look) look = Sample<Color>{*node.color, Vec4::Zero(), Vec4::Zero()};
+  fade(*look, over, weight);
+}
+
+void fade_weights(const WeightCurves& curves, const ClipClock& clock, const Sample<double>& weight, const Node& node,
+                  std::vector<Sample<double>>& look) {
+  for (std::size_t i = look.size(); i < curves.size(); ++i)
+    look.push_back({i < node.weights.size() ? node.weights[i] : 0, 0, 0});
+  for (std::size_t i = 0; i < curves.size(); ++i)
+    fade(look[i], per_stage_second(curves[i].sample(clock.time, clock.side), clock.rate), weight);
+}
+
+// Calls `visit` with each play that runs, in order.
+template <class Clips, class Plays, class Visit>
+void for_each_running(std::span<const Play> plays, const Clips& clips, const Plays& bound, double stage_time,
+                      const ClockOverride& clock, const Visit& visit) {
+  if (clock.clip == ClockOverride::every_clip) {
+    const double weight_time = clock.timeline_at(stage_time);
+    for (std::size_t p = 0; p < plays.size(); ++p)
+      visit(Running{.clip = &clips[plays[p].clip],
+                    .masked = &bound[p].masked,
+                    .below = &bound[p].below,
+                    .at = clock.stage_at(plays[p].at),
+                    .speed = plays[p].speed,
+                    .weight = &plays[p].weight,
+                    .weight_time = weight_time});
+    return;
+  }
+  Running running{.clip = &clips[clock.clip]};
+  for (const Play& play : plays) {
+    if (play.clip != clock.clip) continue;
+    running.at = clock.stage_at(std::min(play.at, clock.starts_by));
+    running.speed = play.speed;
+    visit(running);
+    running.covered = true;
+  }
+  if (running.covered) return;
+  running.at = clock.stage_at(clock.starts_by);
+  visit(running);
 }
 
 }  // namespace
-
-struct Animation::Binding {
-  std::vector<std::vector<Layer>> layers;  ///< by node, in order of the plays
-  std::vector<char> animated;              ///< by node: it or an ancestor is moved by some play
-};
+}  // namespace pose
 
 Animation::Animation(std::shared_ptr<const Hierarchy> nodes, std::vector<Clip> clips, std::vector<Play> plays)
     : nodes_(std::move(nodes)), clips_(std::make_shared<const std::vector<Clip>>(std::move(clips))) {
-  bind(std::move(plays));
-}
-
-Animation Animation::with_plays(std::vector<Play> plays) const {
-  Animation other = *this;
-  other.bind(std::move(plays));
-  return other;
+  std::string problems;
+  for (std::size_t p = 0; p < plays.size(); ++p)
+    if (plays[p].clip >= clips_->size())
+      problems += "\n  play " + std::to_string(p) + " names clip number " + std::to_string(plays[p].clip) + " of " +
+                  std::to_string(clips_->size());
+  bind_clips(std::move(problems));
+  set_plays(std::move(plays));
 }
 
 Animation Animation::with_nodes(std::shared_ptr<const Hierarchy> nodes) const {
   Animation other = *this;
   other.nodes_ = std::move(nodes);
-  other.bind(other.plays_);
+  other.bind_clips({});
+  other.set_plays(other.plays_);
   return other;
 }
 
-void Animation::bind(std::vector<Play> plays) {
-  plays_ = std::move(plays);
-  auto binding = std::make_shared<Binding>();
-  binding->layers.resize(nodes_->size());
-  binding->animated.assign(nodes_->size(), 0);
-  std::string problems;
-
-  for (std::size_t p = 0; p < plays_.size(); ++p)
-    if (plays_[p].clip >= clips_->size())
-      problems += "\n  play " + std::to_string(p) + " names clip number " + std::to_string(plays_[p].clip) + " of " +
-                  std::to_string(clips_->size());
-
-  for (std::size_t c = 0; c < clips_->size(); ++c) {
-    const Clip& clip = (*clips_)[c];
-    std::vector<std::pair<std::size_t, NodeTracks>> driven;
-    const auto tracks_of = [&](std::size_t node) -> NodeTracks& {
-      for (auto& [index, tracks] : driven)
-        if (index == node) return tracks;
-      return driven.emplace_back(node, NodeTracks{}).second;
-    };
-    for (const Track& track : clip.tracks) {
-      const Property property = property_named(track.property);
-      if (property == Property::user) continue;
-      const std::optional<std::size_t> node = nodes_->find(track.node);
-      if (!node) {
-        problems += "\n  clip \"" + clip.name + "\": there is no node \"" + track.node + "\"";
-        continue;
-      }
-      NodeTracks& tracks = tracks_of(*node);
-      switch (property) {
-        case Property::position:
-          tracks.position = require<Curve<Vec3>>(track, clip, "vectors", problems);
-          break;
-        case Property::rotation:
-          tracks.rotation = require<Curve<Quat>>(track, clip, "rotations", problems);
-          break;
-        case Property::scale:
-          tracks.scale = require<Curve<Vec3>>(track, clip, "vectors", problems);
-          break;
-        case Property::color:
-          tracks.color = require<Curve<Color>>(track, clip, "colors", problems);
-          break;
-        case Property::weights:
-          tracks.weights = require<WeightCurves>(track, clip, "weights", problems);
-          break;
-        case Property::user:
-          break;
-      }
-    }
-    for (std::size_t p = 0; p < plays_.size(); ++p) {
-      if (plays_[p].clip != c) continue;
-      for (const auto& [node, tracks] : driven) {
-        if (!driven_by(plays_[p], (*nodes_)[node].name)) continue;
-        binding->layers[node].push_back({p, tracks});
-        if (tracks.moves()) binding->animated[node] = 1;
-      }
-    }
-  }
+void Animation::bind_clips(std::string problems) {
+  auto bound = std::make_shared<BoundClips>();
+  bound->clips.reserve(clips_->size());
+  for (const Clip& clip : *clips_) bound->clips.emplace_back(clip, *nodes_, problems);
   if (!problems.empty()) throw std::invalid_argument("clips do not fit their nodes:" + problems);
-
-  for (std::size_t node = 0; node < nodes_->size(); ++node) {
-    std::ranges::stable_sort(binding->layers[node], {}, &Layer::play);
-    const std::size_t parent = (*nodes_)[node].parent;
-    if (parent != no_node && binding->animated[parent]) binding->animated[node] = 1;
-  }
-  binding_ = std::move(binding);
+  bound_clips_ = std::move(bound);
 }
 
-Motion Animation::sample_node(std::size_t node, double stage_time, Side side) const noexcept {
-  const Pose& rest = (*nodes_)[node].rest;
-  Motion motion;
-  motion.pose = rest;
-  NodeTracks below;
-  for (const Layer& layer : binding_->layers[node]) {
-    const Play& play = plays_[layer.play];
-    const Clip& clip = (*clips_)[play.clip];
-    const Layered layered{clip, clock_at(play, clip, stage_time, side)};
-    const NodeTracks tracks = layered.clock.started ? layer.tracks : uncovered(layer.tracks, below);
-    cover(below, layer.tracks);
-    if (!tracks.moves()) continue;
-    const Sample<double> weight = play.weight.sample(stage_time, side);
-    Motion over = motion;
-    apply(tracks, layered, rest, over);
-    if (weight.value == 1 && weight.rate == 0)
-      motion = over;
-    else
-      take_driven(tracks, mix(motion, over, weight.value, weight.rate), motion);
+void Animation::set_plays(std::vector<Play> plays) {
+  plays_ = std::move(plays);
+  auto bound = std::make_shared<BoundPlays>();
+  bound->animated.assign(nodes_->size(), 0);
+  std::vector<Parts> below(nodes_->size(), 0);
+  for (const Play& play : plays_) {
+    BoundPlays::OfPlay& of_play = bound->plays.emplace_back();
+    for (const BoundClip::Entry& entry : bound_clips_->clips[play.clip].entries()) {
+      const bool driven = pose::passes(play.mask, (*nodes_)[entry.node].name);
+      if (!play.mask.empty()) of_play.masked.push_back(!driven);
+      of_play.below.push_back(below[entry.node]);
+      if (!driven) continue;
+      below[entry.node] |= entry.parts;
+      if (entry.parts) bound->animated[entry.node] = 1;
+    }
   }
+  for (std::size_t node = 0; node < nodes_->size(); ++node) {
+    const std::size_t parent = (*nodes_)[node].parent;
+    if (parent != no_node && bound->animated[parent]) bound->animated[node] = 1;
+  }
+  bound_plays_ = std::move(bound);
+}
+
+void Animation::sample(double stage_time, std::span<Motion> local, Side side,
+                       const ClockOverride& own_clock) const noexcept {
+  for (std::size_t node = 0; node < nodes_->size(); ++node) local[node] = pose::at_rest_on((*nodes_)[node]);
+  pose::for_each_running(plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock,
+                         [&](const pose::Running& play) {
+                           const ClipClock clock = play.clock(stage_time, side);
+                           const Sample<double> weight = play.weight_at(side);
+                           const bool unmasked = !play.masked || play.masked->empty();
+                           if (unmasked && clock.started && pose::is_whole(weight)) {
+                             play.clip->sample(*nodes_, clock, local);
+                             return;
+                           }
+                           const auto& entries = play.clip->entries();
+                           for (std::uint32_t entry = 0; entry < entries.size(); ++entry)
+                             if (play.drives(entry))
+                               pose::lay_over(play, entry, *nodes_, clock, weight, local[entries[entry].node]);
+                         });
+}
+
+Motion Animation::sample_node(std::size_t node, double stage_time, Side side,
+                              const ClockOverride& own_clock) const noexcept {
+  Motion motion = pose::at_rest_on((*nodes_)[node]);
+  pose::for_each_running(
+      plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock, [&](const pose::Running& play) {
+        const std::uint32_t entry = play.clip->entry_of(node);
+        if (play.drives(entry) && play.clip->entries()[entry].parts)
+          pose::lay_over(play, entry, *nodes_, play.clock(stage_time, side), play.weight_at(side), motion);
+      });
   return motion;
 }
 
-void Animation::sample(double stage_time, std::span<Motion> local, Side side) const noexcept {
-  for (std::size_t node = 0; node < nodes_->size(); ++node) local[node] = sample_node(node, stage_time, side);
+WorldMotion Animation::world(std::size_t node, double stage_time, Side side,
+                             const ClockOverride& clock) const noexcept {
+  return nodes_->world_motion(node, [&](std::size_t index) { return sample_node(index, stage_time, side, clock); });
 }
 
-WorldMotion Animation::world(std::size_t node, double stage_time, Side side) const noexcept {
-  return nodes_->world_motion(node, [&](std::size_t index) { return sample_node(index, stage_time, side); });
-}
-
-NodeLook Animation::look(std::size_t node, double stage_time, Side side) const {
+NodeLook Animation::look(std::size_t node, double stage_time, Side side, const ClockOverride& own_clock) const {
   NodeLook look;
-  for (const Layer& layer : binding_->layers[node]) {
-    if (!layer.tracks.color && !layer.tracks.weights) continue;
-    const Play& play = plays_[layer.play];
-    const Clip& clip = (*clips_)[play.clip];
-    const ClipClock clock = clock_at(play, clip, stage_time, side);
-    const Sample<double> weight = play.weight.sample(stage_time, side);
-    if (const Track* track = layer.tracks.color; track && (clock.started || !look.color)) {
-      Sample<Color> over = std::get<Curve<Color>>(track->curve).sample(clock.time, clock.side);
-      over.rate *= clock.rate;
-      over.acceleration *= clock.rate * clock.rate;
-      if (look.color && !(weight.value == 1 && weight.rate == 0)) {
-        const Sample<Color> under = *look.color;
-        const Vec4 difference = over.value.rgba - under.value.rgba, rate_difference = over.rate - under.rate;
-        over.value.rgba = under.value.rgba + weight.value * difference;
-        over.rate = under.rate + weight.value * rate_difference + weight.rate * difference;
-        over.acceleration = under.acceleration + weight.value * (over.acceleration - under.acceleration) +
-                            2 * weight.rate * rate_difference + weight.acceleration * difference;
-      }
-      look.color = over;
-    }
-    if (const Track* track = layer.tracks.weights; track && (clock.started || look.weights.empty())) {
-      const auto& curves = std::get<WeightCurves>(track->curve);
-      look.weights.resize(std::max(look.weights.size(), curves.size()), Sample<double>{0, 0, 0});
-      for (std::size_t i = 0; i < curves.size(); ++i) {
-        const Sample<double> over = per_stage_second(curves[i].sample(clock.time, clock.side), clock.rate);
-        Sample<double>& under = look.weights[i];
-        const double difference = over.value - under.value, rate_difference = over.rate - under.rate;
-        under.acceleration += weight.value * (over.acceleration - under.acceleration) +
-                              2 * weight.rate * rate_difference + weight.acceleration * difference;
-        under.rate += weight.value * rate_difference + weight.rate * difference;
-        under.value = weight.value == 1 ? over.value : under.value + weight.value * difference;
-      }
-    }
-  }
+  pose::for_each_running(plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock,
+                         [&](const pose::Running& play) {
+                           const std::uint32_t index = play.clip->entry_of(node);
+                           if (!play.drives(index)) return;
+                           const BoundClip::Entry& entry = play.clip->entries()[index];
+                           if (!entry.color && !entry.weights) return;
+                           const ClipClock clock = play.clock(stage_time, side);
+                           const Sample<double> weight = play.weight_at(side);
+                           if (entry.color && (clock.started || !look.color))
+                             pose::fade_color(*entry.color, clock, weight, (*nodes_)[node], look.color);
+                           if (entry.weights && (clock.started || look.weights.empty()))
+                             pose::fade_weights(*entry.weights, clock, weight, (*nodes_)[node], look.weights);
+                         });
   return look;
 }
 
 bool Animation::animates(std::size_t node) const noexcept {
-  return binding_->animated[node] != 0;
+  return bound_plays_->animated[node] != 0;
 }
 
-bool Animation::moved_by(std::size_t node, std::size_t play) const noexcept {
+Play Animation::play_under(const ClockOverride& clock, std::size_t index) const {
+  Play play = plays_[index];
+  if (clock.clip != ClockOverride::every_clip) {
+    play.at = std::min(play.at, clock.starts_by);
+    play.weight = Curve<double>(1.0);
+    play.mask.clear();
+  }
+  play.at = clock.stage_at(play.at);
+  return play;
+}
+
+bool Animation::moved_by(std::size_t node, std::size_t play, bool unmasked) const noexcept {
+  const BoundClip& clip = bound_clips_->clips[plays_[play].clip];
+  const std::vector<char>& masked = bound_plays_->plays[play].masked;
+  for (std::size_t i = node; i != no_node; i = (*nodes_)[i].parent) {
+    const std::uint32_t entry = clip.entry_of(i);
+    if (entry == BoundClip::no_entry || !clip.entries()[entry].parts) continue;
+    if (unmasked || masked.empty() || !masked[entry]) return true;
+  }
+  return false;
+}
+
+bool Animation::clip_moves(std::size_t clip, std::size_t node) const noexcept {
+  const BoundClip& bound = bound_clips_->clips[clip];
   for (std::size_t i = node; i != no_node; i = (*nodes_)[i].parent)
-    for (const Layer& layer : binding_->layers[i])
-      if (layer.play == play && layer.tracks.moves()) return true;
+    if (const std::uint32_t entry = bound.entry_of(i); entry != BoundClip::no_entry && bound.entries()[entry].parts)
+      return true;
   return false;
 }
 

@@ -31,6 +31,14 @@ MovingRotation exponential(const MovingVector& m) noexcept {
   return {exp_map(r), velocity, acceleration};
 }
 
+TurningRotation exponential(const Vec3& r, const Vec3& d) noexcept {
+  const double square = r.squaredNorm();
+  const Vec3 cross = r.cross(d), twice = r.cross(cross);
+  if (square < series_limit) return {exp_map(r), d - series_a(square) * cross + series_b(square) * twice};
+  const RotationSeries c(square);
+  return {exp_map(r), d - c.a * cross + c.b * twice};
+}
+
 Vec3 bent_acceleration(const Vec3& r, const Vec3& first) noexcept {
   return exponential({r, first, Vec3(0, 0, 0)}).acceleration;
 }

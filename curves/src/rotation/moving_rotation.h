@@ -27,6 +27,15 @@ struct MovingWeight {
 
 [[nodiscard]] MovingRotation exponential(const MovingVector& r) noexcept;
 
+/// A rotation and its angular velocity alone, in the axes of the value.
+struct TurningRotation {
+  Quat value;
+  Vec3 velocity;
+};
+
+/// The same without the acceleration, to the bit.
+[[nodiscard]] TurningRotation exponential(const Vec3& r, const Vec3& first) noexcept;
+
 /// What the second derivative of the logarithm lacks: acceleration = J(r) r'' + this.
 [[nodiscard]] Vec3 bent_acceleration(const Vec3& r, const Vec3& first) noexcept;
 

@@ -31,6 +31,37 @@ Pose anchor_onto(const Pose& path, const Pose& body, HandBack::Anchor kind) {
   return anchor;
 }
 
+/// The clock of a body that comes back at `time` to plays that ran by `before` when it left them at `released_at`.
+ClockOverride recovered_clock(const Animation& animation, const ClockOverride& before, double time,
+                              const HandBack& settings, double released_at) {
+  ClockOverride clock = before;
+  const double now = before.timeline_at(time);
+  if (!settings.clip.empty()) {
+    const auto clips = animation.clips();
+    const auto found = std::ranges::find(clips, settings.clip, &Clip::name);
+    if (found == clips.end()) throw std::invalid_argument("there is no clip \"" + settings.clip + "\" to hand back to");
+    // Asked for by name, the clip is followed wholly, however it was faded or masked.
+    const auto clip = static_cast<std::size_t>(found - clips.begin());
+    if (clock.clip != clip) clock.starts_by = now;
+    clock.clip = clip;
+  }
+  if (settings.clock == HandBack::Clock::hold) {
+    clock.timeline = before.timeline_at(released_at);
+    clock.stage = time;
+    clock.starts_by = std::min(clock.starts_by, clock.timeline);
+  }
+  if (settings.clock == HandBack::Clock::restart) {
+    double first = now;
+    const bool alone = clock.clip != ClockOverride::every_clip;
+    for (const Play& play : animation.plays())
+      if (!alone || play.clip == clock.clip) first = std::min({first, play.at, alone ? clock.starts_by : play.at});
+    // All together: what overlapped still does.
+    clock.timeline = first;
+    clock.stage = time;
+  }
+  return clock;
+}
+
 }  // namespace
 
 WorldMotion carried(const WorldMotion& world, const Motion& to) noexcept {
@@ -50,9 +81,11 @@ WorldMotion carried(const WorldMotion& world, const Motion& to) noexcept {
 Path::Path(std::shared_ptr<const Animation> animation, std::size_t node, double since)
     : animation_(std::move(animation)), node_(node), since_(since) {}
 
-WorldMotion Path::anchored(double stage_time, Side side) const noexcept {
-  if (stage_time <= since_) side = Side::out;
-  const WorldMotion authored = animation_->world(node_, stage_time, side);
+WorldMotion Path::authored(double stage_time, Side side) const noexcept {
+  return animation_->world(node_, stage_time, side_at(stage_time, side), clock_);
+}
+
+WorldMotion Path::anchored(const WorldMotion& authored) const noexcept {
   if (!anchor_) return authored;
   Motion moved = authored.motion;
   moved.pose.position = anchor_->rotation * authored.motion.pose.position + anchor_->position;
@@ -63,12 +96,20 @@ WorldMotion Path::anchored(double stage_time, Side side) const noexcept {
 }
 
 WorldMotion Path::world(double stage_time, Side side) const noexcept {
-  const WorldMotion authored = anchored(stage_time, side);
-  return carried(authored, settle_.apply(stage_time, authored.motion));
+  return world(stage_time, authored(stage_time, side));
+}
+
+WorldMotion Path::world(double stage_time, const WorldMotion& authored) const noexcept {
+  const WorldMotion path = anchored(authored);
+  return carried(path, settle_.apply(stage_time, path.motion));
 }
 
 Motion Path::at(double stage_time, Side side) const noexcept {
-  return settle_.apply(stage_time, anchored(stage_time, side).motion);
+  return at(stage_time, authored(stage_time, side));
+}
+
+Motion Path::at(double stage_time, const WorldMotion& authored) const noexcept {
+  return settle_.apply(stage_time, anchored(authored).motion);
 }
 
 Path Path::rebound(std::shared_ptr<const Animation> animation) const {
@@ -79,43 +120,14 @@ Path Path::rebound(std::shared_ptr<const Animation> animation) const {
 
 Path Path::recovered(double time, const HandBack& settings, const Motion& body, double released_at) const {
   Path path(animation_, node_, time);
-  std::vector<Play> plays(animation_->plays().begin(), animation_->plays().end());
-
-  if (!settings.clip.empty()) {
-    const auto clips = animation_->clips();
-    std::size_t clip = 0;
-    while (clip < clips.size() && clips[clip].name != settings.clip) ++clip;
-    if (clip == clips.size()) throw std::invalid_argument("there is no clip \"" + settings.clip + "\" to hand back to");
-    std::erase_if(plays, [&](const Play& play) { return play.clip != clip; });
-    if (plays.empty()) {
-      Play play;
-      play.clip = clip;
-      play.at = time;
-      plays.push_back(std::move(play));
-    }
-    // Asked for by name, the clip is followed wholly, however it was faded or masked.
-    for (Play& play : plays) {
-      play.weight = Curve<double>(1.0);
-      play.mask.clear();
-      if (play.at > time) play.at = time;
-    }
-  }
-  double first = time;
-  for (const Play& play : plays) first = std::min(first, play.at);
-  for (Play& play : plays) {
-    if (settings.clock == HandBack::Clock::hold) play.at += time - released_at;
-    if (settings.clock == HandBack::Clock::restart)
-      play.at += time - first;  // all together: what overlapped still does
-  }
-  if (!settings.clip.empty() || settings.clock != HandBack::Clock::run)
-    path.animation_ = std::make_shared<const Animation>(animation_->with_plays(std::move(plays)));
+  path.clock_ = recovered_clock(*animation_, clock_, time, settings, released_at);
 
   if (settings.anchor == HandBack::Anchor::keep) {
     path.anchor_ = anchor_;
   } else {
-    path.anchor_ = anchor_onto(path.animation_->world(node_, time).motion.pose, body.pose, settings.anchor);
+    path.anchor_ = anchor_onto(path.authored(time, Side::out).motion.pose, body.pose, settings.anchor);
   }
-  path.settle_ = SettleOffset(settings.settle, time, path.anchored(time, Side::out).motion, body);
+  path.settle_ = SettleOffset(settings.settle, time, path.anchored(path.authored(time, Side::out)).motion, body);
   return path;
 }
 

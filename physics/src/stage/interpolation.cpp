@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "stage/stage_data.h"
+#include "stage/whole_pose.h"
 
 namespace tweenfall::staging {
 
@@ -89,8 +90,7 @@ const StagedBody* body_above(const StageState& state, NodeId node) {
 }  // namespace
 
 Motion local_motion(const StageState& state, const StagedBody* above, NodeId node, double time, Side side) {
-  const Animation& animation = above ? above->path.animation() : *state.animation;
-  const Motion local = animation.sample_node(node, time, side);
+  const Motion local = state.animation->sample_node(node, time, side, above ? above->path.clock() : ClockOverride{});
   if (!above || !above->below) return local;
   const auto found = std::ranges::lower_bound(*above->below, node, {}, &SettlingNode::node);
   return found != above->below->end() && found->node == node ? found->offset.apply(time, local) : local;
@@ -115,16 +115,21 @@ Twist body_twist(const StageState& from, const StageState& to, std::size_t index
 
 void stage_world(const StageState& from, const StageState& to, double time, std::span<WorldMotion> out) {
   const StageState& state = at_end(from, to, time) ? to : from;
+  WholePose pose(state, time, Side::out);
   std::vector<const StagedBody*> above(out.size(), nullptr);
   for (NodeId node = 0; node < out.size(); ++node) {
-    if (state.body_of[node] != no_body) {
-      out[node] = body_world(from, to, state.body_of[node], time);
-      above[node] = &state.bodies[state.body_of[node]];
+    if (const StagedBody* body = state.body(node)) {
+      const bool on_path = state.world.owner(body->id) == Owner::keyed && !state.world.is_fixed(body->id);
+      out[node] = on_path ? pose.world(*body) : body_world(from, to, state.body_of[node], time);
+      above[node] = body;
       continue;
     }
     const std::size_t parent = (*state.nodes)[node].parent;
     if (parent != no_node) above[node] = above[parent];
-    out[node] = child_of(parent == no_node ? WorldMotion{} : out[parent], local_motion(state, above[node], node, time));
+    const StagedBody* body = above[node];
+    const bool plain = !body || (body->path.clock() == ClockOverride{} && !body->below);
+    out[node] = child_of(parent == no_node ? WorldMotion{} : out[parent],
+                         plain ? pose.local(node) : local_motion(state, body, node, time));
   }
 }
 

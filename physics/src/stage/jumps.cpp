@@ -53,6 +53,24 @@ std::vector<char> carriers(const StageState& state) {
   return carries;
 }
 
+/// First stage time in (from, to] at which the animation, as it runs by `clock`, may make a body jump.
+double first_jump_by(const StageState& state, const ClockOverride& clock, double from, double to) {
+  double first = infinity;
+  const auto consider = [&](double time) {
+    if (time > from && time <= to) first = std::min(first, time);
+  };
+  state.animation->for_each_play(clock, no_node, [&](const Play& play) {
+    if (!state.jumps->carries_body[play.clip]) return;
+    // Where a play begins it may replace what was below it.
+    consider(play.at);
+    for (const double knot : play.weight.knots())
+      if (play.weight.value(knot, Side::in) != play.weight.value(knot)) consider(clock.stage_at(knot));
+    if (const auto jump = first_event(play, state.jumps->clips[play.clip], from, to))
+      first = std::min(first, jump->time);
+  });
+  return first;
+}
+
 }  // namespace
 
 std::shared_ptr<const Jumps> find_jumps(const StageState& state) {
@@ -84,18 +102,14 @@ std::shared_ptr<const Jumps> find_jumps(const StageState& state) {
   return jumps;
 }
 
-double next_jump(const StageState& state, const Animation& animation, double from, double to) {
-  double first = infinity;
-  for (const Play& play : animation.plays()) {
-    if (!state.jumps->carries_body[play.clip]) continue;
-    // Where a play begins it may replace what was below it.
-    if (play.at > from && play.at <= to) first = std::min(first, play.at);
-    for (const double knot : play.weight.knots())
-      if (knot > from && knot <= to && play.weight.value(knot, Side::in) != play.weight.value(knot))
-        first = std::min(first, knot);
-    const std::vector<FiredEvent> jumps = events_between(play, state.jumps->clips[play.clip], from, to);
-    if (!jumps.empty()) first = std::min(first, jumps.front().time);
-  }
+double first_jump(const StageState& state, double from, double to) {
+  double first = first_jump_by(state, {}, from, to);
+  ClockOverride asked;  // bodies that come back together run by the same clock
+  for (const StagedBody& body : state.bodies)
+    if (body.present && body.path.clock() != asked) {
+      asked = body.path.clock();
+      first = std::min(first, first_jump_by(state, asked, from, to));
+    }
   return first;
 }
 

@@ -47,7 +47,7 @@ Twist take_over_twist(const StagedBody& body, const Motion& arriving, const Take
 /// The nodes without bodies below a body that changes from one path to another at `time`, each from where it is shown.
 std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState& state, const StagedBody& body,
                                                                 const Path& next, const Settle& settle, double time) {
-  if (&next.animation() == &body.path.animation()) return body.below;
+  if (next.clock() == body.path.clock()) return body.below;
   auto below = std::make_shared<std::vector<SettlingNode>>();
   std::vector<char> carried(state.nodes->size(), 0);
   carried[body.node] = 1;
@@ -56,7 +56,8 @@ std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState
     if (parent == no_node || !carried[parent] || state.body_of[node] != no_body) continue;
     carried[node] = 1;
     const Motion shown = local_motion(state, &body, node, time, Side::in);
-    below->push_back({node, SettleOffset(settle, time, next.animation().sample_node(node, time), shown)});
+    below->push_back(
+        {node, SettleOffset(settle, time, next.animation().sample_node(node, time, Side::out, next.clock()), shown)});
   }
   return below;
 }

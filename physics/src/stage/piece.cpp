@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "stage/stage_data.h"
+#include "stage/whole_pose.h"
 
 namespace tweenfall::staging {
 
@@ -11,15 +12,6 @@ namespace {
 
 /// Rules and jumps split a step at most so often; what is left then is handled at its end, and told.
 constexpr int most_splits = 1024;
-
-/// First jump of any path after what has been handled; infinity for none until `to`.
-double first_jump(const StageState& state, double to) {
-  double next = next_jump(state, *state.animation, state.handled, to);
-  for (const StagedBody& body : state.bodies)
-    if (body.present && &body.path.animation() != state.animation.get())
-      next = std::min(next, next_jump(state, body.path.animation(), state.handled, to));
-  return next;
-}
 
 void report_events(const StageState& state, double from, double to, std::vector<Happening>& happenings) {
   std::vector<FiredEvent> fired;
@@ -79,21 +71,22 @@ Motion moved_on(const Motion& motion, const Vec3& center, double seconds) {
 
 void set_targets(StageState& state, double end) {
   // A path that jumps just before the end is followed to the jump and on at its own velocity: the jump is no movement.
-  const double jump = std::min(end, first_jump(state, end));
+  const double jump = std::min(end, first_jump(state, state.handled, end));
+  const double landed = std::max(state.time, std::min(state.handled, end));
+  WholePose leaving_pose(state, landed, Side::out), target_pose(state, jump, Side::in);
   for (StagedBody& body : state.bodies) {
     if (!body.present || state.world.is_fixed(body.id)) continue;
     const Owner owner = state.world.owner(body.id);
     if (owner == Owner::free) continue;
     const Vec3& center = state.world.mass(body.id).center;
     if (state.jumped && owner == Owner::keyed) {
-      const double landed = std::max(state.time, std::min(state.handled, end));
-      const Motion leaving = moved_on(rigid(body.path.at(landed)), center, state.time - landed);
+      const Motion leaving = moved_on(rigid(leaving_pose.at(body)), center, state.time - landed);
       const Motion here = state.world.motion(body.id);
       if (!leaving.pose.position.isApprox(here.pose.position, 1e-12) ||
           std::abs(leaving.pose.rotation.dot(here.pose.rotation)) < 1 - 1e-15)
         state.world.set_motion(body.id, leaving);
     }
-    state.world.set_target(body.id, moved_on(rigid(body.path.at(jump, Side::in)), center, end - jump));
+    state.world.set_target(body.id, moved_on(rigid(target_pose.at(body)), center, end - jump));
   }
   state.jumped = false;
 }

@@ -90,7 +90,7 @@ Node checked_node(const NodeDescription& node) {
                                 "\" needs finite numbers and a rotation that can be normalized");
   // A unit quaternion stays as it was given, to the bit.
   if (std::abs(turn - 1) > 1e-12) rest.rotation.normalize();
-  return {node.name, node.parent, rest};
+  return {node.name, node.parent, rest, node.color, {}};
 }
 
 }  // namespace
@@ -105,6 +105,13 @@ StageState initial_state(const StageDescription& description) {
   state.gravity = description.world.gravity;
   std::vector<Node> nodes;
   for (const NodeDescription& node : description.nodes) nodes.push_back(checked_node(node));
+  for (const MeshInstance& instance : description.mesh_instances) {
+    if (instance.node >= nodes.size() || instance.mesh >= description.meshes.size()) continue;
+    Node& node = nodes[instance.node];
+    const Mesh& mesh = description.meshes[instance.mesh];
+    if (!node.color) node.color = mesh.base_color;
+    if (node.weights.size() < mesh.rest_weights.size()) node.weights = mesh.rest_weights;
+  }
   state.nodes = std::make_shared<const Hierarchy>(std::move(nodes));
   state.animation = std::make_shared<const Animation>(state.nodes, description.clips, description.plays);
   state.present.assign(state.nodes->size(), 1);
@@ -192,14 +199,8 @@ namespace {
 /// Everything that was bound to the old nodes, bound to the new ones.
 void rebind(StageState& state, std::vector<Node> nodes) {
   state.nodes = std::make_shared<const Hierarchy>(std::move(nodes));
-  const std::shared_ptr<const Animation> before = state.animation;
-  state.animation = std::make_shared<const Animation>(before->with_nodes(state.nodes));
-  for (StagedBody& body : state.bodies) {
-    if (&body.path.animation() == before.get())
-      body.path = body.path.rebound(state.animation);
-    else
-      body.path = body.path.rebound(std::make_shared<const Animation>(body.path.animation().with_nodes(state.nodes)));
-  }
+  state.animation = std::make_shared<const Animation>(state.animation->with_nodes(state.nodes));
+  for (StagedBody& body : state.bodies) body.path = body.path.rebound(state.animation);
 }
 
 }  // namespace

@@ -165,8 +165,8 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
 
 // jumps.cpp: where paths are not continuous
 [[nodiscard]] std::shared_ptr<const Jumps> find_jumps(const StageState& state);
-/// First stage time in (from, to] at which `animation` may make a body jump; infinity for none.
-[[nodiscard]] double next_jump(const StageState& state, const Animation& animation, double from, double to);
+/// First stage time in (from, to] at which some path may make its body jump; infinity for none.
+[[nodiscard]] double first_jump(const StageState& state, double from, double to);
 
 // interpolation.cpp: what a stage shows, between two states that follow each other or, with one twice, beside one
 [[nodiscard]] WorldMotion body_world(const StageState& from, const StageState& to, std::size_t body, double time);

@@ -7,28 +7,25 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// First time in (from, to] at which a play of `animation` fires an event of this name; infinity for none.
+/// First time in (from, to] at which a play that runs by `clock` fires an event of this name; infinity for none.
 /// @param node  when given, only plays that move the node count
-double first_event(const Animation& animation, const std::string& name, NodeId node, double from, double to) {
+double event_time(const Animation& animation, const ClockOverride& clock, const std::string& name, NodeId node,
+                  double from, double to) {
   double first = infinity;
-  const auto plays = animation.plays();
-  for (std::size_t p = 0; p < plays.size(); ++p) {
-    if (node != no_node && !animation.moved_by(node, p)) continue;
-    const bool from_start = from < 0;
-    for (const FiredEvent& event :
-         events_between(plays[p], animation.clips()[plays[p].clip], std::max(from, 0.0), to, from_start))
-      if (event.name == name && event.kind != FiredEvent::Kind::end) first = std::min(first, event.time);
-  }
+  animation.for_each_play(clock, node, [&](const Play& play) {
+    const Clip& clip = animation.clips()[play.clip];
+    if (const auto event = first_event(play, clip, std::max(from, 0.0), to, from < 0, name))
+      first = std::min(first, event->time);
+  });
   return first;
 }
 
 /// End of the last play that moves the node; infinity while one has no end, or when none does.
 double path_end(const Path& path) {
-  const Animation& animation = path.animation();
   double last = -infinity;
-  for (std::size_t p = 0; p < animation.plays().size(); ++p)
-    if (animation.moved_by(path.node(), p))
-      last = std::max(last, end_time(animation.plays()[p], animation.clips()[animation.plays()[p].clip]));
+  path.animation().for_each_play(path.clock(), path.node(), [&](const Play& play) {
+    last = std::max(last, end_time(play, path.animation().clips()[play.clip]));
+  });
   return last == -infinity ? infinity : last;
 }
 
@@ -41,9 +38,9 @@ double instant_of(const Trigger& trigger, const StageState& state, const StagedB
   double time = infinity;
   if (const auto* at = std::get_if<when::At>(&trigger)) time = at->time;
   if (const auto* marker = std::get_if<when::Marker>(&trigger))
-    time = first_event(body.path.animation(), marker->name, body.node, from, to);
+    time = event_time(body.path.animation(), body.path.clock(), marker->name, body.node, from, to);
   if (const auto* event = std::get_if<when::Event>(&trigger))
-    time = first_event(*state.animation, event->name, no_node, from, to);
+    time = event_time(*state.animation, {}, event->name, no_node, from, to);
   if (std::holds_alternative<when::ClipEnd>(trigger)) time = path_end(body.path);
   return inside(time, from, to) ? time : infinity;
 }
@@ -100,10 +97,7 @@ bool waits(const StageState& state, const ArmedRule& armed) {
 
 double next_instant(const StageState& state, double to) {
   const double from = state.handled;
-  double next = next_jump(state, *state.animation, from, to);
-  for (const StagedBody& body : state.bodies)
-    if (body.present && &body.path.animation() != state.animation.get())
-      next = std::min(next, next_jump(state, body.path.animation(), from, to));
+  double next = first_jump(state, from, to);
   for (const ArmedRule& armed : state.armed)
     if (waits(state, armed)) next = std::min(next, first_instant(state, armed, from, std::min(next, to)));
   return next;

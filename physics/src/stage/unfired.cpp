@@ -17,12 +17,13 @@ std::string number(double value) {
 
 /// Whether a clip that counts has an event of this name. @param body  when given, only plays that move its node count
 bool has_event(const Animation& animation, const std::string& name, const StagedBody* body) {
-  for (std::size_t p = 0; p < animation.plays().size(); ++p) {
-    if (body && !animation.moved_by(body->node, p)) continue;
-    const Clip& clip = animation.clips()[animation.plays()[p].clip];
-    if (std::ranges::find(clip.events, name, &ClipEvent::name) != clip.events.end()) return true;
-  }
-  return false;
+  bool any = false;
+  animation.for_each_play(body ? body->path.clock() : ClockOverride{}, body ? body->node : no_node,
+                          [&](const Play& play) {
+                            const Clip& clip = animation.clips()[play.clip];
+                            any = any || std::ranges::find(clip.events, name, &ClipEvent::name) != clip.events.end();
+                          });
+  return any;
 }
 
 struct Reason {

@@ -1,6 +1,9 @@
 #pragma once
 
-/// Clips bound to nodes: names are looked up once, then every node's motion is a function of time.
+/// Clips bound to nodes: names are looked up once, then the whole pose is a function of time, value and rate.
+///
+/// Every clip is bound to the nodes once, however many plays it has. A play is a clock and a weight; running it by
+/// another clock (`ClockOverride`) binds nothing.
 ///
 /// The plays are layers, in order. The first lies over the rest poses, each further one is mixed
 /// over what is below with its weight; a weight that changes contributes its own rate, so a
@@ -30,9 +33,6 @@ class Animation {
   /// @throws std::invalid_argument naming all tracks whose node does not exist or whose curve has the wrong type.
   Animation(std::shared_ptr<const Hierarchy> nodes, std::vector<Clip> clips, std::vector<Play> plays);
 
-  /// The same nodes and clips, played otherwise; clips are shared, not copied.
-  [[nodiscard]] Animation with_plays(std::vector<Play> plays) const;
-
   /// The same clips and plays over other nodes. @throws as the constructor.
   [[nodiscard]] Animation with_nodes(std::shared_ptr<const Hierarchy> nodes) const;
 
@@ -40,32 +40,62 @@ class Animation {
   [[nodiscard]] std::span<const Clip> clips() const noexcept { return *clips_; }
   [[nodiscard]] std::span<const Play> plays() const noexcept { return plays_; }
 
+  // Whole poses
   /// Local motion of every node at a stage time. @param local  written, one per node, in order
-  void sample(double stage_time, std::span<Motion> local, Side side = Side::out) const noexcept;
+  void sample(double stage_time, std::span<Motion> local, Side side = Side::out,
+              const ClockOverride& clock = {}) const noexcept;
 
+  // Single nodes: the same bits
   /// Local motion of one node.
-  [[nodiscard]] Motion sample_node(std::size_t node, double stage_time, Side side = Side::out) const noexcept;
+  [[nodiscard]] Motion sample_node(std::size_t node, double stage_time, Side side = Side::out,
+                                   const ClockOverride& clock = {}) const noexcept;
 
   /// World motion of one node through its chain of parents; the path that a hand-off follows.
-  [[nodiscard]] WorldMotion world(std::size_t node, double stage_time, Side side = Side::out) const noexcept;
+  [[nodiscard]] WorldMotion world(std::size_t node, double stage_time, Side side = Side::out,
+                                  const ClockOverride& clock = {}) const noexcept;
 
-  /// Color and morph weights of one node.
-  [[nodiscard]] NodeLook look(std::size_t node, double stage_time, Side side = Side::out) const;
+  /// Color and morph weights of one node, where a playing clip drives them; the first play fades from the node's own.
+  [[nodiscard]] NodeLook look(std::size_t node, double stage_time, Side side = Side::out,
+                              const ClockOverride& clock = {}) const;
 
-  /// Whether some playing clip has a track for the node's position, rotation or scale, or an ancestor's.
+  // Plays
+  /// Whether some play has a track for the node's position, rotation or scale, or an ancestor's.
   [[nodiscard]] bool animates(std::size_t node) const noexcept;
 
-  /// The same question of one play.
-  [[nodiscard]] bool moved_by(std::size_t node, std::size_t play) const noexcept;
+  /// Calls `visit(play)` for each play that runs under `clock`, told on the stage's time (its weight stays on the
+  /// timeline).
+  /// @param node  only those that move this node or an ancestor; `no_node`: all
+  template <class Visit>
+  void for_each_play(const ClockOverride& clock, std::size_t node, Visit&& visit) const {
+    const bool alone = clock.clip != ClockOverride::every_clip;
+    bool any = false;
+    for (std::size_t p = 0; p < plays_.size(); ++p) {
+      if (alone && plays_[p].clip != clock.clip) continue;
+      any = true;
+      if (node != no_node && !moved_by(node, p, alone)) continue;
+      if (clock == ClockOverride{})
+        visit(plays_[p]);
+      else
+        visit(play_under(clock, p));
+    }
+    if (alone && !any && (node == no_node || clip_moves(clock.clip, node)))
+      visit(Play{.clip = clock.clip, .at = clock.stage_at(clock.starts_by)});
+  }
 
  private:
-  void bind(std::vector<Play> plays);
+  void bind_clips(std::string problems);
+  void set_plays(std::vector<Play> plays);
+  [[nodiscard]] Play play_under(const ClockOverride& clock, std::size_t play) const;
+  [[nodiscard]] bool moved_by(std::size_t node, std::size_t play, bool unmasked) const noexcept;
+  [[nodiscard]] bool clip_moves(std::size_t clip, std::size_t node) const noexcept;
 
   std::shared_ptr<const Hierarchy> nodes_;
   std::shared_ptr<const std::vector<Clip>> clips_;
   std::vector<Play> plays_;
-  struct Binding;  ///< for each node, the tracks of each play that drive it
-  std::shared_ptr<const Binding> binding_;
+  struct BoundClips;  ///< every clip, bound to the nodes
+  struct BoundPlays;  ///< which of the nodes each play drives
+  std::shared_ptr<const BoundClips> bound_clips_;
+  std::shared_ptr<const BoundPlays> bound_plays_;
 };
 
 /// Whether `name` matches `pattern`, in which `*` stands for any run of characters.

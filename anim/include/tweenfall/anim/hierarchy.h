@@ -21,8 +21,10 @@ inline constexpr std::size_t no_node = static_cast<std::size_t>(-1);
 
 struct Node {
   std::string name;
-  std::size_t parent = no_node;  ///< index in the hierarchy, less than the node's own; `no_node` for a root
-  Pose rest = {};                ///< relative to the parent
+  std::size_t parent = no_node;   ///< index in the hierarchy, less than the node's own; `no_node` for a root
+  Pose rest = {};                 ///< relative to the parent
+  std::optional<Color> color{};   ///< shown where no clip colors the node; what a clip's color fades from
+  std::vector<double> weights{};  ///< the same of its mesh's morph weights
 };
 
 /// A node's place in the world.

@@ -39,15 +39,29 @@ class Path {
   [[nodiscard]] const Animation& animation() const noexcept { return *animation_; }
   [[nodiscard]] std::size_t node() const noexcept { return node_; }
 
+  /// The clock by which the animation runs for this body; the stage's own unless a hand-back has changed it.
+  [[nodiscard]] const ClockOverride& clock() const noexcept { return clock_; }
+
+  /// On which side of `stage_time` the path is where `side` is asked for.
+  [[nodiscard]] Side side_at(double stage_time, Side side) const noexcept {
+    return stage_time <= since_ ? Side::out : side;
+  }
+
+  /// The same two, given the node's world motion in the animation's whole pose of that time by `clock()`, on `side_at`.
+  [[nodiscard]] Motion at(double stage_time, const WorldMotion& authored) const noexcept;
+  [[nodiscard]] WorldMotion world(double stage_time, const WorldMotion& authored) const noexcept;
+
   /// The same path over nodes or plays that have changed.
   [[nodiscard]] Path rebound(std::shared_ptr<const Animation> animation) const;
 
  private:
-  [[nodiscard]] WorldMotion anchored(double stage_time, Side side) const noexcept;
+  [[nodiscard]] WorldMotion authored(double stage_time, Side side) const noexcept;
+  [[nodiscard]] WorldMotion anchored(const WorldMotion& authored) const noexcept;
 
   std::shared_ptr<const Animation> animation_;
   std::size_t node_;
   double since_;
+  ClockOverride clock_;
   std::optional<Pose> anchor_;  ///< rigid; none: where it was authored
   SettleOffset settle_;
 };

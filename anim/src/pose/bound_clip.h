@@ -1,0 +1,59 @@
+#pragma once
+
+// A clip bound to a skeleton: names are looked up once, then the clip moves nodes by their indices.
+
+#include <tweenfall/anim/clip.h>
+#include <tweenfall/anim/hierarchy.h>
+#include <tweenfall/anim/play.h>
+#include <tweenfall/curves/motion_curves.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tweenfall::pose {
+
+/// Which parts of a node's motion are meant; a set of bits.
+using Parts = std::uint8_t;
+inline constexpr Parts position_part = 1, rotation_part = 2, scale_part = 4;
+
+class BoundClip {
+ public:
+  /// What of one node the clip drives.
+  struct Entry {
+    std::size_t node;
+    Parts parts = 0;     ///< of its motion
+    Parts relative = 0;  ///< those that compose with the node's rest pose instead of replacing it
+    const Curve<Color>* color = nullptr;
+    const WeightCurves* weights = nullptr;
+    Vec3 gain{0, 0, 0};  ///< what the position has gained after one play of a loop with offset
+    Vec3 turn{0, 0, 0};  ///< the same of the rotation, as a rotation vector
+  };
+  static constexpr std::uint32_t no_entry = static_cast<std::uint32_t>(-1);
+
+  /// @param clip      must outlive this
+  /// @param problems  written: a line for each track that fits no node or carries another kind of value
+  BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& problems);
+
+  [[nodiscard]] const Clip& clip() const noexcept { return *clip_; }
+  [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
+  /// Index of a node's entry; `no_entry` where the clip leaves the node alone.
+  [[nodiscard]] std::uint32_t entry_of(std::size_t node) const noexcept { return entry_of_[node]; }
+
+  /// Writes what the clip drives into the motions of all nodes.
+  void sample(const Hierarchy& nodes, const ClipClock& clock, std::span<Motion> local) const noexcept;
+
+  /// The same for one entry's node.
+  void sample_entry(std::uint32_t entry, const Hierarchy& nodes, const ClipClock& clock, Motion& motion) const noexcept;
+
+ private:
+  void finish(const Entry& entry, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept;
+
+  const Clip* clip_;
+  std::vector<Entry> entries_;           // in order of the nodes
+  std::vector<std::uint32_t> entry_of_;  // by node
+  MotionCurves curves_;                  // one thing for each entry
+  bool finished_ = true;                 // no entry is relative, and no loop climbs
+};
+
+}  // namespace tweenfall::pose
