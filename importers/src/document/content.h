@@ -5,7 +5,7 @@
 #include <tweenfall/importers/document.h>
 
 #include "document/report/problems.h"
-#include "json/json_text.h"
+#include "json/json_tree.h"
 
 #include <filesystem>
 #include <map>
@@ -24,39 +24,39 @@ struct Reading {
 };
 
 struct Building {
-  const JsonValue& root;
+  const JsonValue root;
   std::filesystem::path folder;
   Reading& reading;
   Problems& problems;
   StageDescription stage{};
   std::optional<double> fps{};
 
-  bool names_are_free = false;                 // neither nodes nor imports: tracks name what they like
-  std::map<std::string, std::size_t> nodes{};  // index of each node
-  std::map<std::string, std::size_t> clips{};
-  std::set<std::string> imports{};             // their names here
-  std::set<std::string> failed_imports{};      // their nodes and clips are not known to be missing
+  bool names_are_free = false;                              // neither nodes nor imports: tracks name what they like
+  std::map<std::string, std::size_t, std::less<>> nodes{};  // index of each node
+  std::map<std::string, std::size_t, std::less<>> clips{};
+  std::set<std::string, std::less<>> imports{};         // their names here
+  std::set<std::string, std::less<>> failed_imports{};  // their nodes and clips are not known to be missing
   std::vector<std::string> clips_of_others{};  // clips of imports without nodes: their tracks name nodes of this file
 
   [[nodiscard]] std::vector<std::string> node_names() const;
   [[nodiscard]] std::vector<std::string> body_names() const;
   [[nodiscard]] std::vector<std::string> clip_names() const;
   // Whether a name that is not there may be in an import that failed.
-  [[nodiscard]] bool excused(const std::string& name) const;
+  [[nodiscard]] bool excused(std::string_view name) const;
   // Nodes of a name, or of a pattern with '*'.
-  [[nodiscard]] std::vector<std::size_t> nodes_named(const std::string& name_or_pattern) const;
+  [[nodiscard]] std::vector<std::size_t> nodes_named(std::string_view name_or_pattern) const;
 };
 
 // A document's tree and what it means.
 struct ReadDocument {
-  JsonValue root;
+  JsonTree tree;
   StageDescription stage;
   bool names_are_free = false;
 };
 
 // @throws DocumentError
-[[nodiscard]] ReadDocument read_document(std::string_view text, const std::string& name,
-                                         const std::filesystem::path& folder, Reading& reading);
+[[nodiscard]] ReadDocument read_document(std::string text, const std::string& name, const std::filesystem::path& folder,
+                                         Reading& reading);
 [[nodiscard]] ReadDocument read_document_file(const std::filesystem::path& file, Reading& reading);
 
 // The parts, in the order in which they must be read

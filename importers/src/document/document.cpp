@@ -28,7 +28,8 @@ Document Document::parse(std::string_view text, const std::string& name, const s
   const std::filesystem::path own =
       std::filesystem::weakly_canonical(folder / std::filesystem::path(name).filename(), fault);
   if (!fault) reading.open.push_back(own);
-  return Document(std::make_shared<const Content>(Content{document::read_document(text, name, folder, reading)}));
+  return Document(
+      std::make_shared<const Content>(Content{document::read_document(std::string(text), name, folder, reading)}));
 }
 
 const StageDescription& Document::stage() const noexcept {
@@ -36,12 +37,11 @@ const StageDescription& Document::stage() const noexcept {
 }
 
 std::string Document::text() const {
-  return document::write(document::document_shape(), content_->document.root);
+  return document::write(document::document_shape(), content_->document.tree.root());
 }
 
 Document Document::from_model(const Model& model) {
-  const std::string text = document::write(document::document_shape(), document::tree_of(model));
-  return parse(text, model.name, {});
+  return parse(document::text_of(model), model.name, {});
 }
 
 }  // namespace tweenfall

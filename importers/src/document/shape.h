@@ -3,7 +3,7 @@
 // What JSON a place of a document may hold. One table of shapes (grammar.h) drives the reader's checks, its "did you
 // mean", the writer's layout and defaults, and the JSON Schema, so that the four cannot disagree.
 
-#include "json/json_text.h"
+#include "json/json_tree.h"
 
 #include <deque>
 #include <functional>

@@ -73,7 +73,7 @@ struct Accessors::Source {
 Accessors::Accessors(const Container& container, ModelProblems& problems)
     : container_(container),
       problems_(problems),
-      root_(container.document, "", problems),
+      root_(container.document.root(), "", problems),
       count_(root_.list("accessors").size()),
       // Accessors may share bytes, so a small file could ask for any amount of memory.
       budget_((std::size_t{1} << 22) + 64 * container.file_size) {}

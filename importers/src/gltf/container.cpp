@@ -142,7 +142,7 @@ std::optional<std::string> buffer_bytes(const Fields& buffer, const std::filesys
 
 void read_buffers(Container& container, const std::filesystem::path& file, std::optional<std::string_view> binary,
                   ModelProblems& problems) {
-  const Fields root(container.document, "", problems);
+  const Fields root(container.document.root(), "", problems);
   const std::size_t count = root.list("buffers").size();
   container.buffers.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -169,54 +169,53 @@ bool can_do_without(const std::string& extension) {
 }
 
 void check_header(const Container& container, ModelProblems& problems) {
-  const Fields root(container.document, "", problems);
+  const Fields root(container.document.root(), "", problems);
   const Fields asset = root.inside("asset");
   const std::string version = asset.text("version");
   if (!version.starts_with("2."))
     problems.add("/asset/version", version.empty() ? "is missing; glTF 2.0 can be read"
                                                    : "is \"" + version.substr(0, 20) + "\"; glTF 2.0 can be read");
   for (const auto& extension : root.list("extensionsRequired"))
-    if (extension.is(JsonValue::Kind::text) && !can_do_without(extension.text))
-      problems.add("/extensionsRequired", "the file needs " + extension.text + ", which cannot be read");
+    if (extension.is(JsonValue::Kind::text) && !can_do_without(std::string(extension.text())))
+      problems.add("/extensionsRequired", "the file needs " + std::string(extension.text()) + ", which cannot be read");
 }
 
 void tell(const JsonFault& fault, const Container& container, ModelProblems& problems) {
-  if (container.text.empty())
+  if (!container.has_lines)
     problems.add("", "is not valid JSON: at byte " + std::to_string(fault.offset) + " of it, " + fault.message);
   else
-    problems.add(tweenfall::place_in(container.text, fault.offset), "is not valid JSON: " + fault.message);
+    problems.add(tweenfall::place_in(container.document.text(), fault.offset), "is not valid JSON: " + fault.message);
 }
 
 }  // namespace
 
 std::optional<TextPlace> place_in(const Container& container, std::string_view place) {
-  if (container.text.empty() || !place.starts_with('/')) return std::nullopt;
-  const JsonValue* at = &container.document;
+  if (!container.has_lines || !place.starts_with('/')) return std::nullopt;
+  JsonValue at = container.document.root();
   while (!place.empty()) {
     place.remove_prefix(1);
     const std::string_view name = place.substr(0, place.find('/'));
     place.remove_prefix(name.size());
-    const JsonValue* inside = at->find(name);
+    JsonValue inside = at.find(name);
     std::size_t position = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), position);
-    if (at->is(JsonValue::Kind::list) && error == std::errc() && position < at->items.size())
-      inside = &at->items[position];
+    if (at.is(JsonValue::Kind::list) && error == std::errc() && position < at.items().size())
+      inside = at.items()[position];
     if (!inside) break;
     at = inside;
   }
-  return tweenfall::place_in(container.text, at->offset);
+  return tweenfall::place_in(container.document.text(), at.offset());
 }
 
 Container open_container(std::string_view bytes, const std::filesystem::path& file, ModelProblems& problems) {
   Container container;
   container.file_size = bytes.size();
-  container.text = bytes;
   Chunks chunks{bytes, std::nullopt};
   if (bytes.size() >= 4 && word_at(bytes, 0) == glb_magic) {
     const auto taken = take_chunks(bytes, problems);
     if (!taken) return container;
     chunks = *taken;
-    container.text = {};
+    container.has_lines = false;
   }
   // Some writers fill the chunk up with zeros instead of spaces.
   chunks.json = chunks.json.substr(0, chunks.json.find_last_not_of('\0') + 1);
@@ -225,13 +224,13 @@ Container open_container(std::string_view bytes, const std::filesystem::path& fi
     return container;
   }
   // Embedded buffers make the text as large as a model may be.
-  const JsonRules rules{.comments = false, .names_twice = true, .largest = std::size_t{1} << 31};
+  const JsonRules rules{.comments = false, .names_twice = true};
   std::vector<JsonFault> faults;
-  container.document = parse_json(chunks.json, faults, rules);
+  container.document = JsonTree::parse(std::string(chunks.json), faults, rules);
   for (const JsonFault& fault : faults) tell(fault, container, problems);
   if (!faults.empty()) return container;
   // What is no object, or too large a one, reads as empty, and all that is missing from it would be told too.
-  const Fields root(container.document, "", problems);
+  const Fields root(container.document.root(), "", problems);
   if (problems.any()) return container;
   check_header(container, problems);
   read_buffers(container, file, chunks.binary, problems);

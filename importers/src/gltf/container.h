@@ -14,8 +14,8 @@
 namespace tweenfall::gltf {
 
 struct Container {
-  JsonValue document;
-  std::string_view text;             ///< what `document` was read from, for places in it; empty in binary files
+  JsonTree document;
+  bool has_lines = true;             ///< whether the document is a file of its own, which has lines and columns
   std::vector<std::string> buffers;  ///< exactly "byteLength" bytes each; empty where there was a problem
   std::size_t file_size = 0;         ///< bytes of the file and everything it names
 };

@@ -8,14 +8,20 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-const JsonValue no_object{.kind = Kind::object};
-const std::vector<JsonValue> no_list;
+const JsonValue& no_object() {
+  static const JsonTree tree = [] {
+    std::vector<JsonFault> faults;
+    return JsonTree::parse("{}", faults);
+  }();
+  static const JsonValue root = tree.root();
+  return root;
+}
 
 /// Fields are looked for one by one, again for each element of a list beside them.
 constexpr std::size_t most_members = 1000;
 
 const char* kind_of(const JsonValue& value) {
-  switch (value.kind) {
+  switch (value.kind()) {
     case Kind::boolean:
       return "a boolean";
     case Kind::number:
@@ -37,7 +43,7 @@ std::string shown(const JsonValue& value) {
 
 std::optional<std::size_t> whole_number(const JsonValue& value) {
   constexpr double exact_below = 9007199254740992;  // 2^53
-  const double number = value.number;
+  const double number = value.number();
   if (!value.is(Kind::number) || !(number >= 0 && number < exact_below) || std::floor(number) != number)
     return std::nullopt;
   return static_cast<std::size_t>(number);
@@ -46,22 +52,23 @@ std::optional<std::size_t> whole_number(const JsonValue& value) {
 }  // namespace
 
 Fields::Fields(const JsonValue& object, std::string place, ModelProblems& problems)
-    : object_(&object), place_(std::move(place)), problems_(&problems) {
-  if (object.is(Kind::object) && object.members.size() <= most_members) return;
-  problems.add(place_, object.is(Kind::object) ? "has " + std::to_string(object.members.size()) + " members; at most " +
-                                                     std::to_string(most_members) + " can be read"
-                                               : std::string("must be an object, not ") + kind_of(object));
-  object_ = &no_object;
+    : object_(object), place_(std::move(place)), problems_(&problems) {
+  if (object.is(Kind::object) && object.members().size() <= most_members) return;
+  problems.add(place_, object.is(Kind::object)
+                           ? "has " + std::to_string(object.members().size()) + " members; at most " +
+                                 std::to_string(most_members) + " can be read"
+                           : std::string("must be an object, not ") + kind_of(object));
+  object_ = no_object();
 }
 
 std::optional<std::size_t> Fields::whole(const char* name) const {
-  const JsonValue* value = find(name);
+  const JsonValue value = find(name);
   if (!value) return std::nullopt;
-  const auto number = whole_number(*value);
+  const auto number = whole_number(value);
   if (!number)
     problems_->add(place_of(name), "must be a whole number of at least 0" +
-                                       std::string(value->number > 1e15 ? " and below 2^53" : "") + ", not " +
-                                       shown(*value));
+                                       std::string(value.number() > 1e15 ? " and below 2^53" : "") + ", not " +
+                                       shown(value));
   return number;
 }
 
@@ -79,8 +86,8 @@ std::optional<std::size_t> Fields::index_value(const JsonValue& value, const std
 }
 
 std::optional<std::size_t> Fields::index(const char* name, std::size_t count) const {
-  const JsonValue* value = find(name);
-  return value ? index_value(*value, place_of(name), count) : std::nullopt;
+  const JsonValue value = find(name);
+  return value ? index_value(value, place_of(name), count) : std::nullopt;
 }
 
 std::optional<std::size_t> Fields::required_index(const char* name, std::size_t count) const {
@@ -89,26 +96,26 @@ std::optional<std::size_t> Fields::required_index(const char* name, std::size_t 
 }
 
 std::string Fields::text(const char* name, const std::string& otherwise) const {
-  const JsonValue* value = find(name);
+  const JsonValue value = find(name);
   if (!value) return otherwise;
-  if (value->is(Kind::text)) return value->text;
-  problems_->add(place_of(name), std::string("must be a string, not ") + kind_of(*value));
+  if (value.is(Kind::text)) return std::string(value.text());
+  problems_->add(place_of(name), std::string("must be a string, not ") + kind_of(value));
   return otherwise;
 }
 
 bool Fields::flag(const char* name) const {
-  const JsonValue* value = find(name);
-  if (value && !value->is(Kind::boolean))
-    problems_->add(place_of(name), std::string("must be true or false, not ") + kind_of(*value));
-  return value && value->boolean;
+  const JsonValue value = find(name);
+  if (value && !value.is(Kind::boolean))
+    problems_->add(place_of(name), std::string("must be true or false, not ") + kind_of(value));
+  return value && value.boolean();
 }
 
 std::vector<double> Fields::numbers(const char* name, std::size_t count) const {
   std::vector<double> all;
   if (!has(name)) return all;
-  const std::vector<JsonValue>& values = list(name);
+  const JsonItems values = list(name);
   for (const JsonValue& value : values)
-    if (value.is(Kind::number)) all.push_back(value.number);
+    if (value.is(Kind::number)) all.push_back(value.number());
   if (all.size() == values.size() && (count == 0 || all.size() == count)) return all;
   const std::string wanted = count ? std::to_string(count) + " finite numbers" : "finite numbers";
   problems_->add(place_of(name), "must be a list of " + wanted);
@@ -117,24 +124,24 @@ std::vector<double> Fields::numbers(const char* name, std::size_t count) const {
 
 std::vector<std::size_t> Fields::indices(const char* name, std::size_t limit) const {
   std::vector<std::size_t> all;
-  const std::vector<JsonValue>& values = list(name);
+  const JsonItems values = list(name);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (const auto number = index_value(values[i], place_of(name) + "/" + std::to_string(i), limit))
       all.push_back(*number);
   return all;
 }
 
-const std::vector<JsonValue>& Fields::list(const char* name) const {
-  const JsonValue* value = find(name);
-  if (!value) return no_list;
-  if (value->is(Kind::list)) return value->items;
-  problems_->add(place_of(name), std::string("must be a list, not ") + kind_of(*value));
-  return no_list;
+JsonItems Fields::list(const char* name) const {
+  const JsonValue value = find(name);
+  if (!value) return JsonItems();
+  if (value.is(Kind::list)) return value.items();
+  problems_->add(place_of(name), std::string("must be a list, not ") + kind_of(value));
+  return JsonItems();
 }
 
 Fields Fields::inside(const char* name) const {
-  const JsonValue* value = find(name);
-  return {value ? *value : no_object, place_of(name), *problems_};
+  const JsonValue value = find(name);
+  return {value ? value : no_object(), place_of(name), *problems_};
 }
 
 Fields Fields::at(const char* name, std::size_t position) const {

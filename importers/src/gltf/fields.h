@@ -2,7 +2,7 @@
 
 // Typed access to the fields of a glTF document: a field of the wrong type is a problem with its place, not a crash.
 
-#include "json/json_text.h"
+#include "json/json_tree.h"
 #include "model/model_problems.h"
 
 #include <optional>
@@ -18,10 +18,10 @@ class Fields {
 
   [[nodiscard]] const std::string& place() const { return place_; }
   [[nodiscard]] std::string place_of(const std::string& name) const { return place_ + "/" + name; }
-  [[nodiscard]] bool has(const char* name) const { return find(name) != nullptr; }
+  [[nodiscard]] bool has(const char* name) const { return static_cast<bool>(find(name)); }
 
-  /// The field as it stands, of whatever type; null when absent.
-  [[nodiscard]] const JsonValue* find(const char* name) const { return object_->find(name); }
+  /// The field as it stands, of whatever type; none when absent.
+  [[nodiscard]] JsonValue find(const char* name) const { return object_.find(name); }
 
   /// A whole number >= 0; empty when absent or wrong.
   [[nodiscard]] std::optional<std::size_t> whole(const char* name) const;
@@ -36,7 +36,7 @@ class Fields {
   /// A list of indices below `limit`; wrong ones are problems and left out.
   [[nodiscard]] std::vector<std::size_t> indices(const char* name, std::size_t limit) const;
   /// A list; an empty one when absent or wrong.
-  [[nodiscard]] const std::vector<JsonValue>& list(const char* name) const;
+  [[nodiscard]] JsonItems list(const char* name) const;
   /// An object inside; an empty one when absent.
   [[nodiscard]] Fields inside(const char* name) const;
   /// An object of a list.
@@ -47,7 +47,7 @@ class Fields {
  private:
   std::optional<std::size_t> index_value(const JsonValue& value, const std::string& place, std::size_t count) const;
 
-  const JsonValue* object_;
+  JsonValue object_;
   std::string place_;
   ModelProblems* problems_;
 };

@@ -113,7 +113,7 @@ Model read(std::string_view bytes, const std::filesystem::path& file, ModelProbl
   // In a broken shell everything would be reported as a fault of its own.
   const auto where = [&](const std::string& place) { return place_in(container, place); };
   problems.throw_if_any(file, where);
-  const Fields root(container.document, "", problems);
+  const Fields root(container.document.root(), "", problems);
   Accessors accessors(container, problems);
   std::vector<FileNode> nodes = read_nodes(root);
   std::vector<FileMesh> meshes = read_meshes(root, accessors);

@@ -1,417 +1,336 @@
-#include "json/json_text.h"
+#include "json/explain_json.h"
+#include "json/json_content.h"
+#include "json/scan_json.h"
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
-#include <cstdint>
-#include <unordered_map>
+#include <functional>
 #include <utility>
 
 namespace tweenfall {
+
+namespace json_tree {
 
 namespace {
 
 using Kind = JsonValue::Kind;
 
-struct Stop {};  // thrown at a syntax error, after it was noted
-
-// The members of one object by name. Most objects are so small that looking through them is fastest.
-class MemberNames {
+// Walks over a text and tells how far it is; the parser keeps copies of it.
+class CountingIterator {
  public:
-  explicit MemberNames(std::vector<JsonMember>& members) : members_(members) {}
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
 
-  // The member of this name that is there already; null when none is.
-  JsonMember* find(const std::string& name) {
+  CountingIterator(const char* at, const char** reached) : at_(at), reached_(reached) {}
+  reference operator*() const { return *at_; }
+  CountingIterator& operator++() {
+    *reached_ = ++at_;
+    return *this;
+  }
+  bool operator==(const CountingIterator& other) const { return at_ == other.at_; }
+  bool operator!=(const CountingIterator& other) const { return at_ != other.at_; }
+
+ private:
+  const char* at_;
+  const char** reached_;
+};
+
+// Removes the members whose names stand twice from a row of them; returns how many are left.
+class NamesOnce {
+ public:
+  NamesOnce(const Content& content, std::vector<JsonFault>& faults) : content_(content), faults_(faults) {}
+
+  std::size_t left_of(JsonNode* first, std::size_t count) {
     constexpr std::size_t most_looked_through = 16;
-    if (members_.size() <= most_looked_through) {
-      for (JsonMember& member : members_)
-        if (member.name == name) return &member;
-      return nullptr;
+    kept_ = first;
+    size_ = 0;
+    if (count > most_looked_through) {
+      std::size_t places = 64;
+      while (places < 2 * count) places *= 2;
+      table_.assign(places, 0);
     }
-    for (; indexed_ < members_.size(); ++indexed_) index_.emplace(members_[indexed_].name, indexed_);
-    const auto found = index_.find(name);
-    return found == index_.end() ? nullptr : &members_[found->second];
+    for (std::size_t i = 0; i < count; ++i) {
+      JsonNode* const same = count > most_looked_through ? known(first[i]) : looked_through(first[i]);
+      if (!same) {
+        first[size_++] = first[i];
+      } else if (content_.rules.names_twice) {
+        *same = first[i];
+      } else {
+        faults_.push_back({first[i].offset, first[i].name_length + std::size_t{2},
+                           in_quotes(content_.name(first[i])) + " is given twice in one object; keep one of them"});
+      }
+    }
+    return size_;
   }
 
  private:
-  std::vector<JsonMember>& members_;
-  std::unordered_map<std::string, std::size_t> index_;
-  std::size_t indexed_ = 0;
-};
-
-class Parser {
- public:
-  Parser(std::string_view text, std::vector<JsonFault>& faults, const JsonRules& rules)
-      : text_(text), faults_(faults), rules_(rules) {}
-
-  JsonValue whole() {
-    if (text_.substr(0, 3) == "\xef\xbb\xbf") at_ = 3;
-    skip_space();
-    if (at_ == text_.size()) stop("the text is empty; a document is an object, starting with '{'");
-    JsonValue value = read_value(0);
-    skip_space();
-    if (at_ < text_.size()) stop("expected the end of the text after the document, found " + here());
-    return value;
+  [[nodiscard]] JsonNode* looked_through(const JsonNode& node) const {
+    const std::string_view name = content_.name(node);
+    for (std::size_t i = 0; i < size_; ++i)
+      if (content_.name(kept_[i]) == name) return kept_ + i;
+    return nullptr;
   }
 
- private:
-  [[noreturn]] void stop(std::string message) {
-    note(at_, 1, std::move(message));
-    throw Stop{};
-  }
-
-  void note(std::size_t offset, std::size_t length, std::string message) {
-    faults_.push_back({offset, std::max<std::size_t>(length, 1), std::move(message)});
-  }
-
-  [[nodiscard]] bool done() const { return at_ >= text_.size(); }
-  [[nodiscard]] char next() const { return done() ? '\0' : text_[at_]; }
-
-  [[nodiscard]] std::string here() const {
-    if (done()) return "the end of the text";
-    const unsigned char c = static_cast<unsigned char>(text_[at_]);
-    if (c < 0x20 || c == 0x7f || c >= 0x80) {
-      static constexpr char digits[] = "0123456789abcdef";
-      return std::string("the byte 0x") + digits[c >> 4] + digits[c & 15];
-    }
-    return std::string("'") + static_cast<char>(c) + "'";
-  }
-
-  void skip_space() {
-    while (!done()) {
-      const char c = text_[at_];
-      const std::string_view mark = rules_.comments ? text_.substr(at_, 2) : std::string_view();
-      if (c == ' ' || c == '\t' || c == '\n' || c == '\r') {
-        ++at_;
-      } else if (mark == "//") {
-        at_ = std::min(text_.find('\n', at_), text_.size());
-      } else if (mark == "/*") {
-        const std::size_t end = text_.find("*/", at_ + 2);
-        if (end == std::string_view::npos) stop("this comment has no end; expected \"*/\"");
-        at_ = end + 2;
-      } else {
-        break;
+  [[nodiscard]] JsonNode* known(const JsonNode& node) {
+    const std::string_view name = content_.name(node);
+    for (std::size_t place = std::hash<std::string_view>{}(name);; ++place) {
+      std::uint32_t& entry = table_[place & (table_.size() - 1)];
+      if (entry == 0) {
+        entry = static_cast<std::uint32_t>(size_ + 1);
+        return nullptr;
       }
+      if (content_.name(kept_[entry - 1]) == name) return kept_ + entry - 1;
     }
   }
 
-  JsonValue read_value(std::size_t depth) {
-    JsonValue value;
-    value.offset = at_;
-    const char c = next();
-    if (c == '{' || c == '[') {
-      if (depth >= deepest_nesting)
-        stop("nested more than " + std::to_string(deepest_nesting) + " deep; no document needs that");
-      if (c == '{')
-        read_object(value, depth);
-      else
-        read_list(value, depth);
-    } else if (c == '"') {
-      value.kind = Kind::text;
-      value.text = read_text();
-    } else if ((c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.') {
-      read_number(value);
-    } else if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')) {
-      read_word(value);
-    } else {
-      stop("expected a value, found " + here());
-    }
-    value.length = at_ - value.offset;
-    return value;
-  }
-
-  void read_object(JsonValue& value, std::size_t depth) {
-    value.kind = Kind::object;
-    MemberNames names(value.members);
-    ++at_;
-    skip_space();
-    if (next() == '}') {
-      ++at_;
-      return;
-    }
-    while (true) {
-      if (next() != '"') stop("expected a name in quotes" + std::string(done() ? " or '}'" : "") + ", found " + here());
-      JsonMember member;
-      member.name_offset = at_;
-      member.name = read_text();
-      member.name_length = at_ - member.name_offset;
-      skip_space();
-      if (next() != ':') stop("expected ':' after " + in_quotes(member.name) + ", found " + here());
-      ++at_;
-      skip_space();
-      member.value = read_value(depth + 1);
-      JsonMember* const first = names.find(member.name);
-      if (!first)
-        value.members.push_back(std::move(member));
-      else if (rules_.names_twice)
-        *first = std::move(member);
-      else
-        note(member.name_offset, member.name_length,
-             in_quotes(member.name) + " is given twice in one object; keep one of them");
-      skip_space();
-      if (next() == '}') break;
-      if (next() != ',') stop("expected ',' or '}' after the value, found " + here());
-      ++at_;
-      skip_space();
-      if (next() == '}') stop("expected a name in quotes after ',', found '}'; leave the last ',' out");
-    }
-    ++at_;
-  }
-
-  void read_list(JsonValue& value, std::size_t depth) {
-    value.kind = Kind::list;
-    ++at_;
-    skip_space();
-    if (next() == ']') {
-      ++at_;
-      return;
-    }
-    while (true) {
-      value.items.push_back(read_value(depth + 1));
-      skip_space();
-      if (next() == ']') break;
-      if (next() != ',') stop("expected ',' or ']' after the value, found " + here());
-      ++at_;
-      skip_space();
-      if (next() == ']') stop("expected a value after ',', found ']'; leave the last ',' out");
-    }
-    ++at_;
-  }
-
-  void read_number(JsonValue& value) {
-    const std::size_t from = at_;
-    const auto digits = [&] {
-      const std::size_t first = at_;
-      while (next() >= '0' && next() <= '9') ++at_;
-      return at_ > first;
-    };
-    if (next() == '-') ++at_;
-    if (text_.substr(at_, 8) == "Infinity" || text_.substr(at_, 3) == "inf") {
-      while ((next() | 32) >= 'a' && (next() | 32) <= 'z') ++at_;
-      note(from, at_ - from, std::string(text_.substr(from, at_ - from)) + " is not a number; numbers are finite");
-      value.kind = Kind::faulty;
-      return;
-    }
-    if (next() == '0') {
-      ++at_;
-      if (next() >= '0' && next() <= '9') stop("a number does not start with 0 before other digits");
-    } else if (!digits()) {
-      stop(text_[from] == '+'   ? "a number has no '+' before it"
-           : text_[from] == '.' ? "a number needs a digit before '.'"
-                                : "expected a digit after '-', found " + here());
-    }
-    if (next() == '.') {
-      ++at_;
-      if (!digits()) stop("expected a digit after '.', found " + here());
-    }
-    if (next() == 'e' || next() == 'E') {
-      ++at_;
-      if (next() == '+' || next() == '-') ++at_;
-      if (!digits()) stop("expected a digit of the exponent, found " + here());
-    }
-    value.kind = Kind::number;
-    const auto result = std::from_chars(text_.data() + from, text_.data() + at_, value.number);
-    if (result.ec != std::errc{}) {
-      // Too small to tell from 0 is 0; too large has no such reading.
-      const std::string written(text_.substr(from, std::min<std::size_t>(at_ - from, 40)));
-      if (is_tiny(text_.substr(from, at_ - from))) {
-        value.number = text_[from] == '-' ? -0.0 : 0.0;
-      } else {
-        note(from, at_ - from, written + " is too large for a number; the largest is about 1.8e308");
-        value.kind = Kind::faulty;
-      }
-    }
-  }
-
-  // Whether a number out of range is so for being small: its first digit that counts stands far behind the point.
-  static bool is_tiny(std::string_view number) {
-    if (number.front() == '-') number.remove_prefix(1);
-    const std::size_t mark = number.find_first_of("eE");
-    const std::string_view digits = number.substr(0, mark);
-    const std::size_t point = std::min(digits.find('.'), digits.size());
-    const std::size_t first = digits.find_first_of("123456789");
-    if (first == std::string_view::npos) return true;
-    double power = first < point ? static_cast<double>(point - first) : -static_cast<double>(first - point);
-    if (mark != std::string_view::npos) {
-      std::string_view exponent = number.substr(mark + 1);
-      const bool negative = exponent.front() == '-';
-      if (exponent.front() == '-' || exponent.front() == '+') exponent.remove_prefix(1);
-      double size = 0;
-      for (const char c : exponent) size = std::min(size * 10 + (c - '0'), 1e18);
-      power += negative ? -size : size;
-    }
-    return power < 0;
-  }
-
-  void read_word(JsonValue& value) {
-    const std::size_t from = at_;
-    while ((next() | 32) >= 'a' && (next() | 32) <= 'z') ++at_;
-    const std::string_view word = text_.substr(from, at_ - from);
-    if (word == "true" || word == "false") {
-      value.kind = Kind::boolean;
-      value.boolean = word == "true";
-    } else if (word == "null") {
-      value.kind = Kind::null;
-    } else if (word == "NaN" || word == "nan" || word == "Infinity" || word == "inf") {
-      value.kind = Kind::faulty;
-      note(from, at_ - from, std::string(word) + " is not a number; numbers are finite");
-    } else {
-      at_ = from;
-      note(from, word.size(), "expected a value, found " + std::string(word.substr(0, 40)) + "; texts stand in quotes");
-      throw Stop{};
-    }
-  }
-
-  std::uint32_t four_hex_digits() {
-    std::uint32_t code = 0;
-    for (int i = 0; i < 4; ++i, ++at_) {
-      const char c = next();
-      const int digit = c >= '0' && c <= '9'   ? c - '0'
-                        : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                        : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                               : -1;
-      if (digit < 0) stop("expected four hexadecimal digits after \\u, found " + here());
-      code = code * 16 + static_cast<std::uint32_t>(digit);
-    }
-    return code;
-  }
-
-  static void append_utf8(std::string& out, std::uint32_t code) {
-    const auto put = [&](std::uint32_t byte) { out.push_back(static_cast<char>(byte)); };
-    if (code < 0x80) {
-      put(code);
-    } else if (code < 0x800) {
-      put(0xc0 | (code >> 6));
-      put(0x80 | (code & 63));
-    } else if (code < 0x10000) {
-      put(0xe0 | (code >> 12));
-      put(0x80 | ((code >> 6) & 63));
-      put(0x80 | (code & 63));
-    } else {
-      put(0xf0 | (code >> 18));
-      put(0x80 | ((code >> 12) & 63));
-      put(0x80 | ((code >> 6) & 63));
-      put(0x80 | (code & 63));
-    }
-  }
-
-  // One character of more than one byte, checked: no stray, overlong or surrogate sequences get in.
-  void read_utf8(std::string& out) {
-    const unsigned char lead = static_cast<unsigned char>(text_[at_]);
-    const std::size_t size = lead >= 0xc2 && lead < 0xe0   ? 2
-                             : lead >= 0xe0 && lead < 0xf0 ? 3
-                             : lead >= 0xf0 && lead < 0xf5 ? 4
-                                                           : 0;
-    bool good = size > 0 && at_ + size <= text_.size();
-    std::uint32_t code = good ? lead & (0x7fu >> size) : 0;
-    for (std::size_t i = 1; good && i < size; ++i) {
-      const unsigned char c = static_cast<unsigned char>(text_[at_ + i]);
-      good = (c & 0xc0) == 0x80;
-      code = (code << 6) | (c & 63u);
-    }
-    if (size == 3) good = good && code >= 0x800 && (code < 0xd800 || code > 0xdfff);
-    if (size == 4) good = good && code >= 0x10000 && code <= 0x10ffff;
-    if (!good) stop("this text is not UTF-8: found " + here());
-    out.append(text_.substr(at_, size));
-    at_ += size;
-  }
-
-  void read_escape(std::string& out) {
-    ++at_;
-    const char c = next();
-    static constexpr std::string_view names = "\"\\/bfnrt", meanings = "\"\\/\b\f\n\r\t";
-    if (c == 'u') {
-      ++at_;
-      std::uint32_t code = four_hex_digits();
-      if (code >= 0xdc00 && code <= 0xdfff) stop("the second half of a \\u pair stands alone");
-      if (code >= 0xd800 && code <= 0xdbff) {
-        if (text_.substr(at_, 2) != "\\u") stop("expected the second half of a \\u pair, found " + here());
-        at_ += 2;
-        const std::uint32_t low = four_hex_digits();
-        if (low < 0xdc00 || low > 0xdfff) stop("expected the second half of a \\u pair");
-        code = 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
-      }
-      append_utf8(out, code);
-      return;
-    }
-    const std::size_t which = done() ? std::string_view::npos : names.find(c);
-    if (which == std::string_view::npos) stop("no escape of this name; found " + here() + " after '\\'");
-    out.push_back(meanings[which]);
-    ++at_;
-  }
-
-  static bool is_plain(char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte >= 0x20 && byte < 0x80 && c != '"' && c != '\\';
-  }
-
-  std::string read_text() {
-    const std::size_t from = at_++;
-    std::string out;
-    while (true) {
-      if (done()) {
-        note(from, 1, "this text has no end; expected '\"'");
-        throw Stop{};
-      }
-      const char c = text_[at_];
-      if (c == '"') break;
-      if (c == '\n') {
-        note(from, 1, "this text has no end on its line; expected '\"'");
-        throw Stop{};
-      }
-      if (static_cast<unsigned char>(c) < 0x20) stop("control characters are written with '\\'; found " + here());
-      if (c == '\\') {
-        read_escape(out);
-      } else if (static_cast<unsigned char>(c) >= 0x80) {
-        read_utf8(out);
-      } else {
-        const std::size_t plain = at_;
-        while (!done() && is_plain(text_[at_])) ++at_;
-        out.append(text_.substr(plain, at_ - plain));
-      }
-    }
-    ++at_;
-    return out;
-  }
-
-  std::string_view text_;
+  const Content& content_;
   std::vector<JsonFault>& faults_;
-  const JsonRules& rules_;
-  std::size_t at_ = 0;
+  JsonNode* kept_ = nullptr;
+  std::size_t size_ = 0;
+  std::vector<std::uint32_t> table_;
+};
+
+// Makes nodes of what the parser tells. Children of open containers wait at the high end of the nodes, the last one
+// lowest, and go to the low end together when theirs is closed.
+class Builder {
+ public:
+  using number_integer_t = nlohmann::json::number_integer_t;
+  using number_unsigned_t = nlohmann::json::number_unsigned_t;
+  using number_float_t = nlohmann::json::number_float_t;
+  using string_t = nlohmann::json::string_t;
+  using binary_t = nlohmann::json::binary_t;
+
+  Builder(Content& content, Survey& survey, std::vector<JsonFault>& faults)
+      : content_(content),
+        text_(content.text),
+        faulty_(survey.faulty_values),
+        faults_(faults),
+        names_(content, faults),
+        capacity_(survey.most_values),
+        top_(survey.most_values) {
+    content.nodes = std::make_unique_for_overwrite<JsonNode[]>(capacity_);
+    if (text_.starts_with("\xef\xbb\xbf")) last_end_ = 3;
+  }
+
+  bool whole() {
+    const char* const end = text_.data() + text_.size();
+    const bool right =
+        nlohmann::json::sax_parse(CountingIterator(text_.data(), &reached_), CountingIterator(end, &reached_), this,
+                                  nlohmann::json::input_format_t::json, true, content_.rules.comments);
+    if (stopped_) return false;
+    // A byte of 0 passes for the text's end.
+    const bool at_end = skip_space(text_, last_end_, content_.rules.comments) == text_.size();
+    if (right && at_end) {
+      content_.root = content_.nodes[top_];
+      return true;
+    }
+    explain();
+    return false;
+  }
+
+  bool null() {
+    return add(Kind::null, [](JsonNode&) {});
+  }
+  bool boolean(bool value) {
+    return add(Kind::boolean, [&](JsonNode& node) { node.boolean = value; });
+  }
+  bool number_integer(number_integer_t value) {
+    // The parser's whole numbers have no sign of 0.
+    return number(value == 0 ? -0.0 : static_cast<double>(value));
+  }
+  bool number_unsigned(number_unsigned_t value) { return number(static_cast<double>(value)); }
+  bool number_float(number_float_t value, const string_t&) { return number(value); }
+  bool binary(binary_t&) { return false; }
+
+  bool string(string_t& value) {
+    return add(Kind::text, [&](JsonNode& node) {
+      const std::size_t from = last_start_ + 1, size = last_end_ - from - 1;
+      node.text = {static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(size)};
+      node.escaped = keep_decoded(from, size, value);
+    });
+  }
+
+  bool key(string_t& value) {
+    name_offset_ = start();
+    last_end_ = reached();
+    name_length_ = last_end_ - name_offset_ - 2;
+    if (name_length_ > longest_name) return stop(name_offset_, "a name this long has no use");
+    name_escaped_ = keep_decoded(name_offset_ + 1, name_length_, value);
+    named_ = true;
+    return true;
+  }
+
+  bool start_object(std::size_t) { return open(true); }
+  bool start_array(std::size_t) { return open(false); }
+  bool end_object() { return close(); }
+  bool end_array() { return close(); }
+
+  template <class Error>
+  bool parse_error(std::size_t, const std::string&, const Error&) {
+    return false;
+  }
+
+ private:
+  struct Open {
+    std::size_t bottom;  // where the children's stack ended when it was opened
+    JsonNode node;
+  };
+
+  [[nodiscard]] std::size_t reached() const { return static_cast<std::size_t>(reached_ - text_.data()); }
+
+  // Where the token begins that the parser has just told: behind the last one, and a comma or colon.
+  [[nodiscard]] std::size_t start() const {
+    const bool comments = content_.rules.comments;
+    const std::size_t at = skip_space(text_, last_end_, comments);
+    return text_[at] == ',' || text_[at] == ':' ? skip_space(text_, at + 1, comments) : at;
+  }
+
+  bool keep_decoded(std::size_t from, std::size_t size, const std::string& decoded) {
+    if (decoded.size() == size) return false;  // every escape is longer than what it means
+    content_.decoded.push_back({static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(content_.letters.size()),
+                                static_cast<std::uint32_t>(decoded.size())});
+    content_.letters += decoded;
+    return true;
+  }
+
+  [[nodiscard]] JsonNode begun(Kind kind) {
+    last_start_ = start();
+    JsonNode node{};
+    node.offset = static_cast<std::uint32_t>(named_ ? name_offset_ : last_start_);
+    node.kind = static_cast<unsigned>(kind) & 7u;
+    node.named = named_;
+    node.name_escaped = named_ && name_escaped_;
+    node.name_length = named_ ? name_length_ & longest_name : 0;
+    named_ = false;
+    return node;
+  }
+
+  // The parser reads one byte more than the number where there is one, to see its end.
+  [[nodiscard]] std::size_t number_end() const {
+    const auto is_digit = [&](std::size_t at) { return at < text_.size() && text_[at] >= '0' && text_[at] <= '9'; };
+    const std::size_t first = last_start_ + (text_[last_start_] == '-' ? 1 : 0), end = reached();
+    if (text_[first] == '0' && is_digit(first + 1)) return first + 1;
+    return is_digit(end - 1) ? end : end - 1;
+  }
+
+  bool number(double value) {
+    return add(Kind::number, [&](JsonNode& node) {
+      last_end_ = number_end();
+      node.number = value == 0 && text_[last_start_] != '-' ? 0.0 : value;
+      if (next_faulty_ < faulty_.size() && faulty_[next_faulty_] == last_start_) {
+        node.faulty = 1;
+        ++next_faulty_;
+      }
+    });
+  }
+
+  template <class Fill>
+  bool add(Kind kind, const Fill& fill) {
+    JsonNode node = begun(kind);
+    last_end_ = reached();
+    fill(node);
+    return push(node);
+  }
+
+  bool push(const JsonNode& node) {
+    if (top_ <= content_.size) return stop(node.offset, "this text cannot be read");
+    content_.nodes[--top_] = node;
+    return true;
+  }
+
+  bool open(bool object) {
+    JsonNode node = begun(object ? Kind::object : Kind::list);
+    last_end_ = reached();
+    if (open_.size() >= deepest_nesting)
+      return stop(last_start_, "nested more than " + std::to_string(deepest_nesting) + " deep; no document needs that");
+    open_.push_back({top_, node});
+    return true;
+  }
+
+  bool close() {
+    last_end_ = reached();
+    const auto [bottom, opened] = open_.back();
+    open_.pop_back();
+    JsonNode node = opened;
+    JsonNode* const first = content_.nodes.get() + top_;
+    std::size_t count = bottom - top_;
+    std::reverse(first, first + count);
+    if (static_cast<Kind>(node.kind) == Kind::object) count = names_.left_of(first, count);
+    node.children = {static_cast<std::uint32_t>(content_.size), static_cast<std::uint32_t>(count)};
+    std::copy(first, first + count, content_.nodes.get() + content_.size);
+    content_.size += count;
+    top_ = bottom;
+    return push(node);
+  }
+
+  bool stop(std::size_t offset, std::string message) {
+    faults_.push_back({offset, 1, std::move(message)});
+    stopped_ = true;
+    return false;
+  }
+
+  void explain() {
+    Stop stop;
+    stop.at = last_end_;
+    if (open_.empty()) {
+      stop.after = top_ == capacity_ ? Stop::After::nothing : Stop::After::whole;
+    } else {
+      const Open& inner = open_.back();
+      const bool object = static_cast<Kind>(inner.node.kind) == Kind::object;
+      const bool empty = top_ == inner.bottom;
+      stop.open = content_.value_offset(inner.node);
+      stop.after = named_   ? Stop::After::name
+                   : empty  ? (object ? Stop::After::open_object : Stop::After::open_list)
+                   : object ? Stop::After::value_in_object
+                            : Stop::After::value_in_list;
+      if (named_)
+        stop.name = content_.between_quotes(
+            {static_cast<std::uint32_t>(name_offset_ + 1), static_cast<std::uint32_t>(name_length_)}, name_escaped_);
+    }
+    faults_.push_back(explained(text_, stop, content_.rules.comments));
+  }
+
+  Content& content_;
+  std::string_view text_;
+  const std::vector<std::size_t>& faulty_;
+  std::vector<JsonFault>& faults_;
+  NamesOnce names_;
+  std::size_t capacity_, top_;
+  std::vector<Open> open_;
+  const char* reached_ = text_.data();
+  std::size_t last_start_ = 0, last_end_ = 0, next_faulty_ = 0;
+  bool named_ = false, name_escaped_ = false, stopped_ = false;
+  std::size_t name_offset_ = 0, name_length_ = 0;
 };
 
 }  // namespace
 
-namespace {
+}  // namespace json_tree
 
-JsonValue faulty() {
-  JsonValue value;
-  value.kind = Kind::faulty;
-  return value;
-}
-
-}  // namespace
-
-JsonValue parse_json(std::string_view text, std::vector<JsonFault>& faults, const JsonRules& rules) {
-  if (text.size() > rules.largest) {
-    faults.push_back({0, 1, "the text is larger than " + std::to_string(rules.largest >> 20) + " MiB"});
-    return faulty();
+JsonTree JsonTree::parse(std::string text, std::vector<JsonFault>& faults, const JsonRules& rules) {
+  JsonTree tree;
+  json_tree::Content& content = *tree.content_;
+  content.rules = rules;
+  content.text = std::move(text);
+  const std::size_t largest = std::min(rules.largest, largest_json_text);
+  if (content.text.size() > largest) {
+    faults.push_back({0, 1, "the text is larger than " + std::to_string(largest >> 20) + " MiB"});
+    return tree;
   }
-  try {
-    return Parser(text, faults, rules).whole();
-  } catch (const Stop&) {
-    return faulty();
+  json_tree::Survey survey = json_tree::survey(content.text, rules.comments);
+  faults.insert(faults.end(), survey.faults.begin(), survey.faults.end());
+  if (!survey.mended.empty()) content.given = std::exchange(content.text, std::move(survey.mended));
+  if (!json_tree::Builder(content, survey, faults).whole()) {
+    content.nodes.reset();
+    content.size = 0;
+    content.root = {};
+    content.root.faulty = 1;
   }
-}
-
-TextPlace place_in(std::string_view text, std::size_t offset) {
-  const std::size_t mark = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;
-  const std::string_view before = text.substr(0, offset);
-  const std::size_t line_end = before.rfind('\n');
-  const std::size_t line_start = line_end == std::string_view::npos ? std::min(mark, before.size()) : line_end + 1;
-  const std::string_view on_line = before.substr(line_start);
-  const auto starts_character = [](char c) { return (static_cast<unsigned char>(c) & 0xc0) != 0x80; };
-  return {1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')),
-          1 + static_cast<std::size_t>(std::count_if(on_line.begin(), on_line.end(), starts_character))};
+  return tree;
 }
 
 }  // namespace tweenfall

@@ -2,7 +2,8 @@
 
 // What is wrong with a model file, gathered so that one reading reports everything.
 
-#include "json/json_text.h"
+#include "json/json_tree.h"
+#include "json/text_place.h"
 
 #include <filesystem>
 #include <functional>

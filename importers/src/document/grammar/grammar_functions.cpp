@@ -155,17 +155,17 @@ TrackFunctions FunctionShapes::of_vectors(std::size_t size) const {
 std::size_t FunctionShapes::dimension(const JsonValue& track) {
   for (const char* name : {"projectile", "orbit", "path", "line", "arc"})
     if (track.find(name)) return 3;
-  const JsonValue* value = track.find("expression");
+  JsonValue value = track.find("expression");
   const auto inside = [&](const char* function, const char* member) {
-    if (const JsonValue* settings = track.find(function)) value = settings->find(member);
+    if (const JsonValue settings = track.find(function)) value = settings.find(member);
   };
   inside("oscillator", "amplitude");
   inside("spring", "goal");
   for (const char* spline : {"spline", "bezier", "b_spline"}) {
     inside(spline, "points");
-    if (track.find(spline)) value = value && !value->items.empty() ? &value->items.front() : nullptr;
+    if (track.find(spline)) value = value && !value.items().empty() ? value.items().front() : JsonValue();
   }
-  return value && value->is(JsonValue::Kind::list) ? value->items.size() : 1;
+  return value && value.is(JsonValue::Kind::list) ? value.items().size() : 1;
 }
 
 const std::vector<std::string>& FunctionShapes::names() {

@@ -11,15 +11,15 @@ namespace tweenfall::document {
 namespace {
 
 // The value of the first key of a track, wherever it is, or the first of a mix; null when there is none.
-const JsonValue* first_key_value(const JsonValue& track) {
-  if (const JsonValue* mix = track.find("barycentric")) {
-    const JsonValue* values = mix->find("values");
-    return values && !values->items.empty() ? &values->items.front() : nullptr;
+JsonValue first_key_value(const JsonValue& track) {
+  if (const JsonValue mix = track.find("barycentric")) {
+    const JsonValue values = mix.find("values");
+    return values && !values.items().empty() ? values.items().front() : JsonValue();
   }
-  const JsonValue* keys = track.is(JsonValue::Kind::object) ? track.find("keys") : &track;
-  if (!keys || keys->items.empty()) return nullptr;
-  const JsonValue& key = keys->items.front();
-  if (key.is(JsonValue::Kind::list)) return key.items.size() > 1 ? &key.items[1] : nullptr;
+  const JsonValue keys = track.is(JsonValue::Kind::object) ? track.find("keys") : track;
+  if (!keys || keys.items().empty()) return {};
+  const JsonValue key = keys.items().front();
+  if (key.is(JsonValue::Kind::list)) return key.items().size() > 1 ? key.items()[1] : JsonValue();
   return key.find("v");
 }
 
@@ -222,13 +222,13 @@ class TrackShapes {
     shape.select = [=](const JsonValue& value) -> const Shape* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
-      const bool has_axis = value.find("axis") != nullptr;
+      const bool has_axis = static_cast<bool>(value.find("axis"));
       if (!list && !has_axis && (value.find("spline") || value.find("bezier"))) return in_quat.object;
       if (!list && (has_axis || has_function(value))) return in_degrees;
-      const JsonValue* first = first_key_value(value);
-      const Spelled& spelled = first && first->find("quat")    ? in_quat
-                               : first && first->find("angle") ? in_axis_angle
-                                                               : in_euler;
+      const JsonValue first = first_key_value(value);
+      const Spelled& spelled = first && first.find("quat")    ? in_quat
+                               : first && first.find("angle") ? in_axis_angle
+                                                              : in_euler;
       return list ? spelled.list : spelled.object;
     };
     return store_.add(std::move(shape));
@@ -334,13 +334,13 @@ class TrackShapes {
     shape.select = [made, unknown](const JsonValue& value) -> const Shape* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
-      const JsonValue* first = first_key_value(value);
+      const JsonValue first = first_key_value(value);
       std::string kind;
-      if (const JsonValue* said = value.find("kind")) {
-        kind = said->is(JsonValue::Kind::text) ? said->text : "";
+      if (const JsonValue said = value.find("kind")) {
+        kind = said.is(JsonValue::Kind::text) ? said.text() : "";
         if (kind == "text") kind = "said-text";
       } else if (first) {
-        switch (first->kind) {
+        switch (first.kind()) {
           case JsonValue::Kind::number:
             kind = "number";
             break;
@@ -348,7 +348,7 @@ class TrackShapes {
             kind = "switch";
             break;
           case JsonValue::Kind::text:
-            kind = first->text.substr(0, 1) == "#" ? "color" : "text";
+            kind = first.text().substr(0, 1) == "#" ? "color" : "text";
             break;
           case JsonValue::Kind::list:
             kind = "vector";
@@ -361,7 +361,7 @@ class TrackShapes {
         kind = FunctionShapes::dimension(value) > 1 ? "vector" : "number";
       }
       if (kind == "vector") {
-        const std::size_t size = first ? first->items.size() : FunctionShapes::dimension(value);
+        const std::size_t size = first ? first.items().size() : FunctionShapes::dimension(value);
         kind = size == 2 ? "vector-2" : size == 4 ? "vector-4" : "vector-3";
       }
       for (const Made& each : made)

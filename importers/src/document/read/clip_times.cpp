@@ -18,10 +18,10 @@ namespace {
 using Kind = JsonValue::Kind;
 
 // Seconds as far as they can be told without the duration; problems are for later.
-std::optional<double> early_seconds(const JsonValue* time, std::optional<double> previous, std::optional<double> fps) {
+std::optional<double> early_seconds(JsonValue time, std::optional<double> previous, std::optional<double> fps) {
   if (!time) return {};
-  if (time->is(Kind::number)) return time->number;
-  const std::optional<TimeInWords> words = time->is(Kind::text) ? time_in_words(time->text) : std::nullopt;
+  if (time.is(Kind::number)) return time.number();
+  const std::optional<TimeInWords> words = time.is(Kind::text) ? time_in_words(time.text()) : std::nullopt;
   if (!words || words->unit == TimeInWords::Unit::percent) return {};
   if (words->unit == TimeInWords::Unit::frames && !fps) return {};
   if (words->after_previous && !previous) return {};
@@ -29,16 +29,16 @@ std::optional<double> early_seconds(const JsonValue* time, std::optional<double>
   return words->after_previous ? *previous + amount : amount;
 }
 
-const JsonValue* keys_of(const JsonValue& track) {
-  if (track.is(Kind::list)) return &track;
+JsonValue keys_of(const JsonValue& track) {
+  if (track.is(Kind::list)) return track;
   return usable(track, "keys");
 }
 
 // The tracks of numbers that a track is made of.
-std::span<const JsonValue> parts_of(const JsonValue& track) {
-  if (const JsonValue* mix = usable(track, "barycentric"))
-    if (const JsonValue* weights = usable(*mix, "weights")) return weights->items;
-  if (const JsonValue* ratios = usable(track, "aspect")) return {ratios, 1};
+JsonItems parts_of(const JsonValue& track) {
+  if (const JsonValue mix = usable(track, "barycentric"))
+    if (const JsonValue weights = usable(mix, "weights")) return weights.items();
+  if (const JsonValue ratios = usable(track, "aspect")) return JsonItems::only(ratios);
   return {};
 }
 
@@ -51,16 +51,17 @@ bool is_endless(const JsonValue& track) {
 // How long a function takes that begins at 0 s and ends; 0 where there is none.
 double passing_time(const JsonValue& track) {
   for (const char* name : {"path", "line", "arc"})
-    if (const JsonValue* function = usable(track, name)) return number_in(*function, "duration", 1);
+    if (const JsonValue function = usable(track, name)) return number_in(function, "duration", 1);
   for (const char* name : {"spline", "bezier", "b_spline"}) {
-    const JsonValue* spline = usable(track, name);
+    const JsonValue spline = usable(track, name);
     if (!spline) continue;
-    const JsonValue* points = usable(*spline, "points");
-    const JsonValue *times = usable(*spline, "times"), *knots = usable(*spline, "knots");
-    if (times && !times->items.empty()) return times->items.back().number;
+    const JsonValue points = usable(spline, "points");
+    const JsonValue times = usable(spline, "times"), knots = usable(spline, "knots");
+    if (times && !times.items().empty()) return times.items().back().number();
     // A B-spline ends at the knot that has the number of its points.
-    if (knots && points && points->items.size() < knots->items.size()) return knots->items[points->items.size()].number;
-    return number_in(*spline, "duration", 1);
+    if (knots && points && points.items().size() < knots.items().size())
+      return knots.items()[points.items().size()].number();
+    return number_in(spline, "duration", 1);
   }
   return 0;
 }
@@ -77,11 +78,11 @@ struct Reach {
       latest = std::max(latest, passing);
     }
     for (const JsonValue& part : parts_of(track)) add(part, fps);
-    const JsonValue* keys = keys_of(track);
+    const JsonValue keys = keys_of(track);
     if (!keys) return;
     any_keys = true;
     std::optional<double> time;
-    for (const JsonValue& key : keys->items) {
+    for (const JsonValue& key : keys.items()) {
       time = early_seconds(key_parts(key).time, time, fps);
       if (time) latest = std::max(latest, *time);
     }
@@ -93,7 +94,7 @@ struct Reach {
 KeyParts key_parts(const JsonValue& key) {
   KeyParts parts;
   const auto item = [&](std::size_t i) {
-    return i < key.items.size() && !key.items[i].is(Kind::faulty) ? &key.items[i] : nullptr;
+    return i < key.items().size() && !key.items()[i].is(Kind::faulty) ? key.items()[i] : JsonValue();
   };
   if (key.is(Kind::list)) {
     parts.time = item(0);
@@ -112,27 +113,27 @@ KeyParts key_parts(const JsonValue& key) {
 
 std::optional<double> ClipTimes::seconds(const JsonValue& time, std::optional<double> previous,
                                          Problems& problems) const {
-  if (time.is(Kind::number)) return time.number;
-  const std::optional<TimeInWords> words = time.is(Kind::text) ? time_in_words(time.text) : std::nullopt;
+  if (time.is(Kind::number)) return time.number();
+  const std::optional<TimeInWords> words = time.is(Kind::text) ? time_in_words(time.text()) : std::nullopt;
   if (!words) return {};
   double amount = words->amount;
   if (words->unit == TimeInWords::Unit::frames) {
     if (!fps_) {
       problems.add(time,
-                   in_quotes(time.text) + " counts frames; say how many a second has, with \"fps\" in the document");
+                   in_quotes(time.text()) + " counts frames; say how many a second has, with \"fps\" in the document");
       return {};
     }
     amount /= *fps_;
   } else if (words->unit == TimeInWords::Unit::percent) {
     if (!duration_) {
-      problems.add(time, in_quotes(time.text) + " is a share of the duration, but " + no_duration_reason_);
+      problems.add(time, in_quotes(time.text()) + " is a share of the duration, but " + no_duration_reason_);
       return {};
     }
     amount = amount / 100 * *duration_;
   }
   if (!words->after_previous) return amount;
   if (!previous) {
-    problems.add(time, in_quotes(time.text) + " counts from the one before it, and there is none");
+    problems.add(time, in_quotes(time.text()) + " counts from the one before it, and there is none");
     return {};
   }
   return *previous + amount;
@@ -142,17 +143,17 @@ std::vector<std::optional<double>> ClipTimes::of_keys(const JsonValue& keys, Pro
   std::vector<std::optional<double>> out;
   std::optional<double> previous;
   bool any_before = false;
-  for (const JsonValue& key : keys.items) {
+  for (const JsonValue& key : keys.items()) {
     const KeyParts parts = key_parts(key);
     std::optional<double> time;
     if (parts.time) {
       // After a faulty key, a "+" has nothing to count from; that is not this key's fault.
       Problems unheard;
-      time = seconds(*parts.time, previous, any_before && !previous ? unheard : problems);
+      time = seconds(parts.time, previous, any_before && !previous ? unheard : problems);
     }
     if (time && previous && !(*time > *previous))
-      problems.add(*parts.time, "key times must increase; " + number_text(*time) +
-                                    " s is not after the key before it, " + number_text(*previous) + " s");
+      problems.add(parts.time, "key times must increase; " + number_text(*time) +
+                                   " s is not after the key before it, " + number_text(*previous) + " s");
     if (time && !std::isfinite(*time)) time.reset();
     previous = time;
     any_before = true;
@@ -162,19 +163,19 @@ std::vector<std::optional<double>> ClipTimes::of_keys(const JsonValue& keys, Pro
 }
 
 double clip_duration(const JsonValue& clip, std::optional<double> fps) {
-  if (const JsonValue* said = usable(clip, "duration"))
+  if (const JsonValue said = usable(clip, "duration"))
     if (const std::optional<double> seconds = early_seconds(said, {}, fps)) return *seconds;
   Reach reach;
-  if (const JsonValue* tracks = usable(clip, "tracks"))
-    for (const JsonMember& track : tracks->members)
+  if (const JsonValue tracks = usable(clip, "tracks"))
+    for (const JsonMember& track : tracks.members())
       if (!is_free_name(track.name)) reach.add(track.value, fps);
   double latest = reach.latest;
   if (reach.any_functions && !reach.any_keys) return std::numeric_limits<double>::infinity();
-  if (const JsonValue* events = usable(clip, "events")) {
+  if (const JsonValue events = usable(clip, "events")) {
     std::optional<double> time;
-    for (const JsonValue& event : events->items) {
-      if (event.is(Kind::list) && !event.items.empty()) {
-        time = early_seconds(&event.items.front(), time, fps);
+    for (const JsonValue& event : events.items()) {
+      if (event.is(Kind::list) && !event.items().empty()) {
+        time = early_seconds(event.items().front(), time, fps);
       } else {
         time = early_seconds(usable(event, "from"), time, fps);
         const std::optional<double> end = early_seconds(usable(event, "to"), time, fps);

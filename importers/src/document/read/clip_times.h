@@ -10,10 +10,9 @@
 
 namespace tweenfall::document {
 
-// Where a key or event keeps its parts; null for what is absent or faulty.
+// Where a key or event keeps its parts; none for what is absent or faulty.
 struct KeyParts {
-  const JsonValue *time = nullptr, *value = nullptr, *ease = nullptr, *in = nullptr, *out = nullptr,
-                  *value_in = nullptr;
+  JsonValue time, value, ease, in, out, value_in;
 };
 [[nodiscard]] KeyParts key_parts(const JsonValue& key);
 

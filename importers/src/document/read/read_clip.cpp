@@ -23,34 +23,34 @@ void read_events(const JsonValue& list, const ClipTimes& times, double duration,
                                  " s is after " + number_text(duration) + " s");
   };
   std::optional<double> previous;
-  for (const JsonValue& item : list.items) {
+  for (const JsonValue& item : list.items()) {
     const bool row = item.is(Kind::list);
     if (!row && !item.is(Kind::object)) continue;
     const auto part = [&](std::size_t i) {
-      return i < item.items.size() && !item.items[i].is(Kind::faulty) ? &item.items[i] : nullptr;
+      return i < item.items().size() && !item.items()[i].is(Kind::faulty) ? item.items()[i] : JsonValue();
     };
-    const JsonValue* from = row ? part(0) : usable(item, "from");
-    const JsonValue* name = row ? part(1) : usable(item, "name");
-    const JsonValue* data = row ? part(2) : usable(item, "data");
-    const JsonValue* to = row ? nullptr : usable(item, "to");
+    const JsonValue from = row ? part(0) : usable(item, "from");
+    const JsonValue name = row ? part(1) : usable(item, "name");
+    const JsonValue data = row ? part(2) : usable(item, "data");
+    const JsonValue to = row ? JsonValue() : usable(item, "to");
     ClipEvent event;
-    const std::optional<double> start = from ? times.seconds(*from, previous, problems) : std::nullopt;
+    const std::optional<double> start = from ? times.seconds(from, previous, problems) : std::nullopt;
     previous = start;
     if (!start) continue;
-    inside(*from, *start);
+    inside(from, *start);
     event.from = event.to = *start;
     if (to) {
-      const std::optional<double> end = times.seconds(*to, start, problems);
+      const std::optional<double> end = times.seconds(to, start, problems);
       if (!end) continue;
       if (!(*end > *start))
-        problems.add(*to, "an event ends after it starts; \"to\" is " + number_text(*end) + " s, \"from\" " +
-                              number_text(*start) + " s");
+        problems.add(to, "an event ends after it starts; \"to\" is " + number_text(*end) + " s, \"from\" " +
+                             number_text(*start) + " s");
       else
-        inside(*to, *end);
+        inside(to, *end);
       event.to = *end;
     }
-    if (name) event.name = name->text;
-    if (data) event.data = on_one_line(*data);
+    if (name) event.name = name.text();
+    if (data) event.data = on_one_line(data);
     clip.events.push_back(std::move(event));
   }
   std::stable_sort(clip.events.begin(), clip.events.end(),
@@ -65,7 +65,7 @@ Clip read_clip(const JsonMember& member, std::optional<double> fps, Problems& pr
   clip.name = member.name;
   if (!value.is(Kind::object)) return clip;
 
-  if (const JsonValue* said = usable(value, "duration")) (void)ClipTimes(fps, {}, "").seconds(*said, {}, problems);
+  if (const JsonValue said = usable(value, "duration")) (void)ClipTimes(fps, {}, "").seconds(said, {}, problems);
   clip.duration = clip_duration(value, fps);
   const bool endless = std::isinf(clip.duration);
   const bool has_share = clip.duration > 0 && !endless;
@@ -73,20 +73,20 @@ Clip read_clip(const JsonMember& member, std::optional<double> fps, Problems& pr
       fps, has_share ? std::optional(clip.duration) : std::nullopt,
       endless ? "this clip is endless; give it a \"duration\"" : "this clip has none; give it a \"duration\"");
 
-  if (const JsonValue* loop = usable(value, "loop")) {
-    const std::string mode = text_in(*loop, "mode");
+  if (const JsonValue loop = usable(value, "loop")) {
+    const std::string mode = text_in(loop, "mode");
     clip.loop.mode = mode == "repeat-offset" ? LoopMode::repeat_offset
                      : mode == "pingpong"    ? LoopMode::pingpong
                                              : LoopMode::repeat;
-    clip.loop.count = number_in(*loop, "count", 0);
-    if (endless) problems.add(*loop, "an endless clip cannot loop; give it a \"duration\"");
-    if (clip.duration <= 0) problems.add(*loop, "a clip of no length cannot loop; give it a \"duration\"");
+    clip.loop.count = number_in(loop, "count", 0);
+    if (endless) problems.add(loop, "an endless clip cannot loop; give it a \"duration\"");
+    if (clip.duration <= 0) problems.add(loop, "a clip of no length cannot loop; give it a \"duration\"");
   }
-  if (const JsonValue* tracks = usable(value, "tracks"))
-    for (const JsonMember& track : tracks->members)
+  if (const JsonValue tracks = usable(value, "tracks"))
+    for (const JsonMember& track : tracks.members())
       if (!is_free_name(track.name))
         if (std::optional<Track> read = read_track(track, times, problems)) clip.tracks.push_back(std::move(*read));
-  if (const JsonValue* events = usable(value, "events")) read_events(*events, times, clip.duration, clip, problems);
+  if (const JsonValue events = usable(value, "events")) read_events(events, times, clip.duration, clip, problems);
   return clip;
 }
 

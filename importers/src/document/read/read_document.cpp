@@ -16,28 +16,29 @@ namespace {
 
 // A reader does not guess at what another version means: this is then the only problem told.
 bool is_other_version(const JsonValue& root, Problems& problems) {
-  const JsonValue* version = root.find("tweenfall");
-  if (!version || !version->is(JsonValue::Kind::number) || version->number == document_version) return false;
-  problems.add(*version, "this is version " + number_text(version->number) + "; this reader reads version " +
-                             number_text(document_version));
+  const JsonValue version = root.find("tweenfall");
+  if (!version || !version.is(JsonValue::Kind::number) || version.number() == document_version) return false;
+  problems.add(version, "this is version " + number_text(version.number()) + "; this reader reads version " +
+                            number_text(document_version));
   return true;
 }
 
 }  // namespace
 
-ReadDocument read_document(std::string_view text, const std::string& name, const std::filesystem::path& folder,
+ReadDocument read_document(std::string text, const std::string& name, const std::filesystem::path& folder,
                            Reading& reading) {
   std::vector<JsonFault> faults;
   ReadDocument out;
-  out.root = parse_json(text, faults);
+  out.tree = JsonTree::parse(std::move(text), faults, {.largest = largest_document});
+  const JsonValue root = out.tree.root();
   Problems problems;
   for (const JsonFault& fault : faults) problems.add(fault);
-  if (!out.root.is(JsonValue::Kind::faulty) && !is_other_version(out.root, problems)) {
-    check(document_shape(), out.root, problems);
-    Building building{out.root, folder, reading, problems};
-    if (const JsonValue* title = usable(out.root, "name")) building.stage.name = title->text;
-    if (const JsonValue* fps = usable(out.root, "fps")) building.fps = fps->number;
-    building.names_are_free = !out.root.find("nodes") && !out.root.find("import");
+  if (!root.is(JsonValue::Kind::faulty) && !is_other_version(root, problems)) {
+    check(document_shape(), out.tree, problems);
+    Building building{root, folder, reading, problems};
+    if (const JsonValue title = usable(root, "name")) building.stage.name = title.text();
+    if (const JsonValue fps = usable(root, "fps")) building.fps = fps.number();
+    building.names_are_free = !root.find("nodes") && !root.find("import");
     read_imports(building);
     read_nodes(building);
     read_clips(building);
@@ -47,7 +48,7 @@ ReadDocument read_document(std::string_view text, const std::string& name, const
     out.stage = std::move(building.stage);
     out.names_are_free = building.names_are_free;
   }
-  if (!problems.empty()) throw DocumentError(problems.located(name, text, out.root));
+  if (!problems.empty()) throw DocumentError(problems.located(name, out.tree));
   return out;
 }
 
@@ -57,17 +58,16 @@ ReadDocument read_document_file(const std::filesystem::path& file, Reading& read
   if (std::filesystem::is_directory(file, fault)) throw DocumentError({file_problem(name, "this is a folder")});
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw DocumentError({file_problem(name, "cannot be opened; is it there, and may it be read?")});
-  const std::optional<std::string> read = read_within(stream, largest_document);
+  std::optional<std::string> read = read_within(stream, largest_document);
   if (!read)
     throw DocumentError({file_problem(name, "is larger than " + std::to_string(largest_document >> 20) + " MiB")});
-  const std::string& text = *read;
   if (stream.bad()) throw DocumentError({file_problem(name, "cannot be read to its end")});
   reading.open.push_back(std::filesystem::weakly_canonical(file, fault));
   struct Leave {
     std::vector<std::filesystem::path>& open;
     ~Leave() { open.pop_back(); }
   } leave{reading.open};
-  return read_document(text, name, file.parent_path(), reading);
+  return read_document(std::move(*read), name, file.parent_path(), reading);
 }
 
 }  // namespace tweenfall::document

@@ -88,16 +88,16 @@ class Importer {
   void read(const JsonMember& member) {
     const JsonValue& place = member.value;
     std::error_code fault;
-    const fs::path given = building_.folder / fs::path(place.text);
+    const fs::path given = building_.folder / fs::path(place.text());
     const fs::path base = fs::weakly_canonical(building_.folder.empty() ? fs::path(".") : building_.folder, fault);
     const fs::path file = fs::weakly_canonical(given, fault);
-    if (fault) return tell(place, in_quotes(place.text) + " is no path of a file: " + fault.message());
+    if (fault) return tell(place, in_quotes(place.text()) + " is no path of a file: " + fault.message());
     if (!building_.reading.options.allow_outside && !is_below(file, base))
-      return tell(place, in_quotes(place.text) + " lies outside the document's folder; move the file into it");
+      return tell(place, in_quotes(place.text()) + " lies outside the document's folder; move the file into it");
     if (!fs::is_regular_file(file, fault))
-      return tell(place, "there is no file " + in_quotes(place.text) + in_folder(file, place.text));
+      return tell(place, "there is no file " + in_quotes(place.text()) + in_folder(file, std::string(place.text())));
     if (std::find(building_.reading.open.begin(), building_.reading.open.end(), file) != building_.reading.open.end())
-      return tell(place, in_quotes(place.text) +
+      return tell(place, in_quotes(place.text()) +
                              " imports this document, directly or through others; a file cannot contain itself");
     if (++building_.reading.files > most_files)
       return tell(place, "more than " + std::to_string(most_files) + " files are imported in all");
@@ -105,14 +105,14 @@ class Importer {
     try {
       if (file.extension() == ".json") {
         ReadDocument document = read_document_file(given, building_.reading);
-        take(building_, member.name, {std::move(document.stage), document.names_are_free});
+        take(building_, std::string(member.name), {std::move(document.stage), document.names_are_free});
       } else {
-        take(building_, member.name, from_model_file(given));
+        take(building_, std::string(member.name), from_model_file(given));
       }
-      building_.imports.insert(member.name);
+      building_.imports.emplace(member.name);
     } catch (const DocumentError& error) {
       const std::size_t count = error.problems().size();
-      tell(place, in_quotes(place.text) + " has " + (count == 1 ? "a problem" : std::to_string(count) + " problems") +
+      tell(place, in_quotes(place.text()) + " has " + (count == 1 ? "a problem" : std::to_string(count) + " problems") +
                       ", told below");
       building_.problems.add_foreign(error.problems());
     } catch (const ModelError& error) {
@@ -144,14 +144,14 @@ std::string Importer::in_folder(const fs::path& file, const std::string& written
 }  // namespace
 
 void read_imports(Building& building) {
-  const JsonValue* imports = usable(building.root, "import");
+  const JsonValue imports = usable(building.root, "import");
   if (!imports) return;
   Importer importer(building);
-  for (const JsonMember& member : imports->members) {
+  for (const JsonMember& member : imports.members()) {
     if (is_free_name(member.name) || !member.value.is(JsonValue::Kind::text)) continue;
     const std::size_t problems_before = building.problems.size();
     importer.read(member);
-    if (building.problems.size() != problems_before) building.failed_imports.insert(member.name);
+    if (building.problems.size() != problems_before) building.failed_imports.emplace(member.name);
   }
 }
 

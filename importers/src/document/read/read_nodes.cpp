@@ -16,8 +16,8 @@ namespace {
 using Kind = JsonValue::Kind;
 
 void read_look_and_body(const JsonValue& value, NodeDescription& node, Problems& problems) {
-  if (const JsonValue* body = usable(value, "body")) node.body = read_body(*body, problems);
-  if (const JsonValue* color = usable(value, "color")) node.color = color_of(*color);
+  if (const JsonValue body = usable(value, "body")) node.body = read_body(body, problems);
+  if (const JsonValue color = usable(value, "color")) node.color = color_of(color);
   node.group = text_in(value, "group", node.group);
 }
 
@@ -26,10 +26,10 @@ NodeDescription new_node(const JsonMember& member, Problems& problems) {
   NodeDescription node;
   node.name = member.name;
   node.rest.position = vector_in(value, "position", Vec3(0, 0, 0));
-  if (const JsonValue* rotation = usable(value, "rotation"))
+  if (const JsonValue rotation = usable(value, "rotation"))
     node.rest.rotation =
-        rotation_of(*rotation, order_of(text_in(*rotation, "order", "XYZ")), problems).value_or(Quat(1, 0, 0, 0));
-  if (const JsonValue* scale = usable(value, "scale")) node.rest.scale = scale_of(*scale).value_or(Vec3(1, 1, 1));
+        rotation_of(rotation, order_of(text_in(rotation, "order", "XYZ")), problems).value_or(Quat(1, 0, 0, 0));
+  if (const JsonValue scale = usable(value, "scale")) node.rest.scale = scale_of(scale).value_or(Vec3(1, 1, 1));
   read_look_and_body(value, node, problems);
   return node;
 }
@@ -37,26 +37,25 @@ NodeDescription new_node(const JsonMember& member, Problems& problems) {
 // The root of an import that is given a parent here.
 struct HungNode {
   std::size_t node;
-  const JsonValue* parent;
+  JsonValue parent;
 };
 
 void hang(const std::vector<HungNode>& hung, Building& building) {
   std::vector<NodeDescription>& nodes = building.stage.nodes;
   for (const auto& [node, parent] : hung) {
-    const auto found = building.nodes.find(parent->text);
+    const auto found = building.nodes.find(parent.text());
     if (nodes[node].parent != no_node) {
-      building.problems.add(*parent, "only the root of an import can be given a parent; " +
-                                         in_quotes(nodes[node].name) + " hangs on " +
-                                         in_quotes(nodes[nodes[node].parent].name) + " in its file");
+      building.problems.add(parent, "only the root of an import can be given a parent; " + in_quotes(nodes[node].name) +
+                                        " hangs on " + in_quotes(nodes[nodes[node].parent].name) + " in its file");
     } else if (found == building.nodes.end()) {
-      if (!building.excused(parent->text))
+      if (!building.excused(parent.text()))
         building.problems.add(
-            *parent, "there is no node " + in_quotes(parent->text) + suggestion(parent->text, building.node_names()));
+            parent, "there is no node " + in_quotes(parent.text()) + suggestion(parent.text(), building.node_names()));
     } else {
       std::size_t at = found->second;
       while (at != no_node && at != node) at = nodes[at].parent;
       if (at == node)
-        building.problems.add(*parent, in_quotes(nodes[node].name) + " would hang on itself");
+        building.problems.add(parent, in_quotes(nodes[node].name) + " would hang on itself");
       else
         nodes[node].parent = found->second;
     }
@@ -65,8 +64,8 @@ void hang(const std::vector<HungNode>& hung, Building& building) {
 
 // Own nodes may name parents that come later; the stage wants parents first.
 struct OwnNodes {
-  std::vector<const JsonMember*> members;
-  std::map<std::string, std::size_t> index;
+  std::vector<JsonMember> members;
+  std::map<std::string, std::size_t, std::less<>> index;
 };
 
 }  // namespace
@@ -75,6 +74,7 @@ std::vector<std::string> Building::node_names() const {
   std::vector<std::string> names;
   if (problems.crowded()) return names;
   for (const NodeDescription& node : stage.nodes) names.push_back(node.name);
+  problems.look_at(names.size());
   return names;
 }
 
@@ -83,6 +83,7 @@ std::vector<std::string> Building::body_names() const {
   if (problems.crowded()) return names;
   for (const NodeDescription& node : stage.nodes)
     if (node.body) names.push_back(node.name);
+  problems.look_at(names.size());
   return names;
 }
 
@@ -90,14 +91,15 @@ std::vector<std::string> Building::clip_names() const {
   std::vector<std::string> names;
   if (problems.crowded()) return names;
   for (const Clip& clip : stage.clips) names.push_back(clip.name);
+  problems.look_at(names.size());
   return names;
 }
 
-bool Building::excused(const std::string& name) const {
+bool Building::excused(std::string_view name) const {
   return failed_imports.count(name.substr(0, name.find('/'))) > 0;
 }
 
-std::vector<std::size_t> Building::nodes_named(const std::string& name) const {
+std::vector<std::size_t> Building::nodes_named(std::string_view name) const {
   std::vector<std::size_t> out;
   if (name.find('*') == std::string::npos) {
     if (const auto found = nodes.find(name); found != nodes.end()) out.push_back(found->second);
@@ -109,21 +111,21 @@ std::vector<std::size_t> Building::nodes_named(const std::string& name) const {
 }
 
 void read_nodes(Building& building) {
-  const JsonValue* nodes = usable(building.root, "nodes");
+  const JsonValue nodes = usable(building.root, "nodes");
   if (!nodes) return;
   Problems& problems = building.problems;
   OwnNodes own;
   std::vector<HungNode> hung;
-  for (const JsonMember& member : nodes->members) {
+  for (const JsonMember& member : nodes.members()) {
     if (is_free_name(member.name)) continue;
     if (const auto known = building.nodes.find(member.name); known != building.nodes.end()) {
       // A node of an import: what it is in its file stays, and this adds to it.
       for (const char* given : {"position", "rotation", "scale"})
-        if (const JsonValue* value = usable(member.value, given))
-          problems.add(*value, in_quotes(given) +
-                                   " of an imported node is its file's; only \"body\", \"color\" and \"group\" can be "
-                                   "added, and to a root a \"parent\"");
-      if (const JsonValue* parent = usable(member.value, "parent")) hung.push_back({known->second, parent});
+        if (const JsonValue value = usable(member.value, given))
+          problems.add(value, in_quotes(given) +
+                                  " of an imported node is its file's; only \"body\", \"color\" and \"group\" can be "
+                                  "added, and to a root a \"parent\"");
+      if (const JsonValue parent = usable(member.value, "parent")) hung.push_back({known->second, parent});
       read_look_and_body(member.value, building.stage.nodes[known->second], problems);
       continue;
     }
@@ -137,22 +139,24 @@ void read_nodes(Building& building) {
       continue;
     }
     own.index.emplace(member.name, own.members.size());
-    own.members.push_back(&member);
+    own.members.push_back(member);
   }
 
   std::vector<std::string> names = building.node_names();
-  for (const JsonMember* member : own.members) names.push_back(member->name);
+  for (JsonMember member : own.members) names.emplace_back(member.name);
   // The own node that each one hangs on, if any; unknown parents are told.
   std::vector<std::optional<std::size_t>> parent(own.members.size());
   for (std::size_t i = 0; i < own.members.size(); ++i) {
-    const JsonValue* given = usable(own.members[i]->value, "parent");
+    const JsonValue given = usable(own.members[i].value, "parent");
     if (!given) continue;
-    const auto found = own.index.find(given->text);
+    const auto found = own.index.find(given.text());
     if (found != own.index.end())
       parent[i] = found->second;
-    else if (building.nodes.count(given->text) == 0 && !building.excused(given->text))
-      problems.add(*given, "there is no node " + in_quotes(given->text) +
-                               suggestion(given->text, problems.crowded() ? std::vector<std::string>{} : names));
+    else if (building.nodes.count(given.text()) == 0 && !building.excused(given.text())) {
+      if (problems.crowded()) names.clear();
+      problems.look_at(names.size());
+      problems.add(given, "there is no node " + in_quotes(given.text()) + suggestion(given.text(), names));
+    }
   }
 
   enum class State { waiting, open, placed };
@@ -169,15 +173,15 @@ void read_nodes(Building& building) {
     if (at && state[*at] == State::open) {
       std::string circle;
       for (auto link = std::find(chain.begin(), chain.end(), *at); link != chain.end(); ++link)
-        circle += in_quotes(own.members[*link]->name) + " in ";
-      problems.add(*usable(own.members[*at]->value, "parent"),
-                   "these parents go around in a circle: " + circle + in_quotes(own.members[*at]->name));
+        circle += in_quotes(own.members[*link].name) + " in ";
+      problems.add(usable(own.members[*at].value, "parent"),
+                   "these parents go around in a circle: " + circle + in_quotes(own.members[*at].name));
     }
     for (auto link = chain.rbegin(); link != chain.rend(); ++link) {
-      const JsonMember& member = *own.members[*link];
+      const JsonMember& member = own.members[*link];
       NodeDescription node = new_node(member, problems);
-      if (const JsonValue* given = usable(member.value, "parent"))
-        if (const auto found = building.nodes.find(given->text); found != building.nodes.end())
+      if (const JsonValue given = usable(member.value, "parent"))
+        if (const auto found = building.nodes.find(given.text()); found != building.nodes.end())
           node.parent = found->second;
       building.nodes.emplace(member.name, building.stage.nodes.size());
       building.stage.nodes.push_back(std::move(node));

@@ -29,14 +29,14 @@ class RuleReader {
     if (!value.is(Kind::object)) return;
     Rule rule;
     const std::vector<std::size_t> bodies = read_bodies(value, rule);
-    if (const JsonValue* when = usable(value, "when")) read_when(*when, rule.when);
-    if (const JsonValue* to = usable(value, "to")) {
-      rule.to = read_drive(*to);
-      check_owner(value, rule, *to, bodies);
+    if (const JsonValue when = usable(value, "when")) read_when(when, rule.when);
+    if (const JsonValue to = usable(value, "to")) {
+      rule.to = read_drive(to);
+      check_owner(value, rule, to, bodies);
     }
-    if (const JsonValue* velocity = usable(value, "velocity")) rule.take_over = read_velocity(*velocity);
-    if (const JsonValue* path = usable(value, "path")) read_path(*path, rule.hand_back);
-    if (const JsonValue* settle = usable(value, "settle")) rule.hand_back.settle = read_settle(*settle);
+    if (const JsonValue velocity = usable(value, "velocity")) rule.take_over = read_velocity(velocity);
+    if (const JsonValue path = usable(value, "path")) read_path(path, rule.hand_back);
+    if (const JsonValue settle = usable(value, "settle")) rule.hand_back.settle = read_settle(settle);
     rule.once = flag_in(value, "once", true);
     check_instants(value, rule, bodies);
     building_.stage.rules.push_back(std::move(rule));
@@ -67,11 +67,11 @@ class RuleReader {
   std::vector<std::size_t> read_bodies(const JsonValue& value, Rule& rule) {
     std::vector<std::size_t> bodies;
     const std::vector<NodeDescription>& nodes = building_.stage.nodes;
-    if (const JsonValue* group = usable(value, "group")) {
+    if (const JsonValue group = usable(value, "group")) {
       std::vector<std::string> groups;
       for (std::size_t i = 0; i < nodes.size(); ++i) {
         if (!nodes[i].group.empty()) groups.push_back(nodes[i].group);
-        if (nodes[i].group == group->text && nodes[i].body && !nodes[i].body->fixed) {
+        if (nodes[i].group == group.text() && nodes[i].body && !nodes[i].body->fixed) {
           bodies.push_back(i);
           rule.bodies.push_back(nodes[i].name);
         }
@@ -79,87 +79,86 @@ class RuleReader {
       std::sort(groups.begin(), groups.end());
       groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
       if (bodies.empty())
-        problems_.add(*group, "no node with a body that can move is in a group " + in_quotes(group->text) +
-                                  suggestion(group->text, groups));
+        problems_.add(group, "no node with a body that can move is in a group " + in_quotes(group.text()) +
+                                 suggestion(group.text(), groups));
     }
-    const JsonValue* body = usable(value, "body");
+    const JsonValue body = usable(value, "body");
     if (!body) return bodies;
     const auto add = [&](const JsonValue& name) {
       if (!name.is(Kind::text)) return;
-      rule.bodies.push_back(name.text);
-      const std::vector<std::size_t> named = building_.nodes_named(name.text);
-      const bool pattern = name.text.find('*') != std::string::npos;
+      rule.bodies.emplace_back(name.text());
+      const std::vector<std::size_t> named = building_.nodes_named(name.text());
+      const bool pattern = name.text().find('*') != std::string::npos;
       std::size_t movable = 0;
       for (const std::size_t i : named) {
         if (!nodes[i].body || nodes[i].body->fixed) continue;
         ++movable;
         bodies.push_back(i);
       }
-      if (movable > 0 || building_.excused(name.text)) return;
+      if (movable > 0 || building_.excused(name.text())) return;
       if (pattern)
-        problems_.add(name, "no node with a body that can move matches " + in_quotes(name.text));
+        problems_.add(name, "no node with a body that can move matches " + in_quotes(name.text()));
       else if (named.empty())
-        problems_.add(name, "there is no node " + in_quotes(name.text) + suggestion(name.text, building_.body_names()));
+        problems_.add(name,
+                      "there is no node " + in_quotes(name.text()) + suggestion(name.text(), building_.body_names()));
       else if (!nodes[named.front()].body)
-        problems_.add(name, "the node " + in_quotes(name.text) + " has no body, so there is nothing to hand over");
+        problems_.add(name, "the node " + in_quotes(name.text()) + " has no body, so there is nothing to hand over");
       else
-        problems_.add(name, "the body of " + in_quotes(name.text) + " is static and has one owner for good");
+        problems_.add(name, "the body of " + in_quotes(name.text()) + " is static and has one owner for good");
     };
-    if (body->is(Kind::text)) add(*body);
-    for (const JsonValue& item : body->items) add(item);
+    if (body.is(Kind::text)) add(body);
+    for (const JsonValue& item : body.items()) add(item);
     std::sort(bodies.begin(), bodies.end());
     bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
     return bodies;
   }
 
   void read_when(const JsonValue& value, When& when) {
-    when.all = value.find("all") != nullptr;
-    const JsonValue* list = usable(value, when.all ? "all" : "any");
+    when.all = static_cast<bool>(value.find("all"));
+    const JsonValue list = usable(value, when.all ? "all" : "any");
     if (!list) {
       read_trigger(value, when);
       return;
     }
-    for (const JsonValue& trigger : list->items) read_trigger(trigger, when);
+    for (const JsonValue& trigger : list.items()) read_trigger(trigger, when);
   }
 
   void read_trigger(const JsonValue& value, When& when) {
-    if (const JsonValue* at = usable(value, "at")) {
+    if (const JsonValue at = usable(value, "at")) {
       const ClipTimes times(building_.fps, {}, "stage time has none");
-      if (const std::optional<double> seconds = times.seconds(*at, {}, problems_)) {
+      if (const std::optional<double> seconds = times.seconds(at, {}, problems_)) {
         when.triggers.emplace_back(when::At{*seconds});
         instants_.push_back({at, *seconds});
       }
     }
-    if (const JsonValue* marker = usable(value, "marker"))
-      when.triggers.emplace_back(when::Marker{known_event(*marker)});
-    if (const JsonValue* event = usable(value, "event")) when.triggers.emplace_back(when::Event{known_event(*event)});
+    if (const JsonValue marker = usable(value, "marker")) when.triggers.emplace_back(when::Marker{known_event(marker)});
+    if (const JsonValue event = usable(value, "event")) when.triggers.emplace_back(when::Event{known_event(event)});
     if (usable(value, "clip_end")) when.triggers.emplace_back(when::ClipEnd{});
-    if (const JsonValue* contact = usable(value, "contact")) {
-      when::ContactHit hit{number_in(*contact, "impulse", 0), number_in(*contact, "speed", 0),
-                           text_in(*contact, "with")};
-      if (const JsonValue* with = usable(*contact, "with")) {
-        const std::vector<std::size_t> named = building_.nodes_named(with->text);
-        if (!building_.excused(with->text) && std::none_of(named.begin(), named.end(), [&](std::size_t i) {
+    if (const JsonValue contact = usable(value, "contact")) {
+      when::ContactHit hit{number_in(contact, "impulse", 0), number_in(contact, "speed", 0), text_in(contact, "with")};
+      if (const JsonValue with = usable(contact, "with")) {
+        const std::vector<std::size_t> named = building_.nodes_named(with.text());
+        if (!building_.excused(with.text()) && std::none_of(named.begin(), named.end(), [&](std::size_t i) {
               return building_.stage.nodes[i].body.has_value();
             }))
-          problems_.add(*with, "no node with a body is called " + in_quotes(with->text) +
-                                   suggestion(with->text, building_.body_names()));
+          problems_.add(with, "no node with a body is called " + in_quotes(with.text()) +
+                                  suggestion(with.text(), building_.body_names()));
       }
       when.triggers.emplace_back(std::move(hit));
     }
-    if (const JsonValue* asleep = usable(value, "asleep")) when.triggers.emplace_back(when::Asleep{asleep->number});
+    if (const JsonValue asleep = usable(value, "asleep")) when.triggers.emplace_back(when::Asleep{asleep.number()});
   }
 
   std::string known_event(const JsonValue& name) {
-    if (building_.failed_imports.empty() && std::find(events_.begin(), events_.end(), name.text) == events_.end())
-      problems_.add(name, "no clip has an event " + in_quotes(name.text) + suggestion(name.text, events_));
-    return name.text;
+    if (building_.failed_imports.empty() && std::find(events_.begin(), events_.end(), name.text()) == events_.end())
+      problems_.add(name, "no clip has an event " + in_quotes(name.text()) + suggestion(name.text(), events_));
+    return std::string(name.text());
   }
 
   void check_owner(const JsonValue& value, const Rule& rule, const JsonValue& to,
                    const std::vector<std::size_t>& bodies) {
     const auto useless = [&](const char* name, const char* why) {
-      if (const JsonValue* given = usable(value, name)) problems_.add(*given, in_quotes(name) + why);
+      if (const JsonValue given = usable(value, name)) problems_.add(given, in_quotes(name) + why);
     };
     if (rule.to.owner() == Owner::free) {
       useless("path", " means nothing for a body that is let go; it follows none");
@@ -167,8 +166,8 @@ class RuleReader {
     }
     if (rule.to.owner() != Owner::keyed) return;
     useless("velocity", " means nothing for a keyed body; it has its path's");
-    const JsonValue* path = usable(value, "path");
-    if (path && path->find("clip")) return;
+    const JsonValue path = usable(value, "path");
+    if (path && path.find("clip")) return;
     for (const std::size_t i : bodies) {
       const NodeDescription& node = building_.stage.nodes[i];
       // A body that is keyed without being animated has its place of rest for a path, and its author said so.
@@ -183,28 +182,28 @@ class RuleReader {
 
   TakeOver read_velocity(const JsonValue& value) {
     TakeOver out;
-    const std::string source = value.is(Kind::text) ? value.text : text_in(value, "source", "curve");
+    const std::string source = value.is(Kind::text) ? std::string(value.text()) : text_in(value, "source", "curve");
     out.velocity = source == "step"   ? TakeOver::Velocity::step
                    : source == "zero" ? TakeOver::Velocity::zero
                                       : TakeOver::Velocity::curve;
-    if (const JsonValue* average = usable(value, "average")) {
+    if (const JsonValue average = usable(value, "average")) {
       out.velocity = TakeOver::Velocity::average;
-      out.average_over = average->number;
+      out.average_over = average.number();
     }
     out.scale = number_in(value, "scale", 1);
-    if (const JsonValue* add = usable(value, "add")) {
-      out.add.linear = vector_in(*add, "linear", Vec3(0, 0, 0));
-      const Vec3 spin = vector_in(*add, "angular", Vec3(0, 0, 0));
+    if (const JsonValue add = usable(value, "add")) {
+      out.add.linear = vector_in(add, "linear", Vec3(0, 0, 0));
+      const Vec3 spin = vector_in(add, "angular", Vec3(0, 0, 0));
       out.add.angular = Vec3(radians(spin[0]), radians(spin[1]), radians(spin[2]));
     }
     return out;
   }
 
   void read_path(const JsonValue& value, HandBack& out) {
-    if (const JsonValue* clip = usable(value, "clip")) {
-      out.clip = clip->text;
+    if (const JsonValue clip = usable(value, "clip")) {
+      out.clip = clip.text();
       if (building_.clips.count(out.clip) == 0 && !building_.excused(out.clip))
-        problems_.add(*clip, "there is no clip " + in_quotes(out.clip) + suggestion(out.clip, building_.clip_names()));
+        problems_.add(clip, "there is no clip " + in_quotes(out.clip) + suggestion(out.clip, building_.clip_names()));
     }
     const std::string clock = text_in(value, "time"), anchor = text_in(value, "anchor");
     out.clock = clock == "hold"      ? HandBack::Clock::hold
@@ -216,8 +215,8 @@ class RuleReader {
   }
 
   static Settle read_settle(const JsonValue& value) {
-    if (const JsonValue* seconds = usable(value, "half_life")) return {Settle::Kind::half_life, seconds->number};
-    if (const JsonValue* seconds = usable(value, "dead_blend")) return {Settle::Kind::dead_blend, seconds->number};
+    if (const JsonValue seconds = usable(value, "half_life")) return {Settle::Kind::half_life, seconds.number()};
+    if (const JsonValue seconds = usable(value, "dead_blend")) return {Settle::Kind::dead_blend, seconds.number()};
     return {Settle::Kind::quintic, number_in(value, "quintic", 0.3)};
   }
 
@@ -227,18 +226,18 @@ class RuleReader {
     if (rule.when.all && rule.when.triggers.size() > 1) return;
     for (const Instant& instant : instants) {
       for (const std::size_t body : bodies) {
-        const auto [other, fresh] = taken_.emplace(std::pair(instant.seconds, body), &value);
-        if (fresh || other->second == &value) continue;
-        problems_.add(*instant.place, "another rule acts on " + in_quotes(building_.stage.nodes[body].name) + " at " +
-                                          number_text(instant.seconds) +
-                                          " s already; a body changes hands once at a time");
+        const auto [other, fresh] = taken_.emplace(std::pair(instant.seconds, body), value);
+        if (fresh || other->second == value) continue;
+        problems_.add(instant.place, "another rule acts on " + in_quotes(building_.stage.nodes[body].name) + " at " +
+                                         number_text(instant.seconds) +
+                                         " s already; a body changes hands once at a time");
         break;
       }
     }
   }
 
   struct Instant {
-    const JsonValue* place;
+    JsonValue place;
     double seconds;
   };
 
@@ -247,16 +246,16 @@ class RuleReader {
   std::vector<std::string> events_;
   std::vector<bool> animated_;
   std::vector<Instant> instants_;
-  std::map<std::pair<double, std::size_t>, const JsonValue*> taken_;
+  std::map<std::pair<double, std::size_t>, JsonValue> taken_;
 };
 
 }  // namespace
 
 void read_rules(Building& building) {
-  const JsonValue* rules = usable(building.root, "handoff");
+  const JsonValue rules = usable(building.root, "handoff");
   if (!rules) return;
   RuleReader reader(building);
-  for (const JsonValue& rule : rules->items) reader.read(rule);
+  for (const JsonValue& rule : rules.items()) reader.read(rule);
 }
 
 }  // namespace tweenfall::document

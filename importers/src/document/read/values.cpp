@@ -21,50 +21,50 @@ double degrees(double radians) {
   return radians * (180 / std::numbers::pi);
 }
 
-const JsonValue* usable(const JsonValue& object, std::string_view name) {
-  const JsonValue* value = object.is(Kind::object) ? object.find(name) : nullptr;
-  return value && !value->is(Kind::faulty) ? value : nullptr;
+JsonValue usable(const JsonValue& object, std::string_view name) {
+  const JsonValue value = object.is(Kind::object) ? object.find(name) : JsonValue();
+  return value && !value.is(Kind::faulty) ? value : JsonValue();
 }
 
 double number_in(const JsonValue& object, std::string_view name, double fallback) {
-  const JsonValue* value = usable(object, name);
-  return value && value->is(Kind::number) ? value->number : fallback;
+  const JsonValue value = usable(object, name);
+  return value && value.is(Kind::number) ? value.number() : fallback;
 }
 
 bool flag_in(const JsonValue& object, std::string_view name, bool fallback) {
-  const JsonValue* value = usable(object, name);
-  return value && value->is(Kind::boolean) ? value->boolean : fallback;
+  const JsonValue value = usable(object, name);
+  return value && value.is(Kind::boolean) ? value.boolean() : fallback;
 }
 
 std::string text_in(const JsonValue& object, std::string_view name, const std::string& fallback) {
-  const JsonValue* value = usable(object, name);
-  return value && value->is(Kind::text) ? value->text : fallback;
+  const JsonValue value = usable(object, name);
+  return value && value.is(Kind::text) ? std::string(value.text()) : fallback;
 }
 
 Vec3 vector_in(const JsonValue& object, std::string_view name, const Vec3& fallback) {
-  const JsonValue* value = usable(object, name);
-  return value ? vector_of(*value).value_or(fallback) : fallback;
+  const JsonValue value = usable(object, name);
+  return value ? vector_of(value).value_or(fallback) : fallback;
 }
 
 std::vector<std::string> names_in(const JsonValue& object, std::string_view name) {
   std::vector<std::string> out;
-  const JsonValue* value = usable(object, name);
+  const JsonValue value = usable(object, name);
   if (!value) return out;
-  if (value->is(Kind::text)) out.push_back(value->text);
-  for (const JsonValue& item : value->items)
-    if (item.is(Kind::text)) out.push_back(item.text);
+  if (value.is(Kind::text)) out.emplace_back(value.text());
+  for (const JsonValue& item : value.items())
+    if (item.is(Kind::text)) out.emplace_back(item.text());
   return out;
 }
 
 std::optional<Vec3> vector_of(const JsonValue& value) {
-  if (!value.is(Kind::list) || value.items.size() != 3) return {};
-  for (const JsonValue& item : value.items)
+  if (!value.is(Kind::list) || value.items().size() != 3) return {};
+  for (const JsonValue& item : value.items())
     if (!item.is(Kind::number)) return {};
-  return Vec3(value.items[0].number, value.items[1].number, value.items[2].number);
+  return Vec3(value.items()[0].number(), value.items()[1].number(), value.items()[2].number());
 }
 
 std::optional<Vec3> scale_of(const JsonValue& value) {
-  if (value.is(Kind::number)) return Vec3(value.number, value.number, value.number);
+  if (value.is(Kind::number)) return Vec3(value.number(), value.number(), value.number());
   return vector_of(value);
 }
 
@@ -77,12 +77,12 @@ int digit_of(char c) {
 }  // namespace
 
 std::optional<Color> color_of(const JsonValue& value) {
-  if (!value.is(Kind::text) || value.text.size() < 4) return {};
+  if (!value.is(Kind::text) || value.text().size() < 4) return {};
   Vec4 coordinates(0, 0, 0, 1);
-  const bool brief = value.text.size() == 4;
-  for (std::size_t i = 0; i < (value.text.size() - 1) / (brief ? 1 : 2); ++i) {
-    const int high = digit_of(value.text[brief ? 1 + i : 1 + 2 * i]);
-    const int low = brief ? high : digit_of(value.text[2 + 2 * i]);
+  const bool brief = value.text().size() == 4;
+  for (std::size_t i = 0; i < (value.text().size() - 1) / (brief ? 1 : 2); ++i) {
+    const int high = digit_of(value.text()[brief ? 1 + i : 1 + 2 * i]);
+    const int low = brief ? high : digit_of(value.text()[2 + 2 * i]);
     coordinates[static_cast<Eigen::Index>(i)] = (16 * high + low) / 255.0;
   }
   return from_space({coordinates, Vec4::Zero(), Vec4::Zero()}, ColorSpace::srgb).value;
@@ -103,9 +103,9 @@ std::string color_text(const Color& color) {
 
 std::optional<Vec3> axis_of(const JsonValue& value, Problems& problems) {
   if (value.is(Kind::text)) {
-    const bool back = value.text.size() == 2;
+    const bool back = value.text().size() == 2;
     Vec3 axis(0, 0, 0);
-    const char letter = value.text.empty() ? 'x' : value.text.back();
+    const char letter = value.text().empty() ? 'x' : value.text().back();
     axis[letter == 'y' ? 1 : letter == 'z' ? 2 : 0] = back ? -1 : 1;
     return axis;
   }
@@ -129,21 +129,21 @@ EulerOrder order_of(std::string_view word) {
 }
 
 std::optional<Quat> rotation_of(const JsonValue& value, const EulerOrder& order, Problems& problems) {
-  if (const JsonValue* euler = usable(value, "euler")) {
-    const std::optional<Vec3> angles = vector_of(*euler);
+  if (const JsonValue euler = usable(value, "euler")) {
+    const std::optional<Vec3> angles = vector_of(euler);
     if (!angles) return {};
     return from_euler(Vec3(radians((*angles)[0]), radians((*angles)[1]), radians((*angles)[2])), order);
   }
-  if (const JsonValue* quat = usable(value, "quat")) {
-    if (!quat->is(Kind::list) || quat->items.size() != 4) return {};
+  if (const JsonValue quat = usable(value, "quat")) {
+    if (!quat.is(Kind::list) || quat.items().size() != 4) return {};
     Vec4 parts;
     for (std::size_t i = 0; i < 4; ++i) {
-      if (!quat->items[i].is(Kind::number)) return {};
-      parts[static_cast<Eigen::Index>(i)] = quat->items[i].number;
+      if (!quat.items()[i].is(Kind::number)) return {};
+      parts[static_cast<Eigen::Index>(i)] = quat.items()[i].number();
     }
     const double size = parts.cwiseAbs().maxCoeff();
     if (size == 0) {
-      problems.add(*quat, "a quaternion of length 0 is no rotation; no turn at all is [0, 0, 0, 1]");
+      problems.add(quat, "a quaternion of length 0 is no rotation; no turn at all is [0, 0, 0, 1]");
       return {};
     }
     const Vec4 scaled = parts / size;
@@ -153,12 +153,12 @@ std::optional<Quat> rotation_of(const JsonValue& value, const EulerOrder& order,
     const Vec4& used = std::abs(length - 1) < 1e-15 ? parts : unit;
     return Quat(used[3], used[0], used[1], used[2]);
   }
-  const JsonValue* axis = usable(value, "axis");
-  const JsonValue* angle = usable(value, "angle");
-  if (!axis || !angle || !angle->is(Kind::number)) return {};
-  const std::optional<Vec3> unit = axis_of(*axis, problems);
+  const JsonValue axis = usable(value, "axis");
+  const JsonValue angle = usable(value, "angle");
+  if (!axis || !angle || !angle.is(Kind::number)) return {};
+  const std::optional<Vec3> unit = axis_of(axis, problems);
   if (!unit) return {};
-  const elementary::SinCos half = elementary::sin_cos(radians(angle->number) / 2);
+  const elementary::SinCos half = elementary::sin_cos(radians(angle.number()) / 2);
   return Quat(half.cos, half.sin * (*unit)[0], half.sin * (*unit)[1], half.sin * (*unit)[2]);
 }
 

@@ -18,7 +18,7 @@ namespace tweenfall::document {
 [[nodiscard]] double degrees(double radians);
 
 // A member that can be used; null when absent or faulty.
-[[nodiscard]] const JsonValue* usable(const JsonValue& object, std::string_view name);
+[[nodiscard]] JsonValue usable(const JsonValue& object, std::string_view name);
 
 [[nodiscard]] double number_in(const JsonValue& object, std::string_view name, double fallback);
 [[nodiscard]] bool flag_in(const JsonValue& object, std::string_view name, bool fallback);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tweenfall::document {
 
@@ -16,9 +17,9 @@ using Kind = JsonValue::Kind;
 
 class Checker {
  public:
-  explicit Checker(Problems& problems) : problems_(problems) {}
+  Checker(JsonTree& tree, Problems& problems) : tree_(tree), problems_(problems) {}
 
-  void value(const Shape& shape, JsonValue& value) {
+  void value(const Shape& shape, const JsonValue& value) {
     if (value.is(Kind::faulty)) return;
     const Shape* chosen = resolved(shape, value);
     if (!chosen) {
@@ -31,7 +32,7 @@ class Checker {
         number(*chosen, what, value);
         break;
       case Shape::Kind::boolean:
-        if (chosen->only_true && !value.boolean) fault(value, "expected true; leave the field out instead of false");
+        if (chosen->only_true && !value.boolean()) fault(value, "expected true; leave the field out instead of false");
         break;
       case Shape::Kind::text:
         text(*chosen, what, value);
@@ -52,51 +53,51 @@ class Checker {
   }
 
  private:
-  void fault(JsonValue& at, std::string message) {
+  void fault(const JsonValue& at, std::string message) {
     problems_.add(at, std::move(message));
-    at.kind = Kind::faulty;
+    tree_.mark_faulty(at);
   }
 
-  void number(const Shape& shape, const std::string& what, JsonValue& value) {
-    const double number = value.number;
+  void number(const Shape& shape, const std::string& what, const JsonValue& value) {
+    const double number = value.number();
     const bool low = shape.above_low ? number > shape.low : number >= shape.low;
     const bool whole = !shape.whole || number == std::floor(number);
     if (!(low && number <= shape.high && whole)) fault(value, "expected " + what + ", found " + number_text(number));
   }
 
-  void text(const Shape& shape, const std::string& what, JsonValue& value) {
+  void text(const Shape& shape, const std::string& what, const JsonValue& value) {
     if (shape.words.empty() && !shape.fits) return;
-    if (std::find(shape.words.begin(), shape.words.end(), value.text) != shape.words.end()) return;
-    if (shape.fits && shape.fits(value.text)) return;
-    std::string reason = shape.why ? shape.why(value.text) : std::string();
+    if (std::find(shape.words.begin(), shape.words.end(), value.text()) != shape.words.end()) return;
+    if (shape.fits && shape.fits(value.text())) return;
+    std::string reason = shape.why ? shape.why(value.text()) : std::string();
     if (reason.empty()) {
       std::vector<std::string> known = shape.words;
       known.insert(known.end(), shape.hints.begin(), shape.hints.end());
-      reason = suggestion(value.text, known);
+      reason = suggestion(value.text(), known);
     }
     fault(value, "expected " + what + ", found " + described(value) + reason);
   }
 
-  void count(const std::string& what, JsonValue& value, bool fits) {
+  void count(const std::string& what, const JsonValue& value, bool fits) {
     if (!fits) problems_.add(value, "expected " + what + ", found " + described(value));
   }
 
-  void list(const Shape& shape, const std::string& what, JsonValue& value) {
-    const bool fits = value.items.size() >= shape.fewest && value.items.size() <= shape.most;
-    for (JsonValue& item : value.items) this->value(*shape.element, item);
+  void list(const Shape& shape, const std::string& what, const JsonValue& value) {
+    const bool fits = value.items().size() >= shape.fewest && value.items().size() <= shape.most;
+    for (const JsonValue& item : value.items()) this->value(*shape.element, item);
     count(what, value, fits);
-    if (!fits) value.kind = Kind::faulty;
+    if (!fits) tree_.mark_faulty(value);
   }
 
-  void tuple(const Shape& shape, const std::string& what, JsonValue& value) {
-    const bool fits = value.items.size() >= shape.fewest && value.items.size() <= shape.parts.size();
-    for (std::size_t i = 0; i < std::min(value.items.size(), shape.parts.size()); ++i)
-      this->value(*shape.parts[i], value.items[i]);
+  void tuple(const Shape& shape, const std::string& what, const JsonValue& value) {
+    const bool fits = value.items().size() >= shape.fewest && value.items().size() <= shape.parts.size();
+    for (std::size_t i = 0; i < std::min(value.items().size(), shape.parts.size()); ++i)
+      this->value(*shape.parts[i], value.items()[i]);
     count(what, value, fits);
-    if (!fits) value.kind = Kind::faulty;
+    if (!fits) tree_.mark_faulty(value);
   }
 
-  void object(const Shape& shape, const std::string& what, JsonValue& value) {
+  void object(const Shape& shape, const std::string& what, const JsonValue& value) {
     if (shape.foremost_fault) {
       if (std::string message = shape.foremost_fault(value); !message.empty()) {
         fault(value, std::move(message));
@@ -104,20 +105,20 @@ class Checker {
       }
     }
     std::vector<std::string> meant;  // fields that a misspelled name is near to
-    for (JsonMember& member : value.members) {
+    for (const JsonMember& member : value.members()) {
       if (is_free_name(member.name)) continue;
       const Shape* expected = shape.member(member.name);
       if (!expected) {
         problems_.add_name(member,
                            "unknown field " + in_quotes(member.name) + suggestion(member.name, shape.field_names()));
-        member.value.kind = Kind::faulty;
+        tree_.mark_faulty(member.value);
         meant.push_back(nearest_name(member.name, shape.field_names()));
         continue;
       }
       if (shape.name_fault && !shape.field(member.name)) {
         if (std::string message = shape.name_fault(member.name); !message.empty()) {
           problems_.add_name(member, std::move(message));
-          member.value.kind = Kind::faulty;
+          tree_.mark_faulty(member.value);
           continue;
         }
       }
@@ -129,12 +130,11 @@ class Checker {
     for (const Together& rule : shape.together) together(rule, what, value);
   }
 
-  void together(const Together& rule, const std::string& what, JsonValue& value) {
-    JsonMember* first = nullptr;
-    JsonMember* second = nullptr;
-    for (JsonMember& member : value.members) {
+  void together(const Together& rule, const std::string& what, const JsonValue& value) {
+    std::optional<JsonMember> first, second;
+    for (const JsonMember& member : value.members()) {
       if (std::find(rule.names.begin(), rule.names.end(), member.name) == rule.names.end()) continue;
-      (first ? second : first) = &member;
+      (first ? second : first) = member;
       if (second) break;
     }
     if (rule.rule == Together::Rule::first_needs_second) {
@@ -144,47 +144,48 @@ class Checker {
     }
     if (second) {
       problems_.add_name(*second, in_quotes(second->name) + " beside " + in_quotes(first->name) + "; give one of them");
-      second->value.kind = Kind::faulty;
+      tree_.mark_faulty(second->value);
     }
     if (!first && rule.rule == Together::Rule::exactly_one) {
       std::string names;
       for (const std::string& name : rule.names) names += (names.empty() ? "" : ", ") + in_quotes(name);
       // Where the name is misspelled, the unknown field was reported; that it is missing too would be noise.
-      for (const JsonMember& member : value.members)
+      for (const JsonMember& member : value.members())
         if (member.value.is(Kind::faulty)) return;
       problems_.add(value, "expected " + what + "; one of " + names + " is missing");
     }
   }
 
+  JsonTree& tree_;
   Problems& problems_;
 };
 
 }  // namespace
 
-void check(const Shape& shape, JsonValue& value, Problems& problems) {
-  Checker(problems).value(shape, value);
+void check(const Shape& shape, JsonTree& tree, Problems& problems) {
+  Checker(tree, problems).value(shape, tree.root());
 }
 
 std::string described(const JsonValue& value) {
-  switch (value.kind) {
+  switch (value.kind()) {
     case Kind::null:
       return "null";
     case Kind::boolean:
-      return value.boolean ? "true" : "false";
+      return value.boolean() ? "true" : "false";
     case Kind::number:
-      return number_text(value.number);
+      return number_text(value.number());
     case Kind::text: {
-      std::string out = in_quotes(value.text);
+      std::string out = in_quotes(value.text());
       if (out.size() <= 60) return out;
       std::size_t end = 57;
       while (end > 0 && (static_cast<unsigned char>(out[end]) & 0xc0) == 0x80) --end;
       return out.substr(0, end) + "...\"";
     }
     case Kind::list:
-      return value.items.empty() ? "an empty list" : "a list of " + std::to_string(value.items.size());
+      return value.items().empty() ? "an empty list" : "a list of " + std::to_string(value.items().size());
     case Kind::object: {
-      if (value.members.empty()) return "an empty object";
-      return "an object with " + in_quotes(value.members.front().name);
+      if (value.members().empty()) return "an empty object";
+      return "an object with " + in_quotes(value.members().front().name);
     }
     case Kind::faulty:
       break;

@@ -7,8 +7,8 @@
 
 namespace tweenfall::document {
 
-// Notes every fault of shape below `value` and marks the faulty values, so that what follows passes over them.
-void check(const Shape& shape, JsonValue& value, Problems& problems);
+// Notes every fault of shape in the tree and marks the faulty values, so that what follows passes over them.
+void check(const Shape& shape, JsonTree& tree, Problems& problems);
 
 // "a list of 3", "\"left\"", "-2": completes "found ...".
 [[nodiscard]] std::string described(const JsonValue& value);

@@ -4,7 +4,7 @@
 
 #include <tweenfall/importers/document.h>
 
-#include "json/json_text.h"
+#include "json/json_tree.h"
 
 #include <string>
 #include <vector>
@@ -13,25 +13,36 @@ namespace tweenfall::document {
 
 class Problems {
  public:
-  void add(const JsonFault& fault) { faults_.push_back(fault); }
+  void add(const JsonFault& fault) { entries_.push_back({fault, {}}); }
   void add(const JsonValue& at, std::string message);
   void add_name(const JsonMember& at, std::string message);
   // Problems of an imported file, at their places there.
   void add_foreign(std::vector<Problem> problems);
 
-  [[nodiscard]] bool empty() const { return faults_.empty() && foreign_.empty(); }
-  [[nodiscard]] std::size_t size() const { return faults_.size() + foreign_.size(); }
+  [[nodiscard]] bool empty() const { return entries_.empty() && foreign_.empty(); }
+  [[nodiscard]] std::size_t size() const { return entries_.size() + foreign_.size(); }
 
-  // So many that suggestions, which look at all names, are no longer worth their time.
-  [[nodiscard]] bool crowded() const { return size() > 500; }
+  // Whether suggestions, which look at all names, are no longer worth their time.
+  [[nodiscard]] bool crowded() const { return size() > most_listed || looked_at_ > most_looked_at; }
+  // Names were looked at for a suggestion.
+  void look_at(std::size_t names) { looked_at_ += names; }
 
-  // In order of the text; `root` gives the pointers.
-  [[nodiscard]] std::vector<Problem> located(const std::string& file, std::string_view text,
-                                             const JsonValue& root) const;
+  // In order of the text; of very many the first.
+  [[nodiscard]] std::vector<Problem> located(const std::string& file, const JsonTree& tree) const;
+
+  static constexpr std::size_t most_listed = 400;
 
  private:
-  std::vector<JsonFault> faults_;
+  static constexpr std::size_t most_looked_at = 400000;
+
+  struct Entry {
+    JsonFault fault;
+    JsonValue value;  // whose length is the fault's, unless it has one
+  };
+
+  std::vector<Entry> entries_;
   std::vector<Problem> foreign_;
+  std::size_t looked_at_ = 0;
 };
 
 // A problem of a whole file.

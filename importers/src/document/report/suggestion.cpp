@@ -2,7 +2,7 @@
 
 #include <tweenfall/anim/nearest_name.h>
 
-#include "json/json_text.h"
+#include "json/json_tree.h"
 
 #include <algorithm>
 

@@ -17,11 +17,11 @@ using Kind = JsonValue::Kind;
 class ExpressionReader {
  public:
   ExpressionReader(const JsonValue& track, Problems& problems) : problems_(problems) {
-    const JsonValue* parameters = usable(track, "parameters");
+    const JsonValue parameters = usable(track, "parameters");
     if (!parameters) return;
-    for (const JsonMember& each : parameters->members) {
+    for (const JsonMember& each : parameters.members()) {
       if (!each.value.is(Kind::number)) continue;
-      const Expression::Parameter one{each.name, each.value.number};
+      const Expression::Parameter one{std::string(each.name), each.value.number()};
       // Names that expressions have already are found by an expression that has nothing else.
       try {
         (void)Expression("t", std::span<const Expression::Parameter>(&one, 1));
@@ -33,15 +33,15 @@ class ExpressionReader {
   }
 
   std::optional<Curve<double>> number(const JsonValue& value) {
-    if (value.is(Kind::number)) return Curve<double>(value.number);
+    if (value.is(Kind::number)) return Curve<double>(value.number());
     if (!value.is(Kind::text)) return {};
     try {
-      return expression_curve(Expression(value.text, parameters_));
+      return expression_curve(Expression(value.text(), parameters_));
     } catch (const ExpressionError& error) {
       // One byte of the text is one of the file, but for the quote before it, as long as none is escaped.
-      const bool plain = value.length == value.text.size() + 2;
-      problems_.add(plain ? JsonFault{value.offset + 1 + error.place(), 1, error.fault()}
-                          : JsonFault{value.offset, value.length, error.what()});
+      const bool plain = value.length() == value.text().size() + 2;
+      problems_.add(plain ? JsonFault{value.offset() + 1 + error.place(), 1, error.fault()}
+                          : JsonFault{value.offset(), value.length(), error.what()});
       return {};
     }
   }
@@ -61,17 +61,17 @@ Curve<T> vector_of_parts(const std::vector<Curve<double>>& parts) {
 }  // namespace
 
 std::optional<TrackCurve> read_expression(const JsonValue& track, Problems& problems) {
-  const JsonValue* expression = usable(track, "expression");
+  const JsonValue expression = usable(track, "expression");
   if (!expression) return {};
   ExpressionReader reader(track, problems);
-  if (expression->is(Kind::text)) {
-    const std::optional<Curve<double>> curve = reader.number(*expression);
+  if (expression.is(Kind::text)) {
+    const std::optional<Curve<double>> curve = reader.number(expression);
     return curve ? std::optional<TrackCurve>(*curve) : std::nullopt;
   }
   std::vector<Curve<double>> parts;
-  for (const JsonValue& each : expression->items)
+  for (const JsonValue& each : expression.items())
     if (const std::optional<Curve<double>> part = reader.number(each)) parts.push_back(*part);
-  if (parts.size() != expression->items.size()) return {};
+  if (parts.size() != expression.items().size()) return {};
   if (parts.size() == 2) return TrackCurve(parametric(parts[0], parts[1]));
   if (parts.size() == 3) return TrackCurve(parametric(parts[0], parts[1], parts[2]));
   return TrackCurve(vector_of_parts<Vec4>(parts));

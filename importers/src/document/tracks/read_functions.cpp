@@ -84,27 +84,27 @@ std::optional<Curve<Vec3>> orbit_of(const JsonValue& settings, Problems& problem
           .eccentricity = number_in(settings, "eccentricity", 0),
           .gravitational_parameter = number_in(settings, "gravitational_parameter", 1),
           .passage = number_in(settings, "passage", 0)};
-  if (const JsonValue* rotation = usable(settings, "rotation")) {
-    const std::optional<Quat> q = rotation_of(*rotation, order_of(text_in(*rotation, "order", "XYZ")), problems);
+  if (const JsonValue rotation = usable(settings, "rotation")) {
+    const std::optional<Quat> q = rotation_of(rotation, order_of(text_in(rotation, "order", "XYZ")), problems);
     if (!q) return {};
     o.rotation = *q;
   }
-  if (const JsonValue* period = usable(settings, "period")) {
+  if (const JsonValue period = usable(settings, "period")) {
     if (!(o.eccentricity < 1)) {
-      problems.add(*period,
+      problems.add(period,
                    "only an eccentricity below 1 has a period; give \"gravitational_parameter\" instead, in m^3/s^2");
       return {};
     }
-    o = o.with_period(period->number);
+    o = o.with_period(period.number());
   }
   return orbit(o);
 }
 
 std::optional<Curve<Vec3>> path_of(const JsonValue& settings, Problems& problems) {
   EvenPath p{.closed = flag_in(settings, "closed", false), .duration = number_in(settings, "duration", 1)};
-  const JsonValue* points = usable(settings, "points");
+  const JsonValue points = usable(settings, "points");
   if (!points) return {};
-  for (const JsonValue& each : points->items) {
+  for (const JsonValue& each : points.items()) {
     const std::optional<Vec3> point = vector_of(each);
     if (!point) return {};
     if (!p.points.empty() && p.points.back() == *point) {
@@ -124,8 +124,8 @@ Curve<Vec3> line_of(const JsonValue& settings) {
 }
 
 std::optional<Curve<Vec3>> arc_of(const JsonValue& settings, Problems& problems) {
-  const JsonValue* axis = usable(settings, "axis");
-  const std::optional<Vec3> direction = axis ? axis_of(*axis, problems) : std::optional<Vec3>(Vec3(0, 0, 1));
+  const JsonValue axis = usable(settings, "axis");
+  const std::optional<Vec3> direction = axis ? axis_of(axis, problems) : std::optional<Vec3>(Vec3(0, 0, 1));
   if (!direction) return {};
   return arc({.center = vector_in(settings, "center", Vec3(0, 0, 0)),
               .from = vector_in(settings, "from", Vec3(1, 0, 0)),
@@ -144,22 +144,22 @@ std::optional<TrackCurve> function_of(const JsonValue& track, Problems& problems
     if (!curve) return {};
     return TrackCurve(with_outside_of(track, *curve));
   };
-  if (const JsonValue* f = usable(track, "oscillator")) {
-    const JsonValue* amplitude = usable(*f, "amplitude");
-    if (amplitude && amplitude->is(Kind::list)) return TrackCurve(vector_oscillator_of(*f));
-    return TrackCurve(oscillator_of(*f, 1));
+  if (const JsonValue f = usable(track, "oscillator")) {
+    const JsonValue amplitude = usable(f, "amplitude");
+    if (amplitude && amplitude.is(Kind::list)) return TrackCurve(vector_oscillator_of(f));
+    return TrackCurve(oscillator_of(f, 1));
   }
-  if (const JsonValue* f = usable(track, "spring")) {
-    const JsonValue* goal = usable(*f, "goal");
-    if (goal && goal->is(Kind::list)) return TrackCurve(vector_spring_of(*f));
-    return TrackCurve(spring_of(*f, 1));
+  if (const JsonValue f = usable(track, "spring")) {
+    const JsonValue goal = usable(f, "goal");
+    if (goal && goal.is(Kind::list)) return TrackCurve(vector_spring_of(f));
+    return TrackCurve(spring_of(f, 1));
   }
-  if (const JsonValue* f = usable(track, "pendulum")) return TrackCurve(scaled(pendulum_of(*f), degrees(1)));
-  if (const JsonValue* f = usable(track, "projectile")) return TrackCurve(projectile_of(*f));
-  if (const JsonValue* f = usable(track, "orbit")) return made(orbit_of(*f, problems));
-  if (const JsonValue* f = usable(track, "path")) return passing(path_of(*f, problems));
-  if (const JsonValue* f = usable(track, "line")) return passing(std::optional(line_of(*f)));
-  if (const JsonValue* f = usable(track, "arc")) return passing(arc_of(*f, problems));
+  if (const JsonValue f = usable(track, "pendulum")) return TrackCurve(scaled(pendulum_of(f), degrees(1)));
+  if (const JsonValue f = usable(track, "projectile")) return TrackCurve(projectile_of(f));
+  if (const JsonValue f = usable(track, "orbit")) return made(orbit_of(f, problems));
+  if (const JsonValue f = usable(track, "path")) return passing(path_of(f, problems));
+  if (const JsonValue f = usable(track, "line")) return passing(std::optional(line_of(f)));
+  if (const JsonValue f = usable(track, "arc")) return passing(arc_of(f, problems));
   if (has_spline(track)) {
     switch (FunctionShapes::dimension(track)) {
       case 2:
@@ -182,7 +182,7 @@ auto guarded(const JsonValue& track, Problems& problems, const Make& make) -> de
     return make();
   } catch (const std::invalid_argument& fault) {
     for (const std::string& name : FunctionShapes::names())
-      if (const JsonValue* settings = usable(track, name)) problems.add(*settings, fault.what());
+      if (const JsonValue settings = usable(track, name)) problems.add(settings, fault.what());
     return {};
   }
 }
@@ -201,10 +201,10 @@ std::optional<TrackCurve> read_function(const JsonValue& track, Problems& proble
 
 std::optional<Curve<double>> read_angle_function(const JsonValue& track, Problems& problems) {
   return guarded(track, problems, [&]() -> std::optional<Curve<double>> {
-    if (const JsonValue* f = usable(track, "oscillator")) return oscillator_of(*f, radians(1));
-    if (const JsonValue* f = usable(track, "spring")) return spring_of(*f, radians(1));
+    if (const JsonValue f = usable(track, "oscillator")) return oscillator_of(f, radians(1));
+    if (const JsonValue f = usable(track, "spring")) return spring_of(f, radians(1));
     if (has_spline(track)) return read_spline<double>(track, radians(1), problems);
-    if (const JsonValue* f = usable(track, "pendulum")) return pendulum_of(*f);
+    if (const JsonValue f = usable(track, "pendulum")) return pendulum_of(f);
     const std::optional<TrackCurve> angle = read_expression(track, problems);
     if (!angle || !std::holds_alternative<Curve<double>>(*angle)) return {};
     return scaled(std::get<Curve<double>>(*angle), radians(1));
@@ -224,11 +224,11 @@ Outside rule_of(std::string_view word) {
 }  // namespace
 
 OutsideParts outside_of(const JsonValue& track, std::string_view side) {
-  const JsonValue* given = usable(track, side);
+  const JsonValue given = usable(track, side);
   if (!given) return {};
-  if (!given->is(JsonValue::Kind::object)) return {rule_of(given->text)};
-  if (const JsonValue* slope = usable(*given, "slope")) return {Outside::linear, 0, slope};
-  return {rule_of(text_in(*given, "mode")), number_in(*given, "count", 0)};
+  if (!given.is(JsonValue::Kind::object)) return {rule_of(given.text())};
+  if (const JsonValue slope = usable(given, "slope")) return {Outside::linear, 0, slope};
+  return {rule_of(text_in(given, "mode")), number_in(given, "count", 0)};
 }
 
 }  // namespace tweenfall::document

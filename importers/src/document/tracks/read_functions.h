@@ -25,10 +25,11 @@ namespace tweenfall::document {
 template <class R>
 [[nodiscard]] R slope_of(const JsonValue& slope) {
   if constexpr (std::is_same_v<R, double>) {
-    return slope.number;
+    return slope.number();
   } else {
-    R result = R::Constant(slope.number);
-    for (std::size_t i = 0; i < slope.items.size(); ++i) result[static_cast<Eigen::Index>(i)] = slope.items[i].number;
+    R result = R::Constant(slope.number());
+    for (std::size_t i = 0; i < slope.items().size(); ++i)
+      result[static_cast<Eigen::Index>(i)] = slope.items()[i].number();
     return result;
   }
 }
@@ -37,7 +38,7 @@ template <class R>
 struct OutsideParts {
   Outside rule = Outside::hold;
   double plays = 0;
-  const JsonValue* slope = nullptr;
+  JsonValue slope{};
 };
 [[nodiscard]] OutsideParts outside_of(const JsonValue& track, std::string_view side);
 
@@ -46,7 +47,7 @@ template <class T>
   const auto rule = [&track](std::string_view side) {
     const OutsideParts parts = outside_of(track, side);
     OutsideRule<T> result{parts.rule, {}, parts.plays};
-    if (parts.slope) result.slope = slope_of<Rate<T>>(*parts.slope);
+    if (parts.slope) result.slope = slope_of<Rate<T>>(parts.slope);
     return result;
   };
   return curve.with_outside(rule("before"), rule("after"));

@@ -28,25 +28,25 @@ struct KeyReader {
 [[nodiscard]] KeyOptions key_options_of(const JsonValue& track, KeyOptions options = {});
 
 template <class T>
-std::optional<Tangent<T>> read_tangent(const JsonValue* tangent, const T& value, const KeyReader<T>& reader) {
+std::optional<Tangent<T>> read_tangent(JsonValue tangent, const T& value, const KeyReader<T>& reader) {
   if (!tangent) return {};
   Tangent<T> out;
   if constexpr (!std::is_same_v<Rate<T>, double>) out.rate.setZero();
-  if (tangent->is(JsonValue::Kind::text)) {
-    out.kind = tangent_kind_of(tangent->text);
+  if (tangent.is(JsonValue::Kind::text)) {
+    out.kind = tangent_kind_of(tangent.text());
     return out;
   }
   out.kind = Tangent<T>::Kind::given;
-  const JsonValue* rate = tangent;
-  if (tangent->is(JsonValue::Kind::object)) {
-    rate = usable(*tangent, "rate");
-    out.weight = number_in(*tangent, "weight", out.weight);
-    if (const JsonValue* kind = usable(*tangent, "kind")) {
-      out.kind = tangent_kind_of(kind->text);
+  JsonValue rate = tangent;
+  if (tangent.is(JsonValue::Kind::object)) {
+    rate = usable(tangent, "rate");
+    out.weight = number_in(tangent, "weight", out.weight);
+    if (const JsonValue kind = usable(tangent, "kind")) {
+      out.kind = tangent_kind_of(kind.text());
       return out;
     }
   }
-  const std::optional<Rate<T>> read = rate ? reader.rate(*rate, value) : std::nullopt;
+  const std::optional<Rate<T>> read = rate ? reader.rate(rate, value) : std::nullopt;
   if (!read) return {};
   out.rate = *read;
   return out;
@@ -59,20 +59,20 @@ std::optional<Curve<T>> read_keys(const JsonValue& list, const ClipTimes& times,
   const std::size_t problems_before = problems.size();
   const std::vector<std::optional<double>> seconds = times.of_keys(list, problems);
   std::vector<Key<T>> keys;
-  for (std::size_t i = 0; i < list.items.size(); ++i) {
-    const KeyParts parts = key_parts(list.items[i]);
-    const std::optional<T> value = parts.value ? reader.value(*parts.value) : std::nullopt;
+  for (std::size_t i = 0; i < list.items().size(); ++i) {
+    const KeyParts parts = key_parts(list.items()[i]);
+    const std::optional<T> value = parts.value ? reader.value(parts.value) : std::nullopt;
     if (!value || !seconds[i]) continue;
     Key<T> key{.time = *seconds[i], .value = *value};
     if (parts.ease)
-      if (const std::optional<Ease> ease = Ease::named(parts.ease->text)) key.ease = ease->scaled(reader.unit);
-    key.in = read_tangent(parts.in, parts.value_in ? reader.value(*parts.value_in).value_or(*value) : *value, reader);
+      if (const std::optional<Ease> ease = Ease::named(parts.ease.text())) key.ease = ease->scaled(reader.unit);
+    key.in = read_tangent(parts.in, parts.value_in ? reader.value(parts.value_in).value_or(*value) : *value, reader);
     key.out = read_tangent(parts.out, *value, reader);
-    if (parts.value_in) key.value_in = reader.value(*parts.value_in);
-    if (reader.turn) key.turn = reader.turn(list.items[i]);
+    if (parts.value_in) key.value_in = reader.value(parts.value_in);
+    if (reader.turn) key.turn = reader.turn(list.items()[i]);
     keys.push_back(std::move(key));
   }
-  if (keys.size() != list.items.size() || keys.empty() || problems.size() != problems_before) return {};
+  if (keys.size() != list.items().size() || keys.empty() || problems.size() != problems_before) return {};
   try {
     return keyed_curve<T>(std::span<const Key<T>>(keys), options);
   } catch (const std::invalid_argument& fault) {

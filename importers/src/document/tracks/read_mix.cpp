@@ -26,17 +26,17 @@ Curve<Vec3> of_a_plane(const Curve<Vec2>& factors) {
 
 std::optional<std::vector<Curve<double>>> read_mix_weights(const JsonValue& mix, const ClipTimes& times,
                                                            Problems& problems) {
-  const JsonValue *values = usable(mix, "values"), *weights = usable(mix, "weights");
+  const JsonValue values = usable(mix, "values"), weights = usable(mix, "weights");
   if (!values || !weights) return {};
-  if (weights->items.size() != values->items.size()) {
-    problems.add(*weights, "each value has a weight; there are " + std::to_string(values->items.size()) +
-                               " values and " + std::to_string(weights->items.size()) + " weights");
+  if (weights.items().size() != values.items().size()) {
+    problems.add(weights, "each value has a weight; there are " + std::to_string(values.items().size()) +
+                              " values and " + std::to_string(weights.items().size()) + " weights");
     return {};
   }
   std::vector<Curve<double>> curves;
-  for (const JsonValue& each : weights->items)
+  for (const JsonValue& each : weights.items())
     if (const std::optional<Curve<double>> curve = read_numbers(each, times, problems)) curves.push_back(*curve);
-  if (curves.size() != weights->items.size()) return {};
+  if (curves.size() != weights.items().size()) return {};
   return curves;
 }
 
@@ -44,7 +44,7 @@ std::optional<Curve<Vec3>> read_aspect(const JsonValue& ratios, const ClipTimes&
   if (!ratios.is(JsonValue::Kind::list)) return {};
   KeyReader<double> reader;
   reader.value = [](const JsonValue& value) {
-    return value.is(JsonValue::Kind::number) ? std::optional(value.number) : std::nullopt;
+    return value.is(JsonValue::Kind::number) ? std::optional(value.number()) : std::nullopt;
   };
   reader.rate = [&reader](const JsonValue& rate, double) { return reader.value(rate); };
   const std::optional<Curve<double>> curve = read_keys<double>(ratios, times, reader, {.logarithmic = true}, problems);

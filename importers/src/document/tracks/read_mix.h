@@ -24,11 +24,11 @@ namespace tweenfall::document {
 template <class T, class ValueOf>
 std::optional<std::vector<Curve<T>>> read_mix_values(const JsonValue& mix, const ValueOf& value_of) {
   std::vector<Curve<T>> values;
-  const JsonValue* list = mix.find("values");
+  const JsonValue list = mix.find("values");
   if (!list) return {};
-  for (const JsonValue& each : list->items)
+  for (const JsonValue& each : list.items())
     if (const std::optional<T> value = value_of(each)) values.push_back(Curve<T>(*value));
-  if (values.empty() || values.size() != list->items.size()) return {};
+  if (values.empty() || values.size() != list.items().size()) return {};
   return values;
 }
 

@@ -15,13 +15,13 @@ namespace {
 using namespace tweenfall::modifiers;
 
 std::optional<double> number_at(const JsonValue& object, std::string_view name) {
-  const JsonValue* value = usable(object, name);
-  return value ? std::optional(value->number) : std::nullopt;
+  const JsonValue value = usable(object, name);
+  return value ? std::optional(value.number()) : std::nullopt;
 }
 
 std::vector<double> numbers_at(const JsonValue& list) {
   std::vector<double> result;
-  for (const JsonValue& item : list.items) result.push_back(item.number);
+  for (const JsonValue& item : list.items()) result.push_back(item.number());
   return result;
 }
 
@@ -52,15 +52,15 @@ Noise noise(const JsonValue& o) {
 
 Generator polynomial(const JsonValue& o) {
   Generator result;
-  if (const JsonValue* list = usable(o, "coefficients")) result.coefficients = numbers_at(*list);
+  if (const JsonValue list = usable(o, "coefficients")) result.coefficients = numbers_at(list);
   result.additive = flag_in(o, "add", false);
   return result;
 }
 
 Generator factors(const JsonValue& o) {
   Generator result{.coefficients = {}, .factorized = true, .additive = flag_in(o, "add", false)};
-  if (const JsonValue* lines = usable(o, "lines"))
-    for (const JsonValue& line : lines->items)
+  if (const JsonValue lines = usable(o, "lines"))
+    for (const JsonValue& line : lines.items())
       for (const double v : numbers_at(line)) result.coefficients.push_back(v);
   return result;
 }
@@ -85,31 +85,31 @@ Envelope envelope(const JsonValue& o) {
                   .low = number_in(o, "low", -1),
                   .high = number_in(o, "high", 1),
                   .points = {}};
-  if (const JsonValue* points = usable(o, "points"))
-    for (const JsonValue& point : points->items)
+  if (const JsonValue points = usable(o, "points"))
+    for (const JsonValue& point : points.items())
       if (const std::optional<Vec3> p = vector_of(point)) result.points.push_back({p->x(), p->y(), p->z()});
   return result;
 }
 
 std::optional<modifiers::Kind> kind_of(const JsonValue& modifier, Problems& problems) {
-  if (const JsonValue* o = usable(modifier, "cycles")) return cycles(*o);
-  if (const JsonValue* o = usable(modifier, "noise")) return noise(*o);
-  if (const JsonValue* o = usable(modifier, "polynomial")) return polynomial(*o);
-  if (const JsonValue* o = usable(modifier, "factors")) return factors(*o);
-  if (const JsonValue* o = usable(modifier, "function")) return function(*o);
-  if (const JsonValue* o = usable(modifier, "stepped"))
-    return Stepped{.step = number_in(*o, "step", 1),
-                   .offset = number_in(*o, "offset", 0),
-                   .start = number_at(*o, "start"),
-                   .end = number_at(*o, "end")};
-  if (const JsonValue* o = usable(modifier, "limits"))
-    return Limits{number_at(*o, "low"), number_at(*o, "high"), number_at(*o, "start"), number_at(*o, "end")};
-  if (const JsonValue* o = usable(modifier, "envelope")) return envelope(*o);
-  if (const JsonValue* o = usable(modifier, "placement"))
-    return Placement{number_in(*o, "time_offset", 0), number_in(*o, "time_scale", 1), number_in(*o, "value_offset", 0),
-                     number_in(*o, "value_scale", 1)};
-  if (const JsonValue* keys = usable(modifier, "warp"))
-    if (const std::optional<Curve<double>> clock = read_plain_keys(*keys, problems)) return TimeWarp{*clock};
+  if (const JsonValue o = usable(modifier, "cycles")) return cycles(o);
+  if (const JsonValue o = usable(modifier, "noise")) return noise(o);
+  if (const JsonValue o = usable(modifier, "polynomial")) return polynomial(o);
+  if (const JsonValue o = usable(modifier, "factors")) return factors(o);
+  if (const JsonValue o = usable(modifier, "function")) return function(o);
+  if (const JsonValue o = usable(modifier, "stepped"))
+    return Stepped{.step = number_in(o, "step", 1),
+                   .offset = number_in(o, "offset", 0),
+                   .start = number_at(o, "start"),
+                   .end = number_at(o, "end")};
+  if (const JsonValue o = usable(modifier, "limits"))
+    return Limits{number_at(o, "low"), number_at(o, "high"), number_at(o, "start"), number_at(o, "end")};
+  if (const JsonValue o = usable(modifier, "envelope")) return envelope(o);
+  if (const JsonValue o = usable(modifier, "placement"))
+    return Placement{number_in(o, "time_offset", 0), number_in(o, "time_scale", 1), number_in(o, "value_offset", 0),
+                     number_in(o, "value_scale", 1)};
+  if (const JsonValue keys = usable(modifier, "warp"))
+    if (const std::optional<Curve<double>> clock = read_plain_keys(keys, problems)) return TimeWarp{*clock};
   return {};
 }
 
@@ -117,13 +117,13 @@ std::optional<modifiers::Kind> kind_of(const JsonValue& modifier, Problems& prob
 template <class Check>
 std::optional<std::vector<Modifier>> modifiers_in(const JsonValue& list, const Check& check, Problems& problems) {
   std::vector<Modifier> modifiers;
-  for (const JsonValue& item : list.items) {
+  for (const JsonValue& item : list.items()) {
     std::optional<modifiers::Kind> kind = kind_of(item, problems);
     if (!kind) continue;
     Modifier modifier{std::move(*kind)};
-    if (const JsonValue* range = usable(item, "range"))
-      modifier.range = ModifierRange{number_in(*range, "start", 0), number_in(*range, "end", 0),
-                                     number_in(*range, "blend_in", 0), number_in(*range, "blend_out", 0)};
+    if (const JsonValue range = usable(item, "range"))
+      modifier.range = ModifierRange{number_in(range, "start", 0), number_in(range, "end", 0),
+                                     number_in(range, "blend_in", 0), number_in(range, "blend_out", 0)};
     modifier.influence = number_in(item, "influence", 1);
     try {
       check(modifier);
@@ -134,7 +134,7 @@ std::optional<std::vector<Modifier>> modifiers_in(const JsonValue& list, const C
     }
     modifiers.push_back(std::move(modifier));
   }
-  if (modifiers.size() != list.items.size()) return {};
+  if (modifiers.size() != list.items().size()) return {};
   return modifiers;
 }
 
@@ -142,11 +142,11 @@ std::optional<std::vector<Modifier>> modifiers_in(const JsonValue& list, const C
 
 template <class T>
 std::optional<Curve<T>> with_modifiers_of(const JsonValue& track, const Curve<T>& curve, Problems& problems) {
-  const JsonValue* said = usable(track, "modifiers");
+  const JsonValue said = usable(track, "modifiers");
   if (!said) return curve;
   if constexpr (std::is_same_v<T, double>) {
     const auto check = [&](const Modifier& one) { (void)modified(curve, std::span(&one, 1)); };
-    const std::optional<std::vector<Modifier>> modifiers = modifiers_in(*said, check, problems);
+    const std::optional<std::vector<Modifier>> modifiers = modifiers_in(said, check, problems);
     return modifiers ? std::optional(modified(curve, *modifiers)) : std::nullopt;
   } else {
     using Lists = std::vector<std::vector<Modifier>>;
@@ -165,12 +165,12 @@ std::optional<Curve<T>> with_modifiers_of(const JsonValue& track, const Curve<T>
       else
         faulty = true;
     };
-    if (said->is(JsonValue::Kind::list)) {
-      read(*said, 0);
+    if (said.is(JsonValue::Kind::list)) {
+      read(said, 0);
       std::fill(lists.begin() + 1, lists.end(), lists.front());
     } else {
       for (std::size_t i = 0; i < size; ++i)
-        if (const JsonValue* list = usable(*said, std::string_view("xyzw").substr(i, 1))) read(*list, i);
+        if (const JsonValue list = usable(said, std::string_view("xyzw").substr(i, 1))) read(list, i);
     }
     return faulty ? std::nullopt : std::optional(over(lists));
   }

@@ -44,38 +44,38 @@ class RotationTrack {
  public:
   RotationTrack(const JsonValue& track, const ClipTimes& times, Problems& problems)
       : track_(track),
-        list_(track.is(Kind::list) ? &track : usable(track, "keys")),
+        list_(track.is(Kind::list) ? track : usable(track, "keys")),
         times_(times),
         problems_(problems) {}
 
   std::optional<Curve<Quat>> read() {
     if (usable(track_, "axis")) return about_axis();
-    if (const JsonValue* mix = usable(track_, "barycentric")) return mixed(*mix);
+    if (const JsonValue mix = usable(track_, "barycentric")) return mixed(mix);
     if (has_function(track_)) {
       const std::optional<Curve<Quat>> spline = read_rotation_spline(track_, problems_);
       return spline ? std::optional(with_outside_of(track_, *spline)) : std::nullopt;
     }
-    if (!list_ || list_->items.empty()) return {};
-    const JsonValue* first = key_parts(list_->items.front()).value;
+    if (!list_ || list_.items().empty()) return {};
+    const JsonValue first = key_parts(list_.items().front()).value;
     if (!first) {
-      (void)times_.of_keys(*list_, problems_);
+      (void)times_.of_keys(list_, problems_);
       return {};
     }
-    if (first->find("euler")) return in_euler();
-    if (first->find("angle")) return in_axis_angle();
+    if (first.find("euler")) return in_euler();
+    if (first.find("angle")) return in_axis_angle();
     return in_quaternions(text_in(track_, "turn") == "long");
   }
 
  private:
   std::optional<Curve<Quat>> about_axis() {
-    const std::optional<Vec3> axis = axis_of(*usable(track_, "axis"), problems_);
+    const std::optional<Vec3> axis = axis_of(usable(track_, "axis"), problems_);
     std::optional<Curve<double>> angle;
-    if (const JsonValue* mix = usable(track_, "barycentric"))
-      angle = mixed_angle(*mix);
+    if (const JsonValue mix = usable(track_, "barycentric"))
+      angle = mixed_angle(mix);
     else if (has_function(track_))
       angle = read_angle_function(track_, problems_);
     else if (list_)
-      angle = degrees_curve([](const JsonValue& value) { return &value; }, {});
+      angle = degrees_curve([](const JsonValue& value) { return value; }, {});
     if (!axis || !angle) return {};
     angle = with_outside_of(track_, *angle);
     if (usable(track_, "modifiers")) angle = with_modifiers(*angle);
@@ -85,7 +85,7 @@ class RotationTrack {
 
   std::optional<Curve<double>> mixed_angle(const JsonValue& mix) {
     const auto angle_of = [](const JsonValue& value) {
-      return value.is(Kind::number) ? std::optional(radians(value.number)) : std::nullopt;
+      return value.is(Kind::number) ? std::optional(radians(value.number())) : std::nullopt;
     };
     const std::optional<std::vector<Curve<double>>> weights = read_mix_weights(mix, times_, problems_);
     const std::optional<std::vector<Curve<double>>> values = read_mix_values<double>(mix, angle_of);
@@ -117,16 +117,16 @@ class RotationTrack {
   }
 
   // The unwrapped angle about one axis. Rates are degrees per second, or angular velocities along `axis`.
-  std::optional<Curve<double>> degrees_curve(const std::function<const JsonValue*(const JsonValue&)>& angle_in,
+  std::optional<Curve<double>> degrees_curve(const std::function<JsonValue(const JsonValue&)>& angle_in,
                                              const std::optional<Vec3>& axis) {
     KeyReader<double> reader;
     reader.value = [&](const JsonValue& value) -> std::optional<double> {
-      const JsonValue* angle = angle_in(value);
-      if (!angle || !angle->is(Kind::number)) return {};
-      return radians(angle->number);
+      const JsonValue angle = angle_in(value);
+      if (!angle || !angle.is(Kind::number)) return {};
+      return radians(angle.number());
     };
     reader.rate = [&](const JsonValue& rate, double) -> std::optional<double> {
-      if (rate.is(Kind::number)) return radians(rate.number);
+      if (rate.is(Kind::number)) return radians(rate.number());
       const std::optional<Vec3> given = vector_of(rate);
       if (!given || !axis) return {};
       const double along = given->dot(*axis);
@@ -138,15 +138,15 @@ class RotationTrack {
       return radians(along);
     };
     reader.unit = radians(1);
-    return read_keys<double>(*list_, times_, reader, key_options_of(track_), problems_);
+    return read_keys<double>(list_, times_, reader, key_options_of(track_), problems_);
   }
 
   std::optional<Curve<Quat>> in_euler() {
     const EulerOrder order = order_of(text_in(track_, "order", "XYZ"));
     KeyReader<Vec3> reader;
     reader.value = [](const JsonValue& value) -> std::optional<Vec3> {
-      const JsonValue* euler = usable(value, "euler");
-      const std::optional<Vec3> angles = euler ? vector_of(*euler) : std::nullopt;
+      const JsonValue euler = usable(value, "euler");
+      const std::optional<Vec3> angles = euler ? vector_of(euler) : std::nullopt;
       if (!angles) return {};
       return in_radians(*angles);
     };
@@ -171,8 +171,7 @@ class RotationTrack {
       return rates;
     };
     reader.unit = radians(1);
-    const std::optional<Curve<Vec3>> angles =
-        read_keys<Vec3>(*list_, times_, reader, key_options_of(track_), problems_);
+    const std::optional<Curve<Vec3>> angles = read_keys<Vec3>(list_, times_, reader, key_options_of(track_), problems_);
     if (!angles) return {};
     std::optional<Curve<Vec3>> turned = with_outside_of(track_, *angles);
     if (usable(track_, "modifiers")) turned = with_modifiers(*turned);
@@ -181,18 +180,18 @@ class RotationTrack {
 
   // Turns about one axis keep their full turns; about different ones they are rotations like any other.
   std::optional<Curve<Quat>> in_axis_angle() {
-    const JsonValue* first = usable(*key_parts(list_->items.front()).value, "axis");
-    std::optional<Vec3> axis = first ? axis_of(*first, problems_) : std::nullopt;
+    const JsonValue first = usable(key_parts(list_.items().front()).value, "axis");
+    std::optional<Vec3> axis = first ? axis_of(first, problems_) : std::nullopt;
     bool one_axis = axis.has_value();
-    const JsonValue* many_turns = nullptr;
-    for (const JsonValue& key : list_->items) {
+    JsonValue many_turns;
+    for (const JsonValue& key : list_.items()) {
       const KeyParts parts = key_parts(key);
-      for (const JsonValue* value : {parts.value, parts.value_in}) {
-        const JsonValue* other = value ? usable(*value, "axis") : nullptr;
+      for (const JsonValue& value : {parts.value, parts.value_in}) {
+        const JsonValue other = value ? usable(value, "axis") : JsonValue();
         Problems unheard;
-        const std::optional<Vec3> unit = other ? axis_of(*other, unheard) : std::nullopt;
+        const std::optional<Vec3> unit = other ? axis_of(other, unheard) : std::nullopt;
         if (one_axis && unit && !((*unit - *axis).norm() < 1e-12)) one_axis = false;
-        if (value && std::abs(number_in(*value, "angle", 0)) > 360) many_turns = usable(*value, "angle");
+        if (value && std::abs(number_in(value, "angle", 0)) > 360) many_turns = usable(value, "angle");
       }
     }
     if (one_axis) {
@@ -202,8 +201,8 @@ class RotationTrack {
       return axis_curve(*axis, with_outside_of(track_, *angle));
     }
     if (many_turns)
-      problems_.add(*many_turns,
-                    number_text(many_turns->number) +
+      problems_.add(many_turns,
+                    number_text(many_turns.number()) +
                         " degrees are more than a turn, which only a track whose keys share one axis can keep");
     return in_quaternions(false);
   }
@@ -218,7 +217,7 @@ class RotationTrack {
     };
     reader.unit = radians(1);
     reader.turn = [&](const JsonValue& key) { return turn_of(key, long_way); };
-    const std::optional<Curve<Quat>> curve = read_keys<Quat>(*list_, times_, reader, key_options_of(track_), problems_);
+    const std::optional<Curve<Quat>> curve = read_keys<Quat>(list_, times_, reader, key_options_of(track_), problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
   }
@@ -226,21 +225,21 @@ class RotationTrack {
   // The way to the next key: as the key says, else as the track does.
   Turn turn_of(const JsonValue& key, bool long_way) {
     Turn turn{long_way ? Turn::Way::longer : Turn::Way::shorter};
-    const JsonValue* said = key.is(Kind::object) ? usable(key, "turn") : nullptr;
+    const JsonValue said = key.is(Kind::object) ? usable(key, "turn") : JsonValue();
     if (!said) return turn;
-    const std::string way = said->is(Kind::text) ? said->text : text_in(*said, "way");
+    const std::string way = said.is(Kind::text) ? std::string(said.text()) : text_in(said, "way");
     if (!way.empty()) turn.way = way == "long" ? Turn::Way::longer : Turn::Way::shorter;
-    if (!said->is(Kind::object)) return turn;
-    turn.whole_turns = static_cast<int>(number_in(*said, "turns", 0));
-    if (const JsonValue* axis = usable(*said, "axis")) {
+    if (!said.is(Kind::object)) return turn;
+    turn.whole_turns = static_cast<int>(number_in(said, "turns", 0));
+    if (const JsonValue axis = usable(said, "axis")) {
       turn.way = Turn::Way::along;
-      turn.axis = axis_of(*axis, problems_).value_or(Vec3(0, 0, 1));
+      turn.axis = axis_of(axis, problems_).value_or(Vec3(0, 0, 1));
     }
     return turn;
   }
 
   const JsonValue& track_;
-  const JsonValue* list_;
+  JsonValue list_;
   const ClipTimes& times_;
   Problems& problems_;
 };

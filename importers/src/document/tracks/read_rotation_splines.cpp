@@ -12,7 +12,7 @@ namespace {
 // Nothing where one of them is faulty.
 std::vector<Quat> rotations_in(const JsonValue& settings, Problems& problems) {
   std::vector<Quat> result;
-  for (const JsonValue& each : usable(settings, "points")->items) {
+  for (const JsonValue& each : usable(settings, "points").items()) {
     const std::optional<Quat> q = rotation_of(each, order_of(text_in(each, "order", "XYZ")), problems);
     if (!q) return {};
     result.push_back(*q);
@@ -21,9 +21,9 @@ std::vector<Quat> rotations_in(const JsonValue& settings, Problems& problems) {
 }
 
 std::optional<Vec3> velocity_in(const JsonValue& settings, std::string_view end) {
-  const JsonValue* said = usable(settings, end);
+  const JsonValue said = usable(settings, end);
   if (!said) return {};
-  return Vec3(radians(1) * vector_in(*said, "rate", Vec3(0, 0, 0)));
+  return Vec3(radians(1) * vector_in(said, "rate", Vec3(0, 0, 0)));
 }
 
 std::optional<Curve<Quat>> through_rotations(const JsonValue& settings, Problems& problems) {
@@ -47,12 +47,12 @@ std::optional<Curve<Quat>> by_controls(const JsonValue& settings, Problems& prob
 
 std::optional<Curve<Quat>> read_rotation_spline(const JsonValue& track, Problems& problems) {
   for (const auto& [name, read] : {std::pair("spline", &through_rotations), std::pair("bezier", &by_controls)}) {
-    const JsonValue* settings = usable(track, name);
-    if (!settings || has_faults(*settings) || !usable(*settings, "points")) continue;
+    const JsonValue settings = usable(track, name);
+    if (!settings || has_faults(settings) || !usable(settings, "points")) continue;
     try {
-      return read(*settings, problems);
+      return read(settings, problems);
     } catch (const std::invalid_argument& fault) {
-      problems.add(*settings, fault.what());
+      problems.add(settings, fault.what());
     }
   }
   return {};

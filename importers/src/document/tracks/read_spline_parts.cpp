@@ -9,26 +9,26 @@ namespace tweenfall::document {
 
 bool has_faults(const JsonValue& value) {
   if (value.is(JsonValue::Kind::faulty)) return true;
-  return std::any_of(value.items.begin(), value.items.end(), has_faults) ||
-         std::any_of(value.members.begin(), value.members.end(),
+  return std::any_of(value.items().begin(), value.items().end(), has_faults) ||
+         std::any_of(value.members().begin(), value.members().end(),
                      [](const JsonMember& member) { return has_faults(member.value); });
 }
 
 bool has_count(const JsonValue& settings, std::string_view name, std::size_t count, const std::string& why,
                Problems& problems) {
-  const JsonValue* list = usable(settings, name);
-  if (!list || list->items.size() == count) return true;
-  problems.add(*list,
-               "expected " + std::to_string(count) + ", " + why + "; found " + std::to_string(list->items.size()));
+  const JsonValue list = usable(settings, name);
+  if (!list || list.items().size() == count) return true;
+  problems.add(list,
+               "expected " + std::to_string(count) + ", " + why + "; found " + std::to_string(list.items().size()));
   return false;
 }
 
 bool has_rising_times(const JsonValue& settings, Problems& problems) {
-  const JsonValue* times = usable(settings, "times");
-  for (std::size_t i = 1; times && i < times->items.size(); ++i) {
-    const double before = times->items[i - 1].number, time = times->items[i].number;
+  const JsonValue times = usable(settings, "times");
+  for (std::size_t i = 1; times && i < times.items().size(); ++i) {
+    const double before = times.items()[i - 1].number(), time = times.items()[i].number();
     if (time > before) continue;
-    problems.add(times->items[i],
+    problems.add(times.items()[i],
                  "times must increase; " + number_text(time) + " s is not after " + number_text(before) + " s");
     return false;
   }
@@ -36,13 +36,13 @@ bool has_rising_times(const JsonValue& settings, Problems& problems) {
 }
 
 std::size_t bezier_curves_in(const JsonValue& settings, std::size_t degree, Problems& problems) {
-  const JsonValue* points = usable(settings, "points");
+  const JsonValue points = usable(settings, "points");
   if (!points) return 0;
-  const std::size_t count = points->items.size(), curves = (count - 1) / degree;
+  const std::size_t count = points.items().size(), curves = (count - 1) / degree;
   if (curves == 0 || (count - 1) % degree != 0) {
-    problems.add(*points, "curves of degree " + std::to_string(degree) + " that share their ends have " +
-                              std::to_string(degree + 1) + " points, or " + std::to_string(2 * degree + 1) + ", " +
-                              std::to_string(3 * degree + 1) + ", ...; found " + std::to_string(count));
+    problems.add(points, "curves of degree " + std::to_string(degree) + " that share their ends have " +
+                             std::to_string(degree + 1) + " points, or " + std::to_string(2 * degree + 1) + ", " +
+                             std::to_string(3 * degree + 1) + ", ...; found " + std::to_string(count));
     return 0;
   }
   const std::string why = "one for each of the " + std::to_string(curves + 1) + " ends";
@@ -50,9 +50,9 @@ std::size_t bezier_curves_in(const JsonValue& settings, std::size_t degree, Prob
 }
 
 std::vector<double> times_in(const JsonValue& settings, std::vector<double> proposed) {
-  if (const JsonValue* stated = usable(settings, "times")) {
+  if (const JsonValue stated = usable(settings, "times")) {
     std::vector<double> times;
-    for (const JsonValue& item : stated->items) times.push_back(item.number);
+    for (const JsonValue& item : stated.items()) times.push_back(item.number());
     return times;
   }
   const double duration = number_in(settings, "duration", 1), whole = proposed.back();

@@ -39,19 +39,19 @@ class SplineReader {
     if (usable(settings, "rates"))
       return quintic_spline<T>(times, points, values_in(settings, "rates"), values_in(settings, "accelerations"));
     const SplineEnds<T> ends{end_in(settings, "start"), end_in(settings, "end"), closed};
-    const JsonValue* word = usable(settings, "ease");
-    if (!word || word->text == "natural") return c2_spline<T>(times, points, ends);
-    const std::optional<Ease> rule = Ease::named(word->text);
+    const JsonValue word = usable(settings, "ease");
+    if (!word || word.text() == "natural") return c2_spline<T>(times, points, ends);
+    const std::optional<Ease> rule = Ease::named(word.text());
     if (!rule) return {};
     if (!rule->slope_rule()) {
-      problems_.add(*word, "a spline takes an ease that is a rule of slopes, as \"catmull-rom\" is; found " +
-                               in_quotes(word->text));
+      problems_.add(word, "a spline takes an ease that is a rule of slopes, as \"catmull-rom\" is; found " +
+                              in_quotes(word.text()));
       return {};
     }
     for (const char* name : {"start", "end"}) {
-      const JsonValue* end = usable(settings, name);
-      if (!end || !end->is(Kind::text)) continue;
-      problems_.add(*end, "only a spline of the ease \"natural\" can be without a knot next to its end");
+      const JsonValue end = usable(settings, name);
+      if (!end || !end.is(Kind::text)) continue;
+      problems_.add(end, "only a spline of the ease \"natural\" can be without a knot next to its end");
       return {};
     }
     return cubic_spline<T>(times, points, rule->scaled(unit_), ends);
@@ -73,32 +73,32 @@ class SplineReader {
     const int degree = static_cast<int>(degree_in(settings));
     const std::size_t knots_wanted = points.size() + static_cast<std::size_t>(degree) + 1;
     if (!has_count(settings, "knots", knots_wanted, "degree + 1 more than points", problems_)) return {};
-    if (const JsonValue* knots = usable(settings, "knots")) return b_spline<T>(degree, numbers_in(*knots), points);
+    if (const JsonValue knots = usable(settings, "knots")) return b_spline<T>(degree, numbers_in(knots), points);
     return b_spline<T>(degree, clamped_knots(degree, points.size(), 0, number_in(settings, "duration", 1)), points);
   }
 
  private:
   [[nodiscard]] T value_of(const JsonValue& value) const {
     if constexpr (std::is_same_v<T, double>) {
-      return unit_ * value.number;
+      return unit_ * value.number();
     } else {
       T result = zero<T>();
-      for (std::size_t i = 0; i < value.items.size() && i < static_cast<std::size_t>(T::RowsAtCompileTime); ++i)
-        result[static_cast<Eigen::Index>(i)] = unit_ * value.items[i].number;
+      for (std::size_t i = 0; i < value.items().size() && i < static_cast<std::size_t>(T::RowsAtCompileTime); ++i)
+        result[static_cast<Eigen::Index>(i)] = unit_ * value.items()[i].number();
       return result;
     }
   }
 
   [[nodiscard]] std::vector<T> values_in(const JsonValue& settings, std::string_view name) const {
     std::vector<T> result;
-    if (const JsonValue* list = usable(settings, name))
-      for (const JsonValue& item : list->items) result.push_back(value_of(item));
+    if (const JsonValue list = usable(settings, name))
+      for (const JsonValue& item : list.items()) result.push_back(value_of(item));
     return result;
   }
 
   [[nodiscard]] static std::vector<double> numbers_in(const JsonValue& list) {
     std::vector<double> result;
-    for (const JsonValue& item : list.items) result.push_back(item.number);
+    for (const JsonValue& item : list.items()) result.push_back(item.number());
     return result;
   }
 
@@ -107,11 +107,11 @@ class SplineReader {
   }
 
   [[nodiscard]] SplineEnd<T> end_in(const JsonValue& settings, std::string_view name) const {
-    const JsonValue* said = usable(settings, name);
+    const JsonValue said = usable(settings, name);
     if (!said) return {};
-    if (said->is(Kind::text)) return SplineEnd<T>::not_a_knot();
-    if (const JsonValue* rate = usable(*said, "rate")) return SplineEnd<T>::rate(value_of(*rate));
-    if (const JsonValue* given = usable(*said, "acceleration")) return SplineEnd<T>::acceleration(value_of(*given));
+    if (said.is(Kind::text)) return SplineEnd<T>::not_a_knot();
+    if (const JsonValue rate = usable(said, "rate")) return SplineEnd<T>::rate(value_of(rate));
+    if (const JsonValue given = usable(said, "acceleration")) return SplineEnd<T>::acceleration(value_of(given));
     return {};
   }
 
@@ -133,9 +133,9 @@ std::optional<Curve<T>> read_spline(const JsonValue& track, double unit, Problem
       return {};
     }
   };
-  if (const JsonValue* s = usable(track, "spline")) return read(*s, &SplineReader<T>::through_points);
-  if (const JsonValue* s = usable(track, "bezier")) return read(*s, &SplineReader<T>::of_bezier_curves);
-  if (const JsonValue* s = usable(track, "b_spline")) return read(*s, &SplineReader<T>::of_control_points);
+  if (const JsonValue s = usable(track, "spline")) return read(s, &SplineReader<T>::through_points);
+  if (const JsonValue s = usable(track, "bezier")) return read(s, &SplineReader<T>::of_bezier_curves);
+  if (const JsonValue s = usable(track, "b_spline")) return read(s, &SplineReader<T>::of_control_points);
   return {};
 }
 

@@ -24,18 +24,18 @@ using Vector = Eigen::Matrix<double, size, 1, Eigen::DontAlign>;
 
 template <int size>
 std::optional<Vector<size>> numbers_of(const JsonValue& value) {
-  if (!value.is(Kind::list) || value.items.size() != static_cast<std::size_t>(size)) return {};
+  if (!value.is(Kind::list) || value.items().size() != static_cast<std::size_t>(size)) return {};
   Vector<size> out;
   for (int i = 0; i < size; ++i) {
-    const JsonValue& item = value.items[static_cast<std::size_t>(i)];
+    const JsonValue& item = value.items()[static_cast<std::size_t>(i)];
     if (!item.is(Kind::number)) return {};
-    out[i] = item.number;
+    out[i] = item.number();
   }
   return out;
 }
 
 std::optional<double> number_of(const JsonValue& value) {
-  return value.is(Kind::number) ? std::optional(value.number) : std::nullopt;
+  return value.is(Kind::number) ? std::optional(value.number()) : std::nullopt;
 }
 
 template <class T>
@@ -48,19 +48,19 @@ class TrackReader {
  public:
   TrackReader(const JsonValue& track, const ClipTimes& times, Problems& problems)
       : track_(track),
-        list_(track.is(Kind::list) ? &track : usable(track, "keys")),
+        list_(track.is(Kind::list) ? track : usable(track, "keys")),
         times_(times),
         problems_(problems) {}
 
   std::optional<TrackCurve> read(const std::string& property) {
     if (property == "rotation") return made(read_rotation_track(track_, times_, problems_));
-    if (const JsonValue* mix = usable(track_, "barycentric")) return mixed(property, *mix);
-    if (const JsonValue* ratios = usable(track_, "aspect")) {
-      const std::optional<Curve<Vec3>> factors = read_aspect(*ratios, times_, problems_);
+    if (const JsonValue mix = usable(track_, "barycentric")) return mixed(property, mix);
+    if (const JsonValue ratios = usable(track_, "aspect")) {
+      const std::optional<Curve<Vec3>> factors = read_aspect(ratios, times_, problems_);
       return factors ? modified_by_track(*factors) : std::nullopt;
     }
     if (has_function(track_)) return function(property);
-    if (!list_ || list_->items.empty()) return {};
+    if (!list_ || list_.items().empty()) return {};
     if (property == "position") return keyed(reader_of<Vec3>(vector_of));
     if (property == "scale") return scale();
     if (property == "color") return color();
@@ -88,13 +88,13 @@ class TrackReader {
   std::optional<TrackCurve> mixed(const std::string& property, const JsonValue& mix) {
     if (property == "position") return mixed<Vec3>(mix, vector_of);
     if (property == "scale") return mixed<Vec3>(mix, scale_of);
-    const JsonValue* values = usable(mix, "values");
-    if (!values || values->items.empty()) return {};
-    const JsonValue& first = values->items.front();
+    const JsonValue values = usable(mix, "values");
+    if (!values || values.items().empty()) return {};
+    const JsonValue& first = values.items().front();
     if (property == "color" || first.is(Kind::text)) return mixed<Color>(mix, color_of);
     if (!first.is(Kind::list)) return mixed<double>(mix, number_of);
-    if (first.items.size() == 2) return mixed<Vec2>(mix, numbers_of<2>);
-    if (first.items.size() == 4) return mixed<Vec4>(mix, numbers_of<4>);
+    if (first.items().size() == 2) return mixed<Vec2>(mix, numbers_of<2>);
+    if (first.items().size() == 4) return mixed<Vec4>(mix, numbers_of<4>);
     return mixed<Vec3>(mix, numbers_of<3>);
   }
 
@@ -129,7 +129,7 @@ class TrackReader {
   template <class T>
   std::optional<TrackCurve> keyed(const KeyReader<T>& reader, const KeyOptions& options = {}) {
     const std::optional<Curve<T>> curve =
-        read_keys<T>(*list_, times_, reader, key_options_of(track_, options), problems_);
+        read_keys<T>(list_, times_, reader, key_options_of(track_, options), problems_);
     if (!curve) return {};
     return modified_by_track(with_outside_of(track_, *curve));
   }
@@ -156,14 +156,14 @@ class TrackReader {
         {"hwb", ColorSpace::hwb},       {"lab", ColorSpace::lab},   {"lch", ColorSpace::lch}};
     for (const auto& [word, meant] : spaces)
       if (space == word) options.space = meant;
-    if (const JsonValue* hue = usable(track_, "hue")) {
-      options.hue = hue->text == "longer"       ? HueRule::longer
-                    : hue->text == "increasing" ? HueRule::increasing
-                    : hue->text == "decreasing" ? HueRule::decreasing
-                                                : HueRule::shorter;
+    if (const JsonValue hue = usable(track_, "hue")) {
+      options.hue = hue.text() == "longer"       ? HueRule::longer
+                    : hue.text() == "increasing" ? HueRule::increasing
+                    : hue.text() == "decreasing" ? HueRule::decreasing
+                                                 : HueRule::shorter;
       if (hue_index(options.space) < 0)
-        problems_.add(*hue, "the space " + in_quotes(space) +
-                                " has no hue; spaces with one are \"oklch\", \"hsl\", \"hsv\", \"hwb\", \"lch\"");
+        problems_.add(hue, "the space " + in_quotes(space) +
+                               " has no hue; spaces with one are \"oklch\", \"hsl\", \"hsv\", \"hwb\", \"lch\"");
     }
     return options;
   }
@@ -177,71 +177,72 @@ class TrackReader {
 
   // One curve for each morph target.
   std::optional<TrackCurve> weights() {
-    const JsonValue* first = key_parts(list_->items.front()).value;
-    const std::size_t count = first ? first->items.size() : 0;
+    const JsonValue first = key_parts(list_.items().front()).value;
+    const std::size_t count = first ? first.items().size() : 0;
     const std::size_t problems_before = problems_.size();
-    for (const JsonValue& key : list_->items) {
+    for (const JsonValue& key : list_.items()) {
       const KeyParts parts = key_parts(key);
-      for (const JsonValue* value : {parts.value, parts.value_in}) check_count(value, count);
-      for (const JsonValue* tangent : {parts.in, parts.out})
-        check_count(tangent && tangent->is(Kind::object) ? usable(*tangent, "rate") : tangent, count);
+      for (const JsonValue& value : {parts.value, parts.value_in}) check_count(value, count);
+      for (const JsonValue& tangent : {parts.in, parts.out})
+        check_count(tangent && tangent.is(Kind::object) ? usable(tangent, "rate") : tangent, count);
     }
     if (problems_.size() != problems_before || count == 0) {
-      (void)times_.of_keys(*list_, problems_);
+      (void)times_.of_keys(list_, problems_);
       return {};
     }
     WeightCurves curves;
     for (std::size_t i = 0; i < count; ++i) {
       const auto part = [i](const JsonValue& value) -> std::optional<double> {
-        return i < value.items.size() ? number_of(value.items[i]) : std::nullopt;
+        return i < value.items().size() ? number_of(value.items()[i]) : std::nullopt;
       };
       const KeyReader<double> reader{part, [part](const JsonValue& rate, double) { return part(rate); }};
       const std::optional<Curve<double>> curve =
-          read_keys<double>(*list_, times_, reader, key_options_of(track_), problems_);
+          read_keys<double>(list_, times_, reader, key_options_of(track_), problems_);
       if (!curve) return {};
       curves.push_back(with_outside_of(track_, *curve));
     }
     return TrackCurve(std::move(curves));
   }
 
-  void check_count(const JsonValue* value, std::size_t count) {
-    if (!value || !value->is(Kind::list) || value->items.size() == count) return;
-    problems_.add(*value, "the first key has " + std::to_string(count) +
-                              " weights, one for each morph target; this has " + std::to_string(value->items.size()));
+  void check_count(JsonValue value, std::size_t count) {
+    if (!value || !value.is(Kind::list) || value.items().size() == count) return;
+    problems_.add(value, "the first key has " + std::to_string(count) +
+                             " weights, one for each morph target; this has " + std::to_string(value.items().size()));
   }
 
   template <class T>
   std::optional<TrackCurve> stepped(std::optional<T> (*value_of)(const JsonValue&)) {
     const std::size_t problems_before = problems_.size();
-    const std::vector<std::optional<double>> seconds = times_.of_keys(*list_, problems_);
+    const std::vector<std::optional<double>> seconds = times_.of_keys(list_, problems_);
     std::vector<std::pair<double, T>> steps;
-    for (std::size_t i = 0; i < list_->items.size(); ++i) {
-      const KeyParts parts = key_parts(list_->items[i]);
-      const std::optional<T> value = parts.value ? value_of(*parts.value) : std::nullopt;
+    for (std::size_t i = 0; i < list_.items().size(); ++i) {
+      const KeyParts parts = key_parts(list_.items()[i]);
+      const std::optional<T> value = parts.value ? value_of(parts.value) : std::nullopt;
       if (value && seconds[i]) steps.emplace_back(*seconds[i], *value);
     }
-    if (steps.size() != list_->items.size() || problems_.size() != problems_before) return {};
+    if (steps.size() != list_.items().size() || problems_.size() != problems_before) return {};
     return TrackCurve(StepCurve<T>(std::move(steps)));
   }
 
   std::optional<TrackCurve> user() {
-    const JsonValue* first = key_parts(list_->items.front()).value;
+    const JsonValue first = key_parts(list_.items().front()).value;
     if (!first) {
-      (void)times_.of_keys(*list_, problems_);
+      (void)times_.of_keys(list_, problems_);
       return {};
     }
-    switch (first->kind) {
+    switch (first.kind()) {
       case Kind::boolean:
         return stepped<bool>([](const JsonValue& value) {
-          return value.is(Kind::boolean) ? std::optional(value.boolean) : std::nullopt;
+          return value.is(Kind::boolean) ? std::optional(value.boolean()) : std::nullopt;
         });
       case Kind::text:
-        if (text_in(track_, "kind") != "text" && first->text.substr(0, 1) == "#") return color();
-        return stepped<std::string>(
-            [](const JsonValue& value) { return value.is(Kind::text) ? std::optional(value.text) : std::nullopt; });
+        if (text_in(track_, "kind") != "text" && first.text().substr(0, 1) == "#") return color();
+        return stepped<std::string>([](const JsonValue& value) {
+          return value.is(Kind::text) ? std::optional(std::string(value.text())) : std::nullopt;
+        });
       case Kind::list:
-        if (first->items.size() == 2) return keyed(reader_of<Vec2>(numbers_of<2>));
-        if (first->items.size() == 4) return keyed(reader_of<Vec4>(numbers_of<4>));
+        if (first.items().size() == 2) return keyed(reader_of<Vec2>(numbers_of<2>));
+        if (first.items().size() == 4) return keyed(reader_of<Vec4>(numbers_of<4>));
         return keyed(reader_of<Vec3>(numbers_of<3>));
       default:
         return keyed(reader_of<double>(number_of));
@@ -249,7 +250,7 @@ class TrackReader {
   }
 
   const JsonValue& track_;
-  const JsonValue* list_;
+  JsonValue list_;
   const ClipTimes& times_;
   Problems& problems_;
 };
@@ -259,10 +260,11 @@ class TrackReader {
 std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times, Problems& problems) {
   const std::size_t dot = track.name.rfind('.');
   if (dot == std::string::npos || track.value.is(Kind::faulty)) return {};
-  const std::string property = track.name.substr(dot + 1);
+  const std::string property(track.name.substr(dot + 1));
   std::optional<TrackCurve> curve = TrackReader(track.value, times, problems).read(property);
   if (!curve) return {};
-  return Track{track.name.substr(0, dot), property, std::move(*curve), flag_in(track.value, "relative", false)};
+  return Track{std::string(track.name.substr(0, dot)), property, std::move(*curve),
+               flag_in(track.value, "relative", false)};
 }
 
 std::optional<Curve<double>> read_numbers(const JsonValue& track, const ClipTimes& times, Problems& problems) {

@@ -1,9 +1,11 @@
 #include "document/write/from_model.h"
 
 #include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/read/values.h"
 #include "document/shape.h"
+#include "json/json_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,38 +17,57 @@ namespace tweenfall::document {
 
 namespace {
 
+// One JSON object or list in the making.
+class Parts {
+ public:
+  explicit Parts(char open) : text_(1, open), close_(open == '{' ? '}' : ']') {}
+
+  void add(std::string_view part) {
+    if (text_.size() > 1) text_ += ',';
+    text_ += part;
+  }
+  void add(std::string_view name, std::string_view part) {
+    add(in_quotes(name));
+    text_ += ':';
+    text_ += part;
+  }
+  [[nodiscard]] std::string whole() const { return text_ + close_; }
+
+ private:
+  std::string text_;
+  char close_;
+};
+
 template <class Vector>
-JsonValue numbers_json(const Vector& vector) {
-  JsonValue list = json_list({});
-  for (Eigen::Index i = 0; i < vector.size(); ++i) list.items.push_back(json_number(vector[i]));
-  return list;
+std::string numbers_json(const Vector& vector) {
+  Parts list('[');
+  for (Eigen::Index i = 0; i < vector.size(); ++i) list.add(number_text(vector[i]));
+  return list.whole();
 }
 
-JsonValue value_json(double value) {
-  return json_number(value);
+std::string value_json(double value) {
+  return number_text(value);
 }
-JsonValue value_json(const Vec2& value) {
+std::string value_json(const Vec2& value) {
   return numbers_json(value);
 }
-JsonValue value_json(const Vec3& value) {
+std::string value_json(const Vec3& value) {
   return numbers_json(value);
 }
-JsonValue value_json(const Vec4& value) {
+std::string value_json(const Vec4& value) {
   return numbers_json(value);
 }
-JsonValue value_json(const Color& value) {
-  return json_text(color_text(value));
+std::string value_json(const Color& value) {
+  return in_quotes(color_text(value));
 }
-JsonValue value_json(const Quat& value) {
-  JsonValue out = json_object();
-  add_member(out, "quat", numbers_json(value.coeffs()));
-  return out;
+std::string value_json(const Quat& value) {
+  return "{\"quat\":" + numbers_json(value.coeffs()) + "}";
 }
 
 template <class T>
-JsonValue rate_json(const Rate<T>& rate) {
+std::string rate_json(const Rate<T>& rate) {
   if constexpr (std::is_same_v<T, double>) {
-    return json_number(rate);
+    return number_text(rate);
   } else if constexpr (std::is_same_v<T, Quat>) {
     return numbers_json(Vec3(degrees(rate[0]), degrees(rate[1]), degrees(rate[2])));
   } else {
@@ -172,38 +193,40 @@ bool same_value(const Vector& a, const Vector& b) {
 
 // The key at one knot, between the stretch that arrives and the one that leaves; `value` and `rate` tell both sides.
 template <class ValueAt, class RateAt>
-JsonValue key_json(double time, const Piece* arriving, const Piece* leaving, bool jumps, const ValueAt& value,
-                   const RateAt& rate) {
+std::string key_json(double time, const Piece* arriving, const Piece* leaving, bool jumps, const ValueAt& value,
+                     const RateAt& rate) {
   const bool in = arriving && arriving->stretch == Stretch::cubic;
   const bool out = leaving && leaving->stretch == Stretch::cubic;
   const bool tells_arrival = jumps && arriving && arriving->stretch != Stretch::hold;
   const char* ease = leaving && !out ? (leaving->stretch == Stretch::hold ? "hold" : "linear") : nullptr;
   if (!in && !out && !tells_arrival) {
-    JsonValue row = json_list({json_number(time), value(Side::out)});
-    if (ease) row.items.push_back(json_text(ease));
-    return row;
+    Parts row('[');
+    row.add(number_text(time));
+    row.add(value(Side::out));
+    if (ease) row.add(in_quotes(ease));
+    return row.whole();
   }
-  JsonValue key = json_object();
-  add_member(key, "t", json_number(time));
-  add_member(key, "v", value(Side::out));
-  if (ease) add_member(key, "ease", json_text(ease));
-  if (in) add_member(key, "in", rate(Side::in));
-  if (out) add_member(key, "out", rate(Side::out));
-  if (tells_arrival) add_member(key, "v_in", value(Side::in));
-  return key;
+  Parts key('{');
+  key.add("t", number_text(time));
+  key.add("v", value(Side::out));
+  if (ease) key.add("ease", in_quotes(ease));
+  if (in) key.add("in", rate(Side::in));
+  if (out) key.add("out", rate(Side::out));
+  if (tells_arrival) key.add("v_in", value(Side::in));
+  return key.whole();
 }
 
 template <class KeyAt>
-JsonValue keys_json(const std::vector<Piece>& pieces, double only, const KeyAt& key_at) {
-  JsonValue list = json_list({});
+std::string keys_json(const std::vector<Piece>& pieces, double only, const KeyAt& key_at) {
+  Parts list('[');
   if (pieces.empty()) {
-    list.items.push_back(key_at(only, nullptr, nullptr));
-    return list;
+    list.add(key_at(only, nullptr, nullptr));
+    return list.whole();
   }
-  list.items.push_back(key_at(pieces.front().start, nullptr, &pieces.front()));
+  list.add(key_at(pieces.front().start, nullptr, &pieces.front()));
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    list.items.push_back(key_at(pieces[i].end, &pieces[i], i + 1 < pieces.size() ? &pieces[i + 1] : nullptr));
-  return list;
+    list.add(key_at(pieces[i].end, &pieces[i], i + 1 < pieces.size() ? &pieces[i + 1] : nullptr));
+  return list.whole();
 }
 
 double finite_start(double start) {
@@ -211,7 +234,7 @@ double finite_start(double start) {
 }
 
 template <class T>
-JsonValue curve_json(const Curve<T>& curve) {
+std::string curve_json(const Curve<T>& curve) {
   return keys_json(pieces_of(curve), finite_start(curve.start()),
                    [&](double time, const Piece* arriving, const Piece* leaving) {
                      const bool jumps = !same_value(curve.value(time, Side::in), curve.value(time, Side::out));
@@ -221,15 +244,15 @@ JsonValue curve_json(const Curve<T>& curve) {
                    });
 }
 
-JsonValue curve_json(const WeightCurves& curves) {
-  if (curves.empty()) return json_list({});
+std::string curve_json(const WeightCurves& curves) {
+  if (curves.empty()) return "[]";
   return keys_json(
       pieces_of(curves.front()), finite_start(curves.front().start()),
       [&](double time, const Piece* arriving, const Piece* leaving) {
         const auto all = [&](const auto& part) {
-          JsonValue list = json_list({});
-          for (const Curve<double>& curve : curves) list.items.push_back(json_number(part(curve)));
-          return list;
+          Parts list('[');
+          for (const Curve<double>& curve : curves) list.add(number_text(part(curve)));
+          return list.whole();
         };
         const bool jumps = std::any_of(curves.begin(), curves.end(), [&](const Curve<double>& curve) {
           return !same_value(curve.value(time, Side::in), curve.value(time, Side::out));
@@ -242,15 +265,18 @@ JsonValue curve_json(const WeightCurves& curves) {
 }
 
 template <class T>
-JsonValue curve_json(const StepCurve<T>& curve) {
-  JsonValue list = json_list({});
+std::string curve_json(const StepCurve<T>& curve) {
+  Parts list('[');
   for (const auto& [time, value] : curve.steps()) {
+    Parts row('[');
+    row.add(number_text(time));
     if constexpr (std::is_same_v<T, bool>)
-      list.items.push_back(json_list({json_number(time), json_boolean(value)}));
+      row.add(value ? "true" : "false");
     else
-      list.items.push_back(json_list({json_number(time), json_text(value)}));
+      row.add(in_quotes(value));
+    list.add(row.whole());
   }
-  return list;
+  return list.whole();
 }
 
 const char* outside_word(Outside outside) {
@@ -269,19 +295,19 @@ const char* outside_word(Outside outside) {
   return "hold";
 }
 
-JsonValue track_json(const Track& track) {
-  JsonValue out = json_object();
-  if (track.relative) add_member(out, "relative", json_boolean(true));
+std::string track_json(const Track& track) {
+  Parts out('{');
+  if (track.relative) out.add("relative", "true");
   std::visit(
       [&](const auto& curve) {
         if constexpr (requires { curve.before(); }) {
-          add_member(out, "before", json_text(outside_word(curve.before())));
-          add_member(out, "after", json_text(outside_word(curve.after())));
+          out.add("before", in_quotes(outside_word(curve.before())));
+          out.add("after", in_quotes(outside_word(curve.after())));
         }
-        add_member(out, "keys", curve_json(curve));
+        out.add("keys", curve_json(curve));
       },
       track.curve);
-  return out;
+  return out.whole();
 }
 
 // Names that a document can hold, each once.
@@ -298,25 +324,55 @@ class Names {
   std::set<std::string> taken_;
 };
 
-JsonValue node_json(const Node& node, const std::vector<std::string>& names) {
-  JsonValue out = json_object();
-  if (node.parent != no_node) add_member(out, "parent", json_text(names[node.parent]));
-  add_member(out, "position", numbers_json(node.rest.position));
-  if (!same_value(node.rest.rotation, Quat(1, 0, 0, 0))) add_member(out, "rotation", value_json(node.rest.rotation));
+std::string node_json(const Node& node, const std::vector<std::string>& names) {
+  Parts out('{');
+  if (node.parent != no_node) out.add("parent", in_quotes(names[node.parent]));
+  out.add("position", numbers_json(node.rest.position));
+  if (!same_value(node.rest.rotation, Quat(1, 0, 0, 0))) out.add("rotation", value_json(node.rest.rotation));
   const Vec3& scale = node.rest.scale;
-  if (scale[0] == scale[1] && scale[1] == scale[2])
-    add_member(out, "scale", json_number(scale[0]));
-  else
-    add_member(out, "scale", numbers_json(scale));
-  return out;
+  const bool even = scale[0] == scale[1] && scale[1] == scale[2];
+  out.add("scale", even ? number_text(scale[0]) : numbers_json(scale));
+  return out.whole();
+}
+
+std::string event_json(const ClipEvent& event) {
+  if (!event.is_interval()) return "[" + number_text(event.from) + "," + in_quotes(event.name) + "]";
+  Parts span('{');
+  span.add("from", number_text(event.from));
+  span.add("to", number_text(event.to));
+  span.add("name", in_quotes(event.name));
+  return span.whole();
+}
+
+std::string clip_json(const Clip& clip, const std::map<std::string, std::string>& renamed) {
+  Parts out('{'), tracks('{'), events('[');
+  if (clip.duration > 0 && std::isfinite(clip.duration)) out.add("duration", number_text(clip.duration));
+  if (clip.loop.mode != LoopMode::once) {
+    Parts loop('{');
+    loop.add("mode", in_quotes(clip.loop.mode == LoopMode::pingpong        ? "pingpong"
+                               : clip.loop.mode == LoopMode::repeat_offset ? "repeat-offset"
+                                                                           : "repeat"));
+    if (clip.loop.count > 0) loop.add("count", number_text(clip.loop.count));
+    out.add("loop", loop.whole());
+  }
+  std::set<std::string> written;
+  for (const Track& track : clip.tracks) {
+    const auto named = renamed.find(track.node);
+    const std::string name = (named == renamed.end() ? track.node : named->second) + "." + track.property;
+    if (written.insert(name).second) tracks.add(name, track_json(track));
+  }
+  for (const ClipEvent& event : clip.events) events.add(event_json(event));
+  out.add("tracks", tracks.whole());
+  out.add("events", events.whole());
+  return out.whole();
 }
 
 }  // namespace
 
-JsonValue tree_of(const Model& model) {
-  JsonValue root = json_object();
-  add_member(root, "tweenfall", json_number(1));
-  if (!model.name.empty()) add_member(root, "name", json_text(model.name));
+std::string text_of(const Model& model) {
+  Parts root('{');
+  root.add("tweenfall", "1");
+  if (!model.name.empty()) root.add("name", in_quotes(model.name));
 
   std::vector<std::string> names;
   std::map<std::string, std::string> renamed;
@@ -325,46 +381,14 @@ JsonValue tree_of(const Model& model) {
     names.push_back(node_names.unique(node.name, "node"));
     renamed.emplace(node.name, names.back());
   }
-  JsonValue nodes = json_object();
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) add_member(nodes, names[i], node_json(model.nodes[i], names));
-  if (!model.nodes.empty()) add_member(root, "nodes", std::move(nodes));
+  Parts nodes('{'), clips('{');
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) nodes.add(names[i], node_json(model.nodes[i], names));
+  if (!model.nodes.empty()) root.add("nodes", nodes.whole());
 
-  JsonValue clips = json_object();
   Names clip_names;
-  for (const Clip& clip : model.clips) {
-    JsonValue out = json_object(), tracks = json_object(), events = json_list({});
-    if (clip.duration > 0 && std::isfinite(clip.duration)) add_member(out, "duration", json_number(clip.duration));
-    if (clip.loop.mode != LoopMode::once) {
-      JsonValue loop = json_object();
-      add_member(loop, "mode",
-                 json_text(clip.loop.mode == LoopMode::pingpong        ? "pingpong"
-                           : clip.loop.mode == LoopMode::repeat_offset ? "repeat-offset"
-                                                                       : "repeat"));
-      if (clip.loop.count > 0) add_member(loop, "count", json_number(clip.loop.count));
-      add_member(out, "loop", std::move(loop));
-    }
-    for (const Track& track : clip.tracks) {
-      const auto named = renamed.find(track.node);
-      const std::string name = (named == renamed.end() ? track.node : named->second) + "." + track.property;
-      if (!tracks.find(name)) add_member(tracks, name, track_json(track));
-    }
-    for (const ClipEvent& event : clip.events) {
-      JsonValue item = json_object();
-      if (event.is_interval()) {
-        add_member(item, "from", json_number(event.from));
-        add_member(item, "to", json_number(event.to));
-        add_member(item, "name", json_text(event.name));
-      } else {
-        item = json_list({json_number(event.from), json_text(event.name)});
-      }
-      events.items.push_back(std::move(item));
-    }
-    add_member(out, "tracks", std::move(tracks));
-    add_member(out, "events", std::move(events));
-    add_member(clips, clip_names.unique(clip.name, "clip"), std::move(out));
-  }
-  add_member(root, "clips", std::move(clips));
-  return root;
+  for (const Clip& clip : model.clips) clips.add(clip_names.unique(clip.name, "clip"), clip_json(clip, renamed));
+  root.add("clips", clips.whole());
+  return root.whole();
 }
 
 }  // namespace tweenfall::document

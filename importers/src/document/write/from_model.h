@@ -1,13 +1,14 @@
 #pragma once
 
-// A model's nodes and clips as a document's tree.
+// A model's nodes and clips as a document.
 
 #include <tweenfall/importers/model.h>
 
-#include "json/json_text.h"
+#include <string>
 
 namespace tweenfall::document {
 
-[[nodiscard]] JsonValue tree_of(const Model& model);
+// The JSON text of a document, without spaces.
+[[nodiscard]] std::string text_of(const Model& model);
 
 }  // namespace tweenfall::document

@@ -1,9 +1,10 @@
 #include "document/write/write.h"
 
-#include "document/report/check.h"
+#include <tweenfall/curves/number_text.h>
 
-#include <optional>
+#include <initializer_list>
 #include <utility>
+#include <vector>
 
 namespace tweenfall::document {
 
@@ -13,122 +14,154 @@ using Kind = JsonValue::Kind;
 
 constexpr std::size_t line_width = 110;
 
+// A part of a list or an object as it is written, with its shape where it has one.
+struct Part {
+  std::string_view name;  // of a member
+  JsonValue value;
+  const Shape* shape = nullptr;
+};
+
+// What is written for a value: itself, or its parts in the order of the table.
+struct Written {
+  JsonValue value;
+  const Shape* shape = nullptr;  // as it was resolved
+  char open = 0;                 // '[' or '{'; 0 for what has no parts
+  std::vector<Part> parts{};
+};
+
+Written written(const Shape* shape, const JsonValue& value);
+
+// Its text on one line as far as it fits into `most` bytes; longer where it does not.
+void append_line(std::string& out, const Written& what, std::size_t most) {
+  if (what.open == 0) {
+    out += on_one_line(what.value);
+    return;
+  }
+  const char* gap = "";
+  out += what.open;
+  for (const Part& part : what.parts) {
+    if (out.size() > most) return;
+    out += std::exchange(gap, ", ");
+    if (what.open == '{') out += in_quotes(part.name) + ": ";
+    append_line(out, written(part.shape, part.value), most);
+  }
+  out += what.open == '[' ? ']' : '}';
+}
+
+std::string line_of(const Written& what, std::size_t most) {
+  std::string out;
+  append_line(out, what, most);
+  return out;
+}
+
+// Whether a member says what its absence means.
+bool says_nothing(const Field& field, const JsonValue& value) {
+  if (field.required || field.standard.empty()) return false;
+  const std::string line = line_of(written(field.shape, value), field.standard.size() + 2);
+  return line == field.standard || line == "{}";
+}
+
+Written of_list(const Shape& shape, const JsonValue& value) {
+  Written out{value, &shape, '[', {}};
+  std::size_t i = 0;
+  for (const JsonValue& item : value.items()) {
+    const Shape* const below = shape.kind == Shape::Kind::list                              ? shape.element
+                               : shape.kind == Shape::Kind::tuple && i < shape.parts.size() ? shape.parts[i]
+                                                                                            : nullptr;
+    out.parts.push_back({{}, item, below});
+    ++i;
+  }
+  // The third of a key is its ease.
+  if (shape.kind == Shape::Kind::tuple && out.parts.size() == 3 && shape.parts[2]->definition == "ease" &&
+      out.parts[2].value.text() == "smooth-clamped")
+    out.parts.pop_back();
+  return out;
+}
+
 // Members that only stand for one thing give way to that thing: a key of time, value and ease is a row, a track of
 // keys alone is its keys.
-std::optional<JsonValue> shorter(const Shape& shape, const JsonValue& value) {
+Written shorter(const Shape& shape, Written object) {
   const auto has_only = [&](std::initializer_list<std::string_view> names) {
-    for (const JsonMember& member : value.members) {
+    for (const Part& part : object.parts) {
       bool known = false;
-      for (const std::string_view name : names) known = known || member.name == name;
+      for (const std::string_view name : names) known = known || part.name == name;
       if (!known) return false;
     }
     return true;
   };
   if (shape.field("t") && shape.field("v") && has_only({"t", "v", "ease"})) {
-    JsonValue row = json_list({*value.find("t"), *value.find("v")});
-    if (const JsonValue* ease = value.find("ease")) row.items.push_back(*ease);
-    return row;
+    object.open = '[';
+    return object;
   }
-  const Field* keys = shape.field("keys");
-  if (keys && value.members.size() == 1 && value.find("keys") && keys->shape->kind == Shape::Kind::list) {
+  if (object.parts.size() != 1) return object;
+  const Part& only = object.parts.front();
+  const Field* const keys = shape.field("keys");
+  if (keys && only.name == "keys" && keys->shape->kind == Shape::Kind::list) {
     for (const Field& field : shape.fields)
-      if (field.required) return {};
-    return *value.find("keys");
+      if (field.required) return object;
+    return written(only.shape, only.value);
   }
-  if (shape.field("source") && value.members.size() == 1 && value.find("source")) return *value.find("source");
-  return {};
+  if (shape.field("source") && only.name == "source") return written(only.shape, only.value);
+  return object;
 }
 
-// The same value in the order of the table, without what says a default.
-JsonValue in_order(const Shape& shape, const JsonValue& value) {
-  const Shape* chosen = resolved(shape, value);
-  if (!chosen) return value;
-  JsonValue out = value;
-  switch (chosen->kind) {
-    case Shape::Kind::list:
-      for (JsonValue& item : out.items) item = in_order(*chosen->element, item);
-      return out;
-    case Shape::Kind::tuple:
-      for (std::size_t i = 0; i < out.items.size() && i < chosen->parts.size(); ++i)
-        out.items[i] = in_order(*chosen->parts[i], out.items[i]);
-      // The third of a key is its ease.
-      if (out.items.size() == 3 && chosen->parts[2]->definition == "ease" && out.items[2].text == "smooth-clamped")
-        out.items.pop_back();
-      return out;
-    case Shape::Kind::object:
-      break;
-    default:
-      return out;
-  }
-  out.members.clear();
-  for (const Field& field : chosen->fields) {
-    const JsonValue* member = value.find(field.name);
-    if (!member) continue;
-    JsonValue written = in_order(*field.shape, *member);
-    if (!field.required && !field.standard.empty()) {
-      std::vector<JsonFault> faults;
-      if (same(written, parse_json(field.standard, faults))) continue;
-      if (written.is(Kind::object) && written.members.empty()) continue;
-    }
-    add_member(out, field.name, std::move(written));
-  }
-  for (const JsonMember& member : value.members) {
-    if (chosen->field(member.name)) continue;
-    const Shape* expected = is_free_name(member.name) ? nullptr : chosen->member(member.name);
-    add_member(out, member.name, expected ? in_order(*expected, member.value) : member.value);
-  }
-  if (std::optional<JsonValue> brief = shorter(*chosen, out)) return *brief;
-  return out;
+Written of_object(const Shape& shape, const JsonValue& value) {
+  Written out{value, &shape, '{', {}};
+  for (const Field& field : shape.fields)
+    if (const JsonValue member = value.find(field.name); member && !says_nothing(field, member))
+      out.parts.push_back({field.name, member, field.shape});
+  for (const JsonMember& member : value.members())
+    if (!shape.field(member.name))
+      out.parts.push_back({member.name, member.value, is_free_name(member.name) ? nullptr : shape.member(member.name)});
+  return shorter(shape, std::move(out));
+}
+
+Written written(const Shape* shape, const JsonValue& value) {
+  static const Shape any;
+  const Shape* const chosen = shape ? resolved(*shape, value) : nullptr;
+  if (value.is(Kind::list)) return of_list(chosen ? *chosen : any, value);
+  if (value.is(Kind::object)) return of_object(chosen ? *chosen : any, value);
+  return {value, chosen, 0, {}};
 }
 
 class Writer {
  public:
-  void value(const Shape* shape, const JsonValue& value, std::size_t indent, std::size_t column) {
-    const Shape* chosen = shape ? resolved(*shape, value) : nullptr;
-    const bool many = value.is(Kind::list) ? !value.items.empty() : value.is(Kind::object) && !value.members.empty();
-    const std::string line = on_one_line(value);
-    const bool fits = column + line.size() <= line_width;
-    if (!many || (chosen && chosen->on_one_line) || (fits && !(chosen && chosen->one_a_line)) || !has_parts(value)) {
-      out += line;
+  void write(const Shape* shape, const JsonValue& value, std::size_t indent, std::size_t column) {
+    const Written what = written(shape, value);
+    const bool on_one_line = what.shape && what.shape->on_one_line, one_a_line = what.shape && what.shape->one_a_line;
+    const std::size_t room = line_width - std::min(column, line_width);
+    if (on_one_line || !has_parts(what)) {
+      append_line(out, what, static_cast<std::size_t>(-1));
       return;
     }
+    if (!one_a_line) {
+      if (const std::string line = line_of(what, room); line.size() <= room) {
+        out += line;
+        return;
+      }
+    }
     const std::string inner(indent + 2, ' ');
-    out += value.is(Kind::list) ? "[" : "{";
-    bool first = true;
-    const auto next = [&] {
-      out += first ? "\n" : ",\n";
+    out += what.open;
+    const char* gap = "\n";
+    for (const Part& part : what.parts) {
+      out += std::exchange(gap, ",\n");
       out += inner;
-      first = false;
-    };
-    for (std::size_t i = 0; i < value.items.size(); ++i) {
-      next();
-      this->value(item_shape(chosen, i), value.items[i], indent + 2, indent + 2);
-    }
-    for (const JsonMember& member : value.members) {
-      next();
-      const std::string name = in_quotes(member.name) + ": ";
+      const std::string name = what.open == '{' ? in_quotes(part.name) + ": " : std::string();
       out += name;
-      const Shape* below = !chosen || is_free_name(member.name) ? nullptr : chosen->member(member.name);
-      this->value(below, member.value, indent + 2, indent + 2 + name.size());
+      write(part.shape, part.value, indent + 2, indent + 2 + name.size());
     }
-    out += "\n" + std::string(indent, ' ') + (value.is(Kind::list) ? "]" : "}");
+    out += "\n" + std::string(indent, ' ') + (what.open == '[' ? "]" : "}");
   }
 
   std::string out;
 
  private:
   // Rows of plain numbers stay rows, however long.
-  static bool has_parts(const JsonValue& value) {
-    if (value.is(Kind::object)) return true;
-    for (const JsonValue& item : value.items)
-      if (item.is(Kind::list) || item.is(Kind::object) || item.is(Kind::text)) return true;
+  static bool has_parts(const Written& what) {
+    if (what.open == '{') return !what.parts.empty();
+    for (const Part& part : what.parts)
+      if (part.value.is(Kind::list) || part.value.is(Kind::object) || part.value.is(Kind::text)) return true;
     return false;
-  }
-
-  static const Shape* item_shape(const Shape* list, std::size_t i) {
-    if (!list) return nullptr;
-    if (list->kind == Shape::Kind::list) return list->element;
-    return list->kind == Shape::Kind::tuple && i < list->parts.size() ? list->parts[i] : nullptr;
   }
 };
 
@@ -136,7 +169,7 @@ class Writer {
 
 std::string write(const Shape& shape, const JsonValue& value) {
   Writer writer;
-  writer.value(&shape, in_order(shape, value), 0, 0);
+  writer.write(&shape, value, 0, 0);
   return writer.out + "\n";
 }
 

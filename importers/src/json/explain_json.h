@@ -1,0 +1,22 @@
+#pragma once
+
+// What is wrong where a parser stopped, and what would be right.
+
+#include "json/json_tree.h"
+
+#include <optional>
+
+namespace tweenfall::json_tree {
+
+// How far the parser came.
+struct Stop {
+  std::size_t at = 0;  // after all that was right
+  enum class After { nothing, open_object, open_list, name, value_in_object, value_in_list, whole };
+  After after = After::nothing;
+  std::optional<std::size_t> open{};  // the innermost bracket that is not closed
+  std::string_view name{};            // the last one, after a name
+};
+
+[[nodiscard]] JsonFault explained(std::string_view text, const Stop& stop, bool comments);
+
+}  // namespace tweenfall::json_tree

@@ -1,0 +1,53 @@
+#pragma once
+
+// What a tree holds.
+
+#include "json/json_tree.h"
+
+namespace tweenfall::json_tree {
+
+// A value; of a member with its name, which stands before it.
+struct JsonNode {
+  std::uint32_t offset;  // of the name of a member, else of the value
+  std::uint32_t kind : 3;
+  std::uint32_t faulty : 1;
+  std::uint32_t escaped : 1;  // a text with escapes, which stands decoded among `Content::decoded`
+  std::uint32_t named : 1;
+  std::uint32_t name_escaped : 1;
+  std::uint32_t name_length : 25;  // bytes between its quotes
+  struct Range {
+    std::uint32_t first, size;
+  };
+  union {
+    bool boolean;
+    double number;
+    Range text;      // bytes between the quotes
+    Range children;  // nodes
+  };
+};
+static_assert(sizeof(JsonNode) == 16);
+
+inline constexpr std::size_t longest_name = (std::size_t{1} << 25) - 1;
+
+// A name or text with escapes, decoded.
+struct Decoded {
+  std::uint32_t offset;  // of what is between its quotes
+  std::uint32_t first, size;
+};
+
+struct Content {
+  std::string given;  // the text, where `text` had to be mended
+  std::string text;   // what the nodes count bytes of: as long as the given one
+  JsonRules rules;
+  std::unique_ptr<JsonNode[]> nodes;  // the children of each container side by side
+  std::size_t size = 0;
+  JsonNode root;
+  std::vector<Decoded> decoded;  // in order of the text
+  std::string letters;           // theirs
+
+  [[nodiscard]] std::string_view between_quotes(JsonNode::Range range, bool escaped) const;
+  [[nodiscard]] std::string_view name(const JsonNode& node) const;
+  [[nodiscard]] std::size_t value_offset(const JsonNode& node) const;
+};
+
+}  // namespace tweenfall::json_tree
