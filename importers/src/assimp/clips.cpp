@@ -3,8 +3,6 @@
 #include "assimp/values.h"
 #include "model/model_names.h"
 
-#include <assimp/scene.h>
-
 #include <tweenfall/curves/keys.h>
 
 #include <assimp/scene.h>
@@ -14,11 +12,9 @@
 #include <set>
 #include <stdexcept>
 
-namespace tweenfall {
+namespace tweenfall::assimp {
 
 namespace {
-
-constexpr std::string_view helper_mark = "_$AssimpFbx$_";
 
 bool usable(const Vec3& value) {
   return value.allFinite();
@@ -40,7 +36,6 @@ class ClipReader {
     const double ticks = from.mTicksPerSecond > 0 ? from.mTicksPerSecond : 1;
     driven_.clear();
     for (unsigned i = 0; i < from.mNumChannels; ++i) add_channel(*from.mChannels[i], ticks, clip);
-    hold_helpers_still(clip);
     for (const Track& track : clip.tracks) {
       const double end = extent(track.curve).second;
       if (std::isfinite(end)) clip.duration = std::max(clip.duration, end);
@@ -91,21 +86,6 @@ class ClipReader {
       clip.tracks.push_back({target.node, target.property, keyed_curve<T>(std::span<const Key<T>>(keys))});
   }
 
-  /// assimp puts the whole rotation of an animated FBX node into its own channel and still leaves the helper nodes of
-  /// its pivots at rest, so that they would apply twice.
-  void hold_helpers_still(Clip& clip) {
-    for (const auto& [name, index] : nodes_) {
-      const std::size_t mark = name.find(helper_mark);
-      if (mark == std::string::npos || driven_.contains(index)) continue;
-      const auto owner = nodes_.find(name.substr(0, mark));
-      if (owner == nodes_.end() || !driven_.contains(owner->second)) continue;
-      const std::string& ours = model_.nodes[index].name;
-      clip.tracks.push_back({ours, "position", Curve<Vec3>(Vec3(0, 0, 0))});
-      clip.tracks.push_back({ours, "rotation", Curve<Quat>(Quat::Identity())});
-      clip.tracks.push_back({ours, "scale", Curve<Vec3>(Vec3(1, 1, 1))});
-    }
-  }
-
   const Model& model_;
   const std::map<std::string, std::size_t>& nodes_;
   ModelProblems& problems_;
@@ -130,4 +110,4 @@ std::vector<Clip> scene_clips(const aiScene& scene, const Model& model, const st
   return clips;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::assimp

@@ -11,7 +11,7 @@
 
 struct aiScene;
 
-namespace tweenfall {
+namespace tweenfall::assimp {
 
 /// Clips whose tracks drive the model's nodes; keys are joined by straight lines and shortest arcs, as assimp gives
 /// them.
@@ -19,4 +19,4 @@ namespace tweenfall {
 [[nodiscard]] std::vector<Clip> scene_clips(const aiScene& scene, const Model& model,
                                             const std::map<std::string, std::size_t>& nodes, ModelProblems& problems);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::assimp

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string_view>
 
-namespace tweenfall {
+namespace tweenfall::assimp {
 
 namespace {
 
@@ -67,7 +67,8 @@ class MemoryFiles : public Assimp::IOSystem {
  private:
   [[nodiscard]] bool is_beside(const std::filesystem::path& path) const {
     // A hostile file must not be able to read the rest of the disk.
-    return path.parent_path().lexically_normal() == file_.parent_path().lexically_normal() && path.filename() != "..";
+    return path.parent_path().lexically_normal() == file_.parent_path().lexically_normal() && path.filename() != ".." &&
+           !leads_out_of(file_.parent_path(), path.filename());
   }
 
   const std::string& bytes_;
@@ -80,4 +81,4 @@ std::unique_ptr<Assimp::IOSystem> memory_files(const std::string& bytes, const s
   return std::make_unique<MemoryFiles>(bytes, file);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::assimp

@@ -10,10 +10,10 @@ namespace Assimp {
 class IOSystem;
 }
 
-namespace tweenfall {
+namespace tweenfall::assimp {
 
 /// @param bytes  the content of `file`; must outlive what is returned
 [[nodiscard]] std::unique_ptr<Assimp::IOSystem> memory_files(const std::string& bytes,
                                                              const std::filesystem::path& file);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::assimp

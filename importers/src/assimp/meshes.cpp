@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::assimp {
 
 namespace {
 
@@ -129,4 +129,4 @@ SceneMeshes scene_meshes(const aiScene& scene, const std::map<std::string, std::
   return all;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::assimp

@@ -12,7 +12,7 @@
 
 struct aiScene;
 
-namespace tweenfall {
+namespace tweenfall::assimp {
 
 /// The scene's meshes in its own order, each with the skin its bones make; no_node for none.
 struct SceneMeshes {
@@ -25,4 +25,4 @@ struct SceneMeshes {
 [[nodiscard]] SceneMeshes scene_meshes(const aiScene& scene, const std::map<std::string, std::size_t>& nodes,
                                        ModelProblems& problems);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::assimp

@@ -1,20 +1,24 @@
 #include "assimp/reader.h"
 
 #include "assimp/clips.h"
+#include "assimp/memory_files.h"
 #include "assimp/meshes.h"
-#include "assimp/trial.h"
 #include "assimp/values.h"
 #include "model/model_matrix.h"
 #include "model/model_names.h"
 
 #include <tweenfall/curves/number_text.h>
 
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 
+#include <charconv>
 #include <map>
 
-namespace tweenfall {
+namespace tweenfall::assimp {
 
 namespace {
 
@@ -54,6 +58,37 @@ Pose rest_of(const aiNode& node, const std::string& name, ModelProblems& problem
   return parts.pose;
 }
 
+/// How names of Collada nodes are chosen; other formats have only names.
+enum class ColladaNames { names, ids };
+
+/// The scene, owned by `importer`. @throws ModelError
+const aiScene& import_scene(Assimp::Importer& importer, const std::string& bytes, const std::filesystem::path& file,
+                            ColladaNames names) {
+  importer.SetIOHandler(memory_files(bytes, file).release());
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, names == ColladaNames::names);
+  const unsigned steps =
+      aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_FlipUVs | aiProcess_ValidateDataStructure;
+  const aiScene* scene = importer.ReadFile(file.string(), steps);
+  if (!scene || !scene->mRootNode) throw ModelError(file.string() + ": error: " + importer.GetErrorString());
+  return *scene;
+}
+
+/// Collada states counts, for which assimp takes memory before it has seen the numbers.
+void check_counts(const std::string& bytes, const std::filesystem::path& file) {
+  for (std::size_t at = bytes.find("count=\""); at != std::string::npos; at = bytes.find("count=\"", at + 1)) {
+    std::uint64_t count = 0;
+    const char *begin = bytes.data() + at + 7, *end = bytes.data() + bytes.size();
+    const auto read = std::from_chars(begin, end, count);
+    // A number takes a digit at least, and all but the last a blank.
+    if (read.ec == std::errc() && count <= bytes.size() / 2 + 1) continue;
+    if (read.ec == std::errc::invalid_argument) continue;
+    const TextPlace place = place_in(bytes, at);
+    throw ModelError(file.string() + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) +
+                     ": error: a count of " + std::string(begin, read.ptr) + " cannot be in a file of " +
+                     std::to_string(bytes.size()) + " bytes");
+  }
+}
+
 std::string without_leading_space(const std::string& bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   return first == std::string::npos ? std::string() : bytes.substr(first);
@@ -61,13 +96,13 @@ std::string without_leading_space(const std::string& bytes) {
 
 }  // namespace
 
-Model read_with_assimp(const std::string& given, const std::filesystem::path& file, ModelProblems& problems) {
+Model read(const std::string& given, const std::filesystem::path& file, ModelProblems& problems) {
   std::string ending = file.extension().string();
   const bool collada = ending == ".dae" || ending == ".DAE";
   // assimp looks for "<?xml" at the very start.
   const std::string bytes = collada ? without_leading_space(given) : given;
   if (bytes.empty()) throw ModelError(file.string() + ": error: is empty");
-  try_import(bytes, file);
+  if (collada) check_counts(given, file);
   Assimp::Importer importer;
   const aiScene* scene = &import_scene(importer, bytes, file, ColladaNames::names);
   std::vector<Waiting> waiting = flattened(*scene->mRootNode);
@@ -103,4 +138,4 @@ Model read_with_assimp(const std::string& given, const std::filesystem::path& fi
   return model;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::assimp

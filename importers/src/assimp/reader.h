@@ -1,6 +1,6 @@
 #pragma once
 
-// FBX, Collada and OBJ through assimp, with its known faults mended or stated.
+// Collada and OBJ through assimp, with its known faults mended or stated, in this very process.
 
 #include "model/model_problems.h"
 
@@ -8,11 +8,10 @@
 
 #include <string>
 
-namespace tweenfall {
+namespace tweenfall::assimp {
 
-/// Units, axes and clock are the file's; keys come as assimp resamples them, so tangents and holds of FBX are lost.
-/// @throws ModelError
-[[nodiscard]] Model read_with_assimp(const std::string& bytes, const std::filesystem::path& file,
-                                     ModelProblems& problems);
+/// Units, axes and clock are the file's.
+/// @throws ModelError; but what is malformed may also end the process, see helper.h.
+[[nodiscard]] Model read(const std::string& bytes, const std::filesystem::path& file, ModelProblems& problems);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::assimp

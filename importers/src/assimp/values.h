@@ -3,10 +3,11 @@
 // assimp's value types as ours. Templates, so that assimp's headers stay in the sources that read scenes.
 
 #include <tweenfall/curves/values.h>
+#include <tweenfall/importers/shown_text.h>
 
 #include <string>
 
-namespace tweenfall {
+namespace tweenfall::assimp {
 
 template <class AssimpVector>
 Vec3 vector_of(const AssimpVector& v) {
@@ -34,7 +35,7 @@ Vec3 translation_of(const AssimpMatrix& m) {
 
 template <class AssimpString>
 std::string text_of(const AssimpString& text) {
-  return std::string(text.C_Str());
+  return utf8_or_latin1(text.C_Str());
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::assimp

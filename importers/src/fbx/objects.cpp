@@ -1,6 +1,6 @@
 #include "fbx/objects.h"
 
-#include "model/readable_text.h"
+#include <tweenfall/importers/shown_text.h>
 
 namespace tweenfall::fbx {
 
@@ -11,7 +11,7 @@ std::string shown_name(std::string_view given, bool text) {
   const std::size_t mark = given.find(text ? std::string_view("::") : std::string_view("\0\1", 2));
   if (mark != std::string_view::npos) given = text ? given.substr(mark + 2) : given.substr(0, mark);
   given = given.substr(0, given.find('\0'));
-  return readable_text(given);
+  return utf8_or_latin1(given);
 }
 
 const Record* named_property(const Record* properties, std::string_view name) {

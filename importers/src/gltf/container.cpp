@@ -102,14 +102,6 @@ std::string without_percent_signs(std::string_view uri) {
   return out;
 }
 
-/// A hostile file must not be able to read the rest of the disk.
-bool stays_below(const std::filesystem::path& path) {
-  if (path.empty() || path.is_absolute()) return false;
-  for (const auto& part : path)
-    if (part == "..") return false;
-  return true;
-}
-
 std::optional<std::string> buffer_bytes(const Fields& buffer, const std::filesystem::path& file,
                                         std::optional<std::string_view> binary, bool first) {
   ModelProblems& problems = buffer.problems();
@@ -129,8 +121,14 @@ std::optional<std::string> buffer_bytes(const Fields& buffer, const std::filesys
     if (!bytes) problems.add(buffer.place_of("uri"), "holds a letter that base64 does not have");
     return bytes;
   }
-  const std::filesystem::path path = without_percent_signs(uri);
-  if (uri.find("://") != std::string::npos || !stays_below(path)) {
+  const std::string name = without_percent_signs(uri);
+  if (name.find('\0') != std::string::npos) {
+    problems.add(buffer.place_of("uri"), "\"" + uri.substr(0, 80) + "\" holds a byte of zero, which no name has");
+    return std::nullopt;
+  }
+  // A hostile file must not be able to read the rest of the disk.
+  const std::filesystem::path path = name;
+  if (uri.find("://") != std::string::npos || leads_out_of(file.parent_path(), path)) {
     problems.add(buffer.place_of("uri"), "\"" + uri.substr(0, 80) + "\" must name a file in the model's own folder");
     return std::nullopt;
   }

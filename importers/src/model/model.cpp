@@ -1,4 +1,4 @@
-#include "assimp/reader.h"
+#include "assimp/helper.h"
 #include "bvh/reader.h"
 #include "fbx/reader.h"
 #include "gltf/reader.h"
@@ -25,7 +25,7 @@ Model read_any(const std::string& bytes, const std::filesystem::path& file, Mode
   if (ending == ".glb" || ending == ".gltf" || bytes.starts_with("glTF")) return gltf::read(bytes, file, problems);
   if (ending == ".bvh") return read_bvh(bytes, file, problems);
   if (ending == ".fbx") return fbx::read(bytes, file, problems);
-  if (ending == ".dae" || ending == ".obj") return read_with_assimp(bytes, file, problems);
+  if (ending == ".dae" || ending == ".obj") return assimp::read_in_helper(bytes, file, problems);
   throw ModelError(file.string() + ": error: files ending in \"" + ending +
                    "\" cannot be read; .glb, .gltf, .fbx, .bvh, .dae and .obj can");
 }

@@ -1,5 +1,6 @@
 #include "model/model_bytes.h"
 
+#include <algorithm>
 #include <fstream>
 
 namespace tweenfall {
@@ -30,6 +31,17 @@ std::optional<std::string> model_bytes(const std::filesystem::path& file, std::s
     return std::nullopt;
   }
   return bytes;
+}
+
+bool leads_out_of(const std::filesystem::path& folder, const std::filesystem::path& below) {
+  if (below.empty() || below.is_absolute()) return true;
+  if (std::ranges::find(below, std::filesystem::path("..")) != below.end()) return true;
+  std::error_code failed;
+  const std::filesystem::path home = std::filesystem::canonical(folder.empty() ? "." : folder, failed);
+  const std::filesystem::path real = std::filesystem::weakly_canonical(home / below, failed);
+  if (failed) return false;  // what is not there cannot be read either
+  const std::filesystem::path way = real.lexically_relative(home);
+  return way.empty() || *way.begin() == "..";
 }
 
 }  // namespace tweenfall

@@ -4,8 +4,13 @@
 ///
 /// glTF, FBX (7.0 and later, text and binary) and BVH are read from the file itself, so that keys keep
 /// their kind and tangents, layers their weights, and frames their exact times; units, axes and clocks
-/// are the file's. Collada and OBJ come through assimp; their keys are joined by straight lines. A
-/// malformed file can end assimp's process, so a child process tries each such file first.
+/// are the file's. Collada and OBJ come through assimp; their keys are joined by straight lines.
+///
+/// A malformed file can end assimp's process or take all its memory, so assimp runs in a program of its
+/// own, `tweenfall-import-helper`, within bounds of memory and time. It is looked for where the environment
+/// variable TWEENFALL_IMPORT_HELPER says, beside the running program, in `../libexec` of that, and where it
+/// was built or installed; without it Collada and OBJ are refused. Where programs cannot be started at all,
+/// assimp runs in the caller's process, and a repair says so.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/hierarchy.h>
