@@ -1,6 +1,6 @@
 // Any bytes as glTF, text or binary.
 
-#include "gltf/reader.h"
+#include "gltf/read/reader.h"
 
 using namespace tweenfall;
 

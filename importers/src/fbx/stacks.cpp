@@ -3,6 +3,8 @@
 #include "fbx/key_curve.h"
 #include "model/model_names.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -49,13 +51,6 @@ class StackReader {
   }
 
  private:
-  static std::string number_text(double value) {
-    std::string text = std::to_string(value);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.')) text.pop_back();
-    return text;
-  }
-
   double time(const Object& object, const char* property) const {
     return static_cast<double>(objects_.whole(object, property, 0)) / objects_.ticks();
   }

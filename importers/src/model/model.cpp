@@ -1,7 +1,7 @@
 #include "assimp/helper.h"
 #include "bvh/reader.h"
 #include "fbx/reader.h"
-#include "gltf/reader.h"
+#include "gltf/read/reader.h"
 #include "model/model_bytes.h"
 #include "model/model_problems.h"
 

@@ -2,7 +2,7 @@
 
 // Accessors: typed lists of numbers in the buffers, decoded and checked.
 
-#include "gltf/container.h"
+#include "gltf/read/container.h"
 
 #include <initializer_list>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "gltf/buffer_writer.h"
+#include "gltf/write/buffer_writer.h"
 
 #include <tweenfall/curves/number_text.h>
 

@@ -2,7 +2,7 @@
 
 // The meshes and materials of a model as glTF has them, and which nodes wear them.
 
-#include "gltf/buffer_writer.h"
+#include "gltf/write/buffer_writer.h"
 
 #include <tweenfall/importers/model.h>
 

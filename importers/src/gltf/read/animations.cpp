@@ -1,6 +1,6 @@
-#include "gltf/animations.h"
+#include "gltf/read/animations.h"
 
-#include "gltf/sampler_curves.h"
+#include "gltf/read/sampler_curves.h"
 #include "model/model_names.h"
 
 #include <tweenfall/curves/number_text.h>

@@ -1,4 +1,4 @@
-#include "gltf/container.h"
+#include "gltf/read/container.h"
 
 #include "gltf/format.h"
 #include "model/model_bytes.h"

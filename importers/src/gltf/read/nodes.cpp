@@ -1,4 +1,4 @@
-#include "gltf/nodes.h"
+#include "gltf/read/nodes.h"
 
 #include "model/model_matrix.h"
 #include "model/model_names.h"

@@ -2,7 +2,7 @@
 
 // The outer shell of a glTF file: its JSON and the bytes of its buffers.
 
-#include "gltf/fields.h"
+#include "gltf/read/fields.h"
 #include "model/model_problems.h"
 
 #include <filesystem>

@@ -1,8 +1,8 @@
 // save_glb: a Model as binary glTF 2.0.
 
-#include "gltf/buffer_writer.h"
-#include "gltf/mesh_writer.h"
-#include "gltf/sampler_keys.h"
+#include "gltf/write/buffer_writer.h"
+#include "gltf/write/mesh_writer.h"
+#include "gltf/write/sampler_keys.h"
 
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/model.h>

@@ -2,7 +2,7 @@
 
 // Joints and weights of a primitive's vertices.
 
-#include "gltf/accessors.h"
+#include "gltf/read/accessors.h"
 
 #include <tweenfall/anim/mesh.h>
 

@@ -1,4 +1,4 @@
-#include "gltf/mesh_writer.h"
+#include "gltf/write/mesh_writer.h"
 
 #include <algorithm>
 #include <cmath>

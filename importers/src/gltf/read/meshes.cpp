@@ -1,7 +1,7 @@
-#include "gltf/meshes.h"
+#include "gltf/read/meshes.h"
 
 #include "gltf/format.h"
-#include "gltf/influences.h"
+#include "gltf/read/influences.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "gltf/influences.h"
+#include "gltf/read/influences.h"
 
 #include "model/model_influences.h"
 

@@ -2,9 +2,9 @@
 
 // The animations of a glTF document as clips, each key kind kept.
 
-#include "gltf/accessors.h"
-#include "gltf/meshes.h"
-#include "gltf/nodes.h"
+#include "gltf/read/accessors.h"
+#include "gltf/read/meshes.h"
+#include "gltf/read/nodes.h"
 
 #include <tweenfall/anim/clip.h>
 

@@ -1,10 +1,10 @@
-#include "gltf/reader.h"
+#include "gltf/read/reader.h"
 
-#include "gltf/accessors.h"
-#include "gltf/animations.h"
-#include "gltf/container.h"
-#include "gltf/meshes.h"
-#include "gltf/nodes.h"
+#include "gltf/read/accessors.h"
+#include "gltf/read/animations.h"
+#include "gltf/read/container.h"
+#include "gltf/read/meshes.h"
+#include "gltf/read/nodes.h"
 
 #include <iterator>
 #include <map>

@@ -1,4 +1,4 @@
-#include "gltf/sampler_curves.h"
+#include "gltf/read/sampler_curves.h"
 
 #include <tweenfall/curves/keys.h>
 #include <tweenfall/curves/quaternion_cubic.h>

@@ -1,4 +1,4 @@
-#include "gltf/sampler_keys.h"
+#include "gltf/write/sampler_keys.h"
 
 #include <tweenfall/curves/number_text.h>
 

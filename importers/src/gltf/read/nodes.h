@@ -2,7 +2,7 @@
 
 // The node tree of a glTF document.
 
-#include "gltf/fields.h"
+#include "gltf/read/fields.h"
 
 #include <tweenfall/anim/hierarchy.h>
 

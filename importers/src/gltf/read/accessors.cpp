@@ -1,7 +1,7 @@
-#include "gltf/accessors.h"
+#include "gltf/read/accessors.h"
 
-#include "gltf/buffer_writer.h"
 #include "gltf/format.h"
+#include "gltf/write/buffer_writer.h"
 
 #include <algorithm>
 #include <cmath>

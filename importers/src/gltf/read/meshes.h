@@ -2,7 +2,7 @@
 
 // Meshes, materials' base colors and skins of a glTF document.
 
-#include "gltf/accessors.h"
+#include "gltf/read/accessors.h"
 
 #include <tweenfall/anim/mesh.h>
 

@@ -1,4 +1,4 @@
-#include "gltf/fields.h"
+#include "gltf/read/fields.h"
 
 #include <cmath>
 
