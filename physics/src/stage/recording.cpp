@@ -45,28 +45,29 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
   }
 }
 
-void require_affordable(const Stage& stage, double until, double fps) {
-  constexpr double most_bytes = 1024.0 * 1024 * 1024, most_steps = 1e7;
+void require_affordable(const Stage& stage, double until, double fps, double most_bytes) {
+  constexpr double most_steps = 2e7;
   const double length = std::max(0.0, until - stage.time()), frames = length * fps + 1, steps = length / stage.step();
   constexpr double frame_bytes = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner);
   const double bytes = frames * static_cast<double>(stage.nodes().size()) * frame_bytes;
   const auto whole = [](double value) { return std::to_string(std::llround(std::min(value, 1e18))); };
   if (steps > most_steps)
     throw std::invalid_argument("a recording of " + whole(length) + " s takes " + whole(steps) +
-                                " steps; 10 million are allowed: end it earlier, or take longer steps");
+                                " steps; 20 million are allowed: end it earlier, or take longer steps");
   if (bytes > most_bytes)
     throw std::invalid_argument("a recording of " + whole(frames) + " frames of " +
                                 std::to_string(stage.nodes().size()) + " nodes takes " + whole(bytes / (1024 * 1024)) +
-                                " MiB; 1024 are allowed: end it earlier, or take fewer frames a second");
+                                " MiB; " + whole(most_bytes / (1024 * 1024)) +
+                                " are allowed: end it earlier, or take fewer frames a second");
 }
 
 }  // namespace
 
-Recording record(Stage& stage, double until, double fps) {
+Recording record(Stage& stage, double until, double fps, double most_bytes) {
   if (!(fps > 0) || !std::isfinite(fps))
     throw std::invalid_argument("frames per second must be above 0, not " + number_text(fps));
   if (!std::isfinite(until)) throw std::invalid_argument("a recording needs an end");
-  require_affordable(stage, until, fps);
+  require_affordable(stage, until, fps, most_bytes);
   Recording recording;
   recording.name = stage.description().name;
   std::vector<WorldMotion> world;

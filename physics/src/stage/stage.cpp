@@ -12,14 +12,14 @@ namespace tweenfall {
 namespace staging {
 
 /// More steps than this in one call are taken for a mistake: it would seem never to end.
-constexpr double most_steps = 1e7;
+constexpr double most_steps = 2e7;
 
 void require_reachable(double from, double to, double step) {
   const double steps = (to - from) / step;
   if (steps <= most_steps) return;
   throw std::invalid_argument("from " + number_text(from) + " s to " + number_text(to) + " s a stage takes " +
                               number_text(steps) + " steps of " + number_text(step) +
-                              " s; one call takes 10 million at most");
+                              " s; one call takes 20 million at most");
 }
 
 void require_node(const StageState& shown, NodeId node) {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tweenfall::cli {
 
@@ -40,6 +41,18 @@ double chosen_fps(const StageDescription& stage, const RunOptions& options, doub
   say(options.file + ": note: " + amount + "; there are " + brief_text(fewer) +
       " frames a second, and more with --limit or a shorter --until");
   return fewer;
+}
+
+/// Nothing that a person wrote is passed over in silence: rules that waited to the end say why.
+void say_unfired(const Recording& recording, const std::string& file) {
+  constexpr std::size_t most = 20;
+  for (std::size_t i = 0; i < recording.unfired.size() && i < most; ++i) {
+    const UnfiredRule& unfired = recording.unfired[i];
+    say(file + ": note: hand-off rule " + std::to_string(unfired.rule + 1) + " never took \"" +
+        recording.nodes[unfired.node].name + "\": " + unfired.reason);
+  }
+  if (recording.unfired.size() > most)
+    say(file + ": note: and " + std::to_string(recording.unfired.size() - most) + " more that never did");
 }
 
 }  // namespace
@@ -74,8 +87,9 @@ Recording run_stage(const StageDescription& description, const RunOptions& optio
   const Progress progress("running " + options.file + " to " + brief_text(until) + " s");
   Stage stage = make_stage(description, options.file);
   try {
-    Recording recording = record(stage, until, fps);
+    Recording recording = record(stage, until, fps, std::numeric_limits<double>::infinity());
     check_recording(recording);
+    say_unfired(recording, options.file);
     return recording;
   } catch (const std::invalid_argument& error) {
     throw Faults(faults_of(error, options.file));

@@ -30,8 +30,8 @@ struct Recording {
 };
 
 /// Runs `stage` from its current time to `until`, taking a frame at the start and every 1/fps after, and at `until`.
-/// @throws std::invalid_argument, saying how much it would be, for more than 10 million steps or 1 GiB of frames
-[[nodiscard]] Recording record(Stage& stage, double until, double fps);
+/// @throws std::invalid_argument, saying how much it would be, for more than 20 million steps or `most_bytes` of frames
+[[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes = 1024.0 * 1024 * 1024);
 
 /// A time at which the stage has shown what it has: the end of its plays or its last timed hand-off, and a while for
 /// bodies to come to rest; 4 s of what has no end or

@@ -51,7 +51,7 @@ class Stage {
   Stage& operator=(Stage&&) noexcept;
 
   // Time
-  // All three throw std::invalid_argument when a call would take more than 10 million steps, and std::runtime_error
+  // All three throw std::invalid_argument when a call would take more than 20 million steps, and std::runtime_error
   // naming node, time and likely cause when the motion of a body is no longer finite.
   void advance(double dt);       ///< @throws std::invalid_argument when dt is negative or not finite
   void advance_to(double time);  ///< to exactly `time`. @throws std::invalid_argument when that lies behind
