@@ -2,7 +2,7 @@
 
 // The objects of an FBX file, their properties, and what is connected with what.
 
-#include "fbx/records.h"
+#include "fbx/records/records.h"
 #include "model/model_problems.h"
 
 #include <tweenfall/curves/values.h>

@@ -2,7 +2,7 @@
 
 // Where an FBX node is below its parent: translation, rotation and scale about their pivots.
 
-#include "fbx/channels.h"
+#include "fbx/motion/channels.h"
 
 namespace tweenfall::fbx {
 

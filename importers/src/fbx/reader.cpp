@@ -1,6 +1,6 @@
 #include "fbx/reader.h"
 
-#include "fbx/deformers.h"
+#include "fbx/surface/deformers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fbx/source.h"
+#include "fbx/records/source.h"
 
 #include <tweenfall/importers/model.h>
 

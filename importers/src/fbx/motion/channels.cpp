@@ -1,4 +1,4 @@
-#include "fbx/channels.h"
+#include "fbx/motion/channels.h"
 
 #include <cmath>
 #include <numbers>

@@ -1,6 +1,6 @@
-#include "fbx/stacks.h"
+#include "fbx/motion/stacks.h"
 
-#include "fbx/key_curve.h"
+#include "fbx/motion/key_curve.h"
 #include "model/model_names.h"
 
 #include <tweenfall/curves/number_text.h>

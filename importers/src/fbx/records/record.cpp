@@ -1,4 +1,4 @@
-#include "fbx/record.h"
+#include "fbx/records/record.h"
 
 #include <algorithm>
 #include <cmath>

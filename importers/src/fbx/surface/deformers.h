@@ -2,8 +2,8 @@
 
 // What bends and molds an FBX geometry: skins and blend shapes.
 
-#include "fbx/geometry.h"
 #include "fbx/nodes.h"
+#include "fbx/surface/geometry.h"
 
 namespace tweenfall::fbx {
 

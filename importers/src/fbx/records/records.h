@@ -4,8 +4,8 @@
 // Source: A. Cruz and others, "FBX binary file format specification", code.blender.org, 2013; for the 64-bit headers of
 // version 7500 and the text, the files themselves.
 
-#include "fbx/record.h"
-#include "fbx/source.h"
+#include "fbx/records/record.h"
+#include "fbx/records/source.h"
 
 namespace tweenfall::fbx {
 

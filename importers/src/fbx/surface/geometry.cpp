@@ -1,6 +1,6 @@
-#include "fbx/geometry.h"
+#include "fbx/surface/geometry.h"
 
-#include "fbx/triangles.h"
+#include "fbx/surface/triangles.h"
 
 #include <cmath>
 #include <cstring>

@@ -2,7 +2,7 @@
 
 // The animation stacks of an FBX file: what each drives, in which layers.
 
-#include "fbx/moving.h"
+#include "fbx/motion/moving.h"
 #include "fbx/objects.h"
 
 #include <map>

@@ -1,4 +1,4 @@
-#include "fbx/moving.h"
+#include "fbx/motion/moving.h"
 
 #include <tweenfall/curves/elementary.h>
 

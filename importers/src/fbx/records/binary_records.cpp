@@ -1,5 +1,5 @@
-#include "fbx/packed_array.h"
-#include "fbx/records.h"
+#include "fbx/records/packed_array.h"
+#include "fbx/records/records.h"
 
 #include <bit>
 #include <cstring>

@@ -1,4 +1,4 @@
-#include "fbx/records.h"
+#include "fbx/records/records.h"
 
 #include <charconv>
 #include <limits>

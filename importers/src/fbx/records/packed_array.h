@@ -2,7 +2,7 @@
 
 // An array of a binary FBX file, plain or packed by zlib.
 
-#include "fbx/source.h"
+#include "fbx/records/source.h"
 
 namespace tweenfall::fbx {
 

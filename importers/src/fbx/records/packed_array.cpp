@@ -1,4 +1,4 @@
-#include "fbx/packed_array.h"
+#include "fbx/records/packed_array.h"
 
 #include <zlib.h>
 

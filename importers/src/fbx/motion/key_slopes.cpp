@@ -1,4 +1,4 @@
-#include "fbx/key_slopes.h"
+#include "fbx/motion/key_slopes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "fbx/deformers.h"
+#include "fbx/surface/deformers.h"
 
 #include <algorithm>
 #include <cmath>

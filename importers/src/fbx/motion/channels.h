@@ -2,7 +2,7 @@
 
 // A property of an object through all layers of a stack.
 
-#include "fbx/stacks.h"
+#include "fbx/motion/stacks.h"
 
 #include <tweenfall/curves/rotation.h>
 

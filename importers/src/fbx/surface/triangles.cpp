@@ -1,4 +1,4 @@
-#include "fbx/triangles.h"
+#include "fbx/surface/triangles.h"
 
 #include <numeric>
 

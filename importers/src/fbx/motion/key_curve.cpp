@@ -1,6 +1,6 @@
-#include "fbx/key_curve.h"
+#include "fbx/motion/key_curve.h"
 
-#include "fbx/key_slopes.h"
+#include "fbx/motion/key_slopes.h"
 
 #include <tweenfall/curves/keys.h>
 
