@@ -11,24 +11,24 @@ using namespace tweenfall;
 
 namespace {
 
-// Words that mean something else too: splines, rules beyond the keys, a key's member, the ease of a key without one.
+// Words that mean something else too: splines, rules beyond the keys, a key's member, the ease of a key without one,
+// the degree of a polynomial.
 const std::set<std::string> shared_words = {"hold",    "linear",         "ease",    "natural",     "clamped",
                                             "uniform", "centripetal",    "chordal", "catmull-rom", "not-a-knot",
-                                            "smooth",  "smooth-clamped", "spring",  "bezier"};
+                                            "smooth",  "smooth-clamped", "spring",  "bezier",      "cubic"};
 
 // The words that stand as such in a source: a family's without the directions, a call's without its numbers.
 std::set<std::string> source_words() {
   std::set<std::string> words;
   for (const std::string& form : Ease::names()) {
     std::string word = form.substr(0, form.find('('));
-    if (shared_words.contains(word)) continue;
     if (!word.starts_with("ease"))
       for (const std::string direction : {"-in-out", "-in", "-out"})
         if (word.ends_with(direction)) {
           word.resize(word.size() - direction.size());
           break;
         }
-    words.insert(word);
+    if (!shared_words.contains(word)) words.insert(word);
   }
   return words;
 }
