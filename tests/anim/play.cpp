@@ -142,6 +142,48 @@ TEST_CASE("a hundred thousand loops tell every one of their events, and too many
                        std::length_error);
 }
 
+TEST_CASE("what says that events are too many is right for every stretch it speaks of, before one is asked for") {
+  constexpr double stretch = 1.0 / 240;
+  const auto never_throws = [](const Play& play, const Clip& clip) {
+    for (const double from : {0.0, 0.1, 1.0 / 3, 7.7, 1000.0, 1e6})
+      for (const double seconds : {0.0, stretch / 7, stretch})
+        CHECK_NOTHROW(static_cast<void>(events_between(play, clip, from, from + seconds, true)));
+  };
+  Clip clip{.name = "buzz", .duration = 1, .loop = {LoopMode::repeat, 0}};
+  clip.events.resize(3);
+  for (const double speed : {1.0, -2.0, 1e3}) {
+    // The loop that is just long enough to be taken, from above.
+    const Play play{.speed = speed};
+    double refused = 1e-12, taken = 10;
+    while (taken - refused > 1e-9 * taken) {
+      clip.duration = (refused + taken) / 2;
+      (too_many_events(play, clip, stretch).empty() ? taken : refused) = clip.duration;
+    }
+    CHECK(taken == doctest::Approx(6e-6 * stretch * std::abs(speed)).epsilon(0.01));
+    clip.duration = taken;
+    never_throws(play, clip);
+    clip.duration = 0.99 * refused;
+    CHECK_THROWS_AS(static_cast<void>(events_between(play, clip, 1, 1 + stretch)), std::length_error);
+  }
+  clip.duration = 1e-12;
+  CHECK(too_many_events({.speed = -2}, clip, stretch) ==
+        "clip \"buzz\" goes around every 5e-13 s and has more than a million events within 0.004166666666666667 s: "
+        "lengthen its loop or leave out its events");
+  CHECK(too_many_events({.speed = 0}, clip, stretch).empty());
+  clip.loop.count = 100;
+  CHECK(too_many_events({}, clip, stretch).empty());
+  never_throws({}, clip);
+  clip.loop = {LoopMode::once, 0};
+  CHECK(too_many_events({}, clip, stretch).empty());
+  clip.events.clear();
+  clip.loop = {LoopMode::repeat, 0};
+  CHECK(too_many_events({}, clip, stretch).empty());
+  clip.loop = {LoopMode::once, 0};
+  clip.events.resize(500'001);
+  CHECK(too_many_events({}, clip, stretch) ==
+        "clip \"buzz\" has more than a million events within 0.004166666666666667 s: leave out its events");
+}
+
 TEST_CASE("the first event of a tiny loop is found at once, and of one that does not have it none") {
   Clip clip{.name = "buzz", .duration = 1e-9, .loop = {LoopMode::repeat, 0}};
   clip.events = {{.from = 5e-10, .to = 5e-10, .name = "tick", .data = {}}};

@@ -8,6 +8,7 @@
 
 namespace tweenfall {
 
+namespace clips {
 namespace {
 
 /// More events than this between two moments are an error and no list.
@@ -124,7 +125,17 @@ class EventWalk {
   double first_ = 0, last_ = -1;  // plays that may be met; none
 };
 
+/// Why a clip cannot tell its events.
+std::string refusal(const Play& play, const Clip& clip, const std::string& stretch) {
+  const bool around = clip.loop.mode != LoopMode::once;
+  return "clip \"" + clip.name + "\" " +
+         (around ? "goes around every " + number_text(clip.duration / std::abs(play.speed)) + " s and " : "") +
+         "has more than a million events " + stretch + ": " + (around ? "lengthen its loop or " : "") +
+         "leave out its events";
+}
+
 }  // namespace
+}  // namespace clips
 
 ClipClock clock_at(const Play& play, const Clip& clip, double stage_time, Side side) noexcept {
   return clock_at(play.at, play.speed, clip, stage_time, side);
@@ -132,16 +143,16 @@ ClipClock clock_at(const Play& play, const Clip& clip, double stage_time, Side s
 
 ClipClock clock_at(double at, double speed, const Clip& clip, double stage_time, Side side) noexcept {
   ClipClock clock;
-  const double left_out = plays_left_out(clip, speed), total = total_length(clip, left_out);
+  const double left_out = clips::plays_left_out(clip, speed), total = clips::total_length(clip, left_out);
   const double first = -left_out * clip.duration;  // the start of the first play; zero but for those left out
   const bool backwards = speed < 0;
-  double phase = phase_at(at, speed, clip, stage_time);
+  double phase = clips::phase_at(at, speed, clip, stage_time);
   clock.started = side == Side::out ? stage_time >= at : stage_time > at;
 
   // Which end of the phase the clock comes from and goes to; a clock at rest belongs to what it shows.
   const bool from_below = (side == Side::in) != backwards;
   bool running = clock.started && speed != 0;
-  if (!clock.started) phase = phase_at(at, speed, clip, at);
+  if (!clock.started) phase = clips::phase_at(at, speed, clip, at);
   const bool past_end = from_below ? phase > total : phase >= total;
   const bool past_start = from_below ? phase <= first : phase < first;
   if (!backwards && past_end && clock.started) {
@@ -177,18 +188,16 @@ ClipClock clock_at(double at, double speed, const Clip& clip, double stage_time,
 }
 
 double end_time(const Play& play, const Clip& clip) noexcept {
-  const double total = total_length(clip);
-  if (!std::isfinite(total) || play.speed == 0) return infinity;
+  const double total = clips::total_length(clip);
+  if (!std::isfinite(total) || play.speed == 0) return clips::infinity;
   return play.at + total / std::abs(play.speed);
 }
 
 std::vector<FiredEvent> events_between(const Play& play, const Clip& clip, double from, double to, bool from_start) {
-  const EventWalk walk(play, clip, from, to, from_start);
-  if (walk.bound() > most_events) {
-    throw std::length_error("clip \"" + clip.name + "\" goes around every " +
-                            number_text(clip.duration / std::abs(play.speed)) +
-                            " s and has more than a million events from " + number_text(from) + " s to " +
-                            number_text(to) + " s: lengthen its loop or leave out its events");
+  const clips::EventWalk walk(play, clip, from, to, from_start);
+  if (walk.bound() > clips::most_events) {
+    throw std::length_error(
+        clips::refusal(play, clip, "from " + number_text(from) + " s to " + number_text(to) + " s"));
   }
   std::vector<FiredEvent> fired;
   walk.walk([&](FiredEvent&& event) {
@@ -199,11 +208,24 @@ std::vector<FiredEvent> events_between(const Play& play, const Clip& clip, doubl
   return fired;
 }
 
+std::string too_many_events(const Play& play, const Clip& clip, double seconds) {
+  if (clip.events.empty() || play.speed == 0) return {};
+  double plays = 1;
+  if (clip.loop.mode != LoopMode::once && clip.duration > 0 && std::isfinite(clip.duration)) {
+    // The stretch may lie anywhere: it touches a play more at each end, as many are looked at beside these, and far
+    // from the start the number of the first is rounded.
+    plays = 1.001 * seconds * std::abs(play.speed) / clip.duration + 4;
+    if (clip.loop.count > 0) plays = std::min(plays, std::ceil(clip.loop.count) + 1);
+  }
+  if (2 * plays * static_cast<double>(clip.events.size()) <= clips::most_events) return {};
+  return clips::refusal(play, clip, "within " + number_text(seconds) + " s");
+}
+
 std::optional<FiredEvent> first_event(const Play& play, const Clip& clip, double from, double to, bool from_start,
                                       std::optional<std::string_view> name) {
   std::optional<FiredEvent> first;
   if (name && std::ranges::find(clip.events, *name, &ClipEvent::name) == clip.events.end()) return first;
-  EventWalk(play, clip, from, to, from_start).walk([&](FiredEvent&& event) {
+  clips::EventWalk(play, clip, from, to, from_start).walk([&](FiredEvent&& event) {
     if (event.kind == FiredEvent::Kind::end || (name && event.name != *name)) return true;
     first = std::move(event);
     return false;

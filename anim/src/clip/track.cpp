@@ -41,6 +41,7 @@ Property property_named(std::string_view word) noexcept {
   return Property::user;
 }
 
+namespace clips {
 namespace {
 
 using Extent = std::pair<double, double>;
@@ -64,9 +65,10 @@ Extent extent_of(const WeightCurves& curves) {
 }
 
 }  // namespace
+}  // namespace clips
 
 std::pair<double, double> extent(const TrackCurve& curve) noexcept {
-  return std::visit([](const auto& c) { return extent_of(c); }, curve);
+  return std::visit([](const auto& c) { return clips::extent_of(c); }, curve);
 }
 
 }  // namespace tweenfall

@@ -93,6 +93,14 @@ Node checked_node(const NodeDescription& node) {
   return {node.name, node.parent, rest, node.color, {}};
 }
 
+/// Events are told step by step, each step's all at once.
+void require_countable_events(const StageDescription& description) {
+  for (const Play& play : description.plays)
+    if (const std::string fault = too_many_events(play, description.clips[play.clip], description.step + sliver);
+        !fault.empty())
+      throw std::invalid_argument(fault);
+}
+
 }  // namespace
 
 StageState initial_state(const StageDescription& description) {
@@ -114,6 +122,7 @@ StageState initial_state(const StageDescription& description) {
   }
   state.nodes = std::make_shared<const Hierarchy>(std::move(nodes));
   state.animation = std::make_shared<const Animation>(state.nodes, description.clips, description.plays);
+  require_countable_events(description);
   state.present.assign(state.nodes->size(), 1);
   state.body_of.assign(state.nodes->size(), no_body);
   for (NodeId node = 0; node < description.nodes.size(); ++node) {

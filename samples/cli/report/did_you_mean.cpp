@@ -1,6 +1,6 @@
 #include "report/did_you_mean.h"
 
-#include <tweenfall/anim/nearest_name.h>
+#include <tweenfall/curves/nearest_name.h>
 
 #include <algorithm>
 

@@ -7,7 +7,7 @@
 #include "report/terminal.h"
 #include "verbs/verbs.h"
 
-#include <tweenfall/anim/nearest_name.h>
+#include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/importers/document.h>
 
 #include <charconv>

@@ -57,6 +57,17 @@ TEST_CASE("what would never end is refused") {
   CHECK(stage.time() == 0);
 }
 
+TEST_CASE("a stage refuses the clip that would have too many events in a step, before a step is taken") {
+  StageDescription description = falling_ball();
+  description.clips = {{.name = "buzz", .duration = 1e-9, .loop = {LoopMode::repeat, 0}}};
+  description.clips[0].events = {{.from = 5e-10, .to = 5e-10, .name = "tick", .data = {}}};
+  description.plays = {{.clip = 0, .at = 100}};
+  CHECK_THROWS_WITH_AS(Stage{description}, doctest::Contains("clip \"buzz\" goes around every 1e-09 s"),
+                       std::invalid_argument);
+  description.step = 1e-4;
+  CHECK_NOTHROW(Stage{description});
+}
+
 TEST_CASE("poses that are none, and times that are none, are refused") {
   for (const Pose& rest : {Pose{.position = {std::nan(""), 0, 0}}, Pose{.rotation = Quat(0, 0, 0, 0)},
                            Pose{.scale = {1, std::numeric_limits<double>::infinity(), 1}}}) {

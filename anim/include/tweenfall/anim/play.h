@@ -71,6 +71,11 @@ struct FiredEvent {
 [[nodiscard]] std::vector<FiredEvent> events_between(const Play& play, const Clip& clip, double from, double to,
                                                      bool from_start = false);
 
+/// Why `events_between` would refuse some stretch of `seconds` or less, in words that name the clip; empty where it
+/// takes every one. A stage is refused for it before it runs.
+/// @param seconds  >= 0
+[[nodiscard]] std::string too_many_events(const Play& play, const Clip& clip, double seconds);
+
 /// The first of these, ends of intervals left out: of any name, or of the one given. At once, however many follow.
 [[nodiscard]] std::optional<FiredEvent> first_event(const Play& play, const Clip& clip, double from, double to,
                                                     bool from_start = false,

@@ -1,4 +1,4 @@
-#include <tweenfall/anim/nearest_name.h>
+#include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/importers/model.h>
 
 #include "document/content.h"

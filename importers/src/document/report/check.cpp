@@ -1,6 +1,6 @@
 #include "document/report/check.h"
 
-#include <tweenfall/anim/nearest_name.h>
+#include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
 
 #include "document/report/suggestion.h"

@@ -1,6 +1,6 @@
 #include "document/report/suggestion.h"
 
-#include <tweenfall/anim/nearest_name.h>
+#include <tweenfall/curves/nearest_name.h>
 
 #include "json/json_tree.h"
 
