@@ -25,6 +25,40 @@ int rows_of(const RotationSpan& span) noexcept {
   return span.form == RotationSpan::Form::nested ? rotation_rows : span.degree + 1;
 }
 
+// Values, rates and accelerations must be finite numbers, with room for what a warp makes of them.
+template <class SpanType>
+void check_size(std::size_t index, const SpanType& s) {
+  double value = 0, rate = 0, acceleration = 0;
+  for (int k = 0; k < rows_of(s); ++k) {
+    const auto& c = s.coefficients[static_cast<std::size_t>(k)];
+    for (int i = 0; i < dimensions<std::decay_t<decltype(c)>>; ++i) {
+      const double size = std::abs(component(c, i));
+      value += size;
+      rate += k * size;
+      acceleration += k * (k - 1) * size;
+    }
+  }
+  if constexpr (std::is_same_v<SpanType, RotationSpan>) {
+    constexpr double most = 1e15;  // beyond it no digit is left below a turn
+    const double turn = value + s.spin.cwiseAbs().sum();
+    if (!(turn <= most)) refuse(index, s.start, "turns too far to tell where it ends, by more than 1e15 rad");
+    // Axes that turn themselves add the square of the rate to the acceleration.
+    rate += turn;
+    acceleration += rate * rate;
+  }
+  if (s.warp.function) {
+    constexpr double room = 1e30;
+    value *= room;
+    rate *= room;
+    acceleration = room * (rate + acceleration);
+  }
+  const double inverse = 1 / s.duration;
+  if (!std::isfinite(value)) refuse(index, s.start, "adds up to values beyond what numbers hold");
+  if (!std::isfinite(inverse * inverse) || !std::isfinite(rate * inverse) ||
+      !std::isfinite(acceleration * (inverse * inverse)))
+    refuse(index, s.start, "changes faster than numbers can tell, within " + text_of(s.duration) + " s");
+}
+
 template <class SpanType>
 void check(std::span<const SpanType> spans) {
   if (spans.empty()) throw std::invalid_argument("a curve needs at least one span; none were given");
@@ -44,6 +78,7 @@ void check(std::span<const SpanType> spans) {
     if (!all_finite(s.end)) refuse(i, s.start, "has a non-finite end value " + text_of(s.end));
     if constexpr (std::is_same_v<SpanType, RotationSpan>)
       if (!all_finite(s.spin)) refuse(i, s.start, "has a non-finite spin " + text_of(s.spin));
+    check_size(i, s);
     if (i == 0) continue;
     const double expected = spans[i - 1].start + spans[i - 1].duration;
     // Durations are differences of times, so the sum may be off by the rounding of both.
