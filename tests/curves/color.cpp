@@ -268,8 +268,9 @@ TEST_CASE("the longer way between equal hues is all the way around, upward, as C
   const Color red = from_srgb(1, 0, 0), dark = from_srgb(0.5, 0, 0), gray = from_srgb(0.5, 0.5, 0.5),
               unseen = from_srgb(0, 0, 1, 0);
   for (const ColorSpace space : {ColorSpace::hsl, ColorSpace::hsv, ColorSpace::hwb, ColorSpace::lch, ColorSpace::oklch})
-    for (const auto& [from, to] :
+    for (const auto& pair :
          {std::pair{red, red}, {red, dark}, {dark, red}, {red, gray}, {gray, red}, {red, unseen}, {unseen, red}}) {
+      const Color from = pair.first, to = pair.second;
       CAPTURE(static_cast<int>(space));
       // A darker red has another hue in CIE LCH.
       if (space == ColorSpace::lch && from.rgba != to.rgba && from.rgba[3] > 0 && to.rgba[3] > 0 &&

@@ -209,7 +209,8 @@ TEST_CASE("a name that other programs have for an ease is answered with ours") {
                                       {"stepStart", "step-start"},
                                       {"catmullRom", "catmull-rom"},
                                       {"cubicBezier(0.1,0,1,1)", "cubic-bezier(0.1,0,1,1)"}};
-  for (const auto& [theirs, ours] : cases) {
+  for (const auto& names : cases) {
+    const char *theirs = names[0], *ours = names[1];
     CAPTURE(theirs);
     std::string reason;
     CHECK_FALSE(Ease::named(theirs, &reason).has_value());

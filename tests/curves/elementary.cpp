@@ -154,7 +154,8 @@ TEST_CASE("sine, cosine and tangent are right for numbers of any size, and not n
       {-0x1.2fd698ccf563fp+244, -0x1.e99c65a64366bp-2, 0x1.c1aeb38b71016p-1, -0x1.16bb1da353d45p-1},
       {-0x1.2302a0a322dc9p+318, -0x1.6dce37bbcfcbdp-5, 0x1.ff7d41e254583p-1, -0x1.6e2bb8cd2db62p-5},
   };
-  for (const auto& [x, sine, cosine, tangent] : cases) {
+  for (const auto& numbers : cases) {
+    const double x = numbers[0], sine = numbers[1], cosine = numbers[2], tangent = numbers[3];
     CAPTURE(x);
     CHECK(ulps(elementary::sin(x), sine) <= 1);
     CHECK(ulps(elementary::cos(x), cosine) <= 1);

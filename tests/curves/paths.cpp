@@ -60,10 +60,10 @@ TEST_CASE("lengths are those of the closed forms, and half of the time is half o
   const Curve<Vec3> parabola =
       keyed_curve<Vec3>({{.time = 0, .value = {0, 0, 0}, .out = begin}, {.time = 1, .value = {1, 1, 0}, .in = end}});
   const auto length = [](double x) { return 0.5 * x * std::sqrt(1 + 4 * x * x) + 0.25 * std::asinh(2 * x); };
-  const Curve<Vec3> even = even_path(parabola, 2);
-  CHECK(even.rate(0.7).norm() == doctest::Approx(length(1) / 2).epsilon(1e-14));
+  const Curve<Vec3> at_even_speed = even_path(parabola, 2);
+  CHECK(at_even_speed.rate(0.7).norm() == doctest::Approx(length(1) / 2).epsilon(1e-14));
   for (const double t : {0.1, 0.7, 1.0, 1.93})
-    CHECK(length(even.value(t)[0]) == doctest::Approx(length(1) * t / 2).epsilon(1e-14));
+    CHECK(length(at_even_speed.value(t)[0]) == doctest::Approx(length(1) * t / 2).epsilon(1e-14));
 
   const Curve<Vec3> circle = arc({.center = {1, 2, 3}, .from = {4, 2, 3}, .angle = -5});
   CHECK(even_path(circle, 3).rate(1).norm() == doctest::Approx(5).epsilon(1e-14));
@@ -118,11 +118,12 @@ TEST_CASE("a path agrees with the arc lengths of the vectors") {
         const Tangent<Vec3> tangent{Tangent<Vec3>::Kind::given, point(input["tangents"][i])};
         keys.push_back({.time = input["x"][i], .value = point(input["points"][i]), .in = tangent, .out = tangent});
       }
-      const Curve<Vec3> even = even_path(keyed_curve<Vec3>(keys), 1);
+      const Curve<Vec3> at_even_speed = even_path(keyed_curve<Vec3>(keys), 1);
       const double total = each["total"];
-      CHECK(std::abs(even.rate(0.4).norm() - total) < 1e-8 * total);
+      CHECK(std::abs(at_even_speed.rate(0.4).norm() - total) < 1e-8 * total);
       for (std::size_t i = 0; i < each["fraction"].size(); ++i)
-        CHECK((even.value(each["fraction"][i]) - point(each["value"][i])).norm() < 1e-6 * std::max(1.0, total));
+        CHECK((at_even_speed.value(each["fraction"][i]) - point(each["value"][i])).norm() <
+              1e-6 * std::max(1.0, total));
     }
 }
 

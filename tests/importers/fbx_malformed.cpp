@@ -43,8 +43,10 @@ TEST_CASE("an FBX array that states more than its bytes can hold is refused at i
   const ScratchFolder folder("fbx-lies");
   const std::string packed(24000, 'x');
   for (const std::uint32_t version : {7400u, 7500u})
-    for (const auto& [count, type] : std::initializer_list<std::pair<std::uint32_t, char>>{
+    for (const auto& stated : std::initializer_list<std::pair<std::uint32_t, char>>{
              {0x20000000u, 'd'}, {0xFFFFFFFFu, 'd'}, {0xFFFFFFFFu, 'l'}, {0x40000000u, 'i'}, {0x10000000u, 'b'}}) {
+      const auto count = stated.first;
+      const auto type = stated.second;
       CAPTURE(version);
       CAPTURE(count);
       const auto begin = std::chrono::steady_clock::now();

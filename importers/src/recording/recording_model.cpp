@@ -35,9 +35,9 @@ Curve<T> baked(const std::vector<double>& times, ValueAt value_at) {
   std::vector<Key<T>> keys;
   for (std::size_t frame = 0; frame < times.size(); ++frame) {
     const T value = value_at(frame);
-    const bool between =
+    const bool repeats =
         frame > 0 && frame + 1 < times.size() && same(value, value_at(frame - 1)) && same(value, value_at(frame + 1));
-    if (!between) keys.push_back({times[frame], value, Ease::linear()});
+    if (!repeats) keys.push_back({times[frame], value, Ease::linear()});
   }
   if (keys.size() == 2 && same(keys[0].value, keys[1].value)) keys.pop_back();
   return keyed_curve<T>(std::span<const Key<T>>(keys));

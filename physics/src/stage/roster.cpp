@@ -198,7 +198,7 @@ void arm_rule(StageState& state, const Rule& rule) {
       throw std::invalid_argument(name + " is a plane, which has no mass: it stays keyed");
   }
   std::ranges::sort(meant);
-  meant.erase(std::ranges::unique(meant).begin(), meant.end());
+  meant.erase(std::unique(meant.begin(), meant.end()), meant.end());
   state.rules.push_back(std::make_shared<const Rule>(rule));
   for (const std::size_t body : meant) arm_on(state, state.rules.size() - 1, body);
 }

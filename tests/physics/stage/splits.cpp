@@ -89,7 +89,9 @@ TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten w
 }
 
 TEST_CASE("257 and 2000 changes in one step, a millionth of a microsecond and more apart, are all made") {
-  for (const auto& [count, apart] : {std::pair{257, 1e-12}, std::pair{257, 3e-6}, std::pair{2000, 1e-6}}) {
+  for (const auto& changes : {std::pair{257, 1e-12}, std::pair{257, 3e-6}, std::pair{2000, 1e-6}}) {
+    const int count = changes.first;
+    const double apart = changes.second;
     CAPTURE(count);
     Stage stage(stack_and_far_bodies(1.0 / 240));
     stage.advance_to(0.5);
