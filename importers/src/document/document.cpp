@@ -37,7 +37,7 @@ const StageDescription& Document::stage() const noexcept {
 }
 
 std::string Document::text() const {
-  return document::write(document::document_shape(), content_->document.tree.root());
+  return document::write(document::document_form(), content_->document.tree.root());
 }
 
 Document Document::from_model(const Model& model) {

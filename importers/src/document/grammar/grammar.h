@@ -2,12 +2,12 @@
 
 // The table of all fields of the document.
 
-#include "document/shape.h"
+#include "document/form.h"
 
 namespace tweenfall::document {
 
-// The shape of a whole document.
-[[nodiscard]] const Shape& document_shape();
+// The form of a whole document.
+[[nodiscard]] const Form& document_form();
 
 inline constexpr double document_version = 1;
 

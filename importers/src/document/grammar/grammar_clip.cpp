@@ -6,38 +6,38 @@ namespace tweenfall::document {
 
 namespace {
 
-const Shape* event_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape row;
-  row.kind = Shape::Kind::tuple;
+const Form* event_form(FormStore& store, const ValueForms& values) {
+  Form row;
+  row.kind = Form::Kind::tuple;
   row.what = "an event: [time, name], [time, name, data] or {\"from\", \"to\", \"name\"}";
   row.parts = {values.key_time, values.name, values.any};
   row.fewest = 2;
   row.on_one_line = true;
-  Shape span = object_of(row.what, {{"from", values.key_time, "clip time", true},
-                                    {"to", values.key_time, "clip time", true},
-                                    {"name", values.name, "", true},
-                                    {"data", values.any, "given with the event"}});
+  Form span = object_of(row.what, {{"from", values.key_time, "clip time", true},
+                                   {"to", values.key_time, "clip time", true},
+                                   {"name", values.name, "", true},
+                                   {"data", values.any, "given with the event"}});
   span.on_one_line = true;
-  Shape either = choice_of(row.what, {store.add(row), store.add(span)});
+  Form either = choice_of(row.what, {store.add(row), store.add(span)});
   either.definition = "event";
   return store.add(std::move(either));
 }
 
 }  // namespace
 
-const Shape* clip_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape loop =
+const Form* clip_form(FormStore& store, const ValueForms& values) {
+  Form loop =
       object_of("a loop: {\"mode\", \"count\"}",
                 {{"mode", store.add(words_of("a way to loop", {"repeat", "repeat-offset", "pingpong"})), "", true},
                  {"count", values.positive, "number of plays; absent: without end"}});
   loop.on_one_line = true;
-  Shape events = list_of(event_shape(store, values), "a list of events", 0);
+  Form events = list_of(event_form(store, values), "a list of events", 0);
   events.one_a_line = true;
-  Shape clip = object_of("a clip: {\"duration\", \"loop\", \"tracks\", \"events\"}",
-                         {{"duration", values.length_of_time, "absent: the latest key or event"},
-                          {"loop", store.add(std::move(loop)), "absent: once"},
-                          {"tracks", tracks_shape(store, values), "", false, "{}"},
-                          {"events", store.add(std::move(events)), "", false, "[]"}});
+  Form clip = object_of("a clip: {\"duration\", \"loop\", \"tracks\", \"events\"}",
+                        {{"duration", values.length_of_time, "absent: the latest key or event"},
+                         {"loop", store.add(std::move(loop)), "absent: once"},
+                         {"tracks", tracks_form(store, values), "", false, "{}"},
+                         {"events", store.add(std::move(events)), "", false, "[]"}});
   clip.definition = "clip";
   clip.one_a_line = true;
   return store.add(std::move(clip));

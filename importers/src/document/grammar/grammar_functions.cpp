@@ -17,16 +17,16 @@ std::string parameter_fault(std::string_view name) {
 
 }  // namespace
 
-FunctionShapes::FunctionShapes(ShapeStore& store, const ValueShapes& values) : store_(store), values_(values) {
-  const auto named = [&](const std::string& definition, Shape shape) {
-    shape.definition = definition;
-    return store.add(std::move(shape));
+FunctionForms::FunctionForms(FormStore& store, const ValueForms& values) : store_(store), values_(values) {
+  const auto named = [&](const std::string& definition, Form form) {
+    form.definition = definition;
+    return store.add(std::move(form));
   };
-  Shape text;
-  text.kind = Shape::Kind::text;
+  Form text;
+  text.kind = Form::Kind::text;
   text.what = "an expression of t, such as \"2*cos(t)\"";
   text_ = named("expression", std::move(text));
-  const Shape* part = store.add(choice_of("an expression of t, or a number", {text_, values.number}));
+  const Form* part = store.add(choice_of("an expression of t, or a number", {text_, values.number}));
   const auto expressions = [&](std::size_t size) {
     return named("expressions-" + std::to_string(size),
                  list_of(part, "a list of " + std::to_string(size) + " expressions of t", size, size));
@@ -35,7 +35,7 @@ FunctionShapes::FunctionShapes(ShapeStore& store, const ValueShapes& values) : s
   expressions_3_ = expressions(3);
   expressions_4_ = expressions(4);
 
-  Shape names = object_of("an object with numbers by name", {});
+  Form names = object_of("an object with numbers by name", {});
   names.others = values.number;
   names.name_pattern = "^[A-Za-z_][A-Za-z0-9_]*$";
   names.name_fault = parameter_fault;
@@ -52,7 +52,7 @@ FunctionShapes::FunctionShapes(ShapeStore& store, const ValueShapes& values) : s
                  {"rate", values.number, "degrees per second at time 0; fast enough, it goes over the top", false, "0"},
                  {"length", values.positive, "m", false, "1"},
                  {"gravity", values.positive, "m/s^2", false, "9.81"}}));
-  Shape orbit = object_of(
+  Form orbit = object_of(
       "an orbit: {\"center\", \"periapsis\", \"eccentricity\", \"period\", ...}",
       {{"center", values.vector, "the heavy body, m", false, "[0, 0, 0]"},
        {"periapsis", values.positive, "least distance from the center, m", true},
@@ -87,20 +87,20 @@ FunctionShapes::FunctionShapes(ShapeStore& store, const ValueShapes& values) : s
                                  duration}));
 }
 
-Field FunctionShapes::oscillator(const Shape* value, const std::string& unit) const {
-  const Shape* shape =
+Field FunctionForms::oscillator(const Form* value, const std::string& unit) const {
+  const Form* form =
       store_.add(object_of("an oscillator: {\"amplitude\", \"hz\", \"phase\", \"damping\", \"center\"}",
                            {{"amplitude", value, unit, true},
                             {"hz", values_.not_negative, "cycles per second", true},
                             {"phase", values_.number, "degrees", false, "0"},
                             {"damping", values_.not_negative, "rate of decay, 1/s", false, "0"},
                             {"center", value, unit + ", added", false, value == values_.number ? "0" : "[0, 0, 0]"}}));
-  return {"oscillator", shape, "swings"};
+  return {"oscillator", form, "swings"};
 }
 
-Field FunctionShapes::spring(const Shape* value, const std::string& unit) const {
+Field FunctionForms::spring(const Form* value, const std::string& unit) const {
   const std::string nothing = value == values_.number ? "0" : "[0, 0, 0]";
-  const Shape* shape =
+  const Form* form =
       store_.add(object_of("a spring: {\"hz\", \"zeta\", \"from\", \"velocity\", \"goal\", \"goal_velocity\"}",
                            {{"hz", values_.positive, "undamped cycles per second", true},
                             {"zeta", values_.not_negative, "damping ratio; 1 is critical", false, "1"},
@@ -108,14 +108,14 @@ Field FunctionShapes::spring(const Shape* value, const std::string& unit) const 
                             {"velocity", value, unit + " per second at time 0", false, nothing},
                             {"goal", value, unit + ", at time 0", true},
                             {"goal_velocity", value, unit + " per second", false, nothing}}));
-  return {"spring", shape, "an exact damped spring after a goal"};
+  return {"spring", form, "an exact damped spring after a goal"};
 }
 
-Field FunctionShapes::expression(const Shape* shape) const {
-  return {"expression", shape, "a formula of t, the clip's seconds"};
+Field FunctionForms::expression(const Form* form) const {
+  return {"expression", form, "a formula of t, the clip's seconds"};
 }
 
-TrackFunctions FunctionShapes::of_numbers(const std::string& unit, bool angles) const {
+TrackFunctions FunctionForms::of_numbers(const std::string& unit, bool angles) const {
   TrackFunctions out{{oscillator(values_.number, unit), spring(values_.number, unit)},
                      spline_fields(store_, values_, values_.number, "number"),
                      true};
@@ -124,7 +124,7 @@ TrackFunctions FunctionShapes::of_numbers(const std::string& unit, bool angles) 
   return out;
 }
 
-TrackFunctions FunctionShapes::of_places(const std::string& unit) const {
+TrackFunctions FunctionForms::of_places(const std::string& unit) const {
   TrackFunctions out{{oscillator(values_.vector, unit),
                       spring(values_.vector, unit),
                       {"projectile", projectile_, "a thrown body's way"},
@@ -138,21 +138,21 @@ TrackFunctions FunctionShapes::of_places(const std::string& unit) const {
   return out;
 }
 
-TrackFunctions FunctionShapes::of_scales() const {
-  const Shape* either = store_.add(choice_of("an expression of t, or a list of 3", {text_, expressions_3_}));
+TrackFunctions FunctionForms::of_scales() const {
+  const Form* either = store_.add(choice_of("an expression of t, or a list of 3", {text_, expressions_3_}));
   return {{oscillator(values_.vector, "factors"), spring(values_.vector, "factors"), expression(either)},
           spline_fields(store_, values_, values_.vector, "vector-3"),
           true};
 }
 
-TrackFunctions FunctionShapes::of_vectors(std::size_t size) const {
+TrackFunctions FunctionForms::of_vectors(std::size_t size) const {
   return {{expression(size == 2 ? expressions_2_ : expressions_4_)},
           size == 2 ? spline_fields(store_, values_, values_.vector_2, "vector-2")
                     : spline_fields(store_, values_, values_.vector_4, "vector-4"),
           true};
 }
 
-std::size_t FunctionShapes::dimension(const JsonValue& track) {
+std::size_t FunctionForms::dimension(const JsonValue& track) {
   for (const char* name : {"projectile", "orbit", "path", "line", "arc"})
     if (track.find(name)) return 3;
   JsonValue value = track.find("expression");
@@ -168,7 +168,7 @@ std::size_t FunctionShapes::dimension(const JsonValue& track) {
   return value && value.is(JsonValue::Kind::list) ? value.items().size() : 1;
 }
 
-const std::vector<std::string>& FunctionShapes::names() {
+const std::vector<std::string>& FunctionForms::names() {
   static const std::vector<std::string> list = {"oscillator", "spring", "pendulum", "expression",
                                                 "projectile", "orbit",  "path",     "line",
                                                 "arc",        "spline", "bezier",   "b_spline"};

@@ -17,36 +17,36 @@ struct TrackFunctions {
 };
 
 // Splines through values of one kind, or drawn by them.
-[[nodiscard]] std::vector<Field> spline_fields(ShapeStore& store, const ValueShapes& values, const Shape* value,
+[[nodiscard]] std::vector<Field> spline_fields(FormStore& store, const ValueForms& values, const Form* value,
                                                const std::string& kind);
 
 // The same for rotations.
-[[nodiscard]] std::vector<Field> rotation_spline_fields(ShapeStore& store, const ValueShapes& values);
+[[nodiscard]] std::vector<Field> rotation_spline_fields(FormStore& store, const ValueForms& values);
 
-class FunctionShapes {
+class FunctionForms {
  public:
-  FunctionShapes(ShapeStore& store, const ValueShapes& values);
+  FunctionForms(FormStore& store, const ValueForms& values);
 
   // For numbers of a unit; angles can be a pendulum's.
   [[nodiscard]] TrackFunctions of_numbers(const std::string& unit, bool angles) const;
   [[nodiscard]] TrackFunctions of_places(const std::string& unit) const;  // where something is: all of space
   [[nodiscard]] TrackFunctions of_scales() const;
   [[nodiscard]] TrackFunctions of_vectors(std::size_t size) const;  // 2 or 4 numbers
-  [[nodiscard]] const Shape* parameters() const { return parameters_; }
+  [[nodiscard]] const Form* parameters() const { return parameters_; }
 
   // How many numbers the values of a track's function have.
   [[nodiscard]] static std::size_t dimension(const JsonValue& track);
   [[nodiscard]] static const std::vector<std::string>& names();
 
  private:
-  [[nodiscard]] Field oscillator(const Shape* value, const std::string& unit) const;
-  [[nodiscard]] Field spring(const Shape* value, const std::string& unit) const;
-  [[nodiscard]] Field expression(const Shape* shape) const;
+  [[nodiscard]] Field oscillator(const Form* value, const std::string& unit) const;
+  [[nodiscard]] Field spring(const Form* value, const std::string& unit) const;
+  [[nodiscard]] Field expression(const Form* form) const;
 
-  ShapeStore& store_;
-  const ValueShapes& values_;
-  const Shape *text_, *expressions_2_, *expressions_3_, *expressions_4_;
-  const Shape *projectile_, *pendulum_, *orbit_, *path_, *line_, *arc_, *parameters_;
+  FormStore& store_;
+  const ValueForms& values_;
+  const Form *text_, *expressions_2_, *expressions_3_, *expressions_4_;
+  const Form *projectile_, *pendulum_, *orbit_, *path_, *line_, *arc_, *parameters_;
 };
 
 }  // namespace tweenfall::document

@@ -6,21 +6,21 @@
 namespace tweenfall::document {
 
 // One modifier: an object with the kind's name, and where and how much it acts.
-const Shape* modifiers_shape(ShapeStore& store, const ValueShapes& values) {
-  const Shape* number = values.number;
-  const Shape* not_negative = values.not_negative;
-  Shape whole;
-  whole.kind = Shape::Kind::number;
+const Form* modifiers_form(FormStore& store, const ValueForms& values) {
+  const Form* number = values.number;
+  const Form* not_negative = values.not_negative;
+  Form whole;
+  whole.kind = Form::Kind::number;
   whole.what = "a whole number of at least 0";
   whole.low = 0;
   whole.whole = true;
-  const Shape* count = store.add(whole);
-  Shape layer_count = whole;
+  const Form* count = store.add(whole);
+  Form layer_count = whole;
   layer_count.what = "a whole number from 1 to 16";
   layer_count.low = 1;
   layer_count.high = 16;
-  const Shape* layers = store.add(std::move(layer_count));
-  const Shape* cycle = store.add(words_of("a way to cycle", {"none", "repeat", "repeat-offset", "mirror"}));
+  const Form* layers = store.add(std::move(layer_count));
+  const Form* cycle = store.add(words_of("a way to cycle", {"none", "repeat", "repeat-offset", "mirror"}));
   const Field add{"add", values.boolean, "added to the curve, else in its place", false, "false"};
 
   std::vector<Field> kinds;
@@ -66,7 +66,7 @@ const Shape* modifiers_shape(ShapeStore& store, const ValueShapes& values) {
         {"high", number, "of the band, from the reference", false, "1"},
         {"points", store.add(list_of(values.vector, "a list of [time, low, high]")), "the band it is stretched to",
          true}});
-  kinds.push_back({"warp", weight_keys_shape(store, values), "keys of the time to show, s over s"});
+  kinds.push_back({"warp", weight_keys_form(store, values), "keys of the time to show, s over s"});
   kind("placement", "stretched and moved: value_offset + value_scale curve((t - time_offset) / time_scale)",
        {{"time_offset", number, "s", false, "0"},
         {"time_scale", number, "not 0; below 0 backwards", false, "1"},
@@ -76,12 +76,12 @@ const Shape* modifiers_shape(ShapeStore& store, const ValueShapes& values) {
   std::vector<std::string> names;
   names.reserve(kinds.size());
   for (const Field& field : kinds) names.push_back(field.name);
-  Shape influence;
-  influence.kind = Shape::Kind::number;
+  Form influence;
+  influence.kind = Form::Kind::number;
   influence.what = "an influence from 0 to 1";
   influence.low = 0;
   influence.high = 1;
-  Shape one = object_of("a modifier: {\"noise\": {...}, \"range\", \"influence\"}", std::move(kinds));
+  Form one = object_of("a modifier: {\"noise\": {...}, \"range\", \"influence\"}", std::move(kinds));
   one.fields.push_back({"range",
                         store.add(object_of("a range: {\"start\", \"end\", \"blend_in\", \"blend_out\"}",
                                             {{"start", number, "s", true},
@@ -92,7 +92,7 @@ const Shape* modifiers_shape(ShapeStore& store, const ValueShapes& values) {
   one.fields.push_back({"influence", store.add(std::move(influence)), "", false, "1"});
   one.together = {exactly_one(std::move(names))};
   one.definition = "modifier";
-  Shape list = list_of(store.add(std::move(one)), "a list of modifiers, the innermost first");
+  Form list = list_of(store.add(std::move(one)), "a list of modifiers, the innermost first");
   list.one_a_line = true;
   list.definition = "modifiers";
   return store.add(std::move(list));

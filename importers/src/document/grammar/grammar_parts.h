@@ -2,43 +2,43 @@
 
 // The table in its parts: values first, then what is made of them.
 
-#include "document/shape.h"
+#include "document/form.h"
 
 #include <initializer_list>
 
 namespace tweenfall::document {
 
 // Values that many fields share.
-struct ValueShapes {
-  explicit ValueShapes(ShapeStore& store);
+struct ValueForms {
+  explicit ValueForms(FormStore& store);
 
-  const Shape *boolean, *name, *number, *positive, *not_negative;
-  const Shape *vector, *vector_2, *vector_4, *any_vector, *numbers;
-  const Shape *key_time, *stage_time, *length_of_time, *ease;
-  const Shape *color, *scale, *axis, *rotation, *euler_order;
-  const Shape *euler, *axis_angle, *quaternion;  // rotations as keys spell them
-  const Shape* any;
+  const Form *boolean, *name, *number, *positive, *not_negative;
+  const Form *vector, *vector_2, *vector_4, *any_vector, *numbers;
+  const Form *key_time, *stage_time, *length_of_time, *ease;
+  const Form *color, *scale, *axis, *rotation, *euler_order;
+  const Form *euler, *axis_angle, *quaternion;  // rotations as keys spell them
+  const Form* any;
 };
 
 // Tracks and clips.
-const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values);
-const Shape* clip_shape(ShapeStore& store, const ValueShapes& values);
+const Form* tracks_form(FormStore& store, const ValueForms& values);
+const Form* clip_form(FormStore& store, const ValueForms& values);
 // Keys of numbers in stage time, for weights of plays.
-const Shape* weight_keys_shape(ShapeStore& store, const ValueShapes& values);
+const Form* weight_keys_form(FormStore& store, const ValueForms& values);
 // What is laid over a track of numbers.
-const Shape* modifiers_shape(ShapeStore& store, const ValueShapes& values);
+const Form* modifiers_form(FormStore& store, const ValueForms& values);
 
-const Shape* node_shape(ShapeStore& store, const ValueShapes& values);
-const Shape* play_shape(ShapeStore& store, const ValueShapes& values);
-const Shape* world_shape(ShapeStore& store, const ValueShapes& values);
-const Shape* rule_shape(ShapeStore& store, const ValueShapes& values);
-const Shape* import_shape(ShapeStore& store, const ValueShapes& values);
+const Form* node_form(FormStore& store, const ValueForms& values);
+const Form* play_form(FormStore& store, const ValueForms& values);
+const Form* world_form(FormStore& store, const ValueForms& values);
+const Form* rule_form(FormStore& store, const ValueForms& values);
+const Form* import_form(FormStore& store, const ValueForms& values);
 
-// Shapes in the making
-Shape object_of(std::string what, std::vector<Field> fields);
-Shape list_of(const Shape* element, std::string what, std::size_t fewest = 1, std::size_t most = Shape::no_limit);
-Shape words_of(std::string what, std::vector<std::string> words);
-Shape choice_of(std::string what, std::vector<const Shape*> alternatives);
+// Forms in the making
+Form object_of(std::string what, std::vector<Field> fields);
+Form list_of(const Form* element, std::string what, std::size_t fewest = 1, std::size_t most = Form::no_limit);
+Form words_of(std::string what, std::vector<std::string> words);
+Form choice_of(std::string what, std::vector<const Form*> alternatives);
 
 inline Together exactly_one(std::vector<std::string> names) {
   return {Together::Rule::exactly_one, std::move(names)};

@@ -7,55 +7,55 @@ namespace tweenfall::document {
 
 namespace {
 
-Shape bounded(std::string what, double low, bool above_low, double high = Shape::infinite, bool whole = false) {
-  Shape shape;
-  shape.kind = Shape::Kind::number;
-  shape.what = std::move(what);
-  shape.low = low;
-  shape.above_low = above_low;
-  shape.high = high;
-  shape.whole = whole;
-  return shape;
+Form bounded(std::string what, double low, bool above_low, double high = Form::infinite, bool whole = false) {
+  Form form;
+  form.kind = Form::Kind::number;
+  form.what = std::move(what);
+  form.low = low;
+  form.above_low = above_low;
+  form.high = high;
+  form.whole = whole;
+  return form;
 }
 
-const Shape* drive_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape shape =
+const Form* drive_form(FormStore& store, const ValueForms& values) {
+  Form form =
       object_of("a drive: {\"hz\", \"zeta\", \"max_force\", \"max_torque\"}",
                 {{"hz", store.add(bounded("a frequency above 0 Hz", 0, true)), "pull, in cycles per second", true},
                  {"zeta", values.not_negative, "damping ratio", false, "1"},
                  {"max_force", values.not_negative, "N; absent: without limit"},
                  {"max_torque", values.not_negative, "N m; absent: without limit"}});
-  return store.add(std::move(shape));
+  return store.add(std::move(form));
 }
 
-const Shape* owner_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape shape = choice_of(
-      "an owner: \"free\", \"keyed\" or a drive {\"hz\", ...}",
-      {store.add(words_of("an owner: \"free\" or \"keyed\"", {"free", "keyed"})), drive_shape(store, values)});
-  shape.definition = "owner";
-  return store.add(std::move(shape));
+const Form* owner_form(FormStore& store, const ValueForms& values) {
+  Form form =
+      choice_of("an owner: \"free\", \"keyed\" or a drive {\"hz\", ...}",
+                {store.add(words_of("an owner: \"free\" or \"keyed\"", {"free", "keyed"})), drive_form(store, values)});
+  form.definition = "owner";
+  return store.add(std::move(form));
 }
 
-const Shape* hull_shape(ShapeStore& store, const ValueShapes& values) {
-  const Shape* points = store.add(list_of(values.vector, "a list of at least 4 points", 4, 4096));
+const Form* hull_form(FormStore& store, const ValueForms& values) {
+  const Form* points = store.add(list_of(values.vector, "a list of at least 4 points", 4, 4096));
   return store.add(object_of("a hull: {\"points\"}", {{"points", points, "m", true}}));
 }
 
-const Shape* lathe_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape point;
-  point.kind = Shape::Kind::tuple;
+const Form* lathe_form(FormStore& store, const ValueForms& values) {
+  Form point;
+  point.kind = Form::Kind::tuple;
   point.what = "a point: [radius, y], the radius at least 0";
   point.parts = {values.not_negative, values.number};
   point.fewest = 2;
   point.on_one_line = true;
-  const Shape* profile = store.add(list_of(store.add(point), "a list of at least 2 points", 2, 256));
+  const Form* profile = store.add(list_of(store.add(point), "a list of at least 2 points", 2, 256));
   return store.add(object_of("a lathe: {\"profile\", \"sides\"}",
                              {{"profile", profile, "[radius, y], m", true},
                               {"sides", store.add(bounded("a whole number from 3 to 64", 3, false, 64, true)),
                                "flat sides around the axis", false, "24"}}));
 }
 
-const Shape* sweep_shape(ShapeStore& store, const ValueShapes& values) {
+const Form* sweep_form(FormStore& store, const ValueForms& values) {
   return store.add(object_of(
       "a sweep: {\"profile\", \"rail\", \"normal\"}",
       {{"profile", store.add(list_of(values.vector_2, "a list of at least 2 points", 2, 256)), "[x, y], m", true},
@@ -63,10 +63,10 @@ const Shape* sweep_shape(ShapeStore& store, const ValueShapes& values) {
        {"normal", values.vector, "where the profile's x points at the rail's start; absent: any"}}));
 }
 
-const Shape* solid_shape(ShapeStore& store, const ValueShapes& values) {
-  const Shape* size = store.add(bounded("a size in m, above 0", 0, true));
-  const Shape* radius = store.add(bounded("a radius in m, above 0", 0, true));
-  Shape shape = object_of(
+const Form* solid_form(FormStore& store, const ValueForms& values) {
+  const Form* size = store.add(bounded("a size in m, above 0", 0, true));
+  const Form* radius = store.add(bounded("a radius in m, above 0", 0, true));
+  Form form = object_of(
       "a shape: one of \"sphere\", \"box\", \"capsule\", \"plane\", \"hull\", \"lathe\", \"sweep\"",
       {{"sphere", store.add(object_of("a sphere: {\"radius\"}", {{"radius", radius, "m", true}})), ""},
        {"box",
@@ -84,21 +84,21 @@ const Shape* solid_shape(ShapeStore& store, const ValueShapes& values) {
                             {{"normal", values.vector, "out of the solid", false, "[0, 1, 0]"},
                              {"offset", values.number, "of the surface along the normal, m", false, "0"}})),
         ""},
-       {"hull", hull_shape(store, values), "the smallest convex solid around points"},
-       {"lathe", lathe_shape(store, values), "the convex hull of a profile turned about y"},
-       {"sweep", sweep_shape(store, values), "the convex hull of a profile carried along a rail"}});
-  shape.together = {exactly_one({"sphere", "box", "capsule", "plane", "hull", "lathe", "sweep"})};
-  shape.definition = "shape";
-  return store.add(std::move(shape));
+       {"hull", hull_form(store, values), "the smallest convex solid around points"},
+       {"lathe", lathe_form(store, values), "the convex hull of a profile turned about y"},
+       {"sweep", sweep_form(store, values), "the convex hull of a profile carried along a rail"}});
+  form.together = {exactly_one({"sphere", "box", "capsule", "plane", "hull", "lathe", "sweep"})};
+  form.definition = "shape";
+  return store.add(std::move(form));
 }
 
-const Shape* body_shape(ShapeStore& store, const ValueShapes& values) {
-  const Shape* offset =
+const Form* body_form(FormStore& store, const ValueForms& values) {
+  const Form* offset =
       store.add(object_of("an offset: {\"position\", \"rotation\"}",
                           {{"position", values.vector, "m", false, "[0, 0, 0]"}, {"rotation", values.rotation, ""}}));
-  Shape shape = object_of(
+  Form form = object_of(
       "a body",
-      {{"shape", solid_shape(store, values), "", true},
+      {{"shape", solid_form(store, values), "", true},
        {"offset", offset, "of the shape on its node", false, "{}"},
        {"mass", store.add(bounded("a mass in kg, above 0", 0, true)), "kg"},
        {"density", store.add(bounded("a density in kg/m^3, above 0", 0, true)), "kg/m^3", false, "1000"},
@@ -109,20 +109,20 @@ const Shape* body_shape(ShapeStore& store, const ValueShapes& values) {
        {"linear_damping", values.not_negative, "1/s", false, "0"},
        {"angular_damping", values.not_negative, "1/s", false, "0"},
        {"static", values.boolean, "scenery that never moves", false, "false"},
-       {"drive", owner_shape(store, values), "absent: keyed where a playing clip animates the node, else free"},
+       {"drive", owner_form(store, values), "absent: keyed where a playing clip animates the node, else free"},
        {"velocity", values.vector, "at the start, of the center of mass, m/s", false, "[0, 0, 0]"},
        {"angular_velocity", values.vector, "at the start, degrees/s", false, "[0, 0, 0]"}});
-  shape.together = {at_most_one({"mass", "density"})};
-  shape.definition = "body";
-  return store.add(std::move(shape));
+  form.together = {at_most_one({"mass", "density"})};
+  form.definition = "body";
+  return store.add(std::move(form));
 }
 
-const Shape* force_shape(ShapeStore& store, const ValueShapes& values) {
-  const Shape* drag = store.add(object_of("a drag: {\"linear\", \"quadratic\", \"angular\"}",
-                                          {{"linear", values.not_negative, "kg/s", false, "0"},
-                                           {"quadratic", values.not_negative, "kg/m", false, "0"},
-                                           {"angular", values.not_negative, "kg m^2/s", false, "0"}}));
-  const Shape* spring = store.add(
+const Form* force_form(FormStore& store, const ValueForms& values) {
+  const Form* drag = store.add(object_of("a drag: {\"linear\", \"quadratic\", \"angular\"}",
+                                         {{"linear", values.not_negative, "kg/s", false, "0"},
+                                          {"quadratic", values.not_negative, "kg/m", false, "0"},
+                                          {"angular", values.not_negative, "kg m^2/s", false, "0"}}));
+  const Form* spring = store.add(
       object_of("a spring: {\"a\", \"b\", \"anchor_a\", \"anchor_b\", \"rest_length\", \"stiffness\", \"damping\"}",
                 {{"a", values.name, "node with a body", true},
                  {"b", values.name, "node with a body; absent: the world"},
@@ -131,24 +131,23 @@ const Shape* force_shape(ShapeStore& store, const ValueShapes& values) {
                  {"rest_length", values.not_negative, "m", false, "0"},
                  {"stiffness", values.not_negative, "N/m", true},
                  {"damping", values.not_negative, "N s/m", false, "0"}}));
-  Shape shape = object_of("a force: one of \"drag\", \"spring\"",
-                          {{"drag", drag, "of the medium, on every body"}, {"spring", spring, ""}});
-  shape.together = {exactly_one({"drag", "spring"})};
-  shape.definition = "force";
-  return store.add(std::move(shape));
+  Form form = object_of("a force: one of \"drag\", \"spring\"",
+                        {{"drag", drag, "of the medium, on every body"}, {"spring", spring, ""}});
+  form.together = {exactly_one({"drag", "spring"})};
+  form.definition = "force";
+  return store.add(std::move(form));
 }
 
 // One trigger; `groups` adds "all" and "any" of them.
-std::vector<Field> trigger_fields(ShapeStore& store, const ValueShapes& values) {
-  Shape yes;
-  yes.kind = Shape::Kind::boolean;
+std::vector<Field> trigger_fields(FormStore& store, const ValueForms& values) {
+  Form yes;
+  yes.kind = Form::Kind::boolean;
   yes.what = "true";
   yes.only_true = true;
-  const Shape* contact =
-      store.add(object_of("a contact: {\"impulse\", \"speed\", \"with\"}",
-                          {{"impulse", values.not_negative, "N s, at least", false, "0"},
-                           {"speed", values.not_negative, "of approach, m/s, at least", false, "0"},
-                           {"with", values.name, "name or pattern of the other node; absent: any"}}));
+  const Form* contact = store.add(object_of("a contact: {\"impulse\", \"speed\", \"with\"}",
+                                            {{"impulse", values.not_negative, "N s, at least", false, "0"},
+                                             {"speed", values.not_negative, "of approach, m/s, at least", false, "0"},
+                                             {"with", values.name, "name or pattern of the other node; absent: any"}}));
   return {{"at", values.stage_time, "stage time"},
           {"marker", values.name, "an event of a clip that animates the body"},
           {"event", values.name, "an event of any playing clip"},
@@ -157,89 +156,88 @@ std::vector<Field> trigger_fields(ShapeStore& store, const ValueShapes& values) 
           {"asleep", values.positive, "seconds of stillness"}};
 }
 
-const Shape* when_shape(ShapeStore& store, const ValueShapes& values) {
+const Form* when_form(FormStore& store, const ValueForms& values) {
   const auto names = [](const std::vector<Field>& fields) {
     std::vector<std::string> out(fields.size());
     std::transform(fields.begin(), fields.end(), out.begin(), [](const Field& field) { return field.name; });
     return out;
   };
   std::vector<Field> fields = trigger_fields(store, values);
-  Shape trigger = object_of("a trigger", fields);
+  Form trigger = object_of("a trigger", fields);
   trigger.together = {exactly_one(names(fields))};
   trigger.definition = "trigger";
-  const Shape* list = store.add(list_of(store.add(trigger), "a list of triggers"));
+  const Form* list = store.add(list_of(store.add(trigger), "a list of triggers"));
   fields.push_back({"all", list, "every one: instants latch, conditions must hold"});
   fields.push_back({"any", list, "whichever comes first"});
-  Shape when = object_of("a trigger, or \"all\" or \"any\" of a list", fields);
+  Form when = object_of("a trigger, or \"all\" or \"any\" of a list", fields);
   when.together = {exactly_one(names(fields))};
   when.definition = "when";
   return store.add(std::move(when));
 }
 
-const Shape* velocity_shape(ShapeStore& store, const ValueShapes& values) {
-  const Shape* source = store.add(words_of("a velocity: \"curve\", \"step\" or \"zero\"", {"curve", "step", "zero"}));
-  const Shape* add = store.add(object_of("what is added: {\"linear\", \"angular\"}",
-                                         {{"linear", values.vector, "m/s", false, "[0, 0, 0]"},
-                                          {"angular", values.vector, "degrees/s", false, "[0, 0, 0]"}}));
-  Shape full = object_of("a velocity: {\"source\" or \"average\", \"scale\", \"add\"}",
-                         {{"source", source, "", false, "\"curve\""},
-                          {"average", values.positive, "over the last seconds"},
-                          {"scale", values.number, "factor", false, "1"},
-                          {"add", add, "after scaling", false, "{}"}});
+const Form* velocity_form(FormStore& store, const ValueForms& values) {
+  const Form* source = store.add(words_of("a velocity: \"curve\", \"step\" or \"zero\"", {"curve", "step", "zero"}));
+  const Form* add = store.add(object_of("what is added: {\"linear\", \"angular\"}",
+                                        {{"linear", values.vector, "m/s", false, "[0, 0, 0]"},
+                                         {"angular", values.vector, "degrees/s", false, "[0, 0, 0]"}}));
+  Form full = object_of("a velocity: {\"source\" or \"average\", \"scale\", \"add\"}",
+                        {{"source", source, "", false, "\"curve\""},
+                         {"average", values.positive, "over the last seconds"},
+                         {"scale", values.number, "factor", false, "1"},
+                         {"add", add, "after scaling", false, "{}"}});
   full.together = {at_most_one({"source", "average"})};
-  Shape shape =
-      choice_of("a velocity: \"curve\", \"step\", \"zero\", or {\"source\" or \"average\", \"scale\", \"add\"}",
-                {source, store.add(full)});
-  shape.definition = "velocity";
-  return store.add(std::move(shape));
+  Form form = choice_of("a velocity: \"curve\", \"step\", \"zero\", or {\"source\" or \"average\", \"scale\", \"add\"}",
+                        {source, store.add(full)});
+  form.definition = "velocity";
+  return store.add(std::move(form));
 }
 
 }  // namespace
 
-const Shape* node_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape node = object_of("a node", {{"parent", values.name, "name of another node"},
-                                    {"position", values.vector, "relative to the parent, m", false, "[0, 0, 0]"},
-                                    {"rotation", values.rotation, ""},
-                                    {"scale", values.scale, "", false, "1"},
-                                    {"color", values.color, ""},
-                                    {"group", values.name, "name for rules"},
-                                    {"body", body_shape(store, values), ""}});
+const Form* node_form(FormStore& store, const ValueForms& values) {
+  Form node = object_of("a node", {{"parent", values.name, "name of another node"},
+                                   {"position", values.vector, "relative to the parent, m", false, "[0, 0, 0]"},
+                                   {"rotation", values.rotation, ""},
+                                   {"scale", values.scale, "", false, "1"},
+                                   {"color", values.color, ""},
+                                   {"group", values.name, "name for rules"},
+                                   {"body", body_form(store, values), ""}});
   node.definition = "node";
   return store.add(std::move(node));
 }
 
-const Shape* play_shape(ShapeStore& store, const ValueShapes& values) {
-  const Shape* weight =
+const Form* play_form(FormStore& store, const ValueForms& values) {
+  const Form* weight =
       store.add(choice_of("a weight from 0 to 1, or a list of keys in stage time",
-                          {store.add(bounded("a weight from 0 to 1", 0, false, 1)), weight_keys_shape(store, values)}));
-  const Shape* mask =
+                          {store.add(bounded("a weight from 0 to 1", 0, false, 1)), weight_keys_form(store, values)}));
+  const Form* mask =
       store.add(choice_of("a name, a pattern (\"arm/*\"), or a list of them",
                           {values.name, store.add(list_of(values.name, "a list of names or patterns"))}));
-  Shape play = object_of("a play: {\"clip\", \"at\", \"speed\", \"weight\", \"mask\"}",
-                         {{"clip", values.name, "name of a clip", true},
-                          {"at", values.stage_time, "stage time of its start", false, "0"},
-                          {"speed", values.number, "clip seconds per stage second", false, "1"},
-                          {"weight", weight, "over what is below", false, "1"},
-                          {"mask", mask, "nodes it drives; absent: all"}});
+  Form play = object_of("a play: {\"clip\", \"at\", \"speed\", \"weight\", \"mask\"}",
+                        {{"clip", values.name, "name of a clip", true},
+                         {"at", values.stage_time, "stage time of its start", false, "0"},
+                         {"speed", values.number, "clip seconds per stage second", false, "1"},
+                         {"weight", weight, "over what is below", false, "1"},
+                         {"mask", mask, "nodes it drives; absent: all"}});
   play.definition = "play";
   return store.add(std::move(play));
 }
 
-const Shape* world_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape fraction;
-  fraction.kind = Shape::Kind::text;
+const Form* world_form(FormStore& store, const ValueForms& values) {
+  Form fraction;
+  fraction.kind = Form::Kind::text;
   fraction.pattern = "^1/[1-9][0-9]{0,8}$";
   fraction.fits = [](std::string_view text) {
     return text.size() > 2 && text.size() <= 11 && text.substr(0, 2) == "1/" && text[2] != '0' &&
            text.substr(2).find_first_not_of("0123456789") == std::string_view::npos;
   };
-  const Shape* step =
+  const Form* step =
       store.add(choice_of("a step: seconds above 0, or \"1/N\"", {values.positive, store.add(fraction)}));
-  const Shape* never = store.add(
+  const Form* never = store.add(
       choice_of("seconds above 0, or \"never\"", {values.positive, store.add(words_of("\"never\"", {"never"}))}));
-  Shape forces = list_of(force_shape(store, values), "a list of forces", 0);
+  Form forces = list_of(force_form(store, values), "a list of forces", 0);
   forces.one_a_line = true;
-  Shape world = object_of(
+  Form world = object_of(
       "a world", {{"gravity", values.vector, "m/s^2", false, "[0, -9.81, 0]"},
                   {"step", step, "s", false, "\"1/240\""},
                   {"integrator", store.add(words_of("an integrator", {"exact-quadratic", "semi-implicit-euler"})), "",
@@ -254,36 +252,36 @@ const Shape* world_shape(ShapeStore& store, const ValueShapes& values) {
   return store.add(std::move(world));
 }
 
-const Shape* rule_shape(ShapeStore& store, const ValueShapes& values) {
-  const Shape* bodies =
+const Form* rule_form(FormStore& store, const ValueForms& values) {
+  const Form* bodies =
       store.add(choice_of("a node's name, a pattern (\"tower/*\"), or a list of them",
                           {values.name, store.add(list_of(values.name, "a list of names or patterns"))}));
-  const Shape* path = store.add(object_of("a path: {\"clip\", \"time\", \"anchor\"}",
-                                          {{"clip", values.name, "absent: what played before"},
-                                           {"time", store.add(words_of("a clock", {"run", "hold", "restart"})),
-                                            "where the clip's clock stands", false, "\"run\""},
-                                           {"anchor", store.add(words_of("an anchor", {"keep", "here", "ground"})),
-                                            "where the path lies", false, "\"keep\""}}));
-  Shape settle = object_of(
+  const Form* path = store.add(object_of("a path: {\"clip\", \"time\", \"anchor\"}",
+                                         {{"clip", values.name, "absent: what played before"},
+                                          {"time", store.add(words_of("a clock", {"run", "hold", "restart"})),
+                                           "where the clip's clock stands", false, "\"run\""},
+                                          {"anchor", store.add(words_of("an anchor", {"keep", "here", "ground"})),
+                                           "where the path lies", false, "\"keep\""}}));
+  Form settle = object_of(
       "a settle: one of \"quintic\", \"half_life\", \"dead_blend\", in seconds",
       {{"quintic", values.positive, "s"}, {"half_life", values.positive, "s"}, {"dead_blend", values.positive, "s"}});
   settle.together = {exactly_one({"quintic", "half_life", "dead_blend"})};
-  Shape rule = object_of("a rule of the hand-off",
-                         {{"body", bodies, "whom it is about"},
-                          {"group", values.name, "all nodes of a group"},
-                          {"when", when_shape(store, values), "", true},
-                          {"to", owner_shape(store, values), "the new owner", true},
-                          {"velocity", velocity_shape(store, values), "of a released body", false, "\"curve\""},
-                          {"path", path, "of a body that is taken back", false, "{}"},
-                          {"settle", store.add(settle), "how the difference dies away", false, "{\"quintic\": 0.3}"},
-                          {"once", values.boolean, "false: armed again after it was false", false, "true"}});
+  Form rule = object_of("a rule of the hand-off",
+                        {{"body", bodies, "whom it is about"},
+                         {"group", values.name, "all nodes of a group"},
+                         {"when", when_form(store, values), "", true},
+                         {"to", owner_form(store, values), "the new owner", true},
+                         {"velocity", velocity_form(store, values), "of a released body", false, "\"curve\""},
+                         {"path", path, "of a body that is taken back", false, "{}"},
+                         {"settle", store.add(settle), "how the difference dies away", false, "{\"quintic\": 0.3}"},
+                         {"once", values.boolean, "false: armed again after it was false", false, "true"}});
   rule.together = {exactly_one({"body", "group"})};
   rule.definition = "rule";
   return store.add(std::move(rule));
 }
 
-const Shape* import_shape(ShapeStore& store, const ValueShapes& values) {
-  Shape import = object_of("an object with files by the name they get here", {});
+const Form* import_form(FormStore& store, const ValueForms& values) {
+  Form import = object_of("an object with files by the name they get here", {});
   import.definition = "import";
   import.one_a_line = true;
   import.others = values.name;

@@ -24,7 +24,7 @@ JsonValue first_key_value(const JsonValue& track) {
 }
 
 bool has_function(const JsonValue& track) {
-  for (const std::string& name : FunctionShapes::names())
+  for (const std::string& name : FunctionForms::names())
     if (track.find(name)) return true;
   return false;
 }
@@ -32,9 +32,9 @@ bool has_function(const JsonValue& track) {
 // What the tracks of one kind of value look like, with its options.
 struct TrackKind {
   std::string name;  // of its definitions
-  const Shape* value = nullptr;
-  const Shape* rate = nullptr;  // null: the value switches, and has neither ease nor tangents
-  bool turns = false;           // a rotation: rates are angular velocities, and have no neighbors to look at
+  const Form* value = nullptr;
+  const Form* rate = nullptr;  // null: the value switches, and has neither ease nor tangents
+  bool turns = false;          // a rotation: rates are angular velocities, and have no neighbors to look at
   std::vector<Field> options{};
   TrackFunctions functions{};
   std::vector<Field> key_options{};  // of keys with names
@@ -42,41 +42,41 @@ struct TrackKind {
   std::vector<Field> made_of_numbers{};
 };
 
-class TrackShapes {
+class TrackForms {
  public:
-  TrackShapes(ShapeStore& store, const ValueShapes& values) : functions(store, values), store_(store), values_(values) {
+  TrackForms(FormStore& store, const ValueForms& values) : functions(store, values), store_(store), values_(values) {
     outside_words_ = store_.add(
         words_of("what happens outside the keys", {"hold", "linear", "repeat", "repeat-offset", "pingpong"}));
     overlong_ = store_.add(words_of("what gives way to overlong handles", {"keep-ratio", "keep-start", "contain"}));
     ends_ = store_.add(words_of("what lies beyond the end keys for automatic slopes", {"secant", "flat", "wrap"}));
   }
 
-  const Shape* keys(const TrackKind& kind) {
-    const Shape* tangent = nullptr;
+  const Form* keys(const TrackKind& kind) {
+    const Form* tangent = nullptr;
     if (kind.rate) {
-      const Shape* words =
+      const Form* words =
           store_.add(kind.turns ? words_of("", {"auto", "flat", "vector"})
                                 : words_of("", {"auto", "flat", "vector", "aligned", "mirrored", "plateau",
                                                 "auto-clamped", "auto-chord", "auto-mix", "auto-ease"}));
-      Shape handle = object_of("a tangent with \"rate\" or \"kind\", and \"weight\"",
-                               {{"rate", kind.rate, "value per second"},
-                                {"kind", words, "a word in place of a rate"},
-                                {"weight", share(), "the handle's share of the span", false, number_text(1.0 / 3.0)}});
+      Form handle = object_of("a tangent with \"rate\" or \"kind\", and \"weight\"",
+                              {{"rate", kind.rate, "value per second"},
+                               {"kind", words, "a word in place of a rate"},
+                               {"weight", share(), "the handle's share of the span", false, number_text(1.0 / 3.0)}});
       handle.together = {exactly_one({"rate", "kind"})};
-      Shape shape = choice_of("a tangent: \"auto\", \"flat\", a rate in value per second, or {\"rate\", \"weight\"}",
-                              {words, kind.rate, store_.add(handle)});
-      shape.definition = "tangent-" + kind.name;
-      tangent = store_.add(std::move(shape));
+      Form form = choice_of("a tangent: \"auto\", \"flat\", a rate in value per second, or {\"rate\", \"weight\"}",
+                            {words, kind.rate, store_.add(handle)});
+      form.definition = "tangent-" + kind.name;
+      tangent = store_.add(std::move(form));
     }
-    Shape row;
-    row.kind = Shape::Kind::tuple;
+    Form row;
+    row.kind = Form::Kind::tuple;
     row.what = kind.rate ? "a key: [time, value], [time, value, ease] or {\"t\", \"v\", ...}"
                          : "a key: [time, value] or {\"t\", \"v\"}";
     row.parts = {values_.key_time, kind.value};
     if (kind.rate) row.parts.push_back(values_.ease);
     row.fewest = 2;
     row.on_one_line = true;
-    Shape full = object_of(row.what, {{"t", values_.key_time, "time", true}, {"v", kind.value, "value", true}});
+    Form full = object_of(row.what, {{"t", values_.key_time, "time", true}, {"v", kind.value, "value", true}});
     if (kind.rate) {
       full.fields.push_back({"ease", values_.ease, "how the curve leaves the key", false, "\"smooth-clamped\""});
       full.fields.push_back({"in", tangent, "slope on arrival"});
@@ -86,61 +86,61 @@ class TrackShapes {
     }
     for (const Field& option : kind.key_options) full.fields.push_back(option);
     full.on_one_line = true;
-    Shape key = choice_of(row.what, {store_.add(row), store_.add(full)});
+    Form key = choice_of(row.what, {store_.add(row), store_.add(full)});
     key.definition = "key-" + kind.name;
-    Shape list = list_of(store_.add(std::move(key)), "a list of keys");
+    Form list = list_of(store_.add(std::move(key)), "a list of keys");
     list.definition = "keys-" + kind.name;
     list.one_a_line = true;
     return store_.add(std::move(list));
   }
 
-  const Shape* object(const TrackKind& kind, const Shape* keys) {
-    Shape shape = object_of("a track: a list of keys, or an object with \"keys\"", kind.options);
-    shape.definition = "track-" + kind.name;
+  const Form* object(const TrackKind& kind, const Form* keys) {
+    Form form = object_of("a track: a list of keys, or an object with \"keys\"", kind.options);
+    form.definition = "track-" + kind.name;
     if (kind.rate) {
-      const Shape* beyond = outside(kind);
-      shape.fields.push_back({"before", beyond, "before the first key", false, "\"hold\""});
-      shape.fields.push_back({"after", beyond, "after the last key", false, "\"hold\""});
-      shape.fields.push_back(
+      const Form* beyond = outside(kind);
+      form.fields.push_back({"before", beyond, "before the first key", false, "\"hold\""});
+      form.fields.push_back({"after", beyond, "after the last key", false, "\"hold\""});
+      form.fields.push_back(
           {"overlong", overlong_, "what gives way where handles would turn time", false, "\"keep-ratio\""});
-      shape.fields.push_back({"ends", ends_, "what automatic slopes see beyond the ends", false, "\"secant\""});
+      form.fields.push_back({"ends", ends_, "what automatic slopes see beyond the ends", false, "\"secant\""});
     }
     std::vector<std::string> sources = {"keys"};
-    shape.fields.push_back({"keys", keys, "the keys, in order of time"});
+    form.fields.push_back({"keys", keys, "the keys, in order of time"});
     for (const Field& function : kind.functions.endless) {
-      shape.fields.push_back(function);
+      form.fields.push_back(function);
       sources.push_back(function.name);
-      shape.together.push_back(at_most_one({"before", function.name}));
-      shape.together.push_back(at_most_one({"after", function.name}));
-      shape.together.push_back(at_most_one({"overlong", function.name}));
-      shape.together.push_back(at_most_one({"ends", function.name}));
+      form.together.push_back(at_most_one({"before", function.name}));
+      form.together.push_back(at_most_one({"after", function.name}));
+      form.together.push_back(at_most_one({"overlong", function.name}));
+      form.together.push_back(at_most_one({"ends", function.name}));
     }
     for (const Field& function : kind.functions.passing) {
-      shape.fields.push_back(function);
+      form.fields.push_back(function);
       sources.push_back(function.name);
-      if (shape.field("turn")) shape.together.push_back(at_most_one({"turn", function.name}));
-      shape.together.push_back(at_most_one({"overlong", function.name}));
-      shape.together.push_back(at_most_one({"ends", function.name}));
+      if (form.field("turn")) form.together.push_back(at_most_one({"turn", function.name}));
+      form.together.push_back(at_most_one({"overlong", function.name}));
+      form.together.push_back(at_most_one({"ends", function.name}));
     }
-    for (const Field& made : kind.made_of_numbers) add_alone(shape, made, sources);
+    for (const Field& made : kind.made_of_numbers) add_alone(form, made, sources);
     if (kind.rate && kind.mixes) {
-      add_alone(shape, mix_of(kind), sources);
-      if (kind.name == "euler") shape.together.push_back(at_most_one({"modifiers", "barycentric"}));
+      add_alone(form, mix_of(kind), sources);
+      if (kind.name == "euler") form.together.push_back(at_most_one({"modifiers", "barycentric"}));
     }
     if (kind.functions.parameters) {
-      shape.fields.push_back({"parameters", functions.parameters(), "numbers that the expression calls by name"});
-      shape.together.push_back({Together::Rule::first_needs_second, {"parameters", "expression"}});
+      form.fields.push_back({"parameters", functions.parameters(), "numbers that the expression calls by name"});
+      form.together.push_back({Together::Rule::first_needs_second, {"parameters", "expression"}});
     }
-    shape.together.insert(shape.together.begin(), exactly_one(std::move(sources)));
-    return store_.add(std::move(shape));
+    form.together.insert(form.together.begin(), exactly_one(std::move(sources)));
+    return store_.add(std::move(form));
   }
 
   // What goes on by rules of its own.
-  static void add_alone(Shape& shape, const Field& source, std::vector<std::string>& sources) {
-    shape.fields.push_back(source);
+  static void add_alone(Form& form, const Field& source, std::vector<std::string>& sources) {
+    form.fields.push_back(source);
     sources.push_back(source.name);
     for (const char* option : {"turn", "before", "after", "overlong", "ends", "mix", "hue"})
-      if (shape.field(option)) shape.together.push_back(at_most_one({option, source.name}));
+      if (form.field(option)) form.together.push_back(at_most_one({option, source.name}));
   }
 
   Field mix_of(const TrackKind& kind) {
@@ -151,7 +151,7 @@ class TrackShapes {
       weight_ = either(numbers);
     }
     const std::size_t most = most_mixed_curves;
-    Shape mix =
+    Form mix =
         object_of("a mix: {\"values\", \"weights\"}",
                   {{"values", store_.add(list_of(kind.value, "a list of values", 1, most)), "what is mixed", true},
                    {"weights", store_.add(list_of(weight_, "a list of tracks of numbers", 1, most)),
@@ -161,9 +161,9 @@ class TrackShapes {
   }
 
   // A word, or an object for what needs a number.
-  const Shape* outside(const TrackKind& kind) {
-    const Shape* plays = store_.add(words_of("a way to repeat", {"repeat", "repeat-offset", "pingpong"}));
-    Shape full = object_of(
+  const Form* outside(const TrackKind& kind) {
+    const Form* plays = store_.add(words_of("a way to repeat", {"repeat", "repeat-offset", "pingpong"}));
+    Form full = object_of(
         "an outside: {\"mode\", \"count\"} or {\"slope\"}",
         {{"mode", plays, "how it repeats"}, {"count", values_.positive, "plays beyond this end; absent: without end"}});
     full.on_one_line = true;
@@ -175,19 +175,19 @@ class TrackShapes {
       full.fields.push_back({"slope", kind.rate, "straight on, in value per second"});
       full.together.insert(full.together.begin(), exactly_one({"mode", "slope"}));
     }
-    Shape shape = choice_of("what happens outside the keys", {outside_words_, store_.add(std::move(full))});
-    shape.definition = "outside-" + kind.name;
-    return store_.add(std::move(shape));
+    Form form = choice_of("what happens outside the keys", {outside_words_, store_.add(std::move(full))});
+    form.definition = "outside-" + kind.name;
+    return store_.add(std::move(form));
   }
 
   // Keys alone, or an object: tracks of one kind only.
-  const Shape* either(const TrackKind& kind) {
-    const Shape* list = keys(kind);
+  const Form* either(const TrackKind& kind) {
+    const Form* list = keys(kind);
     return store_.add(choice_of("a track: a list of keys, or an object with \"keys\"", {list, object(kind, list)}));
   }
 
-  const Shape* rotation() {
-    const Shape* turn = store_.add(words_of("which way around", {"short", "long"}));
+  const Form* rotation() {
+    const Form* turn = store_.add(words_of("which way around", {"short", "long"}));
     const TrackKind euler{"euler",
                           values_.euler,
                           values_.vector,
@@ -208,18 +208,18 @@ class TrackShapes {
                             {{"axis", values_.axis, "what the degrees turn about", true}, relative(), modifiers(1)},
                             functions.of_numbers("degrees", true)};
     struct Spelled {
-      const Shape *list, *object;
+      const Form *list, *object;
     };
     const auto made = [&](const TrackKind& kind) {
-      const Shape* list = keys(kind);
+      const Form* list = keys(kind);
       return Spelled{list, object(kind, list)};
     };
     const Spelled in_euler = made(euler), in_quat = made(quaternion), in_axis_angle = made(axis_angle);
-    const Shape* in_degrees = object(degrees, keys(degrees));
-    Shape shape = choice_of("a track of rotations: a list of keys, or an object with \"keys\"",
-                            {in_euler.list, in_euler.object, in_quat.list, in_quat.object, in_axis_angle.list,
-                             in_axis_angle.object, in_degrees});
-    shape.select = [=](const JsonValue& value) -> const Shape* {
+    const Form* in_degrees = object(degrees, keys(degrees));
+    Form form = choice_of("a track of rotations: a list of keys, or an object with \"keys\"",
+                          {in_euler.list, in_euler.object, in_quat.list, in_quat.object, in_axis_angle.list,
+                           in_axis_angle.object, in_degrees});
+    form.select = [=](const JsonValue& value) -> const Form* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
       const bool has_axis = static_cast<bool>(value.find("axis"));
@@ -231,40 +231,40 @@ class TrackShapes {
                                                               : in_euler;
       return list ? spelled.list : spelled.object;
     };
-    return store_.add(std::move(shape));
+    return store_.add(std::move(form));
   }
 
-  const Shape* key_turn(const Shape* ways) {
-    Shape whole;
-    whole.kind = Shape::Kind::number;
+  const Form* key_turn(const Form* ways) {
+    Form whole;
+    whole.kind = Form::Kind::number;
     whole.what = "a whole number of turns, -1000000 to 1000000";
     whole.whole = true;
     whole.low = -1e6;
     whole.high = 1e6;
-    Shape told = object_of("a turn: {\"way\", \"turns\"} or {\"axis\", \"turns\"}",
-                           {{"way", ways, "way around; absent: as the track says"},
-                            {"axis", values_.axis, "the way that turns counterclockwise about it"},
-                            {"turns", store_.add(std::move(whole)), "whole turns on top", false, "0"}});
+    Form told = object_of("a turn: {\"way\", \"turns\"} or {\"axis\", \"turns\"}",
+                          {{"way", ways, "way around; absent: as the track says"},
+                           {"axis", values_.axis, "the way that turns counterclockwise about it"},
+                           {"turns", store_.add(std::move(whole)), "whole turns on top", false, "0"}});
     told.together = {at_most_one({"way", "axis"})};
     told.on_one_line = true;
-    Shape shape = choice_of("\"short\", \"long\", or {\"way\", \"turns\"} or {\"axis\", \"turns\"}",
-                            {ways, store_.add(std::move(told))});
-    shape.definition = "turn";
-    return store_.add(std::move(shape));
+    Form form = choice_of("\"short\", \"long\", or {\"way\", \"turns\"} or {\"axis\", \"turns\"}",
+                          {ways, store_.add(std::move(told))});
+    form.definition = "turn";
+    return store_.add(std::move(form));
   }
 
   // Names of the user's: the kind is said, else that of the first value.
-  const Shape* user() {
+  const Form* user() {
     const auto kind_field = [&](const std::string& kind, bool required) {
       return Field{"kind", store_.add(words_of("the kind " + in_quotes(kind), {kind})), "kind of value", required};
     };
-    Shape plain_text;
-    plain_text.kind = Shape::Kind::text;
+    Form plain_text;
+    plain_text.kind = Form::Kind::text;
     plain_text.what = "a text; one that starts with '#' needs \"kind\": \"text\" on the track";
     plain_text.pattern = "^(?!#)";
     plain_text.fits = [](std::string_view text) { return text.substr(0, 1) != "#"; };
-    Shape any_text;
-    any_text.kind = Shape::Kind::text;
+    Form any_text;
+    any_text.kind = Form::Kind::text;
     any_text.what = "a text";
 
     const TrackKind number{"number",
@@ -286,15 +286,15 @@ class TrackShapes {
     const TrackKind said_text{"said-text", store_.add(any_text), nullptr, false, {kind_field("text", true)}};
     struct Made {
       std::string kind;
-      const Shape *list, *object;
+      const Form *list, *object;
     };
     std::vector<Made> made;
-    Shape shape = choice_of("a track: a list of keys, or an object with \"keys\"", {});
+    Form form = choice_of("a track: a list of keys, or an object with \"keys\"", {});
     const auto add = [&](const std::string& kind, const TrackKind& what) {
-      const Shape* list = keys(what);
+      const Form* list = keys(what);
       made.push_back({kind, list, object(what, list)});
-      if (what.name != "said-text") shape.alternatives.push_back(list);
-      shape.alternatives.push_back(made.back().object);
+      if (what.name != "said-text") form.alternatives.push_back(list);
+      form.alternatives.push_back(made.back().object);
     };
     add("number", number);
     add("vector-2", {"vector-2",
@@ -316,7 +316,7 @@ class TrackShapes {
     add("said-text", said_text);
 
     // Stands in where the kind's word is none.
-    Shape any_track = object_of(
+    Form any_track = object_of(
         "a track", {{"kind", store_.add(words_of("a kind of value", {"number", "vector", "color", "switch", "text"})),
                      "kind of value"},
                     {"keys", values_.any, ""},
@@ -327,11 +327,11 @@ class TrackShapes {
                     {"modifiers", values_.any, ""},
                     {"space", values_.any, ""},
                     {"hue", values_.any, ""}});
-    for (const std::string& name : FunctionShapes::names()) any_track.fields.push_back({name, values_.any, ""});
+    for (const std::string& name : FunctionForms::names()) any_track.fields.push_back({name, values_.any, ""});
     any_track.fields.push_back({"barycentric", values_.any, ""});
     any_track.fields.push_back({"parameters", values_.any, ""});
-    const Shape* unknown = store_.add(std::move(any_track));
-    shape.select = [made, unknown](const JsonValue& value) -> const Shape* {
+    const Form* unknown = store_.add(std::move(any_track));
+    form.select = [made, unknown](const JsonValue& value) -> const Form* {
       const bool list = value.is(JsonValue::Kind::list);
       if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
       const JsonValue first = first_key_value(value);
@@ -358,17 +358,17 @@ class TrackShapes {
             break;
         }
       } else {
-        kind = FunctionShapes::dimension(value) > 1 ? "vector" : "number";
+        kind = FunctionForms::dimension(value) > 1 ? "vector" : "number";
       }
       if (kind == "vector") {
-        const std::size_t size = first ? first.items().size() : FunctionShapes::dimension(value);
+        const std::size_t size = first ? first.items().size() : FunctionForms::dimension(value);
         kind = size == 2 ? "vector-2" : size == 4 ? "vector-4" : "vector-3";
       }
       for (const Made& each : made)
         if (each.kind == kind) return list ? each.list : each.object;
       return unknown;
     };
-    return store_.add(std::move(shape));
+    return store_.add(std::move(form));
   }
 
   Field relative() const {
@@ -397,49 +397,49 @@ class TrackShapes {
 
   // Over numbers a list; over vectors one list for all components alike, or lists by component.
   Field modifiers(std::size_t size) {
-    if (!modifiers_) modifiers_ = modifiers_shape(store_, values_);
+    if (!modifiers_) modifiers_ = modifiers_form(store_, values_);
     const Field over_numbers{"modifiers", modifiers_, "laid over the curve"};
     if (size == 1) return over_numbers;
-    Shape parts = object_of("modifiers: a list, or lists by component", {});
+    Form parts = object_of("modifiers: a list, or lists by component", {});
     for (std::size_t i = 0; i < size; ++i)
       parts.fields.push_back({std::string(1, "xyzw"[i]), modifiers_, "over it alone"});
     parts.definition = "modifiers-" + std::to_string(size);
-    const Shape* either = store_.add(choice_of(parts.what, {modifiers_, store_.add(parts)}));
+    const Form* either = store_.add(choice_of(parts.what, {modifiers_, store_.add(parts)}));
     return {"modifiers", either, "laid over the curve: a list for all components alike, or lists by component"};
   }
 
-  const FunctionShapes functions;
+  const FunctionForms functions;
 
  private:
-  const Shape* share() {
+  const Form* share() {
     if (!share_) {
-      Shape shape;
-      shape.kind = Shape::Kind::number;
-      shape.what = "a share of the span, above 0";
-      shape.low = 0;
-      shape.above_low = true;
-      share_ = store_.add(std::move(shape));
+      Form form;
+      form.kind = Form::Kind::number;
+      form.what = "a share of the span, above 0";
+      form.low = 0;
+      form.above_low = true;
+      share_ = store_.add(std::move(form));
     }
     return share_;
   }
 
-  ShapeStore& store_;
-  const ValueShapes& values_;
-  const Shape* outside_words_ = nullptr;
-  const Shape* overlong_ = nullptr;
-  const Shape* ends_ = nullptr;
-  const Shape* share_ = nullptr;
-  const Shape* weight_ = nullptr;  // a track of numbers within a track
-  const Shape* space_ = nullptr;
-  const Shape* hue_ = nullptr;
-  const Shape* modifiers_ = nullptr;
+  FormStore& store_;
+  const ValueForms& values_;
+  const Form* outside_words_ = nullptr;
+  const Form* overlong_ = nullptr;
+  const Form* ends_ = nullptr;
+  const Form* share_ = nullptr;
+  const Form* weight_ = nullptr;  // a track of numbers within a track
+  const Form* space_ = nullptr;
+  const Form* hue_ = nullptr;
+  const Form* modifiers_ = nullptr;
 };
 
 }  // namespace
 
-const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
-  TrackShapes make(store, values);
-  Shape tracks = object_of("an object with tracks by name", {});
+const Form* tracks_form(FormStore& store, const ValueForms& values) {
+  TrackForms make(store, values);
+  Form tracks = object_of("an object with tracks by name", {});
   tracks.definition = "tracks";
   tracks.one_a_line = true;
   tracks.endings = {
@@ -471,8 +471,8 @@ const Shape* tracks_shape(ShapeStore& store, const ValueShapes& values) {
   return store.add(std::move(tracks));
 }
 
-const Shape* weight_keys_shape(ShapeStore& store, const ValueShapes& values) {
-  return TrackShapes(store, values).keys({"weight", values.number, values.number});
+const Form* weight_keys_form(FormStore& store, const ValueForms& values) {
+  return TrackForms(store, values).keys({"weight", values.number, values.number});
 }
 
 }  // namespace tweenfall::document

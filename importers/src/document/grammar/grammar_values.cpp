@@ -17,58 +17,58 @@ bool is_hex_color(std::string_view text) {
                      [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); });
 }
 
-Shape number_of(std::string what, double low = -Shape::infinite, bool above_low = false) {
-  Shape shape;
-  shape.kind = Shape::Kind::number;
-  shape.what = std::move(what);
-  shape.low = low;
-  shape.above_low = above_low;
-  return shape;
+Form number_of(std::string what, double low = -Form::infinite, bool above_low = false) {
+  Form form;
+  form.kind = Form::Kind::number;
+  form.what = std::move(what);
+  form.low = low;
+  form.above_low = above_low;
+  return form;
 }
 
-Shape text_of(std::string what, std::string pattern, std::function<bool(std::string_view)> fits) {
-  Shape shape;
-  shape.kind = Shape::Kind::text;
-  shape.what = std::move(what);
-  shape.pattern = std::move(pattern);
-  shape.fits = std::move(fits);
-  return shape;
+Form text_of(std::string what, std::string pattern, std::function<bool(std::string_view)> fits) {
+  Form form;
+  form.kind = Form::Kind::text;
+  form.what = std::move(what);
+  form.pattern = std::move(pattern);
+  form.fits = std::move(fits);
+  return form;
 }
 
-Shape named(Shape shape, std::string definition) {
-  shape.definition = std::move(definition);
-  return shape;
+Form named(Form form, std::string definition) {
+  form.definition = std::move(definition);
+  return form;
 }
 
 // Words as they are; calls by their name, with anything between the brackets: what stands there is Ease::named's to
 // judge, and it says why.
-const Shape* ease_shape(ShapeStore& store) {
-  Shape shape;
-  shape.kind = Shape::Kind::text;
-  shape.what = "an ease";
-  shape.definition = "ease";
+const Form* ease_form(FormStore& store) {
+  Form form;
+  form.kind = Form::Kind::text;
+  form.what = "an ease";
+  form.definition = "ease";
   std::vector<std::string> calls;
   std::string pattern;
-  for (const std::string& form : Ease::names()) {
-    const std::size_t bracket = form.find('(');
-    const std::string word = form.substr(0, bracket);
+  for (const std::string& spelling : Ease::names()) {
+    const std::size_t bracket = spelling.find('(');
+    const std::string word = spelling.substr(0, bracket);
     if (bracket == std::string::npos) {
-      shape.words.push_back(word);
+      form.words.push_back(word);
     } else if (std::find(calls.begin(), calls.end(), word) == calls.end()) {
       calls.push_back(word);
-      shape.hints.push_back(form);
+      form.hints.push_back(spelling);
       pattern += (pattern.empty() ? "" : "|") + word;
     }
   }
-  if (!calls.empty()) shape.pattern = "^(" + pattern + ")\\(.*\\)$";
+  if (!calls.empty()) form.pattern = "^(" + pattern + ")\\(.*\\)$";
   // The spellings that the schema knows: words as they are, calls without spaces before their bracket.
-  shape.fits = [calls](std::string_view text) {
+  form.fits = [calls](std::string_view text) {
     const std::size_t bracket = text.find('(');
     return bracket != std::string_view::npos &&
            std::find(calls.begin(), calls.end(), text.substr(0, bracket)) != calls.end() &&
            Ease::named(text).has_value();
   };
-  shape.why = [calls](std::string_view text) -> std::string {
+  form.why = [calls](std::string_view text) -> std::string {
     // What other programs call it.
     if (const std::string ours = Ease::ours(text); !ours.empty()) return "; did you mean \"" + ours + "\"?";
     const std::size_t bracket = text.find('(');
@@ -79,48 +79,48 @@ const Shape* ease_shape(ShapeStore& store) {
     (void)Ease::named(text, &reason);
     return reason.empty() ? std::string() : "; " + reason;
   };
-  return store.add(std::move(shape));
+  return store.add(std::move(form));
 }
 
 }  // namespace
 
-Shape object_of(std::string what, std::vector<Field> fields) {
-  Shape shape;
-  shape.kind = Shape::Kind::object;
-  shape.what = std::move(what);
-  shape.fields = std::move(fields);
-  return shape;
+Form object_of(std::string what, std::vector<Field> fields) {
+  Form form;
+  form.kind = Form::Kind::object;
+  form.what = std::move(what);
+  form.fields = std::move(fields);
+  return form;
 }
 
-Shape list_of(const Shape* element, std::string what, std::size_t fewest, std::size_t most) {
-  Shape shape;
-  shape.kind = Shape::Kind::list;
-  shape.what = std::move(what);
-  shape.element = element;
-  shape.fewest = fewest;
-  shape.most = most;
-  return shape;
+Form list_of(const Form* element, std::string what, std::size_t fewest, std::size_t most) {
+  Form form;
+  form.kind = Form::Kind::list;
+  form.what = std::move(what);
+  form.element = element;
+  form.fewest = fewest;
+  form.most = most;
+  return form;
 }
 
-Shape words_of(std::string what, std::vector<std::string> words) {
-  Shape shape;
-  shape.kind = Shape::Kind::text;
-  shape.what = std::move(what);
-  shape.words = std::move(words);
-  return shape;
+Form words_of(std::string what, std::vector<std::string> words) {
+  Form form;
+  form.kind = Form::Kind::text;
+  form.what = std::move(what);
+  form.words = std::move(words);
+  return form;
 }
 
-Shape choice_of(std::string what, std::vector<const Shape*> alternatives) {
-  Shape shape;
-  shape.kind = Shape::Kind::choice;
-  shape.what = std::move(what);
-  shape.alternatives = std::move(alternatives);
-  return shape;
+Form choice_of(std::string what, std::vector<const Form*> alternatives) {
+  Form form;
+  form.kind = Form::Kind::choice;
+  form.what = std::move(what);
+  form.alternatives = std::move(alternatives);
+  return form;
 }
 
-ValueShapes::ValueShapes(ShapeStore& store) {
-  Shape truth;
-  truth.kind = Shape::Kind::boolean;
+ValueForms::ValueForms(FormStore& store) {
+  Form truth;
+  truth.kind = Form::Kind::boolean;
   truth.what = "true or false";
   boolean = store.add(truth);
   any = store.add({});
@@ -159,7 +159,7 @@ ValueShapes::ValueShapes(ShapeStore& store) {
   length_of_time = store.add(named(choice_of("a length of time above 0: seconds, or \"12f\"",
                                              {positive, store.add(text_of("", "^" + digits + "f$", frames))}),
                                    "length-of-time"));
-  ease = ease_shape(store);
+  ease = ease_form(store);
 
   color = store.add(named(text_of("a color: \"#rgb\", \"#rrggbb\" or \"#rrggbbaa\"",
                                   "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8})$", is_hex_color),
@@ -181,27 +181,27 @@ ValueShapes::ValueShapes(ShapeStore& store) {
   const Field quat_field{"quat", vector_4, "x, y, z, w; need not be of unit length", true};
   const Field axis_field{"axis", axis, "", true}, angle_field{"angle", number, "degrees, never wrapped", true};
   const auto spelled = [&](const std::string& spelling, std::vector<Field> fields) {
-    Shape shape = object_of(what, std::move(fields));
-    shape.definition = "rotation-" + spelling;
-    shape.on_one_line = true;
-    shape.foremost_fault = [spelling](const JsonValue& value) -> std::string {
+    Form form = object_of(what, std::move(fields));
+    form.definition = "rotation-" + spelling;
+    form.on_one_line = true;
+    form.foremost_fault = [spelling](const JsonValue& value) -> std::string {
       for (const char* other : {"euler", "quat", "angle"})
         if (other != spelling && value.find(other) && !value.find(spelling))
           return "rotations of one track are spelled one way; its first key has " + in_quotes(spelling) +
                  ", this one " + in_quotes(other);
       return {};
     };
-    return store.add(std::move(shape));
+    return store.add(std::move(form));
   };
   euler = spelled("euler", {euler_field});
   quaternion = spelled("quat", {quat_field});
   axis_angle = spelled("angle", {axis_field, angle_field});
 
-  Shape rest = object_of(what, {{"euler", vector, euler_field.help},
-                                {"order", euler_order, "", false, "\"XYZ\""},
-                                {"axis", axis, ""},
-                                {"angle", number, angle_field.help},
-                                {"quat", vector_4, quat_field.help}});
+  Form rest = object_of(what, {{"euler", vector, euler_field.help},
+                               {"order", euler_order, "", false, "\"XYZ\""},
+                               {"axis", axis, ""},
+                               {"angle", number, angle_field.help},
+                               {"quat", vector_4, quat_field.help}});
   rest.together = {exactly_one({"euler", "angle", "quat"}),
                    {Together::Rule::first_needs_second, {"order", "euler"}},
                    {Together::Rule::first_needs_second, {"axis", "angle"}},

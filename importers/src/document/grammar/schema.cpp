@@ -27,55 +27,55 @@ Json one_member(const std::string& name, Json value) {
 
 class SchemaMaker {
  public:
-  // The schema of a shape, or a reference to where it is defined.
-  Json of(const Shape& shape) {
-    if (shape.definition.empty()) return written_out(shape);
-    if (definitions_.count(shape.definition) == 0) {
-      definitions_[shape.definition] = Json::object();
-      definitions_[shape.definition] = written_out(shape);
+  // The schema of a form, or a reference to where it is defined.
+  Json of(const Form& form) {
+    if (form.definition.empty()) return written_out(form);
+    if (definitions_.count(form.definition) == 0) {
+      definitions_[form.definition] = Json::object();
+      definitions_[form.definition] = written_out(form);
     }
-    return one_member("$ref", "#/definitions/" + shape.definition);
+    return one_member("$ref", "#/definitions/" + form.definition);
   }
 
-  Json written_out(const Shape& shape) {
+  Json written_out(const Form& form) {
     Json out = Json::object();
-    if (!shape.what.empty()) out["description"] = shape.what;
-    switch (shape.kind) {
-      case Shape::Kind::any:
+    if (!form.what.empty()) out["description"] = form.what;
+    switch (form.kind) {
+      case Form::Kind::any:
         return Json::object();
-      case Shape::Kind::number:
-        number(shape, out);
+      case Form::Kind::number:
+        number(form, out);
         break;
-      case Shape::Kind::boolean:
-        if (shape.only_true)
+      case Form::Kind::boolean:
+        if (form.only_true)
           out["const"] = true;
         else
           out["type"] = "boolean";
         break;
-      case Shape::Kind::text:
-        text(shape, out);
+      case Form::Kind::text:
+        text(form, out);
         break;
-      case Shape::Kind::list:
+      case Form::Kind::list:
         out["type"] = "array";
-        out["items"] = of(*shape.element);
-        count(out, "minItems", shape.fewest, 0);
-        count(out, "maxItems", shape.most, Shape::no_limit);
+        out["items"] = of(*form.element);
+        count(out, "minItems", form.fewest, 0);
+        count(out, "maxItems", form.most, Form::no_limit);
         break;
-      case Shape::Kind::tuple: {
+      case Form::Kind::tuple: {
         out["type"] = "array";
         Json parts = Json::array();
-        for (const Shape* part : shape.parts) parts.push_back(of(*part));
+        for (const Form* part : form.parts) parts.push_back(of(*part));
         out["items"] = std::move(parts);
-        count(out, "minItems", shape.fewest, 0);
-        count(out, "maxItems", shape.parts.size(), Shape::no_limit);
+        count(out, "minItems", form.fewest, 0);
+        count(out, "maxItems", form.parts.size(), Form::no_limit);
         break;
       }
-      case Shape::Kind::object:
-        object(shape, out);
+      case Form::Kind::object:
+        object(form, out);
         break;
-      case Shape::Kind::choice: {
+      case Form::Kind::choice: {
         Json any = Json::array();
-        for (const Shape* alternative : shape.alternatives) any.push_back(of(*alternative));
+        for (const Form* alternative : form.alternatives) any.push_back(of(*alternative));
         out["anyOf"] = std::move(any);
         break;
       }
@@ -94,32 +94,32 @@ class SchemaMaker {
     if (number != usual) out[name] = (static_cast<double>(number));
   }
 
-  static void number(const Shape& shape, Json& out) {
-    if (shape.low == shape.high) {
-      out["const"] = shape.low;
+  static void number(const Form& form, Json& out) {
+    if (form.low == form.high) {
+      out["const"] = form.low;
       return;
     }
-    out["type"] = (shape.whole ? "integer" : "number");
-    if (std::isfinite(shape.low)) out[shape.above_low ? "exclusiveMinimum" : "minimum"] = shape.low;
-    if (std::isfinite(shape.high)) out["maximum"] = shape.high;
+    out["type"] = (form.whole ? "integer" : "number");
+    if (std::isfinite(form.low)) out[form.above_low ? "exclusiveMinimum" : "minimum"] = form.low;
+    if (std::isfinite(form.high)) out["maximum"] = form.high;
   }
 
-  static void text(const Shape& shape, Json& out) {
+  static void text(const Form& form, Json& out) {
     Json fitting = Json::object();
     fitting["type"] = "string";
-    if (!shape.pattern.empty()) fitting["pattern"] = shape.pattern;
-    const Json words = one_member("enum", shape.words);
-    if (!shape.words.empty() && !shape.pattern.empty())
+    if (!form.pattern.empty()) fitting["pattern"] = form.pattern;
+    const Json words = one_member("enum", form.words);
+    if (!form.words.empty() && !form.pattern.empty())
       out["anyOf"] = {words, fitting};
     else
-      out.update(shape.words.empty() ? fitting : words);
+      out.update(form.words.empty() ? fitting : words);
   }
 
-  void object(const Shape& shape, Json& out) {
+  void object(const Form& form, Json& out) {
     out["type"] = "object";
     Json properties = Json::object(), required = Json::array();
-    for (const Field& field : shape.fields) {
-      Json schema = of(*field.shape);
+    for (const Field& field : form.fields) {
+      Json schema = of(*field.form);
       // What stands beside "$ref" is not read in draft-07.
       if (schema.contains("$ref") && !(field.help.empty() && field.standard.empty()))
         schema = one_member("allOf", Json::array({std::move(schema)}));
@@ -133,23 +133,23 @@ class SchemaMaker {
     }
     if (!properties.empty()) out["properties"] = std::move(properties);
     Json patterns = one_member(free_names, Json::object());
-    for (const Ending& each : shape.endings) {
+    for (const Ending& each : form.endings) {
       std::string escaped;
       for (const char c : each.ending) escaped += c == '.' ? std::string("\\.") : std::string(1, c);
-      patterns["^(?!//|x-)[\\s\\S]+" + escaped + "$"] = of(*each.shape);
+      patterns["^(?!//|x-)[\\s\\S]+" + escaped + "$"] = of(*each.form);
     }
     out["patternProperties"] = std::move(patterns);
-    out["additionalProperties"] = shape.others ? of(*shape.others) : Json(false);
-    if (!shape.name_pattern.empty())
+    out["additionalProperties"] = form.others ? of(*form.others) : Json(false);
+    if (!form.name_pattern.empty())
       out["propertyNames"] = one_member(
-          "anyOf", Json::array({one_member("pattern", free_names), one_member("pattern", shape.name_pattern)}));
+          "anyOf", Json::array({one_member("pattern", free_names), one_member("pattern", form.name_pattern)}));
     if (!required.empty()) out["required"] = std::move(required);
-    together(shape, out);
+    together(form, out);
   }
 
-  static void together(const Shape& shape, Json& out) {
+  static void together(const Form& form, Json& out) {
     Json rules = Json::array(), needs = Json::object();
-    for (const Together& rule : shape.together) {
+    for (const Together& rule : form.together) {
       if (rule.rule == Together::Rule::exactly_one) {
         Json one = Json::array();
         for (const std::string& name : rule.names) one.push_back(one_member("required", Json::array({name})));
@@ -176,14 +176,14 @@ class SchemaMaker {
 std::string document_schema() {
   using namespace document;
   SchemaMaker maker;
-  const Json root = maker.written_out(document_shape());
+  const Json root = maker.written_out(document_form());
   Json out = Json::object();
   out["$schema"] = "http://json-schema.org/draft-07/schema#";
   out["title"] = "tweenfall document";
   out.update(root);
   out["definitions"] = maker.definitions();
   std::vector<JsonFault> faults;
-  return write(document::Shape{}, JsonTree::parse(out.dump(), faults).root());
+  return write(document::Form{}, JsonTree::parse(out.dump(), faults).root());
 }
 
 }  // namespace tweenfall

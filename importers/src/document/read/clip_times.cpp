@@ -2,9 +2,9 @@
 
 #include <tweenfall/curves/number_text.h>
 
+#include "document/form.h"
 #include "document/read/times.h"
 #include "document/read/values.h"
-#include "document/shape.h"
 
 #include <algorithm>
 #include <cmath>

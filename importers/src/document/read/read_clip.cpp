@@ -1,7 +1,7 @@
 #include <tweenfall/curves/number_text.h>
 
+#include "document/form.h"
 #include "document/read/values.h"
-#include "document/shape.h"
 #include "document/tracks/read_track.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "document/content.h"
+#include "document/form.h"
 #include "document/read/values.h"
 #include "document/report/suggestion.h"
-#include "document/shape.h"
 #include "document/tracks/read_track.h"
 
 #include <cmath>

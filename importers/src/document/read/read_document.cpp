@@ -34,7 +34,7 @@ ReadDocument read_document(std::string text, const std::string& name, const std:
   Problems problems;
   for (const JsonFault& fault : faults) problems.add(fault);
   if (!root.is(JsonValue::Kind::faulty) && !is_other_version(root, problems)) {
-    check(document_shape(), out.tree, problems);
+    check(document_form(), out.tree, problems);
     Building building{root, folder, reading, problems};
     if (const JsonValue title = usable(root, "name")) building.stage.name = title.text();
     if (const JsonValue fps = usable(root, "fps")) building.fps = fps.number();

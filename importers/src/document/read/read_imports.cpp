@@ -2,8 +2,8 @@
 #include <tweenfall/importers/model.h>
 
 #include "document/content.h"
+#include "document/form.h"
 #include "document/read/values.h"
-#include "document/shape.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,10 +1,10 @@
 #include <tweenfall/anim/animation.h>
 
 #include "document/content.h"
+#include "document/form.h"
 #include "document/read/parents_first.h"
 #include "document/read/values.h"
 #include "document/report/suggestion.h"
-#include "document/shape.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #pragma once
 
-// Values out of a tree that was held against its shape. Where the value is missing or faulty (which was reported), the
+// Values out of a tree that was held against its form. Where the value is missing or faulty (which was reported), the
 // fallback stands in, so that all that can be checked is checked.
 
 #include <tweenfall/curves/color.h>

@@ -19,35 +19,35 @@ class Checker {
  public:
   Checker(JsonTree& tree, Problems& problems) : tree_(tree), problems_(problems) {}
 
-  void value(const Shape& shape, const JsonValue& value) {
+  void value(const Form& form, const JsonValue& value) {
     if (value.is(Kind::faulty)) return;
-    const Shape* chosen = resolved(shape, value);
+    const Form* chosen = resolved(form, value);
     if (!chosen) {
-      fault(value, "expected " + shape.what + ", found " + described(value));
+      fault(value, "expected " + form.what + ", found " + described(value));
       return;
     }
-    const std::string& what = chosen->what.empty() ? shape.what : chosen->what;
+    const std::string& what = chosen->what.empty() ? form.what : chosen->what;
     switch (chosen->kind) {
-      case Shape::Kind::number:
+      case Form::Kind::number:
         number(*chosen, what, value);
         break;
-      case Shape::Kind::boolean:
+      case Form::Kind::boolean:
         if (chosen->only_true && !value.boolean()) fault(value, "expected true; leave the field out instead of false");
         break;
-      case Shape::Kind::text:
+      case Form::Kind::text:
         text(*chosen, what, value);
         break;
-      case Shape::Kind::list:
+      case Form::Kind::list:
         list(*chosen, what, value);
         break;
-      case Shape::Kind::tuple:
+      case Form::Kind::tuple:
         tuple(*chosen, what, value);
         break;
-      case Shape::Kind::object:
+      case Form::Kind::object:
         object(*chosen, what, value);
         break;
-      case Shape::Kind::any:
-      case Shape::Kind::choice:
+      case Form::Kind::any:
+      case Form::Kind::choice:
         break;
     }
   }
@@ -58,21 +58,21 @@ class Checker {
     tree_.mark_faulty(at);
   }
 
-  void number(const Shape& shape, const std::string& what, const JsonValue& value) {
+  void number(const Form& form, const std::string& what, const JsonValue& value) {
     const double number = value.number();
-    const bool low = shape.above_low ? number > shape.low : number >= shape.low;
-    const bool whole = !shape.whole || number == std::floor(number);
-    if (!(low && number <= shape.high && whole)) fault(value, "expected " + what + ", found " + number_text(number));
+    const bool low = form.above_low ? number > form.low : number >= form.low;
+    const bool whole = !form.whole || number == std::floor(number);
+    if (!(low && number <= form.high && whole)) fault(value, "expected " + what + ", found " + number_text(number));
   }
 
-  void text(const Shape& shape, const std::string& what, const JsonValue& value) {
-    if (shape.words.empty() && !shape.fits) return;
-    if (std::find(shape.words.begin(), shape.words.end(), value.text()) != shape.words.end()) return;
-    if (shape.fits && shape.fits(value.text())) return;
-    std::string reason = shape.why ? shape.why(value.text()) : std::string();
+  void text(const Form& form, const std::string& what, const JsonValue& value) {
+    if (form.words.empty() && !form.fits) return;
+    if (std::find(form.words.begin(), form.words.end(), value.text()) != form.words.end()) return;
+    if (form.fits && form.fits(value.text())) return;
+    std::string reason = form.why ? form.why(value.text()) : std::string();
     if (reason.empty()) {
-      std::vector<std::string> known = shape.words;
-      known.insert(known.end(), shape.hints.begin(), shape.hints.end());
+      std::vector<std::string> known = form.words;
+      known.insert(known.end(), form.hints.begin(), form.hints.end());
       reason = suggestion(value.text(), known);
     }
     fault(value, "expected " + what + ", found " + described(value) + reason);
@@ -82,24 +82,24 @@ class Checker {
     if (!fits) problems_.add(value, "expected " + what + ", found " + described(value));
   }
 
-  void list(const Shape& shape, const std::string& what, const JsonValue& value) {
-    const bool fits = value.items().size() >= shape.fewest && value.items().size() <= shape.most;
-    for (const JsonValue& item : value.items()) this->value(*shape.element, item);
+  void list(const Form& form, const std::string& what, const JsonValue& value) {
+    const bool fits = value.items().size() >= form.fewest && value.items().size() <= form.most;
+    for (const JsonValue& item : value.items()) this->value(*form.element, item);
     count(what, value, fits);
     if (!fits) tree_.mark_faulty(value);
   }
 
-  void tuple(const Shape& shape, const std::string& what, const JsonValue& value) {
-    const bool fits = value.items().size() >= shape.fewest && value.items().size() <= shape.parts.size();
-    for (std::size_t i = 0; i < std::min(value.items().size(), shape.parts.size()); ++i)
-      this->value(*shape.parts[i], value.items()[i]);
+  void tuple(const Form& form, const std::string& what, const JsonValue& value) {
+    const bool fits = value.items().size() >= form.fewest && value.items().size() <= form.parts.size();
+    for (std::size_t i = 0; i < std::min(value.items().size(), form.parts.size()); ++i)
+      this->value(*form.parts[i], value.items()[i]);
     count(what, value, fits);
     if (!fits) tree_.mark_faulty(value);
   }
 
-  void object(const Shape& shape, const std::string& what, const JsonValue& value) {
-    if (shape.foremost_fault) {
-      if (std::string message = shape.foremost_fault(value); !message.empty()) {
+  void object(const Form& form, const std::string& what, const JsonValue& value) {
+    if (form.foremost_fault) {
+      if (std::string message = form.foremost_fault(value); !message.empty()) {
         fault(value, std::move(message));
         return;
       }
@@ -107,16 +107,16 @@ class Checker {
     std::vector<std::string> meant;  // fields that a misspelled name is near to
     for (const JsonMember& member : value.members()) {
       if (is_free_name(member.name)) continue;
-      const Shape* expected = shape.member(member.name);
+      const Form* expected = form.member(member.name);
       if (!expected) {
         problems_.add_name(member,
-                           "unknown field " + in_quotes(member.name) + suggestion(member.name, shape.field_names()));
+                           "unknown field " + in_quotes(member.name) + suggestion(member.name, form.field_names()));
         tree_.mark_faulty(member.value);
-        meant.push_back(nearest_name(member.name, shape.field_names()));
+        meant.push_back(nearest_name(member.name, form.field_names()));
         continue;
       }
-      if (shape.name_fault && !shape.field(member.name)) {
-        if (std::string message = shape.name_fault(member.name); !message.empty()) {
+      if (form.name_fault && !form.field(member.name)) {
+        if (std::string message = form.name_fault(member.name); !message.empty()) {
           problems_.add_name(member, std::move(message));
           tree_.mark_faulty(member.value);
           continue;
@@ -124,10 +124,10 @@ class Checker {
       }
       this->value(*expected, member.value);
     }
-    for (const Field& field : shape.fields)
+    for (const Field& field : form.fields)
       if (field.required && !value.find(field.name) && std::find(meant.begin(), meant.end(), field.name) == meant.end())
         problems_.add(value, "expected " + what + "; " + in_quotes(field.name) + " is missing");
-    for (const Together& rule : shape.together) together(rule, what, value);
+    for (const Together& rule : form.together) together(rule, what, value);
   }
 
   void together(const Together& rule, const std::string& what, const JsonValue& value) {
@@ -162,8 +162,8 @@ class Checker {
 
 }  // namespace
 
-void check(const Shape& shape, JsonTree& tree, Problems& problems) {
-  Checker(tree, problems).value(shape, tree.root());
+void check(const Form& form, JsonTree& tree, Problems& problems) {
+  Checker(tree, problems).value(form, tree.root());
 }
 
 std::string described(const JsonValue& value) {

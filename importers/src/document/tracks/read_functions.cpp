@@ -161,7 +161,7 @@ std::optional<TrackCurve> function_of(const JsonValue& track, Problems& problems
   if (const JsonValue f = usable(track, "line")) return passing(std::optional(line_of(f)));
   if (const JsonValue f = usable(track, "arc")) return passing(arc_of(f, problems));
   if (has_spline(track)) {
-    switch (FunctionShapes::dimension(track)) {
+    switch (FunctionForms::dimension(track)) {
       case 2:
         return passing(read_spline<Vec2>(track, 1, problems));
       case 3:
@@ -181,7 +181,7 @@ auto guarded(const JsonValue& track, Problems& problems, const Make& make) -> de
   try {
     return make();
   } catch (const std::invalid_argument& fault) {
-    for (const std::string& name : FunctionShapes::names())
+    for (const std::string& name : FunctionForms::names())
       if (const JsonValue settings = usable(track, name)) problems.add(settings, fault.what());
     return {};
   }
@@ -190,7 +190,7 @@ auto guarded(const JsonValue& track, Problems& problems, const Make& make) -> de
 }  // namespace
 
 bool has_function(const JsonValue& track) {
-  for (const std::string& name : FunctionShapes::names())
+  for (const std::string& name : FunctionForms::names())
     if (usable(track, name)) return true;
   return false;
 }

@@ -3,8 +3,8 @@
 #include <tweenfall/curves/keys.h>
 #include <tweenfall/curves/number_text.h>
 
+#include "document/form.h"
 #include "document/read/values.h"
-#include "document/shape.h"
 #include "json/json_tree.h"
 
 #include <algorithm>

@@ -14,22 +14,22 @@ using Kind = JsonValue::Kind;
 
 constexpr std::size_t line_width = 110;
 
-// A part of a list or an object as it is written, with its shape where it has one.
+// A part of a list or an object as it is written, with its form where it has one.
 struct Part {
   std::string_view name;  // of a member
   JsonValue value;
-  const Shape* shape = nullptr;
+  const Form* form = nullptr;
 };
 
 // What is written for a value: itself, or its parts in the order of the table.
 struct Written {
   JsonValue value;
-  const Shape* shape = nullptr;  // as it was resolved
-  char open = 0;                 // '[' or '{'; 0 for what has no parts
+  const Form* form = nullptr;  // as it was resolved
+  char open = 0;               // '[' or '{'; 0 for what has no parts
   std::vector<Part> parts{};
 };
 
-Written written(const Shape* shape, const JsonValue& value);
+Written written(const Form* form, const JsonValue& value);
 
 // Its text on one line as far as it fits into `most` bytes; longer where it does not.
 void append_line(std::string& out, const Written& what, std::size_t most) {
@@ -43,7 +43,7 @@ void append_line(std::string& out, const Written& what, std::size_t most) {
     if (out.size() > most) return;
     out += std::exchange(gap, ", ");
     if (what.open == '{') out += in_quotes(part.name) + ": ";
-    append_line(out, written(part.shape, part.value), most);
+    append_line(out, written(part.form, part.value), most);
   }
   out += what.open == '[' ? ']' : '}';
 }
@@ -57,22 +57,22 @@ std::string line_of(const Written& what, std::size_t most) {
 // Whether a member says what its absence means.
 bool says_nothing(const Field& field, const JsonValue& value) {
   if (field.required || field.standard.empty()) return false;
-  const std::string line = line_of(written(field.shape, value), field.standard.size() + 2);
+  const std::string line = line_of(written(field.form, value), field.standard.size() + 2);
   return line == field.standard || line == "{}";
 }
 
-Written of_list(const Shape& shape, const JsonValue& value) {
-  Written out{value, &shape, '[', {}};
+Written of_list(const Form& form, const JsonValue& value) {
+  Written out{value, &form, '[', {}};
   std::size_t i = 0;
   for (const JsonValue& item : value.items()) {
-    const Shape* const below = shape.kind == Shape::Kind::list                              ? shape.element
-                               : shape.kind == Shape::Kind::tuple && i < shape.parts.size() ? shape.parts[i]
-                                                                                            : nullptr;
+    const Form* const below = form.kind == Form::Kind::list                             ? form.element
+                              : form.kind == Form::Kind::tuple && i < form.parts.size() ? form.parts[i]
+                                                                                        : nullptr;
     out.parts.push_back({{}, item, below});
     ++i;
   }
   // The third of a key is its ease.
-  if (shape.kind == Shape::Kind::tuple && out.parts.size() == 3 && shape.parts[2]->definition == "ease" &&
+  if (form.kind == Form::Kind::tuple && out.parts.size() == 3 && form.parts[2]->definition == "ease" &&
       out.parts[2].value.text() == "smooth-clamped")
     out.parts.pop_back();
   return out;
@@ -80,7 +80,7 @@ Written of_list(const Shape& shape, const JsonValue& value) {
 
 // Members that only stand for one thing give way to that thing: a key of time, value and ease is a row, a track of
 // keys alone is its keys.
-Written shorter(const Shape& shape, Written object) {
+Written shorter(const Form& form, Written object) {
   const auto has_only = [&](std::initializer_list<std::string_view> names) {
     for (const Part& part : object.parts) {
       bool known = false;
@@ -89,36 +89,36 @@ Written shorter(const Shape& shape, Written object) {
     }
     return true;
   };
-  if (shape.field("t") && shape.field("v") && has_only({"t", "v", "ease"})) {
+  if (form.field("t") && form.field("v") && has_only({"t", "v", "ease"})) {
     object.open = '[';
     return object;
   }
   if (object.parts.size() != 1) return object;
   const Part& only = object.parts.front();
-  const Field* const keys = shape.field("keys");
-  if (keys && only.name == "keys" && keys->shape->kind == Shape::Kind::list) {
-    for (const Field& field : shape.fields)
+  const Field* const keys = form.field("keys");
+  if (keys && only.name == "keys" && keys->form->kind == Form::Kind::list) {
+    for (const Field& field : form.fields)
       if (field.required) return object;
-    return written(only.shape, only.value);
+    return written(only.form, only.value);
   }
-  if (shape.field("source") && only.name == "source") return written(only.shape, only.value);
+  if (form.field("source") && only.name == "source") return written(only.form, only.value);
   return object;
 }
 
-Written of_object(const Shape& shape, const JsonValue& value) {
-  Written out{value, &shape, '{', {}};
-  for (const Field& field : shape.fields)
+Written of_object(const Form& form, const JsonValue& value) {
+  Written out{value, &form, '{', {}};
+  for (const Field& field : form.fields)
     if (const JsonValue member = value.find(field.name); member && !says_nothing(field, member))
-      out.parts.push_back({field.name, member, field.shape});
+      out.parts.push_back({field.name, member, field.form});
   for (const JsonMember& member : value.members())
-    if (!shape.field(member.name))
-      out.parts.push_back({member.name, member.value, is_free_name(member.name) ? nullptr : shape.member(member.name)});
-  return shorter(shape, std::move(out));
+    if (!form.field(member.name))
+      out.parts.push_back({member.name, member.value, is_free_name(member.name) ? nullptr : form.member(member.name)});
+  return shorter(form, std::move(out));
 }
 
-Written written(const Shape* shape, const JsonValue& value) {
-  static const Shape any;
-  const Shape* const chosen = shape ? resolved(*shape, value) : nullptr;
+Written written(const Form* form, const JsonValue& value) {
+  static const Form any;
+  const Form* const chosen = form ? resolved(*form, value) : nullptr;
   if (value.is(Kind::list)) return of_list(chosen ? *chosen : any, value);
   if (value.is(Kind::object)) return of_object(chosen ? *chosen : any, value);
   return {value, chosen, 0, {}};
@@ -126,9 +126,9 @@ Written written(const Shape* shape, const JsonValue& value) {
 
 class Writer {
  public:
-  void write(const Shape* shape, const JsonValue& value, std::size_t indent, std::size_t column) {
-    const Written what = written(shape, value);
-    const bool on_one_line = what.shape && what.shape->on_one_line, one_a_line = what.shape && what.shape->one_a_line;
+  void write(const Form* form, const JsonValue& value, std::size_t indent, std::size_t column) {
+    const Written what = written(form, value);
+    const bool on_one_line = what.form && what.form->on_one_line, one_a_line = what.form && what.form->one_a_line;
     const std::size_t room = line_width - std::min(column, line_width);
     if (on_one_line || !has_parts(what)) {
       append_line(out, what, static_cast<std::size_t>(-1));
@@ -148,7 +148,7 @@ class Writer {
       out += inner;
       const std::string name = what.open == '{' ? in_quotes(part.name) + ": " : std::string();
       out += name;
-      write(part.shape, part.value, indent + 2, indent + 2 + name.size());
+      write(part.form, part.value, indent + 2, indent + 2 + name.size());
     }
     out += "\n" + std::string(indent, ' ') + (what.open == '[' ? "]" : "}");
   }
@@ -167,9 +167,9 @@ class Writer {
 
 }  // namespace
 
-std::string write(const Shape& shape, const JsonValue& value) {
+std::string write(const Form& form, const JsonValue& value) {
   Writer writer;
-  writer.write(&shape, value, 0, 0);
+  writer.write(&form, value, 0, 0);
   return writer.out + "\n";
 }
 

@@ -2,7 +2,7 @@
 
 // A document's tree as text.
 
-#include "document/shape.h"
+#include "document/form.h"
 
 #include <string>
 
@@ -10,6 +10,6 @@ namespace tweenfall::document {
 
 // Two spaces, one key a line, what says the default left out, one way to say a thing. Comments are gone. Writing what
 // was read from this text gives this text.
-[[nodiscard]] std::string write(const Shape& shape, const JsonValue& value);
+[[nodiscard]] std::string write(const Form& form, const JsonValue& value);
 
 }  // namespace tweenfall::document

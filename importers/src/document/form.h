@@ -1,6 +1,6 @@
 #pragma once
 
-// What JSON a place of a document may hold. One table of shapes (grammar.h) drives the reader's checks, its "did you
+// What JSON a place of a document may hold. One table of forms (grammar.h) drives the reader's checks, its "did you
 // mean", the writer's layout and defaults, and the JSON Schema, so that the four cannot disagree.
 
 #include "json/json_tree.h"
@@ -13,11 +13,11 @@
 
 namespace tweenfall::document {
 
-struct Shape;
+struct Form;
 
 struct Field {
   std::string name;
-  const Shape* shape = nullptr;
+  const Form* form = nullptr;
   std::string help{};
   bool required = false;
   std::string standard{};  // JSON text of what its absence means; a member that says this is not written
@@ -30,13 +30,13 @@ struct Together {
   std::vector<std::string> names;
 };
 
-// Shapes of members whose names are the author's, by the names' ending.
+// Forms of members whose names are the author's, by the names' ending.
 struct Ending {
   std::string ending;
-  const Shape* shape = nullptr;
+  const Form* form = nullptr;
 };
 
-struct Shape {
+struct Form {
   enum class Kind { any, number, boolean, text, list, tuple, object, choice };
   static constexpr double infinite = std::numeric_limits<double>::infinity();
   static constexpr std::size_t no_limit = static_cast<std::size_t>(-1);
@@ -61,31 +61,31 @@ struct Shape {
   std::vector<std::string> hints{};                    // words to suggest beside `words`
 
   // list
-  const Shape* element = nullptr;
+  const Form* element = nullptr;
   std::size_t fewest = 0, most = no_limit;
 
   // tuple: the first `fewest` are required
-  std::vector<const Shape*> parts{};
+  std::vector<const Form*> parts{};
 
   // object
   std::vector<Field> fields{};
   std::vector<Together> together{};
   std::vector<Ending> endings{};                              // names of the author's
-  const Shape* others = nullptr;                              // all other names of the author's; null: there are none
+  const Form* others = nullptr;                               // all other names of the author's; null: there are none
   std::string name_pattern{};                                 // what names of the author's must match
   std::function<std::string(std::string_view)> name_fault{};  // what is wrong with such a name, or nothing
   std::function<std::string(const JsonValue&)> foremost_fault{};  // a fault that makes all others noise, or nothing
 
   // choice: the first alternative of the value's kind, or the one that `select` names
-  std::vector<const Shape*> alternatives{};
-  std::function<const Shape*(const JsonValue&)> select{};
+  std::vector<const Form*> alternatives{};
+  std::function<const Form*(const JsonValue&)> select{};
 
   // Writing
   bool one_a_line = false;   // each member or item on its own line, however short
   bool on_one_line = false;  // never broken
 
   [[nodiscard]] const Field* field(std::string_view name) const;
-  [[nodiscard]] const Shape* member(std::string_view name) const;  // shape of a member's value; null: no such name
+  [[nodiscard]] const Form* member(std::string_view name) const;  // form of a member's value; null: no such name
   [[nodiscard]] std::vector<std::string> field_names() const;
 };
 
@@ -93,16 +93,16 @@ struct Shape {
 [[nodiscard]] bool is_free_name(std::string_view name);
 
 // The alternative that holds for a value (through choices in choices); null when the value's kind fits none.
-[[nodiscard]] const Shape* resolved(const Shape& shape, const JsonValue& value);
+[[nodiscard]] const Form* resolved(const Form& form, const JsonValue& value);
 
-// Shapes live as long as the store.
-class ShapeStore {
+// Forms live as long as the store.
+class FormStore {
  public:
-  const Shape* add(Shape shape);
-  Shape* reserve();  // for shapes that must be known before they are made
+  const Form* add(Form form);
+  Form* reserve();  // for forms that must be known before they are made
 
  private:
-  std::deque<Shape> shapes_;
+  std::deque<Form> forms_;
 };
 
 }  // namespace tweenfall::document
