@@ -67,7 +67,4 @@ void read_plays(Building& building);
 void read_world(Building& building);
 void read_rules(Building& building);
 
-[[nodiscard]] BodyDescription read_body(const JsonValue& body, Problems& problems);
-[[nodiscard]] Drive read_drive(const JsonValue& drive);
-
 }  // namespace tweenfall::document

@@ -35,6 +35,7 @@ const Form* rule_form(FormStore& store, const ValueForms& values);
 const Form* import_form(FormStore& store, const ValueForms& values);
 
 // Forms in the making
+Form bounded(std::string what, double low, bool above_low, double high = Form::infinite, bool whole = false);
 Form object_of(std::string what, std::vector<Field> fields);
 Form list_of(const Form* element, std::string what, std::size_t fewest = 1, std::size_t most = Form::no_limit);
 Form words_of(std::string what, std::vector<std::string> words);

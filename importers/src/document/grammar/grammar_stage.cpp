@@ -1,3 +1,4 @@
+#include "document/fields/things.h"
 #include "document/grammar/grammar_parts.h"
 
 #include <algorithm>
@@ -6,116 +7,6 @@
 namespace tweenfall::document {
 
 namespace {
-
-Form bounded(std::string what, double low, bool above_low, double high = Form::infinite, bool whole = false) {
-  Form form;
-  form.kind = Form::Kind::number;
-  form.what = std::move(what);
-  form.low = low;
-  form.above_low = above_low;
-  form.high = high;
-  form.whole = whole;
-  return form;
-}
-
-const Form* drive_form(FormStore& store, const ValueForms& values) {
-  Form form =
-      object_of("a drive: {\"hz\", \"zeta\", \"max_force\", \"max_torque\"}",
-                {{"hz", store.add(bounded("a frequency above 0 Hz", 0, true)), "pull, in cycles per second", true},
-                 {"zeta", values.not_negative, "damping ratio", false, "1"},
-                 {"max_force", values.not_negative, "N; absent: without limit"},
-                 {"max_torque", values.not_negative, "N m; absent: without limit"}});
-  return store.add(std::move(form));
-}
-
-const Form* owner_form(FormStore& store, const ValueForms& values) {
-  Form form =
-      choice_of("an owner: \"free\", \"keyed\" or a drive {\"hz\", ...}",
-                {store.add(words_of("an owner: \"free\" or \"keyed\"", {"free", "keyed"})), drive_form(store, values)});
-  form.definition = "owner";
-  return store.add(std::move(form));
-}
-
-const Form* hull_form(FormStore& store, const ValueForms& values) {
-  const Form* points = store.add(list_of(values.vector, "a list of at least 4 points", 4, 4096));
-  return store.add(object_of("a hull: {\"points\"}", {{"points", points, "m", true}}));
-}
-
-const Form* lathe_form(FormStore& store, const ValueForms& values) {
-  Form point;
-  point.kind = Form::Kind::tuple;
-  point.what = "a point: [radius, y], the radius at least 0";
-  point.parts = {values.not_negative, values.number};
-  point.fewest = 2;
-  point.on_one_line = true;
-  const Form* profile = store.add(list_of(store.add(point), "a list of at least 2 points", 2, 256));
-  return store.add(object_of("a lathe: {\"profile\", \"sides\"}",
-                             {{"profile", profile, "[radius, y], m", true},
-                              {"sides", store.add(bounded("a whole number from 3 to 64", 3, false, 64, true)),
-                               "flat sides around the axis", false, "24"}}));
-}
-
-const Form* sweep_form(FormStore& store, const ValueForms& values) {
-  return store.add(object_of(
-      "a sweep: {\"profile\", \"rail\", \"normal\"}",
-      {{"profile", store.add(list_of(values.vector_2, "a list of at least 2 points", 2, 256)), "[x, y], m", true},
-       {"rail", store.add(list_of(values.vector, "a list of at least 2 points", 2, 256)), "m", true},
-       {"normal", values.vector, "where the profile's x points at the rail's start; absent: any"}}));
-}
-
-const Form* solid_form(FormStore& store, const ValueForms& values) {
-  const Form* size = store.add(bounded("a size in m, above 0", 0, true));
-  const Form* radius = store.add(bounded("a radius in m, above 0", 0, true));
-  Form form = object_of(
-      "a shape: one of \"sphere\", \"box\", \"capsule\", \"plane\", \"hull\", \"lathe\", \"sweep\"",
-      {{"sphere", store.add(object_of("a sphere: {\"radius\"}", {{"radius", radius, "m", true}})), ""},
-       {"box",
-        store.add(object_of("a box: {\"size\"}",
-                            {{"size", store.add(list_of(size, "a list of 3 sizes in m, from face to face", 3, 3)),
-                              "from face to face, m", true}})),
-        ""},
-       {"capsule",
-        store.add(object_of("a capsule: {\"radius\", \"height\"}",
-                            {{"radius", radius, "m", true},
-                             {"height", values.not_negative, "of the cylinder between the balls, m; along y", true}})),
-        ""},
-       {"plane",
-        store.add(object_of("a plane: {\"normal\", \"offset\"}",
-                            {{"normal", values.vector, "out of the solid", false, "[0, 1, 0]"},
-                             {"offset", values.number, "of the surface along the normal, m", false, "0"}})),
-        ""},
-       {"hull", hull_form(store, values), "the smallest convex solid around points"},
-       {"lathe", lathe_form(store, values), "the convex hull of a profile turned about y"},
-       {"sweep", sweep_form(store, values), "the convex hull of a profile carried along a rail"}});
-  form.together = {exactly_one({"sphere", "box", "capsule", "plane", "hull", "lathe", "sweep"})};
-  form.definition = "shape";
-  return store.add(std::move(form));
-}
-
-const Form* body_form(FormStore& store, const ValueForms& values) {
-  const Form* offset =
-      store.add(object_of("an offset: {\"position\", \"rotation\"}",
-                          {{"position", values.vector, "m", false, "[0, 0, 0]"}, {"rotation", values.rotation, ""}}));
-  Form form = object_of(
-      "a body",
-      {{"shape", solid_form(store, values), "", true},
-       {"offset", offset, "of the shape on its node", false, "{}"},
-       {"mass", store.add(bounded("a mass in kg, above 0", 0, true)), "kg"},
-       {"density", store.add(bounded("a density in kg/m^3, above 0", 0, true)), "kg/m^3", false, "1000"},
-       {"friction", values.not_negative, "a pair takes sqrt(f1 f2)", false, "0.5"},
-       {"restitution", store.add(bounded("a restitution from 0 to 1", 0, false, 1)), "a pair takes the larger", false,
-        "0"},
-       {"rolling_friction", values.not_negative, "m", false, "0"},
-       {"linear_damping", values.not_negative, "1/s", false, "0"},
-       {"angular_damping", values.not_negative, "1/s", false, "0"},
-       {"static", values.boolean, "scenery that never moves", false, "false"},
-       {"drive", owner_form(store, values), "absent: keyed where a playing clip animates the node, else free"},
-       {"velocity", values.vector, "at the start, of the center of mass, m/s", false, "[0, 0, 0]"},
-       {"angular_velocity", values.vector, "at the start, degrees/s", false, "[0, 0, 0]"}});
-  form.together = {at_most_one({"mass", "density"})};
-  form.definition = "body";
-  return store.add(std::move(form));
-}
 
 const Form* force_form(FormStore& store, const ValueForms& values) {
   const Form* drag = store.add(object_of("a drag: {\"linear\", \"quadratic\", \"angular\"}",
@@ -201,7 +92,7 @@ const Form* node_form(FormStore& store, const ValueForms& values) {
                                    {"scale", values.scale, "", false, "1"},
                                    {"color", values.color, ""},
                                    {"group", values.name, "name for rules"},
-                                   {"body", body_form(store, values), ""}});
+                                   {"body", fields::body_form(store, values), ""}});
   node.definition = "node";
   return store.add(std::move(node));
 }
@@ -270,7 +161,7 @@ const Form* rule_form(FormStore& store, const ValueForms& values) {
                         {{"body", bodies, "whom it is about"},
                          {"group", values.name, "all nodes of a group"},
                          {"when", when_form(store, values), "", true},
-                         {"to", owner_form(store, values), "the new owner", true},
+                         {"to", fields::owner_form(store, values), "the new owner", true},
                          {"velocity", velocity_form(store, values), "of a released body", false, "\"curve\""},
                          {"path", path, "of a body that is taken back", false, "{}"},
                          {"settle", store.add(settle), "how the difference dies away", false, "{\"quintic\": 0.3}"},

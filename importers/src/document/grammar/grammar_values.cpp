@@ -17,15 +17,6 @@ bool is_hex_color(std::string_view text) {
                      [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); });
 }
 
-Form number_of(std::string what, double low = -Form::infinite, bool above_low = false) {
-  Form form;
-  form.kind = Form::Kind::number;
-  form.what = std::move(what);
-  form.low = low;
-  form.above_low = above_low;
-  return form;
-}
-
 Form text_of(std::string what, std::string pattern, std::function<bool(std::string_view)> fits) {
   Form form;
   form.kind = Form::Kind::text;
@@ -84,6 +75,17 @@ const Form* ease_form(FormStore& store) {
 
 }  // namespace
 
+Form bounded(std::string what, double low, bool above_low, double high, bool whole) {
+  Form form;
+  form.kind = Form::Kind::number;
+  form.what = std::move(what);
+  form.low = low;
+  form.above_low = above_low;
+  form.high = high;
+  form.whole = whole;
+  return form;
+}
+
 Form object_of(std::string what, std::vector<Field> fields) {
   Form form;
   form.kind = Form::Kind::object;
@@ -126,9 +128,9 @@ ValueForms::ValueForms(FormStore& store) {
   any = store.add({});
 
   name = store.add(text_of("a name", "^[\\s\\S]+$", [](std::string_view text) { return !text.empty(); }));
-  number = store.add(number_of("a number"));
-  positive = store.add(number_of("a number above 0", 0, true));
-  not_negative = store.add(number_of("a number of at least 0", 0));
+  number = store.add(bounded("a number", -Form::infinite, false));
+  positive = store.add(bounded("a number above 0", 0, true));
+  not_negative = store.add(bounded("a number of at least 0", 0, false));
   const auto vector_of = [&](std::size_t size, const std::string& definition) {
     return store.add(named(list_of(number, "a list of " + std::to_string(size) + " numbers", size, size), definition));
   };

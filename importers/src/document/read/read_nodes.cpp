@@ -1,6 +1,7 @@
 #include <tweenfall/anim/animation.h>
 
 #include "document/content.h"
+#include "document/fields/things.h"
 #include "document/form.h"
 #include "document/read/parents_first.h"
 #include "document/read/values.h"
@@ -15,22 +16,22 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-void read_look_and_body(const JsonValue& value, NodeDescription& node, Problems& problems) {
-  if (const JsonValue body = usable(value, "body")) node.body = read_body(body, problems);
+void read_look_and_body(const JsonValue& value, NodeDescription& node, Building& building) {
+  if (const JsonValue body = usable(value, "body")) node.body = fields::read_body(body, building);
   if (const JsonValue color = usable(value, "color")) node.color = color_of(color);
   node.group = text_in(value, "group", node.group);
 }
 
-NodeDescription new_node(const JsonMember& member, Problems& problems) {
+NodeDescription new_node(const JsonMember& member, Building& building) {
   const JsonValue& value = member.value;
   NodeDescription node;
   node.name = member.name;
   node.rest.position = vector_in(value, "position", Vec3(0, 0, 0));
   if (const JsonValue rotation = usable(value, "rotation"))
-    node.rest.rotation =
-        rotation_of(rotation, order_of(text_in(rotation, "order", "XYZ")), problems).value_or(Quat(1, 0, 0, 0));
+    node.rest.rotation = rotation_of(rotation, order_of(text_in(rotation, "order", "XYZ")), building.problems)
+                             .value_or(Quat(1, 0, 0, 0));
   if (const JsonValue scale = usable(value, "scale")) node.rest.scale = scale_of(scale).value_or(Vec3(1, 1, 1));
-  read_look_and_body(value, node, problems);
+  read_look_and_body(value, node, building);
   return node;
 }
 
@@ -126,7 +127,7 @@ void read_nodes(Building& building) {
                                   " of an imported node is its file's; only \"body\", \"color\" and \"group\" can be "
                                   "added, and to a root a \"parent\"");
       if (const JsonValue parent = usable(member.value, "parent")) hung.push_back({known->second, parent});
-      read_look_and_body(member.value, building.stage.nodes[known->second], problems);
+      read_look_and_body(member.value, building.stage.nodes[known->second], building);
       continue;
     }
     const std::size_t slash = member.name.find('/');
@@ -179,7 +180,7 @@ void read_nodes(Building& building) {
     }
     for (auto link = chain.rbegin(); link != chain.rend(); ++link) {
       const JsonMember& member = own.members[*link];
-      NodeDescription node = new_node(member, problems);
+      NodeDescription node = new_node(member, building);
       if (const JsonValue given = usable(member.value, "parent"))
         if (const auto found = building.nodes.find(given.text()); found != building.nodes.end())
           node.parent = found->second;

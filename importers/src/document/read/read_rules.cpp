@@ -3,6 +3,7 @@
 #include <tweenfall/curves/number_text.h>
 
 #include "document/content.h"
+#include "document/fields/things.h"
 #include "document/read/clip_times.h"
 #include "document/read/values.h"
 #include "document/report/suggestion.h"
@@ -31,7 +32,7 @@ class RuleReader {
     const std::vector<std::size_t> bodies = read_bodies(value, rule);
     if (const JsonValue when = usable(value, "when")) read_when(when, rule.when);
     if (const JsonValue to = usable(value, "to")) {
-      rule.to = read_drive(to);
+      rule.to = fields::read_owner(to, building_);
       check_owner(value, rule, to, bodies);
     }
     if (const JsonValue velocity = usable(value, "velocity")) rule.take_over = read_velocity(velocity);

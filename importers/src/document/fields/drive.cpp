@@ -1,0 +1,37 @@
+#include "document/fields/table.h"
+#include "document/fields/things.h"
+
+namespace tweenfall::document::fields {
+
+namespace {
+
+const Table<Drive>& drive_table() {
+  static const Table<Drive> table(
+      "a drive",
+      {{"hz", bounded("a frequency above 0 Hz", 0, true), "pull, in cycles per second", member<Drive>(&Drive::hz),
+        true},
+       {"zeta", &ValueForms::not_negative, "damping ratio", member<Drive>(&Drive::zeta)},
+       {"max_force", &ValueForms::not_negative, "N; absent: without limit", member<Drive>(&Drive::max_force)},
+       {"max_torque", &ValueForms::not_negative, "N m; absent: without limit", member<Drive>(&Drive::max_torque)}});
+  return table;
+}
+
+}  // namespace
+
+const Form* owner_form(FormStore& store, const ValueForms& values) {
+  Form form = choice_of("an owner: \"free\", \"keyed\" or a drive {\"hz\", ...}",
+                        {store.add(words_of("an owner: \"free\" or \"keyed\"", {"free", "keyed"})),
+                         store.add(drive_table().listing_form(store, values))});
+  form.definition = "owner";
+  return store.add(std::move(form));
+}
+
+Drive read_owner(const JsonValue& owner, Building& building) {
+  if (owner.is(JsonValue::Kind::text)) return owner.text() == "keyed" ? Drive::keyed() : Drive::free();
+  // A drive remains one where its frequency is faulty.
+  Drive drive{.hz = 1};
+  drive_table().read(owner, drive, building);
+  return drive;
+}
+
+}  // namespace tweenfall::document::fields

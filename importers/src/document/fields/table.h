@@ -1,0 +1,174 @@
+#pragma once
+
+// Fields of the things that a document describes, one row for each. From a row follow what the field may hold (and with
+// it the checks and the schema), how it is read, and what its absence means (which is not written).
+
+#include <tweenfall/curves/color.h>
+#include <tweenfall/curves/pose.h>
+
+#include "document/content.h"
+#include "document/grammar/grammar_parts.h"
+#include "document/read/values.h"
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tweenfall::document::fields {
+
+// What a field may hold: a form that many fields share, one of its own, or one that is made of others.
+class FormOf {
+ public:
+  using Make = std::function<const Form*(FormStore&, const ValueForms&)>;
+
+  FormOf(const Form* ValueForms::*shared)
+      : make_([shared](FormStore&, const ValueForms& values) { return values.*shared; }) {}
+  FormOf(Form own) : make_([own = std::move(own)](FormStore& store, const ValueForms&) { return store.add(own); }) {}
+  FormOf(Make make) : make_(std::move(make)) {}
+  FormOf(const Form* (*make)(FormStore&, const ValueForms&)) : make_(make) {}
+
+  [[nodiscard]] const Form* in(FormStore& store, const ValueForms& values) const { return make_(store, values); }
+
+ private:
+  Make make_;
+};
+
+// What a field does to the thing it belongs to.
+template <class Thing>
+struct Meaning {
+  std::function<void(const JsonValue&, Thing&, Building&)> read;
+  std::string standard{};  // JSON text of what its absence means; empty: something that no text says
+};
+
+// Values as members hold them. What was reported already leaves the member as it is.
+void take(const JsonValue& value, double& out, Building& building);
+void take(const JsonValue& value, int& out, Building& building);
+void take(const JsonValue& value, bool& out, Building& building);
+void take(const JsonValue& value, std::string& out, Building& building);
+void take(const JsonValue& value, std::optional<double>& out, Building& building);
+void take(const JsonValue& value, std::optional<Color>& out, Building& building);
+void take(const JsonValue& value, Vec3& out, Building& building);
+void take(const JsonValue& value, Quat& out, Building& building);
+
+// The JSON text of a member's default, or nothing where none says it.
+[[nodiscard]] std::string text_of_default(double value);
+[[nodiscard]] std::string text_of_default(bool value);
+[[nodiscard]] std::string text_of_default(const Vec3& value);
+template <class Other>
+[[nodiscard]] std::string text_of_default(const Other&) {
+  return {};
+}
+[[nodiscard]] inline std::string text_of_default(int value) {
+  return text_of_default(static_cast<double>(value));
+}
+
+// A member that holds the value; `access` is a pointer to it or a function that gives it.
+template <class Thing, class Access>
+[[nodiscard]] Meaning<Thing> member(Access access) {
+  Thing fresh{};
+  return {[access](const JsonValue& value, Thing& thing, Building& building) {
+            take(value, std::invoke(access, thing), building);
+          },
+          text_of_default(std::invoke(access, fresh))};
+}
+
+// A vector in degrees or degrees/s whose member holds radians.
+template <class Thing, class Access>
+[[nodiscard]] Meaning<Thing> turning(Access access) {
+  return {[access](const JsonValue& value, Thing& thing, Building&) {
+            const std::optional<Vec3> given = vector_of(value);
+            if (given)
+              std::invoke(access, thing) = Vec3(radians((*given)[0]), radians((*given)[1]), radians((*given)[2]));
+          },
+          text_of_default(Vec3(0, 0, 0))};
+}
+
+template <class Thing>
+struct Row {
+  std::string name;
+  FormOf form;
+  std::string help;
+  Meaning<Thing> meaning;
+  bool required = false;
+  // Why it means nothing for a thing such as this one, to follow "means nothing"; or nothing where it means something.
+  std::function<std::string(const Thing&)> useless{};
+};
+
+template <class Thing>
+class Table {
+ public:
+  // `what` completes "expected ...": "a drive".
+  Table(std::string what, std::vector<Row<Thing>> rows) : what_(std::move(what)), rows_(std::move(rows)) {}
+
+  // The form of an object with these fields.
+  [[nodiscard]] Form form(FormStore& store, const ValueForms& values) const {
+    std::vector<Field> fields;
+    for (const Row<Thing>& row : rows_)
+      fields.push_back({row.name, row.form.in(store, values), row.help, row.required,
+                        row.required ? std::string() : row.meaning.standard});
+    return object_of(what_, std::move(fields));
+  }
+  // The same, whose message lists them.
+  [[nodiscard]] Form listing_form(FormStore& store, const ValueForms& values) const {
+    Form out = form(store, values);
+    out.what += ": {";
+    for (const Row<Thing>& row : rows_) out.what += (&row == &rows_.front() ? "" : ", ") + in_quotes(row.name);
+    out.what += "}";
+    return out;
+  }
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> out;
+    for (const Row<Thing>& row : rows_) out.push_back(row.name);
+    return out;
+  }
+
+  // Fills in what the object says, row by row, then tells which of its fields mean nothing beside the others.
+  void read(const JsonValue& object, Thing& thing, Building& building) const {
+    for (const Row<Thing>& row : rows_)
+      if (const JsonValue value = usable(object, row.name)) row.meaning.read(value, thing, building);
+    for (const Row<Thing>& row : rows_) {
+      const JsonValue value = row.useless ? usable(object, row.name) : JsonValue();
+      if (!value) continue;
+      if (const std::string why = row.useless(thing); !why.empty())
+        building.problems.add(value, in_quotes(row.name) + " means nothing " + why);
+    }
+  }
+
+ private:
+  std::string what_;
+  std::vector<Row<Thing>> rows_;
+};
+
+// A field whose words stand for values of a member.
+template <class Thing, class Word, class Access>
+[[nodiscard]] Row<Thing> one_of(std::string name, std::string what, std::vector<std::pair<std::string, Word>> words,
+                                std::string help, Access access) {
+  std::vector<std::string> spelled;
+  std::string standard;
+  Thing fresh{};
+  for (const auto& [word, meant] : words) {
+    spelled.push_back(word);
+    if (meant == std::invoke(access, fresh)) standard = in_quotes(word);
+  }
+  const auto read = [words, access](const JsonValue& value, Thing& thing, Building&) {
+    for (const auto& [word, meant] : words)
+      if (value.text() == word) std::invoke(access, thing) = meant;
+  };
+  return {std::move(name), words_of(std::move(what), std::move(spelled)), std::move(help), {read, standard}};
+}
+
+// A field that is an object with a table of its own; absent, it is as if empty.
+template <class Thing, class Part, class Access>
+[[nodiscard]] Row<Thing> part(std::string name, const Table<Part>& table, std::string help, Access access) {
+  const auto form = [&table](FormStore& store, const ValueForms& values) {
+    return store.add(table.listing_form(store, values));
+  };
+  const auto read = [&table, access](const JsonValue& value, Thing& thing, Building& building) {
+    table.read(value, std::invoke(access, thing), building);
+  };
+  return {std::move(name), FormOf::Make(form), std::move(help), {read, "{}"}};
+}
+
+}  // namespace tweenfall::document::fields

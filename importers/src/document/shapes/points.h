@@ -1,0 +1,33 @@
+#pragma once
+
+// Points that a convex hull is made of, or that draw a line to carry along another.
+
+#include <tweenfall/curves/curve.h>
+
+#include "document/shapes/shapes.h"
+
+#include <stdexcept>
+#include <vector>
+
+namespace tweenfall::document::shapes {
+
+// None at all where one of them is faulty.
+[[nodiscard]] std::vector<Vec2> points_2(const JsonValue& list);
+[[nodiscard]] std::vector<Vec3> points_3(const JsonValue& list);
+
+// Straight from point to point.
+[[nodiscard]] Curve<Vec2> polyline(const std::vector<Vec2>& points);
+[[nodiscard]] Curve<Vec3> polyline(const std::vector<Vec3>& points);
+
+// The hull of what `make` makes; what it throws is told at the place.
+template <class Make>
+[[nodiscard]] std::optional<Solid> hull_or_problem(const JsonValue& at, Problems& problems, Make make) {
+  try {
+    return Hull{ConvexHull(make())};
+  } catch (const std::invalid_argument& fault) {
+    problems.add(at, fault.what());
+    return std::nullopt;
+  }
+}
+
+}  // namespace tweenfall::document::shapes

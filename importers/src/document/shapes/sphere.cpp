@@ -1,0 +1,11 @@
+#include "document/shapes/shapes.h"
+
+namespace tweenfall::document::shapes {
+
+SolidKind sphere() {
+  static const fields::Table<Sphere> table("a sphere", {{"radius", bounded("a radius in m, above 0", 0, true), "m",
+                                                         fields::member<Sphere>(&Sphere::radius), true}});
+  return kind_of("sphere", table);
+}
+
+}  // namespace tweenfall::document::shapes
