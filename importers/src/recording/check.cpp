@@ -98,6 +98,10 @@ void check_recording(const Recording& recording) {
       fail(recording, "the hand-off of \"" + recording.nodes[handoff.node].name + "\" at " + number_text(handoff.time) +
                           " s has no finite speed");
   }
+  for (const UnfiredRule& unfired : recording.unfired)
+    if (unfired.node >= recording.nodes.size())
+      fail(recording, "rule " + std::to_string(unfired.rule) + " waits for node " + std::to_string(unfired.node) +
+                          ", but there are " + std::to_string(recording.nodes.size()) + " nodes");
   for (const StageEvent& event : recording.events) {
     if (!std::isfinite(event.time) || !std::isfinite(event.impulse))
       fail(recording, "event \"" + event.name + "\" at " + number_text(event.time) + " s has an impulse of " +

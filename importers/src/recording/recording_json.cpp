@@ -84,6 +84,14 @@ void append_event(std::string& out, const Recording& recording, const StageEvent
   out += "}";
 }
 
+void append_unfired(std::string& out, const Recording& recording, const UnfiredRule& unfired) {
+  out += "{\"rule\": " + std::to_string(unfired.rule) + ", \"body\": ";
+  append_json_string(out, recording.nodes[unfired.node].name);
+  out += ", \"reason\": ";
+  append_json_string(out, unfired.reason);
+  out += "}";
+}
+
 /// "[" or "{", the items each on a line of its own, and the closing bracket.
 template <class Append>
 void append_lines(std::string& out, char open, char close, std::size_t size, Append append) {
@@ -110,6 +118,9 @@ std::string recording_json(const Recording& recording) {
   out += ",\n \"events\": ";
   append_lines(out, '[', ']', recording.events.size(),
                [&](std::size_t i) { append_event(out, recording, recording.events[i]); });
+  out += ",\n \"unfired\": ";
+  append_lines(out, '[', ']', recording.unfired.size(),
+               [&](std::size_t i) { append_unfired(out, recording, recording.unfired[i]); });
   out += "}\n";
   return out;
 }

@@ -92,11 +92,19 @@ void fire(StageState& state, std::size_t armed, double step, std::vector<Happeni
                step, happenings);
 }
 
-/// How fast a contact still closes, m/s.
-double closing_speed(const World& world, const Contact& contact) {
+/// Twists at the centers of mass, by index of the world's body.
+std::vector<Twist> twists(const StageState& state) {
+  std::vector<Twist> found(state.node_of.size());
+  for (const StagedBody& body : state.bodies)
+    if (body.present) found[body.id.index] = state.world.twist(body.id);
+  return found;
+}
+
+/// How fast a contact closes where it is, its bodies moving so, m/s. @param twist_of  at the center of mass
+template <class TwistOf>
+double closing_speed(const World& world, const Contact& contact, TwistOf&& twist_of) {
   const auto velocity = [&](BodyId body, const Vec3& point) {
-    const Motion motion = world.motion(body);
-    return velocity_at(motion.twist, point - motion.pose.position);
+    return velocity_at(twist_of(body), point - center_of(world.motion(body), world.mass(body).center));
   };
   double closing = 0;
   for (int i = 0; i < contact.manifold.count; ++i) {
@@ -107,9 +115,36 @@ double closing_speed(const World& world, const Contact& contact) {
   return closing;
 }
 
+/// How much of a contact's impulse was the blow. What presses on for the rest of the piece is weight: without the
+/// contact the two would have closed at the speed of the impact and, after it, at what they fell further, and one and
+/// the same mass answered for both. Of what parts again, nothing was weight.
+double part_of_blow(const StageState& state, const Contact& contact, const std::vector<Twist>& before, double dt) {
+  constexpr double parts = 1e-3;  // of the speed at which they met
+  const World& world = state.world;
+  const double parting = closing_speed(world, contact, [&](BodyId body) {
+    const Twist twist = world.twist(body);
+    return Twist{-twist.linear, -twist.angular};
+  });
+  if (parting > parts * contact.approach_speed) return 1;
+  const auto falls = [&](BodyId body) {
+    return world.owner(body) == Owner::free && !world.is_fixed(body) &&
+           std::ranges::none_of(world.contacts(), [&](const Contact& other) {
+             return &other != &contact && other.impulse > 0 && (other.a == body || other.b == body);
+           });
+  };
+  const Vec3 apart =
+      (falls(contact.b) ? state.gravity : Vec3(0, 0, 0)) - (falls(contact.a) ? state.gravity : Vec3(0, 0, 0));
+  const double unhindered = closing_speed(world, contact, [&](BodyId body) { return before[body.index]; }) -
+                            contact.manifold.normal.dot(apart) * dt;
+  return unhindered > contact.approach_speed ? contact.approach_speed / unhindered : 1;
+}
+
 /// Adds what the contacts of the last piece took to the blows that they belong to, and tells those that are over. A
 /// blow that falls on the end of a piece goes on in the next: it is over when the bodies no longer close.
-void follow_blows(StageState& state, double step, std::vector<Happening>& happenings) {
+///
+/// @param before  twists at the start of the piece, which was `dt` long
+void follow_blows(StageState& state, const std::vector<Twist>& before, double dt, double step,
+                  std::vector<Happening>& happenings) {
   constexpr double closes = 1e-3;  // of the speed at which they met
   std::vector<Blow> going_on;
   const auto tell = [&](const Blow& blow) {
@@ -120,18 +155,19 @@ void follow_blows(StageState& state, double step, std::vector<Happening>& happen
     event.impulse = blow.impulse;
     happenings.push_back({state.time, std::move(event)});
   };
+  const auto now = [&](BodyId body) { return state.world.twist(body); };
   std::vector<char> met(state.blows.size(), 0);
   for (const Contact& contact : state.world.contacts()) {
-    const auto before =
+    const auto known =
         std::ranges::find_if(state.blows, [&](const Blow& blow) { return blow.a == contact.a && blow.b == contact.b; });
-    const bool goes_on = before != state.blows.end();
-    if (goes_on) met[static_cast<std::size_t>(before - state.blows.begin())] = 1;
+    const bool goes_on = known != state.blows.end();
+    if (goes_on) met[static_cast<std::size_t>(known - state.blows.begin())] = 1;
     if (!goes_on && !contact.began) continue;
-    Blow blow = goes_on ? *before : Blow{contact.a, contact.b, state.time, 0, 0};
-    blow.impulse += contact.impulse;
+    Blow blow = goes_on ? *known : Blow{contact.a, contact.b, state.time, 0, 0};
+    if (contact.impulse > 0) blow.impulse += contact.impulse * part_of_blow(state, contact, before, dt);
     blow.speed = std::max(blow.speed, contact.approach_speed);
     if (!(blow.impulse > 0)) continue;
-    if (state.time - blow.began < 0.999 * step && closing_speed(state.world, contact) > closes * blow.speed)
+    if (state.time - blow.began < 0.999 * step && closing_speed(state.world, contact, now) > closes * blow.speed)
       going_on.push_back(blow);
     else
       tell(blow);
@@ -144,9 +180,11 @@ void follow_blows(StageState& state, double step, std::vector<Happening>& happen
 
 void step_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
   set_targets(state, end);
-  state.world.step(end - state.time);
+  const std::vector<Twist> before = twists(state);
+  const double dt = end - state.time;
+  state.world.step(dt);
   state.time = end;
-  follow_blows(state, step, happenings);
+  follow_blows(state, before, dt, step, happenings);
 }
 
 /// Moves the world to just before an impact on a keyed body, which then leaves from its own path. Until then it stands,
@@ -156,9 +194,11 @@ void approach(StageState& state, BodyId body, double end, double step, std::vect
       state.world.contacts(), [&](const Contact& c) { return (c.a == body || c.b == body) && c.impulse > 0; });
   set_targets(state, end);
   if (!presses) state.world.set_target(body, state.world.motion(body));
-  state.world.step(end - state.time);
+  const std::vector<Twist> before = twists(state);
+  const double dt = end - state.time;
+  state.world.step(dt);
   state.time = end;
-  follow_blows(state, step, happenings);
+  follow_blows(state, before, dt, step, happenings);
 }
 
 /// A contact between two bodies that physics does not move: the world knows nothing of it.

@@ -387,10 +387,15 @@ void World::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {
   require_finite(impulse, "impulse");
   require_finite(point, "point");
   if (body.immovable()) return;
+  Twist twist = body.twist;
+  twist.linear += impulse / body.mass.mass;
+  twist.angular += body.world_inverse_inertia(body.motion.pose.rotation) * (point - body.center).cross(impulse);
+  const Twist at_origin = shifted(twist, body.motion.pose.position - body.center);
+  require(countable(twist.linear) && countable(twist.angular) && countable(at_origin.linear),
+          "the impulse would make the body faster than 1e30 m/s or rad/s");
   world.wake(id.index);
-  body.twist.linear += impulse / body.mass.mass;
-  body.twist.angular += body.world_inverse_inertia(body.motion.pose.rotation) * (point - body.center).cross(impulse);
-  body.motion.twist = shifted(body.twist, body.motion.pose.position - body.center);
+  body.twist = twist;
+  body.motion.twist = at_origin;
 }
 
 void World::wake(BodyId id) {

@@ -20,7 +20,9 @@ void check_recording(const Recording& recording);
 void check_drawable(const Recording& recording, const StageDescription& stage);
 
 /// One object: "times", "nodes" (position, rotation x y z w, velocity and angular velocity at the center of mass,
-/// owner), "handoffs", "events". Numbers have the fewest digits that read back to the same bits; minus zero is -0.0.
+/// owner), "handoffs", "events", and "unfired": the rules that waited in vain, each with "rule" (its place in the list
+/// of rules, from 0), "body" and "reason" (in words). Numbers have the fewest digits that read back to the same bits;
+/// minus zero is -0.0.
 [[nodiscard]] std::string recording_json(const Recording& recording);
 
 /// One row for each time and node, times outermost, under a header row. Columns: time (s), node, owner (keyed, driven,
