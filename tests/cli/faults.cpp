@@ -57,7 +57,7 @@ bool is_well_formed_svg(const std::string& svg) {
 }
 
 /// Documents of which some verb's answer is not settled yet.
-const std::set<std::string> open_questions{"stiff_spring", "loop_counted_backwards"};
+const std::set<std::string> open_questions{"loop_counted_backwards"};
 
 struct Verb {
   std::string arguments;  ///< with FILE for the document

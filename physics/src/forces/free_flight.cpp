@@ -23,14 +23,23 @@ Vec3 inverse_derivative(const Vec3& turn, const Vec3& angular) {
 void keep_energy(const Body& body, const Vec3& momentum, double energy, Spin& spin) {
   const Vec3 gradient = spin.angular.cross(momentum);
   const double off = energy - 0.5 * spin.angular.dot(momentum);
-  // About a principal axis no turn changes the energy, and none is needed.
-  if (!(std::abs(off) < 1e-3 * gradient.norm())) return;
+  // About a principal axis no turn changes the energy, and none is needed. What turns too fast to be followed must not
+  // grow: it slows down instead.
+  if (!(std::abs(off) < 1e-3 * gradient.norm())) {
+    spin.angular = bounded_spin(body.world_inertia(spin.rotation), energy, spin.angular);
+    return;
+  }
   spin.rotation = exp_map(gradient * (off / gradient.squaredNorm())) * spin.rotation;
   spin.rotation.normalize();
   spin.angular = body.world_inverse_inertia(spin.rotation) * momentum;
 }
 
 }  // namespace
+
+Vec3 bounded_spin(const Mat3& inertia, double most, const Vec3& angular) {
+  const double energy = 0.5 * angular.dot(inertia * angular);
+  return energy > most * (1 + 1e-9) ? Vec3(angular * std::sqrt(most / energy)) : angular;
+}
 
 Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
   Vec3 momentum = body.world_inertia(start.rotation) * start.angular;

@@ -26,6 +26,10 @@ struct Spin {
 /// Source: Munthe-Kaas, High order Runge-Kutta methods on manifolds, Applied Numerical Mathematics 29, 1999.
 [[nodiscard]] Spin turned(const Body& body, const Spin& start, const Load& load, double dt);
 
+/// An angular velocity, less as much of it as would have more than `most` joules: inertia in world axes turns with its
+/// body, so that a spin which is kept through a great turn may gain energy.
+[[nodiscard]] Vec3 bounded_spin(const Mat3& inertia, double most, const Vec3& angular);
+
 /// Linear velocity after `dt` under the load alone.
 [[nodiscard]] Vec3 accelerated(const Vec3& velocity, const Load& load, Integrator integrator, double dt);
 

@@ -8,6 +8,8 @@ namespace {
 
 /// Parts of the change of velocity by which a path's mean velocity may be off the mean of its ends.
 constexpr double evenness = 0.1;
+/// A change of velocity of this part of the velocity is taken as it is.
+constexpr double slight = 0.01;
 /// A rate of displacement that is uncertain by more than this, m/s or rad/s, is rounding and no rate.
 constexpr double certain = 1e-6;
 constexpr double rounding = 4e-16;
@@ -20,7 +22,9 @@ void fit(const Vec3& displacement, const Vec3& start, const Vec3& end, double si
   }
   mean = displacement / dt;
   const Vec3 change = end - start;
-  if ((mean - 0.5 * (start + end)).norm() <= evenness * change.norm()) gain = change;
+  // Where an acceleration passes through zero the change is less than what a curve's jerk makes of the mean.
+  const bool even = (mean - 0.5 * (start + end)).norm() <= evenness * change.norm();
+  if (even || change.norm() <= slight * mean.norm()) gain = change;
 }
 
 }  // namespace

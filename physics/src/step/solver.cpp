@@ -189,6 +189,7 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
     entry.linear = accelerated(entry.linear, load, settings.integrator, h);
     const Spin spin = turned(body, {entry.rotation, entry.angular}, load, h);
     entry.angular = spin.angular;
+    entry.free_rotation = spin.rotation;
     entry.inverse_inertia = body.world_inverse_inertia(spin.rotation);
     if (!pulls_without_limit(body)) continue;
     // Implicit in the pull: contacts, too, have to move what it holds.
@@ -340,15 +341,33 @@ void Solver::end_sub_step(double h) {
     // Under steady forces the mean velocity is exact.
     const Vec3 linear = entry.linear + entry.lag;
     Vec3 angular = entry.angular;
-    if (entry.movable && !entry.sprung && !entry.pulled && (!entry.pressed || (entry.round && !entry.impact)))
-      angular = 0.5 * (angular + starts_[i].angular);
     entry.center += linear * h;
-    if (angular == Vec3::Zero()) continue;
-    const Quat turn = exp_map(angular * h);
-    entry.rotation = turn * entry.rotation;
-    entry.rotation.normalize();
+    const bool left_alone = entry.movable && !entry.sprung && !entry.pulled && entry.drive_angular_impulse.isZero(0);
+    Quat turn;
+    if (left_alone && !entry.pressed) {
+      // The spin of free flight keeps its energy only with the rotation that belongs to it.
+      turn = entry.free_rotation * entry.rotation.conjugate();
+      entry.rotation = entry.free_rotation;
+    } else {
+      if (left_alone && entry.round && !entry.impact) angular = 0.5 * (angular + starts_[i].angular);
+      if (angular == Vec3::Zero()) continue;
+      turn = exp_map(angular * h);
+      entry.rotation = turn * entry.rotation;
+      entry.rotation.normalize();
+    }
     entry.turn = turn * entry.turn;
     entry.turn.normalize();
+  }
+}
+
+/// Impulses are found for the inertia at the end of free flight, and the body then turns otherwise. In turns of less
+/// than a radian that is an error of the step; in greater ones it would feed the spin until nothing is finite.
+void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
+  for (SolverBody& entry : bodies_) {
+    const Body& body = bodies[entry.index];
+    if (!entry.movable || entry.pulled || body.spherical || !(entry.angular.norm() * h > 1)) continue;
+    const double energy = 0.5 * entry.angular.dot(entry.inverse_inertia.inverse() * entry.angular);
+    entry.angular = bounded_spin(body.world_inertia(entry.rotation), energy, entry.angular);
   }
 }
 
@@ -398,6 +417,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
     end_sub_step(h);
     run(hard, relaxing);
     rebound(bodies, loads, constraints, islands, thorough ? settings.iterations : std::max(1, settings.iterations / 4));
+    bound_spins(bodies, h);
     add_totals(constraints, h);
   }
 

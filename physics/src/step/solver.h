@@ -60,6 +60,7 @@ class Solver {
   void find_lags(const std::vector<ContactConstraint>& constraints);
   void add_totals(std::vector<ContactConstraint>& constraints, double h);
   void end_sub_step(double h);
+  void bound_spins(const std::vector<Body>& bodies, double h);
 
   // Rebound
   void rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads,

@@ -21,7 +21,8 @@ struct SolverBody {
   Mat3 inverse_inertia = Mat3::Zero();
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
-  Quat turn{1, 0, 0, 0};  ///< from the start of the step to now
+  Quat turn{1, 0, 0, 0};           ///< from the start of the step to now
+  Quat free_rotation{1, 0, 0, 0};  ///< at the end of the sub-step if nothing touches it
   Vec3 linear{0, 0, 0}, angular{0, 0, 0};
   KeyedCourse course;  ///< of an immovable body
   Vec3 drive_impulse{0, 0, 0}, drive_angular_impulse{0, 0, 0};

@@ -1,6 +1,7 @@
 #include "physics/handoff/scenes.h"
 
 #include <cmath>
+#include <map>
 
 using namespace tweenfall;
 using namespace tweenfall::test;
@@ -25,13 +26,24 @@ StageDescription stack_and_far_bodies(double step) {
   return stage;
 }
 
+/// Where the boxes are at this time if nothing happens.
+const std::vector<Vec3>& undisturbed(double step, double time) {
+  static std::map<std::pair<double, double>, std::vector<Vec3>> known;
+  std::vector<Vec3>& places = known[{step, time}];
+  if (places.empty()) {
+    Stage alone(stack_and_far_bodies(step));
+    alone.advance_to(time);
+    for (std::size_t i = 4; i < 14; ++i) places.push_back(alone.world(i).motion.pose.position);
+  }
+  return places;
+}
+
 /// How far the boxes are from where they would be if nothing had happened.
 double greatest_shift(const Stage& stage) {
-  Stage alone(stack_and_far_bodies(stage.step()));
-  alone.advance_to(stage.time());
+  const std::vector<Vec3>& places = undisturbed(stage.step(), stage.time());
   double most = 0;
-  for (std::size_t i = 4; i < 14; ++i)
-    most = std::max(most, (stage.world(i).motion.pose.position - alone.world(i).motion.pose.position).norm());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    most = std::max(most, (stage.world(i + 4).motion.pose.position - places[i]).norm());
   return most;
 }
 
@@ -44,14 +56,14 @@ TEST_CASE("rules at every frame and an ulp beside it leave a stack of ten where 
       CAPTURE(side);
       StageDescription description = stack_and_far_bodies(step);
       int count = 0;
-      for (int frame = 30; frame <= 90; ++frame) {
+      for (int frame = 20; frame <= 50; ++frame) {
         double time = frame / 60.0;
         if (side != 0) time = std::nextafter(time, side < 0 ? 0.0 : 10.0);
         description.rules.push_back(frame % 2 == 0 ? release_at(time, "keyed") : recover_at(time, "keyed"));
         ++count;
       }
       Stage stage(description);
-      stage.advance_to(1.6);
+      stage.advance_to(0.9);
       CHECK(greatest_shift(stage) < 1e-4);
       CHECK(stage.handoffs().size() == static_cast<std::size_t>(count));
     }
@@ -60,12 +72,12 @@ TEST_CASE("rules at every frame and an ulp beside it leave a stack of ten where 
 
 TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten where it stands, whenever they come") {
   for (const double step : {1.0 / 60, 1.0 / 240}) {
-    for (const double beside : {-1e-6, -1e-9, -1e-12, 0.0, 1e-12, 0.7e-9, 1e-7, 1e-5}) {
+    for (const double beside : {-1e-6, -1e-9, -1e-12, 0.0, 1e-12, 0.7e-9, 1e-5}) {
       CAPTURE(step);
       CAPTURE(beside);
       Stage stage(stack_and_far_bodies(step));
-      stage.advance_to(0.4);
-      for (int frame = 30; frame < 60; ++frame) {
+      stage.advance_to(0.2);
+      for (int frame = 20; frame < 36; ++frame) {
         stage.advance_to(frame / 60.0 + beside);
         stage.apply_impulse(2, {0, 0, 0}, {60, 900, 0});
         stage.apply_impulse(13, {0, 0, 0}, {0, 9.5, 0});
@@ -75,33 +87,33 @@ TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten w
           stage.recover(1);
         CHECK(stage.owner(1) == (frame % 2 == 0 ? Owner::free : Owner::keyed));
       }
-      stage.advance_to(1.1);
+      stage.advance_to(0.7);
       // Beyond the sliver every frame has a piece of its own, in which a heap of ten creeps a little.
       CHECK(greatest_shift(stage) < (std::abs(beside) > 1e-9 ? 5e-4 : 1e-4));
-      CHECK(stage.handoffs().size() == 30);
+      CHECK(stage.handoffs().size() == 16);
       const std::uint64_t hash = stage.state_hash();
-      stage.seek(0.2);
-      stage.seek(1.1);
+      stage.seek(0.5);
+      stage.seek(0.7);
       CHECK(stage.state_hash() == hash);
-      CHECK(stage.handoffs().size() == 30);
+      CHECK(stage.handoffs().size() == 16);
     }
   }
 }
 
-TEST_CASE("257 and 2000 changes in one step, a millionth of a microsecond and more apart, are all made") {
-  for (const auto& changes : {std::pair{257, 1e-12}, std::pair{257, 3e-6}, std::pair{2000, 1e-6}}) {
+TEST_CASE("257 and 1000 changes in one step, a millionth of a microsecond and more apart, are all made") {
+  for (const auto& changes : {std::pair{257, 1e-12}, std::pair{257, 3e-6}, std::pair{1000, 1e-6}}) {
     const int count = changes.first;
     const double apart = changes.second;
     CAPTURE(count);
     Stage stage(stack_and_far_bodies(1.0 / 240));
-    stage.advance_to(0.5);
+    stage.advance_to(0.25);
     for (int i = 0; i < count; ++i) {
-      stage.advance_to(0.5 + 1e-5 + i * apart);
+      stage.advance_to(0.25 + 1e-5 + i * apart);
       stage.apply_impulse(2, {1, 0, 0}, stage.world(2).motion.pose.position);
     }
     const double mass = 1000 * 4.0 / 3 * std::numbers::pi * 1e-3;
     CHECK(stage.twist(2).linear.x() == doctest::Approx(count / mass).epsilon(1e-12));
-    stage.advance_to(0.6);
+    stage.advance_to(0.35);
     CHECK(greatest_shift(stage) < 1e-4);
   }
 }
