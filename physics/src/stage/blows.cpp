@@ -209,7 +209,9 @@ void report_touch(const StageState& state, const Meeting& meeting, const Touch& 
   event.name = "contact";
   event.nodes = {state.bodies[meeting.body].node, state.node_of[meeting.other.index]};
   event.impulse = touch.impulse;
-  happenings.push_back({state.time, std::move(event)});
+  Happening& happening = happenings.emplace_back();
+  happening.time = state.time;
+  happening.what.emplace<StageEvent>(std::move(event));
 }
 
 /// Moves `state` to the first impact before `end` at which a rule frees its keyed body, and fires it there: judged by

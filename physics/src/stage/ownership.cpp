@@ -114,6 +114,7 @@ void change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
       handoff.after = about_center(rigid(body.path.at(instant)), center);
     }
   }
+  body.by_track = false;
   happenings.push_back({instant, handoff});
 }
 

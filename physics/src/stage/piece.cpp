@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stage/drive_tracks.h"
 #include "stage/stage_data.h"
 #include "stage/whole_pose.h"
 
@@ -44,6 +45,7 @@ void handle_instant(StageState& state, double step, std::span<const Command> com
     if (!arrived) arrived = state;
     command.run(state, command.time, happenings);
   }
+  follow_drive_tracks(state, step, happenings);
   state.jumped = true;
 }
 

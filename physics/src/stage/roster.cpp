@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "stage/drive_tracks.h"
 #include "stage/scaled_shape.h"
 #include "stage/stage_data.h"
 
@@ -46,6 +47,7 @@ void add_body(StageState& state, NodeId node, const BodyDescription& body) {
 
   StagedBody staged{.node = node, .id = id, .path = std::move(path), .shown = start};
   staged.released_at = state.time;
+  staged.drive = settings.drive;
   state.body_of[node] = state.bodies.size();
   if (state.node_of.size() <= id.index) state.node_of.resize(id.index + 1, no_node);
   state.node_of[id.index] = node;
@@ -153,6 +155,7 @@ StageState initial_state(const StageDescription& description) {
     }
   }
   state.jumps = find_jumps(state);
+  start_drive_tracks(state);
   for (const Rule& rule : description.rules) arm_rule(state, rule);
   return state;
 }

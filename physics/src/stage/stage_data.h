@@ -49,6 +49,8 @@ struct StagedBody {
   WorldMotion shown = {};  ///< the path at that time; its scale and shear stay on the free body
   bool present = true;
   std::shared_ptr<const std::vector<SettlingNode>> below = {};  ///< in order of nodes; null for none
+  Drive drive = {};      ///< that it came with: what a track of drives is mixed over
+  bool by_track = true;  ///< no rule and no caller has handed it over: a track may set its drive
 };
 
 /// What became of a rule so far, for `Stage::unfired_rules`.
@@ -85,6 +87,13 @@ struct Jumps {
   std::vector<char> carries_body;  ///< by clip: whether it moves a body at all
 };
 
+/// A track that animates a body's drive.
+struct DriveTrack {
+  NodeId node = no_node;
+  std::size_t clip = 0;
+  const Curve<double>* curve = nullptr;  ///< Hz; part of the animation's clips
+};
+
 /// What happened during a piece, to be told when the stage's time gets there.
 struct Happening {
   double time = 0;
@@ -101,8 +110,9 @@ struct StageState {
   std::shared_ptr<const Hierarchy> nodes;
   std::shared_ptr<const Animation> animation;
   std::shared_ptr<const Jumps> jumps;
-  std::vector<char> present;                 ///< by node
-  std::vector<std::optional<Color>> colors;  ///< by node, where none is animated
+  std::shared_ptr<const std::vector<DriveTrack>> drive_tracks;  ///< in order of nodes
+  std::vector<char> present;                                    ///< by node
+  std::vector<std::optional<Color>> colors;                     ///< by node, where none is animated
   std::vector<StagedBody> bodies;
   std::vector<std::size_t> body_of;  ///< by node; `no_body` for none
   std::vector<NodeId> node_of;       ///< by index of the world's body
