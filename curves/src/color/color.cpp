@@ -2,7 +2,7 @@
 
 #include "color/color_spaces.h"
 
-namespace tweenfall {
+namespace tweenfall::color_spaces {
 namespace {
 
 using color_spaces::Triple;
@@ -69,6 +69,9 @@ Sample<Vec4> sample_of(const Triple& c, double alpha, double alpha_rate, double 
 }
 
 }  // namespace
+}  // namespace tweenfall::color_spaces
+
+namespace tweenfall {
 
 int hue_index(ColorSpace space) noexcept {
   if (space == ColorSpace::hsl || space == ColorSpace::hsv || space == ColorSpace::hwb) return 0;
@@ -79,7 +82,9 @@ bool has_hue(const Vec4& coordinates, ColorSpace space) noexcept {
   if (hue_index(space) < 0) return false;
   // A gray's whiteness and blackness sum to 1 but for rounding.
   if (space == ColorSpace::hwb) return coordinates[1] + coordinates[2] < 1 - 1e-9;
-  return coordinates[1] > (space == ColorSpace::oklch ? oklab_gray : space == ColorSpace::lch ? lab_gray : 0);
+  return coordinates[1] > (space == ColorSpace::oklch ? color_spaces::oklab_gray
+                           : space == ColorSpace::lch ? color_spaces::lab_gray
+                                                      : 0);
 }
 
 Vec4 to_space(const Color& color, ColorSpace space) noexcept {
@@ -87,13 +92,14 @@ Vec4 to_space(const Color& color, ColorSpace space) noexcept {
 }
 
 Sample<Vec4> to_space(const Sample<Color>& color, ColorSpace space) noexcept {
-  const Triple c = to_coordinates(triple(color.value.rgba, color.rate, color.acceleration), space);
-  return sample_of(c, color.value.rgba[3], color.rate[3], color.acceleration[3]);
+  const color_spaces::Triple c =
+      color_spaces::to_coordinates(color_spaces::triple(color.value.rgba, color.rate, color.acceleration), space);
+  return color_spaces::sample_of(c, color.value.rgba[3], color.rate[3], color.acceleration[3]);
 }
 
 Sample<Color> from_space(const Sample<Vec4>& s, ColorSpace space) noexcept {
-  const Triple c = to_linear(triple(s.value, s.rate, s.acceleration), space);
-  const Sample<Vec4> linear = sample_of(c, s.value[3], s.rate[3], s.acceleration[3]);
+  const color_spaces::Triple c = color_spaces::to_linear(color_spaces::triple(s.value, s.rate, s.acceleration), space);
+  const Sample<Vec4> linear = color_spaces::sample_of(c, s.value[3], s.rate[3], s.acceleration[3]);
   return {Color{linear.value}, linear.rate, linear.acceleration};
 }
 

@@ -8,7 +8,7 @@
 #include "curve/curve_data.h"
 #include "math/polynomial.h"
 
-namespace tweenfall {
+namespace tweenfall::spans {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -33,6 +33,9 @@ double position(double time, double start, double inverse) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::spans
+
+namespace tweenfall {
 
 CurveBatch::CurveBatch(std::span<const Curve<double>> curves) {
   const auto add = [&](double start, double end, double c0, double c1 = 0, double c2 = 0, double c3 = 0) {
@@ -41,16 +44,16 @@ CurveBatch::CurveBatch(std::span<const Curve<double>> curves) {
   double seconds = 0, spans = 0;
   for (const Curve<double>& curve : curves) {
     const auto& data = CurveAccess::data(curve);
-    Track track{static_cast<std::uint32_t>(stretches_.size()), 0, infinity, infinity, 0};
-    if (is_plain(data)) {
-      add(-infinity, data.start, curve.value(data.start, Side::in));
+    Track track{static_cast<std::uint32_t>(stretches_.size()), 0, spans::infinity, spans::infinity, 0};
+    if (spans::is_plain(data)) {
+      add(-spans::infinity, data.start, curve.value(data.start, Side::in));
       for (std::size_t i = 0; i < data.span_count(); ++i) {
         const Segment segment = data.segment(i);
         double c[4]{};
         std::copy_n(&data.pool[segment.first], segment.degree + 1, c);
         add(segment.start, data.knots()[i + 1], c[0], c[1], c[2], c[3]);
       }
-      add(data.end, infinity, curve.value(data.end));
+      add(data.end, spans::infinity, curve.value(data.end));
       track.start = data.start;
       track.end = data.end;
       track.spans_per_second = static_cast<double>(data.span_count()) / (data.end - data.start);
@@ -58,7 +61,7 @@ CurveBatch::CurveBatch(std::span<const Curve<double>> curves) {
       spans += static_cast<double>(data.span_count());
     } else {
       apart_.push_back({tracks_.size(), curve});
-      add(-infinity, infinity, 0);
+      add(-spans::infinity, spans::infinity, 0);
     }
     track.last = static_cast<std::uint32_t>(stretches_.size()) - 1;
     tracks_.push_back(track);
@@ -127,8 +130,8 @@ void CurveBatch::seek(std::size_t count, double time) noexcept {
 }
 
 void CurveBatch::sample(double time, std::span<double> values, std::span<double> rates) {
-  check_size(values.size(), size(), "values");
-  if (!rates.empty()) check_size(rates.size(), size(), "rates");
+  spans::check_size(values.size(), size(), "values");
+  if (!rates.empty()) spans::check_size(rates.size(), size(), "rates");
   const std::size_t count = size();
 
   // Listed first, since which ones change is hard to foresee: the processor would wait for each.
@@ -159,13 +162,13 @@ void CurveBatch::sample(double time, std::span<double> values, std::span<double>
   const double *c0 = c0_.data(), *c1 = c1_.data(), *c2 = c2_.data(), *c3 = c3_.data();
   double* value = values.data();
   for (std::size_t i = 0; i < count; ++i) {
-    const double s = position(time, start[i], inverse[i]);
+    const double s = spans::position(time, start[i], inverse[i]);
     value[i] = c0[i] + s * (c1[i] + s * (c2[i] + s * c3[i]));
   }
   if (!rates.empty()) {
     double* rate = rates.data();
     for (std::size_t i = 0; i < count; ++i)
-      rate[i] = cubic_rate(c1[i], c2[i], c3[i], position(time, start[i], inverse[i])) * inverse[i];
+      rate[i] = cubic_rate(c1[i], c2[i], c3[i], spans::position(time, start[i], inverse[i])) * inverse[i];
   }
   for (const Apart& apart : apart_) {
     const Sample<double> sample = apart.curve.sample(time);

@@ -6,7 +6,7 @@
 
 #include "curve/curve_data.h"
 
-namespace tweenfall {
+namespace tweenfall::spans {
 namespace {
 
 // The extent and the rules outside that all parts share; where they differ, or a slope is stated, the sum is endless,
@@ -62,13 +62,16 @@ Curve<T> by_coordinates(const std::array<Curve<double>, size>& parts) {
 }
 
 }  // namespace
+}  // namespace tweenfall::spans
+
+namespace tweenfall {
 
 Curve<Vec2> parametric(const Curve<double>& x, const Curve<double>& y) {
-  return by_coordinates<Vec2>(std::array<Curve<double>, 2>{x, y});
+  return spans::by_coordinates<Vec2>(std::array<Curve<double>, 2>{x, y});
 }
 
 Curve<Vec3> parametric(const Curve<double>& x, const Curve<double>& y, const Curve<double>& z) {
-  return by_coordinates<Vec3>(std::array<Curve<double>, 3>{x, y, z});
+  return spans::by_coordinates<Vec3>(std::array<Curve<double>, 3>{x, y, z});
 }
 
 template <class T>
@@ -81,7 +84,7 @@ Curve<T> combined(std::span<const Curve<double>> basis, std::span<const T> coeff
     if (!all_finite(coefficients[i]))
       throw std::invalid_argument("coefficient " + std::to_string(i) + " must be finite; it is " +
                                   text_of(coefficients[i]));
-  return made<T>(
+  return spans::made<T>(
       [functions = std::vector<Curve<double>>(basis.begin(), basis.end()),
        weights = std::vector<T>(coefficients.begin(), coefficients.end())](double t, Side side) {
         Sample<T> result{zero<T>(), zero<T>(), zero<T>()};
@@ -93,7 +96,7 @@ Curve<T> combined(std::span<const Curve<double>> basis, std::span<const T> coeff
         }
         return result;
       },
-      shared_extent(basis));
+      spans::shared_extent(basis));
 }
 
 template Curve<double> combined<double>(std::span<const Curve<double>>, std::span<const double>);

@@ -9,7 +9,7 @@
 #include "math/polynomial.h"
 #include "rotation/rotation_span.h"
 
-namespace tweenfall {
+namespace tweenfall::spans {
 namespace {
 
 [[noreturn]] void refuse(std::size_t index, double start, const std::string& what) {
@@ -215,11 +215,14 @@ Sample<T> sample_endless(const Data& d, double time, Side side) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::spans
+
+namespace tweenfall {
 
 template <class T>
 Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const CurveEnd<T>& before,
                                  const CurveEnd<T>& after) {
-  check(spans);
+  spans::check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
   d.start = spans.front().start;
@@ -243,10 +246,10 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   const auto has_warp = [](const auto& s) { return s.warp.function != nullptr; };
   if (std::ranges::any_of(spans, has_warp))
     for (const auto& s : spans) d.warps.push_back(s.warp);
-  bool joined = are_joined(spans);
+  bool joined = spans::are_joined(spans);
   std::size_t unread = 0;  // coefficients that are known without being stored
   if constexpr (std::is_same_v<T, Quat>) {
-    d.plain_turns = are_plain_turns(spans);
+    d.plain_turns = spans::are_plain_turns(spans);
     joined = joined && d.plain_turns;
     unread = d.plain_turns ? 1 : 0;
     d.starts.reserve(count);
@@ -256,13 +259,13 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   }
 
   std::size_t rows = 0;
-  for (const auto& s : spans) rows += static_cast<std::size_t>(rows_of(s)) - unread;
-  d.rows = static_cast<std::uint32_t>(rows_of(spans[0])) - static_cast<std::uint32_t>(unread);
+  for (const auto& s : spans) rows += static_cast<std::size_t>(spans::rows_of(s)) - unread;
+  d.rows = static_cast<std::uint32_t>(spans::rows_of(spans[0])) - static_cast<std::uint32_t>(unread);
   if (unread)
     d.turns.reserve(rows);
   else
     d.pool.reserve(rows);
-  const bool alike = are_alike(spans);
+  const bool alike = spans::are_alike(spans);
   d.kinds.reserve(alike ? 1 : count);
   d.ends.reserve(joined ? 1 : count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -273,7 +276,7 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
       if constexpr (std::is_same_v<T, Quat>) kind.form = s.form;
       d.kinds.push_back(kind);
     }
-    for (std::size_t k = unread; k < static_cast<std::size_t>(rows_of(s)); ++k) {
+    for (std::size_t k = unread; k < static_cast<std::size_t>(spans::rows_of(s)); ++k) {
       const auto& c = s.coefficients[k];
       if constexpr (std::is_same_v<T, Color>)
         d.pool.push_back(c.rgba);
@@ -289,7 +292,7 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
 
 template <class T>
 T CurveAccess::end_value(const Curve<T>& curve, bool early) noexcept {
-  return tweenfall::end_value<T>(*curve.data_, early);
+  return spans::end_value<T>(*curve.data_, early);
 }
 
 template <class T>
@@ -400,17 +403,17 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
   const Data& d = *data_;
   if ((time > d.start || (time == d.start && side == Side::out)) &&
       (time < d.end || (time == d.end && side == Side::in)))
-    return d.rebuilt ? d.formula(time, side) : sample_inside<T>(d, time, side);
+    return d.rebuilt ? d.formula(time, side) : spans::sample_inside<T>(d, time, side);
   const bool early = time < d.start || (time == d.start && side == Side::in);
   const CurveEnd<T>& beyond = early ? d.before : d.after;
   if (const std::optional<Rate<T>>& slope = beyond.straight(); slope && beyond.rule.rule == Outside::linear)
-    return straight_on(Sample<T>{end_value<T>(d, early), *slope, zero_rate<Rate<T>>()},
+    return straight_on(Sample<T>{spans::end_value<T>(d, early), *slope, zero_rate<Rate<T>>()},
                        time - (early ? d.start : d.end));
   if (d.rebuilt) return d.formula(time, side);
   if (const std::optional<double> last = last_play(beyond.rule, d.start, d.end, early);
       last && is_beyond(time, side, *last, early))
-    return at_rest<T>(sample_endless<T>(d, *last, early ? Side::out : Side::in).value);
-  return sample_endless<T>(d, time, side);
+    return at_rest<T>(spans::sample_endless<T>(d, *last, early ? Side::out : Side::in).value);
+  return spans::sample_endless<T>(d, time, side);
 }
 
 template <class T>
@@ -444,7 +447,7 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
       span.from = d.starts[i];
       if (!d.spins.empty()) span.spin = d.spins[i];
     }
-    for (std::size_t k = 0; k < static_cast<std::size_t>(rows_of(span)); ++k) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(spans::rows_of(span)); ++k) {
       if constexpr (std::is_same_v<T, Color>) {
         span.coefficients[k].rgba = d.pool[s.first + k];
       } else if constexpr (std::is_same_v<T, Quat>) {

@@ -8,7 +8,7 @@
 #include "curve/extrapolation.h"
 #include "curve/span_part.h"
 
-namespace tweenfall {
+namespace tweenfall::spans {
 namespace {
 
 constexpr double most_plays = 1e6;
@@ -153,6 +153,9 @@ void check_plays(const Curve<T>& curve, double from, double to) {
 }
 
 }  // namespace
+}  // namespace tweenfall::spans
+
+namespace tweenfall {
 
 void check_times(double from, double to) {
   for (const double t : {from, to})
@@ -168,21 +171,21 @@ bool has_spans(const Curve<T>& curve) {
 template <class T>
 std::vector<typename SpanOf<T>::type> spans_between(const Curve<T>& curve, double from, double to) {
   check_times(from, to);
-  check_plays(curve, from, to);
+  spans::check_plays(curve, from, to);
   const std::vector<typename SpanOf<T>::type> spans = curve.spans();
-  Plays<T> plays{curve, spans, CurveAccess::end_value(curve, true), CurveAccess::end_value(curve, false), {}};
+  spans::Plays<T> plays{curve, spans, CurveAccess::end_value(curve, true), CurveAccess::end_value(curve, false), {}};
   if (from < curve.start()) plays.add_outside(from, std::min(to, curve.start()), true);
   if (!spans.empty()) plays.add(0, false, 0, from, to);
   if (to > curve.end()) plays.add_outside(std::max(from, curve.end()), to, false);
   std::erase_if(plays.result, [](const auto& span) { return !(span.duration > 0); });
-  close_gaps(plays.result, from, to);
+  spans::close_gaps(plays.result, from, to);
   return std::move(plays.result);
 }
 
 template <class T>
 std::vector<double> seams_between(const Curve<T>& curve, double from, double to) {
   check_times(from, to);
-  check_plays(curve, from, to);
+  spans::check_plays(curve, from, to);
   std::vector<double> result = {from};
   const auto add = [&](double time) {
     if (time > result.back() && time < to) result.push_back(time);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::spans {
 namespace {
 
 // Root of x(s) = u by Newton's method, kept inside a bracket that bisection would halve.
@@ -34,13 +34,16 @@ Warp::Result inverse_warp(double u, const std::array<double, 4>& parameters) noe
 }
 
 }  // namespace
+}  // namespace tweenfall::spans
+
+namespace tweenfall {
 
 Warp time_bezier_warp(double x1, double x2) {
-  return {&inverse_warp, {x1, x2, 0, 0}};
+  return {&spans::inverse_warp, {x1, x2, 0, 0}};
 }
 
 bool is_time_bezier(const Warp& warp) noexcept {
-  return warp.function == &inverse_warp;
+  return warp.function == &spans::inverse_warp;
 }
 
 }  // namespace tweenfall

@@ -10,7 +10,7 @@
 #include "curve/span_part.h"
 #include "curve/spans_between.h"
 
-namespace tweenfall {
+namespace tweenfall::editing {
 namespace {
 
 void check_order(double from, double to) {
@@ -30,13 +30,16 @@ CurveEnd<T> end_of(const Curve<T>& curve, bool early) {
 }
 
 }  // namespace
+}  // namespace tweenfall::editing
+
+namespace tweenfall {
 
 template <class T>
 Curve<T> trimmed(const Curve<T>& curve, double from, double to) {
-  check_order(from, to);
+  editing::check_order(from, to);
   CurveEnd<T> before, after;
-  if (from == curve.start()) before = end_of(curve, true);
-  if (to == curve.end()) after = end_of(curve, false);
+  if (from == curve.start()) before = editing::end_of(curve, true);
+  if (to == curve.end()) after = editing::end_of(curve, false);
   before.rule = after.rule = {};
   if (to < curve.end()) after.value = curve.value(to, Side::out);
   if (has_spans(curve)) return CurveAccess::from_spans<T>(spans_between(curve, from, to), to, before, after);
@@ -75,11 +78,11 @@ Curve<T> joined(const Curve<T>& first, const Curve<T>& second) {
           return (early ? first : second).sample(time, side);
         },
         first.start(), second.end(), breaks);
-    return CurveAccess::with_ends(whole, end_of(first, true), end_of(second, false));
+    return CurveAccess::with_ends(whole, editing::end_of(first, true), editing::end_of(second, false));
   }
   more.front().start = seam;
   spans.insert(spans.end(), more.begin(), more.end());
-  return CurveAccess::from_spans<T>(spans, second.end(), end_of(first, true), end_of(second, false));
+  return CurveAccess::from_spans<T>(spans, second.end(), editing::end_of(first, true), editing::end_of(second, false));
 }
 
 template <class T>
@@ -98,7 +101,7 @@ Curve<T> with_knot(const Curve<T>& curve, double time) {
   spans[i] = span_part(whole, 0, u, knots[i], time);
   spans.insert(spans.begin() + static_cast<std::ptrdiff_t>(i) + 1, span_part(whole, u, 1, time, knots[i + 1]));
   spans[i + 1].starts_at_key = true;
-  return CurveAccess::from_spans<T>(spans, curve.end(), end_of(curve, true), end_of(curve, false));
+  return CurveAccess::from_spans<T>(spans, curve.end(), editing::end_of(curve, true), editing::end_of(curve, false));
 }
 
 template <class T>
@@ -124,7 +127,7 @@ Curve<T> without_redundant_knots(const Curve<T>& curve, double tolerance) {
     span.end = end;
     continued_to = curve.knots()[i + 1];
   }
-  return CurveAccess::from_spans<T>(kept, curve.end(), end_of(curve, true), end_of(curve, false));
+  return CurveAccess::from_spans<T>(kept, curve.end(), editing::end_of(curve, true), editing::end_of(curve, false));
 }
 
 #define TWEENFALL_EDITING(T)                                                \

@@ -8,7 +8,7 @@
 #include "curve/time_bezier.h"
 #include "splines/control_points.h"
 
-namespace tweenfall {
+namespace tweenfall::editing {
 namespace {
 
 [[noreturn]] void refuse_points(std::size_t i, const std::string& what) {
@@ -33,10 +33,10 @@ BezierPoints<T> points_of(const Span<T>& span, double end) {
   if (warped) {
     const std::array<double, 4> shown = shown_time_cubic(span.warp, c.data(), 3);
     std::vector<double> x(shown.begin(), shown.end());
-    make_control_points(x);
+    splines::make_control_points(x);
     for (std::size_t k = 1; k < 3; ++k) result.times[k] = span.start + x[k] * duration;
   }
-  make_control_points(c);
+  splines::make_control_points(c);
   for (std::size_t k = 0; k < 4; ++k) {
     if constexpr (std::is_same_v<T, Color>)
       result.values[k].rgba = c[k];
@@ -48,13 +48,16 @@ BezierPoints<T> points_of(const Span<T>& span, double end) {
 }
 
 }  // namespace
+}  // namespace tweenfall::editing
+
+namespace tweenfall {
 
 template <class T>
 std::vector<BezierPoints<T>> bezier_points(const Curve<T>& curve) {
   const std::vector<Span<T>> spans = curve.spans();
   if (spans.empty()) throw std::invalid_argument("a formula has no Bezier points; fit keys to it instead");
   std::vector<BezierPoints<T>> result;
-  for (std::size_t i = 0; i < spans.size(); ++i) result.push_back(points_of(spans[i], curve.knots()[i + 1]));
+  for (std::size_t i = 0; i < spans.size(); ++i) result.push_back(editing::points_of(spans[i], curve.knots()[i + 1]));
   return result;
 }
 
@@ -66,12 +69,12 @@ std::vector<Key<T>> keys_of(std::span<const BezierPoints<T>> spans) {
     const auto& [t, v] = spans[i];
     const double duration = t[3] - t[0];
     if (i > 0 && t[0] != spans[i - 1].times[3])
-      refuse_points(i, "must begin where the one before ends, at " + text_of(spans[i - 1].times[3]) +
-                           " s; it begins at " + text_of(t[0]) + " s");
+      editing::refuse_points(i, "must begin where the one before ends, at " + text_of(spans[i - 1].times[3]) +
+                                    " s; it begins at " + text_of(t[0]) + " s");
     for (const double time : {t[1] - t[0], t[3] - t[2]})
       if (!(duration > 0) || !(time > 0 && time <= duration))
-        refuse_points(i, "has a handle " + text_of(time) + " s long; it must be > 0 s and at most the span's " +
-                             text_of(duration) + " s");
+        editing::refuse_points(i, "has a handle " + text_of(time) +
+                                      " s long; it must be > 0 s and at most the span's " + text_of(duration) + " s");
     // A third that is not one in its last bit is still the plain cubic.
     const auto weight = [duration](double length) {
       const double share = length / duration;

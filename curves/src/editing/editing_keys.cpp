@@ -12,7 +12,7 @@
 #include "questions/curve_pieces.h"
 #include "questions/piece_difference.h"
 
-namespace tweenfall {
+namespace tweenfall::editing {
 namespace {
 
 template <class T>
@@ -47,7 +47,7 @@ void describe(Key<T>& from, Key<T>& to, const Span<T>& span, const Curve<T>& cur
   if (span.degree > 3) refuse_span(span, "has the degree " + std::to_string(span.degree));
   if (span.warp.function) {
     if (!is_time_bezier(span.warp)) refuse_span(span, "is an ease");
-    weights = weights_of(curve_pieces(curve, from.time, to.time).front().x);
+    weights = weights_of(questions::curve_pieces(curve, from.time, to.time).front().x);
     if (!weights.possible()) refuse_span(span, "has a handle outside itself");
   } else if (span.degree == 1) {
     from.ease = Ease::linear();
@@ -79,6 +79,9 @@ bool same_value(const T& a, const T& b) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::editing
+
+namespace tweenfall {
 
 template <class T>
 std::vector<Key<T>> keys_of(const Curve<T>& curve) {
@@ -91,14 +94,14 @@ std::vector<Key<T>> keys_of(const Curve<T>& curve) {
     const bool last = i + 1 == knots.size();
     keys.push_back({knots[i], last ? CurveAccess::end_value(curve, false) : curve.value(knots[i], Side::out)});
     if (i == 0) continue;
-    describe(keys[i - 1], keys[i], spans[i - 1], curve);
+    editing::describe(keys[i - 1], keys[i], spans[i - 1], curve);
     const T arriving = curve.value(knots[i], Side::in);
-    if (keys[i - 1].ease.rule() != Ease::Rule::hold && !same_value(arriving, keys[i].value))
+    if (keys[i - 1].ease.rule() != Ease::Rule::hold && !editing::same_value(arriving, keys[i].value))
       keys[i].value_in = arriving;
   }
   const auto& data = CurveAccess::data(curve);
-  if (data.before.slope) keys.front().in = given<T>(*data.before.slope);
-  if (data.after.slope) keys.back().out = given<T>(*data.after.slope);
+  if (data.before.slope) keys.front().in = editing::given<T>(*data.before.slope);
+  if (data.after.slope) keys.back().out = editing::given<T>(*data.after.slope);
   return keys;
 }
 
@@ -107,12 +110,12 @@ std::vector<Key<T>> with_given_slopes(std::span<const Key<T>> keys, const KeyOpt
   const Curve<T> curve = keyed_curve<T>(keys, options);
   std::vector<Key<T>> result(keys.begin(), keys.end());
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
-    if (plan_span(keys[i].ease, keys[i].out || keys[i + 1].in).kind != SpanKind::cubic) continue;
+    if (keying::plan_span(keys[i].ease, keys[i].out || keys[i + 1].in).kind != keying::SpanKind::cubic) continue;
     const double out = keys[i].out ? keys[i].out->weight : 1.0 / 3,
                  in = keys[i + 1].in ? keys[i + 1].in->weight : 1.0 / 3;
     result[i].ease = Ease::smooth_clamped();
-    result[i].out = given<T>(curve.rate(keys[i].time, Side::out), out);
-    result[i + 1].in = given<T>(curve.rate(keys[i + 1].time, Side::in), in);
+    result[i].out = editing::given<T>(curve.rate(keys[i].time, Side::out), out);
+    result[i + 1].in = editing::given<T>(curve.rate(keys[i + 1].time, Side::in), in);
   }
   return result;
 }
@@ -131,39 +134,41 @@ std::vector<Key<T>> with_key(std::span<const Key<T>> keys, double time, const Ke
   const Curve<T> curve = keyed_curve<T>(keys, options);
   const Sample<T> here = curve.sample(time);
   Key<T> key{time, here.value};
-  const SpanKind kind = plan_span(keys[i].ease, keys[i].out || keys[i + 1].in).kind;
-  if (kind == SpanKind::hold || kind == SpanKind::linear) {
+  const keying::SpanKind kind = keying::plan_span(keys[i].ease, keys[i].out || keys[i + 1].in).kind;
+  if (kind == keying::SpanKind::hold || kind == keying::SpanKind::linear) {
     key.ease = keys[i].ease;
-    if (kind == SpanKind::linear && options.long_way)
-      refuse_key(keys, i, "takes the long way around, which two keys would not");
+    if (kind == keying::SpanKind::linear && options.long_way)
+      keying::refuse_key(keys, i, "takes the long way around, which two keys would not");
   } else {
     if (std::is_same_v<T, Quat>)
-      refuse_key(keys, i, "begins a turn at changing speed, which two keys would not repeat");
-    CurvePiece<double> handles;
+      keying::refuse_key(keys, i, "begins a turn at changing speed, which two keys would not repeat");
+    questions::CurvePiece<double> handles;
     handles.from = from.time;
     handles.to = to.time;
     handles.timed = true;
     double x1 = from.out ? from.out->weight : 1.0 / 3, x2 = 1 - (to.in ? to.in->weight : 1.0 / 3);
-    if (kind == SpanKind::shape) {
+    if (kind == keying::SpanKind::shape) {
       const std::vector<Ease::Piece>& pieces = keys[i].ease.pieces();
       const Ease::Piece& piece = pieces.front();
       const bool bezier = is_time_bezier(piece.warp);
       if (pieces.size() != 1 || piece.degree > 3 || (piece.warp.function && !bezier))
-        refuse_key(keys, i, "has the ease \"" + keys[i].ease.name() + "\", half of which no key describes");
+        keying::refuse_key(keys, i, "has the ease \"" + keys[i].ease.name() + "\", half of which no key describes");
       x1 = bezier ? piece.warp.parameters[0] : 1.0 / 3;
       x2 = bezier ? piece.warp.parameters[1] : 2.0 / 3;
       from.ease = Ease::smooth_clamped();
     }
     handles.x = time_cubic(x1, x2);
     const bool plain = x1 == 1.0 / 3 && std::abs(x2 - 2.0 / 3) <= 2e-16;
-    const HandleWeights first = plain ? HandleWeights{} : weights_of(piece_part(handles, from.time, time).x);
-    const HandleWeights second = plain ? HandleWeights{} : weights_of(piece_part(handles, time, to.time).x);
+    const editing::HandleWeights first =
+        plain ? editing::HandleWeights{} : editing::weights_of(questions::piece_part(handles, from.time, time).x);
+    const editing::HandleWeights second =
+        plain ? editing::HandleWeights{} : editing::weights_of(questions::piece_part(handles, time, to.time).x);
     if (!first.possible() || !second.possible())
-      refuse_key(keys, i, "has handles that, cut here, would lie outside their spans");
-    from.out = given<T>(curve.rate(from.time, Side::out), first.out);
-    key.in = given<T>(here.rate, first.in);
-    key.out = given<T>(here.rate, second.out);
-    to.in = given<T>(curve.rate(to.time, Side::in), second.in);
+      keying::refuse_key(keys, i, "has handles that, cut here, would lie outside their spans");
+    from.out = editing::given<T>(curve.rate(from.time, Side::out), first.out);
+    key.in = editing::given<T>(here.rate, first.in);
+    key.out = editing::given<T>(here.rate, second.out);
+    to.in = editing::given<T>(curve.rate(to.time, Side::in), second.in);
   }
   result.insert(result.begin() + static_cast<std::ptrdiff_t>(i) + 1, key);
   return result;

@@ -8,7 +8,7 @@
 #include "curve/span_part.h"
 #include "curve/spans_between.h"
 
-namespace tweenfall {
+namespace tweenfall::editing {
 namespace {
 
 template <class T, class Scale>
@@ -65,11 +65,14 @@ Curve<T> retimed(const Curve<T>& curve, const Later& later, const Earlier& earli
 }
 
 }  // namespace
+}  // namespace tweenfall::editing
+
+namespace tweenfall {
 
 template <class T>
 Curve<T> shifted(const Curve<T>& curve, double seconds) {
   check_times(seconds, seconds);
-  return retimed(
+  return editing::retimed(
       curve, [seconds](double t) { return t + seconds; }, [seconds](double t) { return t - seconds; }, 1);
 }
 
@@ -77,7 +80,7 @@ template <class T>
 Curve<T> time_scaled(const Curve<T>& curve, double factor, double pivot) {
   check_times(factor, pivot);
   if (!(factor > 0)) throw std::invalid_argument("time must be scaled by a factor > 0; it is " + text_of(factor));
-  return retimed(
+  return editing::retimed(
       curve, [factor, pivot](double t) { return pivot + factor * (t - pivot); },
       [factor, pivot](double t) { return pivot + (t - pivot) / factor; }, factor);
 }
@@ -105,10 +108,11 @@ Curve<T> reversed(const Curve<T>& curve) {
           s.rate = -s.rate;
           return s;
         },
-        curve.start(), curve.end(), breaks, with_slope(curve.rule_after(), times<T>(-1)),
-        with_slope(curve.rule_before(), times<T>(-1)),
+        curve.start(), curve.end(), breaks, editing::with_slope(curve.rule_after(), editing::times<T>(-1)),
+        editing::with_slope(curve.rule_before(), editing::times<T>(-1)),
         [curve](const OutsideRule<T>& before, const OutsideRule<T>& after) {
-          return reversed(curve.with_outside(with_slope(after, times<T>(-1)), with_slope(before, times<T>(-1))));
+          return reversed(curve.with_outside(editing::with_slope(after, editing::times<T>(-1)),
+                                             editing::with_slope(before, editing::times<T>(-1))));
         });
   std::vector<typename SpanOf<T>::type> result;
   for (std::size_t i = 0; i < spans.size(); ++i) {
@@ -116,8 +120,8 @@ Curve<T> reversed(const Curve<T>& curve) {
     result.back().starts_at_key = i == 0 || spans[spans.size() - i].starts_at_key;
   }
   const auto& data = CurveAccess::data(curve);
-  return CurveAccess::from_spans<T>(result, knots.back(), with_slopes(data.after, times<T>(-1)),
-                                    with_slopes(data.before, times<T>(-1)));
+  return CurveAccess::from_spans<T>(result, knots.back(), editing::with_slopes(data.after, editing::times<T>(-1)),
+                                    editing::with_slopes(data.before, editing::times<T>(-1)));
 }
 
 template <class T>
@@ -143,7 +147,7 @@ Curve<T> value_scaled(const Curve<T>& curve, const T& factor, const T& offset) {
     span.end = times_factor(span.end) + offset;
   }
   const auto scaled_end = [&](const CurveEnd<T>& end) {
-    CurveEnd<T> result = with_slopes(end, times_factor);
+    CurveEnd<T> result = editing::with_slopes(end, times_factor);
     if (result.value) result.value = times_factor(*result.value) + offset;
     return result;
   };

@@ -8,7 +8,7 @@
 #include "keys/key_check.h"
 #include "splines/control_points.h"
 
-namespace tweenfall {
+namespace tweenfall::editing {
 namespace {
 
 // From each key as far as the error allows.
@@ -118,7 +118,8 @@ class Fitter {
       // A corner stays a corner.
       const Sample<T> in = target_.curve().sample(span.to.time, Side::in);
       const Sample<T> out = target_.curve().sample(span.to.time, Side::out);
-      has_arrived_ = length_of(Rate<T>(in.rate - out.rate)) <= 1e-6 * (length_of(in.rate) + length_of(out.rate));
+      has_arrived_ = splines::length_of(Rate<T>(in.rate - out.rate)) <=
+                     1e-6 * (splines::length_of(in.rate) + splines::length_of(out.rate));
     }
     Key<T>& last = keys.back();
     last.ease = span.from.ease;
@@ -133,15 +134,18 @@ class Fitter {
 };
 
 }  // namespace
+}  // namespace tweenfall::editing
+
+namespace tweenfall {
 
 template <class T>
 std::vector<Key<T>> fit(const Curve<T>& curve, double error, const FitOptions& options) {
-  return Fitter<T>(curve, error, options, true).keys();
+  return editing::Fitter<T>(curve, error, options, true).keys();
 }
 
 template <class T>
 std::vector<Key<T>> fit_linear(const Curve<T>& curve, double error, const FitOptions& options) {
-  return Fitter<T>(curve, error, options, false).keys();
+  return editing::Fitter<T>(curve, error, options, false).keys();
 }
 
 template <class T>

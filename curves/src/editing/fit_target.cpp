@@ -11,7 +11,7 @@
 #include "questions/stretch_bound.h"
 #include "splines/control_points.h"
 
-namespace tweenfall {
+namespace tweenfall::editing {
 namespace {
 
 template <class T>
@@ -25,16 +25,19 @@ bool bitwise_same(const T& a, const T& b) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::editing
+
+namespace tweenfall {
 
 template <class T>
-FitTarget<T>::FitTarget(const Curve<T>& curve, double error, const FitOptions& options)
-    : curve_(curve), error_(error), options_(options), plain_(is_vector<T> && !options.keys.logarithmic) {
+editing::FitTarget<T>::FitTarget(const Curve<T>& curve, double error, const FitOptions& options)
+    : curve_(curve), error_(error), options_(options), plain_(editing::is_vector<T> && !options.keys.logarithmic) {
   if (!(error > 0) || !std::isfinite(error))
     throw std::invalid_argument("keys are fitted within an error > 0; it is " + text_of(error));
   check_times(curve.start(), curve.end());
-  if constexpr (is_vector<T>) {
+  if constexpr (editing::is_vector<T>) {
     if (plain_) {
-      pieces_ = curve_pieces(curve, curve.start(), curve.end());
+      pieces_ = questions::curve_pieces(curve, curve.start(), curve.end());
       for (const auto& piece : pieces_) {
         boundaries_.push_back(piece.from);
         least_error_ = std::max(least_error_, 10 * piece.rounding());
@@ -53,9 +56,9 @@ FitTarget<T>::FitTarget(const Curve<T>& curve, double error, const FitOptions& o
 
 // Slopes that make the sum of squared distances at evenly spaced times the least.
 template <class T>
-void FitTarget<T>::choose_slopes(Rate<T>& leaving, Rate<T>& arriving, double from, double to,
-                                 bool leaving_given) const {
-  if constexpr (is_vector<T>) {
+void editing::FitTarget<T>::choose_slopes(Rate<T>& leaving, Rate<T>& arriving, double from, double to,
+                                          bool leaving_given) const {
+  if constexpr (editing::is_vector<T>) {
     constexpr int count = 32;
     const double h = to - from;
     const T first = curve_.value(from), last = curve_.value(to, Side::in);
@@ -85,12 +88,12 @@ void FitTarget<T>::choose_slopes(Rate<T>& leaving, Rate<T>& arriving, double fro
 }
 
 template <class T>
-FittedSpan<T> FitTarget<T>::span(double from, double to, Kind kind, const Rate<T>* leaving) const {
+editing::FittedSpan<T> editing::FitTarget<T>::span(double from, double to, Kind kind, const Rate<T>* leaving) const {
   const Sample<T> a = curve_.sample(from, Side::out), b = curve_.sample(to, Side::in);
   const bool last = to == curve_.end();
   const T after = last && curve_.after() != Outside::hold ? b.value : curve_.value(to, Side::out);
-  FittedSpan<T> result{{from, a.value}, {to, after}};
-  if (!bitwise_same(after, b.value)) result.to.value_in = b.value;
+  editing::FittedSpan<T> result{{from, a.value}, {to, after}};
+  if (!editing::bitwise_same(after, b.value)) result.to.value_in = b.value;
   if (kind == Kind::linear) {
     result.from.ease = Ease::linear();
     return result;
@@ -106,11 +109,11 @@ FittedSpan<T> FitTarget<T>::span(double from, double to, Kind kind, const Rate<T
 }
 
 template <class T>
-bool FitTarget<T>::is_near(const FittedSpan<T>& span, double error) const {
+bool editing::FitTarget<T>::is_near(const editing::FittedSpan<T>& span, double error) const {
   const double from = span.from.time, to = span.to.time;
-  if constexpr (is_vector<T>) {
+  if constexpr (editing::is_vector<T>) {
     if (plain_) {
-      CurvePiece<T> candidate;
+      questions::CurvePiece<T> candidate;
       candidate.from = from;
       candidate.to = to;
       const T end = span.to.value_in ? *span.to.value_in : span.to.value;
@@ -125,15 +128,16 @@ bool FitTarget<T>::is_near(const FittedSpan<T>& span, double error) const {
         candidate.c[0] = span.from.value;
         candidate.c[1] = change;
       }
-      auto piece =
-          std::partition_point(pieces_.begin(), pieces_.end(), [from](const CurvePiece<T>& p) { return p.to <= from; });
+      auto piece = std::partition_point(pieces_.begin(), pieces_.end(),
+                                        [from](const questions::CurvePiece<T>& p) { return p.to <= from; });
       for (; piece != pieces_.end() && piece->from < to; ++piece) {
-        const CurvePiece<T> part = piece_part(*piece, std::max(from, piece->from), std::min(to, piece->to));
-        std::vector<T> points = composed(candidate, part);
+        const questions::CurvePiece<T> part =
+            questions::piece_part(*piece, std::max(from, piece->from), std::min(to, piece->to));
+        std::vector<T> points = questions::composed(candidate, part);
         points.resize(std::max(points.size(), static_cast<std::size_t>(part.degree) + 1), zero<T>());
         for (std::size_t i = 0; i <= static_cast<std::size_t>(part.degree); ++i) points[i] = points[i] - part.c[i];
-        make_control_points(points);
-        if (!stays_within(points, std::max(error - 0.5 * least_error_, 0.5 * least_error_))) return false;
+        splines::make_control_points(points);
+        if (!splines::stays_within(points, std::max(error - 0.5 * least_error_, 0.5 * least_error_))) return false;
       }
       return true;
     }
@@ -144,17 +148,17 @@ bool FitTarget<T>::is_near(const FittedSpan<T>& span, double error) const {
   double start = from;
   for (auto knot = first; start < to; ++knot) {
     const double stop = knot == boundaries_.end() ? to : std::min(*knot, to);
-    if (!stays_near(curve_, candidate, start, stop, error)) return false;
+    if (!questions::stays_near(curve_, candidate, start, stop, error)) return false;
     start = stop;
   }
   return true;
 }
 
-template class FitTarget<double>;
-template class FitTarget<Vec2>;
-template class FitTarget<Vec3>;
-template class FitTarget<Vec4>;
-template class FitTarget<Color>;
-template class FitTarget<Quat>;
+template class editing::FitTarget<double>;
+template class editing::FitTarget<Vec2>;
+template class editing::FitTarget<Vec3>;
+template class editing::FitTarget<Vec4>;
+template class editing::FitTarget<Color>;
+template class editing::FitTarget<Quat>;
 
 }  // namespace tweenfall

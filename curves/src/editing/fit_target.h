@@ -6,7 +6,7 @@
 
 #include "questions/curve_pieces.h"
 
-namespace tweenfall {
+namespace tweenfall::editing {
 
 /// A span that may stand between two times: the keys at its ends, of which only the sides within matter.
 template <class T>
@@ -44,7 +44,7 @@ class FitTarget {
   FitOptions options_;
   bool plain_;  // whether differences are polynomials
   std::vector<double> boundaries_;
-  std::vector<CurvePiece<typename Stored<T>::type>> pieces_;  // where they are
+  std::vector<questions::CurvePiece<typename Stored<T>::type>> pieces_;  // where they are
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::editing

@@ -5,7 +5,7 @@
 
 #include "editing/fit_target.h"
 
-namespace tweenfall {
+namespace tweenfall::editing {
 namespace {
 
 template <class T>
@@ -69,11 +69,14 @@ class Reducer {
 };
 
 }  // namespace
+}  // namespace tweenfall::editing
+
+namespace tweenfall {
 
 template <class T>
 std::vector<Key<T>> reduce(std::span<const Key<T>> keys, double error, const FitOptions& options) {
   if (keys.size() < 3) return with_given_slopes(keys, options.keys);
-  return Reducer<T>(keys, error, options).keys();
+  return editing::Reducer<T>(keys, error, options).keys();
 }
 
 #define TWEENFALL_REDUCE(T) template std::vector<Key<T>> reduce<T>(std::span<const Key<T>>, double, const FitOptions&);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-namespace tweenfall {
+namespace tweenfall::expressions {
 namespace {
 
 using std::numbers::pi;
@@ -195,13 +195,16 @@ constexpr ExpressionFunction operators[] = {
 };
 
 }  // namespace
+}  // namespace tweenfall::expressions
+
+namespace tweenfall {
 
 std::span<const ExpressionFunction> expression_functions() noexcept {
-  return functions;
+  return expressions::functions;
 }
 
 const ExpressionFunction* expression_operator(char symbol) noexcept {
-  for (const ExpressionFunction& each : operators)
+  for (const ExpressionFunction& each : expressions::operators)
     if (each.name[0] == symbol) return &each;
   return nullptr;
 }

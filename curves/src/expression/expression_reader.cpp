@@ -7,7 +7,7 @@
 #include "expression/expression_program.h"
 #include "text/quoted.h"
 
-namespace tweenfall {
+namespace tweenfall::expressions {
 namespace {
 
 constexpr std::size_t longest_text = 4000;
@@ -265,18 +265,21 @@ void check_name(const std::string& name) {
 }
 
 }  // namespace
+}  // namespace tweenfall::expressions
+
+namespace tweenfall {
 
 std::vector<Expression::Program::Step> read_expression(std::string_view text, std::span<const std::string> variables,
                                                        std::span<const Expression::Parameter> parameters) {
-  for (const std::string& name : variables) check_name(name);
+  for (const std::string& name : variables) expressions::check_name(name);
   for (const Expression::Parameter& each : parameters) {
-    check_name(each.name);
+    expressions::check_name(each.name);
     if (!std::isfinite(each.value))
       throw std::invalid_argument("the parameter " + quoted(each.name) + " must be finite");
     if (std::find(variables.begin(), variables.end(), each.name) != variables.end())
       throw std::invalid_argument("the parameter " + quoted(each.name) + " has the name of a variable");
   }
-  return Reader(text, variables, parameters).read();
+  return expressions::Reader(text, variables, parameters).read();
 }
 
 }  // namespace tweenfall

@@ -6,7 +6,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::formulas {
 namespace {
 
 // The path's shape, over any parameter: a spline whose keys are as far apart in time as in space.
@@ -36,9 +36,12 @@ Curve<Vec3> shape_of(const EvenPath& p) {
 }
 
 }  // namespace
+}  // namespace tweenfall::formulas
+
+namespace tweenfall {
 
 Curve<Vec3> even_path(const EvenPath& settings) {
-  return even_path(shape_of(settings), settings.duration);
+  return even_path(formulas::shape_of(settings), settings.duration);
 }
 
 Curve<Vec3> even_path(const Curve<Vec3>& shape, double duration) {

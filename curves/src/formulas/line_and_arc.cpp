@@ -5,7 +5,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::formulas {
 namespace {
 
 void check_duration(double duration, const char* what) {
@@ -14,9 +14,12 @@ void check_duration(double duration, const char* what) {
 }
 
 }  // namespace
+}  // namespace tweenfall::formulas
+
+namespace tweenfall {
 
 Curve<Vec3> line(const Line& l) {
-  check_duration(l.duration, "a line");
+  formulas::check_duration(l.duration, "a line");
   if (!all_finite(l.from) || !all_finite(l.to))
     throw std::invalid_argument("a line needs finite ends; it leads from " + text_of(l.from) + " to " + text_of(l.to));
   Span<Vec3> span{};
@@ -29,7 +32,7 @@ Curve<Vec3> line(const Line& l) {
 }
 
 Curve<Vec3> arc(const Arc& a) {
-  check_duration(a.duration, "an arc");
+  formulas::check_duration(a.duration, "an arc");
   if (!all_finite(a.center) || !all_finite(a.from) || !std::isfinite(a.angle))
     throw std::invalid_argument("an arc needs finite numbers; it has center " + text_of(a.center) + ", from " +
                                 text_of(a.from) + ", angle " + text_of(a.angle));

@@ -8,7 +8,7 @@
 #include "curve/components.h"
 #include "math/keplers_equation.h"
 
-namespace tweenfall {
+namespace tweenfall::formulas {
 namespace {
 
 constexpr double two_pi = 0x1.921fb54442d18p+2;
@@ -63,6 +63,9 @@ void check(const Orbit& o) {
 }
 
 }  // namespace
+}  // namespace tweenfall::formulas
+
+namespace tweenfall {
 
 Orbit Orbit::with_period(double period) const {
   if (!(eccentricity >= 0 && eccentricity < 1))
@@ -70,20 +73,22 @@ Orbit Orbit::with_period(double period) const {
                                 text_of(eccentricity));
   if (!(period > 0) || !std::isfinite(period))
     throw std::invalid_argument("an orbit's period must be finite and > 0 s; it is " + text_of(period));
-  const double a = periapsis / (1 - eccentricity), n = two_pi / period;
+  const double a = periapsis / (1 - eccentricity), n = formulas::two_pi / period;
   Orbit result = *this;
   result.gravitational_parameter = n * n * a * a * a;
   return result;
 }
 
 Curve<Vec3> orbit(const Orbit& settings) {
-  check(settings);
+  formulas::check(settings);
   constexpr double endless = std::numeric_limits<double>::infinity();
   const Mat3 axes = normalized(settings.rotation).toRotationMatrix();
-  const auto place = settings.eccentricity < 1 ? on_ellipse : settings.eccentricity > 1 ? on_hyperbola : on_parabola;
+  const auto place = settings.eccentricity < 1   ? formulas::on_ellipse
+                     : settings.eccentricity > 1 ? formulas::on_hyperbola
+                                                 : formulas::on_parabola;
   return Curve<Vec3>(
       [o = settings, place, x = Vec3(axes.col(0)), y = Vec3(axes.col(1))](double t, Side) {
-        const Place p = place(o, t - o.passage);
+        const formulas::Place p = place(o, t - o.passage);
         const double distance = std::sqrt(p.x * p.x + p.y * p.y);
         const Vec3 out = p.x * x + p.y * y;
         const double pull = o.gravitational_parameter / (distance * distance * distance);

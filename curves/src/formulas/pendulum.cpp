@@ -8,7 +8,7 @@
 #include "curve/components.h"
 #include "math/elliptic.h"
 
-namespace tweenfall {
+namespace tweenfall::formulas {
 namespace {
 
 using std::numbers::pi;
@@ -83,16 +83,19 @@ Curve<double> creeping(const Swing& m) {
 }
 
 }  // namespace
+}  // namespace tweenfall::formulas
+
+namespace tweenfall {
 
 Curve<double> pendulum(const Pendulum& settings) {
-  const Swing m(settings);
-  if (m.energy == 0) return Curve<double>(m.turns * 2 * pi);
-  return m.missing > 0 ? swinging(m) : m.missing < 0 ? turning(m) : creeping(m);
+  const formulas::Swing m(settings);
+  if (m.energy == 0) return Curve<double>(m.turns * 2 * formulas::pi);
+  return m.missing > 0 ? formulas::swinging(m) : m.missing < 0 ? formulas::turning(m) : formulas::creeping(m);
 }
 
 double pendulum_period(const Pendulum& settings) {
-  const Swing m(settings);
-  if (m.missing == 0) return forever;
+  const formulas::Swing m(settings);
+  if (m.missing == 0) return formulas::forever;
   if (m.missing > 0) return 4 * Elliptic(m.energy, m.missing).quarter_period() / m.frequency;
   return 2 * Elliptic(1 / m.energy, -m.missing / m.energy).quarter_period() / (m.frequency * std::sqrt(m.energy));
 }

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::formulas {
 namespace {
 
 // sinh(x) / x and cosh(x) for |x| < 1, where the difference of two exponentials would cancel.
@@ -44,4 +44,4 @@ SpringResponse spring_response(double phase, double z) noexcept {
   return {(fast * es - slow * ef) / (2 * d), (es - ef) / (2 * d)};
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::formulas

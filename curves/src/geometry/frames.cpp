@@ -6,7 +6,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::geometry {
 namespace {
 
 // Steps of the reflections between two frames that are asked for.
@@ -83,6 +83,9 @@ void check_frame_times(std::span<const double> times) {
 }
 
 }  // namespace
+}  // namespace tweenfall::geometry
+
+namespace tweenfall {
 
 double curvature(const Sample<Vec3>& sample) noexcept {
   const double speed = sample.rate.norm();
@@ -102,23 +105,25 @@ std::optional<Frame> frenet_frame(const Curve<Vec3>& curve, double time, Side si
 
 std::vector<Frame> rotation_minimizing_frames(const Curve<Vec3>& curve, std::span<const double> times,
                                               const FrameOptions& options) {
-  check_frame_times(times);
+  geometry::check_frame_times(times);
   Vec3 tangent(1, 0, 0);
-  for (std::size_t i = times.size(); i-- > 0;) tangent = tangent_at(curve, times[i], tangent);
+  for (std::size_t i = times.size(); i-- > 0;) tangent = geometry::tangent_at(curve, times[i], tangent);
 
-  Frame now{curve.value(times[0]), tangent, first_normal(options, tangent), Vec3(0, 0, 0)};
+  Frame now{curve.value(times[0]), tangent, geometry::first_normal(options, tangent), Vec3(0, 0, 0)};
   std::vector<Frame> frames = {now};
   std::vector<double> along = {0};
   for (std::size_t i = 1; i < times.size(); ++i) {
     double length = along.back();
-    for (int k = 1; k <= steps_between; ++k) {
-      const double t = k == steps_between ? times[i] : times[i - 1] + (times[i] - times[i - 1]) * k / steps_between;
+    for (int k = 1; k <= geometry::steps_between; ++k) {
+      const double t = k == geometry::steps_between
+                           ? times[i]
+                           : times[i - 1] + (times[i] - times[i - 1]) * k / geometry::steps_between;
       const Vec3 place = curve.value(t, t >= curve.end() ? Side::in : Side::out);
-      const Vec3 onward = options.closed && i + 1 == times.size() && k == steps_between
+      const Vec3 onward = options.closed && i + 1 == times.size() && k == geometry::steps_between
                               ? frames[0].tangent
-                              : tangent_at(curve, t, now.tangent);
+                              : geometry::tangent_at(curve, t, now.tangent);
       length += (place - now.position).norm();
-      now.normal = carried(now, place, onward);
+      now.normal = geometry::carried(now, place, onward);
       now.position = place;
       now.tangent = onward;
     }
@@ -133,7 +138,7 @@ std::vector<Frame> rotation_minimizing_frames(const Curve<Vec3>& curve, std::spa
     turn += elementary::atan2(last.tangent.cross(last.normal).dot(wanted), last.normal.dot(wanted));
   }
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    if (turn != 0 && along.back() > 0) frames[i].normal = turned(frames[i], turn * (along[i] / along.back()));
+    if (turn != 0 && along.back() > 0) frames[i].normal = geometry::turned(frames[i], turn * (along[i] / along.back()));
     frames[i].binormal = frames[i].tangent.cross(frames[i].normal);
   }
   return frames;

@@ -8,7 +8,7 @@
 #include "curve/components.h"
 #include "geometry/profile.h"
 
-namespace tweenfall {
+namespace tweenfall::geometry {
 namespace {
 
 constexpr double full_circle = 2 * std::numbers::pi;
@@ -138,9 +138,12 @@ class Lathe {
 };
 
 }  // namespace
+}  // namespace tweenfall::geometry
+
+namespace tweenfall {
 
 SurfaceMesh lathe(const Curve<Vec2>& profile, const LatheOptions& options) {
-  return Lathe(profile, options).made();
+  return geometry::Lathe(profile, options).made();
 }
 
 }  // namespace tweenfall

@@ -6,7 +6,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::geometry {
 namespace {
 
 // Cosine of the least bend that is an edge and not a smooth place: two degrees.
@@ -140,4 +140,4 @@ std::vector<std::uint32_t> polygon_triangles(const std::vector<Vec2>& points) {
   return triangles;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::geometry

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::geometry {
 
 /// The knots, and times between them so that there are about `steps` stretches of equal duration; straight spans are
 /// not cut where `keep_straight`.
@@ -40,4 +40,4 @@ struct Profile {
 /// Source: ear clipping, Meisters, "Polygons have ears", 1975.
 [[nodiscard]] std::vector<std::uint32_t> polygon_triangles(const std::vector<Vec2>& points);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::geometry

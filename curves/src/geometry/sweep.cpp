@@ -7,7 +7,7 @@
 #include "curve/components.h"
 #include "geometry/profile.h"
 
-namespace tweenfall {
+namespace tweenfall::geometry {
 namespace {
 
 // What of the rail's rates the surface needs at a ring.
@@ -51,14 +51,17 @@ void add_lid(SurfaceMesh& mesh, const Profile& profile, const Frame& frame, std:
 }
 
 }  // namespace
+}  // namespace tweenfall::geometry
+
+namespace tweenfall {
 
 SurfaceMesh sweep(const Curve<Vec2>& curve, const Curve<Vec3>& rail, const SweepOptions& options) {
   if (!std::isfinite(options.twist)) throw std::invalid_argument("a sweep's twist must be finite");
   // A straight side that is twisted is a screw's surface, and no plane.
-  Profile profile(curve, options.profile_steps, options.twist == 0);
+  geometry::Profile profile(curve, options.profile_steps, options.twist == 0);
   if (profile.closed && profile.area < 0) profile.reverse();
 
-  const std::vector<double> times = step_times(rail, options.rail_steps, options.twist == 0, "a rail");
+  const std::vector<double> times = geometry::step_times(rail, options.rail_steps, options.twist == 0, "a rail");
   const Vec3 begin = rail.value(times.front()), end = rail.value(times.back(), Side::in);
   const Vec3 leaving = rail.rate(times.front()), arriving = rail.rate(times.back(), Side::in);
   double size = 0;
@@ -83,13 +86,13 @@ SurfaceMesh sweep(const Curve<Vec2>& curve, const Curve<Vec3>& rail, const Sweep
   const auto columns = static_cast<std::uint32_t>(profile.columns.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Frame& f = frames[i];
-    const RailPoint r = rail_point(rail, times[i], f.tangent, options.twist / along.back());
+    const geometry::RailPoint r = geometry::rail_point(rail, times[i], f.tangent, options.twist / along.back());
     const bool again = loop && i + 1 == frames.size();  // the first ring, to the bit
     for (std::uint32_t c = 0; c < columns; ++c) {
-      const Profile::Column& p = profile.columns[c];
+      const geometry::Profile::Column& p = profile.columns[c];
       mesh.positions.push_back(again ? mesh.positions[c]
                                      : Vec3(f.position + p.position[0] * f.normal + p.position[1] * f.binormal));
-      mesh.normals.push_back(again ? mesh.normals[c] : surface_normal(p, f, r));
+      mesh.normals.push_back(again ? mesh.normals[c] : geometry::surface_normal(p, f, r));
       mesh.texture_coordinates.push_back({p.share, along[i] / along.back()});
     }
     if (i == 0) continue;
@@ -100,8 +103,8 @@ SurfaceMesh sweep(const Curve<Vec2>& curve, const Curve<Vec3>& rail, const Sweep
     }
   }
   if (options.caps && profile.closed && !loop) {
-    add_lid(mesh, profile, frames.front(), 0, false);
-    add_lid(mesh, profile, frames.back(), static_cast<std::uint32_t>(frames.size() - 1) * columns, true);
+    geometry::add_lid(mesh, profile, frames.front(), 0, false);
+    geometry::add_lid(mesh, profile, frames.back(), static_cast<std::uint32_t>(frames.size() - 1) * columns, true);
   }
   return mesh;
 }

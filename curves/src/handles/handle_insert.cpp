@@ -6,7 +6,7 @@
 #include "curve/components.h"
 #include "curve/time_bezier.h"
 
-namespace tweenfall {
+namespace tweenfall::handling {
 namespace {
 
 struct Point {
@@ -62,6 +62,9 @@ HandleKey between(const HandleKey& a, const HandleKey& b, double time, std::size
 }
 
 }  // namespace
+}  // namespace tweenfall::handling
+
+namespace tweenfall {
 
 std::vector<HandleKey> insert_key(std::span<const HandleKey> keys, double time, const HandleOptions& options) {
   std::vector<HandleKey> result = placed_handles(keys, options);
@@ -69,13 +72,14 @@ std::vector<HandleKey> insert_key(std::span<const HandleKey> keys, double time, 
     throw std::invalid_argument("a key can be inserted from " + text_of(result.front().time) + " s to " +
                                 text_of(result.back().time) + " s, not at " + text_of(time) + " s");
   for (std::size_t i = 0; i + 1 < result.size(); ++i)
-    if (!result[i].ease) shorten(result[i], result[i + 1], options.overlong);
+    if (!result[i].ease) handling::shorten(result[i], result[i + 1], options.overlong);
   const auto next =
       std::find_if(result.begin(), result.end(), [time](const HandleKey& key) { return key.time >= time; });
   if (next->time == time) return result;
   HandleKey &b = *next, &a = *(next - 1);
   const auto place = next - result.begin();
-  const HandleKey key = a.ease ? between(a, b, time, static_cast<std::size_t>(place - 1)) : divided(a, b, time);
+  const HandleKey key =
+      a.ease ? handling::between(a, b, time, static_cast<std::size_t>(place - 1)) : handling::divided(a, b, time);
   result.insert(next, key);
   return result;
 }

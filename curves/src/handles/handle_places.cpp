@@ -7,7 +7,7 @@
 #include "curve/components.h"
 #include "keys/tangent_rules.h"
 
-namespace tweenfall {
+namespace tweenfall::handling {
 namespace {
 
 // The length of an automatic handle, as a share of the span. Source: Blender, calchandleNurb_intern.
@@ -43,7 +43,7 @@ void check(std::span<const HandleKey> keys) {
 }
 
 // Both sides of key i as they look to its handles: neighbors around a loop, else mirrored at an open end.
-KeyNeighbors neighbors_of(const std::vector<PlacedKey>& keys, std::size_t i, Ends ends) {
+keying::KeyNeighbors neighbors_of(const std::vector<PlacedKey>& keys, std::size_t i, Ends ends) {
   const std::size_t last = keys.size() - 1;
   const auto secant = [&keys](std::size_t span) {
     return (keys[span + 1].value - keys[span].value) / (keys[span + 1].time - keys[span].time);
@@ -55,7 +55,7 @@ KeyNeighbors neighbors_of(const std::vector<PlacedKey>& keys, std::size_t i, End
   return {secant(before), secant(after), duration(before), duration(after)};
 }
 
-void put_automatic(PlacedKey& key, const KeyNeighbors& n, bool open_end, bool even_acceleration) {
+void put_automatic(PlacedKey& key, const keying::KeyNeighbors& n, bool open_end, bool even_acceleration) {
   double before = n.duration_before, after = n.duration_after, share = automatic_share;
   if (even_acceleration) {
     share = 1.0 / 3;
@@ -64,11 +64,11 @@ void put_automatic(PlacedKey& key, const KeyNeighbors& n, bool open_end, bool ev
     after = std::min(after, 5 * before);
   }
   const double in_time = share * before, out_time = share * after;
-  double slope = neighbor_slope(TangentKind::automatic, n), in_slope = slope, out_slope = slope;
+  double slope = keying::neighbor_slope(TangentKind::automatic, n), in_slope = slope, out_slope = slope;
   if (!open_end && (key.in_kind == TangentKind::auto_clamped || key.out_kind == TangentKind::auto_clamped)) {
     const bool in_clamped = key.in_kind == TangentKind::auto_clamped;
     const bool out_clamped = key.out_kind == TangentKind::auto_clamped;
-    if (is_extreme(n.secant_before, n.secant_after)) {
+    if (keying::is_extreme(n.secant_before, n.secant_after)) {
       if (in_clamped) in_slope = 0;
       if (out_clamped) out_slope = 0;
       key.locked = true;
@@ -91,17 +91,20 @@ void put_automatic(PlacedKey& key, const KeyNeighbors& n, bool open_end, bool ev
 }
 
 // Kinds with a slope of their own and a third of the span.
-void put_third(HandleReach& reach, TangentKind kind, double secant, double duration, const KeyNeighbors& n,
+void put_third(HandleReach& reach, TangentKind kind, double secant, double duration, const keying::KeyNeighbors& n,
                bool open_end) {
   if (kind == TangentKind::given || kind == TangentKind::aligned || kind == TangentKind::mirrored || is_smooth(kind))
     return;
-  const double slope = kind == TangentKind::vector ? secant : open_end ? 0 : neighbor_slope(kind, n);
+  const double slope = kind == TangentKind::vector ? secant : open_end ? 0 : keying::neighbor_slope(kind, n);
   reach = {duration / 3, slope * (duration / 3)};
 }
 
 }  // namespace
+}  // namespace tweenfall::handling
 
-void align_handles(PlacedKey& key) noexcept {
+namespace tweenfall {
+
+void handling::align_handles(handling::PlacedKey& key) noexcept {
   if (key.in_kind == TangentKind::mirrored) {
     key.in = key.out;
     return;
@@ -120,10 +123,10 @@ void align_handles(PlacedKey& key) noexcept {
 }
 
 std::vector<HandleKey> placed_handles(std::span<const HandleKey> keys, const HandleOptions& options) {
-  check(keys);
-  std::vector<PlacedKey> placed;
+  handling::check(keys);
+  std::vector<handling::PlacedKey> placed;
   for (const HandleKey& key : keys) {
-    PlacedKey p{key.time, key.value, key.in.kind, key.out.kind, {}, {}};
+    handling::PlacedKey p{key.time, key.value, key.in.kind, key.out.kind, {}, {}};
     if (key.in.kind == TangentKind::given || key.in.kind == TangentKind::aligned)
       p.in = {key.time - key.in.time, key.value - key.in.value};
     if (key.out.kind == TangentKind::given || key.out.kind == TangentKind::aligned)
@@ -132,23 +135,24 @@ std::vector<HandleKey> placed_handles(std::span<const HandleKey> keys, const Han
   }
   if (keys.size() > 1) {
     for (std::size_t i = 0; i < placed.size(); ++i) {
-      PlacedKey& p = placed[i];
+      handling::PlacedKey& p = placed[i];
       const bool open_end = options.ends != Ends::wrap && (i == 0 || i + 1 == placed.size());
-      const KeyNeighbors n = neighbors_of(placed, i, options.ends);
-      if (is_smooth(p.in_kind) || is_smooth(p.out_kind)) put_automatic(p, n, open_end, options.even_acceleration);
-      put_third(p.in, p.in_kind, n.secant_before, n.duration_before, n, open_end);
-      put_third(p.out, p.out_kind, n.secant_after, n.duration_after, n, open_end);
-      align_handles(p);
-      if (open_end && options.ends == Ends::flat && is_smooth(p.in_kind) && is_smooth(p.out_kind)) {
+      const keying::KeyNeighbors n = handling::neighbors_of(placed, i, options.ends);
+      if (handling::is_smooth(p.in_kind) || handling::is_smooth(p.out_kind))
+        handling::put_automatic(p, n, open_end, options.even_acceleration);
+      handling::put_third(p.in, p.in_kind, n.secant_before, n.duration_before, n, open_end);
+      handling::put_third(p.out, p.out_kind, n.secant_after, n.duration_after, n, open_end);
+      handling::align_handles(p);
+      if (open_end && options.ends == Ends::flat && handling::is_smooth(p.in_kind) && handling::is_smooth(p.out_kind)) {
         p.in.value = p.out.value = 0;
         p.locked = true;
       }
     }
-    if (options.even_acceleration) smooth_handles(placed, options.ends);
+    if (options.even_acceleration) handling::smooth_handles(placed, options.ends);
   }
   std::vector<HandleKey> result(keys.begin(), keys.end());
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const PlacedKey& p = placed[i];
+    const handling::PlacedKey& p = placed[i];
     Handle &in = result[i].in, &out = result[i].out;
     // Places that were given and stand are kept to the bit.
     if (in.kind != TangentKind::given || p.value - in.value != p.in.value)

@@ -4,7 +4,7 @@
 
 #include <tweenfall/curves/handles.h>
 
-namespace tweenfall {
+namespace tweenfall::handling {
 
 [[nodiscard]] inline bool is_smooth(TangentKind kind) noexcept {
   return kind == TangentKind::automatic || kind == TangentKind::auto_clamped;
@@ -29,4 +29,4 @@ void smooth_handles(std::vector<PlacedKey>& keys, Ends ends);
 /// Puts aligned and mirrored handles opposite to their key's other one.
 void align_handles(PlacedKey& key) noexcept;
 
-}  // namespace tweenfall
+}  // namespace tweenfall::handling

@@ -5,7 +5,7 @@
 #include "handles/handle_places.h"
 #include "math/tridiagonal.h"
 
-namespace tweenfall {
+namespace tweenfall::handling {
 namespace {
 
 void lock(Tridiagonal& rows, std::size_t i, double value) {
@@ -211,4 +211,4 @@ void smooth_handles(std::vector<PlacedKey>& keys, Ends ends) {
   }
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::handling

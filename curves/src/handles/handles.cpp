@@ -5,7 +5,7 @@
 #include "curve/bezier_span.h"
 #include "curve/curve_data.h"
 
-namespace tweenfall {
+namespace tweenfall::handling {
 namespace {
 
 // A handle's share of the span, free of the rounding of absolute times where it is meant to be a third.
@@ -41,18 +41,23 @@ std::optional<double> slope_of(double time, double value) {
 }
 
 }  // namespace
+}  // namespace tweenfall::handling
+
+namespace tweenfall {
 
 Curve<double> handle_curve(std::span<const HandleKey> keys, const HandleOptions& options) {
   const std::vector<HandleKey> placed = placed_handles(keys, options);
   const HandleKey &front = placed.front(), &back = placed.back();
-  const CurveEnd<double> before{{}, front.value, slope_of(front.time - front.in.time, front.value - front.in.value)};
-  const CurveEnd<double> after{{}, back.value, slope_of(back.out.time - back.time, back.out.value - back.value)};
+  const CurveEnd<double> before{
+      {}, front.value, handling::slope_of(front.time - front.in.time, front.value - front.in.value)};
+  const CurveEnd<double> after{
+      {}, back.value, handling::slope_of(back.out.time - back.time, back.out.value - back.value)};
   if (placed.size() == 1) return CurveAccess::one_key(front.value, front.time, before, after);
   std::vector<Span<double>> spans;
   for (std::size_t i = 0; i + 1 < placed.size(); ++i) {
     const HandleKey &a = placed[i], &b = placed[i + 1];
     if (!a.ease) {
-      append_span(spans, a, b, options.overlong);
+      handling::append_span(spans, a, b, options.overlong);
       continue;
     }
     const Key<double> pair[] = {{a.time, a.value, *a.ease}, {b.time, b.value}};

@@ -8,7 +8,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::keying {
 
 template <class T>
 [[noreturn]] void refuse_key(std::span<const Key<T>> keys, std::size_t i, const std::string& what) {
@@ -59,4 +59,4 @@ void check_keys(std::span<const Key<T>> keys) {
   }
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::keying

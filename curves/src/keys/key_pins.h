@@ -11,7 +11,7 @@
 #include "curve/curve_data.h"
 #include "curve/extrapolation.h"
 
-namespace tweenfall {
+namespace tweenfall::keying {
 
 template <class T>
 class KeyPins {
@@ -66,4 +66,4 @@ template <class T, class Inner, class Convert>
   });
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::keying

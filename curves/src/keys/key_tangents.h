@@ -9,7 +9,7 @@
 #include "keys/span_slopes.h"
 #include "keys/tangent_rules.h"
 
-namespace tweenfall {
+namespace tweenfall::keying {
 
 /// What a key's two sides come to, beside the slopes that the keys' eases chose.
 template <class T>
@@ -131,4 +131,4 @@ class KeyTangents {
   const Slopes& slopes_;
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::keying

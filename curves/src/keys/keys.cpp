@@ -8,7 +8,7 @@
 #include "keys/keys_converted.h"
 #include "keys/span_slopes.h"
 
-namespace tweenfall {
+namespace tweenfall::keying {
 namespace {
 
 template <class T>
@@ -105,16 +105,19 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
 }
 
 }  // namespace
+}  // namespace tweenfall::keying
+
+namespace tweenfall {
 
 template <class T>
 Curve<T> keyed_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
-  check_keys(keys);
+  keying::check_keys(keys);
   if constexpr (std::is_same_v<T, Quat>) {
-    return rotation_curve(keys, options);
+    return keying::rotation_curve(keys, options);
   } else if constexpr (std::is_same_v<T, Color>) {
-    return color_curve(keys, options);
+    return keying::color_curve(keys, options);
   } else {
-    return options.logarithmic ? logarithmic_curve(keys, options) : plain_curve(keys, options);
+    return options.logarithmic ? keying::logarithmic_curve(keys, options) : keying::plain_curve(keys, options);
   }
 }
 

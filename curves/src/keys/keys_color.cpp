@@ -3,7 +3,7 @@
 #include "keys/key_pins.h"
 #include "keys/keys_converted.h"
 
-namespace tweenfall {
+namespace tweenfall::keying {
 namespace {
 
 constexpr double full_turn = 0x1.921fb54442d18p+2;
@@ -87,16 +87,19 @@ void convert_tangent(std::optional<Tangent<Vec4>>& result, const std::optional<T
 }
 
 }  // namespace
+}  // namespace tweenfall::keying
 
-Curve<Color> color_curve(std::span<const Key<Color>> keys, const KeyOptions& options) {
+namespace tweenfall {
+
+Curve<Color> keying::color_curve(std::span<const Key<Color>> keys, const KeyOptions& options) {
   if (keys.size() == 1) return CurveAccess::one_key(keys[0].value, keys[0].time);
   const ColorSpace space = options.space;
   const int hue = hue_index(space);
-  std::vector<Stop> stops;
+  std::vector<keying::Stop> stops;
   for (const Key<Color>& key : keys)
     stops.push_back({to_space(key.value_in ? *key.value_in : key.value, space), to_space(key.value, space),
                      key.value_in.has_value()});
-  if (hue >= 0) join_hues(stops, space, options.hue);
+  if (hue >= 0) keying::join_hues(stops, space, options.hue);
 
   std::vector<Key<Vec4>> inner;
   const Vec4 none = Vec4::Zero();
@@ -107,16 +110,17 @@ Curve<Color> color_curve(std::span<const Key<Color>> keys, const KeyOptions& opt
     const bool held = i > 0 && keys[i - 1].ease.rule() == Ease::Rule::hold && !keys[i - 1].out && !key.in;
     if (i > 0 && !held && (key.value_in || arriving != leaving))
       k.value_in = premultiplied({arriving, none, none}, hue).value;
-    convert_tangent(k.out, key.out, key.value, leaving, space);
-    convert_tangent(k.in, key.in, key.value_in ? *key.value_in : key.value, arriving, space);
+    keying::convert_tangent(k.out, key.out, key.value, leaving, space);
+    keying::convert_tangent(k.in, key.in, key.value_in ? *key.value_in : key.value, arriving, space);
     inner.push_back(k);
   }
   KeyOptions inner_options;
   inner_options.ends = options.ends;
   inner_options.overlong = options.overlong;
-  return seen_through_keys<Color>(keyed_curve<Vec4>(std::span<const Key<Vec4>>(inner), inner_options),
-                                  std::make_shared<const KeyPins<Color>>(keys),
-                                  [space, hue](const Sample<Vec4>& s) { return from_space(divided(s, hue), space); });
+  return keying::seen_through_keys<Color>(
+      keyed_curve<Vec4>(std::span<const Key<Vec4>>(inner), inner_options),
+      std::make_shared<const keying::KeyPins<Color>>(keys),
+      [space, hue](const Sample<Vec4>& s) { return from_space(divided(s, hue), space); });
 }
 
 }  // namespace tweenfall

@@ -4,7 +4,7 @@
 
 #include <tweenfall/curves/keys.h>
 
-namespace tweenfall {
+namespace tweenfall::keying {
 
 [[nodiscard]] Curve<Quat> rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& options);
 
@@ -14,4 +14,4 @@ namespace tweenfall {
 template <class T>
 [[nodiscard]] Curve<T> logarithmic_curve(std::span<const Key<T>> keys, const KeyOptions& options);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::keying

@@ -4,7 +4,7 @@
 #include "keys/key_pins.h"
 #include "keys/keys_converted.h"
 
-namespace tweenfall {
+namespace tweenfall::keying {
 namespace {
 
 template <class T>
@@ -39,25 +39,28 @@ void make_relative(std::optional<Tangent<T>>& tangent, const T& value) {
 }
 
 }  // namespace
+}  // namespace tweenfall::keying
+
+namespace tweenfall {
 
 template <class T>
-Curve<T> logarithmic_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
+Curve<T> keying::logarithmic_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
   std::vector<Key<T>> logs(keys.begin(), keys.end());
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    logs[i].value = logarithm(keys, i, keys[i].value);
-    if (keys[i].value_in) logs[i].value_in = logarithm(keys, i, *keys[i].value_in);
-    make_relative(logs[i].out, keys[i].value);
-    make_relative(logs[i].in, keys[i].value_in ? *keys[i].value_in : keys[i].value);
+    logs[i].value = keying::logarithm(keys, i, keys[i].value);
+    if (keys[i].value_in) logs[i].value_in = keying::logarithm(keys, i, *keys[i].value_in);
+    keying::make_relative(logs[i].out, keys[i].value);
+    keying::make_relative(logs[i].in, keys[i].value_in ? *keys[i].value_in : keys[i].value);
   }
   KeyOptions inner = options;
   inner.logarithmic = false;
-  return seen_through_keys<T>(keyed_curve<T>(std::span<const Key<T>>(logs), inner),
-                              std::make_shared<const KeyPins<T>>(keys), &exponential<T>);
+  return keying::seen_through_keys<T>(keyed_curve<T>(std::span<const Key<T>>(logs), inner),
+                                      std::make_shared<const keying::KeyPins<T>>(keys), &keying::exponential<T>);
 }
 
-template Curve<double> logarithmic_curve<double>(std::span<const Key<double>>, const KeyOptions&);
-template Curve<Vec2> logarithmic_curve<Vec2>(std::span<const Key<Vec2>>, const KeyOptions&);
-template Curve<Vec3> logarithmic_curve<Vec3>(std::span<const Key<Vec3>>, const KeyOptions&);
-template Curve<Vec4> logarithmic_curve<Vec4>(std::span<const Key<Vec4>>, const KeyOptions&);
+template Curve<double> keying::logarithmic_curve<double>(std::span<const Key<double>>, const KeyOptions&);
+template Curve<Vec2> keying::logarithmic_curve<Vec2>(std::span<const Key<Vec2>>, const KeyOptions&);
+template Curve<Vec3> keying::logarithmic_curve<Vec3>(std::span<const Key<Vec3>>, const KeyOptions&);
+template Curve<Vec4> keying::logarithmic_curve<Vec4>(std::span<const Key<Vec4>>, const KeyOptions&);
 
 }  // namespace tweenfall

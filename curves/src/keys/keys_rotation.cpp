@@ -8,7 +8,7 @@
 #include "keys/span_slopes.h"
 #include "turns/turn_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::keying {
 namespace {
 
 constexpr double whole_turn = 0x1.921fb54442d18p+2;
@@ -164,14 +164,17 @@ std::optional<Vec3> outer_slope(const std::optional<Tangent<Quat>>& tangent) {
 }
 
 }  // namespace
+}  // namespace tweenfall::keying
 
-Curve<Quat> rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& options) {
+namespace tweenfall {
+
+Curve<Quat> keying::rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& options) {
   if (keys.size() == 1) {
-    check_turn(keys, 0);
-    return CurveAccess::one_key(unit(keys, 0, keys[0].value), keys[0].time);
+    keying::check_turn(keys, 0);
+    return CurveAccess::one_key(keying::unit(keys, 0, keys[0].value), keys[0].time);
   }
-  const std::vector<Stretch> stretches = stretches_of(keys, options.long_way);
-  const Slopes slopes = slopes_of(keys, stretches, options.ends);
+  const std::vector<Stretch> stretches = keying::stretches_of(keys, options.long_way);
+  const keying::Slopes slopes = keying::slopes_of(keys, stretches, options.ends);
   const auto has_tangents = [&](std::size_t i) { return keys[i].out.has_value() || keys[i + 1].in.has_value(); };
   const auto rule_of = [&](std::size_t i) { return has_tangents(i) ? nullptr : keys[i].ease.turn_rule(); };
 
@@ -184,27 +187,27 @@ Curve<Quat> rotation_curve(std::span<const Key<Quat>> keys, const KeyOptions& op
       i = last;
       continue;
     }
-    switch (plan_span(keys[i].ease, has_tangents(i)).kind) {
-      case SpanKind::hold:
-        spans.push_back(at_rest_span(stretches[i]));
+    switch (keying::plan_span(keys[i].ease, has_tangents(i)).kind) {
+      case keying::SpanKind::hold:
+        spans.push_back(keying::at_rest_span(stretches[i]));
         break;
-      case SpanKind::linear:
-        spans.push_back(even_turn(stretches[i]));
+      case keying::SpanKind::linear:
+        spans.push_back(keying::even_turn(stretches[i]));
         break;
-      case SpanKind::shape:
-        append_shape(spans, keys[i], stretches[i]);
+      case keying::SpanKind::shape:
+        keying::append_shape(spans, keys[i], stretches[i]);
         break;
-      case SpanKind::cubic:
-        spans.push_back(hermite_span(keys[i], keys[i + 1], stretches[i], Vec3(&slopes.leaving[3 * i]),
-                                     Vec3(&slopes.arriving[3 * i]), options.overlong));
+      case keying::SpanKind::cubic:
+        spans.push_back(keying::hermite_span(keys[i], keys[i + 1], stretches[i], Vec3(&slopes.leaving[3 * i]),
+                                             Vec3(&slopes.arriving[3 * i]), options.overlong));
         break;
     }
     ++i;
   }
-  const Quat final = hemisphere_aligned(unit(keys, keys.size() - 1, keys.back().value), stretches.back().to);
+  const Quat final = hemisphere_aligned(keying::unit(keys, keys.size() - 1, keys.back().value), stretches.back().to);
   return CurveAccess::from_spans<Quat>(spans, keys.back().time,
-                                       {{}, stretches.front().from, outer_slope(keys.front().in)},
-                                       {{}, final, outer_slope(keys.back().out)});
+                                       {{}, stretches.front().from, keying::outer_slope(keys.front().in)},
+                                       {{}, final, keying::outer_slope(keys.back().out)});
 }
 
 }  // namespace tweenfall

@@ -6,7 +6,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::keying {
 namespace {
 
 // With widths a and b time has no stretch backwards inside the unit square, and inside the ellipse
@@ -32,10 +32,13 @@ HandleWidths keep_start(double a, double b) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::keying
+
+namespace tweenfall {
 
 bool runs_backwards(const HandleWidths& w) noexcept {
   // What is no more than the rounding of the edge does not count.
-  return (w.start > 1 || w.end > 1) && ellipse(w.start, w.end) > 1e-15;
+  return (w.start > 1 || w.end > 1) && keying::ellipse(w.start, w.end) > 1e-15;
 }
 
 HandleWidths resolved(const HandleWidths& w, Overlong rule) {
@@ -44,7 +47,7 @@ HandleWidths resolved(const HandleWidths& w, Overlong rule) {
       throw std::invalid_argument("a handle's share of its span must be >= 0; it is " + text_of(width));
   if (rule == Overlong::contain) return {std::min(w.start, 1.0), std::min(w.end, 1.0)};
   if (!runs_backwards(w)) return w;
-  return rule == Overlong::keep_ratio ? keep_ratio(w.start, w.end) : keep_start(w.start, w.end);
+  return rule == Overlong::keep_ratio ? keying::keep_ratio(w.start, w.end) : keying::keep_start(w.start, w.end);
 }
 
 }  // namespace tweenfall

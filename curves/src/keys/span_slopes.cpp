@@ -4,8 +4,7 @@
 
 #include "slopes/slope_rule.h"
 
-namespace tweenfall {
-
+namespace tweenfall::keying {
 namespace {
 
 // On a loop whose last span goes on by the rule of its first, the run that crosses the seam is one run.
@@ -37,20 +36,23 @@ SlopeRequest rotated(const SlopeRequest& request, std::size_t first) {
 }
 
 }  // namespace
+}  // namespace tweenfall::keying
 
-Slopes choose_slopes(const SlopeRequest& given) {
-  if (const std::size_t first = seam_run(given)) {
+namespace tweenfall {
+
+keying::Slopes keying::choose_slopes(const keying::SlopeRequest& given) {
+  if (const std::size_t first = keying::seam_run(given)) {
     const std::size_t spans = given.durations.size();
-    SlopeRequest opened = rotated(given, first);
-    Slopes result = choose_slopes(opened);
+    keying::SlopeRequest opened = keying::rotated(given, first);
+    keying::Slopes result = keying::choose_slopes(opened);
     for (std::vector<double>* list : {&result.leaving, &result.arriving})
       std::rotate(list->begin(), list->begin() + static_cast<std::ptrdiff_t>((spans - first) * given.dimensions),
                   list->end());
     return result;
   }
-  const SlopeRequest& request = given;
+  const keying::SlopeRequest& request = given;
   const std::size_t spans = request.durations.size();
-  Slopes result;
+  keying::Slopes result;
   result.leaving.assign(spans * request.dimensions, 0.0);
   result.arriving.assign(spans * request.dimensions, 0.0);
   for (std::size_t first = 0; first < spans;) {
@@ -76,17 +78,17 @@ Slopes choose_slopes(const SlopeRequest& given) {
   return result;
 }
 
-SpanPlan plan_span(const Ease& ease, bool has_tangents) {
+keying::SpanPlan keying::plan_span(const Ease& ease, bool has_tangents) {
   static const Ease smooth = Ease::smooth();
-  if (has_tangents) return {SpanKind::cubic, &smooth};
-  if (ease.slope_rule()) return {SpanKind::cubic, &ease};
+  if (has_tangents) return {keying::SpanKind::cubic, &smooth};
+  if (ease.slope_rule()) return {keying::SpanKind::cubic, &ease};
   switch (ease.rule()) {
     case Ease::Rule::hold:
-      return {SpanKind::hold, nullptr};
+      return {keying::SpanKind::hold, nullptr};
     case Ease::Rule::shape:
-      return {SpanKind::shape, nullptr};
+      return {keying::SpanKind::shape, nullptr};
     default:
-      return {SpanKind::linear, nullptr};
+      return {keying::SpanKind::linear, nullptr};
   }
 }
 

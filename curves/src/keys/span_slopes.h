@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::keying {
 
 /// How a span is to be built.
 enum class SpanKind { hold, linear, shape, cubic };
@@ -34,4 +34,4 @@ struct SpanPlan {
 
 [[nodiscard]] SpanPlan plan_span(const Ease& ease, bool has_tangents);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::keying

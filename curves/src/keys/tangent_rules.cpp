@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::keying {
 namespace {
 
 double limited(double slope, double limit) noexcept {
@@ -18,27 +18,30 @@ double drawn_to_nearer(double f) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::keying
 
-bool is_extreme(double secant_before, double secant_after) noexcept {
+namespace tweenfall {
+
+bool keying::is_extreme(double secant_before, double secant_after) noexcept {
   return !((secant_before > 0 && secant_after > 0) || (secant_before < 0 && secant_after < 0));
 }
 
-double neighbor_slope(TangentKind kind, const KeyNeighbors& key) noexcept {
+double keying::neighbor_slope(TangentKind kind, const keying::KeyNeighbors& key) noexcept {
   const double d0 = key.secant_before, d1 = key.secant_after;
   if (kind == TangentKind::automatic) return 0.5 * d0 + 0.5 * d1;
-  if (kind == TangentKind::flat || is_extreme(d0, d1)) return 0;
+  if (kind == TangentKind::flat || keying::is_extreme(d0, d1)) return 0;
   if (kind == TangentKind::auto_clamped)
-    return limited(0.5 * d0 + 0.5 * d1, std::min(std::abs(d0) / key.weight_in, std::abs(d1) / key.weight_out));
+    return keying::limited(0.5 * d0 + 0.5 * d1, std::min(std::abs(d0) / key.weight_in, std::abs(d1) / key.weight_out));
   const double f = key.duration_before / (key.duration_before + key.duration_after);
   const double limit = 3 * std::min(std::abs(d0), std::abs(d1));
   switch (kind) {
     case TangentKind::auto_chord:
-      return limited(f * d0 + (1 - f) * d1, limit);
+      return keying::limited(f * d0 + (1 - f) * d1, limit);
     case TangentKind::auto_mix:
-      return limited((1 - f) * d0 + f * d1, limit);
+      return keying::limited((1 - f) * d0 + f * d1, limit);
     case TangentKind::auto_ease: {
-      const double g = drawn_to_nearer(f);
-      return limited((1 - g) * d0 + g * d1, limit);
+      const double g = keying::drawn_to_nearer(f);
+      return keying::limited((1 - g) * d0 + g * d1, limit);
     }
     default:
       return f * d0 + (1 - f) * d1;

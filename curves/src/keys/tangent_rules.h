@@ -4,7 +4,7 @@
 
 #include <tweenfall/curves/keys.h>
 
-namespace tweenfall {
+namespace tweenfall::keying {
 
 /// One component of a key, and what lies on its two sides.
 struct KeyNeighbors {
@@ -19,4 +19,4 @@ struct KeyNeighbors {
 /// Whether a key at which these secants meet is no higher or no lower than both its neighbors.
 [[nodiscard]] bool is_extreme(double secant_before, double secant_after) noexcept;
 
-}  // namespace tweenfall
+}  // namespace tweenfall::keying

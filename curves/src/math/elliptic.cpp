@@ -5,12 +5,15 @@
 #include <cmath>
 #include <numbers>
 
-namespace tweenfall {
+namespace tweenfall::math {
 namespace {
 
 using std::numbers::pi;
 
 }  // namespace
+}  // namespace tweenfall::math
+
+namespace tweenfall {
 
 Elliptic::Elliptic(double parameter, double complement) noexcept : parameter_(parameter), complement_(complement) {
   steps_[0] = {1, std::sqrt(complement), std::sqrt(parameter)};
@@ -22,7 +25,7 @@ Elliptic::Elliptic(double parameter, double complement) noexcept : parameter_(pa
 }
 
 double Elliptic::quarter_period() const noexcept {
-  return 0.5 * pi / steps_[static_cast<std::size_t>(last_)].a;
+  return 0.5 * math::pi / steps_[static_cast<std::size_t>(last_)].a;
 }
 
 double Elliptic::amplitude(double u) const noexcept {
@@ -36,16 +39,16 @@ double Elliptic::amplitude(double u) const noexcept {
     const double across = std::sqrt(s.a * s.a * wave.cos * wave.cos + s.b * s.b * wave.sin * wave.sin);
     phi = 0.5 * (phi + elementary::atan2(s.c * wave.sin, across));
   }
-  return phi + halves * pi;
+  return phi + halves * math::pi;
 }
 
 double Elliptic::argument(double amplitude) const noexcept {
   double phi = amplitude;
   for (int n = 0; n < last_; ++n) {
     const Step& s = steps_[static_cast<std::size_t>(n)];
-    const double halves = std::floor(phi / pi + 0.5);
-    const elementary::SinCos wave = elementary::sin_cos(phi - halves * pi);
-    phi += elementary::atan2(s.b * wave.sin, s.a * wave.cos) + halves * pi;
+    const double halves = std::floor(phi / math::pi + 0.5);
+    const elementary::SinCos wave = elementary::sin_cos(phi - halves * math::pi);
+    phi += elementary::atan2(s.b * wave.sin, s.a * wave.cos) + halves * math::pi;
   }
   return phi / std::ldexp(steps_[static_cast<std::size_t>(last_)].a, last_);
 }

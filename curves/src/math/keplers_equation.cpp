@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace tweenfall {
+namespace tweenfall::math {
 namespace {
 
 // (x - sin x) for sign -1, (sinh x - x) for +1, from the series where the difference would lose digits.
@@ -31,6 +31,9 @@ double descended(double x, const Step& step) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::math
+
+namespace tweenfall {
 
 double eccentric_anomaly(double mean, double eccentricity) noexcept {
   const double e = eccentricity, m = std::abs(mean);
@@ -39,9 +42,9 @@ double eccentric_anomaly(double mean, double eccentricity) noexcept {
   using std::numbers::pi;
   constexpr double pi_squared = 0x1.3bd3cc9be45dep+3;
   const double above = std::min({pi, m + e, m / (1 - e), elementary::cbrt(pi_squared * m / std::max(e, 0.1))});
-  const double anomaly = descended(above, [e, m](double x) {
+  const double anomaly = math::descended(above, [e, m](double x) {
     const double half = elementary::sin(0.5 * x);
-    return ((1 - e) * x + e * excess(x, -1) - m) / ((1 - e) + 2 * e * half * half);
+    return ((1 - e) * x + e * math::excess(x, -1) - m) / ((1 - e) + 2 * e * half * half);
   });
   return std::copysign(anomaly, mean);
 }
@@ -51,9 +54,9 @@ double hyperbolic_anomaly(double mean, double eccentricity) noexcept {
   // Each lies above the root: e sinh H - H >= (e - 1) sinh H, >= e H^3 / 6, and from H = 2.2 on >= e sinh(H) / 2.
   const double above = std::min(
       {elementary::asinh(m / (e - 1)), elementary::cbrt(6 * m / e), std::max(2.2, elementary::asinh(2 * m / e))});
-  const double anomaly = descended(above, [e, m](double x) {
+  const double anomaly = math::descended(above, [e, m](double x) {
     const double half = elementary::sinh(0.5 * x);
-    return ((e - 1) * x + e * excess(x, 1) - m) / ((e - 1) + 2 * e * half * half);
+    return ((e - 1) * x + e * math::excess(x, 1) - m) / ((e - 1) + 2 * e * half * half);
   });
   return std::copysign(anomaly, mean);
 }

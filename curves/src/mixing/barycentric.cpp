@@ -6,7 +6,7 @@
 #include "curve/components.h"
 #include "rotation/rotation_center.h"
 
-namespace tweenfall {
+namespace tweenfall::mixing {
 namespace {
 
 using Weights = std::span<const Sample<double>>;
@@ -74,28 +74,31 @@ Sample<Quat> center(const Shares& shares, const Get& get) {
 }
 
 }  // namespace
+}  // namespace tweenfall::mixing
+
+namespace tweenfall {
 
 template <class T>
-Sample<T> barycentric(std::span<const Sample<T>> values, Weights weights) {
-  const Shares shares(weights, values.size());
+Sample<T> barycentric(std::span<const Sample<T>> values, mixing::Weights weights) {
+  const mixing::Shares shares(weights, values.size());
   const auto get = [&values](std::size_t i) { return values[i]; };
   if constexpr (std::is_same_v<T, Quat>)
-    return center(shares, get);
+    return mixing::center(shares, get);
   else
-    return mean<T>(shares, get);
+    return mixing::mean<T>(shares, get);
 }
 
-template Sample<double> barycentric<double>(std::span<const Sample<double>>, Weights);
-template Sample<Vec2> barycentric<Vec2>(std::span<const Sample<Vec2>>, Weights);
-template Sample<Vec3> barycentric<Vec3>(std::span<const Sample<Vec3>>, Weights);
-template Sample<Vec4> barycentric<Vec4>(std::span<const Sample<Vec4>>, Weights);
-template Sample<Quat> barycentric<Quat>(std::span<const Sample<Quat>>, Weights);
+template Sample<double> barycentric<double>(std::span<const Sample<double>>, mixing::Weights);
+template Sample<Vec2> barycentric<Vec2>(std::span<const Sample<Vec2>>, mixing::Weights);
+template Sample<Vec3> barycentric<Vec3>(std::span<const Sample<Vec3>>, mixing::Weights);
+template Sample<Vec4> barycentric<Vec4>(std::span<const Sample<Vec4>>, mixing::Weights);
+template Sample<Quat> barycentric<Quat>(std::span<const Sample<Quat>>, mixing::Weights);
 
-Sample<Color> barycentric(std::span<const Sample<Color>> values, Weights weights, ColorSpace space) {
-  const Shares shares(weights, values.size());
+Sample<Color> barycentric(std::span<const Sample<Color>> values, mixing::Weights weights, ColorSpace space) {
+  const mixing::Shares shares(weights, values.size());
   const int hue = hue_index(space);
   const auto coordinates = [&](std::size_t i) { return to_space(values[i], space); };
-  Sample<Vec4> mixed = mean<Vec4>(shares, [&](std::size_t i) { return premultiplied(coordinates(i), hue); });
+  Sample<Vec4> mixed = mixing::mean<Vec4>(shares, [&](std::size_t i) { return premultiplied(coordinates(i), hue); });
   if (hue >= 0) {
     constexpr double turn = 0x1.921fb54442d18p+2;
     Jet sum, part;
@@ -122,16 +125,16 @@ Sample<Color> barycentric(std::span<const Sample<Color>> values, Weights weights
   return result;
 }
 
-Motion barycentric(std::span<const Motion> values, Weights weights) {
-  const Shares shares(weights, values.size());
+Motion barycentric(std::span<const Motion> values, mixing::Weights weights) {
+  const mixing::Shares shares(weights, values.size());
   const Vec3 none(0, 0, 0);
-  const Sample<Vec3> position = mean<Vec3>(shares, [&](std::size_t i) {
+  const Sample<Vec3> position = mixing::mean<Vec3>(shares, [&](std::size_t i) {
     return Sample<Vec3>{values[i].pose.position, values[i].twist.linear, none};
   });
-  const Sample<Vec3> scale = mean<Vec3>(shares, [&](std::size_t i) {
+  const Sample<Vec3> scale = mixing::mean<Vec3>(shares, [&](std::size_t i) {
     return Sample<Vec3>{values[i].pose.scale, values[i].scale_rate, none};
   });
-  const Sample<Quat> rotation = center(shares, [&](std::size_t i) {
+  const Sample<Quat> rotation = mixing::center(shares, [&](std::size_t i) {
     return Sample<Quat>{values[i].pose.rotation, values[i].twist.angular, none};
   });
   return {{position.value, rotation.value, scale.value}, {position.rate, rotation.rate}, scale.rate};

@@ -9,7 +9,7 @@
 
 #include "curve/curve_data.h"
 
-namespace tweenfall {
+namespace tweenfall::mixing {
 namespace {
 
 // Weights that make no mix are taken for equal ones, since evaluation does not throw.
@@ -66,12 +66,16 @@ Curve<T> mixed_curve(std::span<const Curve<T>> values, std::span<const Curve<dou
 }
 
 }  // namespace
+}  // namespace tweenfall::mixing
+
+namespace tweenfall {
 
 template <class T>
 Curve<T> barycentric_curve(std::span<const Curve<T>> values, std::span<const Curve<double>> weights) {
-  return mixed_curve<T>(values, weights, [](std::span<const Sample<T>> parts, std::span<const Sample<double>> shares) {
-    return barycentric<T>(parts, shares);
-  });
+  return mixing::mixed_curve<T>(values, weights,
+                                [](std::span<const Sample<T>> parts, std::span<const Sample<double>> shares) {
+                                  return barycentric<T>(parts, shares);
+                                });
 }
 
 template Curve<double> barycentric_curve<double>(std::span<const Curve<double>>, std::span<const Curve<double>>);
@@ -82,10 +86,10 @@ template Curve<Quat> barycentric_curve<Quat>(std::span<const Curve<Quat>>, std::
 
 Curve<Color> barycentric_curve(std::span<const Curve<Color>> values, std::span<const Curve<double>> weights,
                                ColorSpace space) {
-  return mixed_curve<Color>(values, weights,
-                            [space](std::span<const Sample<Color>> parts, std::span<const Sample<double>> shares) {
-                              return barycentric(parts, shares, space);
-                            });
+  return mixing::mixed_curve<Color>(
+      values, weights, [space](std::span<const Sample<Color>> parts, std::span<const Sample<double>> shares) {
+        return barycentric(parts, shares, space);
+      });
 }
 
 }  // namespace tweenfall

@@ -5,7 +5,7 @@
 
 #include "modifiers/modifier_form.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 using modifiers::BuiltIn;
@@ -81,4 +81,4 @@ FormPointer form_of(const BuiltIn& function, const Curve<double>&) {
   return std::make_unique<const BuiltInForm>(function);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

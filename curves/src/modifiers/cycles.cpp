@@ -4,7 +4,7 @@
 #include "curve/extrapolation.h"
 #include "modifiers/modifier_form.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 using modifiers::Cycles;
@@ -52,4 +52,4 @@ FormPointer form_of(const Cycles& cycles, const Curve<double>& curve) {
   return std::make_unique<const CyclesForm>(cycles, curve);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

@@ -4,7 +4,7 @@
 #include "curve/components.h"
 #include "modifiers/modifier_form.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 using modifiers::Envelope;
@@ -53,4 +53,4 @@ FormPointer form_of(const Envelope& envelope, const Curve<double>&) {
   return std::make_unique<const EnvelopeForm>(envelope);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

@@ -2,7 +2,7 @@
 
 #include "modifiers/modifier_form.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 using modifiers::Generator;
@@ -45,4 +45,4 @@ FormPointer form_of(const Generator& generator, const Curve<double>&) {
   return std::make_unique<const GeneratorForm>(generator);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

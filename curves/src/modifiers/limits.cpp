@@ -3,7 +3,7 @@
 #include "curve/components.h"
 #include "modifiers/modifier_form.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 using modifiers::Limits;
@@ -40,4 +40,4 @@ FormPointer form_of(const Limits& limits, const Curve<double>&) {
   return std::make_unique<const LimitsForm>(limits);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

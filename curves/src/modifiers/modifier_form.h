@@ -8,7 +8,7 @@
 
 #include "math/jet.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 
 /// A time with its derivatives by the time that was asked for, and from which side it is looked at: `in` from earlier
 /// times, as they lie on this time's own axis.
@@ -47,4 +47,4 @@ void check_finite(double value, const char* name);
   return side == Side::in ? Side::out : Side::in;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

@@ -10,10 +10,10 @@
 
 namespace tweenfall {
 
-void ModifierForm::retime(Moment&, double&) const noexcept {}
-void ModifierForm::change(Jet&, const Moment&, double) const noexcept {}
+void forms::ModifierForm::retime(forms::Moment&, double&) const noexcept {}
+void forms::ModifierForm::change(Jet&, const forms::Moment&, double) const noexcept {}
 
-void check_finite(double value, const char* name) {
+void forms::check_finite(double value, const char* name) {
   if (!std::isfinite(value))
     throw std::invalid_argument(std::string(name) + " must be finite; it is " + text_of(value));
 }
@@ -39,12 +39,12 @@ class Stack {
 
  private:
   struct Layer {
-    FormPointer form;
+    forms::FormPointer form;
     std::optional<ModifierRange> range;
     double influence;
 
     // Of a moment inside the range; 0 outside.
-    [[nodiscard]] Jet weight(const Moment& m) const noexcept {
+    [[nodiscard]] Jet weight(const forms::Moment& m) const noexcept {
       if (!range) return constant(influence);
       const double t = m.time.v;
       // The side decides at the ends, seen in the direction of time.
@@ -61,7 +61,7 @@ class Stack {
 
   struct Result {
     Jet value;
-    Moment moment;
+    forms::Moment moment;
   };
 
   void add(const Modifier& m) {
@@ -69,8 +69,8 @@ class Stack {
       throw std::invalid_argument("the influence must lie in 0 to 1; it is " + text_of(m.influence));
     if (m.range) {
       const ModifierRange& r = *m.range;
-      check_finite(r.start, "the range's start");
-      check_finite(r.end, "the range's end");
+      forms::check_finite(r.start, "the range's start");
+      forms::check_finite(r.end, "the range's end");
       if (!(r.start <= r.end))
         throw std::invalid_argument("the range must not end before it starts; it goes from " + text_of(r.start) +
                                     " s to " + text_of(r.end) + " s");
@@ -78,12 +78,12 @@ class Stack {
         if (!(blend >= 0) || !std::isfinite(blend))
           throw std::invalid_argument("the range's blends must be >= 0 s; one is " + text_of(blend));
     }
-    FormPointer form = std::visit([this](const auto& kind) { return form_of(kind, curve_); }, m.kind);
+    forms::FormPointer form = std::visit([this](const auto& kind) { return forms::form_of(kind, curve_); }, m.kind);
     layers_.push_back({std::move(form), m.range, m.influence});
   }
 
   // Through the first `count` layers.
-  [[nodiscard]] Result evaluate(std::size_t count, Moment moment) const noexcept {
+  [[nodiscard]] Result evaluate(std::size_t count, forms::Moment moment) const noexcept {
     if (count == 0) {
       const Sample<double> s = curve_.sample(moment.time.v, moment.side);
       return {chained(moment.time, s.value, s.rate, s.acceleration), moment};
@@ -91,7 +91,7 @@ class Stack {
     const Layer& layer = layers_[count - 1];
     double memory = 0;
     if (const Jet weight = layer.weight(moment); weight.v != 0 || weight.d != 0) {
-      Moment inner = moment;
+      forms::Moment inner = moment;
       layer.form->retime(inner, memory);
       if (weight.v == 1 && weight.d == 0)
         moment = inner;

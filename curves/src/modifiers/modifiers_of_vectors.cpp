@@ -4,7 +4,7 @@
 
 #include "curve/curve_data.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 template <class T>
@@ -16,6 +16,9 @@ Curve<double> one_component(const Curve<T>& curve, int i) {
 }
 
 }  // namespace
+}  // namespace tweenfall::forms
+
+namespace tweenfall {
 
 template <class T>
 Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> modifiers) {
@@ -26,7 +29,7 @@ Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> 
   std::vector<Curve<double>> parts;
   for (std::size_t i = 0; i < size; ++i) {
     try {
-      const Curve<double> part = one_component(curve, static_cast<int>(i));
+      const Curve<double> part = forms::one_component(curve, static_cast<int>(i));
       parts.push_back(modifiers[i].empty() ? part : modified(part, modifiers[i]));
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument("component " + std::to_string(i) + ", " + error.what());

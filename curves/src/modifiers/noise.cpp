@@ -4,7 +4,7 @@
 #include "curve/components.h"
 #include "modifiers/modifier_form.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 using modifiers::Noise;
@@ -80,4 +80,4 @@ FormPointer form_of(const Noise& noise, const Curve<double>&) {
   return std::make_unique<const NoiseForm>(noise);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

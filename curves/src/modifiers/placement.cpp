@@ -4,7 +4,7 @@
 #include "curve/components.h"
 #include "modifiers/modifier_form.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 using modifiers::Placement;
@@ -38,4 +38,4 @@ FormPointer form_of(const Placement& placement, const Curve<double>&) {
   return std::make_unique<const PlacementForm>(placement);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

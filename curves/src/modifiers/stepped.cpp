@@ -4,7 +4,7 @@
 #include "curve/components.h"
 #include "modifiers/modifier_form.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 using modifiers::Stepped;
@@ -39,4 +39,4 @@ FormPointer form_of(const Stepped& stepped, const Curve<double>&) {
   return std::make_unique<const SteppedForm>(stepped);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

@@ -1,6 +1,6 @@
 #include "modifiers/modifier_form.h"
 
-namespace tweenfall {
+namespace tweenfall::forms {
 namespace {
 
 class TimeWarpForm : public ModifierForm {
@@ -27,4 +27,4 @@ FormPointer form_of(const modifiers::TimeWarp& warp, const Curve<double>&) {
   return std::make_unique<const TimeWarpForm>(warp.clock);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forms

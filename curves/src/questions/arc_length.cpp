@@ -9,7 +9,7 @@
 #include "math/polynomial_roots.h"
 #include "questions/curve_pieces.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 template <class V>
@@ -30,8 +30,8 @@ struct PathPiece : CurvePiece<V> {
 // By the piece's own variable.
 template <class V>
 double speed(const Curve<V>& path, const PathPiece<V>& piece, double s) noexcept {
-  if (piece.has_own_rate) return (piece.to - piece.from) * length_of(path.rate(piece.time_at(s)));
-  return length_of(evaluate_polynomial(piece.c.data(), piece.degree, s).first);
+  if (piece.has_own_rate) return (piece.to - piece.from) * splines::length_of(path.rate(piece.time_at(s)));
+  return splines::length_of(evaluate_polynomial(piece.c.data(), piece.degree, s).first);
 }
 
 // Source: Abramowitz and Stegun, "Handbook of Mathematical Functions", table 25.4, n = 16.
@@ -120,28 +120,31 @@ class Measure {
 };
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 template <class T>
 struct MeasuredPath<T>::Data {
   Curve<T> path;
-  std::vector<PathPiece<T>> pieces;
-  std::vector<MeasuredPiece> stretches;
+  std::vector<questions::PathPiece<T>> pieces;
+  std::vector<questions::MeasuredPiece> stretches;
 
   [[nodiscard]] double length() const noexcept {
     return stretches.empty() ? 0 : stretches.back().before + stretches.back().length;
   }
 
   // Position within a stretch at which `rest` of it is done.
-  [[nodiscard]] double position(const MeasuredPiece& stretch, double rest) const noexcept {
-    const PathPiece<T>& piece = pieces[stretch.piece];
+  [[nodiscard]] double position(const questions::MeasuredPiece& stretch, double rest) const noexcept {
+    const questions::PathPiece<T>& piece = pieces[stretch.piece];
     if (!(rest > 0)) return stretch.from;
     if (!(rest < stretch.length)) return stretch.to;
     double low = stretch.from, high = stretch.to, s = low + (high - low) * (rest / stretch.length);
     for (int i = 0; i < 100; ++i) {
-      const double error = gauss(path, piece, stretch.from, s) - rest;
+      const double error = questions::gauss(path, piece, stretch.from, s) - rest;
       if (error == 0) break;
       (error < 0 ? low : high) = s;
-      double next = s - error / speed(path, piece, s);
+      double next = s - error / questions::speed(path, piece, s);
       if (!(next > low && next < high)) next = 0.5 * (low + high);
       if (next <= low || next >= high || std::abs(next - s) <= 1e-16 * std::abs(s)) break;
       s = next;
@@ -149,12 +152,12 @@ struct MeasuredPath<T>::Data {
     return s;
   }
 
-  [[nodiscard]] const MeasuredPiece& stretch_at(double length, Side side) const noexcept {
+  [[nodiscard]] const questions::MeasuredPiece& stretch_at(double length, Side side) const noexcept {
     const auto after = side == Side::out
                            ? std::upper_bound(stretches.begin(), stretches.end(), length,
-                                              [](double v, const MeasuredPiece& s) { return v < s.before; })
+                                              [](double v, const questions::MeasuredPiece& s) { return v < s.before; })
                            : std::lower_bound(stretches.begin(), stretches.end(), length,
-                                              [](const MeasuredPiece& s, double v) { return s.before < v; });
+                                              [](const questions::MeasuredPiece& s, double v) { return s.before < v; });
     return after == stretches.begin() ? *after : *(after - 1);
   }
 };
@@ -162,8 +165,8 @@ struct MeasuredPath<T>::Data {
 template <class T>
 MeasuredPath<T>::MeasuredPath(const Curve<T>& path) {
   check_times(path.start(), path.end());
-  auto data = std::make_shared<Data>(Data{path, path_pieces(path, path.start(), path.end()), {}});
-  Measure<T>(path, data->pieces, data->stretches);
+  auto data = std::make_shared<Data>(Data{path, questions::path_pieces(path, path.start(), path.end()), {}});
+  questions::Measure<T>(path, data->pieces, data->stretches);
   data_ = std::move(data);
 }
 
@@ -178,14 +181,15 @@ double MeasuredPath<T>::length_at(double time) const noexcept {
   if (d.stretches.empty() || time <= d.path.start()) return 0;
   if (time >= d.path.end()) return d.length();
   const auto after = std::upper_bound(d.pieces.begin(), d.pieces.end(), time,
-                                      [](double t, const PathPiece<T>& piece) { return t < piece.from; });
+                                      [](double t, const questions::PathPiece<T>& piece) { return t < piece.from; });
   const std::size_t i = static_cast<std::size_t>(after - d.pieces.begin()) - 1;
   const double s = d.pieces[i].position_at(time);
-  const auto next = std::partition_point(d.stretches.begin(), d.stretches.end(), [&](const MeasuredPiece& stretch) {
-    return stretch.piece < i || (stretch.piece == i && stretch.from <= s);
-  });
-  const MeasuredPiece& stretch = *(next - 1);
-  return stretch.before + gauss(d.path, d.pieces[i], stretch.from, s);
+  const auto next =
+      std::partition_point(d.stretches.begin(), d.stretches.end(), [&](const questions::MeasuredPiece& stretch) {
+        return stretch.piece < i || (stretch.piece == i && stretch.from <= s);
+      });
+  const questions::MeasuredPiece& stretch = *(next - 1);
+  return stretch.before + questions::gauss(d.path, d.pieces[i], stretch.from, s);
 }
 
 template <class T>
@@ -193,7 +197,7 @@ double MeasuredPath<T>::time_at(double length_from_start) const noexcept {
   const Data& d = *data_;
   if (d.stretches.empty() || !(length_from_start > 0)) return d.path.start();
   if (length_from_start >= d.length()) return d.path.end();
-  const MeasuredPiece& stretch = d.stretch_at(length_from_start, Side::out);
+  const questions::MeasuredPiece& stretch = d.stretch_at(length_from_start, Side::out);
   return d.pieces[stretch.piece].time_at(d.position(stretch, length_from_start - stretch.before));
 }
 
@@ -202,8 +206,8 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
   const Data& d = *data_;
   if (d.stretches.empty()) return {d.path.value(d.path.start()), zero<T>(), zero<T>()};
   const double length = std::clamp(length_from_start, 0.0, d.length());
-  const MeasuredPiece& stretch = d.stretch_at(length, side);
-  const PathPiece<T>& piece = d.pieces[stretch.piece];
+  const questions::MeasuredPiece& stretch = d.stretch_at(length, side);
+  const questions::PathPiece<T>& piece = d.pieces[stretch.piece];
   const double s = d.position(stretch, length - stretch.before);
   const double time = piece.time_at(s);
   Polynomial<T> p;
@@ -215,10 +219,10 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
     p = {own.value, own.rate, own.acceleration};
   }
   const T value = s > 0 && s < 1 ? p.value : d.path.value(time, s < 1 ? Side::out : Side::in);
-  const double square = product(p.first, p.first), bend = product(p.second, p.second);
+  const double square = questions::product(p.first, p.first), bend = questions::product(p.second, p.second);
   if (square > 1e-24 * bend && square > 0) {
     const double pace = std::sqrt(square);
-    return {value, p.first / pace, (p.second - (product(p.first, p.second) / square) * p.first) / square};
+    return {value, p.first / pace, (p.second - (questions::product(p.first, p.second) / square) * p.first) / square};
   }
   // Where the path stands for an instant it leaves along its second derivative, and arrives against it.
   if (!(bend > 0)) return {value, zero<T>(), zero<T>()};
@@ -228,9 +232,9 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
 template <class T>
 double arc_length(const Curve<T>& curve, double from, double to) {
   if (to < from) return -arc_length(curve, to, from);
-  const std::vector<PathPiece<T>> pieces = path_pieces(curve, from, to);
-  std::vector<MeasuredPiece> stretches;
-  Measure<T>(curve, pieces, stretches);
+  const std::vector<questions::PathPiece<T>> pieces = questions::path_pieces(curve, from, to);
+  std::vector<questions::MeasuredPiece> stretches;
+  questions::Measure<T>(curve, pieces, stretches);
   return stretches.empty() ? 0 : stretches.back().before + stretches.back().length;
 }
 

@@ -9,7 +9,7 @@
 #include "curve/time_bezier.h"
 #include "math/polynomial.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 template <class T>
@@ -136,9 +136,12 @@ void add_span(std::vector<CurvePiece<V>>& result, const Span<T>& span, double to
 }
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 template <class V>
-double CurvePiece<V>::position_at(double time) const noexcept {
+double questions::CurvePiece<V>::position_at(double time) const noexcept {
   if (time <= from) return 0;
   if (time >= to) return 1;
   const double u = (time - from) / (to - from);
@@ -157,28 +160,29 @@ double CurvePiece<V>::position_at(double time) const noexcept {
 }
 
 template <class T>
-std::vector<CurvePiece<typename Stored<T>::type>> curve_pieces(const Curve<T>& curve, double from, double to) {
+std::vector<questions::CurvePiece<typename Stored<T>::type>> questions::curve_pieces(const Curve<T>& curve, double from,
+                                                                                     double to) {
   using V = typename Stored<T>::type;
   check_times(from, to);
-  std::vector<CurvePiece<V>> result;
+  std::vector<questions::CurvePiece<V>> result;
   if (!(to > from)) return result;
   if (has_spans(curve)) {
     const std::vector<Span<T>> spans = spans_between(curve, from, to);
     for (std::size_t i = 0; i < spans.size(); ++i)
-      add_span(result, spans[i], i + 1 < spans.size() ? spans[i + 1].start : to);
+      questions::add_span(result, spans[i], i + 1 < spans.size() ? spans[i + 1].start : to);
     return result;
   }
   const std::vector<double> marks = seams_between(curve, from, to);
   const auto sampler = [&](double time, Side side) {
     const Sample<T> s = curve.sample(time, side);
-    return Sample<V>{stored(s.value), s.rate, s.acceleration};
+    return Sample<V>{questions::stored(s.value), s.rate, s.acceleration};
   };
-  for (std::size_t i = 0; i + 1 < marks.size(); ++i) add_quintics(result, sampler, marks[i], marks[i + 1]);
+  for (std::size_t i = 0; i + 1 < marks.size(); ++i) questions::add_quintics(result, sampler, marks[i], marks[i + 1]);
   return result;
 }
 
 template <class V>
-std::vector<CurvePiece<V>> as_quintics(const CurvePiece<V>& piece) {
+std::vector<questions::CurvePiece<V>> questions::as_quintics(const questions::CurvePiece<V>& piece) {
   const double inverse = 1 / (piece.to - piece.from);
   const auto sampler = [&](double time, Side) {
     const double s = piece.position_at(time);
@@ -189,26 +193,28 @@ std::vector<CurvePiece<V>> as_quintics(const CurvePiece<V>& piece) {
     const V second = p.second * (ds * ds) + p.first * dds;
     return Sample<V>{p.value, p.first * (ds * inverse), second * (inverse * inverse)};
   };
-  std::vector<CurvePiece<V>> result;
-  add_quintics(result, sampler, piece.from, piece.to);
+  std::vector<questions::CurvePiece<V>> result;
+  questions::add_quintics(result, sampler, piece.from, piece.to);
   return result;
 }
 
-#define TWEENFALL_PIECES(T) \
-  template std::vector<CurvePiece<Stored<T>::type>> curve_pieces<T>(const Curve<T>&, double, double);
+#define TWEENFALL_PIECES(T)                                                                                        \
+  template std::vector<questions::CurvePiece<Stored<T>::type>> questions::curve_pieces<T>(const Curve<T>&, double, \
+                                                                                          double);
 TWEENFALL_PIECES(double)
 TWEENFALL_PIECES(Vec2)
 TWEENFALL_PIECES(Vec3)
 TWEENFALL_PIECES(Vec4)
 TWEENFALL_PIECES(Color)
 #undef TWEENFALL_PIECES
-template struct CurvePiece<double>;
-template std::vector<CurvePiece<double>> as_quintics<double>(const CurvePiece<double>&);
-template struct CurvePiece<Vec2>;
-template std::vector<CurvePiece<Vec2>> as_quintics<Vec2>(const CurvePiece<Vec2>&);
-template struct CurvePiece<Vec3>;
-template std::vector<CurvePiece<Vec3>> as_quintics<Vec3>(const CurvePiece<Vec3>&);
-template struct CurvePiece<Vec4>;
-template std::vector<CurvePiece<Vec4>> as_quintics<Vec4>(const CurvePiece<Vec4>&);
+template struct questions::CurvePiece<double>;
+template std::vector<questions::CurvePiece<double>> questions::as_quintics<double>(
+    const questions::CurvePiece<double>&);
+template struct questions::CurvePiece<Vec2>;
+template std::vector<questions::CurvePiece<Vec2>> questions::as_quintics<Vec2>(const questions::CurvePiece<Vec2>&);
+template struct questions::CurvePiece<Vec3>;
+template std::vector<questions::CurvePiece<Vec3>> questions::as_quintics<Vec3>(const questions::CurvePiece<Vec3>&);
+template struct questions::CurvePiece<Vec4>;
+template std::vector<questions::CurvePiece<Vec4>> questions::as_quintics<Vec4>(const questions::CurvePiece<Vec4>&);
 
 }  // namespace tweenfall

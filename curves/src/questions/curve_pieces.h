@@ -10,7 +10,7 @@
 #include "curve/curve_data.h"
 #include "splines/control_points.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 
 /// value = sum c[i] s^i for s from 0 to 1, at the time from + (to - from) x(s): x(s) = s, or the cubic of weighted
 /// handles. Spans that are neither (eases, formulas) come as quintics with the curve's own value, rate and
@@ -36,7 +36,7 @@ struct CurvePiece {
   /// What arithmetic with numbers of this size, and `error`, may come to.
   [[nodiscard]] double rounding() const noexcept {
     double size = 0;
-    for (int i = 0; i <= degree; ++i) size += length_of(c[static_cast<std::size_t>(i)]);
+    for (int i = 0; i <= degree; ++i) size += splines::length_of(c[static_cast<std::size_t>(i)]);
     return 1e-14 * size + 4 * error;
   }
   /// The position at a time, as `time_at` takes it.
@@ -61,4 +61,4 @@ template <class V>
   return result;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::questions

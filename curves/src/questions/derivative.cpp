@@ -11,7 +11,7 @@
 #include "curve/time_bezier.h"
 #include "math/polynomial.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 constexpr int highest_order = 8;
@@ -166,25 +166,28 @@ Curve<T> formula_of_rate(const Curve<T>& curve, const CurveEnd<T>& before, const
 }
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 template <class T>
 T derivative_at(const Curve<T>& curve, int order, double time, Side side) {
-  check_order(CurveAccess::data(curve), order);
+  questions::check_order(CurveAccess::data(curve), order);
   check_times(time, time);
-  return known_derivative(curve, order, time, side);
+  return questions::known_derivative(curve, order, time, side);
 }
 
 template <class T>
 Curve<T> derivative(const Curve<T>& curve) {
-  const CurveEnd<T> before = end_of_rate(curve, true), after = end_of_rate(curve, false);
+  const CurveEnd<T> before = questions::end_of_rate(curve, true), after = questions::end_of_rate(curve, false);
   if (curve.start() == curve.end() && has_spans(curve))
     return CurveAccess::one_key<T>(zero<T>(), curve.start(), before, after);
-  check_order(CurveAccess::data(curve), 3);
+  questions::check_order(CurveAccess::data(curve), 3);
   std::vector<Span<T>> spans = curve.spans();
   const bool warped = std::any_of(spans.begin(), spans.end(),
                                   [](const Span<T>& span) { return span.warp.function && span.degree > 0; });
-  if (warped || !is_plain_outside(curve.rule_before()) || !is_plain_outside(curve.rule_after()))
-    return formula_of_rate(curve, before, after);
+  if (warped || !questions::is_plain_outside(curve.rule_before()) || !questions::is_plain_outside(curve.rule_after()))
+    return questions::formula_of_rate(curve, before, after);
   for (std::size_t i = 0; i < spans.size(); ++i) {
     Span<T>& span = spans[i];
     const double inverse = 1 / (curve.knots()[i + 1] - curve.knots()[i]);

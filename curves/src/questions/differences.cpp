@@ -6,7 +6,7 @@
 #include "questions/piece_difference.h"
 #include "splines/control_points.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 // Positions at which the length of the polynomial passes through `bound`, with 0 and 1.
@@ -40,10 +40,13 @@ template <class V>
 double length_at(const std::vector<V>& c, double s) {
   V value = c.back();
   for (std::size_t i = c.size() - 1; i-- > 0;) value = s * value + c[i];
-  return length_of(value);
+  return splines::length_of(value);
 }
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 template <class T>
 std::vector<Interval> differences(const Curve<T>& a, const Curve<T>& b, double from, double to, double tolerance) {
@@ -57,18 +60,19 @@ std::vector<Interval> differences(const Curve<T>& a, const Curve<T>& b, double f
     else
       result.push_back({low, high});
   };
-  for (const PieceDifference<V>& d : piece_differences(curve_pieces(a, from, to), curve_pieces(b, from, to))) {
+  for (const questions::PieceDifference<V>& d :
+       questions::piece_differences(questions::curve_pieces(a, from, to), questions::curve_pieces(b, from, to))) {
     std::vector<V> points = d.c;
-    make_control_points(points);
+    splines::make_control_points(points);
     const double bound = tolerance + d.rounding;
-    if (stays_within(points, bound)) continue;
+    if (splines::stays_within(points, bound)) continue;
     if (tolerance == 0) {
       add(d.piece.from, d.piece.to);
       continue;
     }
-    const std::vector<double> marks = passes(d.c, tolerance);
+    const std::vector<double> marks = questions::passes(d.c, tolerance);
     for (std::size_t i = 0; i + 1 < marks.size(); ++i)
-      if (length_at(d.c, 0.5 * (marks[i] + marks[i + 1])) > tolerance)
+      if (questions::length_at(d.c, 0.5 * (marks[i] + marks[i + 1])) > tolerance)
         add(d.piece.time_at(marks[i]), d.piece.time_at(marks[i + 1]));
   }
   return result;

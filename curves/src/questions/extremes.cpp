@@ -10,7 +10,7 @@
 #include "math/polynomial_roots.h"
 #include "questions/curve_pieces.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 using Piece = CurvePiece<double>;
@@ -36,6 +36,9 @@ double sign_of(double v) {
 }
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 Range range(const Curve<double>& curve, double from, double to) {
   if (to < from) std::swap(from, to);
@@ -46,10 +49,10 @@ Range range(const Curve<double>& curve, double from, double to) {
     result.low = std::min(result.low, v);
     result.high = std::max(result.high, v);
   };
-  for (const Piece& piece : curve_pieces(curve, from, to)) {
+  for (const questions::Piece& piece : questions::curve_pieces(curve, from, to)) {
     include(curve.value(piece.from, Side::out));
     include(curve.value(piece.to, Side::in));
-    for (const double s : stationary(piece)) include(curve.value(piece.time_at(s)));
+    for (const double s : questions::stationary(piece)) include(curve.value(piece.time_at(s)));
   }
   return result;
 }
@@ -58,17 +61,18 @@ std::vector<double> extrema(const Curve<double>& curve) {
   std::vector<double> result;
   if (!(curve.duration() > 0)) return result;
   double before = 0;  // sign of the rate just passed
-  for (const Piece& piece : curve_pieces(curve, curve.start(), curve.end())) {
-    const std::vector<double> slope = polynomial_derivative(component_polynomial(piece, 0));
+  for (const questions::Piece& piece : questions::curve_pieces(curve, curve.start(), curve.end())) {
+    const std::vector<double> slope = polynomial_derivative(questions::component_polynomial(piece, 0));
     std::vector<double> marks = {0};
-    for (const double s : stationary(piece)) marks.push_back(s);
+    for (const double s : questions::stationary(piece)) marks.push_back(s);
     marks.push_back(1);
     for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
-      const double sign = sign_of(polynomial_value(slope, 0.5 * (marks[i] + marks[i + 1])));
+      const double sign = questions::sign_of(polynomial_value(slope, 0.5 * (marks[i] + marks[i + 1])));
       // A stretch at rest has no extreme, nor has what follows it.
       if (before * sign < 0) {
         const double time = piece.time_at(marks[i]);
-        result.push_back(piece.exact() ? time : refined(piece, time, [&](double t) { return curve.rate(t); }));
+        result.push_back(piece.exact() ? time
+                                       : questions::refined(piece, time, [&](double t) { return curve.rate(t); }));
       }
       before = sign;
     }
@@ -85,8 +89,8 @@ std::vector<double> solve(const Curve<double>& curve, double level, double from,
     if (result.empty() || t - result.back() > same) result.push_back(t);
   };
   if (from == to && curve.value(from) == level) add(from);
-  for (const Piece& piece : curve_pieces(curve, from, to)) {
-    std::vector<double> c = component_polynomial(piece, 0);
+  for (const questions::Piece& piece : questions::curve_pieces(curve, from, to)) {
+    std::vector<double> c = questions::component_polynomial(piece, 0);
     c[0] -= level;
     if (std::all_of(c.begin(), c.end(), [](double v) { return v == 0; })) {
       // The ends of the rest; a rest that goes on is not cut at a knot.
@@ -102,7 +106,7 @@ std::vector<double> solve(const Curve<double>& curve, double level, double from,
     }
     for (const double s : polynomial_roots(c, 0, 1)) {
       const double time = piece.time_at(s);
-      add(piece.exact() ? time : refined(piece, time, [&](double t) { return curve.value(t) - level; }));
+      add(piece.exact() ? time : questions::refined(piece, time, [&](double t) { return curve.value(t) - level; }));
     }
   }
   return result;

@@ -12,7 +12,7 @@
 #include "questions/piece_difference.h"
 #include "splines/control_points.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 template <class T>
@@ -44,31 +44,36 @@ bool near_line(const Curve<T>& curve, const V& first, const V& last, double tole
   for (const PieceDifference<V>& d :
        piece_differences<V>(curve_pieces(curve, curve.start(), curve.end()), std::vector<CurvePiece<V>>{line})) {
     std::vector<V> points = d.c;
-    make_control_points(points);
-    if (!stays_within(points, tolerance + d.rounding)) return false;
+    splines::make_control_points(points);
+    if (!splines::stays_within(points, tolerance + d.rounding)) return false;
   }
   return true;
 }
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 template <class T>
 std::vector<Continuity> continuity(const Curve<T>& curve, double tolerance) {
   std::vector<Continuity> result;
   const std::span<const double> knots = curve.knots();
-  const bool all_known = knows_all_derivatives(curve);
+  const bool all_known = questions::knows_all_derivatives(curve);
   for (std::size_t i = 0; i < knots.size(); ++i) {
     const double t = knots[i];
     const Sample<T> in = curve.sample(t, Side::in), out = curve.sample(t, Side::out);
     const double nearest = std::min(i > 0 ? t - knots[i - 1] : curve.duration(),
                                     i + 1 < knots.size() ? knots[i + 1] - t : curve.duration());
     // What rounding of the values alone may do to a derivative.
-    double rounding = 1e-14 * (length_of(vector_of(in.value)) + length_of(vector_of(out.value)));
+    double rounding = 1e-14 * (splines::length_of(questions::vector_of(in.value)) +
+                               splines::length_of(questions::vector_of(out.value)));
     const auto same = [&](const auto& a, const auto& b) {
-      return length_of(std::decay_t<decltype(a)>(a - b)) <= tolerance * std::max(length_of(a), length_of(b)) + rounding;
+      return splines::length_of(std::decay_t<decltype(a)>(a - b)) <=
+             tolerance * std::max(splines::length_of(a), splines::length_of(b)) + rounding;
     };
     int known = -1;
-    if (same(vector_of(in.value), vector_of(out.value))) {
+    if (same(questions::vector_of(in.value), questions::vector_of(out.value))) {
       known = 0;
       rounding /= nearest;
       if (same(in.rate, out.rate)) {
@@ -93,15 +98,15 @@ std::vector<Continuity> continuity(const Curve<T>& curve, double tolerance) {
 template <class T>
 bool is_flat(const Curve<T>& curve, double tolerance) {
   if (curve.start() == curve.end()) return true;
-  const auto first = vector_of(curve.value(curve.start()));
-  return near_line(curve, first, first, tolerance);
+  const auto first = questions::vector_of(curve.value(curve.start()));
+  return questions::near_line(curve, first, first, tolerance);
 }
 
 template <class T>
 bool is_linear(const Curve<T>& curve, double tolerance) {
   if (curve.start() == curve.end()) return true;
-  return near_line(curve, vector_of(curve.value(curve.start())), vector_of(curve.value(curve.end(), Side::in)),
-                   tolerance);
+  return questions::near_line(curve, questions::vector_of(curve.value(curve.start())),
+                              questions::vector_of(curve.value(curve.end(), Side::in)), tolerance);
 }
 
 bool is_monotone(const Curve<double>& curve) {
@@ -113,10 +118,10 @@ bool is_monotone(const Curve<double>& curve) {
     if (value < before - rounding) falls = true;
     before = value;
   };
-  for (const CurvePiece<double>& piece : curve_pieces(curve, curve.start(), curve.end())) {
+  for (const questions::CurvePiece<double>& piece : questions::curve_pieces(curve, curve.start(), curve.end())) {
     const double rounding = piece.rounding();
     step(curve.value(piece.from), rounding);
-    for (const double s : polynomial_roots(polynomial_derivative(component_polynomial(piece, 0)), 0, 1))
+    for (const double s : polynomial_roots(polynomial_derivative(questions::component_polynomial(piece, 0)), 0, 1))
       step(polynomial_at(piece.c.data(), piece.degree, s), rounding);
     step(curve.value(piece.to, Side::in), rounding);
   }
@@ -138,9 +143,10 @@ std::vector<std::size_t> redundant_knots(const Curve<T>& curve, double tolerance
              std::abs(a.warp.from + a.warp.width * u - b.warp.from) <= 1e-14 &&
              std::abs(a.warp.width * width - b.warp.width) <= 1e-14;
       for (std::size_t k = 0; same && k <= static_cast<std::size_t>(a.degree); ++k)
-        same = length_of(V(vector_of(a.coefficients[k]) - vector_of(b.coefficients[k]))) <= tolerance;
+        same = splines::length_of(
+                   V(questions::vector_of(a.coefficients[k]) - questions::vector_of(b.coefficients[k]))) <= tolerance;
     } else if (b.degree == 0 || !b.warp.function) {
-      CurvePiece<V> first, second;
+      questions::CurvePiece<V> first, second;
       first.from = a.start;
       first.to = a.start + a.duration;
       first.degree = a.degree;
@@ -148,17 +154,18 @@ std::vector<std::size_t> redundant_knots(const Curve<T>& curve, double tolerance
       second.to = b.start + b.duration;
       second.degree = b.degree;
       double size = 0;
-      for (std::size_t k = 0; k <= static_cast<std::size_t>(a.degree); ++k) first.c[k] = vector_of(a.coefficients[k]);
+      for (std::size_t k = 0; k <= static_cast<std::size_t>(a.degree); ++k)
+        first.c[k] = questions::vector_of(a.coefficients[k]);
       for (std::size_t k = 0; k <= static_cast<std::size_t>(b.degree); ++k) {
-        second.c[k] = vector_of(b.coefficients[k]);
-        size += length_of(second.c[k]);
+        second.c[k] = questions::vector_of(b.coefficients[k]);
+        size += splines::length_of(second.c[k]);
       }
-      std::vector<V> points = composed(first, second);
+      std::vector<V> points = questions::composed(first, second);
       points.resize(std::max(points.size(), static_cast<std::size_t>(b.degree) + 1), zero<V>());
-      for (const V& c : points) size += length_of(c);
+      for (const V& c : points) size += splines::length_of(c);
       for (std::size_t k = 0; k <= static_cast<std::size_t>(b.degree); ++k) points[k] = points[k] - second.c[k];
-      make_control_points(points);
-      same = stays_within(points, tolerance + 1e-14 * size);
+      splines::make_control_points(points);
+      same = splines::stays_within(points, tolerance + 1e-14 * size);
     }
     if (same)
       result.push_back(i);

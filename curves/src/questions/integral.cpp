@@ -7,7 +7,7 @@
 #include "curve/spans_between.h"
 #include "questions/curve_pieces.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 // Integral of a piece from its start to the position s: the polynomial itself, or by change of variable times x'.
@@ -67,12 +67,16 @@ OutsideRule<T> outside_of_area(const Curve<T>& curve, bool early) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 template <class T>
 T integral(const Curve<T>& curve, double from, double to) {
   if (to < from) return -integral(curve, to, from);
   T sum = zero<T>();
-  for (const CurvePiece<T>& piece : curve_pieces(curve, from, to)) sum = sum + piece_integral(piece, 1);
+  for (const questions::CurvePiece<T>& piece : questions::curve_pieces(curve, from, to))
+    sum = sum + questions::piece_integral(piece, 1);
   return sum;
 }
 
@@ -89,7 +93,8 @@ Curve<T> antiderivative(const Curve<T>& curve, const T& first) {
     span.end = first + value;
     return Curve<T>(std::span<const Span<T>>(&span, 1)).with_outside(Outside::linear, Outside::linear);
   }
-  const OutsideRule<T> before = outside_of_area(curve, true), after = outside_of_area(curve, false);
+  const OutsideRule<T> before = questions::outside_of_area(curve, true),
+                       after = questions::outside_of_area(curve, false);
   std::vector<Span<T>> spans = curve.spans();
   const bool plain = !spans.empty() && std::all_of(spans.begin(), spans.end(), [](const Span<T>& span) {
     return (!span.warp.function || span.degree == 0) && span.degree < max_degree;
@@ -97,16 +102,17 @@ Curve<T> antiderivative(const Curve<T>& curve, const T& first) {
   T sum = first;
   if (plain) {
     for (std::size_t i = 0; i < spans.size(); ++i) {
-      spans[i] = integrated(spans[i], curve.knots()[i + 1] - curve.knots()[i], sum);
+      spans[i] = questions::integrated(spans[i], curve.knots()[i + 1] - curve.knots()[i], sum);
       spans[i].warp = {};
       sum = spans[i].end;
     }
     return CurveAccess::from_spans<T>(spans, curve.end()).with_outside(before, after);
   }
-  auto area = std::make_shared<Area<T>>(Area<T>{curve, curve_pieces(curve, curve.start(), curve.end()), {}});
-  for (const CurvePiece<T>& piece : area->pieces) {
+  auto area = std::make_shared<questions::Area<T>>(
+      questions::Area<T>{curve, questions::curve_pieces(curve, curve.start(), curve.end()), {}});
+  for (const questions::CurvePiece<T>& piece : area->pieces) {
     area->before.push_back(sum);
-    sum = sum + piece_integral(piece, 1);
+    sum = sum + questions::piece_integral(piece, 1);
   }
   return CurveAccess::formula_with_knots<T>([area](double time, Side side) { return (*area)(time, side); },
                                             curve.start(), curve.end(), CurveAccess::breaks(curve))

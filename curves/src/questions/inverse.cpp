@@ -11,7 +11,7 @@
 #include "math/polynomial_roots.h"
 #include "questions/curve_pieces.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 // A falling curve is seen upside down, so that everything rises.
@@ -57,11 +57,14 @@ struct Inverse {
 };
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 Curve<double> inverse(const Curve<double>& curve) {
   check_times(curve.start(), curve.end());
-  auto result =
-      std::make_shared<Inverse>(Inverse{curve, 1, 0, curve_pieces(curve, curve.start(), curve.end()), {}, {}});
+  auto result = std::make_shared<questions::Inverse>(
+      questions::Inverse{curve, 1, 0, questions::curve_pieces(curve, curve.start(), curve.end()), {}, {}});
   const double first = curve.value(curve.start()), last = curve.value(curve.end(), Side::in);
   if (result->pieces.empty() || first == last)
     throw std::invalid_argument("a curve that ends where it begins, at " + text_of(first) + ", has no inverse");
@@ -75,10 +78,10 @@ Curve<double> inverse(const Curve<double>& curve) {
                                   " s");
     before = std::max(before, value);
   };
-  for (const CurvePiece<double>& piece : result->pieces) {
+  for (const questions::CurvePiece<double>& piece : result->pieces) {
     rise(result->sign * curve.value(piece.from, Side::out), piece.from, 4 * piece.error);
     result->leaving.push_back(before);
-    for (const double s : polynomial_roots(polynomial_derivative(component_polynomial(piece, 0)), 0, 1))
+    for (const double s : polynomial_roots(polynomial_derivative(questions::component_polynomial(piece, 0)), 0, 1))
       rise(result->sign * curve.value(piece.time_at(s), s >= 1 ? Side::in : Side::out), piece.time_at(s),
            4 * piece.error);
     rise(result->sign * curve.value(piece.to, Side::in), piece.to, 4 * piece.error);

@@ -6,7 +6,7 @@
 #include "math/polynomial.h"
 #include "splines/control_points.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 template <class V>
@@ -49,11 +49,14 @@ void add_common(std::vector<PieceDifference<V>>& result, const CurvePiece<V>& a,
 }
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 template <class V>
-CurvePiece<V> piece_part(const CurvePiece<V>& piece, double from, double to) {
+questions::CurvePiece<V> questions::piece_part(const questions::CurvePiece<V>& piece, double from, double to) {
   if (from <= piece.from && to >= piece.to) return piece;
-  CurvePiece<V> part = piece;
+  questions::CurvePiece<V> part = piece;
   const double s0 = piece.position_at(from), s1 = piece.position_at(to);
   part.from = from;
   part.to = to;
@@ -67,7 +70,7 @@ CurvePiece<V> piece_part(const CurvePiece<V>& piece, double from, double to) {
 }
 
 template <class V>
-std::vector<V> composed(const CurvePiece<V>& b, const CurvePiece<V>& a) {
+std::vector<V> questions::composed(const questions::CurvePiece<V>& b, const questions::CurvePiece<V>& a) {
   const double length = b.to - b.from;
   const double offset = (a.from - b.from) / length, width = (a.to - a.from) / length;
   std::vector<V> result(b.c.begin(), b.c.begin() + b.degree + 1);
@@ -86,12 +89,13 @@ std::vector<V> composed(const CurvePiece<V>& b, const CurvePiece<V>& a) {
 }
 
 template <class V>
-std::vector<PieceDifference<V>> piece_differences(const std::vector<CurvePiece<V>>& a,
-                                                  const std::vector<CurvePiece<V>>& b) {
-  std::vector<PieceDifference<V>> result;
+std::vector<questions::PieceDifference<V>> questions::piece_differences(
+    const std::vector<questions::CurvePiece<V>>& a, const std::vector<questions::CurvePiece<V>>& b) {
+  std::vector<questions::PieceDifference<V>> result;
   for (std::size_t i = 0, k = 0; i < a.size() && k < b.size();) {
     const double from = std::max(a[i].from, b[k].from), to = std::min(a[i].to, b[k].to);
-    if (to > from) add_common(result, piece_part(a[i], from, to), piece_part(b[k], from, to));
+    if (to > from)
+      questions::add_common(result, questions::piece_part(a[i], from, to), questions::piece_part(b[k], from, to));
     const bool a_ends = a[i].to <= b[k].to, b_ends = b[k].to <= a[i].to;
     if (a_ends) ++i;
     if (b_ends) ++k;
@@ -99,11 +103,11 @@ std::vector<PieceDifference<V>> piece_differences(const std::vector<CurvePiece<V
   return result;
 }
 
-#define TWEENFALL_DIFFERENCE(V)                                                                    \
-  template CurvePiece<V> piece_part<V>(const CurvePiece<V>&, double, double);                      \
-  template std::vector<V> composed<V>(const CurvePiece<V>&, const CurvePiece<V>&);                 \
-  template std::vector<PieceDifference<V>> piece_differences<V>(const std::vector<CurvePiece<V>>&, \
-                                                                const std::vector<CurvePiece<V>>&);
+#define TWEENFALL_DIFFERENCE(V)                                                                                     \
+  template questions::CurvePiece<V> questions::piece_part<V>(const questions::CurvePiece<V>&, double, double);      \
+  template std::vector<V> questions::composed<V>(const questions::CurvePiece<V>&, const questions::CurvePiece<V>&); \
+  template std::vector<questions::PieceDifference<V>> questions::piece_differences<V>(                              \
+      const std::vector<questions::CurvePiece<V>>&, const std::vector<questions::CurvePiece<V>>&);
 TWEENFALL_DIFFERENCE(double)
 TWEENFALL_DIFFERENCE(Vec2)
 TWEENFALL_DIFFERENCE(Vec3)

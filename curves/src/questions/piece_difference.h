@@ -6,7 +6,7 @@
 
 #include "questions/curve_pieces.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 
 /// c[i] s^i is what `a` has more than `b`, s from 0 to 1; `piece` tells the time at s (its own values are those of a).
 template <class V>
@@ -29,4 +29,4 @@ template <class V>
 [[nodiscard]] std::vector<PieceDifference<V>> piece_differences(const std::vector<CurvePiece<V>>& a,
                                                                 const std::vector<CurvePiece<V>>& b);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::questions

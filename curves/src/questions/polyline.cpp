@@ -6,7 +6,7 @@
 #include "questions/piece_difference.h"
 #include "splines/control_points.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 namespace {
 
 template <class V>
@@ -26,15 +26,18 @@ void cut(std::vector<double>& times, const CurvePiece<V>& piece, double error, i
   std::vector<V> points = composed(chord, piece);
   points.resize(std::max(points.size(), static_cast<std::size_t>(piece.degree) + 1), zero<V>());
   for (std::size_t i = 0; i <= static_cast<std::size_t>(piece.degree); ++i) points[i] = points[i] - piece.c[i];
-  make_control_points(points);
+  splines::make_control_points(points);
   const double middle = piece.from + 0.5 * (piece.to - piece.from);
-  if (stays_within(points, error) || depth == 40 || !(middle > piece.from && middle < piece.to)) return;
+  if (splines::stays_within(points, error) || depth == 40 || !(middle > piece.from && middle < piece.to)) return;
   cut(times, piece_part(piece, piece.from, middle), error, depth + 1);
   times.push_back(middle);
   cut(times, piece_part(piece, middle, piece.to), error, depth + 1);
 }
 
 }  // namespace
+}  // namespace tweenfall::questions
+
+namespace tweenfall {
 
 template <class T>
 std::vector<PolylinePoint<T>> polyline(const Curve<T>& curve, double from, double to, double error) {
@@ -42,14 +45,14 @@ std::vector<PolylinePoint<T>> polyline(const Curve<T>& curve, double from, doubl
   if (!(error > 0)) throw std::invalid_argument("a polyline needs an error > 0; it is " + text_of(error));
   if (to < from) std::swap(from, to);
   std::vector<PolylinePoint<T>> result;
-  for (const CurvePiece<V>& piece : curve_pieces(curve, from, to)) {
+  for (const questions::CurvePiece<V>& piece : questions::curve_pieces(curve, from, to)) {
     const double rounding = piece.rounding();
     const PolylinePoint<T> first{piece.from, curve.value(piece.from)};
     // A knot is one point, unless the curve jumps there.
     if (result.empty() || !(result.back().value == first.value)) result.push_back(first);
     std::vector<double> times;
     // An error that asks for more than rounding leaves is met as far as possible.
-    cut(times, piece, error > 2 * rounding ? error - rounding : rounding, 0);
+    questions::cut(times, piece, error > 2 * rounding ? error - rounding : rounding, 0);
     for (const double time : times) result.push_back({time, curve.value(time)});
     result.push_back({piece.to, curve.value(piece.to, Side::in)});
   }

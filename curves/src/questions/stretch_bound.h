@@ -10,7 +10,7 @@
 #include "rotation/rotation_distance.h"
 #include "splines/control_points.h"
 
-namespace tweenfall {
+namespace tweenfall::questions {
 
 /// How far apart two samples are, how fast that can change, and how fast that rate can change at this time.
 struct Apart {
@@ -24,14 +24,14 @@ template <class T>
     const Quat turn = a.value * b.value.conjugate();
     const Vec3 carried = turn * b.rate, carried_acceleration = turn * b.acceleration;
     const Vec3 rate = a.rate - carried, acceleration = a.acceleration - carried_acceleration;
-    return {rotation_distance(a.value, b.value), length_of(rate),
-            length_of(acceleration) + length_of(a.rate) * length_of(b.rate)};
+    return {rotation_distance(a.value, b.value), splines::length_of(rate),
+            splines::length_of(acceleration) + splines::length_of(a.rate) * splines::length_of(b.rate)};
   } else if constexpr (std::is_same_v<T, Color>) {
-    return {length_of(Vec4(a.value.rgba - b.value.rgba)), length_of(Vec4(a.rate - b.rate)),
-            length_of(Vec4(a.acceleration - b.acceleration))};
+    return {splines::length_of(Vec4(a.value.rgba - b.value.rgba)), splines::length_of(Vec4(a.rate - b.rate)),
+            splines::length_of(Vec4(a.acceleration - b.acceleration))};
   } else {
-    return {length_of(T(a.value - b.value)), length_of(T(a.rate - b.rate)),
-            length_of(T(a.acceleration - b.acceleration))};
+    return {splines::length_of(T(a.value - b.value)), splines::length_of(T(a.rate - b.rate)),
+            splines::length_of(T(a.acceleration - b.acceleration))};
   }
 }
 
@@ -51,4 +51,4 @@ template <class T>
   return stays_near(a, b, from, middle, bound, depth + 1) && stays_near(a, b, middle, to, bound, depth + 1);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::questions

@@ -6,7 +6,7 @@
 #include "turns/natural.h"
 #include "turns/turn_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 namespace {
 
 std::string named_key(std::size_t i, double time) {
@@ -38,15 +38,18 @@ std::vector<Quat> aligned(std::span<const Quat> rotations, const char* what) {
 }
 
 }  // namespace
+}  // namespace tweenfall::rotations
+
+namespace tweenfall {
 
 Curve<Quat> bezier_rotation(std::span<const double> times, std::span<const Quat> controls) {
-  check_key_times(times);
+  rotations::check_key_times(times);
   const std::size_t wanted = 3 * times.size() - 2;
   if (controls.size() != wanted)
     throw std::invalid_argument("cubics through " + std::to_string(times.size()) + " keys take " +
                                 std::to_string(wanted) + " control rotations; there are " +
                                 std::to_string(controls.size()));
-  const std::vector<Quat> units = aligned(controls, "control");
+  const std::vector<Quat> units = rotations::aligned(controls, "control");
   if (times.size() == 1) return CurveAccess::one_key(units[0], times[0]);
   std::vector<RotationSpan> spans;
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
@@ -60,25 +63,25 @@ Curve<Quat> bezier_rotation(std::span<const double> times, std::span<const Quat>
 
 Curve<Quat> clamped_rotation(std::span<const double> times, std::span<const Quat> rotations,
                              const std::optional<Vec3>& start, const std::optional<Vec3>& end) {
-  check_key_times(times);
+  rotations::check_key_times(times);
   if (rotations.size() != times.size())
     throw std::invalid_argument("a curve needs a rotation a time; there are " + std::to_string(rotations.size()) +
                                 " rotations and " + std::to_string(times.size()) + " times");
   for (const std::optional<Vec3>& velocity : {start, end})
     if (velocity && !all_finite(*velocity))
       throw std::invalid_argument("the angular velocity at an end must be finite; it is " + text_of(*velocity));
-  const std::vector<Quat> units = aligned(rotations, "key");
+  const std::vector<Quat> units = rotations::aligned(rotations, "key");
   if (times.size() == 1) return CurveAccess::one_key(units[0], times[0]);
   std::vector<Stretch> stretches;
   for (std::size_t i = 0; i + 1 < units.size(); ++i)
     stretches.push_back({times[i], times[i + 1] - times[i], units[i], units[i + 1],
                          log_map(units[i].conjugate() * units[i + 1]), Vec3(0, 0, 0)});
-  NaturalEnds ends;
+  turns::NaturalEnds ends;
   ends.start =
       start ? Vec3(units.front().conjugate() * *start) : Vec3(stretches.front().way / stretches.front().duration);
   ends.end = end ? Vec3(units.back().conjugate() * *end) : Vec3(stretches.back().way / stretches.back().duration);
   std::vector<RotationSpan> spans;
-  append_natural(stretches, 0, stretches.size(), ends, spans);
+  turns::append_natural(stretches, 0, stretches.size(), ends, spans);
   return CurveAccess::from_spans<Quat>(spans, times.back());
 }
 

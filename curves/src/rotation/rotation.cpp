@@ -10,7 +10,7 @@
 #include "math/cross_matrix.h"
 #include "rotation/rotation_series.h"
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 namespace {
 
 Quat negated(const Quat& q) noexcept {
@@ -18,6 +18,9 @@ Quat negated(const Quat& q) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::rotations
+
+namespace tweenfall {
 
 Quat exp_map(const Vec3& rotation_vector) noexcept {
   const double square = rotation_vector.squaredNorm();
@@ -61,7 +64,7 @@ Mat3 right_jacobian_inverse(const Vec3& r) noexcept {
 }
 
 Quat hemisphere_aligned(const Quat& q, const Quat& reference) noexcept {
-  return q.dot(reference) < 0 ? negated(q) : q;
+  return q.dot(reference) < 0 ? rotations::negated(q) : q;
 }
 
 Quat slerp(const Quat& a, const Quat& b, double u) noexcept {

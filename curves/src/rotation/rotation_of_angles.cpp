@@ -7,7 +7,7 @@
 
 #include "curve/curve_data.h"
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 namespace {
 
 // Beyond 1e15 rad no digit of an angle is left below a turn. Accelerations of turns hold squares of the rates.
@@ -35,6 +35,9 @@ void check_angles(const Curve<T>& angles) {
 }
 
 }  // namespace
+}  // namespace tweenfall::rotations
+
+namespace tweenfall {
 
 Curve<Quat> euler_curve(const Curve<Vec3>& angles, const EulerOrder& order) {
   for (int i = 0; i < 3; ++i)
@@ -42,7 +45,7 @@ Curve<Quat> euler_curve(const Curve<Vec3>& angles, const EulerOrder& order) {
       throw std::invalid_argument("the axes of Euler angles must be 0, 1 or 2 with neighbors that differ; they are " +
                                   std::to_string(order.axes[0]) + ", " + std::to_string(order.axes[1]) + ", " +
                                   std::to_string(order.axes[2]));
-  check_angles(angles);
+  rotations::check_angles(angles);
   return CurveAccess::converted<Quat>(angles, [order](const Curve<Vec3>& curve, double time, Side side) {
     return from_euler(curve.sample(time, side), order);
   });
@@ -54,7 +57,7 @@ Curve<Quat> axis_curve(const Vec3& axis, const Curve<double>& angle) {
     throw std::invalid_argument("an axis must be finite and not zero; it is " + text_of(axis));
   const Vec3 scaled = axis / largest;
   const Vec3 unit = scaled / std::sqrt(scaled.squaredNorm());
-  check_angles(angle);
+  rotations::check_angles(angle);
   return CurveAccess::converted<Quat>(angle, [unit](const Curve<double>& curve, double time, Side side) {
     const Sample<double> s = curve.sample(time, side);
     const elementary::SinCos half = elementary::sin_cos(s.value / 2);

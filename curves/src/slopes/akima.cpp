@@ -5,7 +5,7 @@ namespace tweenfall {
 
 // Source: Akima, "A new method of interpolation and smooth curve fitting based on local procedures", J. ACM 17, 1970.
 static void slopes_akima(const SlopeProblem& p) {
-  akima_slopes(p, [](double m0, double m1, double m2, double m3) {
+  slopes::akima_slopes(p, [](double m0, double m1, double m2, double m3) {
     const double w1 = std::abs(m3 - m2), w2 = std::abs(m1 - m0);
     // Where both pairs of secants agree but for rounding, their weights are nothing but that rounding.
     const double noise = 1e-9 * std::max({std::abs(m0), std::abs(m1), std::abs(m2), std::abs(m3)});

@@ -7,7 +7,7 @@
 
 #include "slopes/slope_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::slopes {
 
 /// Beyond the ends of an open curve the secants go on in a straight line, as those of a parabola.
 [[nodiscard]] inline double secant_beyond(const SlopeProblem& p, std::ptrdiff_t span, std::size_t c) noexcept {
@@ -32,4 +32,4 @@ void akima_slopes(const SlopeProblem& p, const Rule& rule) {
   });
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::slopes

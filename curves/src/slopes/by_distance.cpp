@@ -4,7 +4,7 @@
 #include "eases/ease_row.h"
 #include "slopes/slope_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::slopes {
 namespace {
 
 // How far the spline's own parameter advances over a span whose ends lie `distance` apart.
@@ -48,17 +48,20 @@ void slopes_by_distance(const SlopeProblem& p, Advance advance) {
 }
 
 }  // namespace
+}  // namespace tweenfall::slopes
+
+namespace tweenfall {
 
 static void slopes_uniform(const SlopeProblem& p) {
-  slopes_by_distance(p, [](double) { return 1.0; });
+  slopes::slopes_by_distance(p, [](double) { return 1.0; });
 }
 
 static void slopes_centripetal(const SlopeProblem& p) {
-  slopes_by_distance(p, [](double distance) { return std::sqrt(distance); });
+  slopes::slopes_by_distance(p, [](double distance) { return std::sqrt(distance); });
 }
 
 static void slopes_chordal(const SlopeProblem& p) {
-  slopes_by_distance(p, [](double distance) { return distance; });
+  slopes::slopes_by_distance(p, [](double distance) { return distance; });
 }
 
 Ease Ease::uniform() {

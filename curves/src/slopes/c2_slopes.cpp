@@ -7,7 +7,7 @@
 
 #include "math/tridiagonal.h"
 
-namespace tweenfall {
+namespace tweenfall::slopes {
 namespace {
 
 // h1 m[k-1] + 2 (h0 + h1) m[k] + h0 m[k+1] = 3 (h1 d0 + h0 d1), divided by h0 + h1, for the key between spans a and b.
@@ -113,4 +113,4 @@ void check_ends(const char* what, double start, double end) {
       throw std::invalid_argument(std::string("the ") + what + " at the ends must be finite; one is " + number_text(v));
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::slopes

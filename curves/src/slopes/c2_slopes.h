@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::slopes {
 
 /// What is asked of one end of a run of spans.
 struct C2End {
@@ -30,4 +30,4 @@ void solve_c2_automatic(const SlopeProblem& problem, C2End::Kind usual);
 /// @throws std::invalid_argument unless both numbers at the ends of a run are finite.
 void check_ends(const char* what, double start, double end);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::slopes

@@ -4,7 +4,7 @@
 #include "eases/ease_row.h"
 #include "slopes/slope_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::slopes {
 namespace {
 
 // Zero at a local extreme, else at most three times the smaller secant.
@@ -15,6 +15,9 @@ double limited(double slope, double d0, double d1) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::slopes
+
+namespace tweenfall {
 
 // Source: Dougherty, Edelman, Hyman, "Nonnegativity-, monotonicity-, or convexity-preserving cubic and quintic Hermite
 // interpolation", Math. Comp. 52, 1989, equation 4.2, on Catmull-Rom slopes.
@@ -24,7 +27,7 @@ static void slopes_catmull_rom_monotone(const SlopeProblem& p) {
     for (std::size_t c = 0; c < p.dimensions; ++c) {
       const double own = p.secant(i, c);
       const auto limit = [&p, c, own](double& slope, std::size_t other) {
-        slope = limited(slope, own, other == SlopeProblem::none ? own : p.secant(other, c));
+        slope = slopes::limited(slope, own, other == SlopeProblem::none ? own : p.secant(other, c));
       };
       limit(p.leaving[i * p.dimensions + c], p.before(i));
       limit(p.arriving[i * p.dimensions + c], p.after(i + 1));

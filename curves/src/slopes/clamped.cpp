@@ -6,8 +6,8 @@ namespace tweenfall {
 // The ends are stated, so that neither a loop nor the curve's options change them.
 static void slopes_clamped(const SlopeProblem& p) {
   const double start = p.eases[p.first]->parameters()[0], end = p.eases[p.last - 1]->parameters()[1];
-  solve_c2(p, {C2End::Kind::slope, std::vector<double>(p.dimensions, start)},
-           {C2End::Kind::slope, std::vector<double>(p.dimensions, end)});
+  slopes::solve_c2(p, {slopes::C2End::Kind::slope, std::vector<double>(p.dimensions, start)},
+                   {slopes::C2End::Kind::slope, std::vector<double>(p.dimensions, end)});
 }
 
 Ease Ease::clamped() {
@@ -16,7 +16,7 @@ Ease Ease::clamped() {
 }
 
 Ease Ease::clamped(double start, double end) {
-  check_ends("slopes", start, end);
+  slopes::check_ends("slopes", start, end);
   return Ease(Form{.name = eases::call_text("clamped", std::array{start, end}),
                    .slopes = &slopes_clamped,
                    .parameters = {start, end, 0, 0},

@@ -7,7 +7,7 @@ namespace tweenfall {
 // never vanish beside a slope. Source: MathWorks, documentation of "makima"; Boost.Math, "Modified Akima
 // interpolation".
 static void slopes_makima(const SlopeProblem& p) {
-  akima_slopes(p, [](double m0, double m1, double m2, double m3) {
+  slopes::akima_slopes(p, [](double m0, double m1, double m2, double m3) {
     const double w1 = std::abs(m3 - m2) + 0.5 * std::abs(m3 + m2), w2 = std::abs(m1 - m0) + 0.5 * std::abs(m1 + m0);
     if (!(w1 + w2 > 0)) return 0.0;
     return w1 / (w1 + w2) * m1 + w2 / (w1 + w2) * m2;

@@ -6,13 +6,13 @@ namespace tweenfall {
 
 // Source: de Boor, "A Practical Guide to Splines", chapter IV.
 static void slopes_natural(const SlopeProblem& p) {
-  solve_c2_automatic(p, C2End::Kind::second);
+  slopes::solve_c2_automatic(p, slopes::C2End::Kind::second);
 }
 
 static void slopes_natural_given(const SlopeProblem& p) {
   const double start = p.eases[p.first]->parameters()[0], end = p.eases[p.last - 1]->parameters()[1];
-  solve_c2(p, {C2End::Kind::second, std::vector<double>(p.dimensions, start)},
-           {C2End::Kind::second, std::vector<double>(p.dimensions, end)});
+  slopes::solve_c2(p, {slopes::C2End::Kind::second, std::vector<double>(p.dimensions, start)},
+                   {slopes::C2End::Kind::second, std::vector<double>(p.dimensions, end)});
 }
 
 Ease Ease::natural() {
@@ -22,7 +22,7 @@ Ease Ease::natural() {
 }
 
 Ease Ease::natural(double start, double end) {
-  check_ends("second derivatives", start, end);
+  slopes::check_ends("second derivatives", start, end);
   return Ease(Form{.name = eases::call_text("natural", std::array{start, end}),
                    .slopes = &slopes_natural_given,
                    .parameters = {start, end, 0, 0},

@@ -4,7 +4,7 @@
 namespace tweenfall {
 
 static void slopes_not_a_knot(const SlopeProblem& p) {
-  solve_c2_automatic(p, C2End::Kind::not_a_knot);
+  slopes::solve_c2_automatic(p, slopes::C2End::Kind::not_a_knot);
 }
 
 Ease Ease::not_a_knot() {

@@ -4,7 +4,7 @@
 namespace tweenfall {
 
 static void slopes_periodic(const SlopeProblem& p) {
-  solve_c2_periodic(p);
+  slopes::solve_c2_periodic(p);
 }
 
 Ease Ease::periodic() {

@@ -4,7 +4,7 @@
 #include "eases/ease_row.h"
 #include "slopes/slope_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::slopes {
 namespace {
 
 double end_slope(const SlopeProblem& p, std::size_t own_span, std::size_t c) noexcept {
@@ -12,12 +12,15 @@ double end_slope(const SlopeProblem& p, std::size_t own_span, std::size_t c) noe
 }
 
 }  // namespace
+}  // namespace tweenfall::slopes
+
+namespace tweenfall {
 
 static void slopes_smooth(const SlopeProblem& p) {
   p.for_each_key([&p](std::size_t key, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
-    if (a == SlopeProblem::none) return end_slope(p, b, c);
-    if (b == SlopeProblem::none) return end_slope(p, a, c);
+    if (a == SlopeProblem::none) return slopes::end_slope(p, b, c);
+    if (b == SlopeProblem::none) return slopes::end_slope(p, a, c);
     return 0.5 * p.secant(a, c) + 0.5 * p.secant(b, c);
   });
 }
@@ -27,8 +30,8 @@ static void slopes_smooth(const SlopeProblem& p) {
 static void slopes_smooth_clamped(const SlopeProblem& p) {
   p.for_each_key([&p](std::size_t key, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
-    if (a == SlopeProblem::none) return end_slope(p, b, c);
-    if (b == SlopeProblem::none) return end_slope(p, a, c);
+    if (a == SlopeProblem::none) return slopes::end_slope(p, b, c);
+    if (b == SlopeProblem::none) return slopes::end_slope(p, a, c);
     const double d0 = p.secant(a, c), d1 = p.secant(b, c);
     if (!((d0 > 0 && d1 > 0) || (d0 < 0 && d1 < 0))) return 0.0;
     const double limit = 3 * std::min(std::abs(d0), std::abs(d1));

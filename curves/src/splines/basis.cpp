@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace tweenfall {
+namespace tweenfall::splines {
 namespace {
 
 void check_degree(int degree) {
@@ -53,20 +53,25 @@ struct Basis {
 };
 
 }  // namespace
+}  // namespace tweenfall::splines
+
+namespace tweenfall {
 
 Sample<double> bernstein(int degree, int index, double u) {
-  check_degree(degree);
+  splines::check_degree(degree);
   if (index < 0 || index > degree)
     throw std::invalid_argument("Bernstein polynomials of degree " + std::to_string(degree) +
                                 " are numbered from 0 to " + std::to_string(degree) + "; there is no number " +
                                 std::to_string(index));
-  const auto lower = [index, u](int lower_degree, int by) { return bernstein_value(lower_degree, index - by, u); };
+  const auto lower = [index, u](int lower_degree, int by) {
+    return splines::bernstein_value(lower_degree, index - by, u);
+  };
   return {lower(degree, 0), degree * (lower(degree - 1, 1) - lower(degree - 1, 0)),
           degree * (degree - 1) * (lower(degree - 2, 2) - 2 * lower(degree - 2, 1) + lower(degree - 2, 0))};
 }
 
 Sample<double> b_spline_basis(std::span<const double> knots, int degree, std::size_t index, double t, Side side) {
-  check_degree(degree);
+  splines::check_degree(degree);
   const std::size_t needed = index + static_cast<std::size_t>(degree) + 2;
   if (knots.size() < needed)
     throw std::invalid_argument("basis function " + std::to_string(index) + " of degree " + std::to_string(degree) +
@@ -75,7 +80,7 @@ Sample<double> b_spline_basis(std::span<const double> knots, int degree, std::si
   for (std::size_t i = 1; i < knots.size(); ++i)
     if (!(knots[i] >= knots[i - 1]))
       throw std::invalid_argument("knots must not decrease; number " + std::to_string(i) + " does");
-  const Basis basis{knots, t, side == Side::in || t == knots.back()};
+  const splines::Basis basis{knots, t, side == Side::in || t == knots.back()};
   return {basis.value(degree, index), basis.derivative(degree, index, 1), basis.derivative(degree, index, 2)};
 }
 

@@ -8,7 +8,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::splines {
 
 template <class V>
 [[nodiscard]] double length_of(const V& v) noexcept {
@@ -56,4 +56,4 @@ template <class V>
   return stays_within(points, bound, depth + 1) && stays_within(second, bound, depth + 1);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::splines

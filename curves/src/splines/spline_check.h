@@ -9,7 +9,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::splines {
 
 [[noreturn]] inline void refuse_spline(const std::string& what) {
   throw std::invalid_argument("a spline " + what);
@@ -37,4 +37,4 @@ void check_spline_list(std::span<const T> list, std::size_t expected, const char
       refuse_spline("has the non-finite " + std::string(what) + " " + text_of(list[i]) + " at " + std::to_string(i));
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::splines

@@ -5,7 +5,7 @@
 #include "curve/curve_data.h"
 #include "splines/spline_check.h"
 
-namespace tweenfall {
+namespace tweenfall::splines {
 namespace {
 
 // Control values of the unit interval, to power basis: the binomials times the forward differences.
@@ -50,13 +50,16 @@ T blossom(int degree, std::span<const double> knots, const T* control, std::size
 }
 
 }  // namespace
+}  // namespace tweenfall::splines
+
+namespace tweenfall {
 
 template <class T>
 Curve<T> bezier_spline(std::span<const double> times, std::span<const T> control) {
-  check_spline_times(times);
+  splines::check_spline_times(times);
   const std::size_t segments = times.size() - 1, each = control.size() / segments;
-  check_spline_list(control, each * segments, "control value");
-  check_degree(each == 0 ? 0 : each - 1);
+  splines::check_spline_list(control, each * segments, "control value");
+  splines::check_degree(each == 0 ? 0 : each - 1);
   std::vector<Span<T>> spans(segments);
   for (std::size_t i = 0; i < segments; ++i) {
     Span<T>& span = spans[i];
@@ -65,29 +68,29 @@ Curve<T> bezier_spline(std::span<const double> times, std::span<const T> control
     span.degree = static_cast<int>(each) - 1;
     for (std::size_t k = 0; k < each; ++k) span.coefficients[k] = control[i * each + k];
     span.end = control[(i + 1) * each - 1];
-    power_from_control(span.coefficients.data(), span.degree);
+    splines::power_from_control(span.coefficients.data(), span.degree);
   }
   return CurveAccess::from_spans<T>(spans, times.back());
 }
 
 template <class T>
 Curve<T> b_spline(int degree, std::span<const double> knots, std::span<const T> control) {
-  check_degree(degree < 0 ? 0 : static_cast<std::size_t>(degree));
+  splines::check_degree(degree < 0 ? 0 : static_cast<std::size_t>(degree));
   const std::size_t p = static_cast<std::size_t>(degree), n = control.size();
-  check_count(p, n);
-  check_spline_list(control, n, "control point");
-  check_spline_list(knots, n + p + 1, "knot");
+  splines::check_count(p, n);
+  splines::check_spline_list(control, n, "control point");
+  splines::check_spline_list(knots, n + p + 1, "knot");
   for (std::size_t i = 1; i < knots.size(); ++i) {
     if (knots[i] < knots[i - 1])
-      refuse_spline("needs knots that do not decrease; number " + std::to_string(i) + ", " + text_of(knots[i]) +
-                    ", lies before " + text_of(knots[i - 1]));
+      splines::refuse_spline("needs knots that do not decrease; number " + std::to_string(i) + ", " +
+                             text_of(knots[i]) + ", lies before " + text_of(knots[i - 1]));
     if (i > p && knots[i] == knots[i - p - 1])
-      refuse_spline("of degree " + std::to_string(degree) + " can have a knot " + std::to_string(p + 1) +
-                    " times at most; " + text_of(knots[i]) + " stands more often");
+      splines::refuse_spline("of degree " + std::to_string(degree) + " can have a knot " + std::to_string(p + 1) +
+                             " times at most; " + text_of(knots[i]) + " stands more often");
   }
   if (!(knots[n] > knots[p]))
-    refuse_spline("needs knot number " + std::to_string(n) + ", " + text_of(knots[n]) + ", to lie after number " +
-                  std::to_string(p) + ", " + text_of(knots[p]));
+    splines::refuse_spline("needs knot number " + std::to_string(n) + ", " + text_of(knots[n]) +
+                           ", to lie after number " + std::to_string(p) + ", " + text_of(knots[p]));
   std::vector<Span<T>> spans;
   for (std::size_t k = p; k < n; ++k) {
     if (!(knots[k + 1] > knots[k])) continue;
@@ -96,19 +99,19 @@ Curve<T> b_spline(int degree, std::span<const double> knots, std::span<const T> 
     span.duration = knots[k + 1] - knots[k];
     span.degree = degree;
     for (int j = 0; j <= degree; ++j)
-      span.coefficients[static_cast<std::size_t>(j)] = blossom(degree, knots, control.data(), k, degree - j);
+      span.coefficients[static_cast<std::size_t>(j)] = splines::blossom(degree, knots, control.data(), k, degree - j);
     span.end = span.coefficients[p];
-    power_from_control(span.coefficients.data(), degree);
+    splines::power_from_control(span.coefficients.data(), degree);
     spans.push_back(span);
   }
   return CurveAccess::from_spans<T>(spans, knots[n]);
 }
 
 std::vector<double> clamped_knots(int degree, std::size_t control, double start, double end) {
-  check_degree(degree < 0 ? 0 : static_cast<std::size_t>(degree));
+  splines::check_degree(degree < 0 ? 0 : static_cast<std::size_t>(degree));
   const std::size_t p = static_cast<std::size_t>(degree);
-  check_count(p, control);
-  check_spline_times(std::array{start, end});
+  splines::check_count(p, control);
+  splines::check_spline_times(std::array{start, end});
   std::vector<double> knots(control + p + 1, start);
   const std::size_t stretches = control - p;
   for (std::size_t i = 1; i < stretches; ++i)

@@ -7,7 +7,7 @@
 #include "slopes/c2_slopes.h"
 #include "splines/spline_check.h"
 
-namespace tweenfall {
+namespace tweenfall::splines {
 namespace {
 
 // Spans between the values, and the slopes at both ends of each, to be chosen.
@@ -16,7 +16,7 @@ struct Interpolation {
   std::span<const double> times;
   std::span<const T> values;
   std::vector<double> durations, secants;
-  Slopes slopes;
+  keying::Slopes slopes;
 
   Interpolation(std::span<const double> given_times, std::span<const T> given_values, const SplineEnds<T>& ends)
       : times(given_times), values(given_values) {
@@ -62,11 +62,11 @@ struct Interpolation {
 };
 
 template <class T>
-C2End c2_end(const SplineEnd<T>& end) {
+slopes::C2End c2_end(const SplineEnd<T>& end) {
   using Kind = typename SplineEnd<T>::Kind;
-  C2End result{end.kind == Kind::rate         ? C2End::Kind::slope
-               : end.kind == Kind::not_a_knot ? C2End::Kind::not_a_knot
-                                              : C2End::Kind::second};
+  slopes::C2End result{end.kind == Kind::rate         ? slopes::C2End::Kind::slope
+                       : end.kind == Kind::not_a_knot ? slopes::C2End::Kind::not_a_knot
+                                                      : slopes::C2End::Kind::second};
   if (end.kind == Kind::rate || end.kind == Kind::acceleration)
     for (int c = 0; c < dimensions<T>; ++c) result.given.push_back(component(end.given, c));
   return result;
@@ -98,10 +98,13 @@ void state_ends(Interpolation<T>& frame, const SplineEnds<T>& ends) {
 }
 
 }  // namespace
+}  // namespace tweenfall::splines
+
+namespace tweenfall {
 
 template <class T>
 Curve<T> c2_spline(std::span<const double> times, std::span<const T> values, const SplineEnds<T>& ends) {
-  Interpolation<T> frame(times, values, ends);
+  splines::Interpolation<T> frame(times, values, ends);
   const std::size_t spans = frame.durations.size(), d = static_cast<std::size_t>(dimensions<T>);
   frame.slopes.leaving.resize(spans * d);
   frame.slopes.arriving.resize(spans * d);
@@ -116,42 +119,44 @@ Curve<T> c2_spline(std::span<const double> times, std::span<const T> values, con
                              frame.slopes.leaving.data(),
                              frame.slopes.arriving.data()};
   if (ends.closed)
-    solve_c2_periodic(problem);
+    slopes::solve_c2_periodic(problem);
   else
-    solve_c2(problem, c2_end(ends.start), c2_end(ends.end));
+    slopes::solve_c2(problem, splines::c2_end(ends.start), splines::c2_end(ends.end));
   return frame.curve();
 }
 
 template <class T>
 Curve<T> cubic_spline(std::span<const double> times, std::span<const T> values, std::span<const Ease> rules,
                       const SplineEnds<T>& ends) {
-  Interpolation<T> frame(times, values, ends);
+  splines::Interpolation<T> frame(times, values, ends);
   if (rules.size() != 1 && rules.size() != values.size())
-    refuse_spline("needs one rule, or " + std::to_string(values.size()) + "; " + std::to_string(rules.size()) +
-                  " were given");
+    splines::refuse_spline("needs one rule, or " + std::to_string(values.size()) + "; " + std::to_string(rules.size()) +
+                           " were given");
   const bool stated =
       ends.start.kind != SplineEnd<T>::Kind::automatic || ends.end.kind != SplineEnd<T>::Kind::automatic;
   for (std::size_t i = 0; i < rules.size(); ++i) {
     if (!rules[i].slope_rule())
-      refuse_spline("needs rules that choose slopes; number " + std::to_string(i) + " is \"" + rules[i].name() + "\"");
+      splines::refuse_spline("needs rules that choose slopes; number " + std::to_string(i) + " is \"" +
+                             rules[i].name() + "\"");
     if (stated && rules[i].form().continuous_acceleration)
-      refuse_spline("by the rule \"" + rules[i].name() + "\" depends on its ends everywhere: c2_spline takes them");
+      splines::refuse_spline("by the rule \"" + rules[i].name() +
+                             "\" depends on its ends everywhere: c2_spline takes them");
   }
   for (const SplineEnd<T>* end : {&ends.start, &ends.end})
     if (end->kind == SplineEnd<T>::Kind::not_a_knot)
-      refuse_spline("whose slopes a rule chooses cannot be without a knot; c2_spline can");
+      splines::refuse_spline("whose slopes a rule chooses cannot be without a knot; c2_spline can");
   const std::size_t spans = frame.durations.size();
-  SlopeRequest request{static_cast<std::size_t>(dimensions<T>),
-                       frame.durations,
-                       frame.secants,
-                       ends.closed ? Ends::wrap : Ends::secant,
-                       {},
-                       {}};
+  keying::SlopeRequest request{static_cast<std::size_t>(dimensions<T>),
+                               frame.durations,
+                               frame.secants,
+                               ends.closed ? Ends::wrap : Ends::secant,
+                               {},
+                               {}};
   for (std::size_t i = 0; i <= spans; ++i)
     request.eases.push_back(&rules[rules.size() == 1 || i >= rules.size() ? 0 : i]);
   request.span_eases.assign(request.eases.begin(), request.eases.end() - 1);
-  frame.slopes = choose_slopes(request);
-  state_ends(frame, ends);
+  frame.slopes = keying::choose_slopes(request);
+  splines::state_ends(frame, ends);
   return frame.curve();
 }
 

@@ -8,9 +8,9 @@ namespace tweenfall {
 
 template <class T>
 Curve<T> hermite_spline(std::span<const double> times, std::span<const T> values, std::span<const T> rates) {
-  check_spline_times(times);
-  check_spline_list(values, times.size(), "value");
-  check_spline_list(rates, times.size(), "rate");
+  splines::check_spline_times(times);
+  splines::check_spline_list(values, times.size(), "value");
+  splines::check_spline_list(rates, times.size(), "rate");
   std::vector<Span<T>> spans(times.size() - 1);
   for (std::size_t i = 0; i < spans.size(); ++i) {
     Span<T>& span = spans[i];
@@ -27,10 +27,10 @@ Curve<T> hermite_spline(std::span<const double> times, std::span<const T> values
 template <class T>
 Curve<T> quintic_spline(std::span<const double> times, std::span<const T> values, std::span<const T> rates,
                         std::span<const T> accelerations) {
-  check_spline_times(times);
-  check_spline_list(values, times.size(), "value");
-  check_spline_list(rates, times.size(), "rate");
-  check_spline_list(accelerations, times.size(), "acceleration");
+  splines::check_spline_times(times);
+  splines::check_spline_list(values, times.size(), "value");
+  splines::check_spline_list(rates, times.size(), "rate");
+  splines::check_spline_list(accelerations, times.size(), "acceleration");
   std::vector<Span<T>> spans(times.size() - 1);
   for (std::size_t i = 0; i < spans.size(); ++i) {
     Span<T>& span = spans[i];

@@ -8,9 +8,9 @@ namespace tweenfall {
 
 template <class T>
 std::vector<double> spline_times(std::span<const T> points, Parametrization parametrization, bool closed) {
-  check_spline_list(points, points.size(), "point");
+  splines::check_spline_list(points, points.size(), "point");
   const std::size_t n = points.size();
-  if (n < 2) refuse_spline("needs two or more points; " + std::to_string(n) + " were given");
+  if (n < 2) splines::refuse_spline("needs two or more points; " + std::to_string(n) + " were given");
   std::vector<double> times = {0};
   for (std::size_t i = 1; i < n + (closed ? 1 : 0); ++i) {
     double square = 0;
@@ -24,8 +24,8 @@ std::vector<double> spline_times(std::span<const T> points, Parametrization para
                                                                              : distance;
     const double next = times.back() + advance;
     if (!(next > times.back()) || !std::isfinite(next))
-      refuse_spline("whose times go by distance needs points apart; number " + std::to_string(i % n) + ", " +
-                    text_of(points[i % n]) + ", lies " + text_of(distance) + " from the one before it");
+      splines::refuse_spline("whose times go by distance needs points apart; number " + std::to_string(i % n) + ", " +
+                             text_of(points[i % n]) + ", lies " + text_of(distance) + " from the one before it");
     times.push_back(next);
   }
   return times;

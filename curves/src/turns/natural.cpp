@@ -5,7 +5,7 @@
 #include "turns/natural.h"
 #include "turns/turn_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::turns {
 namespace {
 
 // One stretch with what does not change while the rates are sought: J is the Jacobian at its end, A its inverse.
@@ -192,11 +192,14 @@ class Rates {
 };
 
 }  // namespace
+}  // namespace tweenfall::turns
+
+namespace tweenfall {
 
 // Source: Mayorov, "Smooth attitude interpolation", 2018, with Newton's method for its iteration.
-void append_natural(const std::vector<Stretch>& stretches, std::size_t first, std::size_t last, const NaturalEnds& ends,
-                    std::vector<RotationSpan>& spans) {
-  const std::vector<Vec3> rates = Rates(stretches, first, last, ends).solved();
+void turns::append_natural(const std::vector<Stretch>& stretches, std::size_t first, std::size_t last,
+                           const turns::NaturalEnds& ends, std::vector<RotationSpan>& spans) {
+  const std::vector<Vec3> rates = turns::Rates(stretches, first, last, ends).solved();
   for (std::size_t i = first; i < last; ++i) {
     const Stretch& s = stretches[i];
     const std::size_t k = i - first;
@@ -206,12 +209,12 @@ void append_natural(const std::vector<Stretch>& stretches, std::size_t first, st
 }
 
 void turns_natural(const TurnProblem& p) {
-  NaturalEnds ends;
+  turns::NaturalEnds ends;
   ends.around = p.ends == Ends::wrap && p.first == 0 && p.last == p.stretches.size();
   const Vec3 rest(0, 0, 0);
   if (p.ends == Ends::flat && p.first == 0) ends.start = rest;
   if (p.ends == Ends::flat && p.last == p.stretches.size()) ends.end = rest;
-  append_natural(p.stretches, p.first, p.last, ends, p.spans);
+  turns::append_natural(p.stretches, p.first, p.last, ends, p.spans);
 }
 
 }  // namespace tweenfall

@@ -6,7 +6,7 @@
 
 #include "turns/turn_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::turns {
 
 struct NaturalEnds {
   std::optional<Vec3> start{}, end{};  ///< angular velocity, rad/s, axes of the key; empty: no angular acceleration
@@ -16,4 +16,4 @@ struct NaturalEnds {
 void append_natural(const std::vector<Stretch>& stretches, std::size_t first, std::size_t last, const NaturalEnds& ends,
                     std::vector<RotationSpan>& spans);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::turns

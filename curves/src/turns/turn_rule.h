@@ -30,7 +30,7 @@ struct TurnProblem {
   const std::vector<Stretch>& stretches;
   std::size_t first, last;  ///< the run: stretches first to last - 1
   Ends ends;
-  const Slopes& slopes;  ///< angular velocities by the run's slope rule, axes of the keys, whole turns included
+  const keying::Slopes& slopes;  ///< angular velocities by the run's slope rule, axes of the keys, whole turns included
   std::vector<RotationSpan>& spans;  ///< result, appended
 
   /// What is left beside the whole turns, as rotation vectors over the span.
