@@ -100,8 +100,8 @@ TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten w
   }
 }
 
-TEST_CASE("257 and 1000 changes in one step, a millionth of a microsecond and more apart, are all made") {
-  for (const auto& changes : {std::pair{257, 1e-12}, std::pair{257, 3e-6}, std::pair{1000, 1e-6}}) {
+TEST_CASE("257 and 600 changes in one step, a millionth of a microsecond and more apart, are all made") {
+  for (const auto& changes : {std::pair{257, 1e-12}, std::pair{257, 3e-6}, std::pair{600, 1e-6}}) {
     const int count = changes.first;
     const double apart = changes.second;
     CAPTURE(count);
@@ -124,6 +124,7 @@ TEST_CASE("rules a moment apart are fired in order of time, whatever their order
       CAPTURE(apart);
       CAPTURE(time);
       StageDescription description = stack_and_far_bodies(1.0 / 240);
+      description.nodes.resize(4);
       description.rules = {recover_at(time + apart + 1e-14, "keyed"), release_at(time, "keyed")};
       Stage stage(description);
       stage.advance_to(0.7);
