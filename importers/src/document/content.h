@@ -64,7 +64,6 @@ void read_imports(Building& building);
 void read_nodes(Building& building);
 void read_clips(Building& building);
 void read_plays(Building& building);
-void read_world(Building& building);
 void read_rules(Building& building);
 
 }  // namespace tweenfall::document

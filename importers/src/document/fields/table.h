@@ -118,6 +118,14 @@ class Table {
     out.what += "}";
     return out;
   }
+  // The form of an object with one of these fields.
+  [[nodiscard]] Form choosing_form(FormStore& store, const ValueForms& values) const {
+    Form out = form(store, values);
+    out.what += ": one of ";
+    for (const Row<Thing>& row : rows_) out.what += (&row == &rows_.front() ? "" : ", ") + in_quotes(row.name);
+    out.together = {exactly_one(names())};
+    return out;
+  }
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> out;
     for (const Row<Thing>& row : rows_) out.push_back(row.name);
@@ -159,16 +167,20 @@ template <class Thing, class Word, class Access>
   return {std::move(name), words_of(std::move(what), std::move(spelled)), std::move(help), {read, standard}};
 }
 
+// The form of an object with the fields of a table.
+template <class Part>
+[[nodiscard]] FormOf form_of(const Table<Part>& table) {
+  return FormOf::Make(
+      [&table](FormStore& store, const ValueForms& values) { return store.add(table.listing_form(store, values)); });
+}
+
 // A field that is an object with a table of its own; absent, it is as if empty.
 template <class Thing, class Part, class Access>
 [[nodiscard]] Row<Thing> part(std::string name, const Table<Part>& table, std::string help, Access access) {
-  const auto form = [&table](FormStore& store, const ValueForms& values) {
-    return store.add(table.listing_form(store, values));
-  };
   const auto read = [&table, access](const JsonValue& value, Thing& thing, Building& building) {
     table.read(value, std::invoke(access, thing), building);
   };
-  return {std::move(name), FormOf::Make(form), std::move(help), {read, "{}"}};
+  return {std::move(name), form_of(table), std::move(help), {read, "{}"}};
 }
 
 }  // namespace tweenfall::document::fields

@@ -5,7 +5,18 @@
 #include "document/content.h"
 #include "document/grammar/grammar_parts.h"
 
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace tweenfall::document::fields {
+
+// A node. Where it is in its parent is said of nodes of this document, how it looks and what body it has of imported
+// ones too; parents are found when all nodes are known.
+const Form* node_form(FormStore& store, const ValueForms& values);
+void read_place(const JsonValue& value, NodeDescription& node, Building& building);
+[[nodiscard]] std::vector<std::string> place_names();
+void read_look(const JsonValue& value, NodeDescription& node, Building& building);
 
 const Form* body_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] BodyDescription read_body(const JsonValue& body, Building& building);
@@ -13,5 +24,16 @@ const Form* body_form(FormStore& store, const ValueForms& values);
 // Whose a body is: "free", "keyed", or a drive.
 const Form* owner_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] Drive read_owner(const JsonValue& owner, Building& building);
+
+const Form* play_form(FormStore& store, const ValueForms& values);
+// Nothing for a clip that is not known, which was noted.
+[[nodiscard]] std::optional<Play> read_play(const JsonValue& play, Building& building);
+
+const Form* world_form(FormStore& store, const ValueForms& values);
+void read_world(const JsonValue& world, Building& building);
+
+// The forces of a world
+const Form* force_form(FormStore& store, const ValueForms& values);
+void read_force(const JsonValue& force, std::vector<ForceDescription>& forces, Building& building);
 
 }  // namespace tweenfall::document::fields

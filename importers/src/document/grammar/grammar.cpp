@@ -1,5 +1,7 @@
 #include "document/grammar/grammar.h"
 
+#include "document/fields/rule.h"
+#include "document/fields/things.h"
 #include "document/grammar/grammar_parts.h"
 
 #include <utility>
@@ -7,6 +9,20 @@
 namespace tweenfall::document {
 
 namespace {
+
+const Form* import_form(FormStore& store, const ValueForms& values) {
+  Form import = object_of("an object with files by the name they get here", {});
+  import.definition = "import";
+  import.one_a_line = true;
+  import.others = values.name;
+  import.name_pattern = "^[^/*]+$";
+  import.name_fault = [](std::string_view name)
+                          ->std::string {
+                            if (!name.empty() && name.find_first_of("/*") == std::string_view::npos) return {};
+  return "the name of an import is not empty and has no '/' or '*'; found " + in_quotes(name);
+};
+return store.add(std::move(import));
+}  // namespace
 
 struct Grammar {
   FormStore store;
@@ -48,17 +64,17 @@ struct Grammar {
                    {"name", any_text, "", false, "\"\""},
                    {"fps", store.add(frames), "what \"12f\" counts"},
                    {"import", import_form(store, values), "files whose nodes and clips come in"},
-                   {"nodes", map_of(node_form(store, values), "an object with nodes by name"), ""},
+                   {"nodes", map_of(fields::node_form(store, values), "an object with nodes by name"), ""},
                    {"clips", map_of(clip_form(store, values), "an object with clips by name"), "", false, "{}"},
-                   {"play", rows_of(play_form(store, values), "a list of plays"), "absent: the only clip"},
-                   {"world", world_form(store, values), "", false, "{}"},
-                   {"handoff", rows_of(rule_form(store, values), "a list of rules"), "", false, "[]"}});
+                   {"play", rows_of(fields::play_form(store, values), "a list of plays"), "absent: the only clip"},
+                   {"world", fields::world_form(store, values), "", false, "{}"},
+                   {"handoff", rows_of(fields::rule_form(store, values), "a list of rules"), "", false, "[]"}});
     document.one_a_line = true;
     root = store.add(std::move(document));
   }
 };
 
-}  // namespace
+}  // namespace tweenfall::document
 
 const Form& document_form() {
   static const Grammar grammar;

@@ -28,12 +28,6 @@ const Form* weight_keys_form(FormStore& store, const ValueForms& values);
 // What is laid over a track of numbers.
 const Form* modifiers_form(FormStore& store, const ValueForms& values);
 
-const Form* node_form(FormStore& store, const ValueForms& values);
-const Form* play_form(FormStore& store, const ValueForms& values);
-const Form* world_form(FormStore& store, const ValueForms& values);
-const Form* rule_form(FormStore& store, const ValueForms& values);
-const Form* import_form(FormStore& store, const ValueForms& values);
-
 // Forms in the making
 Form bounded(std::string what, double low, bool above_low, double high = Form::infinite, bool whole = false);
 Form object_of(std::string what, std::vector<Field> fields);

@@ -1,10 +1,10 @@
 #include "document/content.h"
+#include "document/fields/things.h"
 #include "document/form.h"
 #include "document/read/values.h"
 #include "document/report/suggestion.h"
 #include "document/tracks/read_track.h"
 
-#include <cmath>
 #include <utility>
 
 namespace tweenfall::document {
@@ -34,11 +34,6 @@ void check_nodes(Building& building, const JsonValue& tracks) {
       building.problems.add_name(track,
                                  "there is no node " + in_quotes(node) + suggestion(node, building.node_names()));
   }
-}
-
-JsonValue clip_in(const JsonValue& root, std::string_view name) {
-  const JsonValue clips = usable(root, "clips");
-  return clips ? usable(clips, name) : JsonValue();
 }
 
 }  // namespace
@@ -80,39 +75,10 @@ void read_plays(Building& building) {
     if (building.stage.clips.size() == 1) building.stage.plays.push_back({});
     return;
   }
-  const ClipTimes stage_times(building.fps, {}, "stage time has none");
-  for (const JsonValue& value : list.items()) {
-    if (!value.is(Kind::object)) continue;
-    Play play;
-    if (const JsonValue clip = usable(value, "clip")) {
-      const auto found = building.clips.find(clip.text());
-      if (found == building.clips.end()) {
-        // A clip with faults of its own is there all the same.
-        if (!clip_in(building.root, clip.text()) && !building.excused(clip.text()))
-          building.problems.add(
-              clip, "there is no clip " + in_quotes(clip.text()) + suggestion(clip.text(), building.clip_names()));
-        continue;
-      }
-      play.clip = found->second;
-    }
-    if (const JsonValue at = usable(value, "at")) play.at = stage_times.seconds(at, {}, building.problems).value_or(0);
-    play.speed = number_in(value, "speed", 1);
-    if (play.speed < 0 && play.clip < building.stage.clips.size() &&
-        std::isinf(building.stage.clips[play.clip].duration))
-      building.problems.add(usable(value, "speed"),
-                            "an endless clip has no end from which to run backwards; give it a \"duration\"");
-    if (const JsonValue weight = usable(value, "weight")) {
-      if (weight.is(Kind::number)) play.weight = Curve<double>(weight.number());
-      if (weight.is(Kind::list))
-        if (const auto curve = read_weight(weight, building.fps, building.problems)) play.weight = *curve;
-    }
-    play.mask = names_in(value, "mask");
-    if (const JsonValue mask = usable(value, "mask"))
-      for (const std::string& name : play.mask)
-        if (building.nodes_named(name).empty() && !building.excused(name))
-          building.problems.add(mask, "no node is called " + in_quotes(name) + suggestion(name, building.node_names()));
-    building.stage.plays.push_back(std::move(play));
-  }
+  for (const JsonValue& value : list.items())
+    if (value.is(Kind::object))
+      if (std::optional<Play> play = fields::read_play(value, building))
+        building.stage.plays.push_back(std::move(*play));
 }
 
 }  // namespace tweenfall::document

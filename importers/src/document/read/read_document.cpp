@@ -2,6 +2,7 @@
 #include <tweenfall/importers/whole_file.h>
 
 #include "document/content.h"
+#include "document/fields/things.h"
 #include "document/grammar/grammar.h"
 #include "document/read/values.h"
 #include "document/report/check.h"
@@ -43,7 +44,7 @@ ReadDocument read_document(std::string text, const std::string& name, const std:
     read_nodes(building);
     read_clips(building);
     read_plays(building);
-    read_world(building);
+    fields::read_world(usable(root, "world"), building);
     read_rules(building);
     out.stage = std::move(building.stage);
     out.names_are_free = building.names_are_free;

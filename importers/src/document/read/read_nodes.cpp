@@ -14,24 +14,11 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
-
-void read_look_and_body(const JsonValue& value, NodeDescription& node, Building& building) {
-  if (const JsonValue body = usable(value, "body")) node.body = fields::read_body(body, building);
-  if (const JsonValue color = usable(value, "color")) node.color = color_of(color);
-  node.group = text_in(value, "group", node.group);
-}
-
 NodeDescription new_node(const JsonMember& member, Building& building) {
-  const JsonValue& value = member.value;
   NodeDescription node;
   node.name = member.name;
-  node.rest.position = vector_in(value, "position", Vec3(0, 0, 0));
-  if (const JsonValue rotation = usable(value, "rotation"))
-    node.rest.rotation = rotation_of(rotation, order_of(text_in(rotation, "order", "XYZ")), building.problems)
-                             .value_or(Quat(1, 0, 0, 0));
-  if (const JsonValue scale = usable(value, "scale")) node.rest.scale = scale_of(scale).value_or(Vec3(1, 1, 1));
-  read_look_and_body(value, node, building);
+  fields::read_place(member.value, node, building);
+  fields::read_look(member.value, node, building);
   return node;
 }
 
@@ -121,13 +108,13 @@ void read_nodes(Building& building) {
     if (is_free_name(member.name)) continue;
     if (const auto known = building.nodes.find(member.name); known != building.nodes.end()) {
       // A node of an import: what it is in its file stays, and this adds to it.
-      for (const char* given : {"position", "rotation", "scale"})
+      for (const std::string& given : fields::place_names())
         if (const JsonValue value = usable(member.value, given))
           problems.add(value, in_quotes(given) +
                                   " of an imported node is its file's; only \"body\", \"color\" and \"group\" can be "
                                   "added, and to a root a \"parent\"");
       if (const JsonValue parent = usable(member.value, "parent")) hung.push_back({known->second, parent});
-      read_look_and_body(member.value, building.stage.nodes[known->second], building);
+      fields::read_look(member.value, building.stage.nodes[known->second], building);
       continue;
     }
     const std::size_t slash = member.name.find('/');

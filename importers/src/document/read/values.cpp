@@ -46,10 +46,8 @@ Vec3 vector_in(const JsonValue& object, std::string_view name, const Vec3& fallb
   return value ? vector_of(value).value_or(fallback) : fallback;
 }
 
-std::vector<std::string> names_in(const JsonValue& object, std::string_view name) {
+std::vector<std::string> names_of(const JsonValue& value) {
   std::vector<std::string> out;
-  const JsonValue value = usable(object, name);
-  if (!value) return out;
   if (value.is(Kind::text)) out.emplace_back(value.text());
   for (const JsonValue& item : value.items())
     if (item.is(Kind::text)) out.emplace_back(item.text());

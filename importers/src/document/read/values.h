@@ -24,9 +24,9 @@ namespace tweenfall::document {
 [[nodiscard]] bool flag_in(const JsonValue& object, std::string_view name, bool fallback);
 [[nodiscard]] std::string text_in(const JsonValue& object, std::string_view name, const std::string& fallback = {});
 [[nodiscard]] Vec3 vector_in(const JsonValue& object, std::string_view name, const Vec3& fallback);
-// A name, or a list of names.
-[[nodiscard]] std::vector<std::string> names_in(const JsonValue& object, std::string_view name);
 
+// Of a name, or of a list of names.
+[[nodiscard]] std::vector<std::string> names_of(const JsonValue& value);
 [[nodiscard]] std::optional<Vec3> vector_of(const JsonValue& value);
 [[nodiscard]] std::optional<Vec3> scale_of(const JsonValue& value);  // one number is for all three axes
 [[nodiscard]] std::optional<Color> color_of(const JsonValue& value);

@@ -11,12 +11,12 @@ const Form* sizes_form(FormStore& store, const ValueForms&) {
 
 }  // namespace
 
-SolidKind box() {
+SolidRow box() {
   const fields::Meaning<Box> sizes = {[](const JsonValue& value, Box& box, Building&) {
     if (const std::optional<Vec3> size = vector_of(value)) box.half_extents = *size / 2;
   }};
   static const fields::Table<Box> table("a box", {{"size", sizes_form, "from face to face, m", sizes, true}});
-  return kind_of("box", table);
+  return shape_of("box", table);
 }
 
 }  // namespace tweenfall::document::shapes

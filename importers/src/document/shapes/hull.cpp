@@ -17,18 +17,18 @@ const Form* hull_points_form(FormStore& store, const ValueForms& values) {
 
 }  // namespace
 
-SolidKind hull() {
+SolidRow hull() {
   const fields::Meaning<HullFields> points = {[](const JsonValue& value, HullFields& hull, Building&) {
     hull.place = value;
     hull.points = points_3(value);
   }};
   static const fields::Table<HullFields> table("a hull", {{"points", hull_points_form, "m", points, true}});
-  return kind_of("hull", "the smallest convex solid around points", table,
-                 [](const JsonValue&, const HullFields& hull, Building& building) -> std::optional<Solid> {
-                   if (hull.points.empty()) return std::nullopt;
-                   return hull_or_problem(hull.place, building.problems,
-                                          [&] { return std::span<const Vec3>(hull.points); });
-                 });
+  return shape_of("hull", "the smallest convex solid around points", table,
+                  [](const JsonValue&, const HullFields& hull, Building& building) -> std::optional<Solid> {
+                    if (hull.points.empty()) return std::nullopt;
+                    return hull_or_problem(hull.place, building.problems,
+                                           [&] { return std::span<const Vec3>(hull.points); });
+                  });
 }
 
 }  // namespace tweenfall::document::shapes

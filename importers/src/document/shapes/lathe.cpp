@@ -24,7 +24,7 @@ const Form* turned_profile_form(FormStore& store, const ValueForms& values) {
 
 }  // namespace
 
-SolidKind lathe() {
+SolidRow lathe() {
   const fields::Meaning<LatheFields> profile = {[](const JsonValue& value, LatheFields& lathe, Building&) {
     lathe.place = value;
     lathe.profile = points_2(value);
@@ -33,14 +33,14 @@ SolidKind lathe() {
       "a lathe", {{"profile", turned_profile_form, "[radius, y], m", profile, true},
                   {"sides", bounded("a whole number from 3 to 64", 3, false, 64, true), "flat sides around the axis",
                    fields::member<LatheFields>(&LatheFields::sides)}});
-  return kind_of("lathe", "the convex hull of a profile turned about y", table,
-                 [](const JsonValue&, const LatheFields& given, Building& building) -> std::optional<Solid> {
-                   if (given.profile.size() < 2) return std::nullopt;
-                   return hull_or_problem(given.place, building.problems, [&] {
-                     return tweenfall::lathe(polyline(given.profile),
-                                             {.segments = given.sides, .profile_steps = 1, .caps = false});
-                   });
-                 });
+  return shape_of("lathe", "the convex hull of a profile turned about y", table,
+                  [](const JsonValue&, const LatheFields& given, Building& building) -> std::optional<Solid> {
+                    if (given.profile.size() < 2) return std::nullopt;
+                    return hull_or_problem(given.place, building.problems, [&] {
+                      return tweenfall::lathe(polyline(given.profile),
+                                              {.segments = given.sides, .profile_steps = 1, .caps = false});
+                    });
+                  });
 }
 
 }  // namespace tweenfall::document::shapes

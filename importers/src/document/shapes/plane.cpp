@@ -2,7 +2,7 @@
 
 namespace tweenfall::document::shapes {
 
-SolidKind plane() {
+SolidRow plane() {
   fields::Meaning<Plane> normal = fields::member<Plane>(&Plane::normal);
   normal.read = [](const JsonValue& value, Plane& plane, Building& building) {
     if (const std::optional<Vec3> unit = axis_of(value, building.problems)) plane.normal = *unit;
@@ -11,7 +11,7 @@ SolidKind plane() {
       "a plane",
       {{"normal", &ValueForms::vector, "out of the solid", normal},
        {"offset", &ValueForms::number, "of the surface along the normal, m", fields::member<Plane>(&Plane::offset)}});
-  return kind_of("plane", table);
+  return shape_of("plane", table);
 }
 
 }  // namespace tweenfall::document::shapes

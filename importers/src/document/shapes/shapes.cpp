@@ -1,46 +1,37 @@
 #include "document/shapes/shapes.h"
 
-#include <vector>
+#include <utility>
 
 // Every shape there is: the functions in the files of these names.
 #define TWEENFALL_SHAPES(one) one(sphere) one(box) one(capsule) one(plane) one(hull) one(lathe) one(sweep)
 
 namespace tweenfall::document::shapes {
 
-#define TWEENFALL_SHAPE_DECLARED(name) SolidKind name();
+#define TWEENFALL_SHAPE_DECLARED(name) SolidRow name();
 TWEENFALL_SHAPES(TWEENFALL_SHAPE_DECLARED)
 #undef TWEENFALL_SHAPE_DECLARED
 
 namespace {
 
-const std::vector<SolidKind>& kinds() {
+const fields::Table<Solid>& shape_table() {
 #define TWEENFALL_SHAPE_LISTED(name) name(),
-  static const std::vector<SolidKind> all = {TWEENFALL_SHAPES(TWEENFALL_SHAPE_LISTED)};
+  static const fields::Table<Solid> table("a shape", {TWEENFALL_SHAPES(TWEENFALL_SHAPE_LISTED)});
 #undef TWEENFALL_SHAPE_LISTED
-  return all;
+  return table;
 }
 
 }  // namespace
 
 const Form* form(FormStore& store, const ValueForms& values) {
-  std::vector<Field> fields;
-  std::vector<std::string> words;
-  std::string what = "a shape: one of ";
-  for (const SolidKind& kind : kinds()) {
-    what += (words.empty() ? "" : ", ") + in_quotes(kind.word);
-    words.push_back(kind.word);
-    fields.push_back({kind.word, kind.form.in(store, values), kind.help});
-  }
-  Form form = object_of(std::move(what), std::move(fields));
-  form.together = {exactly_one(std::move(words))};
+  Form form = shape_table().choosing_form(store, values);
   form.definition = "shape";
   return store.add(std::move(form));
 }
 
 Solid read(const JsonValue& shape, Building& building) {
-  for (const SolidKind& kind : kinds())
-    if (const JsonValue value = usable(shape, kind.word)) return kind.read(value, building).value_or(Sphere{});
-  return Sphere{};
+  Solid solid;
+  shape_table().read(shape, solid, building);
+  return solid;
 }
 
 }  // namespace tweenfall::document::shapes

@@ -2,10 +2,10 @@
 
 namespace tweenfall::document::shapes {
 
-SolidKind sphere() {
+SolidRow sphere() {
   static const fields::Table<Sphere> table("a sphere", {{"radius", bounded("a radius in m, above 0", 0, true), "m",
                                                          fields::member<Sphere>(&Sphere::radius), true}});
-  return kind_of("sphere", table);
+  return shape_of("sphere", table);
 }
 
 }  // namespace tweenfall::document::shapes

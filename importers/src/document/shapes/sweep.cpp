@@ -22,7 +22,7 @@ const Form* rail_form(FormStore& store, const ValueForms& values) {
 
 }  // namespace
 
-SolidKind sweep() {
+SolidRow sweep() {
   using Fields = SweepFields;
   const fields::Meaning<Fields> profile = {
       [](const JsonValue& value, Fields& sweep, Building&) { sweep.profile = points_2(value); }};
@@ -35,15 +35,15 @@ SolidKind sweep() {
       {{"profile", swept_profile_form, "[x, y], m", profile, true},
        {"rail", rail_form, "m", rail, true},
        {"normal", &ValueForms::vector, "where the profile's x points at the rail's start; absent: any", normal}});
-  return kind_of("sweep", "the convex hull of a profile carried along a rail", table,
-                 [](const JsonValue& place, const Fields& given, Building& building) -> std::optional<Solid> {
-                   if (given.profile.size() < 2 || given.rail.size() < 2) return std::nullopt;
-                   SweepOptions options{.rail_steps = 1, .profile_steps = 1, .caps = false};
-                   options.normal = given.normal;
-                   return hull_or_problem(place, building.problems, [&] {
-                     return tweenfall::sweep(polyline(given.profile), polyline(given.rail), options);
-                   });
-                 });
+  return shape_of("sweep", "the convex hull of a profile carried along a rail", table,
+                  [](const JsonValue& place, const Fields& given, Building& building) -> std::optional<Solid> {
+                    if (given.profile.size() < 2 || given.rail.size() < 2) return std::nullopt;
+                    SweepOptions options{.rail_steps = 1, .profile_steps = 1, .caps = false};
+                    options.normal = given.normal;
+                    return hull_or_problem(place, building.problems, [&] {
+                      return tweenfall::sweep(polyline(given.profile), polyline(given.rail), options);
+                    });
+                  });
 }
 
 }  // namespace tweenfall::document::shapes

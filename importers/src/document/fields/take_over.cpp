@@ -1,0 +1,51 @@
+#include "document/fields/rule.h"
+
+namespace tweenfall::document::fields {
+
+namespace {
+
+const Table<Twist>& added_table() {
+  static const Table<Twist> table("what is added",
+                                  {{"linear", &ValueForms::vector, "m/s", member<Twist>(&Twist::linear)},
+                                   {"angular", &ValueForms::vector, "degrees/s", turning<Twist>(&Twist::angular)}});
+  return table;
+}
+
+const Row<TakeOver>& source_row() {
+  using Velocity = TakeOver::Velocity;
+  static const Row<TakeOver> row = one_of<TakeOver, Velocity>(
+      "source", "a velocity: \"curve\", \"step\" or \"zero\"",
+      {{"curve", Velocity::curve}, {"step", Velocity::step}, {"zero", Velocity::zero}}, "", &TakeOver::velocity);
+  return row;
+}
+
+const Table<TakeOver>& take_over_table() {
+  const Meaning<TakeOver> average = {[](const JsonValue& value, TakeOver& out, Building&) {
+    out.velocity = TakeOver::Velocity::average;
+    out.average_over = value.number();
+  }};
+  static const Table<TakeOver> table("a velocity: {\"source\" or \"average\", \"scale\", \"add\"}",
+                                     {source_row(),
+                                      {"average", &ValueForms::positive, "over the last seconds", average},
+                                      {"scale", &ValueForms::number, "factor", member<TakeOver>(&TakeOver::scale)},
+                                      part<TakeOver>("add", added_table(), "after scaling", &TakeOver::add)});
+  return table;
+}
+
+}  // namespace
+
+const Form* take_over_form(FormStore& store, const ValueForms& values) {
+  Form full = take_over_table().form(store, values);
+  full.together = {at_most_one({"source", "average"})};
+  Form form = choice_of("a velocity: \"curve\", \"step\", \"zero\", or {\"source\" or \"average\", \"scale\", \"add\"}",
+                        {source_row().form.in(store, values), store.add(std::move(full))});
+  form.definition = "velocity";
+  return store.add(std::move(form));
+}
+
+void read_take_over(const JsonValue& value, TakeOver& take_over, Building& building) {
+  if (value.is(JsonValue::Kind::text)) source_row().meaning.read(value, take_over, building);
+  take_over_table().read(value, take_over, building);
+}
+
+}  // namespace tweenfall::document::fields

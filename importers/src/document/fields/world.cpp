@@ -1,0 +1,88 @@
+#include "document/fields/table.h"
+#include "document/fields/things.h"
+
+#include <charconv>
+#include <limits>
+
+namespace tweenfall::document::fields {
+
+namespace {
+
+using Kind = JsonValue::Kind;
+
+const Form* step_form(FormStore& store, const ValueForms& values) {
+  Form fraction;
+  fraction.kind = Form::Kind::text;
+  fraction.pattern = "^1/[1-9][0-9]{0,8}$";
+  fraction.fits = [](std::string_view text) {
+    return text.size() > 2 && text.size() <= 11 && text.substr(0, 2) == "1/" && text[2] != '0' &&
+           text.substr(2).find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  return store.add(choice_of("a step: seconds above 0, or \"1/N\"", {values.positive, store.add(std::move(fraction))}));
+}
+
+void read_step(const JsonValue& value, StageDescription& stage, Building&) {
+  if (value.is(Kind::number)) stage.step = value.number();
+  if (!value.is(Kind::text)) return;
+  double parts = 240;
+  std::from_chars(value.text().data() + 2, value.text().data() + value.text().size(), parts);
+  stage.step = 1 / parts;
+}
+
+const Form* sleep_form(FormStore& store, const ValueForms& values) {
+  return store.add(
+      choice_of("seconds above 0, or \"never\"", {values.positive, store.add(words_of("\"never\"", {"never"}))}));
+}
+
+const Form* forces_form(FormStore& store, const ValueForms& values) {
+  Form forces = list_of(force_form(store, values), "a list of forces", 0);
+  forces.one_a_line = true;
+  return store.add(std::move(forces));
+}
+
+void read_forces(const JsonValue& value, StageDescription& stage, Building& building) {
+  for (const JsonValue& force : value.items()) read_force(force, stage.forces, building);
+}
+
+const Table<StageDescription>& world_table() {
+  using Stage = StageDescription;
+  const auto of_world = [](auto WorldSettings::*part) {
+    return [part](Stage & stage) -> auto& {
+      return stage.world.*part;
+    };
+  };
+  Meaning<Stage> sleep_after = member<Stage>(of_world(&WorldSettings::sleep_after));
+  sleep_after.read = [](const JsonValue& value, Stage& stage, Building&) {
+    stage.world.sleep_after = value.is(Kind::text) ? std::numeric_limits<double>::infinity() : value.number();
+  };
+  static const Table<Stage> table(
+      "a world", {{"gravity", &ValueForms::vector, "m/s^2", member<Stage>(of_world(&WorldSettings::gravity))},
+                  {"step", step_form, "s", {read_step, "\"1/240\""}},
+                  one_of<Stage, Integrator>("integrator", "an integrator",
+                                            {{"exact-quadratic", Integrator::exact_quadratic},
+                                             {"semi-implicit-euler", Integrator::semi_implicit_euler}},
+                                            "", of_world(&WorldSettings::integrator)),
+                  {"iterations", bounded("a whole number from 1 to 10000", 1, false, 10000, true),
+                   "passes of the contact solver", member<Stage>(of_world(&WorldSettings::iterations))},
+                  {"sleep_speed", &ValueForms::not_negative, "m/s below which a body counts as still",
+                   member<Stage>(of_world(&WorldSettings::sleep_speed))},
+                  {"sleep_after", sleep_form, "seconds of stillness", sleep_after},
+                  {"push_out_speed", &ValueForms::not_negative, "m/s at which overlap is taken apart",
+                   member<Stage>(of_world(&WorldSettings::push_out_speed))},
+                  {"forces", forces_form, "", {read_forces, "[]"}}});
+  return table;
+}
+
+}  // namespace
+
+const Form* world_form(FormStore& store, const ValueForms& values) {
+  Form world = world_table().form(store, values);
+  world.definition = "world";
+  return store.add(std::move(world));
+}
+
+void read_world(const JsonValue& world, Building& building) {
+  world_table().read(world, building.stage, building);
+}
+
+}  // namespace tweenfall::document::fields
