@@ -17,7 +17,7 @@ Response step_response(double phase, double z) noexcept {
 }
 
 // The response over the span, plus what is left at its end, taken away by a smooth step.
-// Parameters: frequency in radians a span, damping ratio, what is left.
+// Parameters: frequency in radians per span, damping ratio, what is left.
 Warp::Result sprung(double u, const std::array<double, 4>& parameters) noexcept {
   const double w = parameters[0], left = parameters[2];
   const Response r = step_response(w * u, parameters[1]);

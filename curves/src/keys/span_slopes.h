@@ -13,11 +13,11 @@ enum class SpanKind { hold, linear, shape, cubic };
 
 struct SlopeRequest {
   std::size_t dimensions;
-  std::vector<double> durations;  ///< s, one a span
+  std::vector<double> durations;  ///< s, one per span
   std::vector<double> secants;    ///< U/s, `dimensions` a span
   Ends ends;
-  std::vector<const Ease*> eases;       ///< one a key
-  std::vector<const Ease*> span_eases;  ///< one a span: whose rule makes its slopes; null where none does
+  std::vector<const Ease*> eases;       ///< one per key
+  std::vector<const Ease*> span_eases;  ///< one per span: whose rule makes its slopes; null where none does
 };
 
 struct Slopes {

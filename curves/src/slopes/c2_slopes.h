@@ -12,7 +12,7 @@ namespace tweenfall::slopes {
 struct C2End {
   enum class Kind { slope, second, not_a_knot };
   Kind kind = Kind::second;
-  std::vector<double> given{};  ///< slope or second derivative, one a component; empty: zero
+  std::vector<double> given{};  ///< slope or second derivative, one per component; empty: zero
 };
 
 /// Fills the run's slopes. With not-a-knot the first (last) two spans are one cubic; where there are too few spans for

@@ -16,11 +16,11 @@ struct SlopeProblem {
   std::size_t spans;        ///< of the whole curve; there is one key more
   std::size_t first, last;  ///< the run: spans first to last - 1
   std::size_t dimensions;
-  const double* durations;  ///< s, one a span
-  const double* secants;    ///< U/s, `dimensions` a span
+  const double* durations;  ///< s, one per span
+  const double* secants;    ///< U/s, `dimensions` per span
   Ends ends;
-  const Ease* const* eases;  ///< one a key
-  double* leaving;           ///< result, U/s, `dimensions` a span: slope at its start
+  const Ease* const* eases;  ///< one per key
+  double* leaving;           ///< result, U/s, `dimensions` per span: slope at its start
   double* arriving;          ///< result: slope at its end
 
   [[nodiscard]] double secant(std::size_t span, std::size_t c) const noexcept { return secants[span * dimensions + c]; }
@@ -33,7 +33,7 @@ struct SlopeProblem {
     return key < spans ? key : ends == Ends::wrap ? 0 : none;
   }
 
-  /// For rules with one slope a key: `slope(key, component)`.
+  /// For rules with one slope per key: `slope(key, component)`.
   template <class Slope>
   void for_each_key(const Slope& slope) const {
     for (std::size_t i = first; i < last; ++i)
