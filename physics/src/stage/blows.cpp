@@ -153,7 +153,9 @@ void follow_blows(StageState& state, const std::vector<Twist>& before, double dt
     event.name = "contact";
     event.nodes = {state.node_of[blow.a.index], state.node_of[blow.b.index]};
     event.impulse = blow.impulse;
-    happenings.push_back({state.time, std::move(event)});
+    Happening& happening = happenings.emplace_back();
+    happening.time = state.time;
+    happening.what = std::move(event);
   };
   const auto now = [&](BodyId body) { return state.world.twist(body); };
   std::vector<char> met(state.blows.size(), 0);

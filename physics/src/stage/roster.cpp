@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "stage/drive_tracks.h"
 #include "stage/scaled_shape.h"
@@ -105,16 +106,26 @@ void require_countable_events(const StageDescription& description) {
 
 }  // namespace
 
-StageState initial_state(const StageDescription& description) {
-  constexpr double least_step = 1e-6;
-  if (!(description.step >= least_step) || !std::isfinite(description.step))
-    throw std::invalid_argument("the stage's step must be a microsecond or more, not " + number_text(description.step) +
-                                " s");
-  StageState state;
-  state.world = World(description.world);
-  state.gravity = description.world.gravity;
+namespace {
+
+/// Calls `make`; what it refuses is a fault of that part.
+template <class Make>
+bool attempt(std::vector<StageFault>& faults, StageFault::Part part, std::size_t index, const std::string& before,
+             const Make& make) {
+  try {
+    make();
+    return true;
+  } catch (const std::invalid_argument& fault) {
+    faults.push_back({part, index, before + fault.what()});
+    return false;
+  }
+}
+
+Hierarchy nodes_of(const StageDescription& description, std::vector<StageFault>& faults) {
   std::vector<Node> nodes;
-  for (const NodeDescription& node : description.nodes) nodes.push_back(checked_node(node));
+  for (const NodeDescription& node : description.nodes)
+    if (!attempt(faults, StageFault::Part::node, nodes.size(), "", [&] { nodes.push_back(checked_node(node)); }))
+      nodes.push_back({node.name, node.parent, {}, {}, {}});
   for (const MeshInstance& instance : description.mesh_instances) {
     if (instance.node >= nodes.size() || instance.mesh >= description.meshes.size()) continue;
     Node& node = nodes[instance.node];
@@ -122,42 +133,75 @@ StageState initial_state(const StageDescription& description) {
     if (!node.color) node.color = mesh.base_color;
     if (node.weights.size() < mesh.rest_weights.size()) node.weights = mesh.rest_weights;
   }
-  state.nodes = std::make_shared<const Hierarchy>(std::move(nodes));
-  state.animation = std::make_shared<const Animation>(state.nodes, description.clips, description.plays);
-  require_countable_events(description);
+  return Hierarchy(std::move(nodes));
+}
+
+void add_described_force(StageState& state, const ForceDescription& force) {
+  if (const auto* drag = std::get_if<DragDescription>(&force)) state.world.add_force(drag->drag);
+  if (const auto* described = std::get_if<SpringDescription>(&force)) {
+    Spring spring = described->spring;
+    const StagedBody* a = described->a == no_node ? nullptr : state.body(described->a);
+    const StagedBody* b = described->b == no_node ? nullptr : state.body(described->b);
+    if (!a || (described->b != no_node && !b)) throw std::invalid_argument("a spring's ends must be nodes with bodies");
+    spring.a = a->id;
+    spring.b = b ? b->id : BodyId{};
+    state.world.add_force(spring);
+  }
+}
+
+}  // namespace
+
+StageState described_state(const StageDescription& description, std::vector<StageFault>& faults) {
+  using Part = StageFault::Part;
+  constexpr double least_step = 1e-6;
+  if (!(description.step >= least_step) || !std::isfinite(description.step))
+    faults.push_back(
+        {Part::step, 0, "the stage's step must be a microsecond or more, not " + number_text(description.step) + " s"});
+  StageState state;
+  attempt(faults, Part::world, 0, "", [&] { state.world = World(description.world); });
+  state.gravity = description.world.gravity;
+  const bool bound = attempt(faults, Part::clips, 0, "", [&] {
+    state.nodes = std::make_shared<const Hierarchy>(nodes_of(description, faults));
+    state.animation = std::make_shared<const Animation>(state.nodes, description.clips, description.plays);
+    require_countable_events(description);
+  });
+  if (!bound) return state;
   state.present.assign(state.nodes->size(), 1);
   state.body_of.assign(state.nodes->size(), no_body);
   for (NodeId node = 0; node < description.nodes.size(); ++node) {
     const NodeDescription& described = description.nodes[node];
     state.colors.push_back(described.color);
     if (!described.body) continue;
-    if (described.body->fixed && state.animation->animates(node))
-      throw std::invalid_argument("\"" + described.name +
-                                  "\" is static, but a playing clip moves it; leave out \"static\" and it is keyed");
-    try {
-      add_body(state, node, *described.body);
-    } catch (const std::invalid_argument& fault) {
-      throw std::invalid_argument("the body of \"" + described.name + "\": " + fault.what());
+    if (described.body->fixed && state.animation->animates(node)) {
+      faults.push_back(
+          {Part::node, node,
+           "\"" + described.name + "\" is static, but a playing clip moves it; leave out \"static\" and it is keyed"});
+      continue;
     }
+    attempt(faults, Part::node, node,
+            "the body of \"" + described.name + "\": ", [&] { add_body(state, node, *described.body); });
   }
-
-  for (const ForceDescription& force : description.forces) {
-    if (const auto* drag = std::get_if<DragDescription>(&force)) state.world.add_force(drag->drag);
-    if (const auto* described = std::get_if<SpringDescription>(&force)) {
-      Spring spring = described->spring;
-      const StagedBody* a = described->a == no_node ? nullptr : state.body(described->a);
-      const StagedBody* b = described->b == no_node ? nullptr : state.body(described->b);
-      if (!a || (described->b != no_node && !b))
-        throw std::invalid_argument("a spring's ends must be nodes with bodies");
-      spring.a = a->id;
-      spring.b = b ? b->id : BodyId{};
-      state.world.add_force(spring);
-    }
-  }
+  // Forces and rules of bodies that could not be made would only be more of the same.
+  if (!faults.empty()) return state;
+  for (std::size_t i = 0; i < description.forces.size(); ++i)
+    attempt(faults, Part::force, i, "", [&] { add_described_force(state, description.forces[i]); });
   state.jumps = find_jumps(state);
   start_drive_tracks(state);
-  for (const Rule& rule : description.rules) arm_rule(state, rule);
+  for (std::size_t i = 0; i < description.rules.size(); ++i)
+    attempt(faults, Part::rule, i, "", [&] { arm_rule(state, description.rules[i]); });
   return state;
+}
+
+StageState initial_state(const StageDescription& description) {
+  std::vector<StageFault> faults;
+  StageState state = described_state(description, faults);
+  if (faults.empty()) return state;
+  std::string all = faults.front().message;
+  if (faults.size() > 1) {
+    all = "this makes no stage:";
+    for (const StageFault& fault : faults) all += "\n  " + fault.message;
+  }
+  throw std::invalid_argument(all);
 }
 
 void arm_rule(StageState& state, const Rule& rule) {

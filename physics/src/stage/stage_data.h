@@ -2,6 +2,7 @@
 
 // Everything that changes while a stage runs, in one copyable value: a stage goes back by assigning an older one.
 
+#include <tweenfall/physics/stage/inspection.h>
 #include <tweenfall/physics/stage/stage.h>
 
 #include <cstdint>
@@ -138,7 +139,10 @@ struct Command {
 [[nodiscard]] std::vector<UnfiredRule> unfired_rules(const StageState& state);
 
 // roster.cpp: who is on the stage
+/// @throws std::invalid_argument with all that does not fit together
 [[nodiscard]] StageState initial_state(const StageDescription& description);
+/// The same with faults told instead; of use as far as there are none.
+[[nodiscard]] StageState described_state(const StageDescription& description, std::vector<StageFault>& faults);
 NodeId add_node(StageState& state, const NodeDescription& node);
 void remove_node(StageState& state, NodeId node);
 void arm_rule(StageState& state, const Rule& rule);
