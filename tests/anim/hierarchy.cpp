@@ -83,6 +83,41 @@ TEST_CASE("one node's chain and the whole tree give the same bits") {
   }
 }
 
+TEST_CASE("frames have the bits of the motions, in a tree whose nodes turn, slide and stretch unevenly") {
+  std::vector<Node> tree;
+  for (std::size_t i = 0; i < 60; ++i) tree.push_back({"node" + std::to_string(i), i % 20 == 0 ? no_node : i / 2, {}});
+  const Hierarchy nodes(std::move(tree));
+  std::vector<Motion> local;
+  for (std::size_t i = 0; i < nodes.size(); ++i) local.push_back(moving(i + 1, 0.1));
+  std::vector<WorldMotion> motions(nodes.size());
+  std::vector<WorldFrame> frames(nodes.size());
+  nodes.world_motions(local, motions);
+  nodes.world_frames(local, frames);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    CHECK(frames[i].linear == motions[i].linear);
+    CHECK(frames[i].linear_rate == motions[i].linear_rate);
+    CHECK(frames[i].origin == motions[i].motion.pose.position);
+    CHECK(frames[i].velocity == motions[i].motion.twist.linear);
+    const Vec3 local_point(0.3, -0.2, 0.5);
+    CHECK(frames[i].point_velocity(local_point) == motions[i].point_velocity(local_point));
+  }
+}
+
+TEST_CASE("the rotation of a long chain stays of unit length, also where rests are only nearly so") {
+  const Hierarchy nodes = chain(1000);
+  for (const double length : {1.0, 1 + 1e-10, 1 + 1e-8, 1.5, 1e-3}) {
+    std::vector<Motion> local;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      local.push_back(moving(i + 1, 0));
+      local.back().pose.scale = {1, 1, 1};
+      local.back().pose.rotation.coeffs() *= length;
+    }
+    std::vector<WorldMotion> world(nodes.size());
+    nodes.world_motions(local, world);
+    for (const WorldMotion& node : world) CHECK(std::abs(node.motion.pose.rotation.squaredNorm() - 1) < 1e-15);
+  }
+}
+
 TEST_CASE("a hierarchy refuses a name twice and a parent that comes later") {
   CHECK_THROWS_WITH_AS(Hierarchy({{"a", no_node, {}}, {"a", no_node, {}}}), "two nodes are named \"a\"",
                        std::invalid_argument);

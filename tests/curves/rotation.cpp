@@ -1,5 +1,7 @@
 #include <tweenfall/curves/rotation.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "stated.h"
@@ -45,6 +47,42 @@ TEST_CASE("the exponential and logarithm agree with scipy") {
       CHECK((test::near(back, r, tolerance) || other_way));
     }
   }
+}
+
+TEST_CASE("the exponential is that of mpmath to the last digit, from the smallest vectors to whole turns") {
+  // cos(|r|/2) and sin(|r|/2)/|r| r, with 40 digits; |r|^2 on both sides of 0.5, up to which a series is summed.
+  const struct {
+    Vec3 r;
+    Vec4 q;
+  } cases[] = {
+      {{0.1, -0.2, 0.3},
+       {0.049708843324859480776, -0.099417686649718961552, 0.14912652997457842853, 0.98255098215525896}},
+      {{0.5, -0.3, 0.3},
+       {0.24554484732421288883, -0.14732690839452772785, 0.14732690839452772785, 0.94672978831256274}},
+      {{0.4, 0.4, 0.42426406871192845},
+       {0.19585929762944413282, 0.19585929762944413282, 0.20774015626832131721, 0.93814833503972871418}},
+      {{0.4, 0.4, 0.4242640687119285},
+       {0.19585929762944413244, 0.19585929762944413244, 0.20774015626832134398, 0.93814833503972870842}},
+      {{0.4, 0.4, 0.4242640687119286},
+       {0.19585929762944413166, 0.19585929762944413166, 0.20774015626832139751, 0.93814833503972869688}},
+      {{0.7, 0.05, -0.06},
+       {0.34280994082856902504, 0.024486424344897790415, -0.02938370921387734578, 0.9386257811954394}},
+      {{1e-3, 2e-3, -1e-3},
+       {0.00049999987500000938541, 0.00099999975000001877082, -0.00049999987500000938541, 0.99999925000009375}},
+      {{1e-170, 0, -3e-170}, {5e-171, 0, -1.5e-170, 1}},
+      {{-1.5, 2, 0.25},
+       {-0.56772763889326474612, 0.75697018519101966149, 0.094621273148877457686, 0.30939987303849642365}},
+      {{6, 0, -1}, {0.098682543954708733819, 0, -0.016447090659118122303, -0.99498303941699314181}},
+  };
+  for (const auto& c : cases) {
+    CAPTURE(c.r.transpose());
+    const Quat q = exp_map(c.r);
+    const double size = std::min(1.0, c.r.stableNorm());
+    for (int i = 0; i < 3; ++i) CHECK(std::abs(q.coeffs()[i] - c.q[i]) <= 3e-16 * size);
+    CHECK(std::abs(q.w() - c.q[3]) <= 3e-16);
+    CHECK(std::abs(q.squaredNorm() - 1) < 5e-16);
+  }
+  CHECK(exp_map({0, 0, 0}).coeffs() == Vec4(0, 0, 0, 1));
 }
 
 TEST_CASE("Euler angles agree with scipy in all orders, turning and fixed axes") {

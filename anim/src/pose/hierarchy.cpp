@@ -1,28 +1,47 @@
 #include <tweenfall/anim/hierarchy.h>
 
+#include <cmath>
 #include <stdexcept>
+
+#include "pose/moving_frame.h"
 
 namespace tweenfall {
 
+namespace pose {
+namespace {
+
+MovingFrame read(const Mat3& linear, const Mat3& rate, const Vec3& origin, const Vec3& velocity) noexcept {
+  MovingFrame frame;
+  for (int i = 0; i < 3; ++i) frame.axes[i] = MovingColumn::read(linear.data() + 3 * i, rate.data() + 3 * i);
+  frame.origin = MovingColumn::read(origin.data(), velocity.data());
+  return frame;
+}
+
+void write(const MovingFrame& frame, Mat3& linear, Mat3& rate, Vec3& origin, Vec3& velocity) noexcept {
+  for (int i = 0; i < 3; ++i) frame.axes[i].write(linear.data() + 3 * i, rate.data() + 3 * i);
+  frame.origin.write(origin.data(), velocity.data());
+}
+
+// Near a length of 1, as products of rotations are, by a step of Newton's that leaves less than a rounding.
+Quat near_unit(const Quat& q) noexcept {
+  const double excess = q.squaredNorm() - 1;
+  if (!(std::abs(excess) < 1e-9)) return q.normalized();
+  return Quat(q.coeffs() * (1 - 0.5 * excess));
+}
+
+}  // namespace
+}  // namespace pose
+
 WorldMotion child_of(const WorldMotion& parent, const Motion& local) noexcept {
-  const Vec3& position = local.pose.position;
-  const Mat3 turn = local.pose.rotation.toRotationMatrix();
-  const Mat3 own = turn * local.pose.scale.asDiagonal();
-  Mat3 spin;  // column by column: the angular velocity turns each axis
-  for (int axis = 0; axis < 3; ++axis) spin.col(axis) = local.twist.angular.cross(own.col(axis));
-  const Mat3 own_rate = spin + turn * local.scale_rate.asDiagonal();
-
-  WorldMotion world;
-  world.linear = parent.linear * own;
-  world.linear_rate = parent.linear_rate * own + parent.linear * own_rate;
-
   const Pose& above = parent.motion.pose;
+  WorldMotion world;
   Motion& motion = world.motion;
-  motion.pose.position = parent.linear * position + above.position;
-  motion.pose.rotation = above.rotation * local.pose.rotation;
-  motion.pose.rotation.normalize();
+  const pose::MovingFrame frame =
+      pose::read(parent.linear, parent.linear_rate, above.position, parent.motion.twist.linear);
+  pose::write(pose::child_frame(frame, local), world.linear, world.linear_rate, motion.pose.position,
+              motion.twist.linear);
+  motion.pose.rotation = pose::near_unit(above.rotation * local.pose.rotation);
   motion.pose.scale = above.scale.cwiseProduct(local.pose.scale);
-  motion.twist.linear = parent.linear_rate * position + parent.linear * local.twist.linear + parent.motion.twist.linear;
   motion.twist.angular = parent.motion.twist.angular + above.rotation * local.twist.angular;
   motion.scale_rate =
       parent.motion.scale_rate.cwiseProduct(local.pose.scale) + above.scale.cwiseProduct(local.scale_rate);
@@ -54,6 +73,16 @@ std::optional<std::size_t> Hierarchy::find(std::string_view name) const {
 void Hierarchy::world_motions(std::span<const Motion> local, std::span<WorldMotion> world) const noexcept {
   for (std::size_t i = 0; i < nodes_.size(); ++i)
     world[i] = child_of(nodes_[i].parent == no_node ? WorldMotion{} : world[nodes_[i].parent], local[i]);
+}
+
+void Hierarchy::world_frames(std::span<const Motion> local, std::span<WorldFrame> world) const noexcept {
+  static const WorldFrame outside;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const WorldFrame& above = nodes_[i].parent == no_node ? outside : world[nodes_[i].parent];
+    WorldFrame& frame = world[i];
+    pose::write(pose::child_frame(pose::read(above.linear, above.linear_rate, above.origin, above.velocity), local[i]),
+                frame.linear, frame.linear_rate, frame.origin, frame.velocity);
+  }
 }
 
 }  // namespace tweenfall

@@ -100,20 +100,22 @@ void through(const Warp::Result& w, Polynomial<V>& p) noexcept {
   p.first = p.first * w.ds;
 }
 
-// The rows of a plain turn as the polynomial that they are: it starts at no turn.
+// A turn from one rotation to the next as keys alone make it. An even one keeps its axis and its speed.
 template <class Data>
-Polynomial<Vec3> plain_turn(const Data& d, const Segment& s, double u) noexcept {
+Sample<Quat> sample_plain_turn(const Data& d, std::size_t i, const Segment& s, double u) noexcept {
+  const Vec3* rows = d.turns.data() + s.first;
+  if (s.degree == 1) return {d.starts[i] * exp_map(rows[0] * u), d.starts[i] * rows[0], Vec3::Zero()};
   Vec3 c[max_degree + 1];
   c[0].setZero();
-  std::copy_n(d.turns.begin() + static_cast<std::ptrdiff_t>(s.first), s.degree, c + 1);
-  return evaluate_polynomial(c, s.degree, u);
+  std::copy_n(rows, s.degree, c + 1);
+  return sample_exponential(d.starts[i], evaluate_polynomial(c, s.degree, u));
 }
 
 template <class Data>
 Sample<Quat> sample_rotation(const Data& d, std::size_t i, const Segment& s, const Warp::Result& w) noexcept {
   Sample<Quat> result;
   if (d.plain_turns) {
-    result = sample_exponential(d.starts[i], plain_turn(d, s, w.s));
+    result = sample_plain_turn(d, i, s, w.s);
   } else if (s.form == RotationSpan::Form::nested) {
     result = sample_nested(&d.pool[s.first], w);
   } else {

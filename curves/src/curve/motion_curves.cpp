@@ -82,17 +82,18 @@ class MotionCurves::Sampler {
       return;
     }
     const Vec3* rows = channel.rows + span_ * row_count(channel);
-    TurningRotation turned;
+    const Quat& start = channel.starts[span_];
     if (channel.degree == 1) {
-      turned = exponential(Vec3(rows[0] * position_), rows[0]);
-    } else {
-      Vec3 c[max_degree + 1];
-      c[0].setZero();
-      std::copy_n(rows, channel.degree, c + 1);
-      const Polynomial<Vec3> p = evaluate_polynomial(c, channel.degree, position_);
-      turned = exponential(p.value, p.first);
+      value = start * exp_map(rows[0] * position_);
+      rate = start * rows[0] * inverse_ * rate_;
+      return;
     }
-    value = channel.starts[span_] * turned.value;
+    Vec3 c[max_degree + 1];
+    c[0].setZero();
+    std::copy_n(rows, channel.degree, c + 1);
+    const Polynomial<Vec3> p = evaluate_polynomial(c, channel.degree, position_);
+    const TurningRotation turned = exponential(p.value, p.first);
+    value = start * turned.value;
     rate = value * turned.velocity * inverse_ * rate_;
   }
 

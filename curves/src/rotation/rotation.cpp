@@ -24,13 +24,10 @@ namespace tweenfall {
 
 Quat exp_map(const Vec3& rotation_vector) noexcept {
   const double square = rotation_vector.squaredNorm();
-  if (square == 0) return Quat(1, 0, 0, 0);
-  if (square < 1e-6) {
-    // sin(x)/x and cos(x) of the half angle, to 1e-24.
-    const double h = square / 4;
-    const double k = 0.5 * (1 - h / 6 * (1 - h / 20 * (1 - h / 42)));
-    const double w = 1 - h / 2 * (1 - h / 12 * (1 - h / 30));
-    return Quat(w, k * rotation_vector.x(), k * rotation_vector.y(), k * rotation_vector.z());
+  if (square < series_limit) {
+    const HalfTurn half = half_turn(square);
+    const double k = half.sine_share;
+    return Quat(half.cosine, k * rotation_vector.x(), k * rotation_vector.y(), k * rotation_vector.z());
   }
   const double angle = std::sqrt(square);
   const elementary::SinCos half = elementary::sin_cos(angle / 2);

@@ -94,14 +94,14 @@ Run declare_bench(Arguments&) {
 
     const Animation animation = chain(100);
     std::vector<Motion> local(100);
-    std::vector<WorldMotion> worlds(100);
+    std::vector<WorldFrame> worlds(100);
     const double posing = seconds_of([&] {
       time = time > 60 ? 0 : time + 0.0137;
       animation.sample(time, local);
-      animation.nodes().world_motions(local, worlds);
-      sum += worlds.back().motion.twist.linear.x();
+      animation.nodes().world_frames(local, worlds);
+      sum += worlds.back().velocity.x();
     });
-    row("100 nodes in a chain, world motions", posing, 1, "poses");
+    row("100 nodes in a chain, world frames", posing, 1, "poses");
 
     World one = floor_with_stacks(1, 10);
     row("a stack of 10 boxes, one step", seconds_of([&] { one.step(1.0 / 240); }), 1, "steps");
