@@ -11,7 +11,7 @@ using namespace tweenfall::test;
 namespace {
 
 /// What `run --json` says of a document of the shared folder of faults; nothing, loudly, in a clone alone.
-std::optional<nlohmann::json> recorded(const std::string& name, const std::string& options) {
+std::optional<nlohmann::json> shared_run(const std::string& name, const std::string& options) {
   const std::filesystem::path file =
       std::filesystem::path(TWEENFALL_SOURCE_DIR) / "../shared/faults" / (name + ".json");
   if (!std::filesystem::exists(file)) {
@@ -36,7 +36,7 @@ nlohmann::json at(const nlohmann::json& recording, const std::string& node, cons
 }  // namespace
 
 TEST_CASE("two bodies that meet at restitution 0 take the whole blow and go on at their common speed") {
-  const auto run = recorded("contact_trigger_at_restitution_0", "--until 1");
+  const auto run = shared_run("contact_trigger_at_restitution_0", "--until 1");
   if (!run) return;
   REQUIRE((*run)["handoffs"].size() == 1);
   // They are 2 m apart, less their radii, and close at 6.3 m/s.
@@ -48,7 +48,7 @@ TEST_CASE("two bodies that meet at restitution 0 take the whole blow and go on a
 }
 
 TEST_CASE("a body struck on a curved path leaves with the curve's own velocity at the impact") {
-  const auto run = recorded("contact_trigger_on_a_curved_path", "--until 1");
+  const auto run = shared_run("contact_trigger_on_a_curved_path", "--until 1");
   if (!run) return;
   REQUIRE((*run)["handoffs"].size() == 1);
   const nlohmann::json& handoff = (*run)["handoffs"][0];
@@ -60,7 +60,7 @@ TEST_CASE("a body struck on a curved path leaves with the curve's own velocity a
 }
 
 TEST_CASE("a keyed body that meets a static one is freed as they touch, and the contact is told") {
-  const auto run = recorded("keyed_meets_static", "--until 1");
+  const auto run = shared_run("keyed_meets_static", "--until 1");
   if (!run) return;
   REQUIRE((*run)["handoffs"].size() == 1);
   CHECK(near(double((*run)["handoffs"][0]["time"]), 0.45, 1e-6));
@@ -70,7 +70,7 @@ TEST_CASE("a keyed body that meets a static one is freed as they touch, and the 
 }
 
 TEST_CASE("a body handed to a drive follows the path it was given, once it has settled") {
-  const auto run = recorded("rule_to_a_drive_with_a_path", "--until 4 --fps 60");
+  const auto run = shared_run("rule_to_a_drive_with_a_path", "--until 4 --fps 60");
   if (!run) return;
   // No play had begun the clip: it begins with the hand-off, at 0.3 s.
   for (const double time : {1.5, 2.0, 3.0, 4.0}) {
@@ -81,7 +81,7 @@ TEST_CASE("a body handed to a drive follows the path it was given, once it has s
 }
 
 TEST_CASE("a dead blend of many turns unwinds them all, never faster than it came") {
-  const auto run = recorded("dead_blend_of_many_turns", "--until 1 --fps 2000");
+  const auto run = shared_run("dead_blend_of_many_turns", "--until 1 --fps 2000");
   if (!run) return;
   const double rate = 900 * pi / 180, seconds = 0.5;
   const std::vector<double> times = (*run)["times"];
@@ -97,13 +97,13 @@ TEST_CASE("a dead blend of many turns unwinds them all, never faster than it cam
 }
 
 TEST_CASE("a body of 0.4 m on a node scaled by 3 rests as one of 1.2 m") {
-  const auto run = recorded("scaled_node_with_a_body", "--until 4");
+  const auto run = shared_run("scaled_node_with_a_body", "--until 4");
   if (!run) return;
   CHECK(std::abs(vec(at(*run, "b", "position", 4)).y() - 0.6) < 1e-3);
 }
 
 TEST_CASE("an instant of 1e-310 s is as one of 0") {
-  const auto run = recorded("instant_near_zero", "--until 2");
+  const auto run = shared_run("instant_near_zero", "--until 2");
   if (!run) return;
   REQUIRE((*run)["handoffs"].size() == 1);
   CHECK(near(vec((*run)["handoffs"][0]["after"]["linear"]), Vec3(1, 0, 0), 1e-12));
@@ -114,7 +114,7 @@ TEST_CASE("an instant of 1e-310 s is as one of 0") {
 
 TEST_CASE("a loop counted backwards from 1e17 plays is there at once, in run and in view") {
   const auto start = std::chrono::steady_clock::now();
-  const auto run = recorded("loop_counted_backwards", "--until 4");
+  const auto run = shared_run("loop_counted_backwards", "--until 4");
   if (!run) return;
   REQUIRE((*run)["events"].size() == 4);
   for (std::size_t i = 0; i < 4; ++i) CHECK(near(double((*run)["events"][i]["time"]), 0.5 + double(i), 1e-12));

@@ -9,7 +9,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-std::string number(double value) {
+std::string five_digits(double value) {
   std::array<char, 32> digits;
   return {digits.data(),
           std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 5).ptr};
@@ -33,8 +33,8 @@ struct Reason {
 
   std::string operator()(const when::At& at) const {
     if (at.time > state.handled)
-      return number(at.time) + " s lies beyond the end of the run, " + number(state.time) + " s";
-    return "at " + number(at.time) + " s the body was where the rule would take it, or the rule came later";
+      return five_digits(at.time) + " s lies beyond the end of the run, " + five_digits(state.time) + " s";
+    return "at " + five_digits(at.time) + " s the body was where the rule would take it, or the rule came later";
   }
   std::string operator()(const when::Marker& marker) const {
     if (!has_event(body.path.animation(), marker.name, &body))
@@ -49,12 +49,12 @@ struct Reason {
   std::string operator()(const when::ContactHit& hit) const {
     const std::string what = hit.with.empty() ? "nothing" : "nothing named \"" + hit.with + "\"";
     if (!attempt.touched) return what + " touched the body";
-    return "the greatest blow was " + number(attempt.impulse) + " N s at " + number(attempt.speed) +
-           " m/s; it waits for " + number(hit.impulse) + " N s at " + number(hit.speed) + " m/s";
+    return "the greatest blow was " + five_digits(attempt.impulse) + " N s at " + five_digits(attempt.speed) +
+           " m/s; it waits for " + five_digits(hit.impulse) + " N s at " + five_digits(hit.speed) + " m/s";
   }
   std::string operator()(const when::Asleep& asleep) const {
-    return "it was free and still for " + number(attempt.still) + " s at most; the rule waits for " +
-           number(asleep.seconds) + " s";
+    return "it was free and still for " + five_digits(attempt.still) + " s at most; the rule waits for " +
+           five_digits(asleep.seconds) + " s";
   }
 };
 
