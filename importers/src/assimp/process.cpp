@@ -25,6 +25,10 @@
 extern char** environ;
 #endif
 
+#ifndef __has_feature
+#define __has_feature(x) 0
+#endif
+
 namespace tweenfall::assimp {
 
 #if TWEENFALL_POSIX
@@ -194,7 +198,7 @@ void limit_this_process(std::size_t memory, unsigned seconds) noexcept {
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, seconds);
   // The address sanitizer reserves terabytes for itself.
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(__SANITIZE_ADDRESS__) && !__has_feature(address_sanitizer)
   limit(RLIMIT_AS, memory);
 #else
   static_cast<void>(memory);

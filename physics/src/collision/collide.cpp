@@ -1,4 +1,5 @@
 #include <tweenfall/physics/contact.h>
+#include <cmath>
 
 #include "collision/collide_pairs.h"
 
@@ -13,7 +14,16 @@ concept Collides = requires(const A& a, const B& b, const Placed& at) {
 
 }  // namespace
 
+/// Whether the products that follow stay numbers.
+static bool is_near(const Pose& pose) noexcept {
+  bool near = true;
+  for (int i = 0; i < 3; ++i) near = near && std::abs(pose.position[i]) <= 1e60;
+  for (int i = 0; i < 4; ++i) near = near && std::abs(pose.rotation.coeffs()[i]) <= 1e3;
+  return near;
+}
+
 Manifold collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin) noexcept {
+  if (!is_near(pose_a) || !is_near(pose_b)) return {};
   const Placed at_a = place(a, pose_a);
   const Placed at_b = place(b, pose_b);
   return std::visit(
