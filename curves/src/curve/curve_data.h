@@ -158,27 +158,28 @@ struct CurveAccess {
 
   /// A formula between knots, with the usual rules outside.
   template <class T>
-  static Curve<T> formula_with_knots(typename Curve<T>::Formula formula, double start, double end, Breaks breaks) {
+  static Curve<T> formula_with_knots(typename Curve<T>::Formula formula, double start, double end,
+                                     const Breaks& breaks) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = std::move(formula);
     data->start = start;
     data->end = end;
-    data->marks = std::move(breaks.knots);
-    data->keys = std::move(breaks.keys);
+    data->marks = breaks.knots;
+    data->keys = breaks.keys;
     return Curve<T>(std::shared_ptr<const typename Curve<T>::Data>(std::move(data)));
   }
 
   /// A curve that another one is made into: it answers at all times, `rebuilt` makes it anew with other rules outside.
   template <class T>
-  static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end, Breaks breaks,
+  static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end, const Breaks& breaks,
                                const OutsideRule<T>& before, const OutsideRule<T>& after,
                                std::function<Curve<T>(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = std::move(formula);
     data->start = start;
     data->end = end;
-    data->marks = std::move(breaks.knots);
-    data->keys = std::move(breaks.keys);
+    data->marks = breaks.knots;
+    data->keys = breaks.keys;
     data->before.rule = before;
     data->after.rule = after;
     data->rebuilt = std::move(rebuilt);

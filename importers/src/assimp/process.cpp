@@ -125,6 +125,7 @@ pid_t start(const std::filesystem::path& program, const std::vector<std::string>
   std::vector<std::string> own{program.string()};
   own.insert(own.end(), words.begin(), words.end());
   std::vector<char*> list;
+  list.reserve(own.size() + 1);
   for (std::string& word : own) list.push_back(word.data());
   list.push_back(nullptr);
   pid_t child = 0;

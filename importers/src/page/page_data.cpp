@@ -250,6 +250,7 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
   append_json_string(out, recording.name.empty() ? stage.name : recording.name);
   const std::vector<std::size_t> frames = page_frames(recording);
   std::vector<double> times;
+  times.reserve(frames.size());
   for (const std::size_t frame : frames) times.push_back(recording.times[frame]);
   append_quoted(out, "times", base64(std::span<const double>(times)));
   out += ",\"recordedFrames\":" + std::to_string(recording.times.size());

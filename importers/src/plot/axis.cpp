@@ -65,6 +65,7 @@ std::vector<std::string> tick_texts(const std::vector<double>& ticks) {
     for (double size = power_of_ten_below(largest * (1 + 1e-9)); size > step * (1 + 1e-9) && digits < 16; size /= 10)
       ++digits;
   std::vector<std::string> texts;
+  texts.reserve(ticks.size());
   for (const double tick : ticks)
     texts.push_back(largest < longest && decimals <= most_decimals ? short_text(tick, decimals)
                                                                    : exponent_text(tick, std::max(digits, 1)));

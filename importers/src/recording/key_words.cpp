@@ -106,6 +106,7 @@ std::vector<std::string> ease_texts(const WeightCurves& curves, const std::vecto
 template <class T>
 std::vector<std::string> ease_texts(const StepCurve<T>& curve, const std::vector<double>& times) {
   std::vector<std::string> words;
+  words.reserve(times.size());
   for (const double time : times) words.emplace_back(time >= curve.steps().back().first ? "end" : "hold");
   return words;
 }

@@ -54,7 +54,7 @@ void say(std::string_view text) {
   std::fwrite(line.data(), 1, line.size(), stderr);
 }
 
-Progress::Progress(std::string what) {
+Progress::Progress(const std::string& what) {
   if (!isatty(STDERR_FILENO)) return;
   thread_ = std::thread([this, what = terminal_text(what)] {
     using namespace std::chrono_literals;

@@ -25,7 +25,7 @@ void say(std::string_view text);
 /// While it lives: what is going on and for how long, on one line of a terminal, from the second second on.
 class Progress {
  public:
-  explicit Progress(std::string what);
+  explicit Progress(const std::string& what);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;

@@ -107,7 +107,7 @@ const Form* settle_form(FormStore& store, const ValueForms& values) {
 }
 
 // Why a field means nothing for a rule that gives to an owner, if it names one.
-auto useless_to(Owner owner, std::string why) {
+auto useless_to(Owner owner, const std::string& why) {
   return [owner, why](const Read& rule) { return rule.to && rule.rule.to.owner() == owner ? why : std::string(); };
 }
 

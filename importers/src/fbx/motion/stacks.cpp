@@ -81,7 +81,7 @@ class StackReader {
     for (const Connection& curve : objects_.to(node)) {
       if (objects_[curve.from].kind != "AnimationCurve") continue;
       const std::size_t part = number ? 0 : part_of(curve.property);
-      if (auto read = key_curve(objects_[curve.from], objects_, 1, problems_)) driver.parts[part] = std::move(*read);
+      if (auto read = key_curve(objects_[curve.from], objects_, 1, problems_)) driver.parts[part] = *read;
     }
     if (target.property == "Weight") {
       layer.weight = composed<double>(
