@@ -167,7 +167,7 @@ TEST_CASE("what says that events are too many is right for every stretch it spea
   }
   clip.duration = 1e-12;
   CHECK(too_many_events({.speed = -2}, clip, stretch) ==
-        "clip \"buzz\" goes around every 5e-13 s and has more than a million events within 0.004166666666666667 s: "
+        "clip \"buzz\" goes around every 5e-13 s and has more than a million events within 0.0041667 s: "
         "lengthen its loop or leave out its events");
   CHECK(too_many_events({.speed = 0}, clip, stretch).empty());
   clip.loop.count = 100;
@@ -181,7 +181,7 @@ TEST_CASE("what says that events are too many is right for every stretch it spea
   clip.loop = {LoopMode::once, 0};
   clip.events.resize(500'001);
   CHECK(too_many_events({}, clip, stretch) ==
-        "clip \"buzz\" has more than a million events within 0.004166666666666667 s: leave out its events");
+        "clip \"buzz\" has more than a million events within 0.0041667 s: leave out its events");
 }
 
 TEST_CASE("the first event of a tiny loop is found at once, and of one that does not have it none") {

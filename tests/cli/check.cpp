@@ -69,11 +69,34 @@ TEST_CASE("check --json lists every problem of every file with line, column and 
   CHECK(found["problems"] == 2);
   CHECK(found["files"][0] == json{{"file", "ball.json"}, {"valid", true}, {"problems", json::array()}});
   const json problem = found["files"][1]["problems"][0];
+  CHECK(problem["severity"] == "error");
   CHECK(problem["file"] == "drop.json");
   CHECK(problem["line"] == 6);
   CHECK(problem["column"] == 11);
   CHECK(problem["pointer"] == "/clips/drop/tracks/ball.position/2/t");
   CHECK(found["files"][2]["valid"] == false);
+}
+
+TEST_CASE("notes have places, are printed by every verb, and leave a document valid") {
+  const Folder folder;
+  folder.write("near.json",
+               "{\"tweenfall\": 1, \"nodes\": {\"ball\": {}}, \"clips\": {\"c\": {\"tracks\": {\n"
+               "  \"ball.translation\": [[0, 1], [1, 2]]}}}}\n");
+  const Ran ran = folder.run("check near.json");
+  CHECK(ran.code == 0);
+  CHECK(
+      ran.err.starts_with("near.json:2:3: note: \"ball.translation\" is a property of your own, which moves nothing; "
+                          "did you mean \"ball.position\"?"));
+  CHECK(folder.run("run near.json --until 0.1").err.find("near.json:2:3: note: ") != std::string::npos);
+  const Ran tool = folder.run("check --json near.json");
+  CHECK(tool.code == 0);
+  CHECK(tool.err.empty());
+  const json found = json::parse(tool.out);
+  CHECK(found["problems"] == 0);
+  CHECK(found["files"][0]["valid"] == true);
+  REQUIRE(found["files"][0]["problems"].size() == 1);
+  CHECK(found["files"][0]["problems"][0]["severity"] == "note");
+  CHECK(found["files"][0]["problems"][0]["line"] == 2);
 }
 
 TEST_CASE("check --json gives the line and column of a fault in a model that is text") {

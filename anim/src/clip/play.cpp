@@ -218,7 +218,7 @@ std::string too_many_events(const Play& play, const Clip& clip, double seconds) 
     if (clip.loop.count > 0) plays = std::min(plays, std::ceil(clip.loop.count) + 1);
   }
   if (2 * plays * static_cast<double>(clip.events.size()) <= clips::most_events) return {};
-  return clips::refusal(play, clip, "within " + number_text(seconds) + " s");
+  return clips::refusal(play, clip, "within " + brief_text(seconds) + " s");
 }
 
 std::optional<FiredEvent> first_event(const Play& play, const Clip& clip, double from, double to, bool from_start,

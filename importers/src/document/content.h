@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,11 +17,20 @@
 
 namespace tweenfall::document {
 
+// What an imported file brings, whatever its kind.
+struct Brought {
+  StageDescription stage;
+  bool names_are_free = false;
+};
+
 // What all files of one reading share.
 struct Reading {
   ReadOptions options;
-  std::vector<std::filesystem::path> open;  // the files on the way here, the outermost first
-  int files = 0;                            // read so far
+  std::vector<std::filesystem::path> open{};  // the files on the way here, the outermost first
+  // Each file is read once, however often it is imported; null where it has problems, which are told.
+  std::map<std::filesystem::path, std::shared_ptr<const Brought>> brought{};
+
+  [[nodiscard]] bool is_outermost() const { return open.size() <= 1; }
 };
 
 struct Building {
@@ -52,6 +62,7 @@ struct ReadDocument {
   JsonTree tree;
   StageDescription stage;
   bool names_are_free = false;
+  std::vector<Problem> notes{};
 };
 
 // @throws DocumentError
@@ -65,5 +76,6 @@ void read_nodes(Building& building);
 void read_clips(Building& building);
 void read_plays(Building& building);
 void read_rules(Building& building);
+void judge(Building& building);  // when no part has a fault
 
 }  // namespace tweenfall::document

@@ -16,13 +16,13 @@ struct Document::Content {
 Document::Document(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
 
 Document Document::read(const std::filesystem::path& file, const ReadOptions& options) {
-  document::Reading reading{options, {}, 0};
+  document::Reading reading{.options = options};
   return Document(std::make_shared<const Content>(Content{document::read_document_file(file, reading)}));
 }
 
 Document Document::parse(std::string_view text, const std::string& name, const std::filesystem::path& folder,
                          const ReadOptions& options) {
-  document::Reading reading{options, {}, 0};
+  document::Reading reading{.options = options};
   // So that a file cannot import itself, also when its text was read by the caller.
   std::error_code fault;
   const std::filesystem::path own =
@@ -34,6 +34,10 @@ Document Document::parse(std::string_view text, const std::string& name, const s
 
 const StageDescription& Document::stage() const noexcept {
   return content_->document.stage;
+}
+
+const std::vector<Problem>& Document::notes() const noexcept {
+  return content_->document.notes;
 }
 
 std::string Document::text() const {

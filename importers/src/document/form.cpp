@@ -1,5 +1,8 @@
 #include "document/form.h"
 
+#include "document/report/suggestion.h"
+
+#include <algorithm>
 #include <utility>
 
 namespace tweenfall::document {
@@ -50,6 +53,13 @@ std::vector<std::string> Form::field_names() const {
   std::vector<std::string> names;
   for (const Field& each : fields) names.push_back(each.name);
   return names;
+}
+
+std::string Form::field_meant(std::string_view name) const {
+  const std::string small = small_letters(name);
+  for (const Field& each : fields)
+    if (std::find(each.elsewhere.begin(), each.elsewhere.end(), small) != each.elsewhere.end()) return each.name;
+  return document::name_meant(name, field_names());
 }
 
 bool is_free_name(std::string_view name) {

@@ -20,7 +20,8 @@ struct Field {
   const Form* form = nullptr;
   std::string help{};
   bool required = false;
-  std::string standard{};  // JSON text of what its absence means; a member that says this is not written
+  std::string standard{};                // JSON text of what its absence means; a member that says this is not written
+  std::vector<std::string> elsewhere{};  // what others call it, in small letters
 };
 
 // A rule about members standing together.
@@ -53,6 +54,9 @@ struct Form {
   // boolean
   bool only_true = false;
 
+  // What to write in place of a value of another kind, "; say ...", or nothing
+  std::function<std::string(const JsonValue&)> instead{};
+
   // text: one of `words`, or anything of `pattern` (ECMA 262); no limit when both are empty
   std::vector<std::string> words{};
   std::string pattern{};
@@ -74,6 +78,8 @@ struct Form {
   const Form* others = nullptr;                               // all other names of the author's; null: there are none
   std::string name_pattern{};                                 // what names of the author's must match
   std::function<std::string(std::string_view)> name_fault{};  // what is wrong with such a name, or nothing
+  // The name with a form of its own that a name of the author's may stand for, or nothing
+  std::function<std::string(std::string_view)> name_meant{};
   std::function<std::string(const JsonValue&)> foremost_fault{};  // a fault that makes all others noise, or nothing
 
   // choice: the first alternative of the value's kind, or the one that `select` names
@@ -87,6 +93,8 @@ struct Form {
   [[nodiscard]] const Field* field(std::string_view name) const;
   [[nodiscard]] const Form* member(std::string_view name) const;  // form of a member's value; null: no such name
   [[nodiscard]] std::vector<std::string> field_names() const;
+  // The field that a name which is none stands for: what others call it, or the nearest; or nothing.
+  [[nodiscard]] std::string field_meant(std::string_view name) const;
 };
 
 // Names that start with "//" or "x-" are the author's own and never looked at.

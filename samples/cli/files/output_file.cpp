@@ -17,7 +17,7 @@ void require_output(const std::string& output, const std::string& input, std::sp
   for (char& c : ending)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   if (std::find(endings.begin(), endings.end(), ending) == endings.end())
-    throw UsageError("the name of the file to write, \"" + output + "\", must end in " + listed(endings));
+    throw UsageError("the name of the file to write, \"" + output + "\", must end in " + one_of(endings));
   std::error_code error;
   if (std::filesystem::equivalent(output, input, error))
     throw UsageError("\"" + output + "\" is the file that is read; write to another");

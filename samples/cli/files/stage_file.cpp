@@ -46,12 +46,17 @@ std::size_t clip_called(const StageDescription& stage, const std::string& name, 
                    listed(names));
 }
 
+void take(StageFile& read, const Document& document) {
+  read.stage = document.stage();
+  read.notes = document.notes();
+}
+
 StageFile unjudged_file(const std::string& file) {
   StageFile read;
   if (file == "-") {
     const std::optional<std::string> text = read_within(std::cin, largest_document);
     if (!text) throw Faults({"<stdin>: error: is larger than " + std::to_string(largest_document >> 20) + " MiB"});
-    read.stage = Document::parse(*text, "<stdin>", ".").stage();
+    take(read, Document::parse(*text, "<stdin>", "."));
     read.name = "stdin";
     return read;
   }
@@ -59,10 +64,11 @@ StageFile unjudged_file(const std::string& file) {
   read.is_model = is_model_name(file);
   if (read.is_model) {
     Model model = load_model(file);
-    for (const std::string& repair : model.repairs) say(file + ": note: " + repair);
+    for (const std::string& repair : model.repairs)
+      read.notes.push_back({.severity = Severity::note, .file = file, .message = repair});
     read.stage = stage_of(std::move(model));
   } else {
-    read.stage = Document::read(file).stage();
+    take(read, Document::read(file));
   }
   return read;
 }
@@ -78,6 +84,12 @@ bool is_model_name(const std::string& file) {
 }
 
 StageFile read_stage_file(const std::string& file) {
+  StageFile read = judged_stage_file(file);
+  for (const Problem& note : read.notes) say(note.text());
+  return read;
+}
+
+StageFile judged_stage_file(const std::string& file) {
   StageFile read = unjudged_file(file);
   // What a file alone does not tell: whether its parts make a stage that can be stepped and shown.
   Stage stage = make_stage(read.stage, file);
@@ -104,7 +116,7 @@ std::size_t choose_clip(const StageDescription& stage, const std::optional<std::
   if (name) return clip_called(stage, *name, file);
   if (stage.clips.empty()) throw Faults({file + ": error: there is no clip in it"});
   if (stage.clips.size() > 1)
-    throw UsageError(file + " has several clips; say which with --clip: " + listed(clip_names(stage)));
+    throw UsageError(file + " has several clips; say which with --clip: " + one_of(clip_names(stage)));
   return 0;
 }
 
@@ -115,7 +127,7 @@ void choose_play(StageFile& read, const std::optional<std::string>& name, const 
   } else if (stage.plays.empty() && !stage.clips.empty()) {
     if (read.is_model) stage.plays = {Play{.clip = 0}};
     if (stage.clips.size() == 1) return;
-    const std::string names = listed(clip_names(stage));
+    const std::string names = one_of(clip_names(stage));
     say(file +
         ": note: " + (read.is_model ? "\"" + stage.clips[0].name + "\" plays; " : std::string("no clip plays; ")) +
         "choose with --clip: " + names);

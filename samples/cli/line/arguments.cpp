@@ -75,7 +75,7 @@ void Arguments::word(const char* name, std::string& value, const std::vector<std
           [&value, name, choices](const std::string& text) {
             if (std::find(choices.begin(), choices.end(), text) == choices.end())
               throw CLI::ValidationError(name, "there is no \"" + text + "\"" + did_you_mean(text, choices) +
-                                                   "\n  it is one of " + listed(choices));
+                                                   "\n  it is one of " + one_of(choices));
             value = text;
           },
           says)

@@ -14,4 +14,7 @@ namespace tweenfall::cli {
 /// "a, b and c"; the first twelve and how many more there are when the list is long.
 [[nodiscard]] std::string listed(std::span<const std::string> names);
 
+/// "a, b or c", where one of them is to be chosen; of a long list the end as above.
+[[nodiscard]] std::string one_of(std::span<const std::string> names);
+
 }  // namespace tweenfall::cli

@@ -7,7 +7,6 @@
 #include "report/terminal.h"
 #include "verbs/verbs.h"
 
-#include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/importers/document.h>
 
 #include <charconv>
@@ -24,13 +23,14 @@ struct CheckOptions {
 /// What was found in one file.
 struct Finding {
   std::string summary;             ///< of a file without problems
-  std::vector<std::string> texts;  ///< a problem each, as people read it
+  std::vector<std::string> texts;  ///< a problem or note each, as people read it
   std::vector<std::string> jsons;  ///< the same, as JSON objects
-  std::vector<std::string> notes;  ///< what is no fault, a line each
+  std::size_t problems = 0;        ///< of the texts those that are faults
 };
 
 std::string problem_json(const Problem& problem) {
-  return "{\"file\": " + json_string(problem.file) + ", \"line\": " + std::to_string(problem.line) +
+  return "{\"severity\": " + json_string(problem.severity == Severity::note ? "note" : "error") +
+         ", \"file\": " + json_string(problem.file) + ", \"line\": " + std::to_string(problem.line) +
          ", \"column\": " + std::to_string(problem.column) + ", \"length\": " + std::to_string(problem.length) +
          ", \"pointer\": " + json_string(problem.pointer) + ", \"message\": " + json_string(problem.message) + "}";
 }
@@ -44,22 +44,6 @@ std::string contents_of(const StageDescription& stage) {
   if (bodies > 0) text += ", " + counted(bodies, "body", "bodies");
   if (!stage.rules.empty()) text += ", " + counted(stage.rules.size(), "hand-off rule");
   return text;
-}
-
-/// Tracks of the user's own whose names are nearly those of ours; they are right, but perhaps not what was meant.
-std::vector<std::string> notes_on(const StageDescription& stage, const std::string& file) {
-  const std::string ours[] = {"position", "rotation", "scale", "color", "weights"};
-  std::vector<std::string> notes;
-  for (const Clip& clip : stage.clips)
-    for (const Track& track : clip.tracks) {
-      if (property_named(track.property) != Property::user) continue;
-      const std::string meant = nearest_name(track.property, ours);
-      if (!meant.empty())
-        notes.push_back(file + ": note: \"" + track.name() +
-                        "\" is a property of your own, which moves nothing; did you mean \"" + track.node + "." +
-                        meant + "\"?");
-    }
-  return notes;
 }
 
 /// A line "FILE: error: ..." or "FILE:LINE:COLUMN: error: ..." taken apart; any other is the message.
@@ -86,9 +70,13 @@ Problem problem_of(const std::string& text, const std::string& file) {
 Finding check_file(const std::string& file) {
   Finding finding;
   try {
-    const StageFile read = read_stage_file(file);
+    const StageFile read = judged_stage_file(file);
     finding.summary = contents_of(read.stage);
-    finding.notes = notes_on(read.stage, file);
+    for (const Problem& note : read.notes) {
+      finding.texts.push_back(note.text());
+      finding.jsons.push_back(problem_json(note));
+    }
+    return finding;
   } catch (const DocumentError& error) {
     finding.texts = faults_of(error, file);
     for (const Problem& problem : error.problems()) finding.jsons.push_back(problem_json(problem));
@@ -96,26 +84,27 @@ Finding check_file(const std::string& file) {
     finding.texts = faults_of(error, file);
     for (const std::string& text : finding.texts) finding.jsons.push_back(problem_json(problem_of(text, file)));
   }
+  finding.problems = finding.texts.size();
   return finding;
 }
 
 int check_files(const CheckOptions& options) {
-  std::vector<std::string> problems, files;
+  std::size_t problems = 0;
+  std::vector<std::string> files;
   for (const std::string& file : options.files) {
     const Finding finding = check_file(file);
-    problems.insert(problems.end(), finding.texts.begin(), finding.texts.end());
-    files.push_back("{\"file\": " + json_string(file) + ", \"valid\": " + (finding.texts.empty() ? "true" : "false") +
+    problems += finding.problems;
+    files.push_back("{\"file\": " + json_string(file) + ", \"valid\": " + (finding.problems == 0 ? "true" : "false") +
                     ", \"problems\": " + json_array(finding.jsons) + "}");
     if (options.json) continue;
-    if (finding.texts.empty()) tell(file + ": valid; " + finding.summary);
+    if (finding.problems == 0) tell(file + ": valid; " + finding.summary);
     for (const std::string& text : finding.texts) say(text);
-    for (const std::string& note : finding.notes) say(note);
   }
   if (options.json)
-    print("{\"files\": " + json_array(files) + ", \"problems\": " + std::to_string(problems.size()) + "}\n");
-  else if (!problems.empty())
-    say(counted(problems.size(), "problem"));
-  return problems.empty() ? 0 : 1;
+    print("{\"files\": " + json_array(files) + ", \"problems\": " + std::to_string(problems) + "}\n");
+  else if (problems > 0)
+    say(counted(problems, "problem"));
+  return problems == 0 ? 0 : 1;
 }
 
 Run declare_check(Arguments& arguments) {

@@ -18,8 +18,12 @@
 
 namespace tweenfall {
 
-/// One thing wrong with a document.
+/// A note is about what is right and perhaps not meant; an error is a fault, for which a document is refused.
+enum class Severity { error, note };
+
+/// One thing to say about a place of a document.
 struct Problem {
+  Severity severity = Severity::error;
   std::string file;      ///< as given
   std::size_t line = 0;  ///< from 1; 0 when the whole file is meant
   std::size_t column = 0;
@@ -29,7 +33,8 @@ struct Problem {
   std::size_t excerpt_column = 1;  ///< column of the excerpt's first character
   std::size_t length = 1;          ///< how many bytes are meant
 
-  /// "file:line:column: error: message (at pointer)", then the line and a caret, as compilers print it.
+  /// "file:line:column: error: message (at pointer)", or "note:", then the line and a caret, as compilers print it.
+  /// Always UTF-8.
   [[nodiscard]] std::string text() const;
 };
 
@@ -60,6 +65,10 @@ class Document {
 
   /// Nodes, clips, bodies and rules, imports included.
   [[nodiscard]] const StageDescription& stage() const noexcept;
+
+  /// What its author may want to know though the document is valid: names of ours nearly hit, what is too stiff or too
+  /// fast for the step, bodies that start in each other, what a rule's pattern leaves out, what was lost of a model.
+  [[nodiscard]] const std::vector<Problem>& notes() const noexcept;
 
   /// The document as text: two spaces, one key a line, defaults left out. Reading and writing that again gives the same
   /// text.

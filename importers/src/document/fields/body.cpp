@@ -34,12 +34,23 @@ const Table<Body>& body_table() {
        {"density", bounded("a density in kg/m^3, above 0", 0, true), "kg/m^3", member<Body>(&Body::density), false,
         while_static},
        {"friction", &ValueForms::not_negative, "a pair takes sqrt(f1 f2)", member<Body>(&Body::friction)},
-       {"restitution", bounded("a restitution from 0 to 1", 0, false, 1), "a pair takes the larger",
-        member<Body>(&Body::restitution)},
+       {"restitution",
+        bounded("a restitution from 0 to 1", 0, false, 1),
+        "a pair takes the larger",
+        member<Body>(&Body::restitution),
+        false,
+        {},
+        {"bounce", "bounciness", "elasticity"}},
        {"rolling_friction", &ValueForms::not_negative, "m", member<Body>(&Body::rolling_friction)},
        {"linear_damping", &ValueForms::not_negative, "1/s", member<Body>(&Body::linear_damping)},
        {"angular_damping", &ValueForms::not_negative, "1/s", member<Body>(&Body::angular_damping)},
-       {"static", &ValueForms::boolean, "scenery that never moves", member<Body>(&Body::fixed)},
+       {"static",
+        &ValueForms::boolean,
+        "scenery that never moves",
+        member<Body>(&Body::fixed),
+        false,
+        {},
+        {"fixed", "is_static"}},
        {"drive", owner_form, "absent: keyed where a playing clip animates the node, else free", drive, false,
         while_static},
        {"velocity", &ValueForms::vector, "at the start, of the center of mass, m/s", member<Body>(velocity), false,
@@ -55,6 +66,10 @@ const Form* body_form(FormStore& store, const ValueForms& values) {
   form.together = {at_most_one({"mass", "density"})};
   form.definition = "body";
   return store.add(std::move(form));
+}
+
+JsonValue place_of_spin(const JsonValue& body) {
+  return below(body, {"angular_velocity"});
 }
 
 BodyDescription read_body(const JsonValue& value, Building& building) {

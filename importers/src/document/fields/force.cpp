@@ -22,7 +22,7 @@ std::size_t body_called(const JsonValue& name, Building& building) {
   if (building.excused(name.text())) return no_node;
   building.problems.add(name, (found == building.nodes.end() ? "there is no node " + in_quotes(name.text())
                                                              : "the node " + in_quotes(name.text()) + " has no body") +
-                                  suggestion(name.text(), building.body_names()));
+                                  suggestion_or_import(name.text(), building.body_names()));
   return no_node;
 }
 
@@ -73,6 +73,10 @@ const Form* force_form(FormStore& store, const ValueForms& values) {
   Form form = force_table().choosing_form(store, values);
   form.definition = "force";
   return store.add(std::move(form));
+}
+
+JsonValue place_of_stiffness(const JsonValue& force) {
+  return below(force, {"spring", "stiffness"});
 }
 
 void read_force(const JsonValue& force, std::vector<ForceDescription>& forces, Building& building) {

@@ -31,7 +31,7 @@ void read_play_clip(const JsonValue& value, Play& play, Building& building) {
   const JsonValue clips = usable(building.root, "clips");
   if (clips && usable(clips, value.text())) return;
   building.problems.add(
-      value, "there is no clip " + in_quotes(value.text()) + suggestion(value.text(), building.clip_names()));
+      value, "there is no clip " + in_quotes(value.text()) + suggestion_or_import(value.text(), building.clip_names()));
 }
 
 void read_play_speed(const JsonValue& value, Play& play, Building& building) {
@@ -51,7 +51,8 @@ void read_mask(const JsonValue& value, Play& play, Building& building) {
   play.mask = names_of(value);
   for (const std::string& name : play.mask)
     if (building.nodes_named(name).empty() && !building.excused(name))
-      building.problems.add(value, "no node is called " + in_quotes(name) + suggestion(name, building.node_names()));
+      building.problems.add(value,
+                            "no node is called " + in_quotes(name) + suggestion_or_import(name, building.node_names()));
 }
 
 const Table<Play>& play_table() {

@@ -21,6 +21,13 @@ const Form* rule_bodies_form(FormStore& store, const ValueForms& values) {
                              {values.name, store.add(list_of(values.name, "a list of names or patterns"))}));
 }
 
+// What a name of several nodes takes is only what can move.
+void note_left_out(const JsonValue& name, const std::vector<std::string>& left_out, Building& building) {
+  if (left_out.empty()) return;
+  building.problems.note(name, in_quotes(name.text()) + " leaves out " + listed(left_out) +
+                                   ": what is static has one owner for good, and the rule takes the others");
+}
+
 void read_rule_body(const JsonValue& name, Read& rule, Building& building) {
   if (!name.is(Kind::text)) return;
   const std::vector<NodeDescription>& nodes = building.stage.nodes;
@@ -28,17 +35,24 @@ void read_rule_body(const JsonValue& name, Read& rule, Building& building) {
   const std::vector<std::size_t> named = building.nodes_named(name.text());
   const bool pattern = name.text().find('*') != std::string::npos;
   std::size_t movable = 0;
+  std::vector<std::string> left_out;
   for (const std::size_t i : named) {
-    if (!nodes[i].body || nodes[i].body->fixed) continue;
+    if (!nodes[i].body) continue;
+    if (nodes[i].body->fixed) {
+      left_out.push_back(nodes[i].name);
+      continue;
+    }
     ++movable;
     rule.bodies.push_back(i);
   }
   Problems& problems = building.problems;
+  if (movable > 0) note_left_out(name, left_out, building);
   if (movable > 0 || building.excused(name.text())) return;
   if (pattern)
     problems.add(name, "no node with a body that can move matches " + in_quotes(name.text()));
   else if (named.empty())
-    problems.add(name, "there is no node " + in_quotes(name.text()) + suggestion(name.text(), building.body_names()));
+    problems.add(
+        name, "there is no node " + in_quotes(name.text()) + suggestion_or_import(name.text(), building.body_names()));
   else if (!nodes[named.front()].body)
     problems.add(name, "the node " + in_quotes(name.text()) + " has no body, so there is nothing to hand over");
   else
@@ -52,10 +66,14 @@ void read_rule_bodies(const JsonValue& value, Read& rule, Building& building) {
 
 void read_rule_group(const JsonValue& value, Read& rule, Building& building) {
   const std::vector<NodeDescription>& nodes = building.stage.nodes;
-  std::vector<std::string> groups;
+  std::vector<std::string> groups, left_out;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (!nodes[i].group.empty()) groups.push_back(nodes[i].group);
-    if (nodes[i].group != value.text() || !nodes[i].body || nodes[i].body->fixed) continue;
+    if (nodes[i].group != value.text() || !nodes[i].body) continue;
+    if (nodes[i].body->fixed) {
+      left_out.push_back(nodes[i].name);
+      continue;
+    }
     rule.bodies.push_back(i);
     rule.rule.bodies.push_back(nodes[i].name);
   }
@@ -64,6 +82,8 @@ void read_rule_group(const JsonValue& value, Read& rule, Building& building) {
   if (rule.bodies.empty())
     building.problems.add(value, "no node with a body that can move is in a group " + in_quotes(value.text()) +
                                      suggestion(value.text(), groups));
+  else
+    note_left_out(value, left_out, building);
 }
 
 // Where a body that is taken back goes on
@@ -71,8 +91,8 @@ void read_rule_group(const JsonValue& value, Read& rule, Building& building) {
 void read_followed_clip(const JsonValue& value, HandBack& out, Building& building) {
   take(value, out.clip, building);
   if (building.clips.count(out.clip) == 0 && !building.excused(out.clip))
-    building.problems.add(value,
-                          "there is no clip " + in_quotes(out.clip) + suggestion(out.clip, building.clip_names()));
+    building.problems.add(
+        value, "there is no clip " + in_quotes(out.clip) + suggestion_or_import(out.clip, building.clip_names()));
 }
 
 const Table<HandBack>& path_table() {

@@ -94,6 +94,7 @@ struct Row {
   bool required = false;
   // Why it means nothing for a thing such as this one, to follow "means nothing"; or nothing where it means something.
   std::function<std::string(const Thing&)> useless{};
+  std::vector<std::string> elsewhere{};  // what others call it, in small letters
 };
 
 template <class Thing>
@@ -107,7 +108,7 @@ class Table {
     std::vector<Field> fields;
     for (const Row<Thing>& row : rows_)
       fields.push_back({row.name, row.form.in(store, values), row.help, row.required,
-                        row.required ? std::string() : row.meaning.standard});
+                        row.required ? std::string() : row.meaning.standard, row.elsewhere});
     return object_of(what_, std::move(fields));
   }
   // The same, whose message lists them.

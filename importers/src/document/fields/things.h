@@ -20,6 +20,7 @@ void read_look(const JsonValue& value, NodeDescription& node, Building& building
 
 const Form* body_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] BodyDescription read_body(const JsonValue& body, Building& building);
+[[nodiscard]] JsonValue place_of_spin(const JsonValue& body);  // or the body, where it says none
 
 // Whose a body is: "free", "keyed", or a drive.
 const Form* owner_form(FormStore& store, const ValueForms& values);
@@ -31,9 +32,13 @@ const Form* play_form(FormStore& store, const ValueForms& values);
 
 const Form* world_form(FormStore& store, const ValueForms& values);
 void read_world(const JsonValue& world, Building& building);
+[[nodiscard]] JsonValue place_of_gravity(const JsonValue& world);  // or the world, where it says none; and so below
+[[nodiscard]] JsonValue place_of_step(const JsonValue& world);
+[[nodiscard]] JsonValue place_of_force(const JsonValue& world, std::size_t index);
 
 // The forces of a world
 const Form* force_form(FormStore& store, const ValueForms& values);
 void read_force(const JsonValue& force, std::vector<ForceDescription>& forces, Building& building);
+[[nodiscard]] JsonValue place_of_stiffness(const JsonValue& force);
 
 }  // namespace tweenfall::document::fields

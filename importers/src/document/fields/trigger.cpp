@@ -16,8 +16,8 @@ const Table<when::ContactHit>& contact_table() {
     const std::vector<std::size_t> named = building.nodes_named(hit.with);
     const auto has_body = [&](std::size_t i) { return building.stage.nodes[i].body.has_value(); };
     if (!building.excused(hit.with) && std::none_of(named.begin(), named.end(), has_body))
-      building.problems.add(
-          value, "no node with a body is called " + in_quotes(hit.with) + suggestion(hit.with, building.body_names()));
+      building.problems.add(value, "no node with a body is called " + in_quotes(hit.with) +
+                                       suggestion_or_import(hit.with, building.body_names()));
   };
   static const Table<Hit> table(
       "a contact", {{"impulse", &ValueForms::not_negative, "N s, at least", member<Hit>(&Hit::impulse)},
@@ -32,6 +32,15 @@ std::string known_event(const JsonValue& name, const RuleBeingRead& rule, Buildi
     building.problems.add(name,
                           "no clip has an event " + in_quotes(name.text()) + suggestion(name.text(), *rule.events));
   return std::string(name.text());
+}
+
+// What a value that is no object may be meant for.
+std::string trigger_instead_of(const JsonValue& value) {
+  if (value.is(JsonValue::Kind::number)) return "; say {\"at\": " + on_one_line(value) + "}";
+  if (!value.is(JsonValue::Kind::text)) return {};
+  const std::string name = on_one_line(value);
+  return "; say {\"marker\": " + name + "} for an event of a clip that animates the body, or {\"event\": " + name +
+         "} for one of any clip";
 }
 
 Form only_yes() {
@@ -97,6 +106,7 @@ const Form* when_form(FormStore& store, const ValueForms& values) {
   when.fields.push_back({"any", list, "whichever comes first"});
   when.together = {exactly_one(when.field_names())};
   when.definition = "when";
+  when.instead = trigger_instead_of;
   return store.add(std::move(when));
 }
 

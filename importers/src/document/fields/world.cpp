@@ -57,7 +57,7 @@ const Table<StageDescription>& world_table() {
   };
   static const Table<Stage> table(
       "a world", {{"gravity", &ValueForms::vector, "m/s^2", member<Stage>(of_world(&WorldSettings::gravity))},
-                  {"step", step_form, "s", {read_step, "\"1/240\""}},
+                  {"step", step_form, "s", {read_step, "\"1/240\""}, false, {}, {"dt", "timestep", "time_step"}},
                   one_of<Stage, Integrator>("integrator", "an integrator",
                                             {{"exact-quadratic", Integrator::exact_quadratic},
                                              {"semi-implicit-euler", Integrator::semi_implicit_euler}},
@@ -79,6 +79,19 @@ const Form* world_form(FormStore& store, const ValueForms& values) {
   Form world = world_table().form(store, values);
   world.definition = "world";
   return store.add(std::move(world));
+}
+
+JsonValue place_of_gravity(const JsonValue& world) {
+  return below(world, {"gravity"});
+}
+
+JsonValue place_of_step(const JsonValue& world) {
+  return below(world, {"step"});
+}
+
+JsonValue place_of_force(const JsonValue& world, std::size_t index) {
+  const JsonValue forces = usable(world, "forces");
+  return forces && index < forces.items().size() ? forces.items()[index] : world;
 }
 
 void read_world(const JsonValue& world, Building& building) {

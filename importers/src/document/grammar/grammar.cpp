@@ -11,18 +11,21 @@ namespace tweenfall::document {
 namespace {
 
 const Form* import_form(FormStore& store, const ValueForms& values) {
-  Form import = object_of("an object with files by the name they get here", {});
-  import.definition = "import";
-  import.one_a_line = true;
-  import.others = values.name;
-  import.name_pattern = "^[^/*]+$";
-  import.name_fault = [](std::string_view name)
-                          ->std::string {
-                            if (!name.empty() && name.find_first_of("/*") == std::string_view::npos) return {};
-  return "the name of an import is not empty and has no '/' or '*'; found " + in_quotes(name);
-};
-return store.add(std::move(import));
-}  // namespace
+  Form imports = object_of("an object with files by the name they get here", {});
+  imports.definition = "import";
+  imports.one_a_line = true;
+  imports.others = values.name;
+  imports.instead = [](const JsonValue& value) -> std::string {
+    if (!value.is(JsonValue::Kind::text)) return {};
+    return "; say {\"model\": " + on_one_line(value) + "}, and its nodes are \"model/...\"";
+  };
+  imports.name_pattern = "^[^/*]+$";
+  imports.name_fault = [](std::string_view name) -> std::string {
+    if (!name.empty() && name.find_first_of("/*") == std::string_view::npos) return {};
+    return "the name of an import is not empty and has no '/' or '*'; found " + in_quotes(name);
+  };
+  return store.add(std::move(imports));
+}
 
 struct Grammar {
   FormStore store;
@@ -74,7 +77,7 @@ struct Grammar {
   }
 };
 
-}  // namespace tweenfall::document
+}  // namespace
 
 const Form& document_form() {
   static const Grammar grammar;

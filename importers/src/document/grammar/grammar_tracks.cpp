@@ -3,6 +3,7 @@
 
 #include "document/grammar/grammar_functions.h"
 #include "document/grammar/grammar_parts.h"
+#include "document/report/suggestion.h"
 
 #include <utility>
 
@@ -76,9 +77,15 @@ class TrackForms {
     if (kind.rate) row.parts.push_back(values_.ease);
     row.fewest = 2;
     row.on_one_line = true;
-    Form full = object_of(row.what, {{"t", values_.key_time, "time", true}, {"v", kind.value, "value", true}});
+    Form full = object_of(row.what, {{"t", values_.key_time, "time", true, {}, {"time", "at"}},
+                                     {"v", kind.value, "value", true, {}, {"value"}}});
     if (kind.rate) {
-      full.fields.push_back({"ease", values_.ease, "how the curve leaves the key", false, "\"smooth-clamped\""});
+      full.fields.push_back({"ease",
+                             values_.ease,
+                             "how the curve leaves the key",
+                             false,
+                             "\"smooth-clamped\"",
+                             {"easing", "interpolation"}});
       full.fields.push_back({"in", tangent, "slope on arrival"});
       full.fields.push_back({"out", tangent, "slope on leaving"});
       full.fields.push_back({"v_in", kind.value, "value on arrival, where the curve jumps"});
@@ -463,6 +470,7 @@ const Form* tracks_form(FormStore& store, const ValueForms& values) {
       {".weights", make.either({"weights", values.numbers, values.numbers, false, {}, {}, {}, false})}};
   tracks.others = make.user();
   tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
+  tracks.name_meant = property_meant;
   tracks.name_fault = [](std::string_view name) -> std::string {
     const std::size_t dot = name.rfind('.');
     if (dot != std::string_view::npos && dot > 0 && dot + 1 < name.size()) return {};

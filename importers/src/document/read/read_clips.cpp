@@ -31,8 +31,8 @@ void check_nodes(Building& building, const JsonValue& tracks) {
     if (is_free_name(track.name) || dot == std::string::npos || track.value.is(Kind::faulty)) continue;
     const std::string node(track.name.substr(0, dot));
     if (building.nodes.count(node) == 0 && !building.excused(node))
-      building.problems.add_name(track,
-                                 "there is no node " + in_quotes(node) + suggestion(node, building.node_names()));
+      building.problems.add_name(
+          track, "there is no node " + in_quotes(node) + suggestion_or_import(node, building.node_names()));
   }
 }
 
@@ -65,7 +65,7 @@ void read_clips(Building& building) {
       if (place && building.nodes.count(track.node) == 0 && !building.excused(track.node))
         building.problems.add(place, "its clip " + in_quotes(name) + " has the track " + in_quotes(track.name()) +
                                          ", but there is no node " + in_quotes(track.node) +
-                                         suggestion(track.node, building.node_names()));
+                                         suggestion_or_import(track.node, building.node_names()));
   }
 }
 

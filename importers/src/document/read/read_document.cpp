@@ -4,6 +4,7 @@
 #include "document/content.h"
 #include "document/fields/things.h"
 #include "document/grammar/grammar.h"
+#include "document/judge/judge.h"
 #include "document/read/values.h"
 #include "document/report/check.h"
 
@@ -46,10 +47,12 @@ ReadDocument read_document(std::string text, const std::string& name, const std:
     read_plays(building);
     fields::read_world(usable(root, "world"), building);
     read_rules(building);
+    if (problems.empty()) judge(building);
     out.stage = std::move(building.stage);
     out.names_are_free = building.names_are_free;
   }
-  if (!problems.empty()) throw DocumentError(problems.located(name, out.tree));
+  if (!problems.empty()) throw DocumentError(problems.located(Severity::error, name, out.tree));
+  out.notes = problems.located(Severity::note, name, out.tree);
   return out;
 }
 

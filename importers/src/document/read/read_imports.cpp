@@ -14,16 +14,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_files = 1000;
+constexpr std::size_t most_files = 1000;
+// Files that import others several times grow by powers.
+constexpr std::size_t most_parts = 100'000, most_vertices = 50'000'000;
 
-// What comes from a file, whatever its kind.
-struct Brought {
-  StageDescription stage;
-  bool names_are_free = false;
-};
+std::size_t parts_of(const StageDescription& stage) {
+  std::size_t parts = stage.nodes.size() + stage.clips.size();
+  for (const Clip& clip : stage.clips) parts += clip.tracks.size();
+  return parts;
+}
 
-Brought from_model_file(const fs::path& file) {
-  Model model = load_model(file);
+std::size_t vertices_of(const StageDescription& stage) {
+  std::size_t vertices = 0;
+  for (const Mesh& mesh : stage.meshes) vertices += mesh.positions.size();
+  return vertices;
+}
+
+Brought from_model(Model model) {
   Brought out;
   for (Node& node : model.nodes) {
     NodeDescription description;
@@ -40,19 +47,18 @@ Brought from_model_file(const fs::path& file) {
 }
 
 // Nodes, clips and meshes under the import's name; rules, plays and the world stay behind.
-void take(Building& building, const std::string& alias, Brought brought) {
+void take(Building& building, const std::string& alias, const Brought& brought) {
   StageDescription& stage = building.stage;
   const std::size_t first_node = stage.nodes.size(), first_mesh = stage.meshes.size(), first_skin = stage.skins.size();
   const auto shift = [](std::size_t index, std::size_t by) { return index == no_node ? no_node : index + by; };
-  if (brought.names_are_free) brought.stage.nodes.clear();
-  for (NodeDescription& node : brought.stage.nodes) {
+  for (NodeDescription node : brought.names_are_free ? std::vector<NodeDescription>() : brought.stage.nodes) {
     node.name = alias + "/" + node.name;
     node.parent = shift(node.parent, first_node);
     if (!node.group.empty()) node.group = alias + "/" + node.group;
     building.nodes.emplace(node.name, stage.nodes.size());
     stage.nodes.push_back(std::move(node));
   }
-  for (Clip& clip : brought.stage.clips) {
+  for (Clip clip : brought.stage.clips) {
     clip.name = alias + "/" + clip.name;
     if (brought.names_are_free)
       building.clips_of_others.push_back(clip.name);
@@ -61,8 +67,8 @@ void take(Building& building, const std::string& alias, Brought brought) {
     building.clips.emplace(clip.name, stage.clips.size());
     stage.clips.push_back(std::move(clip));
   }
-  for (Mesh& mesh : brought.stage.meshes) stage.meshes.push_back(std::move(mesh));
-  for (Skin& skin : brought.stage.skins) {
+  for (const Mesh& mesh : brought.stage.meshes) stage.meshes.push_back(mesh);
+  for (Skin skin : brought.stage.skins) {
     for (std::size_t& joint : skin.joints) joint += first_node;
     stage.skins.push_back(std::move(skin));
   }
@@ -99,17 +105,37 @@ class Importer {
     if (std::find(building_.reading.open.begin(), building_.reading.open.end(), file) != building_.reading.open.end())
       return tell(place, in_quotes(place.text()) +
                              " imports this document, directly or through others; a file cannot contain itself");
-    if (++building_.reading.files > most_files)
-      return tell(place, "more than " + std::to_string(most_files) + " files are imported in all");
+    const std::shared_ptr<const Brought> brought = brought_by(file, given, place);
+    if (!brought) return;
+    const auto too_many = [&](const char* what, std::size_t most) {
+      tell(place, "with " + in_quotes(place.text()) + " more than " + std::to_string(most) + " " + what +
+                      " would be imported; a file that is imported twice brings all it has twice");
+    };
+    if (parts_of(building_.stage) + parts_of(brought->stage) > most_parts)
+      return too_many("nodes and tracks", most_parts);
+    if (vertices_of(building_.stage) + vertices_of(brought->stage) > most_vertices)
+      return too_many("vertices", most_vertices);
+    take(building_, std::string(member.name), *brought);
+    building_.imports.emplace(member.name);
+  }
 
+ private:
+  void tell(const JsonValue& place, std::string message) { building_.problems.add(place, std::move(message)); }
+
+  // What the file holds; null where it has problems, which are told.
+  std::shared_ptr<const Brought> brought_by(const fs::path& file, const fs::path& given, const JsonValue& place) {
+    std::map<fs::path, std::shared_ptr<const Brought>>& known = building_.reading.brought;
+    if (const auto found = known.find(file); found != known.end()) {
+      if (!found->second) tell(place, in_quotes(place.text()) + " has problems, told where it is imported first");
+      return found->second;
+    }
+    if (known.size() >= most_files) {
+      tell(place, "more than " + std::to_string(most_files) + " files are imported in all");
+      return nullptr;
+    }
+    std::shared_ptr<const Brought> brought;
     try {
-      if (file.extension() == ".json") {
-        ReadDocument document = read_document_file(given, building_.reading);
-        take(building_, std::string(member.name), {std::move(document.stage), document.names_are_free});
-      } else {
-        take(building_, std::string(member.name), from_model_file(given));
-      }
-      building_.imports.emplace(member.name);
+      brought = std::make_shared<const Brought>(read_file(file, given, place));
     } catch (const DocumentError& error) {
       const std::size_t count = error.problems().size();
       tell(place, in_quotes(place.text()) + " has " + (count == 1 ? "a problem" : std::to_string(count) + " problems") +
@@ -120,10 +146,21 @@ class Importer {
       std::replace(what.begin(), what.end(), '\n', ';');
       tell(place, what);
     }
+    known.emplace(file, brought);
+    return brought;
   }
 
- private:
-  void tell(const JsonValue& place, std::string message) { building_.problems.add(place, std::move(message)); }
+  Brought read_file(const fs::path& file, const fs::path& given, const JsonValue& place) {
+    if (file.extension() == ".json") {
+      ReadDocument document = read_document_file(given, building_.reading);
+      building_.problems.add_foreign(document.notes);
+      return {std::move(document.stage), document.names_are_free};
+    }
+    Model model = load_model(given);
+    for (const std::string& repair : model.repairs)
+      building_.problems.note(place, in_quotes(place.text()) + ": " + repair);
+    return from_model(std::move(model));
+  }
 
   // The file of that folder that was meant, if one is near.
   static std::string in_folder(const fs::path& file, const std::string& written);

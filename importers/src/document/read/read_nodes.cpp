@@ -37,8 +37,8 @@ void hang(const std::vector<HungNode>& hung, Building& building) {
                                         " hangs on " + in_quotes(nodes[nodes[node].parent].name) + " in its file");
     } else if (found == building.nodes.end()) {
       if (!building.excused(parent.text()))
-        building.problems.add(
-            parent, "there is no node " + in_quotes(parent.text()) + suggestion(parent.text(), building.node_names()));
+        building.problems.add(parent, "there is no node " + in_quotes(parent.text()) +
+                                          suggestion_or_import(parent.text(), building.node_names()));
     } else {
       std::size_t at = found->second;
       while (at != no_node && at != node) at = nodes[at].parent;
@@ -143,7 +143,7 @@ void read_nodes(Building& building) {
     else if (building.nodes.count(given.text()) == 0 && !building.excused(given.text())) {
       if (problems.crowded()) names.clear();
       problems.look_at(names.size());
-      problems.add(given, "there is no node " + in_quotes(given.text()) + suggestion(given.text(), names));
+      problems.add(given, "there is no node " + in_quotes(given.text()) + suggestion_or_import(given.text(), names));
     }
   }
 

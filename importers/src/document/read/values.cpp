@@ -26,6 +26,15 @@ JsonValue usable(const JsonValue& object, std::string_view name) {
   return value && !value.is(Kind::faulty) ? value : JsonValue();
 }
 
+JsonValue below(JsonValue object, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names) {
+    const JsonValue next = usable(object, name);
+    if (!next) break;
+    object = next;
+  }
+  return object;
+}
+
 double number_in(const JsonValue& object, std::string_view name, double fallback) {
   const JsonValue value = usable(object, name);
   return value && value.is(Kind::number) ? value.number() : fallback;

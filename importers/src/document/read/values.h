@@ -8,6 +8,7 @@
 
 #include "document/report/problems.h"
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,9 @@ namespace tweenfall::document {
 
 // A member that can be used; null when absent or faulty.
 [[nodiscard]] JsonValue usable(const JsonValue& object, std::string_view name);
+
+// The value below `object` by the names on the way, or the last that is there.
+[[nodiscard]] JsonValue below(JsonValue object, std::initializer_list<std::string_view> names);
 
 [[nodiscard]] double number_in(const JsonValue& object, std::string_view name, double fallback);
 [[nodiscard]] bool flag_in(const JsonValue& object, std::string_view name, bool fallback);

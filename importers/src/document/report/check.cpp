@@ -1,6 +1,5 @@
 #include "document/report/check.h"
 
-#include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
 
 #include "document/report/suggestion.h"
@@ -23,7 +22,8 @@ class Checker {
     if (value.is(Kind::faulty)) return;
     const Form* chosen = resolved(form, value);
     if (!chosen) {
-      fault(value, "expected " + form.what + ", found " + described(value));
+      fault(value, "expected " + form.what + ", found " + described(value) +
+                       (form.instead ? form.instead(value) : std::string()));
       return;
     }
     const std::string& what = chosen->what.empty() ? form.what : chosen->what;
@@ -109,10 +109,10 @@ class Checker {
       if (is_free_name(member.name)) continue;
       const Form* expected = form.member(member.name);
       if (!expected) {
+        meant.push_back(form.field_meant(member.name));
         problems_.add_name(member,
-                           "unknown field " + in_quotes(member.name) + suggestion(member.name, form.field_names()));
+                           "unknown field " + in_quotes(member.name) + suggestion_of(meant.back(), form.field_names()));
         tree_.mark_faulty(member.value);
-        meant.push_back(nearest_name(member.name, form.field_names()));
         continue;
       }
       if (form.name_fault && !form.field(member.name)) {
@@ -122,7 +122,16 @@ class Checker {
           continue;
         }
       }
+      const std::size_t before = problems_.size();
       this->value(*expected, member.value);
+      if (problems_.size() == before || expected != form.others || !form.name_meant) continue;
+      // Where the name is wrong, the faults of its value by that name are noise.
+      const std::string ours = form.name_meant(member.name);
+      if (ours.empty()) continue;
+      problems_.keep(before);
+      problems_.add_name(member, "did you mean " + in_quotes(ours) + "? " + in_quotes(member.name) +
+                                     " is a property of your own, and does not hold this value");
+      tree_.mark_faulty(member.value);
     }
     for (const Field& field : form.fields)
       if (field.required && !value.find(field.name) && std::find(meant.begin(), meant.end(), field.name) == meant.end())

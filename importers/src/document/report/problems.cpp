@@ -1,5 +1,7 @@
 #include "document/report/problems.h"
 
+#include <tweenfall/importers/shown_text.h>
+
 #include "json/text_place.h"
 
 #include <algorithm>
@@ -21,10 +23,10 @@ std::string all_texts(const std::vector<Problem>& problems) {
 }  // namespace
 
 std::string Problem::text() const {
-  std::string out = file;
+  std::string out = utf8_text(file);
   if (line > 0) out += ":" + std::to_string(line) + ":" + std::to_string(column);
-  out += ": error: " + message;
-  if (!pointer.empty()) out += " (at " + pointer + ")";
+  out += (severity == Severity::note ? ": note: " : ": error: ") + utf8_text(message);
+  if (!pointer.empty()) out += " (at " + utf8_text(pointer) + ")";
   if (line == 0 || excerpt.empty()) return out;
 
   const std::string number = std::to_string(line);
@@ -63,7 +65,7 @@ class Walk {
       line_end_ = 0;
     }
     if (offset > at_) {
-      column_ += characters_in(text_.substr(at_, offset - at_));
+      column_ += characters_in(utf8_text(text_.substr(at_, offset - at_)));
       at_ = offset;
     }
     problem.line = line_;
@@ -90,8 +92,11 @@ class Walk {
       to = std::min(to, from + longest_excerpt);
       while (to < end && inside(to)) ++to;
     }
-    problem.excerpt_column = column_ - characters_in(text_.substr(from, at_ - std::min(at_, from)));
-    for (const char c : text_.substr(from, to - from))
+    // What is not UTF-8 is shown by the same letters as it is counted.
+    const std::string before = utf8_text(text_.substr(from, at_ - std::min(at_, from)));
+    const std::string after = utf8_text(text_.substr(std::max(at_, from), to - std::min(to, std::max(at_, from))));
+    problem.excerpt_column = column_ - characters_in(before);
+    for (const char c : before + after)
       problem.excerpt += (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f ? ' ' : c;
   }
 
@@ -103,20 +108,34 @@ class Walk {
 }  // namespace
 
 void Problems::add(const JsonValue& at, std::string message) {
-  entries_.push_back({{at.offset(), 0, std::move(message)}, at});
+  errors_.entries.push_back({{at.offset(), 0, std::move(message)}, at});
 }
 
 void Problems::add_name(const JsonMember& at, std::string message) {
   add(JsonFault{at.name_offset(), at.name_length(), std::move(message)});
 }
 
-void Problems::add_foreign(std::vector<Problem> problems) {
-  for (Problem& problem : problems) foreign_.push_back(std::move(problem));
+void Problems::keep(std::size_t count) {
+  errors_.entries.resize(std::min(errors_.entries.size(), count - std::min(count, errors_.foreign.size())));
 }
 
-std::vector<Problem> Problems::located(const std::string& file, const JsonTree& tree) const {
+void Problems::note(const JsonValue& at, std::string message) {
+  notes_.entries.push_back({{at.offset(), 0, std::move(message)}, at});
+}
+
+void Problems::note_name(const JsonMember& at, std::string message) {
+  notes_.entries.push_back({{at.name_offset(), at.name_length(), std::move(message)}, {}});
+}
+
+void Problems::add_foreign(const std::vector<Problem>& problems) {
+  for (const Problem& problem : problems)
+    (problem.severity == Severity::note ? notes_ : errors_).foreign.push_back(problem);
+}
+
+std::vector<Problem> Problems::located(Severity severity, const std::string& file, const JsonTree& tree) const {
+  const Told& told = severity == Severity::note ? notes_ : errors_;
   std::vector<const Entry*> ordered;
-  for (const Entry& entry : entries_) ordered.push_back(&entry);
+  for (const Entry& entry : told.entries) ordered.push_back(&entry);
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const Entry* a, const Entry* b) { return a->fault.offset < b->fault.offset; });
   const std::size_t count = std::min(ordered.size(), most_listed);
@@ -126,6 +145,7 @@ std::vector<Problem> Problems::located(const std::string& file, const JsonTree& 
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [fault, value] = *ordered[i];
     Problem problem;
+    problem.severity = severity;
     problem.file = file;
     walk.to(std::min(fault.offset, tree.text().size()), problem);
     problem.pointer = tree.pointer_to(fault.offset);
@@ -133,9 +153,13 @@ std::vector<Problem> Problems::located(const std::string& file, const JsonTree& 
     problem.length = value ? value.length() : fault.length;
     out.push_back(std::move(problem));
   }
-  if (ordered.size() > count)
-    out.push_back(file_problem(file, std::to_string(ordered.size() - count) + " more problems are not listed"));
-  out.insert(out.end(), foreign_.begin(), foreign_.end());
+  if (ordered.size() > count) {
+    out.push_back(file_problem(file, std::to_string(ordered.size() - count) +
+                                         (severity == Severity::note ? " more notes" : " more problems") +
+                                         " are not listed"));
+    out.back().severity = severity;
+  }
+  out.insert(out.end(), told.foreign.begin(), told.foreign.end());
   return out;
 }
 

@@ -13,14 +13,20 @@ namespace tweenfall::document {
 
 class Problems {
  public:
-  void add(const JsonFault& fault) { entries_.push_back({fault, {}}); }
+  void add(const JsonFault& fault) { errors_.entries.push_back({fault, {}}); }
   void add(const JsonValue& at, std::string message);
   void add_name(const JsonMember& at, std::string message);
-  // Problems of an imported file, at their places there.
-  void add_foreign(std::vector<Problem> problems);
+  // Forgets errors that another says better. @param count  errors that stay, the first
+  void keep(std::size_t count);
+  // What is no fault; a document without errors keeps it.
+  void note(const JsonValue& at, std::string message);
+  void note_name(const JsonMember& at, std::string message);
+  // Problems and notes of an imported file, at their places there.
+  void add_foreign(const std::vector<Problem>& problems);
 
-  [[nodiscard]] bool empty() const { return entries_.empty() && foreign_.empty(); }
-  [[nodiscard]] std::size_t size() const { return entries_.size() + foreign_.size(); }
+  // Of errors; notes do not count
+  [[nodiscard]] bool empty() const { return size() == 0; }
+  [[nodiscard]] std::size_t size() const { return errors_.entries.size() + errors_.foreign.size(); }
 
   // Whether suggestions, which look at all names, are no longer worth their time.
   [[nodiscard]] bool crowded() const { return size() > most_listed || looked_at_ > most_looked_at; }
@@ -28,7 +34,7 @@ class Problems {
   void look_at(std::size_t names) { looked_at_ += names; }
 
   // In order of the text; of very many the first.
-  [[nodiscard]] std::vector<Problem> located(const std::string& file, const JsonTree& tree) const;
+  [[nodiscard]] std::vector<Problem> located(Severity severity, const std::string& file, const JsonTree& tree) const;
 
   static constexpr std::size_t most_listed = 400;
 
@@ -40,8 +46,12 @@ class Problems {
     JsonValue value;  // whose length is the fault's, unless it has one
   };
 
-  std::vector<Entry> entries_;
-  std::vector<Problem> foreign_;
+  struct Told {
+    std::vector<Entry> entries;
+    std::vector<Problem> foreign;
+  };
+
+  Told errors_, notes_;
   std::size_t looked_at_ = 0;
 };
 

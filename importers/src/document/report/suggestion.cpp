@@ -5,18 +5,86 @@
 #include "json/json_tree.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tweenfall::document {
 
-std::string suggestion(std::string_view wrong, const std::vector<std::string>& names) {
-  const std::string nearest = nearest_name(wrong, names);
-  if (!nearest.empty()) return "; did you mean " + in_quotes(nearest) + "?";
-  if (names.empty()) return {};
+namespace {
+
+// What other programs and formats call the parts of a pose, in small letters.
+constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
+    {"translation", "position"},
+    {"translate", "position"},
+    {"location", "position"},
+    {"pos", "position"},
+    {"rot", "rotation"},
+    {"rotate", "rotation"},
+    {"orientation", "rotation"},
+    {"quaternion", "rotation"},
+    {"euler", "rotation"},
+    {"scl", "scale"},
+    {"scaling", "scale"},
+    {"colour", "color"},
+    {"col", "color"},
+    {"tint", "color"},
+    {"morph", "weights"},
+    {"morphs", "weights"},
+    {"blendshapes", "weights"},
+};
+
+}  // namespace
+
+std::string small_letters(std::string_view text) {
+  std::string small(text);
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return small;
+}
+
+std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 24;
-  std::string out = "; available: ";
+  std::string out;
   for (std::size_t i = 0; i < std::min(names.size(), most); ++i) out += (i ? ", " : "") + in_quotes(names[i]);
   if (names.size() > most) out += " and " + std::to_string(names.size() - most) + " more";
   return out;
+}
+
+std::string name_meant(std::string_view wrong, const std::vector<std::string>& names) {
+  const std::string small = small_letters(wrong);
+  for (const auto& [foreign, ours] : words_of_others)
+    if (small == foreign && std::find(names.begin(), names.end(), ours) != names.end()) return std::string(ours);
+  return nearest_name(wrong, names);
+}
+
+std::string property_meant(std::string_view track) {
+  static const std::vector<std::string> ours{"position", "rotation", "scale", "color", "weights"};
+  const std::size_t dot = track.rfind('.');
+  if (dot == std::string_view::npos) return {};
+  const std::string_view property = track.substr(dot + 1);
+  if (std::find(ours.begin(), ours.end(), property) != ours.end()) return {};
+  const std::string meant = name_meant(property, ours);
+  return meant.empty() ? meant : std::string(track.substr(0, dot + 1)) + meant;
+}
+
+std::string suggestion_or_import(std::string_view wrong, const std::vector<std::string>& names) {
+  const std::size_t slash = wrong.find('/');
+  if (slash != std::string_view::npos && slash > 0 && nearest_name(wrong, names).empty()) {
+    const std::string_view prefix = wrong.substr(0, slash + 1);
+    const auto from_there = [&](const std::string& name) { return name.compare(0, prefix.size(), prefix) == 0; };
+    if (std::none_of(names.begin(), names.end(), from_there))
+      return "; names that begin with " + in_quotes(prefix) + " come in with \"import\": {" +
+             in_quotes(wrong.substr(0, slash)) + ": \"FILE\"}";
+  }
+  return suggestion(wrong, names);
+}
+
+std::string suggestion(std::string_view wrong, const std::vector<std::string>& names) {
+  return suggestion_of(name_meant(wrong, names), names);
+}
+
+std::string suggestion_of(const std::string& meant, const std::vector<std::string>& names) {
+  if (!meant.empty()) return "; did you mean " + in_quotes(meant) + "?";
+  return names.empty() ? std::string() : "; available: " + listed(names);
 }
 
 }  // namespace tweenfall::document

@@ -11,6 +11,7 @@
 #include "document/tracks/read_modifiers.h"
 #include "document/tracks/read_rotation.h"
 
+#include <stdexcept>
 #include <utility>
 
 namespace tweenfall::document {
@@ -255,20 +256,31 @@ class TrackReader {
   Problems& problems_;
 };
 
+// What a curve refuses only when all its parts are together is told of the track.
+std::optional<TrackCurve> read_curve(const JsonValue& track, const std::string& property, const ClipTimes& times,
+                                     Problems& problems) {
+  try {
+    return TrackReader(track, times, problems).read(property);
+  } catch (const std::invalid_argument& fault) {
+    problems.add(track, fault.what());
+    return {};
+  }
+}
+
 }  // namespace
 
 std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times, Problems& problems) {
   const std::size_t dot = track.name.rfind('.');
   if (dot == std::string::npos || track.value.is(Kind::faulty)) return {};
   const std::string property(track.name.substr(dot + 1));
-  std::optional<TrackCurve> curve = TrackReader(track.value, times, problems).read(property);
+  std::optional<TrackCurve> curve = read_curve(track.value, property, times, problems);
   if (!curve) return {};
   return Track{std::string(track.name.substr(0, dot)), property, std::move(*curve),
                flag_in(track.value, "relative", false)};
 }
 
 std::optional<Curve<double>> read_numbers(const JsonValue& track, const ClipTimes& times, Problems& problems) {
-  const std::optional<TrackCurve> curve = TrackReader(track, times, problems).read("");
+  const std::optional<TrackCurve> curve = read_curve(track, "", times, problems);
   if (!curve || !std::holds_alternative<Curve<double>>(*curve)) return {};
   return std::get<Curve<double>>(*curve);
 }

@@ -1,0 +1,105 @@
+#include <tweenfall/anim/play.h>
+#include <tweenfall/curves/number_text.h>
+
+#include "document/fields/things.h"
+#include "document/judge/judge.h"
+#include "document/read/values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tweenfall::document::judging {
+
+namespace {
+
+constexpr double hour = 3600, longest_usual_step = 0.1;  // s
+
+void judge_step(Building& building) {
+  const double step = building.stage.step;
+  if (!(step > longest_usual_step)) return;
+  const bool rate = step > 1 && step == std::floor(step);
+  building.problems.note(fields::place_of_step(place_of_world(building)),
+                         "steps of " + brief_text(step) + " s are too long for bodies that move" +
+                             (rate ? "; did you mean \"1/" + number_text(step) + "\"?" : "; 1/240 is usual"));
+}
+
+// Clip seconds per second of the fastest play of each clip; 1 of those that a verb may let play.
+std::vector<double> fastest_plays(const StageDescription& stage) {
+  std::vector<double> fastest(stage.clips.size(), 1);
+  for (const Play& play : stage.plays)
+    if (play.clip < fastest.size()) fastest[play.clip] = std::max(fastest[play.clip], std::abs(play.speed));
+  return fastest;
+}
+
+// The greatest angular speed near any key or half way between two, rad/s.
+double fastest_turn(const Curve<Quat>& curve, double duration) {
+  constexpr std::size_t most = 100'000;
+  double fastest = 0;
+  const auto look = [&](double time, Side side) {
+    if (std::isfinite(time)) fastest = std::max(fastest, curve.rate(time, side).norm());
+  };
+  const std::span<const double> knots = curve.knots();
+  for (std::size_t i = 0; i < std::min(knots.size(), most); ++i) {
+    look(knots[i], Side::out);
+    look(knots[i], Side::in);
+    if (i > 0) look(knots[i - 1] + (knots[i] - knots[i - 1]) / 2, Side::out);
+  }
+  if (knots.empty())
+    for (int i = 0; i <= 16; ++i) look((std::isfinite(duration) ? duration : 1) * i / 16, Side::out);
+  return fastest;
+}
+
+void judge_turns(Building& building, const Clip& clip, double speed) {
+  const double most = std::numbers::pi / building.stage.step;
+  for (const Track& track : clip.tracks) {
+    const auto* rotation = std::get_if<Curve<Quat>>(&track.curve);
+    if (!rotation) continue;
+    const double fastest = fastest_turn(*rotation, clip.duration) * speed;
+    if (!(fastest > most)) continue;
+    building.problems.note(place_of_track(building, clip, track),
+                           "turns by " + brief_text(degrees(fastest)) +
+                               " degrees per second, more than half a turn in a step of " +
+                               brief_text(building.stage.step) + " s; bodies and pictures cannot follow that");
+  }
+}
+
+void judge_spins(Building& building) {
+  const double most = std::numbers::pi / building.stage.step;
+  for (std::size_t i = 0; i < building.stage.nodes.size(); ++i) {
+    const std::optional<BodyDescription>& body = building.stage.nodes[i].body;
+    if (!body || !(body->twist.angular.norm() > most)) continue;
+    building.problems.note(fields::place_of_spin(below(place_of_node(building, i), {"body"})),
+                           "spins by " + brief_text(degrees(body->twist.angular.norm())) +
+                               " degrees per second, more than half a turn in a step of " +
+                               brief_text(building.stage.step) + " s; contacts cannot follow that");
+  }
+}
+
+// A step would have more events than a run takes; of clips that do not play too, for one can be chosen.
+void judge_loop(Building& building, std::size_t clip, double speed) {
+  const Play play{.clip = clip, .speed = speed};
+  const std::string& name = building.stage.clips[clip].name;
+  const std::string fault = too_many_events(play, building.stage.clips[clip], building.stage.step + 1e-6);
+  if (!fault.empty()) building.problems.add(below(place_of_clip(building, name), {"loop"}), fault);
+}
+
+}  // namespace
+
+void judge_pace(Building& building) {
+  const StageDescription& stage = building.stage;
+  judge_step(building);
+  judge_spins(building);
+  const std::vector<double> fastest = fastest_plays(stage);
+  for (std::size_t i = 0; i < stage.clips.size(); ++i) {
+    const Clip& clip = stage.clips[i];
+    judge_turns(building, clip, fastest[i]);
+    judge_loop(building, i, fastest[i]);
+    if (std::isfinite(clip.duration) && clip.duration > hour)
+      building.problems.note(below(place_of_clip(building, clip.name), {"duration"}),
+                             "lasts " + brief_text(clip.duration) +
+                                 " s, longer than an hour; without --until only its first seconds are shown");
+  }
+}
+
+}  // namespace tweenfall::document::judging

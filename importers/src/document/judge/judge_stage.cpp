@@ -1,0 +1,63 @@
+#include <tweenfall/curves/number_text.h>
+#include <tweenfall/physics/stage/inspection.h>
+
+#include "document/fields/things.h"
+#include "document/judge/judge.h"
+#include "document/read/values.h"
+
+#include <cmath>
+
+namespace tweenfall::document::judging {
+
+namespace {
+
+JsonValue item_of(const JsonValue& list, std::size_t index) {
+  return list.is(JsonValue::Kind::list) && index < list.items().size() ? list.items()[index] : list;
+}
+
+JsonValue place_of_fault(const Building& building, const StageFault& fault) {
+  const JsonValue world = place_of_world(building);
+  switch (fault.part) {
+    case StageFault::Part::world:
+      return fields::place_of_gravity(world);
+    case StageFault::Part::step:
+      return fields::place_of_step(world);
+    case StageFault::Part::clips:
+      return below(building.root, {"clips"});
+    case StageFault::Part::node:
+      return below(place_of_node(building, fault.index), {"body"});
+    case StageFault::Part::force:
+      return fields::place_of_force(world, fault.index);
+    case StageFault::Part::rule:
+      return item_of(below(building.root, {"handoff"}), fault.index);
+  }
+  return building.root;
+}
+
+// "1/500": the step in the words of the document.
+std::string step_text(double seconds) {
+  const double parts = std::ceil(1 / seconds);
+  return parts > 1 && parts < 1e6 ? "1/" + number_text(parts) : brief_text(seconds);
+}
+
+}  // namespace
+
+void judge_stage(Building& building) {
+  const StageInspection found = inspect(building.stage);
+  for (const StageFault& fault : found.faults) building.problems.add(place_of_fault(building, fault), fault.message);
+  const std::vector<NodeDescription>& nodes = building.stage.nodes;
+  for (const StartOverlap& overlap : found.overlaps)
+    building.problems.note(below(place_of_node(building, overlap.a), {"position"}),
+                           in_quotes(nodes[overlap.a].name) + " starts " + brief_text(overlap.depth) + " m deep in " +
+                               in_quotes(nodes[overlap.b].name) + "; they are pushed apart, at " +
+                               brief_text(building.stage.world.push_out_speed) + " m/s at most");
+  const JsonValue world = place_of_world(building);
+  for (const StiffSpring& stiff : found.stiff_springs)
+    building.problems.note(fields::place_of_stiffness(fields::place_of_force(world, stiff.force)),
+                           "this spring is too fast for the bodies on it and steps of " +
+                               step_text(building.stage.step) +
+                               " s; it holds, but its swing is damped away. Steps of " + step_text(stiff.longest_step) +
+                               " s or less show it");
+}
+
+}  // namespace tweenfall::document::judging
