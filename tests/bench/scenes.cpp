@@ -1,0 +1,176 @@
+// Scenes of many bodies, one thread, nothing asleep: milliseconds of process time for each step, beside Bullet where it
+// is installed, and what state they end in.
+//   bench_physics [--scenes FOLDER] [--runs N] [--steps N] [--ours] [SCENE...]
+// The engines take turns, run by run; of the runs the least median and the least 99th of a hundred are told. `--ours`
+// leaves Bullet out, so that one scene can be looked into: perf record -g bench_physics --ours --runs 1 pyramid50
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "engine.h"
+#include "physics/scene_file.h"
+
+namespace {
+
+using namespace tweenfall;
+using namespace tweenfall::bench;
+
+struct Wanted {
+  std::filesystem::path folder = std::string(TWEENFALL_SOURCE_DIR) + "/../shared/scenes";
+  int runs = 3;
+  int steps = 0;  // 0: as many as the scene says
+  bool only_ours = false;
+  std::vector<std::string> names;
+};
+
+class OurEngine : public Engine {
+ public:
+  explicit OurEngine(const test::Scene& scene) : world_(scene.world), bodies_(scene.bodies), dt_(scene.dt) {}
+  void step() override { world_.step(dt_); }
+  [[nodiscard]] Motion motion(std::size_t body) const override {
+    Motion motion = world_.motion(bodies_[body]);
+    motion.twist = world_.twist(bodies_[body]);
+    return motion;
+  }
+
+ private:
+  World world_;
+  std::vector<BodyId> bodies_;
+  double dt_;
+};
+
+double process_time() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+struct Measured {
+  double median = INFINITY, slow = INFINITY;  // ms
+  double top_off = 0;                         // how far the last body is from above where it began, m
+  double overlap = 0;                         // the greatest, m
+  double energy = 0;                          // kinetic, J
+};
+
+void run(Engine& engine, int steps, Measured& measured) {
+  std::vector<double> times(static_cast<std::size_t>(steps));
+  for (double& time : times) {
+    const double before = process_time();
+    engine.step();
+    time = 1e3 * (process_time() - before);
+  }
+  std::sort(times.begin(), times.end());
+  measured.median = std::min(measured.median, times[times.size() / 2]);
+  measured.slow = std::min(measured.slow, times[times.size() * 99 / 100]);
+}
+
+void look(const Engine& engine, const test::Scene& scene, Measured& measured) {
+  struct Placed {
+    Bounds bounds;
+    Motion motion;
+    std::size_t body;
+  };
+  std::vector<Placed> placed;
+  placed.reserve(scene.bodies.size());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Motion motion = engine.motion(i);
+    placed.push_back({bounds(scene.settings[i].shape, motion.pose), motion, i});
+    if (scene.settings[i].fixed) continue;
+    const MassProperties& mass = scene.world.mass(scene.bodies[i]);
+    const Vec3 local = motion.pose.rotation.conjugate() * motion.twist.angular;
+    measured.energy += 0.5 * mass.mass * motion.twist.linear.squaredNorm() + 0.5 * local.dot(mass.inertia * local);
+  }
+  const Vec3 off = placed.back().motion.pose.position - scene.settings.back().motion.pose.position;
+  measured.top_off = std::hypot(off.x(), off.z());
+  if (!scene.file.value("collisions", true)) return;
+  std::sort(placed.begin(), placed.end(),
+            [](const Placed& a, const Placed& b) { return a.bounds.low.x() < b.bounds.low.x(); });
+  for (std::size_t i = 0; i < placed.size(); ++i)
+    for (std::size_t k = i + 1; k < placed.size() && placed[k].bounds.low.x() <= placed[i].bounds.high.x(); ++k) {
+      const Placed &a = placed[i], &b = placed[k];
+      if (scene.settings[a.body].fixed && scene.settings[b.body].fixed) continue;
+      if ((a.bounds.low.array() > b.bounds.high.array()).any() || (b.bounds.low.array() > a.bounds.high.array()).any())
+        continue;
+      const Manifold manifold =
+          collide(scene.settings[a.body].shape, a.motion.pose, scene.settings[b.body].shape, b.motion.pose);
+      for (int point = 0; point < manifold.count; ++point)
+        measured.overlap = std::max(measured.overlap, manifold.points[static_cast<std::size_t>(point)].penetration);
+    }
+}
+
+void tell(const char* engine, const Measured& measured) {
+  std::printf("  %-9s %9.3f ms (%8.3f)   last body off %8.1f mm, overlap %6.2f mm, kinetic energy %.3g J\n", engine,
+              measured.median, measured.slow, 1e3 * measured.top_off, 1e3 * measured.overlap, measured.energy);
+}
+
+bool compare(const Wanted& wanted, const std::string& name) {
+  const std::filesystem::path path = wanted.folder / (name + ".json");
+  std::ifstream stream(path);
+  if (!stream) {
+    std::printf("SKIPPED: no scene %s\n", path.c_str());
+    return false;
+  }
+  const test::Scene scene = test::scene_from(nlohmann::json::parse(stream));
+  for (const std::string& type : scene.left_out) std::printf("SKIPPED: bodies of shape %s\n", type.c_str());
+  if (scene.file.contains("joints") && !scene.file.at("joints").empty()) std::printf("SKIPPED: the joints\n");
+  const int steps = wanted.steps > 0 ? wanted.steps : scene.steps;
+  Measured ours;
+  [[maybe_unused]] Measured bullets;
+  for (int i = 0; i < wanted.runs; ++i) {
+    OurEngine engine(scene);
+    run(engine, steps, ours);
+    if (i == 0) look(engine, scene, ours);
+#ifdef TWEENFALL_BESIDE_BULLET
+    if (wanted.only_ours) continue;
+    const std::unique_ptr<Engine> beside = in_bullet(scene);
+    run(*beside, steps, bullets);
+    if (i == 0) look(*beside, scene, bullets);
+#endif
+  }
+  if (std::isfinite(bullets.median))
+    std::printf("%s, %d steps: %.3f of Bullet's time\n", name.c_str(), steps, ours.median / bullets.median);
+  else
+    std::printf("%s, %d steps\n", name.c_str(), steps);
+  tell("tweenfall", ours);
+  if (std::isfinite(bullets.median)) tell("Bullet", bullets);
+  std::fflush(stdout);
+  return true;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) try {
+  Wanted wanted;
+  if (const char* folder = std::getenv("TWEENFALL_SCENES")) wanted.folder = folder;
+  for (int i = 1; i < count; ++i) {
+    const std::string argument = arguments[i];
+    const auto value = [&] { return i + 1 < count ? arguments[++i] : throw std::runtime_error(argument + " what?"); };
+    if (argument == "--scenes")
+      wanted.folder = value();
+    else if (argument == "--runs")
+      wanted.runs = std::max(1, std::atoi(value()));
+    else if (argument == "--steps")
+      wanted.steps = std::atoi(value());
+    else if (argument == "--ours")
+      wanted.only_ours = true;
+    else
+      wanted.names.push_back(argument);
+  }
+#ifndef TWEENFALL_BESIDE_BULLET
+  if (!wanted.only_ours) std::printf("SKIPPED: Bullet, built without it (libbullet-dev)\n");
+#endif
+  if (wanted.names.empty())
+    wanted.names = {"pyramid20", "pyramid50", "spheres1000", "spheres5000", "mixed1000", "free10000"};
+  bool all = true;
+  for (const std::string& name : wanted.names) all = compare(wanted, name) && all;
+  return all ? 0 : 1;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "bench_physics: %s\n", error.what());
+  return 2;
+}
