@@ -8,7 +8,7 @@
 #include "pairs/broad_phase.h"
 #include "state/body.h"
 #include "step/contact_constraint.h"
-#include "step/islands.h"
+#include "step/island_contents.h"
 #include "step/solver.h"
 
 namespace tweenfall {
@@ -44,6 +44,7 @@ struct World::Implementation {
   std::vector<std::uint32_t> contact_counts;
   std::vector<double> stillness;
   Islands islands;
+  IslandSorter island_sorter;
   Solver solver;
 
   Body& at(BodyId id);

@@ -16,31 +16,42 @@ namespace {
 /// A change of velocity by the rebound that no longer matters, m/s.
 constexpr double quiet = 1e-14;
 
-}  // namespace
+/// Energy of an island through a sub-step, J.
+struct IslandEnergy {
+  double limit = 0;                              ///< what it may have after: what it had, and the work done on it
+  double without = 0, slope = 0, curvature = 0;  ///< kinetic, by the share of the rebound that is let through
+};
 
-/// Marks the islands in which a point that shall rebound was reached.
-bool Solver::find_rebounds(std::vector<ContactConstraint>& constraints, Islands& islands) {
-  bool any = false;
-  for (const ContactConstraint& constraint : constraints)
-    for (int i = 0; i < constraint.count; ++i) {
-      const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-      if (!(point.rebound > 0 && point.normal_impulse > 0)) continue;
-      if (!any) flags_.assign(slots_.size(), 0);
-      any = true;
-      flags_[island_of(constraint, islands)] = 1;
-    }
-  return any;
+/// The greatest share of the rebound that stays within the limit.
+double share_within(const IslandEnergy& energy) {
+  const double excess = energy.without - energy.limit;
+  if (!(excess + energy.slope + energy.curvature > 0)) return 1;
+  if (!(energy.curvature > 0)) return 1;
+  const double square = energy.slope * energy.slope - 4 * energy.curvature * excess;
+  if (!(square >= 0) || excess > 0) return 0;
+  return std::clamp((std::sqrt(square) - energy.slope) / (2 * energy.curvature), 0.0, 1.0);
 }
 
-double Solver::rebound_pass(std::vector<ContactConstraint>& constraints, bool backward) {
+/// Whether a point that shall rebound was reached.
+bool rebounds(const ContactConstraint* contact) {
+  for (int i = 0; i < contact->count; ++i) {
+    const PointConstraint& point = contact->points[static_cast<std::size_t>(i)];
+    if (point.rebound > 0 && point.normal_impulse > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+double Solver::rebound_pass(Contacts contacts, bool backward) {
   double most = 0;
-  const std::size_t count = constraints.size();
+  const std::size_t count = contacts.size();
   for (std::size_t n = 0; n < count; ++n) {
-    ContactConstraint& constraint = constraints[backward ? count - 1 - n : n];
+    ContactConstraint& constraint = *contacts[backward ? count - 1 - n : n];
     SolverBody& a = at(constraint.a);
     SolverBody& b = at(constraint.b);
     // Only what the rebound reaches.
-    if (!constraint.rebounds || !(a.stirred || b.stirred)) continue;
+    if (!(a.stirred || b.stirred)) continue;
     const Vec3& normal = constraint.manifold.normal;
     double change = 0;
     for (int i = 0; i < constraint.count; ++i) {
@@ -90,14 +101,12 @@ void Solver::move_by_rebound(const ContactConstraint& constraint) {
   }
 }
 
-/// Takes back as much of the rebound as would leave an island more energy than it had and than was put into it.
-void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads,
-                          std::vector<ContactConstraint>& constraints, Islands& islands) {
-  energies_.assign(slots_.size(), {});
+/// Takes back as much of the rebound as would leave the island more energy than it had and than was put into it.
+void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts) {
+  IslandEnergy energy;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const SolverBody& entry = bodies_[i];
-    if (!entry.movable || !flags_[islands.of(entry.index)]) continue;
-    IslandEnergy& energy = energies_[islands.of(entry.index)];
+    if (!entry.movable) continue;
     const Body& body = bodies[entry.index];
     const Load& load = loads[entry.index];
     const SubStepStart& start = starts_[i];
@@ -120,12 +129,11 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Loa
     energy.curvature += 0.5 * mass * linear.squaredNorm() + 0.5 * angular.dot(inertia * angular);
   }
   // What moves by its own will does work on what it pushes.
-  for (const ContactConstraint& constraint : constraints) {
-    if (!constraint.rebounds) continue;
+  for (const ContactConstraint* contact : contacts) {
+    const ContactConstraint& constraint = *contact;
     const SolverBody& a = at(constraint.a);
     const SolverBody& b = at(constraint.b);
     if (a.movable == b.movable) continue;
-    IslandEnergy& energy = energies_[island_of(constraint, islands)];
     for (int i = 0; i < constraint.count; ++i) {
       const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       const Vec3 impulse = point.normal_impulse * constraint.manifold.normal + point.friction_impulse;
@@ -133,64 +141,50 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Loa
           a.movable ? -impulse.dot(point_velocity(b, point.arm_b)) : impulse.dot(point_velocity(a, point.arm_a));
     }
   }
-  const auto share_of = [](const IslandEnergy& energy) {
-    const double excess = energy.without - energy.limit;
-    if (!(excess + energy.slope + energy.curvature > 0)) return 1.0;
-    if (!(energy.curvature > 0)) return 1.0;
-    const double square = energy.slope * energy.slope - 4 * energy.curvature * excess;
-    if (!(square >= 0) || excess > 0) return 0.0;
-    return std::clamp((std::sqrt(square) - energy.slope) / (2 * energy.curvature), 0.0, 1.0);
-  };
+  const double share = share_within(energy);
+  if (share == 1) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     SolverBody& entry = bodies_[i];
-    if (!entry.movable || !flags_[islands.of(entry.index)]) continue;
-    const double share = share_of(energies_[islands.of(entry.index)]);
-    if (share == 1) continue;
+    if (!entry.movable) continue;
     entry.linear = starts_[i].linear_before_rebound + share * (entry.linear - starts_[i].linear_before_rebound);
     entry.angular = starts_[i].angular_before_rebound + share * (entry.angular - starts_[i].angular_before_rebound);
   }
-  for (ContactConstraint& constraint : constraints) {
-    if (!constraint.rebounds) continue;
-    const double share = share_of(energies_[island_of(constraint, islands)]);
-    if (share == 1) continue;
-    for (int i = 0; i < constraint.count; ++i) {
-      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+  for (ContactConstraint* contact : contacts)
+    for (int i = 0; i < contact->count; ++i) {
+      PointConstraint& point = contact->points[static_cast<std::size_t>(i)];
       point.normal_impulse = point.normal_before_rebound + share * (point.normal_impulse - point.normal_before_rebound);
       point.friction_impulse =
           point.friction_before_rebound + share * (point.friction_impulse - point.friction_before_rebound);
     }
-  }
 }
 
-void Solver::rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads,
-                     std::vector<ContactConstraint>& constraints, Islands& islands, int passes) {
-  if (!find_rebounds(constraints, islands)) return;
+void Solver::rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, int passes) {
+  const bool any = std::any_of(contacts.begin(), contacts.end(), rebounds);
+  for (ContactConstraint* contact : contacts) contact->rebounds = any;
+  if (!any) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     bodies_[i].stirred = false;
     starts_[i].linear_before_rebound = bodies_[i].linear;
     starts_[i].angular_before_rebound = bodies_[i].angular;
   }
-  for (ContactConstraint& constraint : constraints) {
-    constraint.rebounds = flags_[island_of(constraint, islands)] != 0;
-    if (!constraint.rebounds) continue;
-    SolverBody& a = at(constraint.a);
-    SolverBody& b = at(constraint.b);
-    for (int i = 0; i < constraint.count; ++i) {
-      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+  for (ContactConstraint* contact : contacts) {
+    SolverBody& a = at(contact->a);
+    SolverBody& b = at(contact->b);
+    for (int i = 0; i < contact->count; ++i) {
+      PointConstraint& point = contact->points[static_cast<std::size_t>(i)];
       point.normal_before_rebound = point.normal_impulse;
       point.friction_before_rebound = point.friction_impulse;
       point.speed_before_rebound =
-          constraint.manifold.normal.dot(point_velocity(b, point.arm_b) - point_velocity(a, point.arm_a));
+          contact->manifold.normal.dot(point_velocity(b, point.arm_b) - point_velocity(a, point.arm_a));
       if (!(point.rebound > 0 && point.normal_impulse > 0)) continue;
       a.stirred = a.stirred || a.movable;
       b.stirred = b.stirred || b.movable;
     }
   }
   for (int k = 0; k < passes; ++k)
-    if (rebound_pass(constraints, k % 2 == 1) < quiet) break;
-  for (const ContactConstraint& constraint : constraints)
-    if (constraint.rebounds) move_by_rebound(constraint);
-  bound_energy(bodies, loads, constraints, islands);
+    if (rebound_pass(contacts, k % 2 == 1) < quiet) break;
+  for (const ContactConstraint* contact : contacts) move_by_rebound(*contact);
+  bound_energy(bodies, loads, contacts);
 }
 
 }  // namespace tweenfall

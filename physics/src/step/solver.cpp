@@ -22,7 +22,7 @@ constexpr double soft_cycles = 0.125;
 constexpr double soft_damping = 10;
 /// Sub-steps in a step; the passes are shared out among them.
 constexpr int sub_steps = 8;
-/// Up to this many contacts every sub-step may take all passes: few contacts are solved to the end.
+/// In islands of up to this many contacts every sub-step may take all passes: few contacts are solved to the end.
 constexpr std::size_t few = 24;
 /// A change of velocity that no longer matters, m/s.
 constexpr double settled = 1e-14;
@@ -32,6 +32,9 @@ constexpr double unhurried = 1e-3 / sub_steps;
 /// Impulses are kept from sub-steps of at least this part of the length of the last one kept: what shorter ones hold is
 /// mostly rounding, which would grow with the ratio of lengths.
 constexpr double long_enough = 0.5;
+
+/// Of bodies that are not in the island.
+constexpr std::uint32_t nowhere = 0xffffffffu;
 
 bool pulls_without_limit(const Body& body) {
   return body.drive.owner() == Owner::driven && std::isinf(body.drive.max_force) && std::isinf(body.drive.max_torque);
@@ -64,12 +67,17 @@ Closing closing_of(const std::vector<Load>& loads, const ContactConstraint& cons
 
 }  // namespace
 
-void Solver::gather(const std::vector<Body>& bodies, std::vector<ContactConstraint>& constraints,
-                    const std::vector<SpringRow>& springs, double dt) {
+void Solver::begin(std::size_t bodies) {
   bodies_.clear();
-  slots_.assign(bodies.size(), 0xffffffffu);
+  slots_.assign(bodies, nowhere);
+  moved_.assign(bodies, 0);
+}
+
+void Solver::gather(const std::vector<Body>& bodies, Contacts contacts, Springs springs, double dt) {
+  for (const SolverBody& body : bodies_) slots_[body.index] = nowhere;
+  bodies_.clear();
   const auto add = [&](std::uint32_t index) {
-    if (slots_[index] != 0xffffffffu) return;
+    if (slots_[index] != nowhere) return;
     slots_[index] = static_cast<std::uint32_t>(bodies_.size());
     const Body& body = bodies[index];
     SolverBody entry;
@@ -93,12 +101,12 @@ void Solver::gather(const std::vector<Body>& bodies, std::vector<ContactConstrai
     }
     bodies_.push_back(entry);
   };
-  for (const ContactConstraint& constraint : constraints) {
-    add(constraint.a);
-    add(constraint.b);
+  for (const ContactConstraint* contact : contacts) {
+    add(contact->a);
+    add(contact->b);
   }
-  for (const SpringRow& spring : springs)
-    for (const std::uint32_t end : {spring.a, spring.b}) {
+  for (const SpringRow* spring : springs)
+    for (const std::uint32_t end : {spring->a, spring->b}) {
       if (end == SpringRow::world) continue;
       add(end);
       at(end).sprung = at(end).touched = at(end).movable;
@@ -275,19 +283,20 @@ double Solver::solve_drive(const std::vector<Body>& bodies, SolverBody& entry, d
   return change;
 }
 
-double Solver::pass(std::vector<ContactConstraint>& constraints, const Softness& softness, double h, bool backward) {
+double Solver::pass(Contacts contacts, const Softness& softness, double h, bool backward) {
   double change = 0;
-  const std::size_t count = constraints.size();
+  const std::size_t count = contacts.size();
   for (std::size_t i = 0; i < count; ++i)
-    change = std::max(change, solve_contact(constraints[backward ? count - 1 - i : i], softness, h));
+    change = std::max(change, solve_contact(*contacts[backward ? count - 1 - i : i], softness, h));
   return change;
 }
 
 /// Where a contact holds a body, the velocity after the impulses counts: a mean would leave every tremble undamped.
-void Solver::find_lags(const std::vector<ContactConstraint>& constraints) {
+void Solver::find_lags(Contacts contacts) {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     bodies_[i].lag = bodies_[i].movable ? Vec3(0.5 * (starts_[i].linear - bodies_[i].linear)) : Vec3(0, 0, 0);
-  for (const ContactConstraint& constraint : constraints) {
+  for (const ContactConstraint* contact : contacts) {
+    const ContactConstraint& constraint = *contact;
     for (int i = 0; i < constraint.count; ++i) {
       const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       if (point.normal_impulse == 0) continue;
@@ -306,8 +315,9 @@ void Solver::find_lags(const std::vector<ContactConstraint>& constraints) {
     if (body.sprung || body.pulled || (body.impact && body.pressed)) body.lag = Vec3::Zero();
 }
 
-void Solver::add_totals(std::vector<ContactConstraint>& constraints, double h) {
-  for (ContactConstraint& constraint : constraints) {
+void Solver::add_totals(Contacts contacts, double h) {
+  for (ContactConstraint* contact : contacts) {
+    ContactConstraint& constraint = *contact;
     bool any = false;
     for (int i = 0; i < constraint.count; ++i) {
       PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
@@ -371,19 +381,17 @@ void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
   }
 }
 
-void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
-                   std::vector<ContactConstraint>& constraints, std::vector<SpringRow>& springs, Islands& islands,
+void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, Springs springs,
                    const WorldSettings& settings, double dt) {
-  moved_.assign(bodies.size(), 0);
-  gather(bodies, constraints, springs, dt);
-  for (ContactConstraint& constraint : constraints) {
-    foresee(loads, constraint, dt);
-    if (!constraint.impact) continue;
-    at(constraint.a).impact = true;
-    at(constraint.b).impact = true;
+  gather(bodies, contacts, springs, dt);
+  for (ContactConstraint* contact : contacts) {
+    foresee(loads, *contact, dt);
+    if (!contact->impact) continue;
+    at(contact->a).impact = true;
+    at(contact->b).impact = true;
   }
   const double h = dt / sub_steps;
-  const bool thorough = constraints.size() <= few;
+  const bool thorough = contacts.size() <= few;
   const int share = thorough ? settings.iterations : settings.iterations / sub_steps;
   const int relaxing = std::max(1, share / 2);
   const int passes = std::max(1, share - relaxing);
@@ -395,30 +403,31 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
                       stiffness / (1 + stiffness), 1 / (1 + stiffness)};
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
-    for (ContactConstraint& constraint : constraints) {
-      if (sub_step > 0) refresh(constraint);
-      if (constraint.restitution > 0) meet(loads, constraint, h, dt);
+    for (ContactConstraint* contact : contacts) {
+      if (sub_step > 0) refresh(*contact);
+      if (contact->restitution > 0) meet(loads, *contact, h, dt);
     }
-    for (ContactConstraint& constraint : constraints) warm_start(constraint, h);
-    for (SpringRow& spring : springs) spring.begin(end_of(spring.a), end_of(spring.b), h);
+    for (ContactConstraint* contact : contacts) warm_start(*contact, h);
+    for (SpringRow* spring : springs) spring->begin(end_of(spring->a), end_of(spring->b), h);
     const double remaining = dt - (sub_step + 1) * h;
     for (SolverBody& body : bodies_) body.drive_impulse = body.drive_angular_impulse = Vec3::Zero();
     const auto run = [&](const Softness& softness, int count) {
       for (int k = 0; k < count; ++k) {
         double change = 0;
-        for (SpringRow& spring : springs) change = std::max(change, spring.solve(end_of(spring.a), end_of(spring.b)));
+        for (SpringRow* spring : springs)
+          change = std::max(change, spring->solve(end_of(spring->a), end_of(spring->b)));
         for (SolverBody& body : bodies_) change = std::max(change, solve_drive(bodies, body, h, remaining));
-        change = std::max(change, pass(constraints, softness, h, k % 2 == 1));
+        change = std::max(change, pass(contacts, softness, h, k % 2 == 1));
         if (change < settled) break;
       }
     };
     run(soft, passes);
-    find_lags(constraints);
+    find_lags(contacts);
     end_sub_step(h);
     run(hard, relaxing);
-    rebound(bodies, loads, constraints, islands, thorough ? settings.iterations : std::max(1, settings.iterations / 4));
+    rebound(bodies, loads, contacts, thorough ? settings.iterations : std::max(1, settings.iterations / 4));
     bound_spins(bodies, h);
-    add_totals(constraints, h);
+    add_totals(contacts, h);
   }
 
   for (SolverBody& entry : bodies_) {

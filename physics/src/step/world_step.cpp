@@ -137,7 +137,9 @@ void World::Implementation::note_starts() {
 }
 
 void World::Implementation::advance_bodies(double dt) {
-  solver.solve(bodies, loads, active, stiff_springs, islands, settings, dt);
+  solver.begin(bodies.size());
+  for (const IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs))
+    solver.solve(bodies, loads, island.contacts, island.springs, settings, dt);
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     if (!body.alive) continue;
