@@ -1,12 +1,10 @@
 // Documents changed by structure and by byte: each is refused with its places, or runs and is written without a NaN.
 
 #include "attack/mutation.h"
+#include "attack/shown.h"
 #include "attack/written.h"
 
 #include <tweenfall/importers/document.h>
-#include <tweenfall/importers/plot.h>
-#include <tweenfall/importers/recording_file.h>
-#include <tweenfall/physics/stage/recording.h>
 
 namespace tweenfall::attack {
 
@@ -24,8 +22,8 @@ class Documents final : public Attack {
       const Document document = Document::parse(made.text, "attack.json", made.folder);
       ++taken_;
       const std::string text = document.text();
-      if (const std::string fault = fault_of_text(text); !fault.empty()) return "the document written again: " + fault;
-      return run_stage(document.stage());
+      if (const std::string fault = fault_of_json(text); !fault.empty()) return "the document written again: " + fault;
+      return fault_of_run(document.stage(), 0.4);
     } catch (const DocumentError& error) {
       return fault_of(error);
     } catch (const std::bad_alloc&) {
@@ -67,27 +65,6 @@ class Documents final : public Attack {
     }
     std::sort(files.begin(), files.end());
     return files;
-  }
-
-  static std::string run_stage(const StageDescription& description) {
-    Recording recording;
-    try {
-      Stage stage(description);
-      recording = record(stage, std::min(0.4, natural_length(description)), 30);
-    } catch (const NotFinite&) {
-      return {};  // said with body and time: what a run may end with
-    }
-    for (const std::string& text : {recording_json(recording), recording_csv(recording)}) {
-      if (const std::string fault = fault_of_text(text); !fault.empty()) return "the recording: " + fault;
-    }
-    const std::pair<const char*, std::string> pictures[] = {
-        {"the moving picture: ", written([&] { return recording_svg(recording, description); })},
-        {"the plot: ", written([&] { return plot_svg(description, &recording); })},
-        {"the page: ", written([&] { return recording_html(recording, description); }, false)}};
-    for (const auto& [name, fault] : pictures) {
-      if (!fault.empty()) return name + fault;
-    }
-    return {};
   }
 
   static std::string fault_of(const DocumentError& error) {

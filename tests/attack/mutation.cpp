@@ -1,5 +1,7 @@
 #include "attack/mutation.h"
 
+#include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -27,9 +29,51 @@ double odd_number(Random& random, bool hostile) {
   return odd[below(random, std::size(odd))];
 }
 
+namespace {
+
+constexpr std::string_view of_numbers = "0123456789+-.eE";
+
+/// Another number in place of one that is written out; nothing where there is none.
+void mutate_number(Random& random, std::string& bytes) {
+  const std::size_t from = bytes.find_first_of("0123456789", below(random, bytes.size()));
+  if (from == std::string::npos) return;
+  const std::size_t before = bytes.find_last_not_of(of_numbers, from);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  const std::size_t end = std::min(bytes.find_first_not_of(of_numbers, begin), bytes.size());
+  char text[40];
+  std::snprintf(text, sizeof text, "%.9g", odd_number(random, true));
+  bytes.replace(begin, end - begin, text);
+}
+
+/// Another number in place of one that stands in its bits.
+void mutate_bits(Random& random, std::string& bytes) {
+  const double number = odd_number(random, true);
+  const std::size_t at = below(random, bytes.size()) & ~std::size_t{3};
+  const auto put = [&](auto value) {
+    if (at + sizeof value <= bytes.size()) std::memcpy(bytes.data() + at, &value, sizeof value);
+  };
+  if (below(random, 2))
+    put(number);
+  else
+    put(static_cast<float>(number));
+}
+
+bool is_binary(const std::string& bytes) {
+  return std::string_view(bytes).substr(0, 4096).find('\0') != std::string_view::npos;
+}
+
+}  // namespace
+
 void mutate_bytes(Random& random, std::string& bytes) {
   const std::size_t changes = 1 + below(random, 3);
   for (std::size_t change = 0; change < changes && !bytes.empty(); ++change) {
+    if (below(random, 3) == 0) {
+      if (is_binary(bytes))
+        mutate_bits(random, bytes);
+      else
+        mutate_number(random, bytes);
+      continue;
+    }
     if (below(random, 3)) {
       // Most changes leave the form as it is: another digit, or another byte of a number.
       std::size_t digit = bytes.find_first_of("0123456789", below(random, bytes.size()));

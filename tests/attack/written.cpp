@@ -1,5 +1,7 @@
 #include "attack/written.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cctype>
 
 namespace tweenfall::attack {
@@ -32,13 +34,20 @@ std::string fault_of_text(const std::string& text) {
       const auto beside = [&](std::size_t at) {
         return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
       };
-      if (!(i > 0 && beside(i - 1)) && !beside(i + word.size())) {
+      // "joint-inf" is a name.
+      const std::size_t begin = i > 0 && text[i - 1] == '-' ? i - 1 : i;
+      if (!(begin > 0 && beside(begin - 1)) && !beside(i + word.size())) {
         return "\"" + std::string(word) + "\" where a number belongs, after \"" + text.substr(i < 40 ? 0 : i - 40, 40) +
                "\"";
       }
     }
   }
   return {};
+}
+
+std::string fault_of_json(const std::string& text) {
+  if (!is_utf8(text)) return "not UTF-8";
+  return nlohmann::json::accept(text) ? "" : "not JSON, as where a NaN stands";
 }
 
 }  // namespace tweenfall::attack

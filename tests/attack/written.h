@@ -14,6 +14,9 @@ namespace tweenfall::attack {
 /// A NaN or an infinity in place of a number, or bytes that are not UTF-8; empty when there is none.
 [[nodiscard]] std::string fault_of_text(const std::string& text);
 
+/// The same of JSON, whose names may be any words.
+[[nodiscard]] std::string fault_of_json(const std::string& text);
+
 /// What is wrong with what `write` makes. That it refuses in words (std::runtime_error, std::invalid_argument) is
 /// right.
 template <class Write>

@@ -137,6 +137,34 @@ for verdict in ("good", "bad"):
   fs::remove_all(folder);
 }
 
+TEST_CASE("a formula of a model becomes as many keys as it needs, however long it lasts") {
+  Model model;
+  model.nodes = {{.name = "long"}, {.name = "still"}, {.name = "wave"}};
+  const auto steady = [](double time, Side) {
+    return Sample<Vec3>{Vec3(time, 2 * time, 0), Vec3(1, 2, 0), Vec3::Zero()};
+  };
+  const auto wave = [](double time, Side) {
+    return Sample<Vec3>{Vec3(0, std::sin(time), 0), Vec3(0, std::cos(time), 0), Vec3(0, -std::sin(time), 0)};
+  };
+  Clip clip{.name = "move", .duration = 2};
+  clip.tracks.push_back({"long", "position", Curve<Vec3>(steady, std::vector<double>{0, 0.8, 4e5})});
+  clip.tracks.push_back({"still", "position", Curve<Vec3>(steady, 0, 1e300)});
+  clip.tracks.push_back({"wave", "position", Curve<Vec3>(wave, std::vector<double>{0, 1, 3})});
+  model.clips.push_back(clip);
+  const Document document = Document::from_model(model);
+  CHECK(document.text().size() < 1'000'000);
+  const auto& tracks = document.stage().clips.at(0).tracks;
+  for (const Track& track : tracks) {
+    if (track.node == "still") continue;
+    const auto& curve = std::get<Curve<Vec3>>(track.curve);
+    for (double time = 0; time <= 3; time += 0.07) {
+      const auto expected = track.node == "wave" ? wave(time, Side::out) : steady(time, Side::out);
+      CHECK(near(curve.value(time), expected.value, 1e-6));
+      CHECK(near(curve.rate(time), expected.rate, 1e-4));
+    }
+  }
+}
+
 TEST_CASE("a document of a model moves as the model does") {
   Model model;
   model.name = "made";

@@ -2,6 +2,8 @@
 
 #include "model_support.h"
 
+#include <tweenfall/importers/shown_text.h>
+
 using namespace tweenfall;
 using namespace tweenfall::test;
 
@@ -106,6 +108,35 @@ TEST_CASE("JSON that other readers take is taken: a name given twice, zeros afte
   CHECK(name_of(R"({"asset": {"version": "2.0"}, "nodes": [{"name": "first", "name": "second"}]})") == "second");
   CHECK(name_of(R"({"asset": {"version": "2.0"}, "nodes": [{"name": "a"}]})" + std::string(3, '\0')) == "a");
   CHECK(name_of(R"({"asset": {"version": "2.0"}, "nodes": [{"name": "a"}], "meshes": [{"extras": 3}]})") == "a");
+}
+
+TEST_CASE("bytes of a file that are no text are spelled out where an error or a repair quotes them") {
+  const ScratchFolder folder("bytes");
+  for (const auto& [name, text] : std::initializer_list<std::pair<const char*, std::string>>{
+           {"a.bvh", "HIERARCHY\nROOT hip\n{\n OFFSET 0 0 0\n CHANNELS 1 X\xff\xfeposition\n}\n"},
+           {"b.bvh", "HIERARCHY\nROOT hip\n{\n OFFSET \xff 0 0\n"},
+           {"c.fbx", "; FBX 7.4.0 project file\nFBXHeaderExtension: {\n FBXVersion: 7\xff\n}\nObjects: \xff {\n"},
+           {"d.dae", "<?xml version=\"1.0\"?>\n<COLLADA\xff version=\"1.4.1\"><\xe9></COLLADA>"},
+           {"e.gltf", "{\"asset\": {\"version\": \"2.\xff\"}}"},
+           {"f.obj", "v 1 2 \xff\nf 1 1 9\n"}}) {
+    CAPTURE(name);
+    const std::string error = outcome(folder.file(name, text));
+    CHECK(error.find(name) != std::string::npos);
+    CHECK(utf8_text(error) == error);
+  }
+  const std::string told =
+      outcome(folder.file("g.bvh", "HIERARCHY\nROOT hip\n{\n OFFSET 0 0 0\n CHANNELS 1 X\xff\n}\n"));
+  CHECK_MESSAGE(told.find("x\\xff") != std::string::npos, told);
+}
+
+TEST_CASE("a matrix whose numbers no placement can hold is refused with its place") {
+  const ScratchFolder folder("matrix");
+  for (const char* number : {"1e200", "-1e300", "1.7e308"}) {
+    const std::string error =
+        outcome(folder.file("huge.gltf", R"({"asset": {"version": "2.0"}, "nodes": [{"matrix": [1,0,0,0, 0,)" +
+                                             std::string(number) + R"(,0,0, 0,0,1,0, 0,0,0,1]}]})"));
+    CHECK_MESSAGE(error.find("/nodes/0/matrix: holds numbers too large for a placement") != std::string::npos, error);
+  }
 }
 
 TEST_CASE("files that are missing, folders, or of an unknown kind are errors") {

@@ -6,6 +6,7 @@
 #include "model/model_problems.h"
 
 #include <tweenfall/importers/model.h>
+#include <tweenfall/importers/shown_text.h>
 
 #include <new>
 
@@ -30,16 +31,14 @@ Model read_any(const std::string& bytes, const std::filesystem::path& file, Mode
                    "\" cannot be read; .glb, .gltf, .fbx, .bvh, .dae and .obj can");
 }
 
-}  // namespace
-
-Model load_model(const std::filesystem::path& file) {
+Model read_file(const std::filesystem::path& file) {
   try {
     std::string reason;
     const auto bytes = model_bytes(file, reason);
     if (!bytes) throw ModelError(file.string() + ": error: " + reason);
     ModelProblems problems;
     Model model = read_any(*bytes, file, problems);
-    model.name = file.stem().string();
+    model.name = utf8_text(file.stem().string());
     model.repairs = problems.repairs();
     return model;
   } catch (const ModelError&) {
@@ -48,6 +47,19 @@ Model load_model(const std::filesystem::path& file) {
     throw ModelError(file.string() + ": error: needs more memory than there is");
   } catch (const std::exception& error) {
     throw ModelError(file.string() + ": error: " + error.what());
+  }
+}
+
+}  // namespace
+
+Model load_model(const std::filesystem::path& file) {
+  try {
+    Model model = read_file(file);
+    for (std::string& repair : model.repairs) repair = terminal_text(repair);
+    return model;
+  } catch (const ModelError& error) {
+    // Readers quote the file's bytes, which can be anything.
+    throw ModelError(terminal_lines(error.what()));
   }
 }
 

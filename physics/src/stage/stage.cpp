@@ -36,6 +36,11 @@ std::size_t body_index(const StageState& shown, NodeId node) {
 
 }  // namespace staging
 
+NodeNotFinite::NodeNotFinite(NodeId which, const std::string& name, const NotFinite& fault)
+    : NotFinite(fault, "the motion of \"" + name + "\" is no longer finite at " + number_text(fault.time) +
+                           " s: " + fault.cause),
+      node(which) {}
+
 struct Stage::Implementation : staging::Timeline {
   using Timeline::Timeline;
 };

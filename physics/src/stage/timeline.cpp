@@ -23,9 +23,7 @@ void Timeline::take(StageState& state, std::span<const Command> commands, std::v
   } catch (const NotFinite& fault) {
     const std::size_t index = fault.body.index;
     const NodeId node = index < state.node_of.size() ? state.node_of[index] : no_node;
-    throw std::runtime_error("the motion of \"" +
-                             (node == no_node ? std::string("a body") : (*state.nodes)[node].name) +
-                             "\" is no longer finite at " + std::to_string(fault.time) + " s: " + fault.cause);
+    throw NodeNotFinite(node, node == no_node ? std::string("a body") : (*state.nodes)[node].name, fault);
   }
 }
 
@@ -41,8 +39,9 @@ void Timeline::next_piece() {
   try {
     take(to_);
   } catch (...) {
-    // As before the piece: whoever goes on meets the same fault.
+    // As before the piece, and at its beginning: whoever goes on meets the same fault.
     to_ = from_;
+    now_ = std::max(now_, to_.time);
     happenings_.resize(of_piece_);
     throw;
   }
@@ -150,7 +149,7 @@ void Timeline::restart() {
   handoffs.clear();
   told_ = of_piece_ = 0;
   now_ = 0;
-  take(to_);
+  next_piece();
 }
 
 std::pair<const StageState*, const StageState*> Timeline::around() const noexcept {

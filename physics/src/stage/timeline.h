@@ -36,7 +36,7 @@ class Timeline {
 
  private:
   void take(StageState& state);
-  /// @throws std::runtime_error naming the node whose motion is no longer finite
+  /// @throws NodeNotFinite
   void take(StageState& state, std::span<const Command> commands, std::vector<Happening>& happenings,
             std::optional<StageState>& arrived) const;
   void next_piece();

@@ -35,6 +35,9 @@ NotFinite::NotFinite(BodyId which, double when, const std::string& why)
       time(when),
       cause(why) {}
 
+NotFinite::NotFinite(const NotFinite& fault, const std::string& text)
+    : std::runtime_error(text), body(fault.body), time(fault.time), cause(fault.cause) {}
+
 void World::Implementation::check_bodies(double dt, double at) const {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i].alive || step::countable(bodies[i])) continue;

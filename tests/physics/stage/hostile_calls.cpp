@@ -151,3 +151,43 @@ TEST_CASE("rules that waited in vain are listed with what is known of them") {
     CHECK_MESSAGE(recording.unfired[i].reason.find(words[i]) != std::string::npos, recording.unfired[i].reason);
   }
 }
+
+TEST_CASE(
+    "a motion that is no longer finite is thrown with node, time and cause, again by who goes on, until it is gone") {
+  StageDescription description;
+  description.nodes = {{.name = "still"},
+                       {.name = "anvil", .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 1.0}}};
+  description.world.gravity = Vec3(0, 1e29, 0);
+  Stage stage(description);
+  const NodeId anvil = stage.node("anvil");
+  const double reached = [&] {
+    for (int call = 0; call < 100; ++call) {
+      try {
+        stage.advance(1);
+      } catch (const NotFinite& fault) {  // as of a world
+        CHECK(fault.time > 1);
+        CHECK(stage.time() > call);  // what was reached, not where the call began
+        return stage.time();
+      }
+    }
+    return -1.0;
+  }();
+  REQUIRE(reached >= 0);
+  for (int again = 0; again < 3; ++again) {
+    try {
+      stage.advance(1);
+      CHECK(false);
+    } catch (const NodeNotFinite& fault) {
+      CHECK(fault.node == anvil);
+      CHECK(fault.time > reached);
+      CHECK(fault.time < reached + 2 * stage.step());
+      CHECK(std::string(fault.what()).find("the motion of \"anvil\" is no longer finite at ") == 0);
+      CHECK(std::string(fault.what()).ends_with(" s: " + fault.cause));
+      CHECK(!fault.cause.empty());
+    }
+    CHECK(stage.world(anvil).motion.pose.position.allFinite());
+  }
+  stage.remove(anvil);
+  stage.advance(1);
+  CHECK(stage.time() > reached + 0.9);
+}

@@ -33,8 +33,8 @@ struct Model {
   std::vector<std::string> repairs;  ///< what was wrong with the file and how it was read all the same, a sentence each
 };
 
-/// A file that could not be loaded; `what()` names it and says why, one problem a line, with the line and column in a
-/// glTF file that is text.
+/// A file that could not be loaded; `what()` names it and says why, one problem per line, with the line and column
+/// where the file is text; bytes of the file that cannot be shown are spelled out (`terminal_text`).
 class ModelError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

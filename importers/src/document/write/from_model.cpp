@@ -117,8 +117,8 @@ bool is_cubic(const RotationSpan&) {
 }
 
 // Stretches that no key can say are cut so fine that cubics with their exact rates pass for them.
-constexpr int fewest_cuts = 4, most_cuts = 256;
-constexpr double cuts_a_second = 60;
+constexpr int fewest_cuts = 4;
+constexpr double most_cuts = 256, most_cuts_of_long = 4096, cuts_per_second = 60;
 constexpr double allowed_miss = 1e-7;  // of a value, or a quaternion's part
 
 // How far the cubic between two times is from the curve in its middle.
@@ -136,21 +136,25 @@ double miss(const Curve<T>& curve, double start, double end) {
 
 template <class T>
 int cuts_of(const Curve<T>& curve, double start, double end) {
-  for (int count = fewest_cuts; count < most_cuts; count *= 2) {
+  // However long it lasts: a key that strayed to the year 30,000 makes no document of a terabyte.
+  const double most = std::clamp((end - start) * cuts_per_second, most_cuts, most_cuts_of_long);
+  for (int count = fewest_cuts;; count *= 2) {
+    if (count >= most) return count;
     double worst = 0;
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count && !(worst >= allowed_miss); ++i)
       worst = std::max(worst, miss(curve, start + (end - start) * i / count, start + (end - start) * (i + 1) / count));
     if (worst < allowed_miss) return count;
   }
-  return most_cuts;
 }
 
 template <class T>
 std::vector<Piece> pieces_of(const Curve<T>& curve) {
   std::vector<Piece> out;
   const auto cut = [&](double start, double end, int count) {
-    for (int i = 0; i < count; ++i)
-      out.push_back({start + (end - start) * i / count, start + (end - start) * (i + 1) / count, Stretch::cubic});
+    for (int i = 0; i < count; ++i) {
+      const double to = i + 1 < count ? start + (end - start) * (i + 1) / count : end;
+      out.push_back({i == 0 ? start : out.back().end, to, Stretch::cubic});
+    }
   };
   const auto spans = curve.spans();
   for (const auto& span : spans) {
@@ -164,10 +168,16 @@ std::vector<Piece> pieces_of(const Curve<T>& curve) {
     else
       cut(span.start, end, cuts_of(curve, span.start, end));
   }
-  if (spans.empty() && std::isfinite(curve.start()) && std::isfinite(curve.end()) && curve.end() > curve.start())
-    cut(curve.start(), curve.end(), std::max(1, static_cast<int>(std::ceil(curve.duration() * cuts_a_second))));
-  // Neighbors share their knot to the bit.
   const auto knots = curve.knots();
+  if (spans.empty() && std::isfinite(curve.start()) && std::isfinite(curve.end())) {
+    // A formula is smooth between its knots alone.
+    std::vector<double> ends{curve.start()};
+    for (const double knot : knots)
+      if (knot > ends.back() && knot < curve.end()) ends.push_back(knot);
+    if (curve.end() > ends.back()) ends.push_back(curve.end());
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) cut(ends[i], ends[i + 1], cuts_of(curve, ends[i], ends[i + 1]));
+  }
+  // Neighbors share their knot to the bit.
   if (knots.size() == out.size() + 1)
     for (std::size_t i = 0; i < out.size(); ++i) {
       out[i].start = knots[i];

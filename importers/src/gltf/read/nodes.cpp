@@ -42,6 +42,10 @@ Pose rest_of(const Fields& node) {
   if (std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1) > 1e-6)
     node.problems().repair(node.place_of("matrix"), "had a last row other than 0 0 0 1, which was not read");
   const TakenApart parts = take_apart(linear, Vec3(m[12], m[13], m[14]));
+  if (!parts.pose.scale.allFinite()) {
+    node.problems().add(node.place_of("matrix"), "holds numbers too large for a placement");
+    return {};
+  }
   if (parts.shear > 1e-4)
     node.problems().repair(node.place_of("matrix"), "holds shear, which was dropped; it moved points by up to " +
                                                         number_text(parts.shear) + " of their distance");

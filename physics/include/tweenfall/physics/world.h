@@ -64,9 +64,13 @@ struct Contact {
 class NotFinite : public std::runtime_error {
  public:
   NotFinite(BodyId body, double time, const std::string& cause);
-  BodyId body;
+  BodyId body;        ///< of the world that stepped; of a stage's own world where a stage throws
   double time = 0;    ///< of the world, at the end of the step that went wrong, s
   std::string cause;  ///< the likely one, in words that end a sentence
+
+ protected:
+  /// The same fault, told in other words.
+  NotFinite(const NotFinite& fault, const std::string& text);
 };
 
 /// Bodies and what acts on them. A world that was moved from holds nothing: its `noexcept` members answer as for an

@@ -42,6 +42,14 @@ struct UnfiredRule {
   std::string reason;  ///< what is known of each trigger, in words
 };
 
+/// A node whose body's place or velocity is no longer a number, or beyond what a world bears; `what()` names the node,
+/// the time and the likely cause.
+class NodeNotFinite : public NotFinite {
+ public:
+  NodeNotFinite(NodeId node, const std::string& name, const NotFinite& fault);
+  NodeId node;
+};
+
 class Stage {
  public:
   /// @throws std::invalid_argument listing everything that does not fit together.
@@ -51,8 +59,8 @@ class Stage {
   Stage& operator=(Stage&&) noexcept;
 
   // Time
-  // All three throw std::invalid_argument when a call would take more than 20 million steps, and std::runtime_error
-  // naming node, time and likely cause when the motion of a body is no longer finite.
+  // All three throw std::invalid_argument when a call would take more than 20 million steps, and NodeNotFinite when the
+  // motion of a body is no longer finite; the stage then stands before that step, and throws again when it goes on.
   void advance(double dt);       ///< @throws std::invalid_argument when dt is negative or not finite
   void advance_to(double time);  ///< to exactly `time`. @throws std::invalid_argument when that lies behind
   void seek(double time);        ///< any time >= 0; calls no callbacks
