@@ -1,6 +1,7 @@
 #include "importers/document_files.h"
 
 #include <tweenfall/curves/keys.h>
+#include <tweenfall/physics/stage/recording.h>
 
 #include <numbers>
 
@@ -362,6 +363,17 @@ TEST_CASE("the starting document loads and shows keys, a body and a hand-off") {
   CHECK(document.stage().nodes.size() >= 2);
   CHECK(document.stage().rules.size() >= 1);
   CHECK(starting_document().find("//") != std::string::npos);
+}
+
+TEST_CASE("all that the starting document says happens in its natural length, to the end of the clip played again") {
+  const StageDescription described = Document::parse(starting_document(), "start.json", {}).stage();
+  Stage stage(described);
+  const double length = natural_length(described);
+  const Recording recording = record(stage, length, 60);
+  CHECK(recording.unfired.empty());
+  REQUIRE(recording.handoffs.size() == described.rules.size());
+  CHECK(recording.handoffs.back().time + described.clips[0].duration <= length);
+  CHECK(recording.handoffs.back().time + described.rules.back().hand_back.settle.seconds <= length);
 }
 
 TEST_CASE("tangent kinds, overlong handles and what lies outside are read as they say") {

@@ -135,6 +135,25 @@ TEST_CASE("errors say what to write where other words are used") {
   CHECK(has(said("\"nodes\": {\"a\": {"), "1:"));
 }
 
+TEST_CASE(
+    "an import of this folder that is not there is missing, not outside, and nodes of imports have their whole name") {
+  const auto said = [](const std::string& rest) { return faults_of("{\"tweenfall\": 1, " + rest + "}", "n.json", {}); };
+  const std::string missing = said("\"import\": {\"fox\": \"Fox.glb\"}");
+  CHECK(has(missing, "there is no file \"Fox.glb\""));
+  CHECK_FALSE(has(missing, "outside"));
+  CHECK(has(said("\"import\": {\"fox\": \"../Fox.glb\"}"), "lies outside the document's folder"));
+  CHECK(has(said("\"import\": {\"fox\": {\"file\": \"Fox.glb\"}}"), "expected the path of a file"));
+
+  const std::filesystem::path folder = data_folder() / "documents/good";
+  const auto beside = [&](const std::string& rest) {
+    return faults_of("{\"tweenfall\": 1, \"import\": {\"start\": \"pendulum.json\"}, " + rest + "}", "n.json", folder);
+  };
+  const StageDescription all = Document::read(folder / "pendulum.json").stage();
+  REQUIRE(!all.nodes.empty());
+  const std::string& node = all.nodes.front().name;
+  CHECK(has(beside("\"nodes\": {\"a\": {\"parent\": \"" + node + "\"}}"), "did you mean \"start/" + node + "\"?"));
+}
+
 TEST_CASE("eases by the names of other programs are answered with ours, and those of CSS are taken") {
   const auto ease = [](const std::string& word) {
     return faults_of(
@@ -144,6 +163,7 @@ TEST_CASE("eases by the names of other programs are answered with ours, and thos
   CHECK(ease("ease-in-out").empty());
   CHECK(has(ease("easeInOutQuad"), "quad-in-out"));
   CHECK(has(ease("easeOutBounce"), "bounce-out"));
+  CHECK(has(ease("cubic-in-out(3)"), "\"cubic-in-out\" takes no values"));
 }
 
 TEST_CASE("files that import each other twice are read once each, and what they bring is bounded") {

@@ -11,7 +11,8 @@ struct ForeignWord {
   std::string_view ours;
 };
 
-// Names of whole eases. Source: the manuals of Blender 4 (F-curves), Maya 2024 (tangents), glTF 2.0 and jQuery.
+// Names of whole eases. Source: the manuals of Blender 4 (F-curves and their handles), Maya 2024 (tangents), After
+// Effects, glTF 2.0 and jQuery.
 constexpr ForeignWord words[] = {{"constant", "hold"},
                                  {"stepped", "hold"},
                                  {"step", "hold"},
@@ -19,7 +20,10 @@ constexpr ForeignWord words[] = {{"constant", "hold"},
                                  {"stepnext", "step-next"},
                                  {"lerp", "linear"},
                                  {"none", "linear"},
+                                 {"vector", "linear"},
+                                 {"easyease", "ease-in-out"},
                                  {"auto", "smooth-clamped"},
+                                 {"autoclamped", "smooth-clamped"},
                                  {"bezier", "smooth-clamped"},
                                  {"plateau", "smooth-clamped"},
                                  {"spline", "smooth"},

@@ -57,7 +57,7 @@ std::pair<double, const char*> largest_number(const NodeRecord& node, std::size_
   take(node.world[frame].linear.cwiseAbs().maxCoeff(), "times its size");
   take(node.world[frame].motion.pose.scale.cwiseAbs().maxCoeff(), "times its size");
   take(node.twist[frame].linear.cwiseAbs().maxCoeff(), "m/s fast");
-  take(node.twist[frame].angular.cwiseAbs().maxCoeff(), "radians a second fast");
+  take(node.twist[frame].angular.cwiseAbs().maxCoeff(), "radians per second fast");
   if (!node.weights.empty())
     for (const double weight : node.weights[frame]) take(std::abs(weight), "times morphed");
   return largest;

@@ -15,7 +15,7 @@ void require_frames(double fps, double until) {
   if (!(until >= 0)) throw UsageError("--until must be 0 or later, not " + brief_text(until));
   if (until * fps > most_frames)
     throw UsageError(brief_text(until) + " s at " + brief_text(fps) +
-                     " frames a second are more than a million frames");
+                     " frames per second are more than a million frames");
 }
 
 std::vector<double> frame_times(double until, double fps) {

@@ -32,14 +32,14 @@ double chosen_fps(const StageDescription& stage, const RunOptions& options, doub
   const double most_bytes = options.limit.value_or(options.usual_limit) * megabyte;
   const double fps = options.fps.value_or(options.usual_fps), bytes = bytes_of_a_frame(stage) * (until * fps + 1);
   if (bytes <= most_bytes) return fps;
-  const std::string amount = brief_text(until) + " s at " + brief_text(fps) + " frames a second of " +
+  const std::string amount = brief_text(until) + " s at " + brief_text(fps) + " frames per second of " +
                              counted(stage.nodes.size(), "node") + " would be " + brief_text(bytes / megabyte) +
                              " MB of recording, above " + brief_text(most_bytes / megabyte);
   const double fewer = until > 0 ? std::floor(1e3 * (most_bytes / bytes_of_a_frame(stage) - 1) / until) / 1e3 : 0;
   if (options.fps || !(fewer > 0))
     throw UsageError(amount + "; ask for less with --until or --fps, or for more with --limit");
   say(options.file + ": note: " + amount + "; there are " + brief_text(fewer) +
-      " frames a second, and more with --limit or a shorter --until");
+      " frames per second, and more with --limit or a shorter --until");
   return fewer;
 }
 
@@ -59,7 +59,7 @@ void say_unfired(const Recording& recording, const std::string& file) {
 
 void declare_amount(Arguments& arguments, RunOptions& options) {
   arguments.number("--until", "T", options.until, "to stage time T, s; else until it has shown what it has");
-  arguments.number("--fps", "N", options.fps, "frames a second; 60 without it, fewer of what is very long or large");
+  arguments.number("--fps", "N", options.fps, "frames per second; 60 without it, fewer of what is very long or large");
   arguments.number("--limit", "MB", options.limit, "at most so many megabytes of recording in memory");
 }
 
@@ -101,7 +101,7 @@ Recording run_stage(const StageDescription& description, const RunOptions& optio
 std::string summary_of(const Recording& recording) {
   std::string text = counted(recording.nodes.size(), "node") + " over " + brief_text(recording.times.back()) + " s";
   if (recording.times.size() > 1)
-    text += " at " + brief_text(1 / (recording.times[1] - recording.times[0])) + " frames a second";
+    text += " at " + brief_text(1 / (recording.times[1] - recording.times[0])) + " frames per second";
   if (!recording.handoffs.empty()) text += ", " + counted(recording.handoffs.size(), "hand-off");
   if (!recording.events.empty()) text += ", " + counted(recording.events.size(), "event");
   return text;

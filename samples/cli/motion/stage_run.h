@@ -17,7 +17,7 @@ struct RunOptions {
   std::string file;
   std::optional<std::string> clip;
   std::optional<double> until;  ///< s; the stage's natural length when absent
-  std::optional<double> fps;    ///< frames a second; where absent `usual_fps`, or fewer where those were too many
+  std::optional<double> fps;    ///< frames per second; where absent `usual_fps`, or fewer where those were too many
   double usual_fps = 60;
   std::optional<double> limit;  ///< megabytes of recording
   double usual_limit = 512;
@@ -34,7 +34,7 @@ void require_amount(const RunOptions& options);
 /// @throws UsageError for impossible times, or for more than the limit; Faults from the run.
 [[nodiscard]] Recording run_stage(const StageDescription& description, const RunOptions& options);
 
-/// "3 nodes over 3.5 s at 60 frames a second, 2 hand-offs, 4 events".
+/// "3 nodes over 3.5 s at 60 frames per second, 2 hand-offs, 4 events".
 [[nodiscard]] std::string summary_of(const Recording& recording);
 
 }  // namespace tweenfall::cli

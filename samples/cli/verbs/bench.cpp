@@ -69,7 +69,7 @@ World floor_with_stacks(int stacks, int height) {
 Run declare_bench(Arguments&) {
   return [] {
     const Progress progress("timing");
-    Table table("on this machine, one thread", {"what", ">time", ">a second"});
+    Table table("on this machine, one thread", {"what", ">time", ">per second"});
     const auto row = [&](const std::string& what, double seconds, double things, const std::string& unit) {
       const double each = seconds / things;
       table.row({what,

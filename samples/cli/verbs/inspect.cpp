@@ -128,7 +128,7 @@ std::string bodies_table(const StageDescription& stage, const std::string& file)
   }
   if (table.empty()) return "";
   return "bodies; gravity " + brief_text(stage.world.gravity) + " m/s^2, " + brief_text(1 / stage.step) +
-         " steps a second, " + counted(stage.rules.size(), "hand-off rule") + "\n" + table.text(styled_output());
+         " steps per second, " + counted(stage.rules.size(), "hand-off rule") + "\n" + table.text(styled_output());
 }
 
 int inspect_file(const std::string& file) {

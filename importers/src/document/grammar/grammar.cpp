@@ -14,7 +14,9 @@ const Form* import_form(FormStore& store, const ValueForms& values) {
   Form imports = object_of("an object with files by the name they get here", {});
   imports.definition = "import";
   imports.one_a_line = true;
-  imports.others = values.name;
+  Form path = *values.name;
+  path.what = "the path of a file";
+  imports.others = store.add(std::move(path));
   imports.instead = [](const JsonValue& value) -> std::string {
     if (!value.is(JsonValue::Kind::text)) return {};
     return "; say {\"model\": " + on_one_line(value) + "}, and its nodes are \"model/...\"";

@@ -24,7 +24,7 @@ std::vector<Field> spline_fields(FormStore& store, const ValueForms& values, con
     return store.add(std::move(form));
   };
   const Form* points = store.add(list_of(value, "a list of two or more values", 2));
-  const Form* some = store.add(list_of(value, "a list of values, one a point"));
+  const Form* some = store.add(list_of(value, "a list of values, one per point"));
   const Form* times = store.add(list_of(values.number, "a list of two or more times in seconds", 2));
   const Form* knots = store.add(list_of(values.number, "a list of knots in seconds"));
   Form whole;
@@ -39,7 +39,7 @@ std::vector<Field> spline_fields(FormStore& store, const ValueForms& values, con
   Form through =
       object_of("a spline: {\"points\", \"times\", ...}",
                 {{"points", points, "it leads through all of them", true},
-                 {"times", times, "s, one a point; a closed one has one more, that of the return"},
+                 {"times", times, "s, one per point; a closed one has one more, that of the return"},
                  duration,
                  {"spacing", store.add(words_of("a spacing of the times", {"uniform", "centripetal", "chordal"})),
                   "how the duration is shared between the points", false, "\"uniform\""},
@@ -47,8 +47,8 @@ std::vector<Field> spline_fields(FormStore& store, const ValueForms& values, con
                  {"start", end_form(store, value), "what it is held to at its start"},
                  {"end", end_form(store, value), "what it is held to at its end"},
                  {"closed", values.boolean, "back to the first point, and smooth there", false, "false"},
-                 {"rates", some, "value per second, one a point"},
-                 {"accelerations", some, "value per second squared, one a point: the spans are quintic"}});
+                 {"rates", some, "value per second, one per point"},
+                 {"accelerations", some, "value per second squared, one per point: the spans are quintic"}});
   through.together = {at_most_one({"times", "duration"}),
                       at_most_one({"times", "spacing"}),
                       at_most_one({"rates", "ease"}),
@@ -87,7 +87,7 @@ std::vector<Field> rotation_spline_fields(FormStore& store, const ValueForms& va
   const Form* end = store.add(std::move(rate));
   Form through = object_of("a spline: {\"points\", \"times\", ...}",
                            {{"points", points, "it leads through all of them, the short way", true},
-                            {"times", times, "s, one a point"},
+                            {"times", times, "s, one per point"},
                             duration,
                             {"start", end, "absent: the mean of the first span"},
                             {"end", end, "absent: the mean of the last span"}});

@@ -59,13 +59,16 @@ const Form* ease_form(FormStore& store) {
            std::find(calls.begin(), calls.end(), text.substr(0, bracket)) != calls.end() &&
            Ease::named(text).has_value();
   };
-  form.why = [calls](std::string_view text) -> std::string {
+  form.why = [calls, alone = form.words](std::string_view text) -> std::string {
     // What other programs call it.
     if (const std::string ours = Ease::ours(text); !ours.empty()) return "; did you mean \"" + ours + "\"?";
     const std::size_t bracket = text.find('(');
     if (bracket == std::string_view::npos) return {};
     const std::string word(text.substr(0, bracket));
-    if (std::find(calls.begin(), calls.end(), word) == calls.end()) return suggestion(word, calls);
+    if (std::find(calls.begin(), calls.end(), word) == calls.end()) {
+      const bool takes_none = std::find(alone.begin(), alone.end(), word) != alone.end();
+      return takes_none ? "; " + in_quotes(word) + " takes no values" : suggestion(word, calls);
+    }
     std::string reason;
     (void)Ease::named(text, &reason);
     return reason.empty() ? std::string() : "; " + reason;

@@ -119,8 +119,8 @@ std::optional<double> ClipTimes::seconds(const JsonValue& time, std::optional<do
   double amount = words->amount;
   if (words->unit == TimeInWords::Unit::frames) {
     if (!fps_) {
-      problems.add(time,
-                   in_quotes(time.text()) + " counts frames; say how many a second has, with \"fps\" in the document");
+      problems.add(time, in_quotes(time.text()) +
+                             " counts frames; say how many there are per second, with \"fps\" in the document");
       return {};
     }
     amount /= *fps_;

@@ -95,8 +95,9 @@ class Importer {
     const JsonValue& place = member.value;
     std::error_code fault;
     const fs::path given = building_.folder / fs::path(place.text());
-    const fs::path base = fs::weakly_canonical(building_.folder.empty() ? fs::path(".") : building_.folder, fault);
-    const fs::path file = fs::weakly_canonical(given, fault);
+    // Of what is not there a relative path would stay relative, and lie in no folder.
+    const fs::path base = fs::weakly_canonical(fs::current_path() / building_.folder, fault);
+    const fs::path file = fs::weakly_canonical(base / fs::path(place.text()), fault);
     if (fault) return tell(place, in_quotes(place.text()) + " is no path of a file: " + fault.message());
     if (!building_.reading.options.allow_outside && !is_below(file, base))
       return tell(place, in_quotes(place.text()) + " lies outside the document's folder; move the file into it");

@@ -68,14 +68,23 @@ std::string property_meant(std::string_view track) {
 
 std::string suggestion_or_import(std::string_view wrong, const std::vector<std::string>& names) {
   const std::size_t slash = wrong.find('/');
-  if (slash != std::string_view::npos && slash > 0 && nearest_name(wrong, names).empty()) {
-    const std::string_view prefix = wrong.substr(0, slash + 1);
-    const auto from_there = [&](const std::string& name) { return name.compare(0, prefix.size(), prefix) == 0; };
-    if (std::none_of(names.begin(), names.end(), from_there))
-      return "; names that begin with " + in_quotes(prefix) + " come in with \"import\": {" +
-             in_quotes(wrong.substr(0, slash)) + ": \"FILE\"}";
+  if (slash == std::string_view::npos) {
+    // The bare name of what an import brought.
+    const auto bare = [&](const std::string& name) {
+      const std::size_t last = name.rfind('/');
+      return last != std::string::npos && std::string_view(name).substr(last + 1) == wrong;
+    };
+    const auto found = std::find_if(names.begin(), names.end(), bare);
+    return found == names.end() ? suggestion(wrong, names) : suggestion_of(*found, names);
   }
-  return suggestion(wrong, names);
+  const std::string_view prefix = wrong.substr(0, slash + 1);
+  const auto from_there = [&](const std::string& name) {
+    return std::string_view(name).substr(0, slash + 1) == prefix;
+  };
+  if (slash == 0 || std::any_of(names.begin(), names.end(), from_there) || !nearest_name(wrong, names).empty())
+    return suggestion(wrong, names);
+  return "; names that begin with " + in_quotes(prefix) + " come in with \"import\": {" +
+         in_quotes(wrong.substr(0, slash)) + ": \"FILE\"}";
 }
 
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& names) {

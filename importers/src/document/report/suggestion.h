@@ -23,7 +23,7 @@ namespace tweenfall::document {
 // The same where the name that was meant, or that there is none, is known.
 [[nodiscard]] std::string suggestion_of(const std::string& meant, const std::vector<std::string>& names);
 
-// The same for nodes and clips, which may be those of an import that is not there.
+// The same for nodes and clips, which may be those of an import, by their bare name, or of one that is not there.
 [[nodiscard]] std::string suggestion_or_import(std::string_view wrong, const std::vector<std::string>& names);
 
 // "hinge.rotation" for "hinge.rot" or "hinge.rotate"; nothing for a track of ours and for what is near to none.

@@ -15,9 +15,9 @@ std::string starting_document() {
   "nodes": {
     "floor": {"body": {"shape": {"plane": {"normal": [0, 1, 0]}}, "static": true}},
     "ball": {
-      "position": [-2, 1, 0],
+      "position": [-1, 1, 0],
       "color": "#ffd27a",
-      "body": {"shape": {"sphere": {"radius": 0.25}}, "mass": 1, "restitution": 0.6, "rolling_friction": 0.01}
+      "body": {"shape": {"sphere": {"radius": 0.25}}, "mass": 1, "restitution": 0.4, "rolling_friction": 0.1}
     }
   },
 
@@ -27,7 +27,7 @@ std::string starting_document() {
   "clips": {
     "swing up": {
       "tracks": {
-        "ball.position": [[0, [-2, 1, 0]], ["12f", [-1.6, 0.6, 0], "smooth"], [1, [0, 2, 0]]],
+        "ball.position": [[0, [-1, 1, 0]], ["12f", [-0.8, 0.6, 0], "smooth"], [1, [-0.2, 1.2, 0]]],
         "ball.rotation": {"axis": "z", "keys": [[0, 0, "linear"], [1, -360]]}
       },
       "events": [[0.9, "let go"]]

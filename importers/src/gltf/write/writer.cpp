@@ -204,7 +204,7 @@ std::string container(const json& document, const std::vector<unsigned char>& bi
 }  // namespace
 
 void save_glb(const Model& model, const std::filesystem::path& file, double fps) {
-  if (!(fps > 0)) throw std::runtime_error("frames a second must be above 0, not " + number_text(fps));
+  if (!(fps > 0)) throw std::runtime_error("frames per second must be above 0, not " + number_text(fps));
   std::string content;
   try {
     json document{{"asset", {{"version", "2.0"}, {"generator", "tweenfall"}}}};
