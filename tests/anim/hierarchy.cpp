@@ -125,3 +125,44 @@ TEST_CASE("a hierarchy refuses a name twice and a parent that comes later") {
                        "node \"a\" (number 0) has parent number 1; a parent must come before its children",
                        std::invalid_argument);
 }
+
+TEST_CASE("copies of a hierarchy grow apart, and each keeps what it had") {
+  Hierarchy first = chain(5);
+  first.add({"trunk", 0});
+  std::vector<Hierarchy> copies(20, first);
+  for (std::size_t i = 0; i < copies.size(); ++i)
+    for (std::size_t k = 0; k <= i; ++k)
+      CHECK(copies[i].add({"branch" + std::to_string(i) + "/" + std::to_string(k), 5 + k}) == 6 + k);
+  CHECK(first.size() == 6);
+  CHECK_FALSE(first.find("branch0/0"));
+  for (std::size_t i = 0; i < copies.size(); ++i) {
+    REQUIRE(copies[i].size() == 7 + i);
+    for (std::size_t k = 0; k <= i; ++k)
+      CHECK(copies[i].find("branch" + std::to_string(i) + "/" + std::to_string(k)) == 6 + k);
+    CHECK_FALSE(copies[i].find("branch" + std::to_string(i + 1) + "/0"));
+    CHECK(copies[i].find("link4") == 4);
+    CHECK(copies[i][5].name == "trunk");
+  }
+  const Hierarchy moved = std::move(copies[3]);
+  CHECK(moved.find("branch3/3") == 9);
+  CHECK(copies[3].size() == 0);
+  CHECK_FALSE(copies[3].find("link0"));
+  CHECK(copies[3].add({"new", no_node}) == 0);
+}
+
+TEST_CASE("a thousand nodes added one by one are found by name, and of one name the latest") {
+  Hierarchy nodes;
+  for (std::size_t i = 0; i < 1000; ++i) {
+    REQUIRE(nodes.add({"node" + std::to_string((i * 617) % 1000), i == 0 ? no_node : i / 2}) == i);
+    CHECK_THROWS_AS(nodes.add({"node0"}), std::invalid_argument);
+  }
+  for (std::size_t i = 0; i < 1000; ++i) CHECK(nodes.find("node" + std::to_string((i * 617) % 1000)) == i);
+  CHECK_FALSE(nodes.find("node1000"));
+  CHECK_FALSE(nodes.find(""));
+  for (std::size_t again = 1000; again < 1040; ++again) {
+    CHECK(nodes.add_again({"node7", 3}) == again);
+    CHECK(nodes.find("node7") == again);
+    CHECK(nodes.find("node8").has_value());
+  }
+  CHECK(nodes[1010].name == "node7");
+}

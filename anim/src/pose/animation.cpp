@@ -181,21 +181,29 @@ void for_each_running(std::span<const Play> plays, const Clips& clips, const Pla
 }  // namespace pose
 
 Animation::Animation(std::shared_ptr<const Hierarchy> nodes, std::vector<Clip> clips, std::vector<Play> plays)
-    : nodes_(std::move(nodes)), clips_(std::make_shared<const std::vector<Clip>>(std::move(clips))) {
+    : nodes_(std::move(nodes)),
+      clips_(std::make_shared<const std::vector<Clip>>(std::move(clips))),
+      plays_(std::make_shared<const std::vector<Play>>(std::move(plays))) {
   std::string problems;
-  for (std::size_t p = 0; p < plays.size(); ++p)
-    if (plays[p].clip >= clips_->size())
-      problems += "\n  play " + std::to_string(p) + " names clip number " + std::to_string(plays[p].clip) + " of " +
+  for (std::size_t p = 0; p < plays_->size(); ++p)
+    if ((*plays_)[p].clip >= clips_->size())
+      problems += "\n  play " + std::to_string(p) + " names clip number " + std::to_string((*plays_)[p].clip) + " of " +
                   std::to_string(clips_->size());
   bind_clips(std::move(problems));
-  set_plays(std::move(plays));
+  bind_plays();
 }
 
 Animation Animation::with_nodes(std::shared_ptr<const Hierarchy> nodes) const {
   Animation other = *this;
   other.nodes_ = std::move(nodes);
   other.bind_clips({});
-  other.set_plays(other.plays_);
+  other.bind_plays();
+  return other;
+}
+
+Animation Animation::with_more_nodes(std::shared_ptr<const Hierarchy> nodes) const {
+  Animation other = *this;
+  other.nodes_ = std::move(nodes);
   return other;
 }
 
@@ -207,12 +215,11 @@ void Animation::bind_clips(std::string problems) {
   bound_clips_ = std::move(bound);
 }
 
-void Animation::set_plays(std::vector<Play> plays) {
-  plays_ = std::move(plays);
+void Animation::bind_plays() {
   auto bound = std::make_shared<BoundPlays>();
   bound->animated.assign(nodes_->size(), 0);
   std::vector<Parts> below(nodes_->size(), 0);
-  for (const Play& play : plays_) {
+  for (const Play& play : *plays_) {
     BoundPlays::OfPlay& of_play = bound->plays.emplace_back();
     for (const BoundClip::Entry& entry : bound_clips_->clips[play.clip].entries()) {
       const bool driven = pose::passes(play.mask, (*nodes_)[entry.node].name);
@@ -233,7 +240,7 @@ void Animation::set_plays(std::vector<Play> plays) {
 void Animation::sample(double stage_time, std::span<Motion> local, Side side,
                        const ClockOverride& own_clock) const noexcept {
   for (std::size_t node = 0; node < nodes_->size(); ++node) local[node] = pose::at_rest_on((*nodes_)[node]);
-  pose::for_each_running(plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock,
+  pose::for_each_running(*plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock,
                          [&](const pose::Running& play) {
                            const ClipClock clock = play.clock(stage_time, side);
                            const Sample<double> weight = play.weight_at(side);
@@ -253,7 +260,7 @@ Motion Animation::sample_node(std::size_t node, double stage_time, Side side,
                               const ClockOverride& own_clock) const noexcept {
   Motion motion = pose::at_rest_on((*nodes_)[node]);
   pose::for_each_running(
-      plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock, [&](const pose::Running& play) {
+      *plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock, [&](const pose::Running& play) {
         const std::uint32_t entry = play.clip->entry_of(node);
         if (play.drives(entry) && play.clip->entries()[entry].parts)
           pose::lay_over(play, entry, *nodes_, play.clock(stage_time, side), play.weight_at(side), motion);
@@ -268,7 +275,7 @@ WorldMotion Animation::world(std::size_t node, double stage_time, Side side,
 
 NodeLook Animation::look(std::size_t node, double stage_time, Side side, const ClockOverride& own_clock) const {
   NodeLook look;
-  pose::for_each_running(plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock,
+  pose::for_each_running(*plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock,
                          [&](const pose::Running& play) {
                            const std::uint32_t index = play.clip->entry_of(node);
                            if (!play.drives(index)) return;
@@ -285,11 +292,16 @@ NodeLook Animation::look(std::size_t node, double stage_time, Side side, const C
 }
 
 bool Animation::animates(std::size_t node) const noexcept {
-  return bound_plays_->animated[node] != 0;
+  const std::vector<char>& animated = bound_plays_->animated;
+  while (node >= animated.size()) {
+    node = (*nodes_)[node].parent;
+    if (node == no_node) return false;
+  }
+  return animated[node] != 0;
 }
 
 Play Animation::play_under(const ClockOverride& clock, std::size_t index) const {
-  Play play = plays_[index];
+  Play play = (*plays_)[index];
   if (clock.clip != ClockOverride::every_clip) {
     play.at = std::min(play.at, clock.starts_by);
     play.weight = Curve<double>(1.0);
@@ -300,7 +312,7 @@ Play Animation::play_under(const ClockOverride& clock, std::size_t index) const 
 }
 
 bool Animation::moved_by(std::size_t node, std::size_t play, bool unmasked) const noexcept {
-  const BoundClip& clip = bound_clips_->clips[plays_[play].clip];
+  const BoundClip& clip = bound_clips_->clips[(*plays_)[play].clip];
   const std::vector<char>& masked = bound_plays_->plays[play].masked;
   for (std::size_t i = node; i != no_node; i = (*nodes_)[i].parent) {
     const std::uint32_t entry = clip.entry_of(i);
@@ -308,6 +320,11 @@ bool Animation::moved_by(std::size_t node, std::size_t play, bool unmasked) cons
     if (unmasked || masked.empty() || !masked[entry]) return true;
   }
   return false;
+}
+
+bool Animation::has_tracks(std::size_t node) const noexcept {
+  return std::ranges::any_of(bound_clips_->clips,
+                             [&](const BoundClip& clip) { return clip.entry_of(node) != BoundClip::no_entry; });
 }
 
 bool Animation::clip_moves(std::size_t clip, std::size_t node) const noexcept {

@@ -38,7 +38,9 @@ class BoundClip {
   [[nodiscard]] const Clip& clip() const noexcept { return *clip_; }
   [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
   /// Index of a node's entry; `no_entry` where the clip leaves the node alone.
-  [[nodiscard]] std::uint32_t entry_of(std::size_t node) const noexcept { return entry_of_[node]; }
+  [[nodiscard]] std::uint32_t entry_of(std::size_t node) const noexcept {
+    return node < entry_of_.size() ? entry_of_[node] : no_entry;
+  }
 
   /// Writes what the clip drives into the motions of all nodes.
   void sample(const Hierarchy& nodes, const ClipClock& clock, std::span<Motion> local) const noexcept;

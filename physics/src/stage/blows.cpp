@@ -20,16 +20,47 @@ struct Touch {
   double speed = 0;
 };
 
+/// Which of the world's contacts each body has a part in.
+class ContactsByBody {
+ public:
+  explicit ContactsByBody(const StageState& state) : starts_(state.node_of.size() + 1, 0) {
+    const auto contacts = state.world.contacts();
+    for (const Contact& contact : contacts)
+      for (const BodyId body : {contact.a, contact.b}) ++starts_[body.index];
+    std::size_t end = 0;
+    for (std::size_t& start : starts_) start = end += start;
+    places_.resize(end);
+    for (std::size_t i = contacts.size(); i-- > 0;)
+      for (const BodyId body : {contacts[i].a, contacts[i].b}) places_[--starts_[body.index]] = i;
+  }
+  [[nodiscard]] std::span<const std::size_t> of(BodyId body) const {
+    return std::span(places_).subspan(starts_[body.index], starts_[body.index + 1] - starts_[body.index]);
+  }
+
+ private:
+  std::vector<std::size_t> starts_, places_;
+};
+
+std::pair<std::uint32_t, std::uint32_t> pair_of(const Blow& blow) {
+  return {blow.a.index, blow.b.index};
+}
+
+/// The blow that is still going on between the bodies of a contact; null for none.
+const Blow* blow_of(const StageState& state, const Contact& contact) {
+  const auto found = std::ranges::lower_bound(state.blows, std::pair(contact.a.index, contact.b.index), {}, pair_of);
+  return found != state.blows.end() && found->a == contact.a && found->b == contact.b ? &*found : nullptr;
+}
+
 /// All that touched the body in the last piece; a blow that is still going on, with all it has taken.
-std::vector<Touch> touches(const StageState& state, BodyId body) {
+std::vector<Touch> touches(const StageState& state, const ContactsByBody& contacts, BodyId body) {
   std::vector<Touch> found;
-  for (const Contact& contact : state.world.contacts()) {
-    if ((contact.a != body && contact.b != body) || !(contact.impulse > 0)) continue;
+  for (const std::size_t place : contacts.of(body)) {
+    const Contact& contact = state.world.contacts()[place];
+    if (!(contact.impulse > 0)) continue;
     Touch touch{contact.a == body ? contact.b : contact.a, contact.impulse, contact.approach_speed};
-    for (const Blow& blow : state.blows) {
-      if (blow.a != contact.a || blow.b != contact.b) continue;
-      touch.impulse = std::max(touch.impulse, blow.impulse);
-      touch.speed = std::max(touch.speed, blow.speed);
+    if (const Blow* blow = blow_of(state, contact)) {
+      touch.impulse = std::max(touch.impulse, blow->impulse);
+      touch.speed = std::max(touch.speed, blow->speed);
     }
     found.push_back(touch);
   }
@@ -43,10 +74,10 @@ bool pulls(const StageState& state, const Trigger& trigger, const Touch& touch) 
 }
 
 /// Remembers which of the rule's contact triggers were pulled; whether that is enough for it to fire.
-bool latch(ArmedRule& armed, const StageState& state) {
+bool latch(ArmedRule& armed, const StageState& state, const ContactsByBody& contacts) {
   const Rule& rule = *state.rules[armed.rule];
   bool any = false;
-  for (const Touch& touch : touches(state, state.bodies[armed.body].id)) {
+  for (const Touch& touch : touches(state, contacts, state.bodies[armed.body].id)) {
     bool named = false;
     for (std::size_t t = 0; t < rule.when.triggers.size(); ++t) {
       const auto* hit = std::get_if<when::ContactHit>(&rule.when.triggers[t]);
@@ -63,8 +94,8 @@ bool latch(ArmedRule& armed, const StageState& state) {
   return any && (!rule.when.all || std::ranges::all_of(armed.latched, [](char latched) { return latched != 0; }));
 }
 
-bool any_pulled(const StageState& state, const ArmedRule& armed) {
-  const std::vector<Touch> all = touches(state, state.bodies[armed.body].id);
+bool any_pulled(const StageState& state, const ContactsByBody& contacts, const ArmedRule& armed) {
+  const std::vector<Touch> all = touches(state, contacts, state.bodies[armed.body].id);
   return std::ranges::any_of(state.rules[armed.rule]->when.triggers, [&](const Trigger& trigger) {
     return std::ranges::any_of(all, [&](const Touch& touch) { return pulls(state, trigger, touch); });
   });
@@ -127,10 +158,8 @@ double part_of_blow(const StageState& state, const Contact& contact, const std::
   });
   if (parting > parts * contact.approach_speed) return 1;
   const auto falls = [&](BodyId body) {
-    return world.owner(body) == Owner::free && !world.is_fixed(body) &&
-           std::ranges::none_of(world.contacts(), [&](const Contact& other) {
-             return &other != &contact && other.impulse > 0 && (other.a == body || other.b == body);
-           });
+    const std::uint32_t own = contact.impulse > 0 ? 1 : 0;
+    return world.owner(body) == Owner::free && !world.is_fixed(body) && state.presses[body.index] == own;
   };
   const Vec3 apart =
       (falls(contact.b) ? state.gravity : Vec3(0, 0, 0)) - (falls(contact.a) ? state.gravity : Vec3(0, 0, 0));
@@ -160,10 +189,9 @@ void follow_blows(StageState& state, const std::vector<Twist>& before, double dt
   const auto now = [&](BodyId body) { return state.world.twist(body); };
   std::vector<char> met(state.blows.size(), 0);
   for (const Contact& contact : state.world.contacts()) {
-    const auto known =
-        std::ranges::find_if(state.blows, [&](const Blow& blow) { return blow.a == contact.a && blow.b == contact.b; });
-    const bool goes_on = known != state.blows.end();
-    if (goes_on) met[static_cast<std::size_t>(known - state.blows.begin())] = 1;
+    const Blow* known = blow_of(state, contact);
+    const bool goes_on = known != nullptr;
+    if (goes_on) met[static_cast<std::size_t>(known - state.blows.data())] = 1;
     if (!goes_on && !contact.began) continue;
     Blow blow = goes_on ? *known : Blow{contact.a, contact.b, state.time, 0, 0};
     if (contact.impulse > 0) blow.impulse += contact.impulse * part_of_blow(state, contact, before, dt);
@@ -177,16 +205,26 @@ void follow_blows(StageState& state, const std::vector<Twist>& before, double dt
   for (std::size_t i = 0; i < met.size(); ++i)
     if (!met[i] && state.world.contains(state.blows[i].a) && state.world.contains(state.blows[i].b))
       tell(state.blows[i]);
+  std::ranges::sort(going_on, {}, pair_of);
   state.blows = std::move(going_on);
 }
 
-void step_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
-  set_targets(state, end);
+/// Moves the world to `end`, where it has been told what its bodies shall do.
+void step_told_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
   const std::vector<Twist> before = twists(state);
   const double dt = end - state.time;
   state.world.step(dt);
   state.time = end;
+  state.presses.assign(state.node_of.size(), 0);
+  for (const Contact& contact : state.world.contacts())
+    if (contact.impulse > 0)
+      for (const BodyId body : {contact.a, contact.b}) ++state.presses[body.index];
   follow_blows(state, before, dt, step, happenings);
+}
+
+void step_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
+  set_targets(state, end);
+  step_told_world(state, end, step, happenings);
 }
 
 /// Moves the world to just before an impact on a keyed body, which then leaves from its own path. Until then it stands,
@@ -196,11 +234,7 @@ void approach(StageState& state, BodyId body, double end, double step, std::vect
       state.world.contacts(), [&](const Contact& c) { return (c.a == body || c.b == body) && c.impulse > 0; });
   set_targets(state, end);
   if (!presses) state.world.set_target(body, state.world.motion(body));
-  const std::vector<Twist> before = twists(state);
-  const double dt = end - state.time;
-  state.world.step(dt);
-  state.time = end;
-  follow_blows(state, before, dt, step, happenings);
+  step_told_world(state, end, step, happenings);
 }
 
 /// A contact between two bodies that physics does not move: the world knows nothing of it.
@@ -243,11 +277,12 @@ bool fire_at_impact(StageState& state, double end, double step, std::vector<Happ
         continue;
       const StageState trial = tried(there, i, there.time + step / 16, step);
       ArmedRule after = trial.armed[i];
-      const bool fires = latch(after, trial);
+      const ContactsByBody contacts(trial);
+      const bool fires = latch(after, trial, contacts);
       state.armed[i].attempt = armed.attempt = after.attempt;
       if (!fires) {
         state.armed[i].latched = armed.latched = after.latched;  // of an `all`: this one has come, others have not
-        for (const Touch& one : touches(trial, body))
+        for (const Touch& one : touches(trial, contacts, body))
           if (one.other == meeting.other) touch = one;
         continue;
       }
@@ -283,17 +318,18 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
   std::vector<Happening> fired;
   for (bool freed = true; freed;) {
     freed = false;
+    const ContactsByBody contacts(state);
     for (std::size_t i = 0; i < state.armed.size() && !freed; ++i) {
       if (judged[i] || !has_contact_trigger(*state.rules[state.armed[i].rule]) || !waits(state, state.armed[i]))
         continue;
       if (state.world.owner(state.bodies[state.armed[i].body].id) != Owner::keyed) {
-        static_cast<void>(latch(state.armed[i], state));  // fired at the end of the piece, with all others
+        static_cast<void>(latch(state.armed[i], state, contacts));  // fired at the end of the piece, with all others
         continue;
       }
-      if (!any_pulled(state, state.armed[i])) continue;
+      if (!any_pulled(state, contacts, state.armed[i])) continue;
       const StageState trial = tried(start, i, end, step);
       ArmedRule after = trial.armed[i];
-      const bool fires = latch(after, trial);
+      const bool fires = latch(after, trial, ContactsByBody(trial));
       start.armed[i].attempt = state.armed[i].attempt = after.attempt;
       if (!fires) {
         state.armed[i].latched = start.armed[i].latched = after.latched;

@@ -15,10 +15,8 @@ bool at_end(const StageState& from, const StageState& to, double time) {
   return &from == &to || time >= to.time;
 }
 
-bool touched(const World& world, BodyId body) {
-  return std::ranges::any_of(world.contacts(), [&](const Contact& contact) {
-    return (contact.a == body || contact.b == body) && contact.impulse > 0;
-  });
+bool touched(const StageState& state, BodyId body) {
+  return body.index < state.presses.size() && state.presses[body.index] > 0;
 }
 
 /// A free body between two states: pose of the origin, twist at the center of mass. Its center follows the Hermite
@@ -36,7 +34,7 @@ Motion between(const StageState& from, const StageState& to, const StagedBody& b
 
   Motion motion;
   Vec3 place;
-  if (touched(to.world, body.id)) {
+  if (touched(to, body.id)) {
     place = place_start + u * (place_end - place_start);
     motion.pose.rotation = start.pose.rotation * exp_map(u * turn);
     motion.twist.linear = twist_start.linear + u * (twist_end.linear - twist_start.linear);

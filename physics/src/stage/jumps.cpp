@@ -75,7 +75,7 @@ double first_jump_by(const StageState& state, const ClockOverride& clock, double
 
 std::shared_ptr<const Jumps> find_jumps(const StageState& state) {
   auto jumps = std::make_shared<Jumps>();
-  const std::vector<char> carries = carriers(state);
+  jumps->carriers = carriers(state);
   for (const Clip& clip : state.animation->clips()) {
     Clip shadow;
     shadow.duration = clip.duration;
@@ -84,7 +84,7 @@ std::shared_ptr<const Jumps> find_jumps(const StageState& state) {
     for (const Track& track : clip.tracks) {
       // What moves no body may jump as it likes: physics need not know.
       const auto node = state.nodes->find(track.node);
-      if (!node || !carries[*node]) continue;
+      if (!node || !jumps->carriers[*node]) continue;
       const Property property = property_named(track.property);
       if (property == Property::position || property == Property::scale) {
         // A parent's scale moves its children.
@@ -102,11 +102,18 @@ std::shared_ptr<const Jumps> find_jumps(const StageState& state) {
   return jumps;
 }
 
+bool carries_more(const StageState& state, NodeId node) {
+  const std::vector<char>& known = state.jumps->carriers;
+  for (NodeId i = node; i != no_node && !(i < known.size() && known[i]); i = (*state.nodes)[i].parent)
+    if (state.animation->has_tracks(i)) return true;
+  return false;
+}
+
 double first_jump(const StageState& state, double from, double to) {
   double first = first_jump_by(state, {}, from, to);
   ClockOverride asked;  // bodies that come back together run by the same clock
   for (const StagedBody& body : state.bodies)
-    if (body.present && body.path.clock() != asked) {
+    if (body.present && body.path.clock() != asked && body.path.clock() != ClockOverride{}) {
       asked = body.path.clock();
       first = std::min(first, first_jump_by(state, asked, from, to));
     }

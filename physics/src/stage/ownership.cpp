@@ -49,12 +49,10 @@ std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState
                                                                 const Path& next, const Settle& settle, double time) {
   if (next.clock() == body.path.clock()) return body.below;
   auto below = std::make_shared<std::vector<SettlingNode>>();
-  std::vector<char> carried(state.nodes->size(), 0);
-  carried[body.node] = 1;
-  for (NodeId node = body.node + 1; node < carried.size(); ++node) {
-    const std::size_t parent = (*state.nodes)[node].parent;
-    if (parent == no_node || !carried[parent] || state.body_of[node] != no_body) continue;
-    carried[node] = 1;
+  const std::vector<NodeId> carried =
+      state.below(body.node, [&](NodeId node) { return state.body_of[node] == no_body; });
+  below->reserve(carried.size());
+  for (const NodeId node : carried) {
     const Motion shown = local_motion(state, &body, node, time, Side::in);
     below->push_back(
         {node, SettleOffset(settle, time, next.animation().sample_node(node, time, Side::out, next.clock()), shown)});

@@ -37,6 +37,12 @@ BodySettings settings_of(const StageState& state, NodeId node, const BodyDescrip
   return settings;
 }
 
+void forget_gone_rules(StageState& state) {
+  if (state.gone_rules == 0) return;
+  std::erase_if(state.armed, [](const ArmedRule& armed) { return armed.gone; });
+  state.gone_rules = 0;
+}
+
 /// Puts the description's body on its node. When it throws, nothing has changed.
 void add_body(StageState& state, NodeId node, const BodyDescription& body) {
   Path path(state.animation, node, state.time);
@@ -49,22 +55,39 @@ void add_body(StageState& state, NodeId node, const BodyDescription& body) {
   StagedBody staged{.node = node, .id = id, .path = std::move(path), .shown = start};
   staged.released_at = state.time;
   staged.drive = settings.drive;
-  state.body_of[node] = state.bodies.size();
   if (state.node_of.size() <= id.index) state.node_of.resize(id.index + 1, no_node);
   state.node_of[id.index] = node;
-  state.bodies.push_back(std::move(staged));
+  if (state.unused.empty()) {
+    state.body_of[node] = state.bodies.size();
+    state.bodies.push_back(std::move(staged));
+    return;
+  }
+  forget_gone_rules(state);
+  state.body_of[node] = state.unused.back();
+  state.unused.pop_back();
+  state.bodies[state.body_of[node]] = std::move(staged);
+}
+
+/// Hangs the last node below its parent.
+void link(StageState& state, NodeId node, NodeId parent) {
+  state.first_child.push_back(no_node);
+  state.next_sibling.push_back(parent == no_node ? no_node : std::exchange(state.first_child[parent], node));
 }
 
 bool names_body(const StageState& state, const StagedBody& body, const std::string& pattern) {
   return body.present && matches(pattern, (*state.nodes)[body.node].name);
 }
 
-void arm_on(StageState& state, std::size_t rule, std::size_t body) {
-  ArmedRule armed{.body = body, .rule = rule};
-  armed.latched.assign(state.rules[rule]->when.triggers.size(), 0);
-  const auto place = std::ranges::upper_bound(state.armed, std::pair(body, rule), {},
-                                              [](const ArmedRule& other) { return std::pair(other.body, other.rule); });
-  state.armed.insert(place, std::move(armed));
+/// @param bodies  in order
+void arm_on(StageState& state, std::size_t rule, const std::vector<std::size_t>& bodies) {
+  const auto before = static_cast<std::ptrdiff_t>(state.armed.size());
+  for (const std::size_t body : bodies) {
+    ArmedRule armed{.body = body, .rule = rule};
+    armed.latched.assign(state.rules[rule]->when.triggers.size(), 0);
+    state.armed.push_back(std::move(armed));
+  }
+  std::ranges::inplace_merge(state.armed, state.armed.begin() + before, {},
+                             [](const ArmedRule& other) { return std::pair(other.body, other.rule); });
 }
 
 void validate(const Rule& rule) {
@@ -168,6 +191,7 @@ StageState described_state(const StageDescription& description, std::vector<Stag
   if (!bound) return state;
   state.present.assign(state.nodes->size(), 1);
   state.body_of.assign(state.nodes->size(), no_body);
+  for (NodeId node = 0; node < state.nodes->size(); ++node) link(state, node, (*state.nodes)[node].parent);
   for (NodeId node = 0; node < description.nodes.size(); ++node) {
     const NodeDescription& described = description.nodes[node];
     state.colors.push_back(described.color);
@@ -247,15 +271,15 @@ void arm_rule(StageState& state, const Rule& rule) {
   std::ranges::sort(meant);
   meant.erase(std::unique(meant.begin(), meant.end()), meant.end());
   state.rules.push_back(std::make_shared<const Rule>(rule));
-  for (const std::size_t body : meant) arm_on(state, state.rules.size() - 1, body);
+  arm_on(state, state.rules.size() - 1, meant);
 }
 
 namespace {
 
-/// Everything that was bound to the old nodes, bound to the new ones.
-void rebind(StageState& state, std::vector<Node> nodes) {
-  state.nodes = std::make_shared<const Hierarchy>(std::move(nodes));
-  state.animation = std::make_shared<const Animation>(state.animation->with_nodes(state.nodes));
+/// Everything that was bound to the old nodes, bound to these.
+void rebind(StageState& state, std::shared_ptr<const Hierarchy> nodes) {
+  state.animation = std::make_shared<const Animation>(state.animation->with_nodes(nodes));
+  state.nodes = std::move(nodes);
   for (StagedBody& body : state.bodies) body.path = body.path.rebound(state.animation);
 }
 
@@ -265,19 +289,25 @@ NodeId add_node(StageState& state, const NodeDescription& node) {
   Node added = checked_node(node);
   if (node.parent != no_node && (node.parent >= state.present.size() || !state.present[node.parent]))
     throw std::invalid_argument("the parent of \"" + node.name + "\" is not on the stage");
-  std::vector<Node> nodes(state.nodes->nodes().begin(), state.nodes->nodes().end());
   // A removed node keeps its place; its name is free again.
-  if (const auto old = state.nodes->find(node.name); old && !state.present[*old])
-    nodes[*old].name += "#removed" + std::to_string(*old);
-  nodes.push_back(std::move(added));
-  // Bound on the side, so that a node that cannot be added changes nothing.
+  const std::optional<std::size_t> old = state.nodes->find(node.name);
+  const bool again = old && !state.present[*old];
+  const auto nodes = std::make_shared<Hierarchy>(*state.nodes);
+  const NodeId id = again ? nodes->add_again(std::move(added)) : nodes->add(std::move(added));
+  // What is bound to nodes that stay what they were stays bound; only tracks that name the new one are bound to it.
+  const bool named = again && state.animation->has_tracks(*old);
   const std::shared_ptr<const Hierarchy> old_nodes = state.nodes;
   const std::shared_ptr<const Animation> old_animation = state.animation;
   std::vector<Path> old_paths;
-  for (const StagedBody& body : state.bodies) old_paths.push_back(body.path);
-  const NodeId id = state.present.size();
+  if (named)
+    for (const StagedBody& body : state.bodies) old_paths.push_back(body.path);
   try {
-    rebind(state, std::move(nodes));
+    if (named) {
+      rebind(state, nodes);
+    } else {
+      state.animation = std::make_shared<const Animation>(state.animation->with_more_nodes(nodes));
+      state.nodes = nodes;
+    }
     state.present.push_back(1);
     state.colors.push_back(node.color);
     state.body_of.push_back(no_body);
@@ -291,27 +321,28 @@ NodeId add_node(StageState& state, const NodeDescription& node) {
     state.body_of.resize(id);
     throw;
   }
-  if (node.body && !node.body->fixed) state.jumps = find_jumps(state);
+  link(state, id, node.parent);
+  if (named || (node.body && !node.body->fixed && carries_more(state, id))) state.jumps = find_jumps(state);
   return id;
 }
 
 void remove_node(StageState& state, NodeId node) {
-  std::vector<char> going(state.present.size(), 0);
-  going[node] = 1;
-  for (NodeId i = node + 1; i < going.size(); ++i) {
-    const std::size_t parent = (*state.nodes)[i].parent;
-    if (parent != no_node && going[parent]) going[i] = 1;
+  std::vector<NodeId> going = state.below(node, [](NodeId) { return true; });
+  going.push_back(node);
+  for (const NodeId gone : going) {
+    state.present[gone] = 0;
+    const std::size_t body = std::exchange(state.body_of[gone], no_body);
+    if (body == no_body) continue;
+    state.world.remove(state.bodies[body].id);
+    state.bodies[body].present = false;
+    state.bodies[body].below.reset();
+    state.unused.push_back(body);
+    for (ArmedRule& armed : std::ranges::equal_range(state.armed, body, {}, &ArmedRule::body)) {
+      armed.done = armed.gone = true;
+      ++state.gone_rules;
+    }
   }
-  for (NodeId i = node; i < going.size(); ++i) {
-    if (!going[i] || !state.present[i]) continue;
-    state.present[i] = 0;
-    if (state.body_of[i] == no_body) continue;
-    const std::size_t gone = state.body_of[i];
-    state.world.remove(state.bodies[gone].id);
-    state.bodies[gone].present = false;
-    state.body_of[i] = no_body;
-    std::erase_if(state.armed, [&](const ArmedRule& armed) { return armed.body == gone; });
-  }
+  if (2 * state.gone_rules > state.armed.size()) forget_gone_rules(state);
 }
 
 }  // namespace tweenfall::staging

@@ -5,6 +5,7 @@
 #include <tweenfall/physics/stage/inspection.h>
 #include <tweenfall/physics/stage/stage.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -71,6 +72,7 @@ struct ArmedRule {
   std::vector<char> latched;  ///< for `all`: by trigger, whether its instant has come
   bool done = false;
   bool was_true = false;  ///< for a rule that fires again: it must have been false in between
+  bool gone = false;      ///< its body has left
   Attempt attempt = {};   ///< what came of it so far
 };
 
@@ -84,7 +86,8 @@ struct Blow {
 
 /// Where the plays make bodies jump.
 struct Jumps {
-  std::vector<Clip> clips;         ///< for each clip one without tracks, whose events are its jumps
+  std::vector<char> carriers;  ///< by node, of those there were: whether it or one below it has a body that can move
+  std::vector<Clip> clips;     ///< for each clip one without tracks, whose events are its jumps
   std::vector<char> carries_body;  ///< by clip: whether it moves a body at all
 };
 
@@ -115,17 +118,37 @@ struct StageState {
   std::vector<char> present;                                    ///< by node
   std::vector<std::optional<Color>> colors;                     ///< by node, where none is animated
   std::vector<StagedBody> bodies;
-  std::vector<std::size_t> body_of;  ///< by node; `no_body` for none
-  std::vector<NodeId> node_of;       ///< by index of the world's body
+  std::vector<std::size_t> unused;                ///< places in `bodies` of those that have left
+  std::vector<std::size_t> body_of;               ///< by node; `no_body` for none
+  std::vector<NodeId> node_of;                    ///< by index of the world's body
+  std::vector<NodeId> first_child, next_sibling;  ///< by node; `no_node` for none
+  std::vector<std::uint32_t> presses;  ///< by index of the world's body: contacts with an impulse, last piece
   std::vector<std::shared_ptr<const Rule>> rules;
   std::vector<ArmedRule> armed;  ///< by body, then by rule
-  std::vector<Blow> blows;       ///< by pair, in the order of the world's contacts
+  std::size_t gone_rules = 0;    ///< of `armed`
+  std::vector<Blow> blows;       ///< by pair
   bool jumped = true;            ///< some path may have jumped at `time`: keyed bodies are put on it before going on
 
   [[nodiscard]] StagedBody* body(NodeId node) {
     return node < body_of.size() && body_of[node] != no_body ? &bodies[body_of[node]] : nullptr;
   }
   [[nodiscard]] const StagedBody* body(NodeId node) const { return const_cast<StageState*>(this)->body(node); }
+  /// The nodes below one that are on the stage, in order. @param enters  whether a node, and what is below it, counts
+  template <class Enters>
+  [[nodiscard]] std::vector<NodeId> below(NodeId node, Enters&& enters) const {
+    std::vector<NodeId> found, left{node};
+    while (!left.empty()) {
+      NodeId child = first_child[left.back()];
+      left.pop_back();
+      for (; child != no_node; child = next_sibling[child]) {
+        if (!present[child] || !enters(child)) continue;
+        found.push_back(child);
+        left.push_back(child);
+      }
+    }
+    std::ranges::sort(found);
+    return found;
+  }
   [[nodiscard]] std::string_view name_of(BodyId body) const { return (*nodes)[node_of[body.index]].name; }
 };
 
@@ -179,6 +202,8 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
 
 // jumps.cpp: where paths are not continuous
 [[nodiscard]] std::shared_ptr<const Jumps> find_jumps(const StageState& state);
+/// Whether a body that has come to this node is moved by tracks that moved none before.
+[[nodiscard]] bool carries_more(const StageState& state, NodeId node);
 /// First stage time in (from, to] at which some path may make its body jump; infinity for none.
 [[nodiscard]] double first_jump(const StageState& state, double from, double to);
 

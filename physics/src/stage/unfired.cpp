@@ -63,7 +63,7 @@ struct Reason {
 std::vector<UnfiredRule> unfired_rules(const StageState& state) {
   std::vector<UnfiredRule> unfired;
   for (const ArmedRule& armed : state.armed) {
-    if (armed.attempt.fired) continue;
+    if (armed.attempt.fired || armed.gone) continue;
     const StagedBody& body = state.bodies[armed.body];
     const Rule& rule = *state.rules[armed.rule];
     std::string reason;

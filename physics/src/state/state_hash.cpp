@@ -66,6 +66,7 @@ std::uint64_t World::state_hash() const noexcept {
     hash.add(std::uint64_t{body.asleep});
   }
   for (const ContactConstraint& constraint : world.constraints) {
+    if (constraint.gone) continue;
     hash.add(std::uint64_t{constraint.a} << 32 | constraint.b);
     hash.add(constraint.kept_rolling);
     hash.add(constraint.kept_step);

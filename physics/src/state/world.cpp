@@ -101,17 +101,48 @@ void World::Implementation::wake(std::uint32_t index) {
   bodies[index].still_for = 0;
 }
 
+std::span<const std::size_t> World::Implementation::constraints_of(std::uint32_t index) {
+  if (constraint_starts.empty()) {
+    constraint_starts.assign(bodies.size() + 1, 0);
+    for (const ContactConstraint& constraint : constraints)
+      for (const std::uint32_t body : {constraint.a, constraint.b}) ++constraint_starts[body];
+    std::size_t end = 0;
+    for (std::size_t& start : constraint_starts) start = end += start;
+    constraint_places.resize(end);
+    for (std::size_t i = constraints.size(); i-- > 0;)
+      for (const std::uint32_t body : {constraints[i].a, constraints[i].b})
+        constraint_places[--constraint_starts[body]] = i;
+  }
+  if (index + std::size_t{1} >= constraint_starts.size()) return {};  // added since
+  const std::size_t start = constraint_starts[index];
+  return std::span(constraint_places).subspan(start, constraint_starts[index + 1] - start);
+}
+
+void World::Implementation::drop_constraints(std::uint32_t index) {
+  bool seen = false;
+  for (const std::size_t place : constraints_of(index)) {
+    ContactConstraint& constraint = constraints[place];
+    if (constraint.gone) continue;
+    seen = seen || constraint.touching;
+    constraint.gone = true;
+    ++gone;
+  }
+  if (seen)
+    std::erase_if(contacts,
+                  [&](const Contact& contact) { return contact.a.index == index || contact.b.index == index; });
+}
+
 void World::Implementation::wake_neighbors(std::uint32_t index) {
-  for (const ContactConstraint& constraint : constraints) {
-    if (constraint.a != index && constraint.b != index) continue;
+  for (const std::size_t place : constraints_of(index)) {
+    const ContactConstraint& constraint = constraints[place];
     const std::uint32_t other = constraint.a == index ? constraint.b : constraint.a;
-    if (bodies[other].alive && !bodies[other].immovable()) wake(other);
+    if (!constraint.gone && !bodies[other].immovable()) wake(other);
   }
 }
 
 void World::Implementation::forget_impulses(std::uint32_t index) {
-  for (ContactConstraint& constraint : constraints) {
-    if (constraint.a != index && constraint.b != index) continue;
+  for (const std::size_t place : constraints_of(index)) {
+    ContactConstraint& constraint = constraints[place];
     constraint.kept_rolling = Vec3::Zero();
     for (PointConstraint& point : constraint.points) {
       point.kept_normal = 0;
@@ -240,8 +271,7 @@ void World::remove(BodyId id) {
   }
   body.alive = false;
   ++body.generation;
-  std::erase_if(world.constraints, [&](const ContactConstraint& c) { return c.a == id.index || c.b == id.index; });
-  std::erase_if(world.contacts, [&](const Contact& c) { return c.a == id || c.b == id; });
+  world.drop_constraints(id.index);
   world.unused.push_back(id.index);
 }
 

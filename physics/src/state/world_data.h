@@ -31,6 +31,9 @@ struct World::Implementation {
   bool stepping = false;                       ///< a field may be running: nothing may change
   std::vector<ContactConstraint> constraints;  ///< of the last step, by pair
   std::vector<Contact> contacts;               ///< what the caller sees of them
+  std::vector<std::size_t> constraint_starts;  ///< by body, in `constraint_places`; empty until they are asked for
+  std::vector<std::size_t> constraint_places;  ///< of each body's constraints
+  std::size_t gone = 0;                        ///< of the constraints
 
   // Room for work, kept between steps
   std::vector<Load> loads;
@@ -49,6 +52,9 @@ struct World::Implementation {
 
   Body& at(BodyId id);
   const Body& at(BodyId id) const;
+  /// Places of a body's constraints of the last step, those that are gone too.
+  [[nodiscard]] std::span<const std::size_t> constraints_of(std::uint32_t index);
+  void drop_constraints(std::uint32_t index);
   void wake(std::uint32_t index);
   void wake_neighbors(std::uint32_t index);
   void forget_impulses(std::uint32_t index);  ///< what the contacts of this body remember

@@ -43,6 +43,7 @@ struct ContactConstraint {
   double passed_over = 0;  ///< time since then in sub-steps too short to be kept, s
   Vec3 rolling_impulse{0, 0, 0};
   Vec3 total_rolling{0, 0, 0};
+  bool gone = false;      ///< a body of it has left since
   bool touching = false;  ///< an impulse passed or the shapes overlap
   bool began = false;
   bool impact = false;     ///< some point meets fast enough to rebound

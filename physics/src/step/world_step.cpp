@@ -77,6 +77,9 @@ bool before(const ContactConstraint& left, const ContactConstraint& right) {
 void World::Implementation::find_constraints(double dt) {
   active.clear();
   retained.clear();
+  if (gone > 0) std::erase_if(constraints, [](const ContactConstraint& constraint) { return constraint.gone; });
+  gone = 0;
+  constraint_starts.clear();
   const std::vector<Pair>& pairs = broad_phase.find(bodies, loads, near_enough, dt);
   contact_counts.assign(bodies.size(), 0);
   std::size_t next = 0;  // among the old constraints, which are sorted like the pairs

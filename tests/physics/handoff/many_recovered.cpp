@@ -76,6 +76,14 @@ TEST_CASE("a stage hands two thousand bodies back at once, and each goes on wher
   description.rules = {{.bodies = {"ball*"}, .when = {{when::At{0.02}}}},
                        {.bodies = {"ball*"}, .when = {{when::At{0.05}}}, .to = Drive::keyed(), .hand_back = back}};
   Stage stage(description);
+  stage.advance_to(0.05 - 1.5 * stage.step());
+  const std::size_t before = mallinfo2().uordblks;
+  const double start = processor_seconds();
+  stage.advance(stage.step());
+  const double seconds = processor_seconds() - start;
+  const double bytes = static_cast<double>(mallinfo2().uordblks) - static_cast<double>(before);
+  MESSAGE("the step in which 2,000 bodies come back: " << 1e3 * seconds << " ms, " << bytes / 1e6 << " MB");
+  CHECK(bytes < 20e6);
   stage.advance_to(0.25);
   REQUIRE(stage.handoffs().size() == 2 * count);
   const Animation authored(

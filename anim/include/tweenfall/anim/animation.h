@@ -36,9 +36,13 @@ class Animation {
   /// The same clips and plays over other nodes. @throws as the constructor.
   [[nodiscard]] Animation with_nodes(std::shared_ptr<const Hierarchy> nodes) const;
 
+  /// The same over the same nodes and more after them, none of which has a track: binds nothing, and takes no longer
+  /// for more nodes.
+  [[nodiscard]] Animation with_more_nodes(std::shared_ptr<const Hierarchy> nodes) const;
+
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return *nodes_; }
   [[nodiscard]] std::span<const Clip> clips() const noexcept { return *clips_; }
-  [[nodiscard]] std::span<const Play> plays() const noexcept { return plays_; }
+  [[nodiscard]] std::span<const Play> plays() const noexcept { return *plays_; }
 
   // Whole poses
   /// Local motion of every node at a stage time. @param local  written, one per node, in order
@@ -62,6 +66,9 @@ class Animation {
   /// Whether some play has a track for the node's position, rotation or scale, or an ancestor's.
   [[nodiscard]] bool animates(std::size_t node) const noexcept;
 
+  /// Whether some clip, played or not, has a track for the node itself.
+  [[nodiscard]] bool has_tracks(std::size_t node) const noexcept;
+
   /// Calls `visit(play)` for each play that runs under `clock`, told on the stage's time (its weight stays on the
   /// timeline).
   /// @param node  only those that move this node or an ancestor; `no_node`: all
@@ -69,12 +76,12 @@ class Animation {
   void for_each_play(const ClockOverride& clock, std::size_t node, Visit&& visit) const {
     const bool alone = clock.clip != ClockOverride::every_clip;
     bool any = false;
-    for (std::size_t p = 0; p < plays_.size(); ++p) {
-      if (alone && plays_[p].clip != clock.clip) continue;
+    for (std::size_t p = 0; p < plays_->size(); ++p) {
+      if (alone && (*plays_)[p].clip != clock.clip) continue;
       any = true;
       if (node != no_node && !moved_by(node, p, alone)) continue;
       if (clock == ClockOverride{})
-        visit(plays_[p]);
+        visit((*plays_)[p]);
       else
         visit(play_under(clock, p));
     }
@@ -84,14 +91,14 @@ class Animation {
 
  private:
   void bind_clips(std::string problems);
-  void set_plays(std::vector<Play> plays);
+  void bind_plays();
   [[nodiscard]] Play play_under(const ClockOverride& clock, std::size_t play) const;
   [[nodiscard]] bool moved_by(std::size_t node, std::size_t play, bool unmasked) const noexcept;
   [[nodiscard]] bool clip_moves(std::size_t clip, std::size_t node) const noexcept;
 
   std::shared_ptr<const Hierarchy> nodes_;
   std::shared_ptr<const std::vector<Clip>> clips_;
-  std::vector<Play> plays_;
+  std::shared_ptr<const std::vector<Play>> plays_;
   struct BoundClips;  ///< every clip, bound to the nodes
   struct BoundPlays;  ///< which of the nodes each play drives
   std::shared_ptr<const BoundClips> bound_clips_;

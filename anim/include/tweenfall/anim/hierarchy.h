@@ -9,11 +9,12 @@
 
 #include <tweenfall/curves/pose.h>
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 namespace tweenfall {
@@ -55,9 +56,15 @@ struct WorldFrame {
 /// World motion of a child from its parent's and its own local motion.
 [[nodiscard]] WorldMotion child_of(const WorldMotion& parent, const Motion& local) noexcept;
 
+/// Copies share their nodes: to copy a hierarchy and to add to the copy takes no longer for more nodes, and leaves the
+/// other as it was.
 class Hierarchy {
  public:
   Hierarchy() = default;
+  Hierarchy(const Hierarchy&) = default;
+  Hierarchy(Hierarchy&& other) noexcept;
+  Hierarchy& operator=(Hierarchy other) noexcept;
+  ~Hierarchy() = default;
 
   /// Parents come before their children. @throws std::invalid_argument naming the node: a name twice, or a parent
   /// that is not an earlier node.
@@ -65,6 +72,9 @@ class Hierarchy {
 
   /// Appends a node below an existing parent. @returns its index. @throws as the constructor.
   std::size_t add(Node node);
+
+  /// The same for a node whose name an earlier one may have: `find` gives the latest of that name.
+  std::size_t add_again(Node node);
 
   [[nodiscard]] std::size_t size() const noexcept { return nodes_.size(); }
   [[nodiscard]] const Node& operator[](std::size_t index) const noexcept { return nodes_[index]; }
@@ -98,8 +108,11 @@ class Hierarchy {
   }
 
  private:
-  std::vector<Node> nodes_;
-  std::unordered_map<std::string, std::size_t> index_;
+  struct Room;                               ///< for more nodes than one hierarchy sees
+  using Names = std::vector<std::uint32_t>;  ///< nodes in order of their names
+  std::shared_ptr<Room> room_;
+  std::span<const Node> nodes_;                     ///< those of the room that are its own, from the first on
+  std::vector<std::shared_ptr<const Names>> runs_;  ///< of all nodes, the latest last; each longer than the next
 };
 
 }  // namespace tweenfall
