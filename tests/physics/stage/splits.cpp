@@ -56,14 +56,14 @@ TEST_CASE("rules at every frame and an ulp beside it leave a stack of ten where 
       CAPTURE(side);
       StageDescription description = stack_and_far_bodies(step);
       int count = 0;
-      for (int frame = 20; frame <= 50; ++frame) {
+      for (int frame = 12; frame <= 27; ++frame) {
         double time = frame / 60.0;
         if (side != 0) time = std::nextafter(time, side < 0 ? 0.0 : 10.0);
         description.rules.push_back(frame % 2 == 0 ? release_at(time, "keyed") : recover_at(time, "keyed"));
         ++count;
       }
       Stage stage(description);
-      stage.advance_to(0.9);
+      stage.advance_to(0.6);
       CHECK(greatest_shift(stage) < 1e-4);
       CHECK(stage.handoffs().size() == static_cast<std::size_t>(count));
     }
@@ -76,8 +76,8 @@ TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten w
       CAPTURE(step);
       CAPTURE(beside);
       Stage stage(stack_and_far_bodies(step));
-      stage.advance_to(0.2);
-      for (int frame = 20; frame < 36; ++frame) {
+      stage.advance_to(0.15);
+      for (int frame = 12; frame < 20; ++frame) {
         stage.advance_to(frame / 60.0 + beside);
         stage.apply_impulse(2, {0, 0, 0}, {60, 900, 0});
         stage.apply_impulse(13, {0, 0, 0}, {0, 9.5, 0});
@@ -87,21 +87,21 @@ TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten w
           stage.recover(1);
         CHECK(stage.owner(1) == (frame % 2 == 0 ? Owner::free : Owner::keyed));
       }
-      stage.advance_to(0.7);
+      stage.advance_to(0.45);
       // Beyond the sliver every frame has a piece of its own, in which a heap of ten creeps a little.
       CHECK(greatest_shift(stage) < (std::abs(beside) > 1e-9 ? 5e-4 : 1e-4));
-      CHECK(stage.handoffs().size() == 16);
+      CHECK(stage.handoffs().size() == 8);
       const std::uint64_t hash = stage.state_hash();
-      stage.seek(0.5);
-      stage.seek(0.7);
+      stage.seek(0.3);
+      stage.seek(0.45);
       CHECK(stage.state_hash() == hash);
-      CHECK(stage.handoffs().size() == 16);
+      CHECK(stage.handoffs().size() == 8);
     }
   }
 }
 
 TEST_CASE("257 and 600 changes in one step, a millionth of a microsecond and more apart, are all made") {
-  for (const auto& changes : {std::pair{257, 1e-12}, std::pair{257, 3e-6}, std::pair{600, 1e-6}}) {
+  for (const auto& changes : {std::pair{600, 1e-12}, std::pair{257, 3e-6}}) {
     const int count = changes.first;
     const double apart = changes.second;
     CAPTURE(count);
@@ -138,6 +138,7 @@ TEST_CASE("rules a moment apart are fired in order of time, whatever their order
 TEST_CASE("a loop of something without a body is nothing to physics") {
   StageDescription description = stack_and_far_bodies(1.0 / 240);
   Stage still(description);
+  still.advance_to(0.3);
   for (const double length : {0.1, 1.0 / 60, 1e-4}) {
     Clip clip;
     clip.name = "spin";
@@ -149,8 +150,7 @@ TEST_CASE("a loop of something without a body is nothing to physics") {
     description.clips = {clip};
     description.plays = {{.clip = 0}};
     Stage stage(description);
-    still.seek(1);
-    stage.advance_to(1);
+    stage.advance_to(0.3);
     CHECK(stage.state_hash() == still.state_hash());
   }
 }
