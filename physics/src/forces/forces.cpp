@@ -85,15 +85,15 @@ const Body* find_body(const std::vector<Body>& bodies, const BodyId& id) {
   return body.alive && body.generation == id.generation ? &body : nullptr;
 }
 
-void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedForce>& forces,
-                  const WorldSettings& settings, double time, double dt, std::vector<Load>& loads,
-                  std::vector<SpringRow>& stiff) {
-  loads.assign(bodies.size(), Load{});
+void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t> watched,
+                  const std::vector<NumberedForce>& forces, const WorldSettings& settings, double time, double dt,
+                  std::vector<Load>& loads, std::vector<SpringRow>& stiff) {
+  loads.resize(bodies.size());
   stiff.clear();
-  for (std::size_t i = 0; i < bodies.size(); ++i) {
+  for (const std::uint32_t i : watched) {
     const Body& body = bodies[i];
-    if (!body.alive) continue;
     Load& load = loads[i];
+    load = {};
     if (body.immovable()) load.acceleration = load.end_acceleration = keyed_course(body, dt).gain.linear / dt;
     if (!moves(body)) continue;
     load.acceleration = settings.gravity + body.force / body.mass.mass;
@@ -131,8 +131,8 @@ void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedFor
     for (const NumberedForce& entry : forces) {
       if (const auto* drag = std::get_if<Drag>(&entry.force)) {
         if (at_end) continue;
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-          if (!bodies[i].alive || !moves(bodies[i])) continue;
+        for (const std::uint32_t i : watched) {
+          if (!moves(bodies[i])) continue;
           const double speed = bodies[i].twist.linear.norm();
           loads[i].drag += (drag->linear + drag->quadratic * speed) / bodies[i].mass.mass;
           loads[i].angular_drag += drag->angular;
@@ -154,8 +154,8 @@ void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedFor
         apply(*a, spring->a.index, pull.force, pull.arm_a);
         if (b) apply(*b, spring->b.index, -pull.force, pull.arm_b);
       } else if (const auto* field = std::get_if<Field>(&entry.force)) {
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-          if (!bodies[i].alive || !moves(bodies[i])) continue;
+        for (const std::uint32_t i : watched) {
+          if (!moves(bodies[i])) continue;
           const Glimpse at = at_end ? ahead(bodies[i], loads[i], dt) : now(bodies[i]);
           const double mass = bodies[i].mass.mass;
           const Vec3 force = (*field)(mass, at.center, at.linear, at_end ? time + dt : time);
@@ -168,8 +168,8 @@ void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedFor
     add(false);
     if (settings.integrator == Integrator::exact_quadratic) add(true);
   }
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].alive && moves(bodies[i]) && bodies[i].drive.owner() == Owner::driven)
+  for (const std::uint32_t i : watched)
+    if (moves(bodies[i]) && bodies[i].drive.owner() == Owner::driven)
       loads[i].pulled = pulled(bodies[i], loads[i], settings.integrator, dt);
 }
 

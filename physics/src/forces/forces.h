@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "forces/free_flight.h"
@@ -13,11 +14,11 @@ struct NumberedForce {
   Force force;
 };
 
-/// Loads of all bodies for a step of length `dt` that starts at `time`; `loads` is sized like `bodies`. Springs that
-/// are too stiff for the step go into `stiff` and into no load.
-void gather_loads(const std::vector<Body>& bodies, const std::vector<NumberedForce>& forces,
-                  const WorldSettings& settings, double time, double dt, std::vector<Load>& loads,
-                  std::vector<SpringRow>& stiff);
+/// Loads of the watched bodies for a step of length `dt` that starts at `time`; `loads` becomes as long as `bodies`.
+/// Springs that are too stiff for the step go into `stiff` and into no load.
+void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t> watched,
+                  const std::vector<NumberedForce>& forces, const WorldSettings& settings, double time, double dt,
+                  std::vector<Load>& loads, std::vector<SpringRow>& stiff);
 
 /// The body of a handle; null when it is gone, or for the world itself.
 [[nodiscard]] const Body* find_body(const std::vector<Body>& bodies, const BodyId& id);

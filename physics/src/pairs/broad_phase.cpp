@@ -3,93 +3,228 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes/placed.h"
+
 namespace tweenfall {
 
-namespace {
+namespace pairs {
 
-/// Two bodies that both have so many neighbors already are no pair: thousands at one place part all the same.
-constexpr std::uint32_t most_pairs = 128;
+/// Room to spare, in parts of a box's smallest side.
+constexpr double spare = 0.05;
+/// A box that is larger than what is needed by more than this has outlived a motion.
+constexpr double outgrown = 2;
+/// Steps for which a box has room, at most.
+constexpr std::uint8_t longest_foresight = 16;
+/// So few neighbors let a box reach farther ahead; so many make it draw back.
+constexpr std::size_t few_neighbors = 6, many_neighbors = 16;
+/// More pairs of boxes than this for each body are a crowd.
+constexpr std::size_t kept_in_crowd = 64, found_in_crowd = 16;
+/// Boxes end here: a difference of any two is still a number.
+constexpr double end_of_space = 1e100;
 
-bool overlap(const Bounds& a, const Bounds& b) {
-  for (int i = 0; i < 3; ++i)
-    if (a.low[i] > b.high[i] || b.low[i] > a.high[i]) return false;
+/// With room to spare, and for where the body goes next.
+Bounds with_room(const Bounds& swept, const Vec3& travel, int foresight) {
+  const Vec3 around = Vec3::Constant(spare * (swept.high - swept.low).minCoeff());
+  const Vec3 ahead = travel * foresight;
+  return {swept.low + ahead.cwiseMin(0.0) - around, swept.high + ahead.cwiseMax(0.0) + around};
+}
+
+/// What is no number reaches everywhere.
+Bounds in_space(const Bounds& bounds) {
+  Bounds result;
+  for (int i = 0; i < 3; ++i) {
+    result.low[i] = std::min(end_of_space, std::max(-end_of_space, bounds.low[i]));
+    result.high[i] = std::max(-end_of_space, std::min(end_of_space, bounds.high[i]));
+  }
+  return result;
+}
+
+double sides(const Bounds& bounds) {
+  return (bounds.high - bounds.low).sum();
+}
+
+}  // namespace pairs
+
+void BroadPhase::remove(std::uint32_t index) {
+  if (index >= entries_.size()) return;
+  Entry& entry = entries_[index];
+  if (entry.kind == Kind::plane) std::erase(planes_, index);
+  if (entry.kind == Kind::movable || entry.kind == Kind::immovable) {
+    tree_of(entry.kind).remove(index);
+    renew(index);
+  }
+  entry.kind = Kind::none;
+}
+
+void BroadPhase::renew(std::uint32_t index) {
+  if (entries_[index].renewed) return;
+  entries_[index].renewed = true;
+  renewed_.push_back(index);
+}
+
+void BroadPhase::look_at(const Body& body, std::uint32_t index, const Load& load, double margin, double dt) {
+  const Kind kind = std::holds_alternative<Plane>(body.shape.solid) ? Kind::plane
+                    : body.immovable()                              ? Kind::immovable
+                                                                    : Kind::movable;
+  if (entries_[index].kind != kind) {
+    remove(index);
+    if (kind == Kind::plane) planes_.insert(std::lower_bound(planes_.begin(), planes_.end(), index), index);
+  }
+  Entry& entry = entries_[index];
+  entry.kind = kind;
+  entry.stirs = body.stirs();
+  entry.displaces = body.displaces();
+  entry.pairs = 0;
+  if (kind == Kind::plane) return;
+  entry.swept = pairs::in_space(pairs::swept_bounds(body, load, 0.5 * margin, dt));
+  pairs::BoundsTree& tree = tree_of(kind);
+  const bool still = kind == Kind::immovable && !body.has_target;
+  const Vec3 travel = pairs::travel(body, load, dt);
+  if (tree.has(index)) {
+    const Bounds& box = tree.of(index);
+    if (pairs::contains(box, entry.swept)) {
+      const Bounds wanted = pairs::with_room(entry.swept, travel, pairs::longest_foresight);
+      if (pairs::sides(box) <= pairs::outgrown * pairs::sides(wanted)) return;
+    }
+  }
+  tree.set(index, still ? entry.swept : pairs::in_space(pairs::with_room(entry.swept, travel, entry.foresight)));
+  renew(index);
+}
+
+/// Adds to `fresh_` the pairs of a renewed body. @return false when they become more than `most`
+bool BroadPhase::look_around(std::uint32_t index, std::size_t most) {
+  Entry& entry = entries_[index];
+  const std::size_t before = fresh_.size();
+  std::size_t neighbors = 0;
+  const auto see = [&](std::uint32_t other) {
+    ++neighbors;
+    // Of two that are renewed the smaller one finds the pair.
+    if (other == index || (entries_[other].renewed && other < index) || fresh_.size() >= most) return;
+    fresh_.emplace_back(std::min(index, other), std::max(index, other));
+  };
+  const Bounds& box = tree_of(entry.kind).of(index);
+  movable_.visit(box, see);
+  if (entry.kind == Kind::movable) immovable_.visit(box, see);
+  if (neighbors < pairs::few_neighbors)
+    entry.foresight = std::min<std::uint8_t>(pairs::longest_foresight, static_cast<std::uint8_t>(2 * entry.foresight));
+  else if (neighbors > pairs::many_neighbors)
+    entry.foresight = std::max<std::uint8_t>(1, entry.foresight / 2);
+  return before + neighbors < most;
+}
+
+/// Brings `kept_` up to date, or finds that there are too many.
+void BroadPhase::keep_pairs() {
+  const std::size_t most = 4096 + pairs::kept_in_crowd * movable_.size();
+  fresh_.clear();
+  for (const std::uint32_t index : renewed_) {
+    const Kind kind = entries_[index].kind;
+    crowded_ = (kind == Kind::movable || kind == Kind::immovable) && !look_around(index, most);
+    if (crowded_) break;
+  }
+  if (!crowded_ && !renewed_.empty()) {
+    std::sort(fresh_.begin(), fresh_.end());
+    std::erase_if(kept_,
+                  [this](const Pair& pair) { return entries_[pair.first].renewed || entries_[pair.second].renewed; });
+    merged_.clear();
+    merged_.reserve(kept_.size() + fresh_.size());
+    std::merge(kept_.begin(), kept_.end(), fresh_.begin(), fresh_.end(), std::back_inserter(merged_));
+    std::swap(kept_, merged_);
+    crowded_ = kept_.size() > most;
+  }
+  for (const std::uint32_t index : renewed_) entries_[index].renewed = false;
+  renewed_.clear();
+}
+
+bool BroadPhase::counts(std::uint32_t a, std::uint32_t b) {
+  Entry &first = entries_[a], &second = entries_[b];
+  if (!(first.stirs || second.stirs) || !pairs::overlap(first.swept, second.swept)) return false;
+  if (first.kind != Kind::movable || second.kind != Kind::movable) return true;
+  if (first.pairs >= most_pairs && second.pairs >= most_pairs) return false;
+  ++first.pairs;
+  ++second.pairs;
   return true;
 }
 
-/// Only a body that moves by itself can be moved by a contact, and only a stir can change one.
-template <class Entry>
-bool matters(const Entry& a, const Entry& b) {
-  return (a.movable || b.movable) && (a.dynamic || b.dynamic);
+void BroadPhase::choose_among_kept() {
+  for (const Pair& pair : kept_)
+    if (counts(pair.first, pair.second)) pairs_.push_back(pair);
 }
 
-}  // namespace
-
-const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, const std::vector<Load>& loads,
-                                          double margin, double dt) {
-  entries_.clear();
-  planes_.clear();
-  pairs_.clear();
-  Vec3 sum = Vec3::Zero();
-  Vec3 squares = Vec3::Zero();
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    const Body& body = bodies[i];
-    if (!body.alive) continue;
-    const bool immovable = body.immovable();
-    Entry entry{bounds(body.shape, body.motion.pose), i, body.stirs(), !immovable, 0};
-    if (std::holds_alternative<Plane>(body.shape.solid)) {
-      planes_.push_back(entry);
-      continue;
-    }
-    Vec3 travel = Vec3::Zero();
-    double swing = 0;
-    if (body.has_target && immovable) {
-      const Bounds end = bounds(body.shape, body.target.pose);
-      entry.bounds.low = entry.bounds.low.cwiseMin(end.low);
-      entry.bounds.high = entry.bounds.high.cwiseMax(end.high);
-      // Between its ends an arc bulges out over both.
-      const double cosine = std::abs(body.target.pose.rotation.dot(body.motion.pose.rotation));
-      swing = body.radius * (1 - std::min(1.0, cosine));
-    } else if (!immovable && !body.asleep) {
-      const Twist& twist = body.drive.owner() == Owner::driven ? loads[i].pulled : body.twist;
-      travel = twist.linear * dt;
-      if (!body.spherical || body.mass.center != Vec3::Zero() || std::holds_alternative<Hull>(body.shape.solid))
-        swing = std::min(twist.angular.norm() * dt, 2.0) * body.radius;
-      swing += loads[i].acceleration.norm() * dt * dt;
-    }
-    const Vec3 room = Vec3::Constant(0.5 * margin + swing);
-    entry.bounds.low += travel.cwiseMin(0.0) - room;
-    entry.bounds.high += travel.cwiseMax(0.0) + room;
-    const Vec3 middle = 0.5 * (entry.bounds.low + entry.bounds.high);
-    sum += middle;
-    squares += middle.cwiseProduct(middle);
-    entries_.push_back(entry);
-  }
-  const double count = std::max<double>(1, static_cast<double>(entries_.size()));
-  const Vec3 spread = squares / count - (sum / count).cwiseProduct(sum / count);
-  int axis = 0;
-  if (spread[1] > spread[axis]) axis = 1;
-  if (spread[2] > spread[axis]) axis = 2;
-  std::sort(entries_.begin(), entries_.end(), [axis](const Entry& a, const Entry& b) {
-    return a.bounds.low[axis] != b.bounds.low[axis] ? a.bounds.low[axis] < b.bounds.low[axis] : a.index < b.index;
-  });
-  const auto add = [this](const Entry& a, const Entry& b) {
-    pairs_.emplace_back(std::min(a.index, b.index), std::max(a.index, b.index));
-  };
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
-    Entry& a = entries_[i];
-    for (std::size_t j = i + 1; j < entries_.size() && entries_[j].bounds.low[axis] <= a.bounds.high[axis]; ++j) {
-      Entry& b = entries_[j];
-      if (a.pairs >= most_pairs && b.pairs >= most_pairs && a.movable && b.movable) continue;
-      if (!matters(a, b) || !overlap(a.bounds, b.bounds)) continue;
-      ++a.pairs;
-      ++b.pairs;
-      add(a, b);
+/// The same pairs without any that are kept. Of those that have enough, only such are looked for that have not.
+void BroadPhase::choose_in_crowd(std::span<const std::uint32_t> changed) {
+  movable_.open_all();
+  for (const std::uint32_t index : changed) {
+    if (entries_[index].kind != Kind::movable) continue;
+    const Bounds& swept = entries_[index].swept;
+    immovable_.visit(swept, [&](std::uint32_t other) {
+      if (counts(index, other)) pairs_.emplace_back(std::min(index, other), std::max(index, other));
+    });
+    near_.clear();
+    const auto see = [&](std::uint32_t other) {
+      if (other > index) near_.push_back(other);
+    };
+    if (entries_[index].pairs >= most_pairs)
+      movable_.visit_open(swept, see);
+    else
+      movable_.visit(swept, see);
+    std::sort(near_.begin(), near_.end());
+    for (const std::uint32_t other : near_) {
+      if (!counts(index, other)) continue;
+      pairs_.emplace_back(index, other);
+      if (entries_[other].pairs == most_pairs) movable_.close(other);
     }
   }
-  for (const Entry& plane : planes_)
-    for (const Entry& entry : entries_)
-      if (matters(plane, entry)) add(plane, entry);
   std::sort(pairs_.begin(), pairs_.end());
+}
+
+void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed, double margin) {
+  fresh_.clear();
+  for (const std::uint32_t index : planes_) {
+    const Entry& entry = entries_[index];
+    const Shape& shape = bodies[index].shape;
+    const auto& plane = std::get<Plane>(shape.solid);
+    const Placed placed = place(shape, bodies[index].motion.pose);
+    const Vec3 normal = placed.axes * plane.normal;
+    const double surface = normal.dot(placed.center) + plane.offset;
+    for (const std::uint32_t other : changed) {
+      const Entry& body = entries_[other];
+      if (body.kind != Kind::movable || !(entry.stirs || body.stirs)) continue;
+      if (!entry.displaces) {
+        const Vec3 lowest = (normal.array() > 0).select(body.swept.low, body.swept.high);
+        const double rounding = 1e-9 * (std::abs(surface) + lowest.norm());
+        if (normal.dot(lowest) - surface > 0.5 * margin + rounding) continue;
+      }
+      fresh_.emplace_back(std::min(index, other), std::max(index, other));
+    }
+  }
+  std::sort(fresh_.begin(), fresh_.end());
+  merged_.clear();
+  merged_.reserve(pairs_.size() + fresh_.size());
+  std::merge(pairs_.begin(), pairs_.end(), fresh_.begin(), fresh_.end(), std::back_inserter(merged_));
+  std::swap(pairs_, merged_);
+}
+
+const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed,
+                                          const std::vector<Load>& loads, double margin, double dt) {
+  entries_.resize(std::max(entries_.size(), bodies.size()));
+  for (const std::uint32_t index : changed) look_at(bodies[index], index, loads[index], margin, dt);
+  movable_.settle();
+  immovable_.settle();
+  if (!crowded_) keep_pairs();
+  pairs_.clear();
+  if (crowded_) {
+    choose_in_crowd(changed);
+    // It has thinned out: the next step keeps pairs again, and begins with none.
+    if (pairs_.size() <= pairs::found_in_crowd * movable_.size()) {
+      crowded_ = false;
+      kept_.clear();
+      for (const std::uint32_t index : changed)
+        if (entries_[index].kind == Kind::movable) renew(index);
+    }
+  } else {
+    choose_among_kept();
+  }
+  if (!planes_.empty()) add_planes(bodies, changed, margin);
   return pairs_;
 }
 

@@ -1,32 +1,63 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "forces/free_flight.h"
+#include "pairs/bounds_tree.h"
+#include "pairs/swept_bounds.h"
 
 namespace tweenfall {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< indices, smaller first
 
-/// Sort and sweep over the bounds that bodies cover during a step.
+/// Finds which bodies may meet within a step. Each has a box with room to spare in a tree; the pairs of boxes that meet
+/// are kept from step to step, and looked for again only around what has left its box.
 class BroadPhase {
  public:
-  /// Pairs whose swept bounds overlap and of which at least one member moves, by index.
-  const std::vector<Pair>& find(const std::vector<Body>& bodies, const std::vector<Load>& loads, double margin,
-                                double dt);
+  /// Two bodies that move by themselves and both have so many pairs with such bodies already are no pair: thousands at
+  /// one place part all the same.
+  static constexpr std::uint32_t most_pairs = 128;
+
+  /// Pairs, sorted, whose swept bounds overlap, of which at least one moves by itself and at least one stirs.
+  /// @param changed  sorted: all bodies that move by themselves, and all others that were added, moved or handed over,
+  /// or had or have a target, since they were last given
+  /// @param margin  pairs with a gap up to this count too, m
+  const std::vector<Pair>& find(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed,
+                                const std::vector<Load>& loads, double margin, double dt);
+  void remove(std::uint32_t body);
 
  private:
+  enum class Kind : std::uint8_t { none, movable, immovable, plane };
   struct Entry {
-    Bounds bounds;
-    std::uint32_t index;
-    bool dynamic;  ///< awake and movable, keyed and on its way, or newly placed
-    bool movable;
-    std::uint32_t pairs;  ///< found so far
+    Bounds swept{Vec3::Zero(), Vec3::Zero()};
+    Kind kind = Kind::none;
+    bool stirs = false;          ///< awake and movable, keyed and on its way, or newly placed
+    bool displaces = false;      ///< keyed and on its way
+    bool renewed = false;        ///< has another box than when pairs were last looked for
+    std::uint8_t foresight = 4;  ///< steps for which its box has room
+    std::uint32_t pairs = 0;     ///< found so far
   };
-  std::vector<Entry> entries_;
-  std::vector<Entry> planes_;
+
+  void look_at(const Body& body, std::uint32_t index, const Load& load, double margin, double dt);
+  void renew(std::uint32_t index);
+  pairs::BoundsTree& tree_of(Kind kind) { return kind == Kind::movable ? movable_ : immovable_; }
+  void keep_pairs();
+  bool look_around(std::uint32_t index, std::size_t most);
+  bool counts(std::uint32_t a, std::uint32_t b);
+  void choose_among_kept();
+  void choose_in_crowd(std::span<const std::uint32_t> changed);
+  void add_planes(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed, double margin);
+
+  std::vector<Entry> entries_;  ///< by body
+  pairs::BoundsTree movable_, immovable_;
+  std::vector<std::uint32_t> planes_;
+  std::vector<std::uint32_t> renewed_;
+  std::vector<Pair> kept_;  ///< whose boxes with room to spare meet, sorted; of no use in a crowd
+  std::vector<Pair> fresh_, merged_;
+  std::vector<std::uint32_t> near_;
+  bool crowded_ = false;  ///< too many pairs to keep
   std::vector<Pair> pairs_;
 };
 

@@ -29,6 +29,7 @@ struct Body {
   Twist twist;              ///< at the center of mass
   bool placed = true;       ///< added or moved by the caller since the last step: what sleeps beside it wakes
   bool has_target = false;  ///< a target was set since the last step
+  bool noted = false;       ///< is among those that the next step must look at
   bool led = false;         ///< driven, and its target moved
   Motion target;            ///< of the node's origin at the end of the step
   Vec3 force{0, 0, 0};      ///< accumulated for the next step, N

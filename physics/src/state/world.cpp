@@ -132,6 +132,12 @@ void World::Implementation::drop_constraints(std::uint32_t index) {
                   [&](const Contact& contact) { return contact.a.index == index || contact.b.index == index; });
 }
 
+void World::Implementation::note(std::uint32_t index) {
+  if (bodies[index].noted) return;
+  bodies[index].noted = true;
+  noted.push_back(index);
+}
+
 void World::Implementation::wake_neighbors(std::uint32_t index) {
   for (const std::size_t place : constraints_of(index)) {
     const ContactConstraint& constraint = constraints[place];
@@ -254,8 +260,10 @@ BodyId World::add(const BodySettings& settings) {
     index = world.unused.back();
     world.unused.pop_back();
     body.generation = world.bodies[index].generation;
+    body.noted = world.bodies[index].noted;
     world.bodies[index] = body;
   }
+  world.note(index);
   return {index, world.bodies[index].generation};
 }
 
@@ -272,6 +280,7 @@ void World::remove(BodyId id) {
   body.alive = false;
   ++body.generation;
   world.drop_constraints(id.index);
+  world.broad_phase.remove(id.index);
   world.unused.push_back(id.index);
 }
 
@@ -340,6 +349,7 @@ void World::set_motion(BodyId id, const Motion& motion) {
   world.wake_neighbors(id.index);
   world.wake(id.index);
   world.forget_impulses(id.index);
+  world.note(id.index);
   body.motion = wanted;
   body.placed = true;
   if (body.fixed) {
@@ -367,6 +377,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
     return;
   }
   clear_work(body);
+  world.note(id.index);
   body.target = body.motion;
   body.target.twist = {};
   body.motion.scale_rate = drive.owner() == Owner::keyed ? body.motion.scale_rate : Vec3(0, 0, 0);
@@ -384,6 +395,7 @@ void World::set_target(BodyId id, const Motion& end_of_step) {
   const Pose before = body.target.pose;
   body.target = checked(end_of_step);
   body.has_target = true;
+  world.note(id.index);
   if (body.drive.owner() != Owner::driven) return;
   body.led = body.led || body.target.pose.position != before.position ||
              body.target.pose.rotation.coeffs() != before.rotation.coeffs() ||

@@ -35,10 +35,14 @@ struct World::Implementation {
   std::vector<std::size_t> constraint_places;  ///< of each body's constraints
   std::size_t gone = 0;                        ///< of the constraints
 
+  std::vector<std::uint32_t> noted;  ///< bodies that the caller changed or led, and those that had been
+
   // Room for work, kept between steps
   std::vector<Load> loads;
   std::vector<SpringRow> stiff_springs;
   std::vector<Start> starts;
+  std::vector<std::uint32_t> watched;    ///< sorted: what a step looks at, all but scenery at rest
+  std::vector<std::uint32_t> lingering;  ///< to be looked at once more, when it has come to rest
   BroadPhase broad_phase;
   std::vector<ContactConstraint> active;    ///< near something that stirs
   std::vector<ContactConstraint> retained;  ///< between bodies at rest, as they were
@@ -56,6 +60,7 @@ struct World::Implementation {
   [[nodiscard]] std::span<const std::size_t> constraints_of(std::uint32_t index);
   void drop_constraints(std::uint32_t index);
   void wake(std::uint32_t index);
+  void note(std::uint32_t index);  ///< the next step looks at this body
   void wake_neighbors(std::uint32_t index);
   void forget_impulses(std::uint32_t index);  ///< what the contacts of this body remember
   void step(double dt);
@@ -63,6 +68,8 @@ struct World::Implementation {
   void check_bodies(double dt,
                     double at) const;  ///< @throws NotFinite for the first that is not; dt of the step before
   void check_loads(double at) const;   ///< @throws NotFinite for the first body with one that is not
+  void begin_watch();
+  void end_watch();
   void find_constraints(double dt);
   void wake_by_fields();
   bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for

@@ -39,8 +39,8 @@ NotFinite::NotFinite(const NotFinite& fault, const std::string& text)
     : std::runtime_error(text), body(fault.body), time(fault.time), cause(fault.cause) {}
 
 void World::Implementation::check_bodies(double dt, double at) const {
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].alive || step::countable(bodies[i])) continue;
+  for (const std::uint32_t i : watched) {
+    if (step::countable(bodies[i])) continue;
     // Without a step behind it, the body had been left so.
     const std::string cause = i < starts.size() && dt > 0
                                   ? step::cause_of(starts[i].twist, loads[i], solver.moved(i), dt)
@@ -50,10 +50,10 @@ void World::Implementation::check_bodies(double dt, double at) const {
 }
 
 void World::Implementation::check_loads(double at) const {
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+  for (const std::uint32_t i : watched) {
     const Load& load = loads[i];
-    if (!bodies[i].alive || (countable(load.acceleration) && countable(load.end_acceleration) &&
-                             countable(load.torque) && std::isfinite(load.drag)))
+    if (countable(load.acceleration) && countable(load.end_acceleration) && countable(load.torque) &&
+        std::isfinite(load.drag))
       continue;
     throw NotFinite({i, bodies[i].generation}, at,
                     "a spring, a field or a force accelerates it by more than 1e30 m/s^2");

@@ -28,8 +28,7 @@ bool still(const Body& body, const Start& start, double speed, double dt) {
 void World::Implementation::wake_by_fields() {
   for (const NumberedForce& entry : forces) {
     if (!std::holds_alternative<Field>(entry.force)) continue;
-    for (std::uint32_t i = 0; i < bodies.size(); ++i)
-      if (bodies[i].alive) wake(i);
+    for (const std::uint32_t i : watched) wake(i);
     return;
   }
 }
@@ -50,8 +49,8 @@ bool World::Implementation::wake_islands() {
   each_link([&](std::uint32_t a, std::uint32_t b) {
     if (!bodies[a].immovable() && !bodies[b].immovable()) islands.join(a, b);
   });
-  for (std::uint32_t i = 0; i < bodies.size(); ++i)
-    if (bodies[i].alive && !bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
+  for (const std::uint32_t i : watched)
+    if (!bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
   const auto disturb = [&](const Body& by, std::uint32_t other) {
     if (!by.immovable() || bodies[other].immovable() || !by.stirs()) return;
     flags[islands.of(other)] = 1;
@@ -62,8 +61,8 @@ bool World::Implementation::wake_islands() {
     disturb(bodies[b], a);
   });
   bool any = false;
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    if (!bodies[i].alive || !bodies[i].asleep || !flags[islands.of(i)]) continue;
+  for (const std::uint32_t i : watched) {
+    if (!bodies[i].asleep || !flags[islands.of(i)]) continue;
     wake(i);
     any = true;
   }
@@ -81,9 +80,9 @@ void World::Implementation::let_sleep(double dt) {
   }
   // Per island the shortest stillness counts.
   stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+  for (const std::uint32_t i : watched) {
     Body& body = bodies[i];
-    if (!body.alive || body.immovable()) continue;
+    if (body.immovable()) continue;
     if (!body.asleep) {
       const bool driven = body.drive.owner() == Owner::driven;
       const double speed = settings.sleep_speed * (driven ? step::driven_share : 1);
@@ -97,9 +96,9 @@ void World::Implementation::let_sleep(double dt) {
     double& shortest = stillness[islands.of(i)];
     shortest = std::min(shortest, body.still_for);
   }
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+  for (const std::uint32_t i : watched) {
     Body& body = bodies[i];
-    if (!body.alive || body.immovable() || body.asleep || !(stillness[islands.of(i)] >= settings.sleep_after)) continue;
+    if (body.immovable() || body.asleep || !(stillness[islands.of(i)] >= settings.sleep_after)) continue;
     body.asleep = true;
     body.twist = {};
     body.motion.twist = {};

@@ -74,13 +74,32 @@ bool before(const ContactConstraint& left, const ContactConstraint& right) {
 
 }  // namespace
 
+void World::Implementation::begin_watch() {
+  std::erase_if(watched,
+                [this](std::uint32_t i) { return !bodies[i].alive || bodies[i].immovable() || bodies[i].noted; });
+  const auto known = static_cast<std::ptrdiff_t>(watched.size());
+  for (const std::uint32_t i : noted)
+    if (bodies[i].alive) watched.push_back(i);
+  std::sort(watched.begin() + known, watched.end());
+  std::inplace_merge(watched.begin(), watched.begin() + known, watched.end());
+  lingering.clear();
+  for (const std::uint32_t i : watched)
+    if (bodies[i].immovable() && (bodies[i].placed || bodies[i].has_target)) lingering.push_back(i);
+}
+
+void World::Implementation::end_watch() {
+  for (const std::uint32_t i : noted) bodies[i].noted = false;
+  noted.clear();
+  for (const std::uint32_t i : lingering) note(i);
+}
+
 void World::Implementation::find_constraints(double dt) {
   active.clear();
   retained.clear();
   if (gone > 0) std::erase_if(constraints, [](const ContactConstraint& constraint) { return constraint.gone; });
   gone = 0;
   constraint_starts.clear();
-  const std::vector<Pair>& pairs = broad_phase.find(bodies, loads, near_enough, dt);
+  const std::vector<Pair>& pairs = broad_phase.find(bodies, watched, loads, near_enough, dt);
   contact_counts.assign(bodies.size(), 0);
   std::size_t next = 0;  // among the old constraints, which are sorted like the pairs
   const auto retain_before = [&](std::uint32_t index_a, std::uint32_t index_b) {
@@ -135,7 +154,7 @@ void World::Implementation::find_constraints(double dt) {
 
 void World::Implementation::note_starts() {
   starts.resize(bodies.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i)
+  for (const std::uint32_t i : watched)
     starts[i] = {bodies[i].center, bodies[i].motion.pose.rotation, bodies[i].twist, bodies[i].led};
 }
 
@@ -143,9 +162,8 @@ void World::Implementation::advance_bodies(double dt) {
   solver.begin(bodies.size());
   for (const IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs))
     solver.solve(bodies, loads, island.contacts, island.springs, settings, dt);
-  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+  for (const std::uint32_t i : watched) {
     Body& body = bodies[i];
-    if (!body.alive) continue;
     body.placed = body.led = false;
     if (body.immovable()) {
       arrive(body);
@@ -202,10 +220,11 @@ void World::Implementation::step(double dt) {
     ~Stepping() { flag = false; }
   } const guard{stepping};
   stepping = true;
+  begin_watch();
   check_bodies(0, time);
   wake_by_fields();
   do {
-    gather_loads(bodies, forces, settings, time, dt, loads, stiff_springs);
+    gather_loads(bodies, watched, forces, settings, time, dt, loads, stiff_springs);
     check_loads(time + dt);
     find_constraints(dt);
   } while (wake_islands());
@@ -213,6 +232,7 @@ void World::Implementation::step(double dt) {
   advance_bodies(dt);
   let_sleep(dt);
   report();
+  end_watch();
   time += dt;
   check_bodies(dt, time);
 }

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <tweenfall/physics/shape.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tweenfall::pairs {
+
+[[nodiscard]] inline bool overlap(const Bounds& a, const Bounds& b) {
+  return a.low.x() <= b.high.x() && b.low.x() <= a.high.x() && a.low.y() <= b.high.y() && b.low.y() <= a.high.y() &&
+         a.low.z() <= b.high.z() && b.low.z() <= a.high.z();
+}
+
+[[nodiscard]] inline bool contains(const Bounds& outer, const Bounds& inner) {
+  return outer.low.x() <= inner.low.x() && inner.high.x() <= outer.high.x() && outer.low.y() <= inner.low.y() &&
+         inner.high.y() <= outer.high.y() && outer.low.z() <= inner.low.z() && inner.high.z() <= outer.high.z();
+}
+
+/// Boxes of items, which are small numbers, kept from step to step in a binary tree of boxes. What a visit tells never
+/// depends on the shape of the tree, only the time that it takes.
+class BoundsTree {
+ public:
+  /// Adds the item or gives it another box; finite. Not seen by visits before `settle`.
+  void set(std::uint32_t item, const Bounds& bounds);
+  void remove(std::uint32_t item);
+  [[nodiscard]] bool has(std::uint32_t item) const { return item < leaves_.size() && leaves_[item] != none; }
+  [[nodiscard]] const Bounds& of(std::uint32_t item) const { return nodes_[leaves_[item]].bounds; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  /// Takes in what is new, and builds the tree again when it has changed too much to be good.
+  void settle();
+
+  /// Calls `see(item)` for every item whose box meets `within`, in no order that means anything.
+  template <class See>
+  void visit(const Bounds& within, const See& see) const {
+    walk(within, see, [](std::uint32_t) { return true; });
+  }
+
+  /// Closed items are passed by, in whole branches where all are, by `visit_open`.
+  void open_all() { closed_.assign(nodes_.size(), 0); }
+  void close(std::uint32_t item);
+  template <class See>
+  void visit_open(const Bounds& within, const See& see) const {
+    walk(within, see, [this](std::uint32_t node) { return closed_[node] == 0; });
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffff;
+  static constexpr std::size_t most_depth = 64;
+
+  struct Node {
+    Bounds bounds{Vec3::Zero(), Vec3::Zero()};
+    std::uint32_t left = none, right = none;  ///< of a leaf: none
+    std::uint32_t parent = none;
+    std::uint32_t item = none;  ///< of a leaf
+  };
+
+  template <class See, class Enter>
+  void walk(const Bounds& within, const See& see, const Enter& enter) const {
+    if (root_ == none) return;
+    std::array<std::uint32_t, most_depth + 2> ahead;
+    std::size_t count = 0;
+    ahead[count++] = root_;
+    while (count > 0) {
+      const std::uint32_t index = ahead[--count];
+      const Node& node = nodes_[index];
+      if (!overlap(node.bounds, within) || !enter(index)) continue;
+      if (node.left == none) {
+        see(node.item);
+      } else {
+        ahead[count++] = node.right;
+        ahead[count++] = node.left;
+      }
+    }
+  }
+
+  [[nodiscard]] bool linked(std::uint32_t leaf) const { return leaf == root_ || nodes_[leaf].parent != none; }
+  std::uint32_t take_node();
+  std::size_t link(std::uint32_t leaf);  ///< @returns how deep it is now
+  void unlink(std::uint32_t leaf);
+  void fit(std::uint32_t node);  ///< it and what is above it
+  void rebuild();
+  std::uint32_t build(std::size_t begin, std::size_t end, std::uint32_t parent);
+
+  struct Planted {
+    Bounds bounds;
+    Vec3 middle;
+    std::uint32_t item;
+  };
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> unused_;  ///< of nodes_
+  std::vector<std::uint32_t> leaves_;  ///< by item
+  std::vector<std::uint32_t> fresh_;   ///< items that visits do not see yet
+  std::vector<char> closed_;           ///< by node
+  std::vector<Planted> planted_;       ///< room for `rebuild`
+  std::uint32_t root_ = none;
+  std::size_t size_ = 0;
+  std::size_t changes_ = 0;  ///< since the tree was built
+};
+
+}  // namespace tweenfall::pairs

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "forces/free_flight.h"
+
+namespace tweenfall::pairs {
+
+/// The box that a body cannot leave within a step of `dt` when nothing touches it, and `room` around it. Not for
+/// planes.
+[[nodiscard]] Bounds swept_bounds(const Body& body, const Load& load, double room, double dt);
+
+/// How far it goes meanwhile, for what comes after the step.
+[[nodiscard]] Vec3 travel(const Body& body, const Load& load, double dt);
+
+}  // namespace tweenfall::pairs
