@@ -54,6 +54,12 @@ TEST_CASE("a step that is a rate is noted, and so is one too long for bodies") {
   CHECK(has(noted("240"), "did you mean \"1/240\"?"));
   CHECK(has(noted("240"), "(at /world/step)"));
   CHECK(has(noted("0.11"), "1/240 is usual"));
+  // What turns too fast for such steps follows from them.
+  const std::string spinning = notes_of(
+      "{\"tweenfall\": 1, \"world\": {\"step\": 240}, \"nodes\": {\"top\": {\"body\": {\"shape\": {\"sphere\": "
+      "{\"radius\": "
+      "1}}, \"angular_velocity\": [0, 90, 0]}}}}");
+  CHECK(std::count(spinning.begin(), spinning.end(), '\n') == 1);
   CHECK(noted("0.1").empty());
   CHECK(noted("\"1/1000\"").empty());
 }

@@ -3,6 +3,8 @@
 #include "page/example_stage.h"
 #include "support.h"
 
+#include <tweenfall/importers/document.h>
+
 #include <sstream>
 
 using namespace tweenfall;
@@ -81,6 +83,14 @@ TEST_CASE("a recorded plot has the hand-off line and the simulated continuation"
   CHECK(count(pivot, "class=\"handoff\"") == 2);
   CHECK(count(pivot, ">bob free<") == 1);
   CHECK(count(pivot, "class=\"simulated\"") == 0);
+}
+
+TEST_CASE("a body that is taken back is plotted as it was shown, not as its clip would have been") {
+  const StageDescription described = Document::parse(starting_document(), "start.json", {}).stage();
+  Stage stage(described);
+  const Recording recording = record(stage, natural_length(described), 60);
+  const std::string svg = plot_svg(described, &recording, {.tracks = {"ball.position"}, .clip = ""});
+  CHECK(count(svg, "class=\"simulated\"") == 12);  // let go and taken back, three components, two panels
 }
 
 TEST_CASE("a rotation about an axis is plotted as its angle in degrees, which does not wrap") {

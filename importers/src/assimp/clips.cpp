@@ -80,8 +80,9 @@ class ClipReader {
         keys.push_back({.time = time, .value = at, .ease = straight_});
     }
     if (left_out)
-      problems_.repair(place_, std::to_string(left_out) + " keys of " + target.node + "." + target.property +
-                                   " are out of order or not finite and were left out");
+      problems_.repair(place_, target.node + "." + target.property + ": " +
+                                   counted(left_out, "key is out of order or not finite and was left out",
+                                           "keys are out of order or not finite and were left out"));
     if (!keys.empty())
       clip.tracks.push_back({target.node, target.property, keyed_curve<T>(std::span<const Key<T>>(keys))});
   }

@@ -146,15 +146,17 @@ class SceneReader {
         ++count["Cache"];
       }
     }
-    const auto tell = [&](std::string_view kind, const std::string& what) {
+    const auto tell = [&](std::string_view kind, const std::string& one, const std::string& many) {
       if (const auto found = count.find(kind); found != count.end())
-        problems_.repair("", std::to_string(found->second) + " " + what);
+        problems_.repair("", counted(found->second, one, many));
     };
-    tell("Texture", "textures are not read; materials show their base color alone");
-    tell("Camera", "cameras are read as plain nodes");
-    tell("Light", "lights are read as plain nodes");
-    tell("Constraint", "constraints are not read; nodes move as their own keys say");
-    tell("Cache", "caches of vertices are not read");
+    tell("Texture", "texture is not read; materials show their base color alone",
+         "textures are not read; materials show their base color alone");
+    tell("Camera", "camera is read as a plain node", "cameras are read as plain nodes");
+    tell("Light", "light is read as a plain node", "lights are read as plain nodes");
+    tell("Constraint", "constraint is not read; nodes move as their own keys say",
+         "constraints are not read; nodes move as their own keys say");
+    tell("Cache", "cache of vertices is not read", "caches of vertices are not read");
   }
 
   const Objects& objects_;

@@ -6,9 +6,11 @@ namespace tweenfall {
 
 void InfluenceTally::report(const std::string& place, ModelProblems& problems) const {
   if (unbound)
-    problems.repair(place, std::to_string(unbound) + " vertices have no weight and were hung on the first joint");
+    problems.repair(place, counted(unbound, "vertex has no weight and was hung on the first joint",
+                                   "vertices have no weight and were hung on the first joint"));
   if (negative)
-    problems.repair(place, std::to_string(negative) + " vertices have a weight below 0, which was not read");
+    problems.repair(place, counted(negative, "vertex has a weight below 0, which was not read",
+                                   "vertices have a weight below 0, which was not read"));
 }
 
 std::vector<Influence> summing_to_one(std::vector<Influence> pulls, InfluenceTally& tally) {

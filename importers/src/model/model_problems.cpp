@@ -15,6 +15,10 @@ std::string line(const std::string& place, const std::string& what) {
 
 }  // namespace
 
+std::string counted(std::size_t count, const std::string& one, const std::string& many) {
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
 void ModelProblems::add(const std::string& place, const std::string& what) {
   keep({place, what, std::nullopt});
 }

@@ -14,6 +14,9 @@
 
 namespace tweenfall {
 
+/// "1 light is read as a plain node", "3 lights are read as plain nodes".
+[[nodiscard]] std::string counted(std::size_t count, const std::string& one, const std::string& many);
+
 class ModelProblems {
  public:
   /// A fault for which the file cannot be loaded. @param place  where in the file, or empty

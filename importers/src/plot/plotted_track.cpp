@@ -236,10 +236,13 @@ void add_recorded(PlottedTrack& plotted, const Recording& recording) {
                                   [&](const NodeRecord& node) { return node.name == plotted.track->node; });
   if (found == recording.nodes.end()) return;
   const auto node = static_cast<std::size_t>(found - recording.nodes.begin());
+  // Once it has left its script, what is shown of it need not be the script's again: it settles, or starts over.
+  bool has_left = false;
   for (std::size_t first = 0; first < found->owner.size();) {
     std::size_t last = first;
     while (last + 1 < found->owner.size() && found->owner[last + 1] == found->owner[first]) ++last;
-    if (found->owner[first] != Owner::keyed) {
+    has_left = has_left || found->owner[first] != Owner::keyed;
+    if (has_left) {
       std::vector<TrackPoint> points =
           recorded_track(recording, node, property_named(plotted.track->property), first, last);
       if (!points.empty()) plotted.simulated.push_back(std::move(points));

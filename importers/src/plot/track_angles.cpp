@@ -137,8 +137,13 @@ void turn_into_angles(PlottedTrack& plotted) {
     angles.change(key.in, shown_at(key.time));
     angles.change(key.out, key.in.values);
   }
-  for (auto& points : plotted.simulated)
-    if (!points.empty()) angles.change(points, shown_at(points.front().time));
+  // The turns go on from one owner to the next.
+  const std::vector<TrackPoint>* before = nullptr;
+  for (auto& points : plotted.simulated) {
+    if (points.empty()) continue;
+    angles.change(points, before ? before->back().values : shown_at(points.front().time));
+    before = &points;
+  }
   plotted.names = {"x", "y", "z"};
   plotted.unit = "degrees";
   plotted.rate_unit = "degrees/s";

@@ -30,9 +30,9 @@ int import_file(const ImportOptions& options) {
   for (const std::string& repair : model.repairs) say(options.file + ": note: " + repair);
   write_output(options.output, Document::from_model(model).text());
   if (!model.instances.empty() || !model.meshes.empty())
-    say(options.file + ": note: " + counted(std::max(model.meshes.size(), std::size_t{1}), "mesh", "meshes") +
-        " and what they wear stay behind; a document with \"import\": {\"" + model.name + "\": \"" +
-        std::filesystem::path(options.file).filename().string() + "\"} beside the model has them too");
+    say(options.file + ": note: meshes, their skins and colors stay behind; a document with \"import\": {\"" +
+        model.name + "\": \"" + std::filesystem::path(options.file).filename().string() +
+        "\"} beside the model has them too");
   std::vector<std::string> names;
   for (const Clip& clip : model.clips) names.push_back(clip.name);
   std::string shows = counted(model.nodes.size(), "node") + " and " + counted(names.size(), "clip");

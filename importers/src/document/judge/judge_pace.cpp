@@ -15,13 +15,15 @@ namespace {
 
 constexpr double hour = 3600, longest_usual_step = 0.1;  // s
 
-void judge_step(Building& building) {
+// @return whether turns can be judged by steps of this length
+bool judge_step(Building& building) {
   const double step = building.stage.step;
-  if (!(step > longest_usual_step)) return;
+  if (!(step > longest_usual_step)) return true;
   const bool rate = step > 1 && step == std::floor(step);
   building.problems.note(fields::place_of_step(place_of_world(building)),
                          "steps of " + brief_text(step) + " s are too long for bodies that move" +
                              (rate ? "; did you mean \"1/" + number_text(step) + "\"?" : "; 1/240 is usual"));
+  return false;
 }
 
 // Clip seconds per second of the fastest play of each clip; 1 of those that a verb may let play.
@@ -88,12 +90,12 @@ void judge_loop(Building& building, std::size_t clip, double speed) {
 
 void judge_pace(Building& building) {
   const StageDescription& stage = building.stage;
-  judge_step(building);
-  judge_spins(building);
+  const bool usual = judge_step(building);
+  if (usual) judge_spins(building);
   const std::vector<double> fastest = fastest_plays(stage);
   for (std::size_t i = 0; i < stage.clips.size(); ++i) {
     const Clip& clip = stage.clips[i];
-    judge_turns(building, clip, fastest[i]);
+    if (usual) judge_turns(building, clip, fastest[i]);
     judge_loop(building, i, fastest[i]);
     if (std::isfinite(clip.duration) && clip.duration > hour)
       building.problems.note(below(place_of_clip(building, clip.name), {"duration"}),

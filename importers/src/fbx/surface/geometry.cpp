@@ -118,7 +118,7 @@ class GeometryReader {
     }
     if (points_and_lines)
       problems_.repair("mesh \"" + geometry_.name + "\"",
-                       std::to_string(points_and_lines) + " points or lines were not read");
+                       counted(points_and_lines, "point or line was not read", "points or lines were not read"));
     result_.control_points = points_.size();
     std::erase_if(result_.parts, [](const Part& part) { return part.mesh.triangles.empty(); });
     return std::move(result_);

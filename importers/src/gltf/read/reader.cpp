@@ -102,8 +102,9 @@ void tell_of_textures(const Fields& root) {
   for (std::size_t i = 0; i < root.list("materials").size(); ++i)
     textured += root.at("materials", i).inside("pbrMetallicRoughness").has("baseColorTexture");
   if (textured)
-    root.problems().repair("/materials", "textures are not read; " + std::to_string(textured) +
-                                             " materials show their base color factor alone");
+    root.problems().repair("/materials",
+                           "textures are not read; " + counted(textured, "material shows its base color factor alone",
+                                                               "materials show their base color factor alone"));
 }
 
 }  // namespace
