@@ -88,10 +88,11 @@ void change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
     handoff.before = about_center(motion, center);
     const Twist twist = take_over_twist(body, motion, take_over, instant, step, center);
     motion.twist = shifted(twist, -(motion.pose.rotation * center));
-    world.set_drive(body.id, to);
     Motion released = moved_on(motion, center, onward);
     // A velocity that is late by a sliver of fall would be wrong for as long as it falls.
     released.twist.linear += onward * state.gravity;
+    static_cast<void>(bearable(state, body, released, "the hand-off"));
+    world.set_drive(body.id, to);
     world.set_motion(body.id, released);
     handoff.after = handoff.before;
     handoff.after.twist = twist;
@@ -108,7 +109,7 @@ void change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
     body.below = below(path);
     body.path = path;
     if (handoff.to == Owner::keyed) {
-      world.set_motion(body.id, rigid(body.path.at(state.time)));
+      world.set_motion(body.id, bearable(state, body, rigid(body.path.at(state.time)), "its path"));
       handoff.after = about_center(rigid(body.path.at(instant)), center);
     }
   }

@@ -1,3 +1,4 @@
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include "stage/drive_tracks.h"
 #include "stage/stage_data.h"
 #include "stage/whole_pose.h"
+#include "state/countable.h"
 
 namespace tweenfall::staging {
 
@@ -71,6 +73,21 @@ Motion moved_on(const Motion& motion, const Vec3& center, double seconds) {
   return later;
 }
 
+const Motion& bearable(const StageState& state, const StagedBody& body, const Motion& motion, const char* leader) {
+  const auto require = [&](const Vec3& value, const char* does, const char* unit) {
+    if (countable(value)) return;
+    const std::string cause = std::string(leader) + " " + does + " " + number_text(value.cwiseAbs().maxCoeff()) + unit +
+                              "; a body bears 1e30" + unit;
+    throw NodeNotFinite(body.node, (*state.nodes)[body.node].name, NotFinite(body.id, state.time, cause));
+  };
+  // What is too fast first: it is why the place is none.
+  require(motion.twist.angular, "turns it at", " rad/s");
+  require(motion.twist.linear, "moves it at", " m/s");
+  require(motion.pose.position, "puts it at a distance of", " m");
+  require(motion.pose.rotation.coeffs().head<3>(), "turns it by", "");
+  return motion;
+}
+
 void set_targets(StageState& state, double end) {
   // A path that jumps just before the end is followed to the jump and on at its own velocity: the jump is no movement.
   const double jump = std::min(end, first_jump(state, state.handled, end));
@@ -86,9 +103,10 @@ void set_targets(StageState& state, double end) {
       const Motion here = state.world.motion(body.id);
       if (!leaving.pose.position.isApprox(here.pose.position, 1e-12) ||
           std::abs(leaving.pose.rotation.dot(here.pose.rotation)) < 1 - 1e-15)
-        state.world.set_motion(body.id, leaving);
+        state.world.set_motion(body.id, bearable(state, body, leaving, "its path"));
     }
-    state.world.set_target(body.id, moved_on(rigid(target_pose.at(body)), center, end - jump));
+    const Motion target = moved_on(rigid(target_pose.at(body)), center, end - jump);
+    state.world.set_target(body.id, bearable(state, body, target, "its path"));
   }
   state.jumped = false;
 }

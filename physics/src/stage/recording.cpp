@@ -61,6 +61,14 @@ void require_affordable(const Stage& stage, double until, double fps, double mos
                                 " are allowed: end it earlier, or take fewer frames a second");
 }
 
+void require_tellable(const Stage& stage) {
+  constexpr std::size_t most_events = 1'000'000;
+  if (stage.events().size() > most_events)
+    throw std::invalid_argument("a recording of " + std::to_string(stage.events().size()) + " events by " +
+                                number_text(stage.time()) +
+                                " s; a million are allowed: end it earlier, or let what has events loop less often");
+}
+
 }  // namespace
 
 Recording record(Stage& stage, double until, double fps, double most_bytes) {
@@ -81,6 +89,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes) {
     if (last) time = std::max(until, stage.time());
     if (last && time <= stage.time()) break;
     stage.advance_to(time);
+    require_tellable(stage);
     take_frame(stage, world, recording);
     if (last) break;
   }

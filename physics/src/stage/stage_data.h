@@ -193,8 +193,12 @@ void fire_rules(StageState& state, double from, double step, std::vector<Happeni
 /// @throws what the world throws; `state` is of no use then
 void take_piece(StageState& state, double step, std::span<const Command> commands, std::vector<Happening>& happenings,
                 std::optional<StageState>& arrived);
-/// Tells driven and keyed bodies where their paths want them at `end`.
+/// Tells driven and keyed bodies where their paths want them at `end`. @throws NodeNotFinite
 void set_targets(StageState& state, double end);
+/// `motion`, where the world can bear it. @throws NodeNotFinite telling what of it is too much, for what led the body
+/// there, such as "its path"
+[[nodiscard]] const Motion& bearable(const StageState& state, const StagedBody& body, const Motion& motion,
+                                     const char* leader);
 
 // blows.cpp: what contacts trigger
 /// Moves the world to `end`, or to the first impact before it that pulls a trigger.

@@ -20,6 +20,8 @@ void Timeline::take(StageState& state, std::span<const Command> commands, std::v
                     std::optional<StageState>& arrived) const {
   try {
     take_piece(state, description.step, commands, happenings, arrived);
+  } catch (const NodeNotFinite&) {
+    throw;
   } catch (const NotFinite& fault) {
     const std::size_t index = fault.body.index;
     const NodeId node = index < state.node_of.size() ? state.node_of[index] : no_node;

@@ -191,3 +191,45 @@ TEST_CASE(
   stage.advance(1);
   CHECK(stage.time() > reached + 0.9);
 }
+
+TEST_CASE("a path too fast for a world ends the run with node, time and cause, as the caller's own hand-off does") {
+  for (const double rate : {1e31, 1e200, 1e300}) {
+    CAPTURE(rate);
+    const auto turning = [rate](double time, Side) {
+      return Sample<Quat>{Quat(Eigen::AngleAxisd(time, Eigen::Vector3d::UnitZ())), Vec3(0, 0, rate), Vec3::Zero()};
+    };
+    StageDescription description = falling_ball();
+    description.nodes.insert(description.nodes.begin(), {.name = "arm"});
+    description.nodes[1].parent = 0;
+    description.clips = {{.name = "turn", .duration = 1}};
+    description.clips[0].tracks = {{"arm", "rotation", Curve<Quat>(turning, 0, 1)}};
+    description.plays = {{.clip = 0, .at = 0.1}};
+    Stage stage(description);
+    for (int call = 0; call < 2; ++call) {
+      try {
+        stage.advance(0.5);
+        CHECK(false);
+      } catch (const NodeNotFinite& fault) {
+        CHECK(fault.node == 1);
+        CHECK(fault.time >= 0.09);
+        CHECK(fault.time <= 0.11);
+        CHECK_MESSAGE(fault.cause.find("its path turns it at ") == 0, fault.cause);
+      }
+    }
+    CHECK(stage.time() <= 0.11);
+    CHECK(stage.world(1).motion.pose.position.allFinite());
+  }
+}
+
+TEST_CASE("a recording of more than a million events is refused, with how many there are by when") {
+  StageDescription description;
+  description.nodes = {{.name = "a"}};
+  description.clips = {{.name = "tick", .duration = 1e-6, .loop = {LoopMode::repeat}}};
+  description.clips[0].events = {{.from = 0, .to = 0, .name = "tick"}};
+  description.plays = {{.clip = 0}};
+  Stage stage(description);
+  CHECK_THROWS_WITH_AS((void)record(stage, 4, 30), doctest::Contains("events by 1 s; a million are allowed"),
+                       std::invalid_argument);
+  Stage shorter(description);
+  CHECK(record(shorter, 0.1, 30).events.size() == doctest::Approx(1e5).epsilon(0.01));
+}

@@ -30,7 +30,9 @@ struct Recording {
 };
 
 /// Runs `stage` from its current time to `until`, taking a frame at the start and every 1/fps after, and at `until`.
-/// @throws std::invalid_argument, saying how much it would be, for more than 20 million steps or `most_bytes` of frames
+/// @throws std::invalid_argument, saying how much it would be, for more than 20 million steps or `most_bytes` of
+/// frames,
+///         and once it has a million events; NodeNotFinite, as the stage
 [[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes = 1024.0 * 1024 * 1024);
 
 /// A time at which the stage has shown what it has: the end of its plays or its last timed hand-off, and a while for

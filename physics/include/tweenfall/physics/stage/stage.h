@@ -81,7 +81,7 @@ class Stage {
   [[nodiscard]] Path path(NodeId node) const;      ///< where the animation wants the node
   [[nodiscard]] const StageDescription& description() const;
 
-  // Hand-off by the caller, at exactly `time()`
+  // Hand-off by the caller, at exactly `time()`. @throws NodeNotFinite when what leads the body there is too fast
   void release(NodeId node, const TakeOver& settings = {});
   void recover(NodeId node, const HandBack& settings = {});
   void arm(Rule rule);
