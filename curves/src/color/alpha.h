@@ -6,15 +6,15 @@
 
 #include "math/jet.h"
 
-namespace tweenfall {
+namespace tweenfall::color_spaces {
 
 // Coordinates times alpha, but for a hue, with rates by the product rule.
 inline Sample<Vec4> premultiplied(const Sample<Vec4>& s, int hue) noexcept {
   Sample<Vec4> result = s;
-  const Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};
+  const math::Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};
   for (int i = 0; i < 3; ++i) {
     if (i == hue) continue;
-    const Jet p = Jet{s.value[i], s.rate[i], s.acceleration[i]} * alpha;
+    const math::Jet p = math::Jet{s.value[i], s.rate[i], s.acceleration[i]} * alpha;
     result.value[i] = p.v;
     result.rate[i] = p.d;
     result.acceleration[i] = p.dd;
@@ -25,11 +25,11 @@ inline Sample<Vec4> premultiplied(const Sample<Vec4>& s, int hue) noexcept {
 // The way back; where nothing is visible the coordinates are 0 and rest.
 inline Sample<Vec4> divided(const Sample<Vec4>& s, int hue) noexcept {
   Sample<Vec4> result = s;
-  const Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};
-  const Jet inverse = alpha.v == 0 ? Jet{} : reciprocal(alpha);
+  const math::Jet alpha{s.value[3], s.rate[3], s.acceleration[3]};
+  const math::Jet inverse = alpha.v == 0 ? math::Jet{} : math::reciprocal(alpha);
   for (int i = 0; i < 3; ++i) {
     if (i == hue) continue;
-    const Jet p = Jet{s.value[i], s.rate[i], s.acceleration[i]} * inverse;
+    const math::Jet p = math::Jet{s.value[i], s.rate[i], s.acceleration[i]} * inverse;
     result.value[i] = p.v;
     result.rate[i] = p.d;
     result.acceleration[i] = p.dd;
@@ -37,4 +37,4 @@ inline Sample<Vec4> divided(const Sample<Vec4>& s, int hue) noexcept {
   return result;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::color_spaces

@@ -59,8 +59,8 @@ Triple to_linear(const Triple& c, ColorSpace space) noexcept {
 }
 
 Triple triple(const Vec4& value, const Vec4& rate, const Vec4& acceleration) noexcept {
-  return {Jet{value[0], rate[0], acceleration[0]}, Jet{value[1], rate[1], acceleration[1]},
-          Jet{value[2], rate[2], acceleration[2]}};
+  return {math::Jet{value[0], rate[0], acceleration[0]}, math::Jet{value[1], rate[1], acceleration[1]},
+          math::Jet{value[2], rate[2], acceleration[2]}};
 }
 
 Sample<Vec4> sample_of(const Triple& c, double alpha, double alpha_rate, double alpha_acceleration) noexcept {

@@ -8,7 +8,7 @@
 
 namespace tweenfall::color_spaces {
 
-using Triple = std::array<Jet, 3>;
+using Triple = std::array<math::Jet, 3>;
 using Matrix = std::array<std::array<double, 3>, 3>;
 
 [[nodiscard]] constexpr Triple multiplied(const Matrix& m, const Triple& v) noexcept {
@@ -48,12 +48,12 @@ using Matrix = std::array<std::array<double, 3>, 3>;
 // Hue in radians (0 for a gray), least and largest of encoded red, green and blue, and how far these are apart
 // (exactly 0 for a gray): what the three spaces below are made of.
 struct Hexcone {
-  Jet hue, low, high, range;
+  math::Jet hue, low, high, range;
 };
 [[nodiscard]] Hexcone hexcone(const Triple& srgb) noexcept;
 
 // The brightest color of a hue that has a part of 0 and a part of 1.
-[[nodiscard]] Triple pure_hue(const Jet& hue) noexcept;
+[[nodiscard]] Triple pure_hue(const math::Jet& hue) noexcept;
 
 // Hue, saturation and lightness; hue, saturation and value; hue, whiteness and blackness.
 [[nodiscard]] Triple srgb_to_hsl(const Triple& srgb) noexcept;

@@ -17,7 +17,7 @@ constexpr Matrix roots_of_oklab = inverted(oklab_of_roots);
 
 Triple to_oklab(const Triple& linear) noexcept {
   const Triple cones = multiplied(cones_of_linear, linear);
-  return multiplied(oklab_of_roots, {cbrt(cones[0]), cbrt(cones[1]), cbrt(cones[2])});
+  return multiplied(oklab_of_roots, {math::cbrt(cones[0]), math::cbrt(cones[1]), math::cbrt(cones[2])});
 }
 
 Triple from_oklab(const Triple& oklab) noexcept {

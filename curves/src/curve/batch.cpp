@@ -168,7 +168,7 @@ void CurveBatch::sample(double time, std::span<double> values, std::span<double>
   if (!rates.empty()) {
     double* rate = rates.data();
     for (std::size_t i = 0; i < count; ++i)
-      rate[i] = cubic_rate(c1[i], c2[i], c3[i], spans::position(time, start[i], inverse[i])) * inverse[i];
+      rate[i] = math::cubic_rate(c1[i], c2[i], c3[i], spans::position(time, start[i], inverse[i])) * inverse[i];
   }
   for (const Apart& apart : apart_) {
     const Sample<double> sample = apart.curve.sample(time);

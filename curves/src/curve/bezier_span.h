@@ -6,7 +6,7 @@
 
 #include "curve/time_bezier.h"
 
-namespace tweenfall {
+namespace tweenfall::spans {
 
 /// Gives `span` the coefficients and the warp of a Bezier from `from` that moves by `change`. `first` and `second` are
 /// what the handles move by, at their full widths, from the first key on and up to the second.
@@ -25,4 +25,4 @@ void fill_bezier(SpanType& span, const V& from, const V& change, const V& first,
   if (fit.start != third || fit.end != third) span.warp = time_bezier_warp(fit.start, 1 - fit.end);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::spans

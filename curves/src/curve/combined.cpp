@@ -81,9 +81,9 @@ Curve<T> combined(std::span<const Curve<double>> basis, std::span<const T> coeff
                                 std::to_string(basis.size()) + " functions and " + std::to_string(coefficients.size()) +
                                 " coefficients");
   for (std::size_t i = 0; i < coefficients.size(); ++i)
-    if (!all_finite(coefficients[i]))
+    if (!spans::all_finite(coefficients[i]))
       throw std::invalid_argument("coefficient " + std::to_string(i) + " must be finite; it is " +
-                                  text_of(coefficients[i]));
+                                  spans::text_of(coefficients[i]));
   return spans::made<T>(
       [functions = std::vector<Curve<double>>(basis.begin(), basis.end()),
        weights = std::vector<T>(coefficients.begin(), coefficients.end())](double t, Side side) {

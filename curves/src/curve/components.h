@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-namespace tweenfall {
+namespace tweenfall::spans {
 
 template <class T>
 inline constexpr int dimensions = T::RowsAtCompileTime;
@@ -67,4 +67,4 @@ std::string text_of(const T& v) {
   return out + ")";
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::spans

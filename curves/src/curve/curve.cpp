@@ -95,7 +95,7 @@ Sample<T> with_rates(const T& value, const T& first, const T& second, double inv
 
 // Derivatives in the polynomial's own variable, to derivatives in the position u of the span.
 template <class V>
-void through(const Warp::Result& w, Polynomial<V>& p) noexcept {
+void through(const Warp::Result& w, math::Polynomial<V>& p) noexcept {
   p.second = p.second * (w.ds * w.ds) + p.first * w.dds;
   p.first = p.first * w.ds;
 }
@@ -108,7 +108,7 @@ Sample<Quat> sample_plain_turn(const Data& d, std::size_t i, const Segment& s, d
   Vec3 c[max_degree + 1];
   c[0].setZero();
   std::copy_n(rows, s.degree, c + 1);
-  return sample_exponential(d.starts[i], evaluate_polynomial(c, s.degree, u));
+  return rotations::sample_exponential(d.starts[i], math::evaluate_polynomial(c, s.degree, u));
 }
 
 template <class Data>
@@ -117,15 +117,16 @@ Sample<Quat> sample_rotation(const Data& d, std::size_t i, const Segment& s, con
   if (d.plain_turns) {
     result = sample_plain_turn(d, i, s, w.s);
   } else if (s.form == RotationSpan::Form::nested) {
-    result = sample_nested(&d.pool[s.first], w);
+    result = rotations::sample_nested(&d.pool[s.first], w);
   } else {
-    Polynomial<Vec4> p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
+    math::Polynomial<Vec4> p = math::evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
     if (s.warped) through(w, p);
-    result = s.form == RotationSpan::Form::normalized
-                 ? sample_normalized(p, d.arrival(i))
-                 : sample_exponential(d.starts[i], {p.value.head<3>(), p.first.head<3>(), p.second.head<3>()});
+    result =
+        s.form == RotationSpan::Form::normalized
+            ? rotations::sample_normalized(p, d.arrival(i))
+            : rotations::sample_exponential(d.starts[i], {p.value.head<3>(), p.first.head<3>(), p.second.head<3>()});
   }
-  if (!d.spins.empty() && !d.spins[i].isZero(0)) result = spun(result, d.spins[i], w);
+  if (!d.spins.empty() && !d.spins[i].isZero(0)) result = rotations::spun(result, d.spins[i], w);
   result.rate *= s.inverse;
   result.acceleration *= s.inverse * s.inverse;
   return result;
@@ -138,7 +139,7 @@ Sample<T> sample_segment(const Data& d, std::size_t i, const Segment& s, double 
   if constexpr (std::is_same_v<T, Quat>) {
     return sample_rotation(d, i, s, w);
   } else {
-    Polynomial<typename Stored<T>::type> p = evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
+    math::Polynomial<typename Stored<T>::type> p = math::evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
     if (s.warped) through(w, p);
     if constexpr (std::is_same_v<T, Color>) {
       const Sample<Vec4> v = with_rates(p.value, p.first, p.second, s.inverse);
@@ -232,7 +233,8 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   d.before = before;
   d.after = after;
   if (!std::isfinite(end - d.start))
-    throw std::invalid_argument("a curve from " + text_of(d.start) + " s to " + text_of(end) + " s is too long");
+    throw std::invalid_argument("a curve from " + spans::text_of(d.start) + " s to " + spans::text_of(end) +
+                                " s is too long");
   std::vector<double> knots;
   knots.reserve(spans.size() + 1);
   for (const auto& s : spans) knots.push_back(s.start);
@@ -302,9 +304,10 @@ Curve<T>::Curve(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
 
 template <class T>
 Curve<T>::Curve(const T& value) {
-  if (!all_finite(value)) throw std::invalid_argument("a constant must be finite; it is " + text_of(value));
+  if (!spans::all_finite(value))
+    throw std::invalid_argument("a constant must be finite; it is " + spans::text_of(value));
   auto data = std::make_shared<Data>();
-  data->formula = [value](double, Side) { return at_rest<T>(value); };
+  data->formula = [value](double, Side) { return spans::at_rest<T>(value); };
   data_ = std::move(data);
 }
 
@@ -316,8 +319,8 @@ template <class T>
 Curve<T>::Curve(Formula formula, double start, double end) {
   if (!formula) throw std::invalid_argument("a curve needs a formula; an empty function was given");
   if (!(start <= end))
-    throw std::invalid_argument("a formula's end, " + text_of(end) + " s, must not lie before its start, " +
-                                text_of(start) + " s");
+    throw std::invalid_argument("a formula's end, " + spans::text_of(end) + " s, must not lie before its start, " +
+                                spans::text_of(start) + " s");
   auto data = std::make_shared<Data>();
   data->formula = std::move(formula);
   data->start = start;
@@ -332,7 +335,7 @@ Curve<T>::Curve(Formula formula, std::vector<double> knots) {
   for (std::size_t i = 0; i < knots.size(); ++i)
     if (!std::isfinite(knots[i]) || (i > 0 && !(knots[i] > knots[i - 1])))
       throw std::invalid_argument("knots must be finite and increase; knot " + std::to_string(i) + " is " +
-                                  text_of(knots[i]) + " s");
+                                  spans::text_of(knots[i]) + " s");
   const auto rebuilt = [formula, knots](const OutsideRule<T>& before, const OutsideRule<T>& after) {
     return CurveAccess::formula_with_knots<T>(formula, knots.front(), knots.back(), {knots})
         .with_outside(before, after);
@@ -348,10 +351,10 @@ Curve<T> Curve<T>::with_outside(Outside before, Outside after) const {
 template <class T>
 Curve<T> Curve<T>::with_outside(const OutsideRule<T>& before, const OutsideRule<T>& after) const {
   for (const OutsideRule<T>* rule : {&before, &after}) {
-    if (rule->slope && !all_finite(*rule->slope))
-      throw std::invalid_argument("the slope outside a curve must be finite; it is " + text_of(*rule->slope));
+    if (rule->slope && !spans::all_finite(*rule->slope))
+      throw std::invalid_argument("the slope outside a curve must be finite; it is " + spans::text_of(*rule->slope));
     if (!(rule->plays >= 0) || !std::isfinite(rule->plays))
-      throw std::invalid_argument("the plays outside a curve must be >= 0; they are " + text_of(rule->plays));
+      throw std::invalid_argument("the plays outside a curve must be >= 0; they are " + spans::text_of(rule->plays));
   }
   if (data_->rebuilt) return data_->rebuilt(before, after);
   auto data = std::make_shared<Data>(*data_);
@@ -409,12 +412,12 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
   const bool early = time < d.start || (time == d.start && side == Side::in);
   const CurveEnd<T>& beyond = early ? d.before : d.after;
   if (const std::optional<Rate<T>>& slope = beyond.straight(); slope && beyond.rule.rule == Outside::linear)
-    return straight_on(Sample<T>{spans::end_value<T>(d, early), *slope, zero_rate<Rate<T>>()},
-                       time - (early ? d.start : d.end));
+    return spans::straight_on(Sample<T>{spans::end_value<T>(d, early), *slope, spans::zero_rate<Rate<T>>()},
+                              time - (early ? d.start : d.end));
   if (d.rebuilt) return d.formula(time, side);
-  if (const std::optional<double> last = last_play(beyond.rule, d.start, d.end, early);
-      last && is_beyond(time, side, *last, early))
-    return at_rest<T>(spans::sample_endless<T>(d, *last, early ? Side::out : Side::in).value);
+  if (const std::optional<double> last = spans::last_play(beyond.rule, d.start, d.end, early);
+      last && spans::is_beyond(time, side, *last, early))
+    return spans::at_rest<T>(spans::sample_endless<T>(d, *last, early ? Side::out : Side::in).value);
   return spans::sample_endless<T>(d, time, side);
 }
 
@@ -425,7 +428,7 @@ T Curve<T>::value(double time, Side side) const noexcept {
     const Data& d = *data_;
     if (time >= d.start && time < d.end && side == Side::out && d.warps.empty() && d.times) {
       const Segment s = d.segment(d.times->locate(time));
-      return polynomial_value(&d.pool[s.first], s.degree, s.position(time));
+      return math::polynomial_value(&d.pool[s.first], s.degree, s.position(time));
     }
   }
   return sample(time, side).value;

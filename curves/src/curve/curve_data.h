@@ -129,7 +129,9 @@ struct CurveAccess {
   template <class T>
   static Curve<T> one_key(const T& value, double time, const CurveEnd<T>& before = {}, const CurveEnd<T>& after = {}) {
     auto data = std::make_shared<typename Curve<T>::Data>();
-    data->formula = [value](double, Side) { return Sample<T>{value, zero_rate<Rate<T>>(), zero_rate<Rate<T>>()}; };
+    data->formula = [value](double, Side) {
+      return Sample<T>{value, spans::zero_rate<Rate<T>>(), spans::zero_rate<Rate<T>>()};
+    };
     data->start = data->end = time;
     data->marks = {time};
     data->before = before;

@@ -10,7 +10,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::spans {
 
 template <class T>
 Sample<T> at_rest(const T& value) noexcept {
@@ -113,4 +113,4 @@ Sample<T> sample_outside(Outside rule, double start, double end, double time, Si
   return offset_by_plays(s, end_value(true), end_value(false), plays);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::spans

@@ -2,7 +2,7 @@
 
 // Polynomials over 0 to 1 with given values and derivatives at both ends, in power basis.
 
-namespace tweenfall {
+namespace tweenfall::spans {
 
 /// The cubic from `from` that moves by `change`, with the slopes d0 and d1 at its ends.
 template <class V>
@@ -26,4 +26,4 @@ void quintic_coefficients(const V& from, const V& change, const V& d0, const V& 
   c[5] = 6 * value - 3 * slope + 0.5 * bend;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::spans

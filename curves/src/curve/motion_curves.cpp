@@ -68,7 +68,7 @@ class MotionCurves::Sampler {
       value = c[1] * position_ + c[0];
       rate = c[1] * inverse_ * rate_;
     } else {
-      const Polynomial<Vec3> p = evaluate_polynomial(c, channel.degree, position_);
+      const math::Polynomial<Vec3> p = math::evaluate_polynomial(c, channel.degree, position_);
       value = p.value;
       rate = p.first * inverse_ * rate_;
     }
@@ -91,8 +91,8 @@ class MotionCurves::Sampler {
     Vec3 c[max_degree + 1];
     c[0].setZero();
     std::copy_n(rows, channel.degree, c + 1);
-    const Polynomial<Vec3> p = evaluate_polynomial(c, channel.degree, position_);
-    const TurningRotation turned = exponential(p.value, p.first);
+    const math::Polynomial<Vec3> p = math::evaluate_polynomial(c, channel.degree, position_);
+    const rotations::TurningRotation turned = rotations::exponential(p.value, p.first);
     value = start * turned.value;
     rate = value * turned.velocity * inverse_ * rate_;
   }

@@ -7,7 +7,7 @@
 #include "curve/components.h"
 #include "math/polynomial.h"
 
-namespace tweenfall {
+namespace tweenfall::spans {
 
 /// What a span holds at its position u, 0 to 1; its end exactly at 1.
 template <class T>
@@ -17,9 +17,9 @@ template <class T>
   if constexpr (std::is_same_v<T, Color>) {
     std::array<Vec4, max_degree + 1> c;
     for (std::size_t k = 0; k <= static_cast<std::size_t>(span.degree); ++k) c[k] = span.coefficients[k].rgba;
-    return Color{polynomial_at(c.data(), span.degree, s)};
+    return Color{math::polynomial_at(c.data(), span.degree, s)};
   } else {
-    return polynomial_at(span.coefficients.data(), span.degree, s);
+    return math::polynomial_at(span.coefficients.data(), span.degree, s);
   }
 }
 
@@ -45,10 +45,10 @@ template <class T>
   if constexpr (std::is_same_v<T, Color>) {
     std::array<Vec4, max_degree + 1> rgba;
     for (std::size_t k = 0; k <= static_cast<std::size_t>(span.degree); ++k) rgba[k] = c[k].rgba;
-    substitute(rgba.data(), span.degree, u0, u1 - u0);
+    math::substitute(rgba.data(), span.degree, u0, u1 - u0);
     for (std::size_t k = 0; k <= static_cast<std::size_t>(span.degree); ++k) c[k].rgba = rgba[k];
   } else {
-    substitute(c, span.degree, u0, u1 - u0);
+    math::substitute(c, span.degree, u0, u1 - u0);
   }
   if (u0 == 1) c[0] = span.end;
   return part;
@@ -69,4 +69,4 @@ template <class T>
   return part;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::spans

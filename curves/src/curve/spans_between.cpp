@@ -157,20 +157,20 @@ void check_plays(const Curve<T>& curve, double from, double to) {
 
 namespace tweenfall {
 
-void check_times(double from, double to) {
+void spans::check_times(double from, double to) {
   for (const double t : {from, to})
-    if (!std::isfinite(t)) throw std::invalid_argument("the time " + text_of(t) + " s must be finite");
+    if (!std::isfinite(t)) throw std::invalid_argument("the time " + spans::text_of(t) + " s must be finite");
 }
 
 template <class T>
-bool has_spans(const Curve<T>& curve) {
+bool spans::has_spans(const Curve<T>& curve) {
   const auto& data = CurveAccess::data(curve);
   return data.times || (curve.start() == curve.end() && !data.rebuilt);
 }
 
 template <class T>
-std::vector<typename SpanOf<T>::type> spans_between(const Curve<T>& curve, double from, double to) {
-  check_times(from, to);
+std::vector<typename SpanOf<T>::type> spans::spans_between(const Curve<T>& curve, double from, double to) {
+  spans::check_times(from, to);
   spans::check_plays(curve, from, to);
   const std::vector<typename SpanOf<T>::type> spans = curve.spans();
   spans::Plays<T> plays{curve, spans, CurveAccess::end_value(curve, true), CurveAccess::end_value(curve, false), {}};
@@ -183,8 +183,8 @@ std::vector<typename SpanOf<T>::type> spans_between(const Curve<T>& curve, doubl
 }
 
 template <class T>
-std::vector<double> seams_between(const Curve<T>& curve, double from, double to) {
-  check_times(from, to);
+std::vector<double> spans::seams_between(const Curve<T>& curve, double from, double to) {
+  spans::check_times(from, to);
   spans::check_plays(curve, from, to);
   std::vector<double> result = {from};
   const auto add = [&](double time) {
@@ -193,13 +193,13 @@ std::vector<double> seams_between(const Curve<T>& curve, double from, double to)
   const std::span<const double> knots = curve.knots();
   const double duration = curve.duration();
   const auto add_plays = [&](const OutsideRule<T>& rule, double low, double high, bool early) {
-    if (!(low < high) || !loops(rule.rule) || !std::isfinite(duration) || !(duration > 0)) return;
-    const std::optional<double> over = last_play(rule, curve.start(), curve.end(), early);
+    if (!(low < high) || !spans::loops(rule.rule) || !std::isfinite(duration) || !(duration > 0)) return;
+    const std::optional<double> over = spans::last_play(rule, curve.start(), curve.end(), early);
     if (over) (early ? low : high) = early ? std::max(low, *over) : std::min(high, *over);
     if (over && early) add(*over);
     for (double k = std::floor((low - curve.start()) / duration); k < std::ceil((high - curve.start()) / duration);
          k += 1) {
-      const bool backward = is_backward(rule.rule, k);
+      const bool backward = spans::is_backward(rule.rule, k);
       const double seam = curve.start() + (k + 1) * duration;
       const auto add_played = [&](double time) {
         if (time < high) add(time);
@@ -220,10 +220,10 @@ std::vector<double> seams_between(const Curve<T>& curve, double from, double to)
   return result;
 }
 
-#define TWEENFALL_BETWEEN(T)                                                                        \
-  template bool has_spans<T>(const Curve<T>&);                                                      \
-  template std::vector<typename SpanOf<T>::type> spans_between<T>(const Curve<T>&, double, double); \
-  template std::vector<double> seams_between<T>(const Curve<T>&, double, double);
+#define TWEENFALL_BETWEEN(T)                                                                               \
+  template bool spans::has_spans<T>(const Curve<T>&);                                                      \
+  template std::vector<typename SpanOf<T>::type> spans::spans_between<T>(const Curve<T>&, double, double); \
+  template std::vector<double> spans::seams_between<T>(const Curve<T>&, double, double);
 TWEENFALL_BETWEEN(double)
 TWEENFALL_BETWEEN(Vec2)
 TWEENFALL_BETWEEN(Vec3)

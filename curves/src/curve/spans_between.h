@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::spans {
 
 /// Whether a curve is made of spans (or is constant), so that `spans_between` can answer.
 template <class T>
@@ -25,4 +25,4 @@ template <class T>
 /// @throws std::invalid_argument unless both are finite.
 void check_times(double from, double to);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::spans

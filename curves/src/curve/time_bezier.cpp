@@ -36,7 +36,7 @@ Warp::Result inverse_warp(double u, const std::array<double, 4>& parameters) noe
 }  // namespace
 }  // namespace tweenfall::spans
 
-namespace tweenfall {
+namespace tweenfall::spans {
 
 Warp time_bezier_warp(double x1, double x2) {
   return {&spans::inverse_warp, {x1, x2, 0, 0}};
@@ -46,4 +46,4 @@ bool is_time_bezier(const Warp& warp) noexcept {
   return warp.function == &spans::inverse_warp;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::spans

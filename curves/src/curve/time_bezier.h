@@ -6,7 +6,7 @@
 
 #include "math/polynomial.h"
 
-namespace tweenfall {
+namespace tweenfall::spans {
 
 /// Warp with parameters {x1, x2}: the handles' times as shares of the span, such that time never runs
 /// backwards (they may lie outside 0 to 1). Where the tangent is vertical the slope is limited to a million.
@@ -27,10 +27,10 @@ template <class V>
   std::array<double, 4> x = time_cubic(warp.parameters[0], warp.parameters[1]);
   const double s0 = warp.at(0).s, s1 = warp.at(1).s;
   if (s0 == 0 && s1 == 1) return x;
-  substitute(c, degree, s0, s1 - s0);
-  substitute(x.data(), 3, s0, s1 - s0);
+  math::substitute(c, degree, s0, s1 - s0);
+  math::substitute(x.data(), 3, s0, s1 - s0);
   const double width = x[1] + x[2] + x[3];
   return {0, x[1] / width, x[2] / width, x[3] / width};
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::spans

@@ -56,7 +56,7 @@ Sample<double> Ease::progress(double u, Side side) const noexcept {
   const double local = std::min(1.0, std::max(0.0, (u - p.start) / p.duration));
   Warp::Result w{local, 1, 0};
   if (p.warp.function) w = p.warp.at(local);
-  const Polynomial<double> v = evaluate_polynomial(p.coefficients.data(), p.degree, w.s);
+  const math::Polynomial<double> v = math::evaluate_polynomial(p.coefficients.data(), p.degree, w.s);
   Sample<double> result{v.value, v.first * w.ds / p.duration,
                         (v.second * w.ds * w.ds + v.first * w.dds) / (p.duration * p.duration)};
   if (local == 1) result.value = p.end;

@@ -21,7 +21,7 @@ Call call_in(std::string_view text) {
   call.name = trimmed(text.substr(0, open));
   if (open == std::string_view::npos) return call;
   call.called = true;
-  if (text.back() != ')') refuse(quoted(text) + " has no closing parenthesis");
+  if (text.back() != ')') refuse(words::quoted(text) + " has no closing parenthesis");
   std::string_view rest = text.substr(open + 1, text.size() - open - 2);
   if (trimmed(rest).empty()) return call;
   for (;;) {
@@ -64,7 +64,7 @@ Ease parsed(std::string_view text) {
     if (call.name == row->word) {
       if (call.called && row->called) return row->called(call);
       if (!call.called && row->plain) return row->plain();
-      refuse(call.called ? quoted(call.name) + " takes no numbers"
+      refuse(call.called ? words::quoted(call.name) + " takes no numbers"
                          : std::string(row->word) + " is written " + std::string(row->word) + std::string(row->form));
     }
   for (const FamilyRow* family : families())
@@ -72,7 +72,7 @@ Ease parsed(std::string_view text) {
       if (call.name.starts_with(family->word) && call.name.substr(family->word.size()) == word.suffix)
         return of_family(*family, word.flow, call);
   const std::string meant = Ease::ours(text);
-  refuse("there is no ease " + quoted(text) + (meant.empty() ? "" : "; here it is " + quoted(meant)));
+  refuse("there is no ease " + words::quoted(text) + (meant.empty() ? "" : "; here it is " + words::quoted(meant)));
 }
 
 }  // namespace
@@ -87,7 +87,7 @@ double Call::number(std::size_t i, std::string_view unit) const {
   std::string_view text = arguments[i];
   if (!unit.empty() && text.size() > unit.size() && text.ends_with(unit)) text.remove_suffix(unit.size());
   const std::optional<double> value = number_in(text);
-  if (!value) refuse(quoted(arguments[i]) + " in " + std::string(name) + "(...) is not a number");
+  if (!value) refuse(words::quoted(arguments[i]) + " in " + std::string(name) + "(...) is not a number");
   return *value;
 }
 

@@ -101,13 +101,14 @@ LinearStop linear_stop(std::string_view text) {
     const std::optional<double> number = number_in(percent ? part.substr(0, part.size() - 1) : part);
     const bool expected = percent ? percents.size() < 2 : !output;
     if (!number || !expected)
-      refuse(quoted(text) + " in linear(...) must be a number with none, one or two percentages, as 0.5 25% 75%");
+      refuse(words::quoted(text) +
+             " in linear(...) must be a number with none, one or two percentages, as 0.5 25% 75%");
     if (percent)
       percents.push_back(*number);
     else
       output = number;
   }
-  if (!output) refuse(quoted(text) + " in linear(...) has no output, as the 0.5 of 0.5 25%");
+  if (!output) refuse(words::quoted(text) + " in linear(...) has no output, as the 0.5 of 0.5 25%");
   check_range("an output in linear(...)", *output, -1e6, 1e6);
   for (const double percent : percents) check_range("a percentage in linear(...)", percent, -1e6, 1e6);
   return {*output, percents};

@@ -33,7 +33,7 @@ Ease stepped(const Call& call) {
   if (jump == "end") jump = "jump-end";
   bool known = false;
   for (const std::string_view word : jumps) known = known || word == jump;
-  if (!known) refuse(quoted(jump) + " in steps(...) must be jump-start, jump-end, jump-none or jump-both");
+  if (!known) refuse(words::quoted(jump) + " in steps(...) must be jump-start, jump-end, jump-none or jump-both");
   const double least = jump == "jump-none" ? 2 : 1;
   if (count != std::floor(count) || count < least || count > 100000)
     refuse("the count in steps(...) must be a whole number from " + number_text(least) + " to 100000; it is " +

@@ -14,17 +14,17 @@ namespace tweenfall::editing {
 namespace {
 
 void check_order(double from, double to) {
-  check_times(from, to);
+  spans::check_times(from, to);
   if (!(from < to))
-    throw std::invalid_argument("a part must end after it starts, at " + text_of(from) + " s; it ends at " +
-                                text_of(to) + " s");
+    throw std::invalid_argument("a part must end after it starts, at " + spans::text_of(from) + " s; it ends at " +
+                                spans::text_of(to) + " s");
 }
 
 // What lies beyond an end, of a formula too.
 template <class T>
 CurveEnd<T> end_of(const Curve<T>& curve, bool early) {
   CurveEnd<T> end = early ? CurveAccess::data(curve).before : CurveAccess::data(curve).after;
-  if (curve.spans().empty() && !loops(end.rule.rule) && std::isfinite(early ? curve.start() : curve.end()))
+  if (curve.spans().empty() && !spans::loops(end.rule.rule) && std::isfinite(early ? curve.start() : curve.end()))
     end.value = early ? curve.value(curve.start(), Side::in) : curve.value(curve.end(), Side::out);
   return end;
 }
@@ -42,8 +42,10 @@ Curve<T> trimmed(const Curve<T>& curve, double from, double to) {
   if (to == curve.end()) after = editing::end_of(curve, false);
   before.rule = after.rule = {};
   if (to < curve.end()) after.value = curve.value(to, Side::out);
-  if (has_spans(curve)) return CurveAccess::from_spans<T>(spans_between(curve, from, to), to, before, after);
-  const std::vector<double> knots = curve.knots().empty() ? std::vector<double>{} : seams_between(curve, from, to);
+  if (spans::has_spans(curve))
+    return CurveAccess::from_spans<T>(spans::spans_between(curve, from, to), to, before, after);
+  const std::vector<double> knots =
+      curve.knots().empty() ? std::vector<double>{} : spans::seams_between(curve, from, to);
   const Curve<T> part = CurveAccess::formula_with_knots<T>(
       [curve](double time, Side side) { return curve.sample(time, side); }, from, to, {knots});
   return CurveAccess::with_ends(part, before, after);
@@ -52,8 +54,8 @@ Curve<T> trimmed(const Curve<T>& curve, double from, double to) {
 template <class T>
 std::pair<Curve<T>, Curve<T>> split(const Curve<T>& curve, double time) {
   if (!(curve.start() < time && time < curve.end()))
-    throw std::invalid_argument("a curve from " + text_of(curve.start()) + " s to " + text_of(curve.end()) +
-                                " s cannot be split at " + text_of(time) + " s");
+    throw std::invalid_argument("a curve from " + spans::text_of(curve.start()) + " s to " +
+                                spans::text_of(curve.end()) + " s cannot be split at " + spans::text_of(time) + " s");
   return {trimmed(curve, curve.start(), time), trimmed(curve, time, curve.end())};
 }
 
@@ -61,8 +63,8 @@ template <class T>
 Curve<T> joined(const Curve<T>& first, const Curve<T>& second) {
   const double seam = first.end();
   if (!(std::abs(second.start() - seam) <= 4e-16 * (std::abs(seam) + std::abs(first.start()))))
-    throw std::invalid_argument("the second curve must start where the first ends, at " + text_of(seam) +
-                                " s; it starts at " + text_of(second.start()) + " s");
+    throw std::invalid_argument("the second curve must start where the first ends, at " + spans::text_of(seam) +
+                                " s; it starts at " + spans::text_of(second.start()) + " s");
   std::vector<typename SpanOf<T>::type> spans = first.spans(), more = second.spans();
   if (spans.empty() || more.empty()) {
     const auto united = [](std::span<const double> early, std::span<const double> late) {
@@ -90,16 +92,16 @@ Curve<T> with_knot(const Curve<T>& curve, double time) {
   std::vector<typename SpanOf<T>::type> spans = curve.spans();
   if (spans.empty()) throw std::invalid_argument("a formula has no spans into which a knot could be put");
   if (!(curve.start() <= time && time <= curve.end()))
-    throw std::invalid_argument("a knot at " + text_of(time) + " s would lie outside the curve, from " +
-                                text_of(curve.start()) + " s to " + text_of(curve.end()) + " s");
+    throw std::invalid_argument("a knot at " + spans::text_of(time) + " s would lie outside the curve, from " +
+                                spans::text_of(curve.start()) + " s to " + spans::text_of(curve.end()) + " s");
   const std::span<const double> knots = curve.knots();
   if (std::binary_search(knots.begin(), knots.end(), time)) return curve;
   const std::size_t i =
       static_cast<std::size_t>(std::lower_bound(knots.begin(), knots.end(), time) - knots.begin()) - 1;
   const auto whole = spans[i];
   const double u = (time - knots[i]) / (knots[i + 1] - knots[i]);
-  spans[i] = span_part(whole, 0, u, knots[i], time);
-  spans.insert(spans.begin() + static_cast<std::ptrdiff_t>(i) + 1, span_part(whole, u, 1, time, knots[i + 1]));
+  spans[i] = spans::span_part(whole, 0, u, knots[i], time);
+  spans.insert(spans.begin() + static_cast<std::ptrdiff_t>(i) + 1, spans::span_part(whole, u, 1, time, knots[i + 1]));
   spans[i + 1].starts_at_key = true;
   return CurveAccess::from_spans<T>(spans, curve.end(), editing::end_of(curve, true), editing::end_of(curve, false));
 }
@@ -123,7 +125,7 @@ Curve<T> without_redundant_knots(const Curve<T>& curve, double tolerance) {
     Span<T>& span = kept.back();
     const T end = spans[i].end;
     const double u = (curve.knots()[i + 1] - continued_from) / (continued_to - continued_from);
-    span = span_part(span, 0, u, continued_from, curve.knots()[i + 1]);
+    span = spans::span_part(span, 0, u, continued_from, curve.knots()[i + 1]);
     span.end = end;
     continued_to = curve.knots()[i + 1];
   }

@@ -18,8 +18,8 @@ namespace {
 template <class T>
 BezierPoints<T> points_of(const Span<T>& span, double end) {
   const bool warped = span.warp.function && span.degree > 0;
-  if (span.degree > 3 || (warped && !is_time_bezier(span.warp)))
-    throw std::invalid_argument("the span from " + text_of(span.start) +
+  if (span.degree > 3 || (warped && !spans::is_time_bezier(span.warp)))
+    throw std::invalid_argument("the span from " + spans::text_of(span.start) +
                                 " s is no cubic; fit keys to the curve instead");
   std::vector<typename Stored<T>::type> c(4, zero<typename Stored<T>::type>());
   for (std::size_t k = 0; k <= static_cast<std::size_t>(span.degree); ++k) {
@@ -31,7 +31,7 @@ BezierPoints<T> points_of(const Span<T>& span, double end) {
   const double duration = end - span.start;
   BezierPoints<T> result{{span.start, span.start + duration / 3, end - duration / 3, end}, {}};
   if (warped) {
-    const std::array<double, 4> shown = shown_time_cubic(span.warp, c.data(), 3);
+    const std::array<double, 4> shown = spans::shown_time_cubic(span.warp, c.data(), 3);
     std::vector<double> x(shown.begin(), shown.end());
     splines::make_control_points(x);
     for (std::size_t k = 1; k < 3; ++k) result.times[k] = span.start + x[k] * duration;
@@ -69,12 +69,13 @@ std::vector<Key<T>> keys_of(std::span<const BezierPoints<T>> spans) {
     const auto& [t, v] = spans[i];
     const double duration = t[3] - t[0];
     if (i > 0 && t[0] != spans[i - 1].times[3])
-      editing::refuse_points(i, "must begin where the one before ends, at " + text_of(spans[i - 1].times[3]) +
-                                    " s; it begins at " + text_of(t[0]) + " s");
+      editing::refuse_points(i, "must begin where the one before ends, at " + spans::text_of(spans[i - 1].times[3]) +
+                                    " s; it begins at " + spans::text_of(t[0]) + " s");
     for (const double time : {t[1] - t[0], t[3] - t[2]})
       if (!(duration > 0) || !(time > 0 && time <= duration))
-        editing::refuse_points(i, "has a handle " + text_of(time) +
-                                      " s long; it must be > 0 s and at most the span's " + text_of(duration) + " s");
+        editing::refuse_points(i, "has a handle " + spans::text_of(time) +
+                                      " s long; it must be > 0 s and at most the span's " + spans::text_of(duration) +
+                                      " s");
     // A third that is not one in its last bit is still the plain cubic.
     const auto weight = [duration](double length) {
       const double share = length / duration;

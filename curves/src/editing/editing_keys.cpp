@@ -33,7 +33,7 @@ HandleWeights weights_of(const std::array<double, 4>& x) noexcept {
 
 template <class AnySpan>
 [[noreturn]] void refuse_span(const AnySpan& span, const std::string& why) {
-  throw std::invalid_argument("the span from " + text_of(span.start) + " s " + why +
+  throw std::invalid_argument("the span from " + spans::text_of(span.start) + " s " + why +
                               ", which no key describes; fit keys to it instead");
 }
 
@@ -46,7 +46,7 @@ void describe(Key<T>& from, Key<T>& to, const Span<T>& span, const Curve<T>& cur
   }
   if (span.degree > 3) refuse_span(span, "has the degree " + std::to_string(span.degree));
   if (span.warp.function) {
-    if (!is_time_bezier(span.warp)) refuse_span(span, "is an ease");
+    if (!spans::is_time_bezier(span.warp)) refuse_span(span, "is an ease");
     weights = weights_of(questions::curve_pieces(curve, from.time, to.time).front().x);
     if (!weights.possible()) refuse_span(span, "has a handle outside itself");
   } else if (span.degree == 1) {
@@ -64,7 +64,7 @@ void describe(Key<Quat>& from, Key<Quat>&, const RotationSpan& span, const Curve
     return;
   }
   constexpr double half_turn = 0x1.921fb54442d18p+1;
-  const bool even = !span.warp.function || span.warp.function == &straight_warp;
+  const bool even = !span.warp.function || span.warp.function == &spans::straight_warp;
   if (span.form != RotationSpan::Form::exponential || span.degree != 1 || !even ||
       !(std::abs(span.warp.width) * span.coefficients[1].norm() < half_turn))
     refuse_span(span, "is no turn at constant speed by less than half a turn");
@@ -73,8 +73,8 @@ void describe(Key<Quat>& from, Key<Quat>&, const RotationSpan& span, const Curve
 
 template <class T>
 bool same_value(const T& a, const T& b) noexcept {
-  for (int i = 0; i < dimensions<T>; ++i)
-    if (component(a, i) != component(b, i)) return false;
+  for (int i = 0; i < spans::dimensions<T>; ++i)
+    if (spans::component(a, i) != spans::component(b, i)) return false;
   return true;
 }
 
@@ -126,8 +126,8 @@ std::vector<Key<T>> with_key(std::span<const Key<T>> keys, double time, const Ke
   const auto after =
       std::lower_bound(keys.begin(), keys.end(), time, [](const Key<T>& key, double t) { return key.time < t; });
   if (after == keys.end() || (after == keys.begin() && after->time != time) || std::isnan(time))
-    throw std::invalid_argument("a key at " + text_of(time) + " s would lie outside the keys, from " +
-                                text_of(keys.front().time) + " s to " + text_of(keys.back().time) + " s");
+    throw std::invalid_argument("a key at " + spans::text_of(time) + " s would lie outside the keys, from " +
+                                spans::text_of(keys.front().time) + " s to " + spans::text_of(keys.back().time) + " s");
   if (after->time == time) return result;
   const std::size_t i = static_cast<std::size_t>(after - keys.begin()) - 1;
   Key<T>&from = result[i], &to = result[i + 1];
@@ -150,14 +150,14 @@ std::vector<Key<T>> with_key(std::span<const Key<T>> keys, double time, const Ke
     if (kind == keying::SpanKind::shape) {
       const std::vector<Ease::Piece>& pieces = keys[i].ease.pieces();
       const Ease::Piece& piece = pieces.front();
-      const bool bezier = is_time_bezier(piece.warp);
+      const bool bezier = spans::is_time_bezier(piece.warp);
       if (pieces.size() != 1 || piece.degree > 3 || (piece.warp.function && !bezier))
         keying::refuse_key(keys, i, "has the ease \"" + keys[i].ease.name() + "\", half of which no key describes");
       x1 = bezier ? piece.warp.parameters[0] : 1.0 / 3;
       x2 = bezier ? piece.warp.parameters[1] : 2.0 / 3;
       from.ease = Ease::smooth_clamped();
     }
-    handles.x = time_cubic(x1, x2);
+    handles.x = spans::time_cubic(x1, x2);
     const bool plain = x1 == 1.0 / 3 && std::abs(x2 - 2.0 / 3) <= 2e-16;
     const editing::HandleWeights first =
         plain ? editing::HandleWeights{} : editing::weights_of(questions::piece_part(handles, from.time, time).x);

@@ -54,8 +54,8 @@ Curve<T> retimed(const Curve<T>& curve, const Later& later, const Earlier& earli
         });
   for (std::size_t i = 0; i < spans.size(); ++i) {
     if (!(knots[i + 1] > knots[i]))
-      throw std::invalid_argument("the knots at " + text_of(curve.knots()[i]) + " s and " +
-                                  text_of(curve.knots()[i + 1]) + " s would fall on one time");
+      throw std::invalid_argument("the knots at " + spans::text_of(curve.knots()[i]) + " s and " +
+                                  spans::text_of(curve.knots()[i + 1]) + " s would fall on one time");
     spans[i].start = knots[i];
     spans[i].duration = knots[i + 1] - knots[i];
   }
@@ -71,15 +71,16 @@ namespace tweenfall {
 
 template <class T>
 Curve<T> shifted(const Curve<T>& curve, double seconds) {
-  check_times(seconds, seconds);
+  spans::check_times(seconds, seconds);
   return editing::retimed(
       curve, [seconds](double t) { return t + seconds; }, [seconds](double t) { return t - seconds; }, 1);
 }
 
 template <class T>
 Curve<T> time_scaled(const Curve<T>& curve, double factor, double pivot) {
-  check_times(factor, pivot);
-  if (!(factor > 0)) throw std::invalid_argument("time must be scaled by a factor > 0; it is " + text_of(factor));
+  spans::check_times(factor, pivot);
+  if (!(factor > 0))
+    throw std::invalid_argument("time must be scaled by a factor > 0; it is " + spans::text_of(factor));
   return editing::retimed(
       curve, [factor, pivot](double t) { return pivot + factor * (t - pivot); },
       [factor, pivot](double t) { return pivot + (t - pivot) / factor; }, factor);
@@ -87,7 +88,7 @@ Curve<T> time_scaled(const Curve<T>& curve, double factor, double pivot) {
 
 template <class T>
 Curve<T> reversed(const Curve<T>& curve) {
-  check_times(curve.start(), curve.end());
+  spans::check_times(curve.start(), curve.end());
   const double mirror = curve.start() + curve.end();
   Breaks breaks = CurveAccess::breaks(curve);
   for (std::vector<double>* times : {&breaks.knots, &breaks.keys}) {
@@ -116,7 +117,7 @@ Curve<T> reversed(const Curve<T>& curve) {
         });
   std::vector<typename SpanOf<T>::type> result;
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    result.push_back(span_part(spans[spans.size() - 1 - i], 1, 0, knots[i], knots[i + 1]));
+    result.push_back(spans::span_part(spans[spans.size() - 1 - i], 1, 0, knots[i], knots[i + 1]));
     result.back().starts_at_key = i == 0 || spans[spans.size() - i].starts_at_key;
   }
   const auto& data = CurveAccess::data(curve);
@@ -128,12 +129,12 @@ template <class T>
 Curve<T> value_scaled(const Curve<T>& curve, const T& factor, const T& offset) {
   const auto times_factor = [factor](const T& v) {
     T result = v;
-    for (int i = 0; i < dimensions<T>; ++i) component_of(result, i) *= component(factor, i);
+    for (int i = 0; i < spans::dimensions<T>; ++i) spans::component_of(result, i) *= spans::component(factor, i);
     return result;
   };
-  if (!all_finite(factor) || !all_finite(offset))
-    throw std::invalid_argument("values must be scaled by finite numbers; these are " + text_of(factor) + " and " +
-                                text_of(offset));
+  if (!spans::all_finite(factor) || !spans::all_finite(offset))
+    throw std::invalid_argument("values must be scaled by finite numbers; these are " + spans::text_of(factor) +
+                                " and " + spans::text_of(offset));
   std::vector<Span<T>> spans = curve.spans();
   if (spans.empty())
     return CurveAccess::converted<T>(curve, [times_factor, offset](const Curve<T>& whole, double time, Side side) {

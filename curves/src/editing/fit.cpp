@@ -95,8 +95,8 @@ class Fitter {
       for (double length = bad - from; good == from; length *= 0.5) {
         const double to = from + length;
         if (!(to > from))
-          throw std::invalid_argument("at " + text_of(from) + " s no span is within " + text_of(target_.error()) +
-                                      " of the curve");
+          throw std::invalid_argument("at " + spans::text_of(from) + " s no span is within " +
+                                      spans::text_of(target_.error()) + " of the curve");
         if (reaches(from, to))
           good = to;
         else

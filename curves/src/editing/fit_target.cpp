@@ -19,8 +19,8 @@ inline constexpr bool is_vector = !std::is_same_v<T, Color> && !std::is_same_v<T
 
 template <class T>
 bool bitwise_same(const T& a, const T& b) noexcept {
-  for (int i = 0; i < dimensions<T>; ++i)
-    if (component(a, i) != component(b, i)) return false;
+  for (int i = 0; i < spans::dimensions<T>; ++i)
+    if (spans::component(a, i) != spans::component(b, i)) return false;
   return true;
 }
 
@@ -33,8 +33,8 @@ template <class T>
 editing::FitTarget<T>::FitTarget(const Curve<T>& curve, double error, const FitOptions& options)
     : curve_(curve), error_(error), options_(options), plain_(editing::is_vector<T> && !options.keys.logarithmic) {
   if (!(error > 0) || !std::isfinite(error))
-    throw std::invalid_argument("keys are fitted within an error > 0; it is " + text_of(error));
-  check_times(curve.start(), curve.end());
+    throw std::invalid_argument("keys are fitted within an error > 0; it is " + spans::text_of(error));
+  spans::check_times(curve.start(), curve.end());
   if constexpr (editing::is_vector<T>) {
     if (plain_) {
       pieces_ = questions::curve_pieces(curve, curve.start(), curve.end());
@@ -46,12 +46,12 @@ editing::FitTarget<T>::FitTarget(const Curve<T>& curve, double error, const FitO
     }
   }
   if (!plain_) {
-    boundaries_ = seams_between(curve, curve.start(), curve.end());
+    boundaries_ = spans::seams_between(curve, curve.start(), curve.end());
     least_error_ = 1e-11;
   }
   if (error < least_error_)
-    throw std::invalid_argument("an error of " + text_of(error) + " is less than rounding, " + text_of(least_error_) +
-                                ", for values of this size");
+    throw std::invalid_argument("an error of " + spans::text_of(error) + " is less than rounding, " +
+                                spans::text_of(least_error_) + ", for values of this size");
 }
 
 // Slopes that make the sum of squared distances at evenly spaced times the least.
@@ -122,7 +122,7 @@ bool editing::FitTarget<T>::is_near(const editing::FittedSpan<T>& span, double e
         const double h = to - from;
         candidate.degree = 3;
         const T d0 = h * span.from.out->rate, d1 = h * span.to.in->rate;
-        cubic_coefficients(span.from.value, change, d0, d1, candidate.c.data());
+        spans::cubic_coefficients(span.from.value, change, d0, d1, candidate.c.data());
       } else {
         candidate.degree = 1;
         candidate.c[0] = span.from.value;

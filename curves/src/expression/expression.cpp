@@ -24,7 +24,7 @@ Sample<double> Expression::sample(double t, Side side) const noexcept {
 }
 
 Sample<double> Expression::sample(std::span<const Sample<double>> variables, Side side) const noexcept {
-  std::array<Jet, Program::most_depth> stack;
+  std::array<math::Jet, Program::most_depth> stack;
   std::size_t top = 0;
   const double way = side == Side::out ? 1 : -1;
   for (const Program::Step& step : program_->steps) {
@@ -32,11 +32,11 @@ Sample<double> Expression::sample(std::span<const Sample<double>> variables, Sid
       top -= static_cast<std::size_t>(step.function->count);
       stack[top] = step.function->apply(&stack[top], way);
     } else if (step.variable < 0) {
-      stack[top] = constant(step.number);
+      stack[top] = math::constant(step.number);
     } else if (const auto i = static_cast<std::size_t>(step.variable); i < variables.size()) {
       stack[top] = {variables[i].value, variables[i].rate, variables[i].acceleration};
     } else {
-      stack[top] = constant(0);
+      stack[top] = math::constant(0);
     }
     ++top;
   }
@@ -45,7 +45,7 @@ Sample<double> Expression::sample(std::span<const Sample<double>> variables, Sid
 
 std::vector<std::string> Expression::functions() {
   std::vector<std::string> result;
-  for (const ExpressionFunction& each : expression_functions())
+  for (const expressions::ExpressionFunction& each : expressions::expression_functions())
     result.push_back(std::string(each.name) + "(" + std::string(each.arguments) + ")");
   return result;
 }

@@ -13,54 +13,54 @@ using std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
 // Sign of what `a` is about to be on the side that `way` means.
-double tendency(const Jet& a, double way) noexcept {
+double tendency(const math::Jet& a, double way) noexcept {
   const double s = a.v != 0 ? a.v : a.d != 0 ? way * a.d : a.dd;
   return s > 0 ? 1 : s < 0 ? -1 : 0;
 }
 
-Jet negative(const Jet& a) noexcept {
+math::Jet negative(const math::Jet& a) noexcept {
   return {-a.v, -a.d, -a.dd};
 }
 
-Jet quotient(const Jet& a, const Jet& b) noexcept {
+math::Jet quotient(const math::Jet& a, const math::Jet& b) noexcept {
   const double q = a.v / b.v, d = (a.d - q * b.d) / b.v;
   return {q, d, (a.dd - 2 * d * b.d - q * b.dd) / b.v};
 }
 
-Jet floor_of(const Jet& a, double way) noexcept {
+math::Jet floor_of(const math::Jet& a, double way) noexcept {
   const double f = std::floor(a.v);
-  return constant(tendency(a - constant(f), way) < 0 ? f - 1 : f);
+  return math::constant(tendency(a - math::constant(f), way) < 0 ? f - 1 : f);
 }
 
-Jet lesser(const Jet& a, const Jet& b, double way) noexcept {
+math::Jet lesser(const math::Jet& a, const math::Jet& b, double way) noexcept {
   return tendency(b - a, way) < 0 ? b : a;
 }
-Jet greater(const Jet& a, const Jet& b, double way) noexcept {
+math::Jet greater(const math::Jet& a, const math::Jet& b, double way) noexcept {
   return tendency(b - a, way) > 0 ? b : a;
 }
-Jet clamped(const Jet& x, const Jet& low, const Jet& high, double way) noexcept {
+math::Jet clamped(const math::Jet& x, const math::Jet& low, const math::Jet& high, double way) noexcept {
   return lesser(greater(x, low, way), high, way);
 }
 
-Jet square_root(const Jet& a) noexcept {
-  if (a.v < 0) return constant(none);
+math::Jet square_root(const math::Jet& a) noexcept {
+  if (a.v < 0) return math::constant(none);
   const double root = std::sqrt(a.v);
   if (a.v == 0 && a.d == 0 && a.dd == 0) return {};
-  return chained(a, root, 0.5 / root, -0.25 / (root * a.v));
+  return math::chained(a, root, 0.5 / root, -0.25 / (root * a.v));
 }
 
-Jet arc_sine(const Jet& a) noexcept {
-  if (!(std::abs(a.v) <= 1)) return constant(none);
+math::Jet arc_sine(const math::Jet& a) noexcept {
+  if (!(std::abs(a.v) <= 1)) return math::constant(none);
   const double first = 1 / std::sqrt((1 - a.v) * (1 + a.v));
-  return chained(a, elementary::asin(a.v), first, a.v * first * first * first);
+  return math::chained(a, elementary::asin(a.v), first, a.v * first * first * first);
 }
 
-Jet arc_tangent(const Jet& a) noexcept {
+math::Jet arc_tangent(const math::Jet& a) noexcept {
   const double first = 1 / (1 + a.v * a.v);
-  return chained(a, elementary::atan(a.v), first, -2 * a.v * first * first);
+  return math::chained(a, elementary::atan(a.v), first, -2 * a.v * first * first);
 }
 
-Jet angle_of(const Jet& y, const Jet& x, double way) noexcept {
+math::Jet angle_of(const math::Jet& y, const math::Jet& x, double way) noexcept {
   // On the cut the side decides: pi where y comes from above, -pi where it comes from below.
   const double angle = y.v == 0 && x.v < 0 ? (tendency(y, way) < 0 ? -pi : pi) : elementary::atan2(y.v, x.v);
   const double square = x.v * x.v + y.v * y.v;
@@ -69,13 +69,13 @@ Jet angle_of(const Jet& y, const Jet& x, double way) noexcept {
   return {angle, rate, (turning - rate * growth) / square};
 }
 
-Jet exponential(const Jet& a) noexcept {
+math::Jet exponential(const math::Jet& a) noexcept {
   const double e = elementary::exp(a.v);
-  return chained(a, e, e, e);
+  return math::chained(a, e, e, e);
 }
 
-Jet logarithm(const Jet& a) noexcept {
-  return chained(a, elementary::log(a.v), 1 / a.v, -1 / (a.v * a.v));
+math::Jet logarithm(const math::Jet& a) noexcept {
+  return math::chained(a, elementary::log(a.v), 1 / a.v, -1 / (a.v * a.v));
 }
 
 // x^y for a fixed y. Whole powers of up to 64 are products, so that t^2 is t*t to the last bit.
@@ -95,79 +95,79 @@ double power_value(double x, double y) noexcept {
   return std::fmod(y, 2) == 0 ? size : -size;
 }
 
-Jet raised(const Jet& a, const Jet& b) noexcept {
+math::Jet raised(const math::Jet& a, const math::Jet& b) noexcept {
   if (b.d == 0 && b.dd == 0) {
     const double n = b.v;
     const double first = n == 0 ? 0 : n * power_value(a.v, n - 1);
     const double second = n == 0 || n == 1 ? 0 : n * (n - 1) * power_value(a.v, n - 2);
-    const Jet result = chained(a, power_value(a.v, n), first, second);
+    const math::Jet result = math::chained(a, power_value(a.v, n), first, second);
     // A fixed base has no rates, not even where the power is steep.
-    return a.d == 0 && a.dd == 0 ? constant(result.v) : result;
+    return a.d == 0 && a.dd == 0 ? math::constant(result.v) : result;
   }
   if (!(a.v > 0)) return {a.v == 0 && b.v > 0 ? 0 : none, none, none};
-  Jet result = exponential(b * logarithm(a));
+  math::Jet result = exponential(b * logarithm(a));
   result.v = elementary::pow(a.v, b.v);
   return result;
 }
 
-Jet smooth_step(const Jet& from, const Jet& to, const Jet& x, double way) noexcept {
-  const Jet u = clamped(quotient(x - from, to - from), constant(0), constant(1), way);
-  return u * u * (constant(3) - 2 * u);
+math::Jet smooth_step(const math::Jet& from, const math::Jet& to, const math::Jet& x, double way) noexcept {
+  const math::Jet u = clamped(quotient(x - from, to - from), math::constant(0), math::constant(1), way);
+  return u * u * (math::constant(3) - 2 * u);
 }
 
-using Arguments = const Jet*;
+using Arguments = const math::Jet*;
 
 constexpr ExpressionFunction functions[] = {
     {"sin", "x", 1, false,
      [](Arguments a, double) noexcept {
        const elementary::SinCos wave = elementary::sin_cos(a[0].v);
-       return chained(a[0], wave.sin, wave.cos, -wave.sin);
+       return math::chained(a[0], wave.sin, wave.cos, -wave.sin);
      }},
     {"cos", "x", 1, false,
      [](Arguments a, double) noexcept {
        const elementary::SinCos wave = elementary::sin_cos(a[0].v);
-       return chained(a[0], wave.cos, -wave.sin, -wave.cos);
+       return math::chained(a[0], wave.cos, -wave.sin, -wave.cos);
      }},
     {"tan", "x", 1, false,
      [](Arguments a, double) noexcept {
        const double t = elementary::tan(a[0].v), first = 1 + t * t;
-       return chained(a[0], t, first, 2 * t * first);
+       return math::chained(a[0], t, first, 2 * t * first);
      }},
     {"asin", "x", 1, false, [](Arguments a, double) noexcept { return arc_sine(a[0]); }},
     {"acos", "x", 1, false,
      [](Arguments a, double) noexcept {
-       const Jet s = negative(arc_sine(a[0]));
-       return Jet{s.v == s.v ? elementary::acos(a[0].v) : s.v, s.d, s.dd};
+       const math::Jet s = negative(arc_sine(a[0]));
+       return math::Jet{s.v == s.v ? elementary::acos(a[0].v) : s.v, s.d, s.dd};
      }},
     {"atan", "x", 1, false, [](Arguments a, double) noexcept { return arc_tangent(a[0]); }},
     {"atan2", "y, x", 2, false, [](Arguments a, double way) noexcept { return angle_of(a[0], a[1], way); }},
     {"sinh", "x", 1, false,
      [](Arguments a, double) noexcept {
        const double s = elementary::sinh(a[0].v), c = elementary::cosh(a[0].v);
-       return chained(a[0], s, c, s);
+       return math::chained(a[0], s, c, s);
      }},
     {"cosh", "x", 1, false,
      [](Arguments a, double) noexcept {
        const double s = elementary::sinh(a[0].v), c = elementary::cosh(a[0].v);
-       return chained(a[0], c, s, c);
+       return math::chained(a[0], c, s, c);
      }},
     {"tanh", "x", 1, false,
      [](Arguments a, double) noexcept {
        const double t = elementary::tanh(a[0].v), c = elementary::cosh(a[0].v), first = 1 / c / c;
-       return chained(a[0], t, first, -2 * t * first);
+       return math::chained(a[0], t, first, -2 * t * first);
      }},
     {"exp", "x", 1, false, [](Arguments a, double) noexcept { return exponential(a[0]); }},
     {"log", "x", 1, false, [](Arguments a, double) noexcept { return logarithm(a[0]); }},
     {"sqrt", "x", 1, false, [](Arguments a, double) noexcept { return square_root(a[0]); }},
-    {"cbrt", "x", 1, false, [](Arguments a, double) noexcept { return cbrt(a[0]); }},
+    {"cbrt", "x", 1, false, [](Arguments a, double) noexcept { return math::cbrt(a[0]); }},
     {"pow", "x, y", 2, false, [](Arguments a, double) noexcept { return raised(a[0], a[1]); }},
     {"hypot", "x, y", 2, false, [](Arguments a, double) noexcept { return square_root(a[0] * a[0] + a[1] * a[1]); }},
     {"abs", "x", 1, false,
      [](Arguments a, double way) noexcept {
        const double sign = tendency(a[0], way);
-       return Jet{std::abs(a[0].v), sign * a[0].d, sign * a[0].dd};
+       return math::Jet{std::abs(a[0].v), sign * a[0].d, sign * a[0].dd};
      }},
-    {"sign", "x", 1, false, [](Arguments a, double way) noexcept { return constant(tendency(a[0], way)); }},
+    {"sign", "x", 1, false, [](Arguments a, double way) noexcept { return math::constant(tendency(a[0], way)); }},
     {"floor", "x", 1, false, [](Arguments a, double way) noexcept { return floor_of(a[0], way); }},
     {"ceil", "x", 1, false, [](Arguments a, double way) noexcept { return negative(floor_of(negative(a[0]), way)); }},
     {"round", "x", 1, false, [](Arguments a, double way) noexcept { return floor_of(a[0] + 0.5, way); }},
@@ -180,7 +180,7 @@ constexpr ExpressionFunction functions[] = {
      [](Arguments a, double way) noexcept { return clamped(a[0], a[1], a[2], way); }},
     {"mix", "a, b, weight", 3, false, [](Arguments a, double) noexcept { return a[0] + (a[1] - a[0]) * a[2]; }},
     {"step", "edge, x", 2, false,
-     [](Arguments a, double way) noexcept { return constant(tendency(a[1] - a[0], way) < 0 ? 0 : 1); }},
+     [](Arguments a, double way) noexcept { return math::constant(tendency(a[1] - a[0], way) < 0 ? 0 : 1); }},
     {"smoothstep", "from, to, x", 3, false,
      [](Arguments a, double way) noexcept { return smooth_step(a[0], a[1], a[2], way); }},
 };
@@ -197,7 +197,7 @@ constexpr ExpressionFunction operators[] = {
 }  // namespace
 }  // namespace tweenfall::expressions
 
-namespace tweenfall {
+namespace tweenfall::expressions {
 
 std::span<const ExpressionFunction> expression_functions() noexcept {
   return expressions::functions;
@@ -209,4 +209,4 @@ const ExpressionFunction* expression_operator(char symbol) noexcept {
   return nullptr;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::expressions

@@ -7,7 +7,7 @@
 
 #include "math/jet.h"
 
-namespace tweenfall {
+namespace tweenfall::expressions {
 
 struct ExpressionFunction {
   std::string_view name;       // as written: "+", "clamp"
@@ -15,7 +15,7 @@ struct ExpressionFunction {
   int count;                   // of the arguments
   bool any_number;             // more are taken two by two: max(a, b, c) = max(max(a, b), c)
   /// `way` is 1 for what follows, -1 for what went before: decides where the function jumps or kinks.
-  Jet (*apply)(const Jet* arguments, double way) noexcept;
+  math::Jet (*apply)(const math::Jet* arguments, double way) noexcept;
 };
 
 /// Those with a name, in the order the documentation lists them.
@@ -24,4 +24,4 @@ struct ExpressionFunction {
 /// One of + - * / ^, or '_' for the sign.
 [[nodiscard]] const ExpressionFunction* expression_operator(char symbol) noexcept;
 
-}  // namespace tweenfall
+}  // namespace tweenfall::expressions

@@ -11,8 +11,8 @@ namespace tweenfall {
 struct Expression::Program {
   /// Pushes a number or a variable, or calls a function on what was pushed last.
   struct Step {
-    const ExpressionFunction* function = nullptr;  // null: pushes
-    int variable = -1;                             // -1: the number
+    const expressions::ExpressionFunction* function = nullptr;  // null: pushes
+    int variable = -1;                                          // -1: the number
     double number = 0;
   };
   static constexpr int most_depth = 64;

@@ -77,13 +77,13 @@ class Reader {
     const char c = text_[at_];
     if (starts_name(c) || is_digit(c) || c == '(' || c == '.') {
       const std::string_view word = starts_name(c) ? name_here() : text_.substr(at_, 1);
-      return "expected " + expected + ", found " + quoted(word) + "; a product is written with *";
+      return "expected " + expected + ", found " + words::quoted(word) + "; a product is written with *";
     }
     if (c == '*' && at_ > 0 && text_[at_ - 1] == '*')
       return "expected " + expected + ", found \"**\"; a power is written with ^";
     if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e)
       return "expected " + expected + ", found a character that no expression has";
-    return "expected " + expected + ", found " + quoted(text_.substr(at_, 1));
+    return "expected " + expected + ", found " + words::quoted(text_.substr(at_, 1));
   }
 
   void deeper() {
@@ -175,7 +175,7 @@ class Reader {
   }
 
   [[noreturn]] static void not_a_function(std::size_t start, std::string_view word) {
-    fault(start, quoted(word) + " is a number, not a function; a product is written with *");
+    fault(start, words::quoted(word) + " is a number, not a function; a product is written with *");
   }
 
   [[noreturn]] void unknown(std::size_t start, std::string_view word, bool called) const {
@@ -187,9 +187,9 @@ class Reader {
     }
     const std::size_t numbers = known.size();
     for (const ExpressionFunction& each : expression_functions()) known.emplace_back(each.name);
-    const std::string what = "unknown " + std::string(called ? "function " : "name ") + quoted(word);
+    const std::string what = "unknown " + std::string(called ? "function " : "name ") + words::quoted(word);
     if (const std::string near = nearest_name(word, known); !near.empty())
-      fault(start, what + "; did you mean " + quoted(near) + "?");
+      fault(start, what + "; did you mean " + words::quoted(near) + "?");
     if (!called) known.resize(numbers);
     std::string list;
     for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
@@ -228,9 +228,9 @@ class Reader {
     const bool fixed =
         std::all_of(last, steps_.end(), [](const Program::Step& s) { return !s.function && s.variable < 0; });
     if (fixed) {
-      Jet values[3];
-      std::transform(last, steps_.end(), values, [](const Program::Step& s) { return constant(s.number); });
-      const Jet result = function.apply(values, 1);
+      math::Jet values[3];
+      std::transform(last, steps_.end(), values, [](const Program::Step& s) { return math::constant(s.number); });
+      const math::Jet result = function.apply(values, 1);
       if (std::isfinite(result.v)) {
         steps_.erase(last, steps_.end());
         steps_.push_back({.number = result.v});
@@ -259,9 +259,9 @@ void check_name(const std::string& name) {
                     std::all_of(name.begin(), name.end(), [](char c) { return starts_name(c) || is_digit(c); });
   if (!fits)
     throw std::invalid_argument("a name in an expression has letters, digits and \"_\" and starts with no digit; " +
-                                quoted(name) + " does not");
+                                words::quoted(name) + " does not");
   if (is_reserved(name))
-    throw std::invalid_argument(quoted(name) + " is a name that expressions already have; choose another");
+    throw std::invalid_argument(words::quoted(name) + " is a name that expressions already have; choose another");
 }
 
 }  // namespace
@@ -275,9 +275,9 @@ std::vector<Expression::Program::Step> read_expression(std::string_view text, st
   for (const Expression::Parameter& each : parameters) {
     expressions::check_name(each.name);
     if (!std::isfinite(each.value))
-      throw std::invalid_argument("the parameter " + quoted(each.name) + " must be finite");
+      throw std::invalid_argument("the parameter " + words::quoted(each.name) + " must be finite");
     if (std::find(variables.begin(), variables.end(), each.name) != variables.end())
-      throw std::invalid_argument("the parameter " + quoted(each.name) + " has the name of a variable");
+      throw std::invalid_argument("the parameter " + words::quoted(each.name) + " has the name of a variable");
   }
   return expressions::Reader(text, variables, parameters).read();
 }

@@ -10,10 +10,11 @@ namespace tweenfall {
 
 Curve<double> damped_spring(const DampedSpring& s) {
   for (const double v : {s.hz, s.damping_ratio, s.position, s.velocity, s.goal, s.goal_velocity})
-    if (!std::isfinite(v)) throw std::invalid_argument("a damped spring needs finite numbers; one is " + text_of(v));
-  if (!(s.hz > 0)) throw std::invalid_argument("a damped spring's hz must be > 0; it is " + text_of(s.hz));
+    if (!std::isfinite(v))
+      throw std::invalid_argument("a damped spring needs finite numbers; one is " + spans::text_of(v));
+  if (!(s.hz > 0)) throw std::invalid_argument("a damped spring's hz must be > 0; it is " + spans::text_of(s.hz));
   if (s.damping_ratio < 0)
-    throw std::invalid_argument("a spring's damping ratio must be >= 0; it is " + text_of(s.damping_ratio));
+    throw std::invalid_argument("a spring's damping ratio must be >= 0; it is " + spans::text_of(s.damping_ratio));
   constexpr double turn = 0x1.921fb54442d18p+2, endless = std::numeric_limits<double>::infinity();
   const double w = turn * s.hz, z = s.damping_ratio;
   // Behind a moving goal it settles at a steady lag; about that point it moves as a spring left alone.

@@ -18,15 +18,15 @@ Curve<Vec3> shape_of(const EvenPath& p) {
   std::vector<Key<Vec3>> keys;
   double along = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!all_finite(points[i]))
+    if (!spans::all_finite(points[i]))
       throw std::invalid_argument("point " + std::to_string(i) + " of a path must be finite; it is " +
-                                  text_of(points[i]));
+                                  spans::text_of(points[i]));
     if (i > 0) {
       const double chord = (points[i] - points[i - 1]).norm();
       if (!(along + chord > along) || !std::isfinite(along + chord))
-        throw std::invalid_argument("point " + std::to_string(i) + " of a path, " + text_of(points[i]) +
+        throw std::invalid_argument("point " + std::to_string(i) + " of a path, " + spans::text_of(points[i]) +
                                     ", must be apart from the one before it, at a finite distance; it is " +
-                                    text_of(chord) + " m away" +
+                                    spans::text_of(chord) + " m away" +
                                     (p.closed && i + 1 == points.size() ? " (a closed path ends at its first)" : ""));
       along += chord;
     }
@@ -46,13 +46,13 @@ Curve<Vec3> even_path(const EvenPath& settings) {
 
 Curve<Vec3> even_path(const Curve<Vec3>& shape, double duration) {
   if (!(duration > 0) || !std::isfinite(duration))
-    throw std::invalid_argument("a path's duration must be finite and > 0 s; it is " + text_of(duration));
+    throw std::invalid_argument("a path's duration must be finite and > 0 s; it is " + spans::text_of(duration));
   if (!(shape.duration() > 0) || !std::isfinite(shape.duration()))
-    throw std::invalid_argument("a path's shape must begin and end; it leads from " + text_of(shape.start()) +
-                                " s to " + text_of(shape.end()) + " s");
+    throw std::invalid_argument("a path's shape must begin and end; it leads from " + spans::text_of(shape.start()) +
+                                " s to " + spans::text_of(shape.end()) + " s");
   const double length = arc_length(shape, shape.start(), shape.end());
   if (!(length > 0) || !std::isfinite(length))
-    throw std::invalid_argument("a path's length must be finite and > 0 m; it is " + text_of(length));
+    throw std::invalid_argument("a path's length must be finite and > 0 m; it is " + spans::text_of(length));
   return at_even_speed(shape, 0, duration);
 }
 

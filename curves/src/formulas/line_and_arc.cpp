@@ -10,7 +10,8 @@ namespace {
 
 void check_duration(double duration, const char* what) {
   if (!(duration > 0) || !std::isfinite(duration))
-    throw std::invalid_argument(std::string(what) + " needs a finite duration > 0 s; it is " + text_of(duration));
+    throw std::invalid_argument(std::string(what) + " needs a finite duration > 0 s; it is " +
+                                spans::text_of(duration));
 }
 
 }  // namespace
@@ -20,8 +21,9 @@ namespace tweenfall {
 
 Curve<Vec3> line(const Line& l) {
   formulas::check_duration(l.duration, "a line");
-  if (!all_finite(l.from) || !all_finite(l.to))
-    throw std::invalid_argument("a line needs finite ends; it leads from " + text_of(l.from) + " to " + text_of(l.to));
+  if (!spans::all_finite(l.from) || !spans::all_finite(l.to))
+    throw std::invalid_argument("a line needs finite ends; it leads from " + spans::text_of(l.from) + " to " +
+                                spans::text_of(l.to));
   Span<Vec3> span{};
   span.duration = l.duration;
   span.degree = 1;
@@ -33,12 +35,12 @@ Curve<Vec3> line(const Line& l) {
 
 Curve<Vec3> arc(const Arc& a) {
   formulas::check_duration(a.duration, "an arc");
-  if (!all_finite(a.center) || !all_finite(a.from) || !std::isfinite(a.angle))
-    throw std::invalid_argument("an arc needs finite numbers; it has center " + text_of(a.center) + ", from " +
-                                text_of(a.from) + ", angle " + text_of(a.angle));
+  if (!spans::all_finite(a.center) || !spans::all_finite(a.from) || !std::isfinite(a.angle))
+    throw std::invalid_argument("an arc needs finite numbers; it has center " + spans::text_of(a.center) + ", from " +
+                                spans::text_of(a.from) + ", angle " + spans::text_of(a.angle));
   const double size = a.axis.norm();
   if (!(size > 0) || !std::isfinite(size))
-    throw std::invalid_argument("an arc's axis must be finite and not zero; it is " + text_of(a.axis));
+    throw std::invalid_argument("an arc's axis must be finite and not zero; it is " + spans::text_of(a.axis));
   const Vec3 axis = a.axis / size, arm = a.from - a.center;
   const Vec3 middle = a.center + arm.dot(axis) * axis;
   const Vec3 x = a.from - middle, y = axis.cross(x);

@@ -20,7 +20,7 @@ struct Place {
 
 Place on_ellipse(const Orbit& o, double t) noexcept {
   const double a = o.periapsis / (1 - o.eccentricity), n = std::sqrt(o.gravitational_parameter / a) / a;
-  const double anomaly = eccentric_anomaly(std::remainder(n * t, two_pi), o.eccentricity);
+  const double anomaly = math::eccentric_anomaly(std::remainder(n * t, two_pi), o.eccentricity);
   const elementary::SinCos half = elementary::sin_cos(0.5 * anomaly);
   const double sine = 2 * half.sin * half.cos, fallen = 2 * half.sin * half.sin;  // fallen = 1 - cosine
   const double b = a * std::sqrt((1 - o.eccentricity) * (1 + o.eccentricity));
@@ -40,7 +40,7 @@ Place on_parabola(const Orbit& o, double t) noexcept {
 
 Place on_hyperbola(const Orbit& o, double t) noexcept {
   const double a = o.periapsis / (o.eccentricity - 1), n = std::sqrt(o.gravitational_parameter / a) / a;
-  const double anomaly = hyperbolic_anomaly(n * t, o.eccentricity);
+  const double anomaly = math::hyperbolic_anomaly(n * t, o.eccentricity);
   const double half = elementary::sinh(0.5 * anomaly);
   const double sine = elementary::sinh(anomaly), risen = 2 * half * half;  // risen = hyperbolic cosine - 1
   const double b = a * std::sqrt((o.eccentricity - 1) * (o.eccentricity + 1));
@@ -50,16 +50,16 @@ Place on_hyperbola(const Orbit& o, double t) noexcept {
 
 void check(const Orbit& o) {
   for (const double v : {o.periapsis, o.eccentricity, o.gravitational_parameter, o.passage})
-    if (!std::isfinite(v)) throw std::invalid_argument("an orbit needs finite numbers; one is " + text_of(v));
-  if (!all_finite(o.center))
-    throw std::invalid_argument("an orbit's center must be finite; it is " + text_of(o.center));
+    if (!std::isfinite(v)) throw std::invalid_argument("an orbit needs finite numbers; one is " + spans::text_of(v));
+  if (!spans::all_finite(o.center))
+    throw std::invalid_argument("an orbit's center must be finite; it is " + spans::text_of(o.center));
   if (!(o.periapsis > 0))
-    throw std::invalid_argument("an orbit's periapsis must be > 0 m; it is " + text_of(o.periapsis));
+    throw std::invalid_argument("an orbit's periapsis must be > 0 m; it is " + spans::text_of(o.periapsis));
   if (!(o.eccentricity >= 0))
-    throw std::invalid_argument("an orbit's eccentricity must be >= 0; it is " + text_of(o.eccentricity));
+    throw std::invalid_argument("an orbit's eccentricity must be >= 0; it is " + spans::text_of(o.eccentricity));
   if (!(o.gravitational_parameter > 0))
     throw std::invalid_argument("an orbit's gravitational parameter must be > 0 m^3/s^2; it is " +
-                                text_of(o.gravitational_parameter));
+                                spans::text_of(o.gravitational_parameter));
 }
 
 }  // namespace
@@ -70,9 +70,9 @@ namespace tweenfall {
 Orbit Orbit::with_period(double period) const {
   if (!(eccentricity >= 0 && eccentricity < 1))
     throw std::invalid_argument("only an orbit with an eccentricity of 0 to below 1 has a period; it is " +
-                                text_of(eccentricity));
+                                spans::text_of(eccentricity));
   if (!(period > 0) || !std::isfinite(period))
-    throw std::invalid_argument("an orbit's period must be finite and > 0 s; it is " + text_of(period));
+    throw std::invalid_argument("an orbit's period must be finite and > 0 s; it is " + spans::text_of(period));
   const double a = periapsis / (1 - eccentricity), n = formulas::two_pi / period;
   Orbit result = *this;
   result.gravitational_parameter = n * n * a * a * a;

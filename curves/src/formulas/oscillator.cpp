@@ -10,9 +10,10 @@ namespace tweenfall {
 
 Curve<double> oscillator(const Oscillator& o) {
   for (const double v : {o.amplitude, o.hz, o.phase, o.damping, o.center})
-    if (!std::isfinite(v)) throw std::invalid_argument("an oscillator needs finite numbers; one is " + text_of(v));
+    if (!std::isfinite(v))
+      throw std::invalid_argument("an oscillator needs finite numbers; one is " + spans::text_of(v));
   if (o.damping < 0)
-    throw std::invalid_argument("an oscillator's damping must be >= 0 per second; it is " + text_of(o.damping));
+    throw std::invalid_argument("an oscillator's damping must be >= 0 per second; it is " + spans::text_of(o.damping));
   constexpr double turn = 0x1.921fb54442d18p+2, endless = std::numeric_limits<double>::infinity();
   const double w = turn * o.hz;
   return Curve<double>(

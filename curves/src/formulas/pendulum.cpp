@@ -25,10 +25,12 @@ struct Swing {
 
   explicit Swing(const Pendulum& p) {
     for (const double v : {p.angle, p.rate, p.length, p.gravity})
-      if (!std::isfinite(v)) throw std::invalid_argument("a pendulum needs finite numbers; one is " + text_of(v));
-    if (!(p.length > 0)) throw std::invalid_argument("a pendulum's length must be > 0 m; it is " + text_of(p.length));
+      if (!std::isfinite(v))
+        throw std::invalid_argument("a pendulum needs finite numbers; one is " + spans::text_of(v));
+    if (!(p.length > 0))
+      throw std::invalid_argument("a pendulum's length must be > 0 m; it is " + spans::text_of(p.length));
     if (!(p.gravity > 0))
-      throw std::invalid_argument("a pendulum's gravity must be > 0 m/s^2; it is " + text_of(p.gravity));
+      throw std::invalid_argument("a pendulum's gravity must be > 0 m/s^2; it is " + spans::text_of(p.gravity));
     frequency = std::sqrt(p.gravity / p.length);
     turns = std::floor(p.angle / (2 * pi) + 0.5);
     const elementary::SinCos half = elementary::sin_cos(0.5 * (p.angle - turns * 2 * pi));
@@ -46,7 +48,7 @@ Curve<double> endless_curve(Curve<double>::Formula formula) {
 
 Curve<double> swinging(const Swing& m) {
   const double k = std::sqrt(m.energy), w = m.frequency, offset = m.turns * 2 * pi;
-  const Elliptic functions(m.energy, m.missing);
+  const math::Elliptic functions(m.energy, m.missing);
   const double begin = functions.argument(elementary::atan2(m.sine, m.rate));
   return endless_curve([=](double t, Side) {
     const elementary::SinCos phi = elementary::sin_cos(functions.amplitude(w * t + begin));
@@ -58,7 +60,7 @@ Curve<double> swinging(const Swing& m) {
 
 Curve<double> turning(const Swing& m) {
   const double k = std::sqrt(m.energy), w = m.frequency, way = m.rate < 0 ? -1 : 1;
-  const Elliptic functions(1 / m.energy, -m.missing / m.energy);
+  const math::Elliptic functions(1 / m.energy, -m.missing / m.energy);
   const double begin = functions.argument(elementary::atan2(way * m.sine, m.cosine));
   const double offset = m.turns * 2 * pi;
   return endless_curve([=](double t, Side) {
@@ -96,8 +98,8 @@ Curve<double> pendulum(const Pendulum& settings) {
 double pendulum_period(const Pendulum& settings) {
   const formulas::Swing m(settings);
   if (m.missing == 0) return formulas::forever;
-  if (m.missing > 0) return 4 * Elliptic(m.energy, m.missing).quarter_period() / m.frequency;
-  return 2 * Elliptic(1 / m.energy, -m.missing / m.energy).quarter_period() / (m.frequency * std::sqrt(m.energy));
+  if (m.missing > 0) return 4 * math::Elliptic(m.energy, m.missing).quarter_period() / m.frequency;
+  return 2 * math::Elliptic(1 / m.energy, -m.missing / m.energy).quarter_period() / (m.frequency * std::sqrt(m.energy));
 }
 
 }  // namespace tweenfall

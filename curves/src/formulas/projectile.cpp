@@ -8,9 +8,9 @@
 namespace tweenfall {
 
 Curve<Vec3> projectile(const Projectile& p) {
-  if (!all_finite(p.from) || !all_finite(p.velocity) || !all_finite(p.gravity))
-    throw std::invalid_argument("a projectile needs finite numbers; it has from " + text_of(p.from) + ", velocity " +
-                                text_of(p.velocity) + ", gravity " + text_of(p.gravity));
+  if (!spans::all_finite(p.from) || !spans::all_finite(p.velocity) || !spans::all_finite(p.gravity))
+    throw std::invalid_argument("a projectile needs finite numbers; it has from " + spans::text_of(p.from) +
+                                ", velocity " + spans::text_of(p.velocity) + ", gravity " + spans::text_of(p.gravity));
   constexpr double endless = std::numeric_limits<double>::infinity();
   return Curve<Vec3>(
       [p](double t, Side) {

@@ -49,9 +49,9 @@ Vec3 any_normal(const Vec3& tangent) {
 Vec3 first_normal(const FrameOptions& options, const Vec3& tangent) {
   if (!options.normal) return any_normal(tangent);
   const Vec3& wanted = *options.normal;
-  if (!all_finite(wanted) || !(wanted.cross(tangent).norm() > 1e-9 * wanted.norm()))
+  if (!spans::all_finite(wanted) || !(wanted.cross(tangent).norm() > 1e-9 * wanted.norm()))
     throw std::invalid_argument("the first normal must be finite, not zero and not along the curve; it is " +
-                                text_of(wanted) + ", the tangent " + text_of(tangent));
+                                spans::text_of(wanted) + ", the tangent " + spans::text_of(tangent));
   return across(wanted, tangent);
 }
 
@@ -77,8 +77,8 @@ void check_frame_times(std::span<const double> times) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i])) throw std::invalid_argument("time " + std::to_string(i) + " must be finite");
     if (i > 0 && !(times[i] > times[i - 1]))
-      throw std::invalid_argument("times must increase; time " + std::to_string(i) + ", " + text_of(times[i]) +
-                                  " s, is not after " + text_of(times[i - 1]) + " s");
+      throw std::invalid_argument("times must increase; time " + std::to_string(i) + ", " + spans::text_of(times[i]) +
+                                  " s, is not after " + spans::text_of(times[i - 1]) + " s");
   }
 }
 

@@ -22,13 +22,13 @@ class Lathe {
                                   " given");
     if (!(options.angle > 0 && options.angle <= full_circle))
       throw std::invalid_argument("a lathe's angle must be above 0 and at most a whole turn; it is " +
-                                  text_of(options.angle));
+                                  spans::text_of(options.angle));
     double size = 0;
     for (const Profile::Column& c : profile_.columns) size = std::max(size, c.position.cwiseAbs().maxCoeff());
     for (Profile::Column& c : profile_.columns) {
       if (c.position[0] < -1e-9 * size)
         throw std::invalid_argument("a profile on the lathe must stay on one side of the axis, x >= 0; it reaches " +
-                                    text_of(c.position));
+                                    spans::text_of(c.position));
       if (c.position[0] < 1e-12 * size) c.position[0] = 0;
     }
     if (enclosed() < 0) profile_.reverse();

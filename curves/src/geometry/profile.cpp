@@ -28,8 +28,8 @@ template <class T>
 std::vector<double> step_times(const Curve<T>& curve, int steps, bool keep_straight, const std::string& what) {
   if (steps < 1) throw std::invalid_argument(what + " needs at least one step; " + std::to_string(steps) + " given");
   if (!(curve.duration() > 0) || !std::isfinite(curve.duration()))
-    throw std::invalid_argument(what + " must begin and end; it leads from " + text_of(curve.start()) + " s to " +
-                                text_of(curve.end()) + " s");
+    throw std::invalid_argument(what + " must begin and end; it leads from " + spans::text_of(curve.start()) +
+                                " s to " + spans::text_of(curve.end()) + " s");
   std::vector<double> knots(curve.knots().begin(), curve.knots().end());
   if (knots.size() < 2) knots = {curve.start(), curve.end()};
   const auto spans = curve.spans();
@@ -55,10 +55,11 @@ Profile::Profile(const Curve<Vec2>& curve, int steps, bool keep_straight) {
   double length = 0, size = 0;
   for (std::size_t i = 1; i < points.size(); ++i) length += (points[i] - points[i - 1]).norm();
   for (const Vec2& p : points) {
-    if (!all_finite(p)) throw std::invalid_argument("a profile must be finite; it reaches " + text_of(p));
+    if (!spans::all_finite(p)) throw std::invalid_argument("a profile must be finite; it reaches " + spans::text_of(p));
     size = std::max(size, p.norm());
   }
-  if (!(length > 0)) throw std::invalid_argument("a profile must have a length; it stays at " + text_of(points[0]));
+  if (!(length > 0))
+    throw std::invalid_argument("a profile must have a length; it stays at " + spans::text_of(points[0]));
   closed = points.size() > 3 && (points.front() - points.back()).norm() <= 1e-9 * std::max(size, length);
   if (closed) points.back() = points.front();
 

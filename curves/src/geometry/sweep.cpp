@@ -67,15 +67,15 @@ SurfaceMesh sweep(const Curve<Vec2>& curve, const Curve<Vec3>& rail, const Sweep
   double size = 0;
   for (const double t : times) size = std::max(size, (rail.value(t) - begin).norm());
   if (!(size > 0) || !std::isfinite(size))
-    throw std::invalid_argument("a rail must have a finite length; it stays within " + text_of(size) + " m of " +
-                                text_of(begin));
+    throw std::invalid_argument("a rail must have a finite length; it stays within " + spans::text_of(size) + " m of " +
+                                spans::text_of(begin));
   const bool loop = times.size() > 3 && (end - begin).norm() <= 1e-9 * size &&
                     leaving.cross(arriving).norm() <= 1e-6 * leaving.norm() * arriving.norm() &&
                     leaving.dot(arriving) > 0;
   constexpr double turn = 0x1.921fb54442d18p+2;
   if (loop && !(std::abs(std::remainder(options.twist, turn)) <= 1e-9))
     throw std::invalid_argument("a closed rail is twisted by whole turns, or the profile would not meet itself; " +
-                                text_of(options.twist) + " radians given");
+                                spans::text_of(options.twist) + " radians given");
   const std::vector<Frame> frames =
       rotation_minimizing_frames(rail, times, {.normal = options.normal, .twist = options.twist, .closed = loop});
   std::vector<double> along = {0};

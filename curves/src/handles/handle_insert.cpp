@@ -35,7 +35,7 @@ void shorten(HandleKey& a, HandleKey& b, Overlong rule) {
 // Source: de Casteljau's subdivision.
 HandleKey divided(HandleKey& a, HandleKey& b, double time) {
   const double duration = b.time - a.time;
-  const Warp warp = time_bezier_warp((a.out.time - a.time) / duration, (b.in.time - a.time) / duration);
+  const Warp warp = spans::time_bezier_warp((a.out.time - a.time) / duration, (b.in.time - a.time) / duration);
   const double s = warp.function((time - a.time) / duration, warp.parameters).s;
   const Point first{a.out.time, a.out.value}, second{b.in.time, b.in.value};
   const Point start = between({a.time, a.value}, first, s), middle = between(first, second, s),
@@ -69,8 +69,8 @@ namespace tweenfall {
 std::vector<HandleKey> insert_key(std::span<const HandleKey> keys, double time, const HandleOptions& options) {
   std::vector<HandleKey> result = placed_handles(keys, options);
   if (!(time >= result.front().time && time <= result.back().time))
-    throw std::invalid_argument("a key can be inserted from " + text_of(result.front().time) + " s to " +
-                                text_of(result.back().time) + " s, not at " + text_of(time) + " s");
+    throw std::invalid_argument("a key can be inserted from " + spans::text_of(result.front().time) + " s to " +
+                                spans::text_of(result.back().time) + " s, not at " + spans::text_of(time) + " s");
   for (std::size_t i = 0; i + 1 < result.size(); ++i)
     if (!result[i].ease) handling::shorten(result[i], result[i + 1], options.overlong);
   const auto next =

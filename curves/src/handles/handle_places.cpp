@@ -14,8 +14,8 @@ namespace {
 constexpr double automatic_share = 1 / 2.5614;
 
 [[noreturn]] void refuse(std::span<const HandleKey> keys, std::size_t i, const std::string& what) {
-  throw std::invalid_argument("key " + std::to_string(i) + " (time " + text_of(keys[i].time) + " s, value " +
-                              text_of(keys[i].value) + ") " + what);
+  throw std::invalid_argument("key " + std::to_string(i) + " (time " + spans::text_of(keys[i].time) + " s, value " +
+                              spans::text_of(keys[i].value) + ") " + what);
 }
 
 void check(std::span<const HandleKey> keys) {
@@ -25,18 +25,19 @@ void check(std::span<const HandleKey> keys) {
     if (!std::isfinite(key.time)) refuse(keys, i, "must have a finite time");
     if (!std::isfinite(key.value)) refuse(keys, i, "must have a finite value");
     if (i > 0 && !(key.time > keys[i - 1].time))
-      refuse(keys, i, "must come after the key before it, at " + text_of(keys[i - 1].time) + " s");
+      refuse(keys, i, "must come after the key before it, at " + spans::text_of(keys[i - 1].time) + " s");
     for (const Handle* handle : {&key.in, &key.out}) {
       const bool in = handle == &key.in;
       if (handle->kind != TangentKind::given && handle->kind != TangentKind::aligned) continue;
       const std::string side = in ? "\"in\"" : "\"out\"";
       if (!std::isfinite(handle->time) || !std::isfinite(handle->value))
         refuse(keys, i,
-               "has the non-finite handle (" + text_of(handle->time) + ", " + text_of(handle->value) + ") in " + side);
+               "has the non-finite handle (" + spans::text_of(handle->time) + ", " + spans::text_of(handle->value) +
+                   ") in " + side);
       const bool inner = in ? i > 0 : i + 1 < keys.size();
       if (inner && handle->kind == TangentKind::given && (in ? handle->time > key.time : handle->time < key.time))
         refuse(keys, i,
-               "has its handle " + side + " at " + text_of(handle->time) + " s; it must not lie " +
+               "has its handle " + side + " at " + spans::text_of(handle->time) + " s; it must not lie " +
                    (in ? "after" : "before") + " the key");
     }
   }

@@ -8,13 +8,13 @@
 namespace tweenfall::handling {
 namespace {
 
-void lock(Tridiagonal& rows, std::size_t i, double value) {
+void lock(math::Tridiagonal& rows, std::size_t i, double value) {
   rows.lower[i] = rows.upper[i] = 0;
   rows.diagonal[i] = 1;
   rows.right[i] = value;
 }
 
-void copy_row(Tridiagonal& rows, std::size_t i, const Tridiagonal& from) {
+void copy_row(math::Tridiagonal& rows, std::size_t i, const math::Tridiagonal& from) {
   rows.lower[i] = from.lower[i];
   rows.diagonal[i] = from.diagonal[i];
   rows.upper[i] = from.upper[i];
@@ -35,13 +35,13 @@ struct HandleLimits {
 // Slopes that solve the rows where the limits allow it. A slope beyond a limit is set to it; one that then wants back
 // inside is set free again, at most twice.
 // Source: Blender, tridiagonal_solve_with_limits.
-std::vector<double> solved_within(const Tridiagonal& free_rows, const std::vector<HandleLimits>& limits) {
+std::vector<double> solved_within(const math::Tridiagonal& free_rows, const std::vector<HandleLimits>& limits) {
   const std::size_t n = free_rows.rows();
-  Tridiagonal rows = free_rows;
+  math::Tridiagonal rows = free_rows;
   std::vector<bool> locked(n);
   std::vector<int> releases(n);
   for (;;) {
-    Tridiagonal solution = rows;
+    math::Tridiagonal solution = rows;
     solution.solve_cyclic();
     std::vector<double>& x = solution.right;
     std::vector<std::size_t> beyond;
@@ -94,7 +94,7 @@ class Run {
     const bool ends_open = whole_cycle_ || opens(last, last.in_kind, index(count_ - 1) + 1 == keys_.size());
     if (count_ == 2 && !whole_cycle_ && starts_open == ends_open) return;
     const std::size_t unknowns = whole_cycle_ ? count_ - 1 : count_;
-    Tridiagonal rows(unknowns);
+    math::Tridiagonal rows(unknowns);
     for (std::size_t k = 0; k < unknowns; ++k) {
       const bool at_start = k == 0 && !whole_cycle_, at_end = k + 1 == count_;
       if (at_start || at_end) {
@@ -150,7 +150,7 @@ class Run {
 
   // An end that keeps its handle: its slope is known. Its length, where that is not a third, changes how strongly the
   // acceleration at the next key depends on that key's own slope.
-  void lock_end(Tridiagonal& rows, std::size_t end, std::size_t next, HandleReach reach, double span,
+  void lock_end(math::Tridiagonal& rows, std::size_t end, std::size_t next, HandleReach reach, double span,
                 bool other_open) const {
     const double fit = span / (reach.time + span / 3);
     if (fit < 1) reach = {fit * reach.time, fit * reach.value};

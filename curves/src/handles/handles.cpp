@@ -30,7 +30,7 @@ void append_span(std::vector<Span<double>>& spans, const HandleKey& a, const Han
     span.coefficients[0] = a.value;
     span.coefficients[1] = change;
   } else {
-    fill_bezier(span, a.value, change, first, second, widths, overlong);
+    spans::fill_bezier(span, a.value, change, first, second, widths, overlong);
   }
   spans.push_back(span);
 }

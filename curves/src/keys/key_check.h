@@ -12,21 +12,22 @@ namespace tweenfall::keying {
 
 template <class T>
 [[noreturn]] void refuse_key(std::span<const Key<T>> keys, std::size_t i, const std::string& what) {
-  throw std::invalid_argument("key " + std::to_string(i) + " (time " + text_of(keys[i].time) + " s, value " +
-                              text_of(keys[i].value) + ") " + what);
+  throw std::invalid_argument("key " + std::to_string(i) + " (time " + spans::text_of(keys[i].time) + " s, value " +
+                              spans::text_of(keys[i].value) + ") " + what);
 }
 
 template <class T>
 void check_tangent(std::span<const Key<T>> keys, std::size_t i, const std::optional<Tangent<T>>& tangent,
                    const char* side) {
   if (!tangent) return;
-  if (tangent->kind == Tangent<T>::Kind::given && !all_finite(tangent->rate))
-    refuse_key(keys, i, std::string("has the non-finite rate ") + text_of(tangent->rate) + " in \"" + side + "\"");
+  if (tangent->kind == Tangent<T>::Kind::given && !spans::all_finite(tangent->rate))
+    refuse_key(keys, i,
+               std::string("has the non-finite rate ") + spans::text_of(tangent->rate) + " in \"" + side + "\"");
   if (std::is_same_v<T, Quat> && tangent->kind > TangentKind::vector)
     refuse_key(keys, i, std::string("has in \"") + side + "\" a kind of tangent that rotations do not take");
   if (!(tangent->weight > 0) || !std::isfinite(tangent->weight))
     refuse_key(keys, i,
-               std::string("has the weight ") + text_of(tangent->weight) + " in \"" + side +
+               std::string("has the weight ") + spans::text_of(tangent->weight) + " in \"" + side +
                    "\"; a handle's share of its span must be > 0");
 }
 
@@ -40,11 +41,11 @@ void check_keys(std::span<const Key<T>> keys) {
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const Key<T>& key = keys[i];
     if (!std::isfinite(key.time)) refuse_key(keys, i, "must have a finite time");
-    if (!all_finite(key.value)) refuse_key(keys, i, "must have a finite value");
-    if (key.value_in && !all_finite(*key.value_in))
-      refuse_key(keys, i, "must have a finite arriving value; it is " + text_of(*key.value_in));
+    if (!spans::all_finite(key.value)) refuse_key(keys, i, "must have a finite value");
+    if (key.value_in && !spans::all_finite(*key.value_in))
+      refuse_key(keys, i, "must have a finite arriving value; it is " + spans::text_of(*key.value_in));
     if (i > 0 && !(key.time > keys[i - 1].time))
-      refuse_key(keys, i, "must come after the key before it, at " + text_of(keys[i - 1].time) + " s");
+      refuse_key(keys, i, "must come after the key before it, at " + spans::text_of(keys[i - 1].time) + " s");
     if (i > 0 && !std::isfinite(key.time - keys[0].time)) refuse_key(keys, i, "is too far from the first key");
     check_tangent(keys, i, key.in, "in");
     check_tangent(keys, i, key.out, "out");

@@ -40,9 +40,9 @@ class KeyPins {
     const auto found = std::lower_bound(times_.begin(), times_.end(), time);
     if (*found != time) return nullptr;
     const std::size_t i = static_cast<std::size_t>(found - times_.begin());
-    if (i == 0 && side == Side::in && times_.size() > 1) return loops(before) ? nullptr : &leaving_[0];
+    if (i == 0 && side == Side::in && times_.size() > 1) return spans::loops(before) ? nullptr : &leaving_[0];
     if (i + 1 == times_.size() && i > 0) {
-      if (side == Side::out && loops(after)) return nullptr;
+      if (side == Side::out && spans::loops(after)) return nullptr;
       if (side == Side::out) return &leaving_[i];
     }
     if (side == Side::in && i > 0) return arrives_[i] ? &arriving_[i] : nullptr;

@@ -69,7 +69,7 @@ class KeyTangents {
     const auto& own = tangent(p);
     if (!own) return std::nullopt;
     if (own->kind == TangentKind::given) return own->rate;
-    if (own->kind == TangentKind::flat) return zero_rate<T>();
+    if (own->kind == TangentKind::flat) return spans::zero_rate<T>();
     return std::nullopt;
   }
 
@@ -77,7 +77,7 @@ class KeyTangents {
     const auto& own = tangent(p);
     if (own && own->kind == TangentKind::given) return own->rate;
     T result{};
-    for (int c = 0; c < dimensions<T>; ++c) component_of(result, c) = slope(p, c);
+    for (int c = 0; c < spans::dimensions<T>; ++c) spans::component_of(result, c) = slope(p, c);
     return result;
   }
 
@@ -90,7 +90,7 @@ class KeyTangents {
       case TangentKind::flat:
         return 0;
       case TangentKind::given:
-        return component(own->rate, c);
+        return spans::component(own->rate, c);
       case TangentKind::vector:
         return secant(span_of(p), c);
       case TangentKind::aligned:

@@ -18,14 +18,15 @@ const T& arrival(const Key<T>& key) {
 
 template <class T>
 SlopeRequest request_of(std::span<const Key<T>> keys, Ends ends) {
-  constexpr std::size_t n = dimensions<T>;
+  constexpr std::size_t n = spans::dimensions<T>;
   SlopeRequest request{n, {}, {}, ends, {}, {}};
   for (const Key<T>& key : keys) request.eases.push_back(&key.ease);
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
     const double duration = keys[i + 1].time - keys[i].time;
     request.durations.push_back(duration);
-    for (int c = 0; c < dimensions<T>; ++c)
-      request.secants.push_back((component(arrival(keys[i + 1]), c) - component(keys[i].value, c)) / duration);
+    for (int c = 0; c < spans::dimensions<T>; ++c)
+      request.secants.push_back((spans::component(arrival(keys[i + 1]), c) - spans::component(keys[i].value, c)) /
+                                duration);
     request.span_eases.push_back(plan_span(keys[i].ease, keys[i].out || keys[i + 1].in).slopes);
   }
   return request;
@@ -65,9 +66,9 @@ Span<T> cubic(const Key<T>& from, const Key<T>& to, const KeyTangents<T>& tangen
   const HandleWidths w = tangents.widths(i);
   constexpr double third = 1.0 / 3;
   if (w.start == third && w.end == third)
-    cubic_coefficients(from.value, change, d0, d1, span.coefficients.data());
+    spans::cubic_coefficients(from.value, change, d0, d1, span.coefficients.data());
   else
-    fill_bezier(span, from.value, change, T(w.start * d0), T(w.end * d1), w, overlong);
+    spans::fill_bezier(span, from.value, change, T(w.start * d0), T(w.end * d1), w, overlong);
   return span;
 }
 

@@ -83,7 +83,7 @@ void convert_tangent(std::optional<Tangent<Vec4>>& result, const std::optional<T
   Sample<Vec4> s = to_space(Sample<Color>{color, tangent->rate, Vec4::Zero()}, space);
   const int hue = hue_index(space);
   if (hue >= 0) s.value[hue] = coordinates[hue];
-  result->rate = premultiplied(s, hue).rate;
+  result->rate = color_spaces::premultiplied(s, hue).rate;
 }
 
 }  // namespace
@@ -106,10 +106,10 @@ Curve<Color> keying::color_curve(std::span<const Key<Color>> keys, const KeyOpti
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const Key<Color>& key = keys[i];
     const Vec4 &arriving = stops[i].arriving, &leaving = stops[i].leaving;
-    Key<Vec4> k{key.time, premultiplied({leaving, none, none}, hue).value, key.ease};
+    Key<Vec4> k{key.time, color_spaces::premultiplied({leaving, none, none}, hue).value, key.ease};
     const bool held = i > 0 && keys[i - 1].ease.rule() == Ease::Rule::hold && !keys[i - 1].out && !key.in;
     if (i > 0 && !held && (key.value_in || arriving != leaving))
-      k.value_in = premultiplied({arriving, none, none}, hue).value;
+      k.value_in = color_spaces::premultiplied({arriving, none, none}, hue).value;
     keying::convert_tangent(k.out, key.out, key.value, leaving, space);
     keying::convert_tangent(k.in, key.in, key.value_in ? *key.value_in : key.value, arriving, space);
     inner.push_back(k);
@@ -120,7 +120,7 @@ Curve<Color> keying::color_curve(std::span<const Key<Color>> keys, const KeyOpti
   return keying::seen_through_keys<Color>(
       keyed_curve<Vec4>(std::span<const Key<Vec4>>(inner), inner_options),
       std::make_shared<const keying::KeyPins<Color>>(keys),
-      [space, hue](const Sample<Vec4>& s) { return from_space(divided(s, hue), space); });
+      [space, hue](const Sample<Vec4>& s) { return from_space(color_spaces::divided(s, hue), space); });
 }
 
 }  // namespace tweenfall

@@ -10,12 +10,12 @@ namespace {
 template <class T>
 Sample<T> exponential(const Sample<T>& s) noexcept {
   Sample<T> result = s;
-  for (int c = 0; c < dimensions<T>; ++c) {
-    const double value = elementary::exp(component(s.value, c));
-    const double rate = component(s.rate, c);
-    component_of(result.value, c) = value;
-    component_of(result.rate, c) = value * rate;
-    component_of(result.acceleration, c) = value * (component(s.acceleration, c) + rate * rate);
+  for (int c = 0; c < spans::dimensions<T>; ++c) {
+    const double value = elementary::exp(spans::component(s.value, c));
+    const double rate = spans::component(s.rate, c);
+    spans::component_of(result.value, c) = value;
+    spans::component_of(result.rate, c) = value * rate;
+    spans::component_of(result.acceleration, c) = value * (spans::component(s.acceleration, c) + rate * rate);
   }
   return result;
 }
@@ -23,10 +23,11 @@ Sample<T> exponential(const Sample<T>& s) noexcept {
 template <class T>
 T logarithm(std::span<const Key<T>> keys, std::size_t i, const T& value) {
   T result = value;
-  for (int c = 0; c < dimensions<T>; ++c) {
-    if (!(component(value, c) > 0))
-      refuse_key(keys, i, "is mixed by ratio, so every value must be > 0; one is " + text_of(component(value, c)));
-    component_of(result, c) = elementary::log(component(value, c));
+  for (int c = 0; c < spans::dimensions<T>; ++c) {
+    if (!(spans::component(value, c) > 0))
+      refuse_key(keys, i,
+                 "is mixed by ratio, so every value must be > 0; one is " + spans::text_of(spans::component(value, c)));
+    spans::component_of(result, c) = elementary::log(spans::component(value, c));
   }
   return result;
 }
@@ -35,7 +36,7 @@ T logarithm(std::span<const Key<T>> keys, std::size_t i, const T& value) {
 template <class T>
 void make_relative(std::optional<Tangent<T>>& tangent, const T& value) {
   if (!tangent) return;
-  for (int c = 0; c < dimensions<T>; ++c) component_of(tangent->rate, c) /= component(value, c);
+  for (int c = 0; c < spans::dimensions<T>; ++c) spans::component_of(tangent->rate, c) /= spans::component(value, c);
 }
 
 }  // namespace

@@ -23,7 +23,8 @@ Quat unit(std::span<const Key<Quat>> keys, std::size_t i, const Quat& value) {
 
 void check_turn(std::span<const Key<Quat>> keys, std::size_t i) {
   const Turn& turn = keys[i].turn;
-  if (!all_finite(turn.axis)) refuse_key(keys, i, "turns about the non-finite axis " + text_of(turn.axis));
+  if (!spans::all_finite(turn.axis))
+    refuse_key(keys, i, "turns about the non-finite axis " + spans::text_of(turn.axis));
   if (turn.way == Turn::Way::along && turn.axis.isZero(0))
     refuse_key(keys, i, "turns along an axis, so the axis must not be zero");
 }
@@ -150,9 +151,9 @@ RotationSpan hermite_span(const Key<Quat>& a, const Key<Quat>& b, const Stretch&
   const Vec4 from(0, 0, 0, 0), change = padded(s.way);
   span.degree = 3;
   if (plain)
-    cubic_coefficients(from, change, d0, d1, span.coefficients.data());
+    spans::cubic_coefficients(from, change, d0, d1, span.coefficients.data());
   else
-    fill_bezier(span, from, change, Vec4(w0 * d0), Vec4(w1 * d1), {w0, w1}, overlong);
+    spans::fill_bezier(span, from, change, Vec4(w0 * d0), Vec4(w1 * d1), {w0, w1}, overlong);
   return span;
 }
 

@@ -44,7 +44,7 @@ bool runs_backwards(const HandleWidths& w) noexcept {
 HandleWidths resolved(const HandleWidths& w, Overlong rule) {
   for (const double width : {w.start, w.end})
     if (!(width >= 0) || !std::isfinite(width))
-      throw std::invalid_argument("a handle's share of its span must be >= 0; it is " + text_of(width));
+      throw std::invalid_argument("a handle's share of its span must be >= 0; it is " + spans::text_of(width));
   if (rule == Overlong::contain) return {std::min(w.start, 1.0), std::min(w.end, 1.0)};
   if (!runs_backwards(w)) return w;
   return rule == Overlong::keep_ratio ? keying::keep_ratio(w.start, w.end) : keying::keep_start(w.start, w.end);

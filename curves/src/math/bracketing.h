@@ -2,7 +2,7 @@
 
 // Zeros between two places of different sign.
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 /// Place between `from` and `to` at which `f` changes sign, to the last bit; it must have different signs there.
 template <class F>
@@ -16,4 +16,4 @@ template <class F>
   return from + 0.5 * (to - from);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

@@ -2,7 +2,7 @@
 
 #include <tweenfall/curves/values.h>
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 /// The matrix K with K w = v x w.
 [[nodiscard]] inline Mat3 cross_matrix(const Vec3& v) noexcept {
@@ -11,4 +11,4 @@ namespace tweenfall {
   return m;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

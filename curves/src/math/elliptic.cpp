@@ -13,7 +13,7 @@ using std::numbers::pi;
 }  // namespace
 }  // namespace tweenfall::math
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 Elliptic::Elliptic(double parameter, double complement) noexcept : parameter_(parameter), complement_(complement) {
   steps_[0] = {1, std::sqrt(complement), std::sqrt(parameter)};
@@ -57,4 +57,4 @@ double Elliptic::delta(double cosine) const noexcept {
   return std::sqrt(complement_ + parameter_ * cosine * cosine);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

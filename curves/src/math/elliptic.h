@@ -5,7 +5,7 @@
 
 #include <array>
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 class Elliptic {
  public:
@@ -31,4 +31,4 @@ class Elliptic {
   double parameter_, complement_;
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

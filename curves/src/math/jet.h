@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 struct Jet {
   double v = 0, d = 0, dd = 0;
@@ -56,4 +56,4 @@ inline Jet pow(const Jet& a, double exponent) noexcept {
   return chained(a, p, first, (exponent - 1) * first / a.v);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

@@ -33,7 +33,7 @@ double descended(double x, const Step& step) noexcept {
 }  // namespace
 }  // namespace tweenfall::math
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 double eccentric_anomaly(double mean, double eccentricity) noexcept {
   const double e = eccentricity, m = std::abs(mean);
@@ -61,4 +61,4 @@ double hyperbolic_anomaly(double mean, double eccentricity) noexcept {
   return std::copysign(anomaly, mean);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

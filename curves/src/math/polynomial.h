@@ -4,7 +4,7 @@
 
 #include "curve/components.h"
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 // The value alone: the same bits as `evaluate_polynomial` gives it.
 template <class V>
@@ -36,7 +36,7 @@ inline Polynomial<V> evaluate_polynomial(const V* c, int degree, double s) noexc
     const V as = s * a;
     return {c[0] + s * (c[1] + as), (c[1] + as) + s * b, 2 * (b + cubic_s)};
   }
-  V value = c[degree], first = zero_rate<V>(), half_second = zero_rate<V>();
+  V value = c[degree], first = spans::zero_rate<V>(), half_second = spans::zero_rate<V>();
   for (int i = degree - 1; i >= 0; --i) {
     half_second = half_second * s + first;
     first = first * s + value;
@@ -61,4 +61,4 @@ inline void substitute(V* c, int degree, double a, double b) noexcept {
   for (int i = 1; i <= degree; ++i) c[i] = (power *= b) * c[i];
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 double polynomial_value(const std::vector<double>& c, double s) noexcept {
   double value = 0;
@@ -53,4 +53,4 @@ std::vector<double> polynomial_roots(const std::vector<double>& given, double lo
   return roots;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

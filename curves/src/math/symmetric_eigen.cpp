@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 SymmetricEigen symmetric_eigen(const Mat4& matrix) noexcept {
   Mat4 a = matrix, v = Mat4::Identity();
@@ -47,4 +47,4 @@ SymmetricEigen symmetric_eigen(const Mat4& matrix) noexcept {
   return result;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

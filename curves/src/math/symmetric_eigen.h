@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 using Mat4 = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
 
@@ -16,4 +16,4 @@ struct SymmetricEigen {
 /// Source: Golub and Van Loan, "Matrix Computations", 8.5 (cyclic Jacobi).
 [[nodiscard]] SymmetricEigen symmetric_eigen(const Mat4& matrix) noexcept;
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

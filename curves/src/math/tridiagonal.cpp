@@ -1,6 +1,6 @@
 #include "math/tridiagonal.h"
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 // Thomas' algorithm.
 void Tridiagonal::solve() {
@@ -39,4 +39,4 @@ void Tridiagonal::solve_cyclic() {
   }
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

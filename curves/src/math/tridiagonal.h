@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::math {
 
 /// lower[i] x[i-1] + diagonal[i] x[i] + upper[i] x[i+1] = right, for several right-hand sides (columns) at once.
 struct Tridiagonal {
@@ -26,4 +26,4 @@ struct Tridiagonal {
   void solve_cyclic();
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::math

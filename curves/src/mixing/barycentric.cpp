@@ -19,14 +19,14 @@ class Shares {
     if (weights.size() != values)
       throw std::invalid_argument("a mix needs a weight a value; there are " + std::to_string(weights.size()) +
                                   " weights and " + std::to_string(values) + " values");
-    Jet sum;
+    math::Jet sum;
     std::size_t loaded = 0;
     for (std::size_t i = 0; i < weights.size(); ++i) {
       const Sample<double>& w = weights[i];
       if (!std::isfinite(w.value) || !std::isfinite(w.rate) || !std::isfinite(w.acceleration))
         throw std::invalid_argument("weight " + std::to_string(i) + " must be finite with its rates; it is " +
-                                    text_of(w.value));
-      sum = sum + Jet{w.value, w.rate, w.acceleration};
+                                    spans::text_of(w.value));
+      sum = sum + math::Jet{w.value, w.rate, w.acceleration};
       if (w.value == 0) continue;
       ++loaded;
       only_ = i;
@@ -34,13 +34,13 @@ class Shares {
     if (sum.v == 0 || !std::isfinite(1 / sum.v))
       throw std::invalid_argument("the weights of a mix must not sum to zero");
     if (loaded > 1) only_ = weights.size();
-    whole_ = reciprocal(sum);
+    whole_ = math::reciprocal(sum);
   }
 
   [[nodiscard]] std::size_t size() const noexcept { return weights_.size(); }
-  [[nodiscard]] Jet operator[](std::size_t i) const noexcept {
+  [[nodiscard]] math::Jet operator[](std::size_t i) const noexcept {
     const Sample<double>& w = weights_[i];
-    return Jet{w.value, w.rate, w.acceleration} * whole_;
+    return math::Jet{w.value, w.rate, w.acceleration} * whole_;
   }
   /// Which value is all there is; `size()` where several count.
   [[nodiscard]] std::size_t only() const noexcept { return only_; }
@@ -48,7 +48,7 @@ class Shares {
  private:
   Weights weights_;
   std::size_t only_ = 0;
-  Jet whole_;
+  math::Jet whole_;
 };
 
 // `get(i)` is the i-th value with its rates.
@@ -56,7 +56,7 @@ template <class T, class Get>
 Sample<T> mean(const Shares& shares, const Get& get) {
   Sample<T> result{zero<T>(), zero<T>(), zero<T>()};
   for (std::size_t i = 0; i < shares.size(); ++i) {
-    const Jet w = shares[i];
+    const math::Jet w = shares[i];
     const Sample<T> x = get(i);
     result.value += w.v * x.value;
     result.rate += w.v * x.rate + w.d * x.value;
@@ -68,7 +68,7 @@ Sample<T> mean(const Shares& shares, const Get& get) {
 
 template <class Get>
 Sample<Quat> center(const Shares& shares, const Get& get) {
-  Sample<Quat> result = rotation_center(shares.size(), get, [&shares](std::size_t i) { return shares[i]; });
+  Sample<Quat> result = rotations::rotation_center(shares.size(), get, [&shares](std::size_t i) { return shares[i]; });
   if (shares.only() < shares.size()) result.value = get(shares.only()).value;
   return result;
 }
@@ -98,29 +98,30 @@ Sample<Color> barycentric(std::span<const Sample<Color>> values, mixing::Weights
   const mixing::Shares shares(weights, values.size());
   const int hue = hue_index(space);
   const auto coordinates = [&](std::size_t i) { return to_space(values[i], space); };
-  Sample<Vec4> mixed = mixing::mean<Vec4>(shares, [&](std::size_t i) { return premultiplied(coordinates(i), hue); });
+  Sample<Vec4> mixed =
+      mixing::mean<Vec4>(shares, [&](std::size_t i) { return color_spaces::premultiplied(coordinates(i), hue); });
   if (hue >= 0) {
     constexpr double turn = 0x1.921fb54442d18p+2;
-    Jet sum, part;
+    math::Jet sum, part;
     double first = 0;
     bool found = false;
     for (std::size_t i = 0; i < shares.size(); ++i) {
       const Sample<Vec4> c = coordinates(i);
       if (c.value[3] == 0 || !has_hue(c.value, space)) continue;
-      Jet h{c.value[hue], c.rate[hue], c.acceleration[hue]};
+      math::Jet h{c.value[hue], c.rate[hue], c.acceleration[hue]};
       if (!found) first = h.v;
       found = true;
       h.v -= turn * std::floor((h.v - first) / turn + 0.5);
-      const Jet w = shares[i];
+      const math::Jet w = shares[i];
       sum = sum + w * h;
       part = part + w;
     }
-    const Jet h = part.v == 0 ? constant(first) : sum * reciprocal(part);
+    const math::Jet h = part.v == 0 ? math::constant(first) : sum * math::reciprocal(part);
     mixed.value[hue] = h.v;
     mixed.rate[hue] = h.d;
     mixed.acceleration[hue] = h.dd;
   }
-  Sample<Color> result = from_space(divided(mixed, hue), space);
+  Sample<Color> result = from_space(color_spaces::divided(mixed, hue), space);
   if (shares.only() < shares.size()) result.value = values[shares.only()].value;
   return result;
 }
@@ -148,8 +149,8 @@ std::array<Sample<double>, 3> triangle_weights(const Sample<Vec3>& point, const 
   const auto towards_c = [&](const Vec3& v) { return ab.cross(v).dot(normal); };
   const double all = normal.dot(normal);
   if (!(all > 1e-24 * ab.squaredNorm() * ac.squaredNorm()) || !std::isfinite(all))
-    throw std::invalid_argument("the corners of a triangle must not lie on one line; they are " + text_of(a) + ", " +
-                                text_of(b) + ", " + text_of(c));
+    throw std::invalid_argument("the corners of a triangle must not lie on one line; they are " + spans::text_of(a) +
+                                ", " + spans::text_of(b) + ", " + spans::text_of(c));
   std::array<Sample<double>, 3> result;
   const Vec3 from_a = point.value - a;
   result[1] = {towards_b(from_a) / all, towards_b(point.rate) / all, towards_b(point.acceleration) / all};

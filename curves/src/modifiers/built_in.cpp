@@ -12,51 +12,51 @@ using modifiers::BuiltIn;
 
 using std::numbers::pi;
 
-Jet sinc(const Jet& x) noexcept {
-  const Jet y = pi * x;
+math::Jet sinc(const math::Jet& x) noexcept {
+  const math::Jet y = pi * x;
   if (std::abs(y.v) < 1e-2) {
     // sin(y) / y and its derivatives as series; the first term left out is below 1e-16.
     const double s = y.v * y.v;
-    return chained(y, 1 - s / 6 * (1 - s / 20 * (1 - s / 42)), -y.v / 3 * (1 - s / 10 * (1 - s / 28)),
-                   -(1 - s * (3.0 / 10) * (1 - s * (5.0 / 84))) / 3);
+    return math::chained(y, 1 - s / 6 * (1 - s / 20 * (1 - s / 42)), -y.v / 3 * (1 - s / 10 * (1 - s / 28)),
+                         -(1 - s * (3.0 / 10) * (1 - s * (5.0 / 84))) / 3);
   }
   const elementary::SinCos wave = elementary::sin_cos(y.v);
-  return chained(y, wave.sin, wave.cos, -wave.sin) * reciprocal(y);
+  return math::chained(y, wave.sin, wave.cos, -wave.sin) * math::reciprocal(y);
 }
 
 class BuiltInForm : public ModifierForm {
  public:
   explicit BuiltInForm(const BuiltIn& function) : f_(function) {}
 
-  void change(Jet& value, const Moment& m, double) const noexcept override {
-    const Jet x = f_.multiplier * m.time + f_.phase;
-    Jet result;
+  void change(math::Jet& value, const Moment& m, double) const noexcept override {
+    const math::Jet x = f_.multiplier * m.time + f_.phase;
+    math::Jet result;
     switch (f_.function) {
       case BuiltIn::Function::sin: {
         const elementary::SinCos w = elementary::sin_cos(x.v);
-        result = chained(x, w.sin, w.cos, -w.sin);
+        result = math::chained(x, w.sin, w.cos, -w.sin);
         break;
       }
       case BuiltIn::Function::cos: {
         const elementary::SinCos w = elementary::sin_cos(x.v);
-        result = chained(x, w.cos, -w.sin, -w.cos);
+        result = math::chained(x, w.cos, -w.sin, -w.cos);
         break;
       }
       case BuiltIn::Function::tan: {
         if (elementary::cos(x.v) == 0) return;
         const double tan = elementary::tan(x.v), first = 1 + tan * tan;
-        result = chained(x, tan, first, 2 * tan * first);
+        result = math::chained(x, tan, first, 2 * tan * first);
         break;
       }
       case BuiltIn::Function::sqrt: {
         if (!(x.v > 0)) return;
         const double root = std::sqrt(x.v);
-        result = chained(x, root, 0.5 / root, -0.25 / (root * x.v));
+        result = math::chained(x, root, 0.5 / root, -0.25 / (root * x.v));
         break;
       }
       case BuiltIn::Function::ln: {
         if (!(x.v > 0)) return;
-        result = chained(x, elementary::log(x.v), 1 / x.v, -1 / (x.v * x.v));
+        result = math::chained(x, elementary::log(x.v), 1 / x.v, -1 / (x.v * x.v));
         break;
       }
       case BuiltIn::Function::sinc:

@@ -25,7 +25,7 @@ class CyclesForm : public ModifierForm {
     const Cycles::Mode mode = early ? cycles_.before : cycles_.after;
     const int most = early ? cycles_.plays_before : cycles_.plays_after;
     if (mode == Cycles::Mode::none) return;
-    const auto [local, plays] = played_time(t, start_, duration, arrives);
+    const auto [local, plays] = spans::played_time(t, start_, duration, arrives);
     const double beyond = early ? -plays : plays;
     if (most > 0 && beyond > most) return;
     if (mode == Cycles::Mode::mirror && std::fmod(plays, 2) != 0) {
@@ -37,7 +37,7 @@ class CyclesForm : public ModifierForm {
     if (mode == Cycles::Mode::repeat_offset) offset = plays * gain_;
   }
 
-  void change(Jet& value, const Moment&, double offset) const noexcept override { value.v += offset; }
+  void change(math::Jet& value, const Moment&, double offset) const noexcept override { value.v += offset; }
 
  private:
   Cycles cycles_;

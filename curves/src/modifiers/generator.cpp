@@ -11,21 +11,21 @@ class GeneratorForm : public ModifierForm {
  public:
   explicit GeneratorForm(const Generator& generator) : generator_(generator) {}
 
-  void change(Jet& value, const Moment& m, double) const noexcept override {
-    const Jet result = generator_.factorized ? product(m.time) : sum(m.time);
+  void change(math::Jet& value, const Moment& m, double) const noexcept override {
+    const math::Jet result = generator_.factorized ? product(m.time) : sum(m.time);
     value = generator_.additive ? value + result : result;
   }
 
  private:
-  [[nodiscard]] Jet sum(const Jet& t) const noexcept {
-    Jet result;
+  [[nodiscard]] math::Jet sum(const math::Jet& t) const noexcept {
+    math::Jet result;
     const std::vector<double>& c = generator_.coefficients;
     for (auto k = c.rbegin(); k != c.rend(); ++k) result = result * t + *k;
     return result;
   }
 
-  [[nodiscard]] Jet product(const Jet& t) const noexcept {
-    Jet result = constant(1);
+  [[nodiscard]] math::Jet product(const math::Jet& t) const noexcept {
+    math::Jet result = math::constant(1);
     const std::vector<double>& c = generator_.coefficients;
     for (std::size_t i = 0; i + 1 < c.size(); i += 2) result = result * (c[i] * t + c[i + 1]);
     return result;

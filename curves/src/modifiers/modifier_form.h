@@ -13,7 +13,7 @@ namespace tweenfall::forms {
 /// A time with its derivatives by the time that was asked for, and from which side it is looked at: `in` from earlier
 /// times, as they lie on this time's own axis.
 struct Moment {
-  Jet time;
+  math::Jet time;
   Side side;
 };
 
@@ -23,7 +23,7 @@ class ModifierForm {
   /// The time that lies further in. `memory` goes on to `change` of the same modifier.
   virtual void retime(Moment& moment, double& memory) const noexcept;
   /// The value at the curve's own time.
-  virtual void change(Jet& value, const Moment& moment, double memory) const noexcept;
+  virtual void change(math::Jet& value, const Moment& moment, double memory) const noexcept;
 };
 
 using FormPointer = std::unique_ptr<const ModifierForm>;

@@ -11,13 +11,14 @@
 namespace tweenfall {
 
 void forms::ModifierForm::retime(forms::Moment&, double&) const noexcept {}
-void forms::ModifierForm::change(Jet&, const forms::Moment&, double) const noexcept {}
+void forms::ModifierForm::change(math::Jet&, const forms::Moment&, double) const noexcept {}
 
 void forms::check_finite(double value, const char* name) {
   if (!std::isfinite(value))
-    throw std::invalid_argument(std::string(name) + " must be finite; it is " + text_of(value));
+    throw std::invalid_argument(std::string(name) + " must be finite; it is " + spans::text_of(value));
 }
 
+namespace forms {
 namespace {
 
 class Stack {
@@ -33,7 +34,7 @@ class Stack {
   }
 
   [[nodiscard]] Sample<double> sample(double time, Side side) const noexcept {
-    const Jet value = evaluate(layers_.size(), {{time, 1, 0}, side}).value;
+    const math::Jet value = evaluate(layers_.size(), {{time, 1, 0}, side}).value;
     return {value.v, value.d, value.dd};
   }
 
@@ -44,39 +45,39 @@ class Stack {
     double influence;
 
     // Of a moment inside the range; 0 outside.
-    [[nodiscard]] Jet weight(const forms::Moment& m) const noexcept {
-      if (!range) return constant(influence);
+    [[nodiscard]] math::Jet weight(const forms::Moment& m) const noexcept {
+      if (!range) return math::constant(influence);
       const double t = m.time.v;
       // The side decides at the ends, seen in the direction of time.
       const bool arrives = m.side == Side::in;
-      if (t < range->start || t > range->end) return constant(0);
-      if (t == range->start && arrives && range->start < range->end) return constant(0);
-      if (t == range->end && !arrives && range->start < range->end) return constant(0);
+      if (t < range->start || t > range->end) return math::constant(0);
+      if (t == range->start && arrives && range->start < range->end) return math::constant(0);
+      if (t == range->end && !arrives && range->start < range->end) return math::constant(0);
       const double from_start = t - range->start, to_end = range->end - t;
       if (from_start < range->blend_in) return (influence / range->blend_in) * (m.time + -range->start);
-      if (to_end < range->blend_out) return (influence / range->blend_out) * (constant(range->end) - m.time);
-      return constant(influence);
+      if (to_end < range->blend_out) return (influence / range->blend_out) * (math::constant(range->end) - m.time);
+      return math::constant(influence);
     }
   };
 
   struct Result {
-    Jet value;
+    math::Jet value;
     forms::Moment moment;
   };
 
   void add(const Modifier& m) {
     if (!(m.influence >= 0 && m.influence <= 1))
-      throw std::invalid_argument("the influence must lie in 0 to 1; it is " + text_of(m.influence));
+      throw std::invalid_argument("the influence must lie in 0 to 1; it is " + spans::text_of(m.influence));
     if (m.range) {
       const ModifierRange& r = *m.range;
       forms::check_finite(r.start, "the range's start");
       forms::check_finite(r.end, "the range's end");
       if (!(r.start <= r.end))
-        throw std::invalid_argument("the range must not end before it starts; it goes from " + text_of(r.start) +
-                                    " s to " + text_of(r.end) + " s");
+        throw std::invalid_argument("the range must not end before it starts; it goes from " + spans::text_of(r.start) +
+                                    " s to " + spans::text_of(r.end) + " s");
       for (const double blend : {r.blend_in, r.blend_out})
         if (!(blend >= 0) || !std::isfinite(blend))
-          throw std::invalid_argument("the range's blends must be >= 0 s; one is " + text_of(blend));
+          throw std::invalid_argument("the range's blends must be >= 0 s; one is " + spans::text_of(blend));
     }
     forms::FormPointer form = std::visit([this](const auto& kind) { return forms::form_of(kind, curve_); }, m.kind);
     layers_.push_back({std::move(form), m.range, m.influence});
@@ -86,11 +87,11 @@ class Stack {
   [[nodiscard]] Result evaluate(std::size_t count, forms::Moment moment) const noexcept {
     if (count == 0) {
       const Sample<double> s = curve_.sample(moment.time.v, moment.side);
-      return {chained(moment.time, s.value, s.rate, s.acceleration), moment};
+      return {math::chained(moment.time, s.value, s.rate, s.acceleration), moment};
     }
     const Layer& layer = layers_[count - 1];
     double memory = 0;
-    if (const Jet weight = layer.weight(moment); weight.v != 0 || weight.d != 0) {
+    if (const math::Jet weight = layer.weight(moment); weight.v != 0 || weight.d != 0) {
       forms::Moment inner = moment;
       layer.form->retime(inner, memory);
       if (weight.v == 1 && weight.d == 0)
@@ -99,8 +100,8 @@ class Stack {
         moment.time = moment.time + weight * (inner.time - moment.time);
     }
     Result result = evaluate(count - 1, moment);
-    if (const Jet weight = layer.weight(result.moment); weight.v != 0 || weight.d != 0) {
-      Jet changed = result.value;
+    if (const math::Jet weight = layer.weight(result.moment); weight.v != 0 || weight.d != 0) {
+      math::Jet changed = result.value;
       layer.form->change(changed, result.moment, memory);
       result.value = weight.v == 1 && weight.d == 0 ? changed : result.value + weight * (changed - result.value);
     }
@@ -112,9 +113,10 @@ class Stack {
 };
 
 }  // namespace
+}  // namespace forms
 
 Curve<double> modified(const Curve<double>& curve, std::span<const Modifier> modifiers) {
-  const auto stack = std::make_shared<const Stack>(curve, modifiers);
+  const auto stack = std::make_shared<const forms::Stack>(curve, modifiers);
   // A slope stated outside is that of the curve below, to which the modifiers are added.
   const std::vector<Modifier> kept(modifiers.begin(), modifiers.end());
   return CurveAccess::seen_through<double>(

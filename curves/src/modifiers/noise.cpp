@@ -25,13 +25,13 @@ double slope_at(double cell, std::uint64_t seed) noexcept {
 
 // Zero at every whole number with a random slope there, joined with continuous second derivative; within -1 to 1.
 // Source: Perlin, "Improving noise", 2002, in one dimension.
-Jet gradient_noise(const Jet& x, std::uint64_t seed) noexcept {
+math::Jet gradient_noise(const math::Jet& x, std::uint64_t seed) noexcept {
   constexpr double most_cells = 4e18;
   const double cell = std::floor(x.v);
   if (!(std::abs(cell) < most_cells)) return {};
-  const Jet f = x + -cell;
-  const Jet fade = f * f * f * (f * (6.0 * f + -15.0) + 10.0);
-  const Jet from = slope_at(cell, seed) * f, to = slope_at(cell + 1, seed) * (f + -1.0);
+  const math::Jet f = x + -cell;
+  const math::Jet fade = f * f * f * (f * (6.0 * f + -15.0) + 10.0);
+  const math::Jet from = slope_at(cell, seed) * f, to = slope_at(cell + 1, seed) * (f + -1.0);
   return 2.0 * (from + fade * (to - from));
 }
 
@@ -43,8 +43,8 @@ class NoiseForm : public ModifierForm {
     normal_ = noise.strength / sum;
   }
 
-  void change(Jet& value, const Moment& m, double) const noexcept override {
-    Jet x = (1 / noise_.scale) * (m.time + noise_.phase), sum;
+  void change(math::Jet& value, const Moment& m, double) const noexcept override {
+    math::Jet x = (1 / noise_.scale) * (m.time + noise_.phase), sum;
     double share = normal_;
     for (int i = 0; i < noise_.layers; ++i, share *= 0.5) {
       sum = sum + share * gradient_noise(x, noise_.seed + static_cast<std::uint64_t>(i));
@@ -74,7 +74,7 @@ FormPointer form_of(const Noise& noise, const Curve<double>&) {
   check_finite(noise.strength, "the strength of noise");
   check_finite(noise.phase, "the phase of noise");
   if (!(noise.scale > 0) || !std::isfinite(noise.scale))
-    throw std::invalid_argument("the scale of noise must be > 0 s; it is " + text_of(noise.scale));
+    throw std::invalid_argument("the scale of noise must be > 0 s; it is " + spans::text_of(noise.scale));
   if (noise.layers < 1 || noise.layers > 16)
     throw std::invalid_argument("noise must have 1 to 16 layers; it has " + std::to_string(noise.layers));
   return std::make_unique<const NoiseForm>(noise);

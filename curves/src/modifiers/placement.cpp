@@ -14,12 +14,12 @@ class PlacementForm : public ModifierForm {
   explicit PlacementForm(const Placement& placement) : p_(placement) {}
 
   void retime(Moment& m, double&) const noexcept override {
-    const Jet from_offset = m.time + -p_.time_offset;
+    const math::Jet from_offset = m.time + -p_.time_offset;
     m.time = {from_offset.v / p_.time_scale, from_offset.d / p_.time_scale, from_offset.dd / p_.time_scale};
     if (p_.time_scale < 0) m.side = opposite(m.side);
   }
 
-  void change(Jet& value, const Moment&, double) const noexcept override {
+  void change(math::Jet& value, const Moment&, double) const noexcept override {
     value = p_.value_scale * value + p_.value_offset;
   }
 

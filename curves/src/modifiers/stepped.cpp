@@ -21,7 +21,7 @@ class SteppedForm : public ModifierForm {
     double n = std::floor((t - stepped_.offset) / stepped_.step);
     if (arrives && n * stepped_.step + stepped_.offset == t) n -= 1;
     if (stepped_.toward_offset && n < 0) n += 1;
-    m = {constant(n * stepped_.step + stepped_.offset), Side::out};
+    m = {math::constant(n * stepped_.step + stepped_.offset), Side::out};
   }
 
  private:
@@ -32,7 +32,7 @@ class SteppedForm : public ModifierForm {
 
 FormPointer form_of(const Stepped& stepped, const Curve<double>&) {
   if (!(stepped.step > 0) || !std::isfinite(stepped.step))
-    throw std::invalid_argument("a step must be > 0 s; it is " + text_of(stepped.step));
+    throw std::invalid_argument("a step must be > 0 s; it is " + spans::text_of(stepped.step));
   check_finite(stepped.offset, "the offset of steps");
   if (stepped.start) check_finite(*stepped.start, "the start of steps");
   if (stepped.end) check_finite(*stepped.end, "the end of steps");

@@ -31,7 +31,7 @@ struct PathPiece : CurvePiece<V> {
 template <class V>
 double speed(const Curve<V>& path, const PathPiece<V>& piece, double s) noexcept {
   if (piece.has_own_rate) return (piece.to - piece.from) * splines::length_of(path.rate(piece.time_at(s)));
-  return splines::length_of(evaluate_polynomial(piece.c.data(), piece.degree, s).first);
+  return splines::length_of(math::evaluate_polynomial(piece.c.data(), piece.degree, s).first);
 }
 
 // Source: Abramowitz and Stegun, "Handbook of Mathematical Functions", table 25.4, n = 16.
@@ -96,7 +96,7 @@ class Measure {
       for (int k = 1; k <= piece.degree; ++k)
         square[static_cast<std::size_t>(i + k - 2)] +=
             i * k * product(piece.c[static_cast<std::size_t>(i)], piece.c[static_cast<std::size_t>(k)]);
-    std::vector<double> result = polynomial_roots(polynomial_derivative(square), 0, 1);
+    std::vector<double> result = math::polynomial_roots(math::polynomial_derivative(square), 0, 1);
     std::erase_if(result, [](double s) { return s <= 0 || s >= 1; });
     return result;
   }
@@ -164,7 +164,7 @@ struct MeasuredPath<T>::Data {
 
 template <class T>
 MeasuredPath<T>::MeasuredPath(const Curve<T>& path) {
-  check_times(path.start(), path.end());
+  spans::check_times(path.start(), path.end());
   auto data = std::make_shared<Data>(Data{path, questions::path_pieces(path, path.start(), path.end()), {}});
   questions::Measure<T>(path, data->pieces, data->stretches);
   data_ = std::move(data);
@@ -210,9 +210,9 @@ Sample<T> MeasuredPath<T>::sample_at(double length_from_start, Side side) const 
   const questions::PathPiece<T>& piece = d.pieces[stretch.piece];
   const double s = d.position(stretch, length - stretch.before);
   const double time = piece.time_at(s);
-  Polynomial<T> p;
+  math::Polynomial<T> p;
   if (piece.exact()) {
-    p = evaluate_polynomial(piece.c.data(), piece.degree, s);
+    p = math::evaluate_polynomial(piece.c.data(), piece.degree, s);
   } else {
     // By length all parameters are alike.
     const Sample<T> own = d.path.sample(time, s < 1 ? Side::out : Side::in);
@@ -240,8 +240,8 @@ double arc_length(const Curve<T>& curve, double from, double to) {
 
 template <class T>
 Curve<T> at_even_speed(const Curve<T>& path, double start, double duration) {
-  check_times(start, start + duration);
-  if (!(duration > 0)) throw std::invalid_argument("a path needs a duration > 0 s; it is " + text_of(duration));
+  spans::check_times(start, start + duration);
+  if (!(duration > 0)) throw std::invalid_argument("a path needs a duration > 0 s; it is " + spans::text_of(duration));
   const MeasuredPath<T> measured(path);
   const double pace = measured.length() / duration;
   return Curve<T>(

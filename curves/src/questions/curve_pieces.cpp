@@ -31,7 +31,7 @@ class Quintics {
     for (int i = 0; i <= first_parts; ++i)
       for (const double off : {0.0, 0.37}) {
         const V v = sampler(std::min(mark(from, to, i) + off / first_parts * (to - from), to), Side::in).value;
-        for (int k = 0; k < dimensions<V>; ++k) scale = std::max(scale, std::abs(component(v, k)));
+        for (int k = 0; k < spans::dimensions<V>; ++k) scale = std::max(scale, std::abs(spans::component(v, k)));
       }
     // A time, and a position in a span, is known to its last bit only, which counts where the curve is steep.
     time_rounding_ = 1e-15 * std::max({std::abs(from), std::abs(to), to - from});
@@ -65,17 +65,17 @@ class Quintics {
     piece.to = to;
     piece.error = tolerance_;
     piece.degree = 5;
-    quintic_coefficients(a.value, change, d0, d1, e0, e1, piece.c.data());
+    spans::quintic_coefficients(a.value, change, d0, d1, e0, e1, piece.c.data());
     return piece;
   }
 
   bool agrees(const CurvePiece<V>& piece) const noexcept {
     for (const double s : {0.5, 0.25, 0.75, 0.1, 0.9}) {
-      const V ours = polynomial_at(piece.c.data(), 5, s);
+      const V ours = math::polynomial_at(piece.c.data(), 5, s);
       const Sample<V> theirs = sampler_(piece.time_at(s), Side::out);
-      for (int i = 0; i < dimensions<V>; ++i)
-        if (!(std::abs(component(ours, i) - component(theirs.value, i)) <=
-              tolerance_ + time_rounding_ * std::abs(component(theirs.rate, i))))
+      for (int i = 0; i < spans::dimensions<V>; ++i)
+        if (!(std::abs(spans::component(ours, i) - spans::component(theirs.value, i)) <=
+              tolerance_ + time_rounding_ * std::abs(spans::component(theirs.rate, i))))
           return false;
     }
     return true;
@@ -118,16 +118,16 @@ void add_span(std::vector<CurvePiece<V>>& result, const Span<T>& span, double to
   for (std::size_t i = 0; i <= static_cast<std::size_t>(span.degree); ++i) piece.c[i] = stored(span.coefficients[i]);
   if (span.degree == 0 || !span.warp.function) {
     result.push_back(piece);
-  } else if (is_time_bezier(span.warp)) {
+  } else if (spans::is_time_bezier(span.warp)) {
     piece.timed = true;
-    piece.x = shown_time_cubic(span.warp, piece.c.data(), piece.degree);
+    piece.x = spans::shown_time_cubic(span.warp, piece.c.data(), piece.degree);
     result.push_back(piece);
   } else {
     const double inverse = 1 / (to - span.start);
     const auto sampler = [&](double time, Side) {
       const double u = time >= to ? 1 : (time - span.start) * inverse;
       const Warp::Result w = span.warp.at(u);
-      const Polynomial<V> p = evaluate_polynomial(piece.c.data(), piece.degree, w.s);
+      const math::Polynomial<V> p = math::evaluate_polynomial(piece.c.data(), piece.degree, w.s);
       const V second = p.second * (w.ds * w.ds) + p.first * w.dds;
       return Sample<V>{p.value, p.first * (w.ds * inverse), second * (inverse * inverse)};
     };
@@ -163,16 +163,16 @@ template <class T>
 std::vector<questions::CurvePiece<typename Stored<T>::type>> questions::curve_pieces(const Curve<T>& curve, double from,
                                                                                      double to) {
   using V = typename Stored<T>::type;
-  check_times(from, to);
+  spans::check_times(from, to);
   std::vector<questions::CurvePiece<V>> result;
   if (!(to > from)) return result;
-  if (has_spans(curve)) {
-    const std::vector<Span<T>> spans = spans_between(curve, from, to);
+  if (spans::has_spans(curve)) {
+    const std::vector<Span<T>> spans = spans::spans_between(curve, from, to);
     for (std::size_t i = 0; i < spans.size(); ++i)
       questions::add_span(result, spans[i], i + 1 < spans.size() ? spans[i + 1].start : to);
     return result;
   }
-  const std::vector<double> marks = seams_between(curve, from, to);
+  const std::vector<double> marks = spans::seams_between(curve, from, to);
   const auto sampler = [&](double time, Side side) {
     const Sample<T> s = curve.sample(time, side);
     return Sample<V>{questions::stored(s.value), s.rate, s.acceleration};
@@ -189,7 +189,7 @@ std::vector<questions::CurvePiece<V>> questions::as_quintics(const questions::Cu
     // The least slope as in time_bezier.h.
     const double slope = std::max((3 * piece.x[3] * s + 2 * piece.x[2]) * s + piece.x[1], 1e-6);
     const double ds = 1 / slope, dds = slope > 1e-6 ? -(6 * piece.x[3] * s + 2 * piece.x[2]) * ds * ds * ds : 0;
-    const Polynomial<V> p = evaluate_polynomial(piece.c.data(), piece.degree, s);
+    const math::Polynomial<V> p = math::evaluate_polynomial(piece.c.data(), piece.degree, s);
     const V second = p.second * (ds * ds) + p.first * dds;
     return Sample<V>{p.value, p.first * (ds * inverse), second * (inverse * inverse)};
   };

@@ -57,7 +57,7 @@ template <class V>
 [[nodiscard]] std::vector<double> component_polynomial(const CurvePiece<V>& piece, int component_index) {
   std::vector<double> result;
   for (int i = 0; i <= piece.degree; ++i)
-    result.push_back(component(piece.c[static_cast<std::size_t>(i)], component_index));
+    result.push_back(spans::component(piece.c[static_cast<std::size_t>(i)], component_index));
   return result;
 }
 

@@ -74,12 +74,12 @@ T segment_derivative(const Data& d, std::size_t i, double u, int order) noexcept
   } else if (segment.degree > 0) {
     const Warp& warp = d.warps[i];
     LongPolynomial x{3, {}};
-    std::ranges::copy(time_cubic(warp.parameters[0], warp.parameters[1]), x.c.begin());
+    std::ranges::copy(spans::time_cubic(warp.parameters[0], warp.parameters[1]), x.c.begin());
     const double s = warp.at(u).s;
-    for (int k = 0; k < dimensions<T>; ++k) {
+    for (int k = 0; k < spans::dimensions<T>; ++k) {
       LongPolynomial y{segment.degree, {}};
-      for (int j = 0; j <= segment.degree; ++j) y.c[static_cast<std::size_t>(j)] = component(c[j], k);
-      component_of(result, k) = through_handles(y, x, s, order);
+      for (int j = 0; j <= segment.degree; ++j) y.c[static_cast<std::size_t>(j)] = spans::component(c[j], k);
+      spans::component_of(result, k) = through_handles(y, x, s, order);
     }
     for (int j = 0; j < order; ++j) result = result * warp.width;
   }
@@ -97,8 +97,8 @@ void check_order(const Data& d, int order) {
   if (order <= 2 || (d.start == d.end && !d.rebuilt)) return;
   if (!d.times) refuse_order(order, "a formula gives two");
   for (std::size_t i = 0; i < d.warps.size(); ++i)
-    if (d.warps[i].function && d.segment(i).degree > 0 && !is_time_bezier(d.warps[i]))
-      refuse_order(order, "the ease from " + text_of(d.knots()[i]) + " s gives two");
+    if (d.warps[i].function && d.segment(i).degree > 0 && !spans::is_time_bezier(d.warps[i]))
+      refuse_order(order, "the ease from " + spans::text_of(d.knots()[i]) + " s gives two");
 }
 
 // Precondition: the order is known.
@@ -114,12 +114,12 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
   const bool early = time < d.start || (time == d.start && side == Side::in);
   if (early || time > d.end || (time == d.end && side == Side::out)) {
     const OutsideRule<T>& outside = (early ? d.before : d.after).rule;
-    if (!loops(outside.rule)) return zero<T>();
-    const std::optional<double> over = last_play(outside, d.start, d.end, early);
-    if (over && is_beyond(time, side, *over, early)) return zero<T>();
-    const auto [local, plays] = played_time(time, d.start, d.end - d.start, side == Side::in);
+    if (!spans::loops(outside.rule)) return zero<T>();
+    const std::optional<double> over = spans::last_play(outside, d.start, d.end, early);
+    if (over && spans::is_beyond(time, side, *over, early)) return zero<T>();
+    const auto [local, plays] = spans::played_time(time, d.start, d.end - d.start, side == Side::in);
     time = d.start + local;
-    if (is_backward(outside.rule, plays)) {
+    if (spans::is_backward(outside.rule, plays)) {
       time = d.end - local;
       side = side == Side::in ? Side::out : Side::in;
       if (order % 2 != 0) sign = -1;
@@ -137,7 +137,7 @@ T known_derivative(const Curve<T>& curve, int order, double time, Side side) noe
 // Whether the rate beyond an end is one value or a loop of the rates inside.
 template <class T>
 bool is_plain_outside(const OutsideRule<T>& rule) noexcept {
-  return !loops(rule.rule) || (rule.rule != Outside::pingpong && rule.plays == 0);
+  return !spans::loops(rule.rule) || (rule.rule != Outside::pingpong && rule.plays == 0);
 }
 
 template <class T>
@@ -173,14 +173,14 @@ namespace tweenfall {
 template <class T>
 T derivative_at(const Curve<T>& curve, int order, double time, Side side) {
   questions::check_order(CurveAccess::data(curve), order);
-  check_times(time, time);
+  spans::check_times(time, time);
   return questions::known_derivative(curve, order, time, side);
 }
 
 template <class T>
 Curve<T> derivative(const Curve<T>& curve) {
   const CurveEnd<T> before = questions::end_of_rate(curve, true), after = questions::end_of_rate(curve, false);
-  if (curve.start() == curve.end() && has_spans(curve))
+  if (curve.start() == curve.end() && spans::has_spans(curve))
     return CurveAccess::one_key<T>(zero<T>(), curve.start(), before, after);
   questions::check_order(CurveAccess::data(curve), 3);
   std::vector<Span<T>> spans = curve.spans();

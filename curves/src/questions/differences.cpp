@@ -15,7 +15,8 @@ std::vector<double> passes(const std::vector<V>& c, double bound) {
   std::vector<double> square(2 * c.size() - 1, 0.0);
   for (std::size_t i = 0; i < c.size(); ++i)
     for (std::size_t k = 0; k < c.size(); ++k)
-      for (int j = 0; j < dimensions<V>; ++j) square[i + k] += component(c[i], j) * component(c[k], j);
+      for (int j = 0; j < spans::dimensions<V>; ++j)
+        square[i + k] += spans::component(c[i], j) * spans::component(c[k], j);
   std::vector<double> marks = {0};
   const auto add = [&marks](const std::vector<double>& found) {
     marks.insert(marks.end(), found.begin(), found.end());
@@ -24,13 +25,13 @@ std::vector<double> passes(const std::vector<V>& c, double bound) {
     // Half the degree, and better conditioned.
     std::vector<double> shifted = c;
     shifted[0] = c[0] - bound;
-    add(polynomial_roots(shifted, 0, 1));
+    add(math::polynomial_roots(shifted, 0, 1));
     shifted[0] = c[0] + bound;
-    add(polynomial_roots(shifted, 0, 1));
+    add(math::polynomial_roots(shifted, 0, 1));
     std::sort(marks.begin(), marks.end());
   } else {
     square[0] -= bound * bound;
-    add(polynomial_roots(square, 0, 1));
+    add(math::polynomial_roots(square, 0, 1));
   }
   marks.push_back(1);
   return marks;

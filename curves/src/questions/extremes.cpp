@@ -21,12 +21,13 @@ double refined(const Piece& piece, double time, const F& f) {
   const double reach = 1e-3 * (piece.to - piece.from);
   const double low = std::max(piece.from, time - reach), high = std::min(piece.to, time + reach);
   const double a = f(low), b = f(high);
-  return (a < 0 && b > 0) || (a > 0 && b < 0) ? crossing(f, low, high) : time;
+  return (a < 0 && b > 0) || (a > 0 && b < 0) ? math::crossing(f, low, high) : time;
 }
 
 // Positions within the piece, ends left out, at which the rate vanishes.
 std::vector<double> stationary(const Piece& piece) {
-  std::vector<double> result = polynomial_roots(polynomial_derivative(component_polynomial(piece, 0)), 0, 1);
+  std::vector<double> result =
+      math::polynomial_roots(math::polynomial_derivative(component_polynomial(piece, 0)), 0, 1);
   std::erase_if(result, [](double s) { return s <= 0 || s >= 1; });
   return result;
 }
@@ -42,7 +43,7 @@ namespace tweenfall {
 
 Range range(const Curve<double>& curve, double from, double to) {
   if (to < from) std::swap(from, to);
-  check_times(from, to);
+  spans::check_times(from, to);
   const double first = curve.value(from);
   Range result{first, first};
   const auto include = [&result](double v) {
@@ -62,12 +63,12 @@ std::vector<double> extrema(const Curve<double>& curve) {
   if (!(curve.duration() > 0)) return result;
   double before = 0;  // sign of the rate just passed
   for (const questions::Piece& piece : questions::curve_pieces(curve, curve.start(), curve.end())) {
-    const std::vector<double> slope = polynomial_derivative(questions::component_polynomial(piece, 0));
+    const std::vector<double> slope = math::polynomial_derivative(questions::component_polynomial(piece, 0));
     std::vector<double> marks = {0};
     for (const double s : questions::stationary(piece)) marks.push_back(s);
     marks.push_back(1);
     for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
-      const double sign = questions::sign_of(polynomial_value(slope, 0.5 * (marks[i] + marks[i + 1])));
+      const double sign = questions::sign_of(math::polynomial_value(slope, 0.5 * (marks[i] + marks[i + 1])));
       // A stretch at rest has no extreme, nor has what follows it.
       if (before * sign < 0) {
         const double time = piece.time_at(marks[i]);
@@ -82,7 +83,7 @@ std::vector<double> extrema(const Curve<double>& curve) {
 
 std::vector<double> solve(const Curve<double>& curve, double level, double from, double to) {
   if (to < from) std::swap(from, to);
-  check_times(from, to);
+  spans::check_times(from, to);
   std::vector<double> result;
   const auto add = [&result, from, to](double t) {
     const double same = 1e-12 * (to - from);
@@ -104,7 +105,7 @@ std::vector<double> solve(const Curve<double>& curve, double level, double from,
       }
       continue;
     }
-    for (const double s : polynomial_roots(c, 0, 1)) {
+    for (const double s : math::polynomial_roots(c, 0, 1)) {
       const double time = piece.time_at(s);
       add(piece.exact() ? time : questions::refined(piece, time, [&](double t) { return curve.value(t) - level; }));
     }

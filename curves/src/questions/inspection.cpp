@@ -28,7 +28,7 @@ template <class T>
 bool knows_all_derivatives(const Curve<T>& curve) {
   const auto& d = CurveAccess::data(curve);
   for (std::size_t i = 0; i < d.warps.size(); ++i)
-    if (d.warps[i].function && d.segment(i).degree > 0 && !is_time_bezier(d.warps[i])) return false;
+    if (d.warps[i].function && d.segment(i).degree > 0 && !spans::is_time_bezier(d.warps[i])) return false;
   return d.times != nullptr;
 }
 
@@ -121,8 +121,9 @@ bool is_monotone(const Curve<double>& curve) {
   for (const questions::CurvePiece<double>& piece : questions::curve_pieces(curve, curve.start(), curve.end())) {
     const double rounding = piece.rounding();
     step(curve.value(piece.from), rounding);
-    for (const double s : polynomial_roots(polynomial_derivative(questions::component_polynomial(piece, 0)), 0, 1))
-      step(polynomial_at(piece.c.data(), piece.degree, s), rounding);
+    for (const double s :
+         math::polynomial_roots(math::polynomial_derivative(questions::component_polynomial(piece, 0)), 0, 1))
+      step(math::polynomial_at(piece.c.data(), piece.degree, s), rounding);
     step(curve.value(piece.to, Side::in), rounding);
   }
   return !(rises && falls);

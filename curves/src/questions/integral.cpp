@@ -82,7 +82,7 @@ T integral(const Curve<T>& curve, double from, double to) {
 
 template <class T>
 Curve<T> antiderivative(const Curve<T>& curve, const T& first) {
-  check_times(curve.start(), curve.end());
+  spans::check_times(curve.start(), curve.end());
   if (curve.start() == curve.end()) {
     const T value = curve.value(curve.start());
     Span<T> span{};

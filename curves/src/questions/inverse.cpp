@@ -25,9 +25,10 @@ struct Inverse {
   // Time at which the piece takes `level`, which lies between its ends.
   double time_in(std::size_t i, double level) const noexcept {
     const CurvePiece<double>& piece = pieces[i];
-    if (!piece.exact()) return crossing([&](double t) { return sign * curve.value(t) - level; }, piece.from, piece.to);
-    const auto above = [&](double s) { return sign * polynomial_at(piece.c.data(), piece.degree, s) - level; };
-    return piece.time_at(crossing(above, 0, 1));
+    if (!piece.exact())
+      return math::crossing([&](double t) { return sign * curve.value(t) - level; }, piece.from, piece.to);
+    const auto above = [&](double s) { return sign * math::polynomial_at(piece.c.data(), piece.degree, s) - level; };
+    return piece.time_at(math::crossing(above, 0, 1));
   }
 
   Sample<double> operator()(double value, Side side) const noexcept {
@@ -62,26 +63,27 @@ struct Inverse {
 namespace tweenfall {
 
 Curve<double> inverse(const Curve<double>& curve) {
-  check_times(curve.start(), curve.end());
+  spans::check_times(curve.start(), curve.end());
   auto result = std::make_shared<questions::Inverse>(
       questions::Inverse{curve, 1, 0, questions::curve_pieces(curve, curve.start(), curve.end()), {}, {}});
   const double first = curve.value(curve.start()), last = curve.value(curve.end(), Side::in);
   if (result->pieces.empty() || first == last)
-    throw std::invalid_argument("a curve that ends where it begins, at " + text_of(first) + ", has no inverse");
+    throw std::invalid_argument("a curve that ends where it begins, at " + spans::text_of(first) + ", has no inverse");
   result->sign = last > first ? 1 : -1;
   result->least_rate = 1e-6 * std::abs(last - first) / curve.duration();
   double before = result->sign * first;
   const double scale = std::max(std::abs(first), std::abs(last));
   const auto rise = [&](double value, double time, double rounding) {
     if (value < before - 1e-14 * scale - rounding)
-      throw std::invalid_argument("a curve must not turn to have an inverse; this one does before " + text_of(time) +
-                                  " s");
+      throw std::invalid_argument("a curve must not turn to have an inverse; this one does before " +
+                                  spans::text_of(time) + " s");
     before = std::max(before, value);
   };
   for (const questions::CurvePiece<double>& piece : result->pieces) {
     rise(result->sign * curve.value(piece.from, Side::out), piece.from, 4 * piece.error);
     result->leaving.push_back(before);
-    for (const double s : polynomial_roots(polynomial_derivative(questions::component_polynomial(piece, 0)), 0, 1))
+    for (const double s :
+         math::polynomial_roots(math::polynomial_derivative(questions::component_polynomial(piece, 0)), 0, 1))
       rise(result->sign * curve.value(piece.time_at(s), s >= 1 ? Side::in : Side::out), piece.time_at(s),
            4 * piece.error);
     rise(result->sign * curve.value(piece.to, Side::in), piece.to, 4 * piece.error);

@@ -60,9 +60,9 @@ questions::CurvePiece<V> questions::piece_part(const questions::CurvePiece<V>& p
   const double s0 = piece.position_at(from), s1 = piece.position_at(to);
   part.from = from;
   part.to = to;
-  substitute(part.c.data(), piece.degree, s0, s1 - s0);
+  math::substitute(part.c.data(), piece.degree, s0, s1 - s0);
   if (piece.timed) {
-    substitute(part.x.data(), 3, s0, s1 - s0);
+    math::substitute(part.x.data(), 3, s0, s1 - s0);
     const double width = part.x[1] + part.x[2] + part.x[3];
     part.x = {0, part.x[1] / width, part.x[2] / width, part.x[3] / width};
   }
@@ -74,7 +74,7 @@ std::vector<V> questions::composed(const questions::CurvePiece<V>& b, const ques
   const double length = b.to - b.from;
   const double offset = (a.from - b.from) / length, width = (a.to - a.from) / length;
   std::vector<V> result(b.c.begin(), b.c.begin() + b.degree + 1);
-  substitute(result.data(), b.degree, offset, width);
+  math::substitute(result.data(), b.degree, offset, width);
   if (!a.timed) return result;
   // Horner's rule on polynomials.
   std::vector<V> sum = {result.back()};

@@ -11,7 +11,7 @@ namespace {
 
 template <class V>
 V value_at(const CurvePiece<V>& piece, double s) noexcept {
-  return polynomial_at(piece.c.data(), piece.degree, s);
+  return math::polynomial_at(piece.c.data(), piece.degree, s);
 }
 
 // Times inside the piece at which its straight connection must be cut.
@@ -42,7 +42,7 @@ namespace tweenfall {
 template <class T>
 std::vector<PolylinePoint<T>> polyline(const Curve<T>& curve, double from, double to, double error) {
   using V = typename Stored<T>::type;
-  if (!(error > 0)) throw std::invalid_argument("a polyline needs an error > 0; it is " + text_of(error));
+  if (!(error > 0)) throw std::invalid_argument("a polyline needs an error > 0; it is " + spans::text_of(error));
   if (to < from) std::swap(from, to);
   std::vector<PolylinePoint<T>> result;
   for (const questions::CurvePiece<V>& piece : questions::curve_pieces(curve, from, to)) {

@@ -24,7 +24,7 @@ template <class T>
     const Quat turn = a.value * b.value.conjugate();
     const Vec3 carried = turn * b.rate, carried_acceleration = turn * b.acceleration;
     const Vec3 rate = a.rate - carried, acceleration = a.acceleration - carried_acceleration;
-    return {rotation_distance(a.value, b.value), splines::length_of(rate),
+    return {rotations::rotation_distance(a.value, b.value), splines::length_of(rate),
             splines::length_of(acceleration) + splines::length_of(a.rate) * splines::length_of(b.rate)};
   } else if constexpr (std::is_same_v<T, Color>) {
     return {splines::length_of(Vec4(a.value.rgba - b.value.rgba)), splines::length_of(Vec4(a.rate - b.rate)),

@@ -55,7 +55,8 @@ Sample<Quat> inverse(const Sample<Quat>& q) noexcept {
 Sample<Quat> slerp(const Sample<Quat>& a, const Sample<Quat>& b, const Sample<double>& weight) noexcept {
   Sample<Quat> near = b;
   near.value = hemisphere_aligned(b.value, a.value);
-  return outer(mixed(inner(a), inner(near), {weight.value, weight.rate, weight.acceleration}));
+  return rotations::outer(
+      rotations::mixed(rotations::inner(a), rotations::inner(near), {weight.value, weight.rate, weight.acceleration}));
 }
 
 }  // namespace tweenfall

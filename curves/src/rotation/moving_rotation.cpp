@@ -7,7 +7,7 @@
 
 #include "rotation/rotation_series.h"
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 
 MovingRotation inner(const Sample<Quat>& sample) noexcept {
   const Quat back = sample.value.conjugate();
@@ -84,4 +84,4 @@ MovingRotation mixed(const MovingRotation& a, const MovingRotation& b, const Mov
                                  w.second * r.value + 2 * w.first * r.first + w.value * r.second}));
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::rotations

@@ -5,7 +5,7 @@
 
 #include <tweenfall/curves/values.h>
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 
 struct MovingRotation {
   Quat value;
@@ -54,4 +54,4 @@ struct TurningRotation {
 /// a exp(w log(a^-1 b)), by `signed_log`.
 [[nodiscard]] MovingRotation mixed(const MovingRotation& a, const MovingRotation& b, const MovingWeight& w) noexcept;
 
-}  // namespace tweenfall
+}  // namespace tweenfall::rotations

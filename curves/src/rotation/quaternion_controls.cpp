@@ -10,7 +10,7 @@ namespace tweenfall::rotations {
 namespace {
 
 std::string named_key(std::size_t i, double time) {
-  return "key " + std::to_string(i) + " (time " + text_of(time) + " s) ";
+  return "key " + std::to_string(i) + " (time " + spans::text_of(time) + " s) ";
 }
 
 void check_key_times(std::span<const double> times) {
@@ -19,7 +19,7 @@ void check_key_times(std::span<const double> times) {
     if (!std::isfinite(times[i])) throw std::invalid_argument(named_key(i, times[i]) + "must have a finite time");
     if (i > 0 && !(times[i] > times[i - 1]))
       throw std::invalid_argument(named_key(i, times[i]) + "must come after the key before it, at " +
-                                  text_of(times[i - 1]) + " s");
+                                  spans::text_of(times[i - 1]) + " s");
   }
 }
 
@@ -68,8 +68,8 @@ Curve<Quat> clamped_rotation(std::span<const double> times, std::span<const Quat
     throw std::invalid_argument("a curve needs a rotation a time; there are " + std::to_string(rotations.size()) +
                                 " rotations and " + std::to_string(times.size()) + " times");
   for (const std::optional<Vec3>& velocity : {start, end})
-    if (velocity && !all_finite(*velocity))
-      throw std::invalid_argument("the angular velocity at an end must be finite; it is " + text_of(*velocity));
+    if (velocity && !spans::all_finite(*velocity))
+      throw std::invalid_argument("the angular velocity at an end must be finite; it is " + spans::text_of(*velocity));
   const std::vector<Quat> units = rotations::aligned(rotations, "key");
   if (times.size() == 1) return CurveAccess::one_key(units[0], times[0]);
   std::vector<Stretch> stretches;

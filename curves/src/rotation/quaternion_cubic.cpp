@@ -18,15 +18,15 @@ Curve<Quat> gltf_cubic_rotation(std::span<const double> times, std::span<const V
                                 std::to_string(out_tangents.size()) + " leaving tangents");
   std::vector<Quat> units;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::string key =
-        "key " + std::to_string(i) + " (time " + text_of(times[i]) + " s, value " + text_of(values[i]) + ") ";
+    const std::string key = "key " + std::to_string(i) + " (time " + spans::text_of(times[i]) + " s, value " +
+                            spans::text_of(values[i]) + ") ";
     if (!std::isfinite(times[i])) throw std::invalid_argument(key + "must have a finite time");
     if (i > 0 && !(times[i] > times[i - 1]))
-      throw std::invalid_argument(key + "must come after the key before it, at " + text_of(times[i - 1]) + " s");
-    if (!all_finite(in_tangents[i]) || !all_finite(out_tangents[i]))
+      throw std::invalid_argument(key + "must come after the key before it, at " + spans::text_of(times[i - 1]) + " s");
+    if (!spans::all_finite(in_tangents[i]) || !spans::all_finite(out_tangents[i]))
       throw std::invalid_argument(key + "has a non-finite tangent");
     const Vec4& v = values[i];
-    if (!all_finite(v) || v.cwiseAbs().maxCoeff() == 0)
+    if (!spans::all_finite(v) || v.cwiseAbs().maxCoeff() == 0)
       throw std::invalid_argument(key + "must be finite and not zero to be a rotation");
     units.push_back(normalized(Quat(v[3], v[0], v[1], v[2])));
   }
@@ -40,7 +40,7 @@ Curve<Quat> gltf_cubic_rotation(std::span<const double> times, std::span<const V
     span.degree = 3;
     const Vec4 change = values[i + 1] - values[i];
     const Vec4 d0 = span.duration * out_tangents[i], d1 = span.duration * in_tangents[i + 1];
-    cubic_coefficients(values[i], change, d0, d1, span.coefficients.data());
+    spans::cubic_coefficients(values[i], change, d0, d1, span.coefficients.data());
     span.end = units[i + 1];
     spans.push_back(span);
   }

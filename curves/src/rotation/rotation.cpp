@@ -24,8 +24,8 @@ namespace tweenfall {
 
 Quat exp_map(const Vec3& rotation_vector) noexcept {
   const double square = rotation_vector.squaredNorm();
-  if (square < series_limit) {
-    const HalfTurn half = half_turn(square);
+  if (square < rotations::series_limit) {
+    const rotations::HalfTurn half = rotations::half_turn(square);
     const double k = half.sine_share;
     return Quat(half.cosine, k * rotation_vector.x(), k * rotation_vector.y(), k * rotation_vector.z());
   }
@@ -50,14 +50,14 @@ Vec3 log_map(const Quat& q) noexcept {
 }
 
 Mat3 right_jacobian(const Vec3& r) noexcept {
-  const RotationSeries c(r.squaredNorm());
-  const Mat3 k = cross_matrix(r);
+  const rotations::RotationSeries c(r.squaredNorm());
+  const Mat3 k = math::cross_matrix(r);
   return Mat3::Identity() - c.a * k + c.b * (k * k);
 }
 
 Mat3 right_jacobian_inverse(const Vec3& r) noexcept {
-  const Mat3 k = cross_matrix(r);
-  return Mat3::Identity() + 0.5 * k + inverse_jacobian_coefficient(r.squaredNorm()) * (k * k);
+  const Mat3 k = math::cross_matrix(r);
+  return Mat3::Identity() + 0.5 * k + rotations::inverse_jacobian_coefficient(r.squaredNorm()) * (k * k);
 }
 
 Quat hemisphere_aligned(const Quat& q, const Quat& reference) noexcept {

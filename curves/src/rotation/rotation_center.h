@@ -9,7 +9,7 @@
 #include "math/jet.h"
 #include "rotation/moving_rotation.h"
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 
 // From one rotation to another by the short way.
 [[nodiscard]] inline MovingVector short_way(const MovingRotation& from, const MovingRotation& to) noexcept {
@@ -64,14 +64,14 @@ template <class Get, class Weight>
   const Mat3 inverse = slope.inverse();
   Vec3 pull = rest;
   for (std::size_t i = 0; i < count; ++i) {
-    const Jet w = weight(i);
+    const math::Jet w = weight(i);
     const MovingVector r = short_way(center, inner(get(i)));
     pull += w.d * r.value + w.v * r.first;
   }
   center.velocity = inverse * pull;
   pull = rest;
   for (std::size_t i = 0; i < count; ++i) {
-    const Jet w = weight(i);
+    const math::Jet w = weight(i);
     const MovingVector r = short_way(center, inner(get(i)));
     pull += w.dd * r.value + 2 * w.d * r.first + w.v * r.second;
   }
@@ -79,4 +79,4 @@ template <class Get, class Weight>
   return outer(center);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::rotations

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 
 /// Radians, 0 to pi; exact for small angles too.
 [[nodiscard]] inline double rotation_distance(const Quat& a, const Quat& b) noexcept {
@@ -14,4 +14,4 @@ namespace tweenfall {
   return std::sqrt(way.squaredNorm());
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::rotations

@@ -14,21 +14,22 @@ Quat weighted_mean(std::span<const Quat> rotations, std::span<const double> weig
                                 " weights and " + std::to_string(rotations.size()) + " rotations");
   double largest = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
-    const std::string name = "rotation " + std::to_string(i) + " (" + text_of(rotations[i]) + ") ";
+    const std::string name = "rotation " + std::to_string(i) + " (" + spans::text_of(rotations[i]) + ") ";
     if (!(weights[i] >= 0) || !std::isfinite(weights[i]))
-      throw std::invalid_argument(name + "has the weight " + text_of(weights[i]) + "; it must be finite and >= 0");
+      throw std::invalid_argument(name + "has the weight " + spans::text_of(weights[i]) +
+                                  "; it must be finite and >= 0");
     if (!(std::abs(rotations[i].coeffs().squaredNorm() - 1) <= 2e-6))
       throw std::invalid_argument(name + "must have unit length");
     largest = std::max(largest, weights[i]);
   }
   if (!(largest > 0)) throw std::invalid_argument("a mean needs a weight that is not zero");
   if (rotations.size() == 1) return rotations[0];
-  Mat4 sum = Mat4::Zero();
+  math::Mat4 sum = math::Mat4::Zero();
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const Vec4 q = rotations[i].coeffs();
     sum += (weights[i] / largest) * q * q.transpose();
   }
-  const Vec4 q = symmetric_eigen(sum).vectors.col(0);
+  const Vec4 q = math::symmetric_eigen(sum).vectors.col(0);
   return hemisphere_aligned(normalized(Quat(q[3], q[0], q[1], q[2])), rotations[0]);
 }
 

@@ -15,15 +15,16 @@ template <class T>
 void check_angles(const Curve<T>& angles) {
   const auto check = [](double time, double reach, double duration) {
     if (!(reach <= 1e15))
-      throw std::invalid_argument("angles must stay within 1e15 rad; from " + text_of(time) + " s on they reach " +
-                                  text_of(reach) + " rad");
+      throw std::invalid_argument("angles must stay within 1e15 rad; from " + spans::text_of(time) +
+                                  " s on they reach " + spans::text_of(reach) + " rad");
     if (const double rate = 100 * reach / duration; !std::isfinite(rate * rate))
-      throw std::invalid_argument("angles turn faster than numbers can tell, by " + text_of(reach) + " rad within " +
-                                  text_of(duration) + " s from " + text_of(time) + " s on");
+      throw std::invalid_argument("angles turn faster than numbers can tell, by " + spans::text_of(reach) +
+                                  " rad within " + spans::text_of(duration) + " s from " + spans::text_of(time) +
+                                  " s on");
   };
   const auto size = [](const T& value) {
     double largest = 0;
-    for (int i = 0; i < dimensions<T>; ++i) largest = std::max(largest, std::abs(component(value, i)));
+    for (int i = 0; i < spans::dimensions<T>; ++i) largest = std::max(largest, std::abs(spans::component(value, i)));
     return largest;
   };
   if (angles.start() == angles.end()) check(angles.start(), size(angles.value(angles.start())), 1);
@@ -53,8 +54,8 @@ Curve<Quat> euler_curve(const Curve<Vec3>& angles, const EulerOrder& order) {
 
 Curve<Quat> axis_curve(const Vec3& axis, const Curve<double>& angle) {
   const double largest = axis.cwiseAbs().maxCoeff();
-  if (!(largest > 0) || !all_finite(axis))
-    throw std::invalid_argument("an axis must be finite and not zero; it is " + text_of(axis));
+  if (!(largest > 0) || !spans::all_finite(axis))
+    throw std::invalid_argument("an axis must be finite and not zero; it is " + spans::text_of(axis));
   const Vec3 scaled = axis / largest;
   const Vec3 unit = scaled / std::sqrt(scaled.squaredNorm());
   rotations::check_angles(angle);

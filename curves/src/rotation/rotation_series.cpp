@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 
 RotationSeries::RotationSeries(double x) noexcept {
   if (x < series_limit) {
@@ -36,4 +36,4 @@ double inverse_jacobian_coefficient(double x) noexcept {
   return (1 - 0.5 * t * half.cos / half.sin) / x;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::rotations

@@ -2,7 +2,7 @@
 
 // Scalar functions of the angle that stand in the Jacobian of the exponential and its rate.
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 
 /// With x = |r|^2 and t = |r|: a = (1 - cos t)/t^2, b = (t - sin t)/t^3, and a1, b1 their derivatives
 /// with respect to t divided by t (so that a' = a1 (r . r')).
@@ -46,4 +46,4 @@ struct HalfTurn {
 /// (1/x)(1 - (t/2) cot(t/2)): the factor of the squared cross matrix in the inverse Jacobian, x = t^2.
 [[nodiscard]] double inverse_jacobian_coefficient(double square) noexcept;
 
-}  // namespace tweenfall
+}  // namespace tweenfall::rotations

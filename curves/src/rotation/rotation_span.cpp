@@ -4,15 +4,15 @@
 
 #include "rotation/moving_rotation.h"
 
-namespace tweenfall {
+namespace tweenfall::rotations {
 
-Sample<Quat> sample_exponential(const Quat& from, const Polynomial<Vec3>& p) noexcept {
+Sample<Quat> sample_exponential(const Quat& from, const math::Polynomial<Vec3>& p) noexcept {
   MovingRotation turned = exponential({p.value, p.first, p.second});
   turned.value = from * turned.value;
   return outer(turned);
 }
 
-Sample<Quat> sample_normalized(const Polynomial<Vec4>& p, const Quat& fallback) noexcept {
+Sample<Quat> sample_normalized(const math::Polynomial<Vec4>& p, const Quat& fallback) noexcept {
   const double square = p.value.squaredNorm();
   if (!(square > 1e-200)) return {fallback, Vec3::Zero(), Vec3::Zero()};
   const Vec4 unit = p.value / std::sqrt(square);
@@ -49,4 +49,4 @@ Sample<Quat> spun(const Sample<Quat>& sample, const Vec3& spin, const Warp::Resu
   return {turn * sample.value, spinning + carried, s.dds * spin + spinning.cross(carried) + turn * sample.acceleration};
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::rotations

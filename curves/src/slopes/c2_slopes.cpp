@@ -11,7 +11,7 @@ namespace tweenfall::slopes {
 namespace {
 
 // h1 m[k-1] + 2 (h0 + h1) m[k] + h0 m[k+1] = 3 (h1 d0 + h0 d1), divided by h0 + h1, for the key between spans a and b.
-void fill_inner_row(Tridiagonal& rows, std::size_t row, const SlopeProblem& p, std::size_t a, std::size_t b) {
+void fill_inner_row(math::Tridiagonal& rows, std::size_t row, const SlopeProblem& p, std::size_t a, std::size_t b) {
   const double total = p.durations[a] + p.durations[b];
   const double h0 = p.durations[a] / total, h1 = p.durations[b] / total;
   rows.lower[row] = h1;
@@ -21,7 +21,7 @@ void fill_inner_row(Tridiagonal& rows, std::size_t row, const SlopeProblem& p, s
 }
 
 // The row of a run's first key (or last, seen backwards): `own` is its span, `next` the one after that.
-void fill_end_row(Tridiagonal& rows, std::size_t row, std::vector<double>& coupling, const SlopeProblem& p,
+void fill_end_row(math::Tridiagonal& rows, std::size_t row, std::vector<double>& coupling, const SlopeProblem& p,
                   const C2End& end, std::size_t own, std::size_t next, double sign) {
   const double h = p.durations[own];
   if (end.kind == C2End::Kind::not_a_knot && own != next) {
@@ -58,7 +58,7 @@ void fit_parabola(const SlopeProblem& p, C2End& start, C2End& end) {
   }
 }
 
-void store(const SlopeProblem& p, Tridiagonal& rows, bool periodic) {
+void store(const SlopeProblem& p, math::Tridiagonal& rows, bool periodic) {
   const std::size_t count = p.last - p.first;
   for (std::size_t k = 0; k < count; ++k)
     for (std::size_t c = 0; c < p.dimensions; ++c) {
@@ -74,7 +74,7 @@ void solve_c2(const SlopeProblem& p, const C2End& given_start, const C2End& give
   const std::size_t spans = p.last - p.first;
   const bool both_free = start.kind == C2End::Kind::not_a_knot && end.kind == C2End::Kind::not_a_knot;
   if (both_free && spans == 2) fit_parabola(p, start, end);
-  Tridiagonal rows(spans + 1, p.dimensions);
+  math::Tridiagonal rows(spans + 1, p.dimensions);
   const std::size_t last = p.last - 1;
   fill_end_row(rows, 0, rows.upper, p, start, p.first, spans > 1 ? p.first + 1 : p.first, 1);
   for (std::size_t k = 1; k < spans; ++k) fill_inner_row(rows, k, p, p.first + k - 1, p.first + k);
@@ -89,7 +89,7 @@ void solve_c2_periodic(const SlopeProblem& p) {
     for (std::size_t c = 0; c < d; ++c) p.leaving[p.first * d + c] = p.arriving[p.first * d + c] = p.secant(p.first, c);
     return;
   }
-  Tridiagonal rows(spans, d);
+  math::Tridiagonal rows(spans, d);
   for (std::size_t k = 0; k < spans; ++k) {
     const std::size_t a = p.first + (k > 0 ? k - 1 : spans - 1);
     fill_inner_row(rows, k, p, a, p.first + k);

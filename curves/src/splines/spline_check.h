@@ -19,10 +19,10 @@ inline void check_spline_times(std::span<const double> times) {
   if (times.size() < 2) refuse_spline("needs two or more times; " + std::to_string(times.size()) + " were given");
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]))
-      refuse_spline("has the non-finite time " + text_of(times[i]) + " at " + std::to_string(i));
+      refuse_spline("has the non-finite time " + spans::text_of(times[i]) + " at " + std::to_string(i));
     if (i > 0 && !(times[i] > times[i - 1]))
-      refuse_spline("needs increasing times; number " + std::to_string(i) + ", " + text_of(times[i]) +
-                    " s, does not come after " + text_of(times[i - 1]) + " s");
+      refuse_spline("needs increasing times; number " + std::to_string(i) + ", " + spans::text_of(times[i]) +
+                    " s, does not come after " + spans::text_of(times[i - 1]) + " s");
   }
 }
 
@@ -33,8 +33,9 @@ void check_spline_list(std::span<const T> list, std::size_t expected, const char
     refuse_spline("needs " + std::to_string(expected) + " " + what + "s here; " + std::to_string(list.size()) +
                   " were given");
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (!all_finite(list[i]))
-      refuse_spline("has the non-finite " + std::string(what) + " " + text_of(list[i]) + " at " + std::to_string(i));
+    if (!spans::all_finite(list[i]))
+      refuse_spline("has the non-finite " + std::string(what) + " " + spans::text_of(list[i]) + " at " +
+                    std::to_string(i));
 }
 
 }  // namespace tweenfall::splines

@@ -83,14 +83,14 @@ Curve<T> b_spline(int degree, std::span<const double> knots, std::span<const T> 
   for (std::size_t i = 1; i < knots.size(); ++i) {
     if (knots[i] < knots[i - 1])
       splines::refuse_spline("needs knots that do not decrease; number " + std::to_string(i) + ", " +
-                             text_of(knots[i]) + ", lies before " + text_of(knots[i - 1]));
+                             spans::text_of(knots[i]) + ", lies before " + spans::text_of(knots[i - 1]));
     if (i > p && knots[i] == knots[i - p - 1])
       splines::refuse_spline("of degree " + std::to_string(degree) + " can have a knot " + std::to_string(p + 1) +
-                             " times at most; " + text_of(knots[i]) + " stands more often");
+                             " times at most; " + spans::text_of(knots[i]) + " stands more often");
   }
   if (!(knots[n] > knots[p]))
-    splines::refuse_spline("needs knot number " + std::to_string(n) + ", " + text_of(knots[n]) +
-                           ", to lie after number " + std::to_string(p) + ", " + text_of(knots[p]));
+    splines::refuse_spline("needs knot number " + std::to_string(n) + ", " + spans::text_of(knots[n]) +
+                           ", to lie after number " + std::to_string(p) + ", " + spans::text_of(knots[p]));
   std::vector<Span<T>> spans;
   for (std::size_t k = p; k < n; ++k) {
     if (!(knots[k + 1] > knots[k])) continue;

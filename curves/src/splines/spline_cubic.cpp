@@ -23,16 +23,17 @@ struct Interpolation {
     check_spline_times(times);
     check_spline_list(values, times.size() - (ends.closed ? 1 : 0), "value");
     for (const SplineEnd<T>* end : {&ends.start, &ends.end}) {
-      if (!all_finite(end->given)) refuse_spline("has the non-finite number " + text_of(end->given) + " at an end");
+      if (!spans::all_finite(end->given))
+        refuse_spline("has the non-finite number " + spans::text_of(end->given) + " at an end");
       if (ends.closed && end->kind != SplineEnd<T>::Kind::automatic)
         refuse_spline("that is closed has no ends to state");
     }
     durations.reserve(times.size() - 1);
-    secants.reserve(durations.capacity() * static_cast<std::size_t>(dimensions<T>));
+    secants.reserve(durations.capacity() * static_cast<std::size_t>(spans::dimensions<T>));
     for (std::size_t i = 0; i + 1 < times.size(); ++i) {
       durations.push_back(times[i + 1] - times[i]);
-      for (int c = 0; c < dimensions<T>; ++c)
-        secants.push_back((component(value(i + 1), c) - component(value(i), c)) / durations[i]);
+      for (int c = 0; c < spans::dimensions<T>; ++c)
+        secants.push_back((spans::component(value(i + 1), c) - spans::component(value(i), c)) / durations[i]);
     }
   }
 
@@ -40,8 +41,9 @@ struct Interpolation {
 
   [[nodiscard]] T slope(const std::vector<double>& of, std::size_t span) const noexcept {
     T result = zero<T>();
-    for (int c = 0; c < dimensions<T>; ++c)
-      component_of(result, c) = of[span * static_cast<std::size_t>(dimensions<T>) + static_cast<std::size_t>(c)];
+    for (int c = 0; c < spans::dimensions<T>; ++c)
+      spans::component_of(result, c) =
+          of[span * static_cast<std::size_t>(spans::dimensions<T>) + static_cast<std::size_t>(c)];
     return result;
   }
 
@@ -55,7 +57,7 @@ struct Interpolation {
       span.end = value(i + 1);
       const T change = span.end - value(i);
       const T d0 = durations[i] * slope(slopes.leaving, i), d1 = durations[i] * slope(slopes.arriving, i);
-      cubic_coefficients(value(i), change, d0, d1, span.coefficients.data());
+      spans::cubic_coefficients(value(i), change, d0, d1, span.coefficients.data());
     }
     return CurveAccess::from_spans<T>(spans, times.back());
   }
@@ -68,7 +70,7 @@ slopes::C2End c2_end(const SplineEnd<T>& end) {
                        : end.kind == Kind::not_a_knot ? slopes::C2End::Kind::not_a_knot
                                                       : slopes::C2End::Kind::second};
   if (end.kind == Kind::rate || end.kind == Kind::acceleration)
-    for (int c = 0; c < dimensions<T>; ++c) result.given.push_back(component(end.given, c));
+    for (int c = 0; c < spans::dimensions<T>; ++c) result.given.push_back(spans::component(end.given, c));
   return result;
 }
 
@@ -76,11 +78,11 @@ slopes::C2End c2_end(const SplineEnd<T>& end) {
 template <class T>
 void state_ends(Interpolation<T>& frame, const SplineEnds<T>& ends) {
   using Kind = typename SplineEnd<T>::Kind;
-  const std::size_t d = static_cast<std::size_t>(dimensions<T>), spans = frame.durations.size();
+  const std::size_t d = static_cast<std::size_t>(spans::dimensions<T>), spans = frame.durations.size();
   const Kind first = ends.start.kind, last = ends.end.kind;
   for (std::size_t c = 0; c < d; ++c) {
-    const double start = component(ends.start.given, static_cast<int>(c));
-    const double end = component(ends.end.given, static_cast<int>(c));
+    const double start = spans::component(ends.start.given, static_cast<int>(c));
+    const double end = spans::component(ends.end.given, static_cast<int>(c));
     const std::size_t at = (spans - 1) * d + c;
     const double h0 = frame.durations[0], h1 = frame.durations[spans - 1];
     const double d0 = frame.secants[c], d1 = frame.secants[at];
@@ -105,7 +107,7 @@ namespace tweenfall {
 template <class T>
 Curve<T> c2_spline(std::span<const double> times, std::span<const T> values, const SplineEnds<T>& ends) {
   splines::Interpolation<T> frame(times, values, ends);
-  const std::size_t spans = frame.durations.size(), d = static_cast<std::size_t>(dimensions<T>);
+  const std::size_t spans = frame.durations.size(), d = static_cast<std::size_t>(spans::dimensions<T>);
   frame.slopes.leaving.resize(spans * d);
   frame.slopes.arriving.resize(spans * d);
   const SlopeProblem problem{spans,
@@ -146,7 +148,7 @@ Curve<T> cubic_spline(std::span<const double> times, std::span<const T> values, 
     if (end->kind == SplineEnd<T>::Kind::not_a_knot)
       splines::refuse_spline("whose slopes a rule chooses cannot be without a knot; c2_spline can");
   const std::size_t spans = frame.durations.size();
-  keying::SlopeRequest request{static_cast<std::size_t>(dimensions<T>),
+  keying::SlopeRequest request{static_cast<std::size_t>(spans::dimensions<T>),
                                frame.durations,
                                frame.secants,
                                ends.closed ? Ends::wrap : Ends::secant,

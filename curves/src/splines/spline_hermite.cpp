@@ -19,7 +19,7 @@ Curve<T> hermite_spline(std::span<const double> times, std::span<const T> values
     span.degree = 3;
     span.end = values[i + 1];
     const T change = values[i + 1] - values[i], d0 = span.duration * rates[i], d1 = span.duration * rates[i + 1];
-    cubic_coefficients(values[i], change, d0, d1, span.coefficients.data());
+    spans::cubic_coefficients(values[i], change, d0, d1, span.coefficients.data());
   }
   return CurveAccess::from_spans<T>(spans, times.back());
 }
@@ -41,7 +41,7 @@ Curve<T> quintic_spline(std::span<const double> times, std::span<const T> values
     span.end = values[i + 1];
     const T change = values[i + 1] - values[i], d0 = h * rates[i], d1 = h * rates[i + 1];
     const T e0 = (h * h) * accelerations[i], e1 = (h * h) * accelerations[i + 1];
-    quintic_coefficients(values[i], change, d0, d1, e0, e1, span.coefficients.data());
+    spans::quintic_coefficients(values[i], change, d0, d1, e0, e1, span.coefficients.data());
   }
   return CurveAccess::from_spans<T>(spans, times.back());
 }

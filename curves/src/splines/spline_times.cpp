@@ -14,8 +14,8 @@ std::vector<double> spline_times(std::span<const T> points, Parametrization para
   std::vector<double> times = {0};
   for (std::size_t i = 1; i < n + (closed ? 1 : 0); ++i) {
     double square = 0;
-    for (int c = 0; c < dimensions<T>; ++c) {
-      const double step = component(points[i % n], c) - component(points[i - 1], c);
+    for (int c = 0; c < spans::dimensions<T>; ++c) {
+      const double step = spans::component(points[i % n], c) - spans::component(points[i - 1], c);
       square += step * step;
     }
     const double distance = std::sqrt(square);
@@ -25,7 +25,8 @@ std::vector<double> spline_times(std::span<const T> points, Parametrization para
     const double next = times.back() + advance;
     if (!(next > times.back()) || !std::isfinite(next))
       splines::refuse_spline("whose times go by distance needs points apart; number " + std::to_string(i % n) + ", " +
-                             text_of(points[i % n]) + ", lies " + text_of(distance) + " from the one before it");
+                             spans::text_of(points[i % n]) + ", lies " + spans::text_of(distance) +
+                             " from the one before it");
     times.push_back(next);
   }
   return times;

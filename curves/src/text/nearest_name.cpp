@@ -5,6 +5,7 @@
 
 namespace tweenfall {
 
+namespace words {
 namespace {
 
 constexpr std::size_t longest_compared = 64;  // names beyond this are not misspelled words
@@ -21,6 +22,7 @@ bool goes_on(std::string_view name, std::string_view start) {
 }
 
 }  // namespace
+}  // namespace words
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), next(b.size() + 1);
@@ -28,9 +30,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   for (std::size_t i = 1; i <= a.size(); ++i) {
     next[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = alike(a[i - 1], b[j - 1]) ? 0 : 1;
+      const std::size_t change = words::alike(a[i - 1], b[j - 1]) ? 0 : 1;
       next[j] = std::min({row[j] + 1, next[j - 1] + 1, row[j - 1] + change});
-      if (i > 1 && j > 1 && alike(a[i - 1], b[j - 2]) && alike(a[i - 2], b[j - 1]))
+      if (i > 1 && j > 1 && words::alike(a[i - 1], b[j - 2]) && words::alike(a[i - 2], b[j - 1]))
         next[j] = std::min(next[j], before[j - 2] + 1);
     }
     std::swap(before, row);
@@ -40,12 +42,12 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest_name(std::string_view wrong, std::span<const std::string> names) {
-  if (wrong.size() > longest_compared) return {};
-  names = names.first(std::min(names.size(), most_compared));
+  if (wrong.size() > words::longest_compared) return {};
+  names = names.first(std::min(names.size(), words::most_compared));
   std::string best;
   std::size_t fewest = std::max<std::size_t>(1, wrong.size() / 3) + 1;
   for (const std::string& name : names) {
-    if (name.size() > longest_compared) continue;
+    if (name.size() > words::longest_compared) continue;
     const std::size_t edits = edit_distance(wrong, name);
     if (edits >= fewest) continue;
     fewest = edits;
@@ -53,7 +55,7 @@ std::string nearest_name(std::string_view wrong, std::span<const std::string> na
   }
   if (!best.empty() || wrong.size() < 2) return best;
   for (const std::string& name : names)
-    if (name.size() <= longest_compared && goes_on(name, wrong)) return name;
+    if (name.size() <= words::longest_compared && words::goes_on(name, wrong)) return name;
   return best;
 }
 

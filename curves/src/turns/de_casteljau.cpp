@@ -11,7 +11,7 @@ void set_de_casteljau(RotationSpan& span, const Quat& a, const Quat& b, const Qu
   const Quat* controls[] = {&a, &b, &c, &d};
   for (std::size_t i = 0; i < 3; ++i) {
     span.coefficients[i] = controls[i]->coeffs();
-    span.coefficients[3 + i] = padded(signed_log(controls[i]->conjugate() * *controls[i + 1]));
+    span.coefficients[3 + i] = padded(rotations::signed_log(controls[i]->conjugate() * *controls[i + 1]));
   }
   span.coefficients[6] = {0, 1, 0, 1};
   span.coefficients[7] = {1, 0, 0, 0};
@@ -34,8 +34,8 @@ void turns_de_casteljau(const TurnProblem& p) {
     const Quat a = stretch.from, d = stretch.near_to();
     const bool open = p.starts_open(i), shut = !p.ends_open(i);
     Quat b = a * exp_map(leaving / 3), c = d * exp_map(-arriving / 3);
-    if (open && shut) b = a * exp_map(signed_log(a.conjugate() * c) / 2);
-    if (!open && !shut) c = d * exp_map(signed_log(d.conjugate() * b) / 2);
+    if (open && shut) b = a * exp_map(rotations::signed_log(a.conjugate() * c) / 2);
+    if (!open && !shut) c = d * exp_map(rotations::signed_log(d.conjugate() * b) / 2);
     set_de_casteljau(span, a, b, c, d);
     p.spans.push_back(span);
   }

@@ -21,20 +21,20 @@ struct Part {
         spin_rate(s.spin / s.duration),
         jacobian(right_jacobian(s.way)),
         inverse(right_jacobian_inverse(s.way)),
-        spin_cross(cross_matrix(spin_rate)) {}
+        spin_cross(math::cross_matrix(spin_rate)) {}
 
   // Rate of the rotation vector where the body arrives with the angular velocity v.
   [[nodiscard]] Vec3 vector_rate(const Vec3& v) const noexcept { return inverse * Vec3(v - spin_rate); }
 
   // What arriving adds to the acceleration beyond J r'', and its derivative with respect to v.
-  [[nodiscard]] Vec3 bend(const Vec3& v) const noexcept { return bent_acceleration(way, vector_rate(v)); }
+  [[nodiscard]] Vec3 bend(const Vec3& v) const noexcept { return rotations::bent_acceleration(way, vector_rate(v)); }
   [[nodiscard]] Mat3 bend_slope(const Vec3& v) const noexcept {
     // A quadratic form: its derivative along d is (B(w + d) - B(w - d)) / 2, exactly.
     const Vec3 w = vector_rate(v);
     Mat3 result;
     for (int c = 0; c < 3; ++c) {
       const Vec3 d = inverse.col(c);
-      result.col(c) = 0.5 * (bent_acceleration(way, w + d) - bent_acceleration(way, w - d));
+      result.col(c) = 0.5 * (rotations::bent_acceleration(way, w + d) - rotations::bent_acceleration(way, w - d));
     }
     return result;
   }

@@ -29,7 +29,7 @@ static void turns_squad(const TurnProblem& p) {
     span.coefficients[0] = stretch.from.coeffs();
     span.coefficients[3] = padded(stretch.way);
     span.coefficients[1] = span.coefficients[2] = b.coeffs();
-    span.coefficients[4] = span.coefficients[5] = padded(signed_log(b.conjugate() * c));
+    span.coefficients[4] = span.coefficients[5] = padded(rotations::signed_log(b.conjugate() * c));
     span.coefficients[7] = {2, -2, 0, 0};
     p.spans.push_back(span);
   }

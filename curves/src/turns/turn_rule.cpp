@@ -21,7 +21,7 @@ RotationSpan cubic_turn(const Stretch& stretch, const Vec3& leaving, const Vec3&
   span.degree = 3;
   const Vec4 from(0, 0, 0, 0), change = padded(stretch.way);
   const Vec4 d0 = padded(leaving), d1 = padded(right_jacobian_inverse(stretch.way) * arriving);
-  cubic_coefficients(from, change, d0, d1, span.coefficients.data());
+  spans::cubic_coefficients(from, change, d0, d1, span.coefficients.data());
   return span;
 }
 

@@ -7,6 +7,7 @@
 
 namespace tweenfall {
 
+namespace handing_over {
 namespace {
 
 Mat3 cross_matrix(const Vec3& v) {
@@ -63,6 +64,7 @@ ClockOverride recovered_clock(const Animation& animation, const ClockOverride& b
 }
 
 }  // namespace
+}  // namespace handing_over
 
 WorldMotion carried(const WorldMotion& world, const Motion& to) noexcept {
   const Motion& from = world.motion;
@@ -73,8 +75,8 @@ WorldMotion carried(const WorldMotion& world, const Motion& to) noexcept {
   result.motion.scale_rate = from.scale_rate;
   result.linear = turn * world.linear;
   // linear = R M: what turns is replaced, what deforms stays.
-  const Mat3 deforming = world.linear_rate - cross_matrix(from.twist.angular) * world.linear;
-  result.linear_rate = turn * deforming + cross_matrix(to.twist.angular) * result.linear;
+  const Mat3 deforming = world.linear_rate - handing_over::cross_matrix(from.twist.angular) * world.linear;
+  result.linear_rate = turn * deforming + handing_over::cross_matrix(to.twist.angular) * result.linear;
   return result;
 }
 
@@ -120,12 +122,12 @@ Path Path::rebound(std::shared_ptr<const Animation> animation) const {
 
 Path Path::recovered(double time, const HandBack& settings, const Motion& body, double released_at) const {
   Path path(animation_, node_, time);
-  path.clock_ = recovered_clock(*animation_, clock_, time, settings, released_at);
+  path.clock_ = handing_over::recovered_clock(*animation_, clock_, time, settings, released_at);
 
   if (settings.anchor == HandBack::Anchor::keep) {
     path.anchor_ = anchor_;
   } else {
-    path.anchor_ = anchor_onto(path.authored(time, Side::out).motion.pose, body.pose, settings.anchor);
+    path.anchor_ = handing_over::anchor_onto(path.authored(time, Side::out).motion.pose, body.pose, settings.anchor);
   }
   path.settle_ = SettleOffset(settings.settle, time, path.anchored(path.authored(time, Side::out)).motion, body);
   return path;

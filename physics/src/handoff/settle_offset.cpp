@@ -8,6 +8,7 @@
 
 namespace tweenfall {
 
+namespace handing_over {
 namespace {
 
 /// exp(r) q for a rotation vector in world axes: the left Jacobian is the right one of -r.
@@ -29,6 +30,7 @@ Motion turned(Motion motion, const Vec3& turn, const Vec3& turn_rate) {
 }
 
 }  // namespace
+}  // namespace handing_over
 
 SettleOffset::SettleOffset(const Settle& settle, double time, const Motion& path, const Motion& body)
     : settle_(settle), start_(time), any_(true), body_(body) {
@@ -41,7 +43,7 @@ SettleOffset::SettleOffset(const Settle& settle, double time, const Motion& path
   const Quat relative = hemisphere_aligned(body.pose.rotation * path.pose.rotation.conjugate(), Quat(1, 0, 0, 0));
   const Vec3 turn = log_map(relative);
   const Vec3 difference = body.twist.angular - relative * path.twist.angular;
-  const Vec3 turn_rate = left_jacobian_inverse(turn) * difference;
+  const Vec3 turn_rate = handing_over::left_jacobian_inverse(turn) * difference;
 
   for (int i = 0; i < 6; ++i) {
     const double value = i < 3 ? offset[i] : turn[i - 3], rate = i < 3 ? offset_rate[i] : turn_rate[i - 3];
@@ -73,7 +75,7 @@ Motion SettleOffset::apply(double time, const Motion& path) const noexcept {
       turn[i] = (1 - fade) * (value + speed * since);
       turn_rate[i] = (1 - fade) * speed - rate * (value + speed * since);
     }
-    return turned(mixed, turn, turn_rate);
+    return handing_over::turned(mixed, turn, turn_rate);
   }
 
   Vec3 offset, offset_rate, turn, turn_rate;
@@ -87,7 +89,7 @@ Motion SettleOffset::apply(double time, const Motion& path) const noexcept {
   Motion settled = path;
   settled.pose.position += offset;
   settled.twist.linear += offset_rate;
-  return turned(settled, turn, turn_rate);
+  return handing_over::turned(settled, turn, turn_rate);
 }
 
 }  // namespace tweenfall

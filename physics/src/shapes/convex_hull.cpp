@@ -27,6 +27,7 @@ struct ConvexHull::Data {
   [[nodiscard]] bool holds(std::span<const Vec3> points, double within) const;
 };
 
+namespace shapes {
 namespace {
 
 constexpr double least_extent = 1e-6, greatest_extent = 1e6;  // m
@@ -67,9 +68,10 @@ ConvexHull::Face face_of(std::span<const Vec3> vertices, std::span<const std::ui
 }
 
 }  // namespace
+}  // namespace shapes
 
 bool ConvexHull::Data::make(std::span<const Vec3> points, double flat) {
-  const std::vector<std::vector<std::uint32_t>> loops = hull_polygons(points, flat);
+  const std::vector<std::vector<std::uint32_t>> loops = shapes::hull_polygons(points, flat);
   // Vertices get their numbers in the order of the points.
   std::vector<std::uint32_t> number(points.size(), 0);
   for (const auto& loop : loops)
@@ -83,7 +85,7 @@ bool ConvexHull::Data::make(std::span<const Vec3> points, double flat) {
   for (const auto& loop : loops) {
     const auto first = static_cast<std::uint32_t>(corners.size());
     for (const std::uint32_t corner : loop) corners.push_back(number[corner]);
-    faces.push_back(face_of(vertices, std::span(corners).subspan(first), first));
+    faces.push_back(shapes::face_of(vertices, std::span(corners).subspan(first), first));
   }
   return connect() && holds(points, 32 * flat);
 }
@@ -120,15 +122,15 @@ bool ConvexHull::Data::holds(std::span<const Vec3> points, double within) const 
 }
 
 ConvexHull::ConvexHull(std::span<const Vec3> points) {
-  require_usable(points);
+  shapes::require_usable(points);
   std::shared_ptr<Data> data;
   // Points that are not exact to the usual thickness of planes may be to a greater one.
-  double flat = flat_distance(points);
+  double flat = shapes::flat_distance(points);
   for (int attempt = 0; attempt < 4 && !data; ++attempt, flat *= 8) {
     auto made = std::make_shared<Data>();
     if (made->make(points, flat)) data = std::move(made);
   }
-  if (!data) refuse_rounding(points.size());
+  if (!data) shapes::refuse_rounding(points.size());
   if (data->vertices.size() > most_vertices)
     throw std::invalid_argument("a convex hull can have " + std::to_string(most_vertices) +
                                 " vertices, but these points make " + std::to_string(data->vertices.size()) +
@@ -136,7 +138,7 @@ ConvexHull::ConvexHull(std::span<const Vec3> points) {
   data_ = data;
   data->measures = measure(surface());
   const Vec3& center = data->measures.center;
-  data->inner_radius = greatest_extent;
+  data->inner_radius = shapes::greatest_extent;
   for (const Face& face : data->faces)
     data->inner_radius = std::min(data->inner_radius, face.offset - face.normal.dot(center));
   for (const Vec3& vertex : data->vertices) data->outer_radius = std::max(data->outer_radius, (vertex - center).norm());

@@ -6,7 +6,7 @@
 
 #include "shapes/hull_triangles.h"
 
-namespace tweenfall {
+namespace tweenfall::shapes {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::vector<std::vector<std::uint32_t>> hull_polygons(std::span<const Vec3> poin
   return loops;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::shapes

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-namespace tweenfall {
+namespace tweenfall::shapes {
 
 namespace {
 
@@ -223,4 +223,4 @@ std::vector<HullTriangle> hull_triangles(std::span<const Vec3> points, double fl
   return QuickHull(points, flat).triangles();
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::shapes

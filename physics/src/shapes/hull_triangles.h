@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::shapes {
 
 /// How near to a plane points lie in it: above what single precision leaves of a coordinate, m.
 [[nodiscard]] double flat_distance(std::span<const Vec3> points) noexcept;
@@ -23,4 +23,4 @@ struct HullTriangle {
 /// @throws std::invalid_argument for points that all lie in one plane
 [[nodiscard]] std::vector<HullTriangle> hull_triangles(std::span<const Vec3> points, double flat);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::shapes

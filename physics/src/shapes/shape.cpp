@@ -11,6 +11,7 @@
 
 namespace tweenfall {
 
+namespace shapes {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -46,16 +47,17 @@ Vec3 principal_inertia(const Capsule& capsule, double mass) {
 }
 
 }  // namespace
+}  // namespace shapes
 
 void validate(const Solid& solid) {
   if (const auto* sphere = std::get_if<Sphere>(&solid)) {
-    require_positive(sphere->radius, "radius of a sphere");
+    shapes::require_positive(sphere->radius, "radius of a sphere");
   } else if (const auto* box = std::get_if<Box>(&solid)) {
-    require_positive(box->half_extents.x(), "half extent x of a box");
-    require_positive(box->half_extents.y(), "half extent y of a box");
-    require_positive(box->half_extents.z(), "half extent z of a box");
+    shapes::require_positive(box->half_extents.x(), "half extent x of a box");
+    shapes::require_positive(box->half_extents.y(), "half extent y of a box");
+    shapes::require_positive(box->half_extents.z(), "half extent z of a box");
   } else if (const auto* capsule = std::get_if<Capsule>(&solid)) {
-    require_positive(capsule->radius, "radius of a capsule");
+    shapes::require_positive(capsule->radius, "radius of a capsule");
     if (!(capsule->half_height >= 0) || !std::isfinite(capsule->half_height))
       throw std::invalid_argument("half height of a capsule must not be negative and must be finite, but is " +
                                   number_text(capsule->half_height));
@@ -70,26 +72,26 @@ void validate(const Solid& solid) {
 
 double volume(const Solid& solid) noexcept {
   if (const auto* sphere = std::get_if<Sphere>(&solid)) {
-    return 4 * pi / 3 * sphere->radius * sphere->radius * sphere->radius;
+    return 4 * shapes::pi / 3 * sphere->radius * sphere->radius * sphere->radius;
   }
   if (const auto* box = std::get_if<Box>(&solid)) return 8 * box->half_extents.prod();
   if (const auto* capsule = std::get_if<Capsule>(&solid)) {
-    return pi * capsule->radius * capsule->radius * (2 * capsule->half_height + 4 * capsule->radius / 3);
+    return shapes::pi * capsule->radius * capsule->radius * (2 * capsule->half_height + 4 * capsule->radius / 3);
   }
   if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.measures().volume;
   return std::numeric_limits<double>::infinity();
 }
 
 MassProperties mass_properties(const Shape& shape, double mass) {
-  require_positive(mass, "mass");
+  shapes::require_positive(mass, "mass");
   Vec3 center(0, 0, 0);
   Mat3 inertia;
   if (const auto* sphere = std::get_if<Sphere>(&shape.solid)) {
-    inertia = principal_inertia(*sphere, mass).asDiagonal();
+    inertia = shapes::principal_inertia(*sphere, mass).asDiagonal();
   } else if (const auto* box = std::get_if<Box>(&shape.solid)) {
-    inertia = principal_inertia(*box, mass).asDiagonal();
+    inertia = shapes::principal_inertia(*box, mass).asDiagonal();
   } else if (const auto* capsule = std::get_if<Capsule>(&shape.solid)) {
-    inertia = principal_inertia(*capsule, mass).asDiagonal();
+    inertia = shapes::principal_inertia(*capsule, mass).asDiagonal();
   } else if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
     const MeshMeasures& measures = hull->convex.measures();
     center = measures.center;
@@ -108,7 +110,7 @@ MassProperties mass_properties(const Shape& shape, double mass) {
 }
 
 MassProperties mass_properties(const SurfaceMesh& mesh, double mass) {
-  require_positive(mass, "mass");
+  shapes::require_positive(mass, "mass");
   if (!is_closed(mesh)) throw std::invalid_argument("only a closed mesh has mass properties; this one has open edges");
   const MeshMeasures measures = measure(mesh);
   if (!(measures.volume > 0))
