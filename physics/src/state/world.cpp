@@ -150,6 +150,7 @@ void World::Implementation::forget_impulses(std::uint32_t index) {
   for (const std::size_t place : constraints_of(index)) {
     ContactConstraint& constraint = constraints[place];
     constraint.kept_rolling = Vec3::Zero();
+    constraint.kept_twist = 0;
     for (PointConstraint& point : constraint.points) {
       point.kept_normal = 0;
       point.kept_friction = Vec3::Zero();

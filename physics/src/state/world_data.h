@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "blocks/block_solver.h"
 #include "forces/forces.h"
 #include "pairs/broad_phase.h"
 #include "state/body.h"
@@ -53,6 +54,8 @@ struct World::Implementation {
   Islands islands;
   IslandSorter island_sorter;
   Solver solver;
+  blocks::BlockSolver block_solver;
+  std::vector<char> moved;  ///< by a solver in this step
 
   Body& at(BodyId id);
   const Body& at(BodyId id) const;

@@ -40,6 +40,8 @@ struct ContactConstraint {
   double rolling_friction = 0;
   Vec3 kept_rolling{0, 0, 0};
   double kept_step = 0;    ///< length of the sub-step that kept impulses are of, s; 0: none are
+  double kept_twist = 0;   ///< about the normal, where friction acts at the middle of the points, N m s
+  bool slid = false;       ///< at the end of the last step that was solved in blocks
   double passed_over = 0;  ///< time since then in sub-steps too short to be kept, s
   Vec3 rolling_impulse{0, 0, 0};
   Vec3 total_rolling{0, 0, 0};

@@ -14,12 +14,6 @@ double mass_along(const SolverBody& a, const SolverBody& b, const PointConstrain
   return inverse > 0 ? 1 / inverse : 0;
 }
 
-namespace {
-
-struct Tangents {
-  Vec3 first, second;
-};
-
 Tangents tangents_of(const Vec3& normal) {
   const Vec3 helper = std::abs(normal.x()) < 0.57 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   Tangents tangents;
@@ -28,8 +22,6 @@ Tangents tangents_of(const Vec3& normal) {
   tangents.second = normal.cross(tangents.first);
   return tangents;
 }
-
-}  // namespace
 
 double solve_friction(SolverBody& a, SolverBody& b, PointConstraint& point, Vec3& impulse, double limit,
                       const Vec3& normal) {

@@ -16,6 +16,12 @@ inline void push(SolverBody& body, const Vec3& impulse, const Vec3& arm) {
   body.angular += body.inverse_inertia * arm.cross(impulse);
 }
 
+/// Two unit vectors across a normal and each other.
+struct Tangents {
+  Vec3 first, second;
+};
+[[nodiscard]] Tangents tangents_of(const Vec3& normal);
+
 /// What a unit of speed along `direction` takes, kg.
 [[nodiscard]] double mass_along(const SolverBody& a, const SolverBody& b, const PointConstraint& point,
                                 const Vec3& direction);

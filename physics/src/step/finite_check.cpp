@@ -42,9 +42,8 @@ void World::Implementation::check_bodies(double dt, double at) const {
   for (const std::uint32_t i : watched) {
     if (step::countable(bodies[i])) continue;
     // Without a step behind it, the body had been left so.
-    const std::string cause = i < starts.size() && dt > 0
-                                  ? step::cause_of(starts[i].twist, loads[i], solver.moved(i), dt)
-                                  : "it was not finite before the step";
+    const std::string cause = i < starts.size() && dt > 0 ? step::cause_of(starts[i].twist, loads[i], moved[i] != 0, dt)
+                                                          : "it was not finite before the step";
     throw NotFinite({i, bodies[i].generation}, at, cause);
   }
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "step/contact_rows.h"
+#include "step/island_energy.h"
 #include "step/solver.h"
 
 namespace tweenfall {
@@ -15,22 +16,6 @@ namespace {
 
 /// A change of velocity by the rebound that no longer matters, m/s.
 constexpr double quiet = 1e-14;
-
-/// Energy of an island through a sub-step, J.
-struct IslandEnergy {
-  double limit = 0;                              ///< what it may have after: what it had, and the work done on it
-  double without = 0, slope = 0, curvature = 0;  ///< kinetic, by the share of the rebound that is let through
-};
-
-/// The greatest share of the rebound that stays within the limit.
-double share_within(const IslandEnergy& energy) {
-  const double excess = energy.without - energy.limit;
-  if (!(excess + energy.slope + energy.curvature > 0)) return 1;
-  if (!(energy.curvature > 0)) return 1;
-  const double square = energy.slope * energy.slope - 4 * energy.curvature * excess;
-  if (!(square >= 0) || excess > 0) return 0;
-  return std::clamp((std::sqrt(square) - energy.slope) / (2 * energy.curvature), 0.0, 1.0);
-}
 
 /// Whether a point that shall rebound was reached.
 bool rebounds(const ContactConstraint* contact) {
@@ -103,30 +88,23 @@ void Solver::move_by_rebound(const ContactConstraint& constraint) {
 
 /// Takes back as much of the rebound as would leave the island more energy than it had and than was put into it.
 void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts) {
-  IslandEnergy energy;
+  step::IslandEnergy energy;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const SolverBody& entry = bodies_[i];
     if (!entry.movable) continue;
     const Body& body = bodies[entry.index];
-    const Load& load = loads[entry.index];
     const SubStepStart& start = starts_[i];
-    const double mass = body.mass.mass;
-    const Vec3 force = 0.5 * mass * (load.acceleration + load.end_acceleration);
-    energy.limit += 0.5 * mass * start.linear.squaredNorm() +
-                    0.5 * start.angular.dot(body.world_inertia(start.rotation) * start.angular) +
-                    force.dot(entry.center - start.center);
-    if (load.torque != Vec3::Zero())
-      energy.limit += load.torque.dot(log_map(entry.rotation * start.rotation.conjugate()));
     // The work of a drive or a stiff spring is not known: the island is left as it is.
-    if (entry.sprung || body.drive.owner() == Owner::driven) energy.limit = std::numeric_limits<double>::infinity();
-    const Mat3 inertia = body.world_inertia(entry.rotation);
-    const Vec3 linear = entry.linear - start.linear_before_rebound;
-    const Vec3 angular = entry.angular - start.angular_before_rebound;
-    const Vec3 momentum = inertia * start.angular_before_rebound;
-    energy.without +=
-        0.5 * mass * start.linear_before_rebound.squaredNorm() + 0.5 * start.angular_before_rebound.dot(momentum);
-    energy.slope += mass * linear.dot(start.linear_before_rebound) + angular.dot(momentum);
-    energy.curvature += 0.5 * mass * linear.squaredNorm() + 0.5 * angular.dot(inertia * angular);
+    if (entry.sprung || body.drive.owner() == Owner::driven) return;
+    step::BodyCourse course;
+    course.start = {start.linear, start.angular};
+    course.start_center = start.center;
+    course.start_rotation = start.rotation;
+    course.before = {start.linear_before_rebound, start.angular_before_rebound};
+    course.after = {entry.linear, entry.angular};
+    course.center = entry.center;
+    course.rotation = entry.rotation;
+    energy.add(body, loads[entry.index], course);
   }
   // What moves by its own will does work on what it pushes.
   for (const ContactConstraint* contact : contacts) {
@@ -141,7 +119,7 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Loa
           a.movable ? -impulse.dot(point_velocity(b, point.arm_b)) : impulse.dot(point_velocity(a, point.arm_a));
     }
   }
-  const double share = share_within(energy);
+  const double share = energy.share_within();
   if (share == 1) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     SolverBody& entry = bodies_[i];

@@ -87,7 +87,7 @@ void World::Implementation::let_sleep(double dt) {
       const bool driven = body.drive.owner() == Owner::driven;
       const double speed = settings.sleep_speed * (driven ? step::driven_share : 1);
       bool still = !carried[islands.of(i)] && !starts[i].led && step::still(body, starts[i], speed, dt);
-      if (flags[i] && !solver.moved(i))
+      if (flags[i] && !moved[i])
         still = still && loads[i].acceleration.norm() * settings.sleep_after < step::pulling_share * speed;
       body.still_for = still ? body.still_for + dt : 0;
     } else {

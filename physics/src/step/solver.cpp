@@ -5,30 +5,24 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "forces/drive_law.h"
 #include "step/contact_rows.h"
+#include "step/meeting.h"
 
 namespace tweenfall {
 
 using step::point_velocity;
 using step::push;
+using step::Softness;
+using step::sub_steps;
 
 namespace {
 
-/// Frequency of soft contacts times the sub-step, and their damping ratio.
-constexpr double soft_cycles = 0.125;
-constexpr double soft_damping = 10;
-/// Sub-steps in a step; the passes are shared out among them.
-constexpr int sub_steps = 8;
 /// In islands of up to this many contacts every sub-step may take all passes: few contacts are solved to the end.
 constexpr std::size_t few = 24;
 /// A change of velocity that no longer matters, m/s.
 constexpr double settled = 1e-14;
-/// In shorter sub-steps than this overlap is taken apart more slowly, in the end not at all: the speed that it needs is
-/// the shorter the step the greater, and would be a blow, s.
-constexpr double unhurried = 1e-3 / sub_steps;
 /// Impulses are kept from sub-steps of at least this part of the length of the last one kept: what shorter ones hold is
 /// mostly rounding, which would grow with the ratio of lengths.
 constexpr double long_enough = 0.5;
@@ -40,37 +34,11 @@ bool pulls_without_limit(const Body& body) {
   return body.drive.owner() == Owner::driven && std::isinf(body.drive.max_force) && std::isinf(body.drive.max_torque);
 }
 
-/// When and how fast a gap closes within a span of time; `span` and 0 when it does not.
-struct Meeting {
-  double time, speed;
-};
-
-Meeting meeting_of(double gap, double closing, double pull, double span) {
-  if (!(gap > 0)) return {0, closing};
-  const double square = closing * closing + 2 * pull * gap;
-  const double root = square > 0 ? std::sqrt(square) : 0;
-  const double time = square >= 0 && closing + root > 0 ? 2 * gap / (closing + root) : span;
-  return {time, time < span ? root : 0};
-}
-
-/// Closing acceleration free of contacts, and the speed below which a rebound would only be a tremble: what gravity
-/// makes of a step or two. Two bodies that fall together do not close, but what lies under them makes them tremble.
-struct Closing {
-  double pull, tremble;
-};
-
-Closing closing_of(const std::vector<Load>& loads, const ContactConstraint& constraint, double dt) {
-  const double a = constraint.manifold.normal.dot(loads[constraint.a].acceleration);
-  const double b = constraint.manifold.normal.dot(loads[constraint.b].acceleration);
-  return {a - b, std::max(1e-7, 2 * std::max(std::abs(a), std::abs(b)) * dt)};
-}
-
 }  // namespace
 
 void Solver::begin(std::size_t bodies) {
   bodies_.clear();
   slots_.assign(bodies, nowhere);
-  moved_.assign(bodies, 0);
 }
 
 void Solver::gather(const std::vector<Body>& bodies, Contacts contacts, Springs springs, double dt) {
@@ -114,39 +82,19 @@ void Solver::gather(const std::vector<Body>& bodies, Contacts contacts, Springs 
   starts_.resize(bodies_.size());
 }
 
-void Solver::foresee(const std::vector<Load>& loads, ContactConstraint& constraint, double dt) const {
-  const SolverBody& a = at(constraint.a);
-  const SolverBody& b = at(constraint.b);
-  const Vec3& normal = constraint.manifold.normal;
-  const auto [pull, tremble] = closing_of(loads, constraint, dt);
-  constraint.impact = false;
-  for (int i = 0; i < constraint.count; ++i) {
-    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-    point.arm_a = point.start_arm_a;
-    point.arm_b = point.start_arm_b;
-    point.gap = point.start_gap;
-    point.total_normal = 0;
-    point.total_friction = Vec3::Zero();
-    const double closing = normal.dot(point_velocity(a, point.arm_a) - point_velocity(b, point.arm_b));
-    point.approach = std::max(0.0, meeting_of(point.gap, closing, pull, dt).speed);
-    constraint.impact = constraint.impact || point.approach > tremble;
-  }
-  constraint.total_rolling = Vec3::Zero();
-}
-
 void Solver::meet(const std::vector<Load>& loads, ContactConstraint& constraint, double h, double dt) const {
   const SolverBody& a = at(constraint.a);
   const SolverBody& b = at(constraint.b);
   const Vec3& normal = constraint.manifold.normal;
   // Forces change the velocity of the center on the way, and a spin changes by itself: what is left of it counts.
   const Vec3 linear = starts_[slots_[constraint.a]].linear - starts_[slots_[constraint.b]].linear;
-  const auto [pull, tremble] = closing_of(loads, constraint, dt);
+  const auto [pull, tremble] = step::closing_of(normal, loads[constraint.a], loads[constraint.b], dt);
   constraint.rebounds = false;
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
     point.rebound = point.rebound_time = 0;
     const double closing = normal.dot(linear + a.angular.cross(point.arm_a) - b.angular.cross(point.arm_b));
-    const auto [time, speed] = meeting_of(point.gap, closing, pull, h);
+    const auto [time, speed] = step::meeting_of(point.gap, closing, pull, h);
     if (!(speed > tremble)) continue;
     point.approach = std::max(point.approach, speed);
     const double left = h - time;
@@ -382,10 +330,13 @@ void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
 }
 
 void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, Springs springs,
-                   const WorldSettings& settings, double dt) {
+                   const WorldSettings& settings, double dt, std::vector<char>& moved) {
   gather(bodies, contacts, springs, dt);
   for (ContactConstraint* contact : contacts) {
-    foresee(loads, *contact, dt);
+    const SolverBody& a = at(contact->a);
+    const SolverBody& b = at(contact->b);
+    const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+    step::foresee(*contact, {a.linear, a.angular}, {b.linear, b.angular}, closing, dt);
     if (!contact->impact) continue;
     at(contact->a).impact = true;
     at(contact->b).impact = true;
@@ -395,12 +346,8 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Co
   const int share = thorough ? settings.iterations : settings.iterations / sub_steps;
   const int relaxing = std::max(1, share / 2);
   const int passes = std::max(1, share - relaxing);
-  const double turn = 2 * std::numbers::pi * soft_cycles;
-  const double stiffness = turn * (2 * soft_damping + turn);
   const Softness hard;
-  const double hurry = std::min(1.0, h / unhurried);
-  const Softness soft{hurry * hurry * turn / (h * (2 * soft_damping + turn)), settings.push_out_speed,
-                      stiffness / (1 + stiffness), 1 / (1 + stiffness)};
+  const Softness soft = step::soft_contacts(settings.push_out_speed, h);
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
     for (ContactConstraint* contact : contacts) {
@@ -436,7 +383,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Co
     body.center = entry.center;
     body.twist = {entry.linear, entry.angular};
     body.follow_center(entry.rotation);
-    moved_[entry.index] = 1;
+    moved[entry.index] = 1;
   }
 }
 

@@ -5,18 +5,11 @@
 
 #include "forces/free_flight.h"
 #include "step/contact_constraint.h"
+#include "step/softness.h"
 #include "step/solver_body.h"
 #include "step/spring_row.h"
 
 namespace tweenfall {
-
-/// How an overlapping contact gives way while positions are corrected.
-struct Softness {
-  double rate = 0;    ///< share of the overlap that is taken apart, 1/s
-  double speed = 0;   ///< at most, m/s
-  double firm = 1;    ///< share of the speed error met by a pass
-  double giving = 0;  ///< share of the impulse let go by a pass
-};
 
 /// A body at the start of a sub-step, and before its rebound.
 struct SubStepStart {
@@ -35,25 +28,23 @@ class Solver {
   using Contacts = std::span<ContactConstraint* const>;
   using Springs = std::span<SpringRow* const>;
 
-  /// Before the islands of a step: no body was moved yet.
+  /// Before the islands of a step.
   void begin(std::size_t bodies);
   /// Moves all bodies of one island that `contacts` touch or `springs` hold by `dt`; fills in the contacts' impulses.
-  /// Afterwards `moved(index)` says whether a body was moved here.
   /// @param springs  those too stiff to be part of the loads
+  /// @param moved  by index: set for the bodies that were moved
   void solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, Springs springs,
-             const WorldSettings& settings, double dt);
-  [[nodiscard]] bool moved(std::size_t index) const { return moved_[index] != 0; }
+             const WorldSettings& settings, double dt, std::vector<char>& moved);
 
  private:
   void gather(const std::vector<Body>& bodies, Contacts contacts, Springs springs, double dt);
-  void foresee(const std::vector<Load>& loads, ContactConstraint& constraint, double dt) const;
   void meet(const std::vector<Load>& loads, ContactConstraint& constraint, double h, double dt) const;
   void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, const WorldSettings& settings,
                       double h, int sub_step);
   void refresh(ContactConstraint& constraint) const;
   void warm_start(ContactConstraint& constraint, double h);
-  double pass(Contacts contacts, const Softness& softness, double h, bool backward);
-  double solve_contact(ContactConstraint& constraint, const Softness& softness, double h);
+  double pass(Contacts contacts, const step::Softness& softness, double h, bool backward);
+  double solve_contact(ContactConstraint& constraint, const step::Softness& softness, double h);
   double solve_drive(const std::vector<Body>& bodies, SolverBody& body, double h, double remaining);
   void find_lags(Contacts contacts);
   void add_totals(Contacts contacts, double h);
@@ -72,7 +63,6 @@ class Solver {
 
   std::vector<SolverBody> bodies_;
   std::vector<std::uint32_t> slots_;  ///< from a body's index into bodies_
-  std::vector<char> moved_;
   std::vector<SubStepStart> starts_;  ///< of bodies_
 };
 

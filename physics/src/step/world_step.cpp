@@ -42,6 +42,8 @@ void adopt(ContactConstraint& constraint, const Body& a, const Prediction& at_a,
 void inherit(ContactConstraint& constraint, const ContactConstraint& old, double nearby) {
   constraint.kept_rolling = old.kept_rolling;
   constraint.kept_step = old.kept_step;
+  constraint.kept_twist = old.kept_twist;
+  constraint.slid = old.slid;
   constraint.passed_over = old.passed_over;
   std::array<bool, 4> given{}, taken{};
   const auto hand_on = [&](std::size_t from, std::size_t to) {
@@ -159,9 +161,15 @@ void World::Implementation::note_starts() {
 }
 
 void World::Implementation::advance_bodies(double dt) {
+  moved.assign(bodies.size(), 0);
   solver.begin(bodies.size());
-  for (const IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs))
-    solver.solve(bodies, loads, island.contacts, island.springs, settings, dt);
+  block_solver.begin(bodies.size());
+  for (const IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs)) {
+    if (blocks::BlockSolver::takes(island, bodies, dt))
+      block_solver.solve(bodies, loads, island.contacts, settings, dt, moved);
+    else
+      solver.solve(bodies, loads, island.contacts, island.springs, settings, dt, moved);
+  }
   for (const std::uint32_t i : watched) {
     Body& body = bodies[i];
     body.placed = body.led = false;
@@ -169,7 +177,7 @@ void World::Implementation::advance_bodies(double dt) {
       arrive(body);
       continue;
     }
-    if (!body.asleep && !solver.moved(i)) {
+    if (!body.asleep && !moved[i]) {
       if (body.drive.owner() == Owner::driven)
         pull(body, loads[i], dt);
       else

@@ -1,0 +1,286 @@
+#include "blocks/block_solver.h"
+
+#include <tweenfall/curves/rotation.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "step/softness.h"
+
+namespace tweenfall::blocks {
+
+using step::sub_steps;
+
+namespace {
+
+/// Rows are prepared again when a body has turned by this since, rad.
+constexpr double turned_enough = 0.02;
+/// Rows cannot follow what turns by more than this in a sub-step, rad.
+constexpr double followable = 0.5;
+/// Up to this turn in a sub-step a pressed body's spin changes by itself as two evaluations of Euler's equations say.
+constexpr double slow_turn = 0.05;
+
+/// Angular velocity after the time h in which a body's spin and the torque on it change it, to second order.
+Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec3& torque, double h) {
+  const Quat back = rotation.conjugate();
+  const Vec3 spin = back * angular;
+  const Vec3 turning = back * torque;
+  const auto rate = [&](const Vec3& at) -> Vec3 {
+    return body.inverse_inertia * (turning - at.cross(body.mass.inertia * at));
+  };
+  return rotation * Vec3(spin + h * rate(spin + 0.5 * h * rate(spin)));
+}
+
+}  // namespace
+
+bool BlockSolver::takes(const IslandContents& island, const std::vector<Body>& bodies, double dt) {
+  if (island.contacts.size() < many || !island.springs.empty()) return false;
+  const double h = dt / sub_steps;
+  for (const ContactConstraint* contact : island.contacts) {
+    if (contact->rolling_friction > 0 || h < 0.5 * contact->kept_step) return false;
+    for (const std::uint32_t index : {contact->a, contact->b}) {
+      const Body& body = bodies[index];
+      if (body.immovable()) continue;
+      if (body.drive.owner() == Owner::driven || body.twist.angular.norm() * h > followable) return false;
+    }
+  }
+  return true;
+}
+
+void BlockSolver::gather(const std::vector<Body>& bodies, std::span<ContactConstraint* const> contacts, double dt) {
+  for (const IslandBody& body : bodies_)
+    if (body.index < places_.size()) places_[body.index] = 0;
+  bodies_.assign(1, {});
+  bodies_[0].index = 0xffffffffu;
+  velocities_.assign(1, {});
+  bouncy_ = false;
+  const auto add = [&](std::uint32_t index) {
+    if (places_[index] != 0) return;
+    places_[index] = static_cast<std::uint32_t>(bodies_.size());
+    const Body& body = bodies[index];
+    IslandBody& entry = bodies_.emplace_back();
+    BodyLanes& velocity = velocities_.emplace_back();
+    entry.index = index;
+    entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
+    entry.movable = !body.immovable() && !body.asleep;
+    entry.roundness = body.roundness;
+    entry.center = entry.start_center = body.center;
+    entry.rotation = entry.start_rotation = body.motion.pose.rotation;
+    if (entry.movable) {
+      entry.inverse_mass = 1 / body.mass.mass;
+      entry.inverse_inertia =
+          body.spherical ? body.inverse_inertia : body.world_inverse_inertia(body.motion.pose.rotation);
+      set(velocity.linear, body.twist.linear);
+      set(velocity.angular, body.twist.angular);
+    } else {
+      if (body.immovable()) entry.course = keyed_course(body, dt);
+      set(velocity.linear, entry.course.mean.linear - 0.5 * entry.course.gain.linear);
+      set(velocity.angular, entry.course.mean.angular - 0.5 * entry.course.gain.angular);
+    }
+  };
+  for (const ContactConstraint* contact : contacts) {
+    add(contact->a);
+    add(contact->b);
+    bouncy_ = bouncy_ || contact->restitution > 0;
+  }
+  starts_.resize(bodies_.size());
+  displacements_.assign(bodies_.size(), {});
+}
+
+void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads, double dt) {
+  for (ContactConstraint* contact : contacts) {
+    const BodyLanes& a = velocities_[places_[contact->a]];
+    const BodyLanes& b = velocities_[places_[contact->b]];
+    const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+    step::foresee(*contact, {linear_of(a), angular_of(a)}, {linear_of(b), angular_of(b)}, closing, dt);
+    if (!contact->impact) continue;
+    bodies_[places_[contact->a]].impact = true;
+    bodies_[places_[contact->b]].impact = true;
+  }
+}
+
+void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads,
+                                 const WorldSettings& settings, double h, int sub_step) {
+  const double share = static_cast<double>(sub_step) / sub_steps;
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    IslandBody& entry = bodies_[i];
+    BodyLanes& velocity = velocities_[i];
+    BodyLanes& start = starts_[i];
+    entry.sub_step_center = entry.center;
+    entry.sub_step_rotation = entry.rotation;
+    if (!entry.movable) {
+      const auto& [mean, gain] = entry.course;
+      set(start.linear, mean.linear + (share - 0.5) * gain.linear);
+      set(start.angular, mean.angular + (share - 0.5) * gain.angular);
+      const double middle = share + 0.5 / sub_steps - 0.5;
+      set(velocity.linear, mean.linear + middle * gain.linear);
+      set(velocity.angular, mean.angular + middle * gain.angular);
+      continue;
+    }
+    start = velocity;
+    const Body& body = bodies[entry.index];
+    const Load& load = loads[entry.index];
+    set(velocity.linear, accelerated(linear_of(velocity), load, settings.integrator, h));
+    const Vec3 angular = angular_of(velocity);
+    const bool free = load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
+    entry.followed = !entry.pressed;
+    entry.pressed = false;
+    if (body.spherical && free) {
+      entry.followed = false;
+      continue;
+    }
+    if (entry.followed || angular.norm() * h > slow_turn || load.angular_drag > 0 || load.angular_damping > 0) {
+      const Spin spin = turned(body, {entry.rotation, angular}, load, h);
+      set(velocity.angular, spin.angular);
+      entry.free_rotation = spin.rotation;
+    } else {
+      set(velocity.angular, spun(body, entry.rotation, angular, load.torque, h));
+    }
+  }
+}
+
+void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
+  bool any = false;
+  for (IslandBody& entry : bodies_) {
+    entry.stale = !entry.round && entry.turned > turned_enough;
+    if (!entry.stale) continue;
+    any = true;
+    entry.turned = 0;
+    if (entry.movable) entry.inverse_inertia = bodies[entry.index].world_inverse_inertia(entry.rotation);
+  }
+  if (!any) return;
+  for (ContactBlock& block : contacts_.blocks)
+    for (int lane = 0; lane < lane_count; ++lane)
+      if (block.contacts[lane] && (bodies_[block.a[lane]].stale || bodies_[block.b[lane]].stale))
+        contacts_.prepare(block, lane, bodies_, displacements_.data());
+}
+
+/// Where a contact holds a body, the velocity after the impulses counts: a mean would leave every tremble undamped.
+void BlockSolver::find_lags() {
+  for (std::size_t i = 1; i < bodies_.size(); ++i)
+    bodies_[i].lag =
+        bodies_[i].movable ? Vec3(0.5 * (linear_of(starts_[i]) - linear_of(velocities_[i]))) : Vec3(0, 0, 0);
+  for (const ContactBlock& block : contacts_.blocks) {
+    Lanes pressing{};
+    // Of what was pressed, and of that what slides.
+    double held[lane_count] = {};
+    for (int i = 0; i < block.points; ++i) {
+      const PointRow& point = contacts_.points[block.point + static_cast<std::uint32_t>(i)];
+      pressing = pressing + point.impulse;
+      if (block.frictions != block.points) continue;
+      const FrictionRow& grip = contacts_.frictions[block.friction + static_cast<std::uint32_t>(i)];
+      for (int lane = 0; lane < lane_count; ++lane) {
+        const double most = block.coefficient[lane] * point.impulse[lane];
+        if (point.impulse[lane] > 0 &&
+            grip.first[lane] * grip.first[lane] + grip.second[lane] * grip.second[lane] < 0.999 * most * most)
+          held[lane] = 1;
+      }
+    }
+    for (int lane = 0; lane < lane_count; ++lane) {
+      if (!(pressing[lane] > 0)) continue;
+      if (block.central()) {
+        const FrictionRow& grip = contacts_.frictions[block.friction];
+        const double most = block.coefficient[lane] * pressing[lane];
+        if (grip.first[lane] * grip.first[lane] + grip.second[lane] * grip.second[lane] < 0.999 * most * most)
+          held[lane] = 1;
+      }
+      const Vec3 normal(block.normal.x[lane], block.normal.y[lane], block.normal.z[lane]);
+      for (IslandBody* body : {&bodies_[block.a[lane]], &bodies_[block.b[lane]]}) {
+        body->pressed = body->touched = true;
+        if (held[lane] == 0 || body->round)
+          body->lag -= normal * normal.dot(body->lag);
+        else
+          body->lag = Vec3::Zero();
+      }
+    }
+  }
+  for (IslandBody& body : bodies_)
+    if (body.impact && body.pressed) body.lag = Vec3::Zero();
+}
+
+void BlockSolver::end_sub_step(double h) {
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    IslandBody& entry = bodies_[i];
+    const BodyLanes& velocity = velocities_[i];
+    BodyLanes& displacement = displacements_[i];
+    const Vec3 moved = (linear_of(velocity) + entry.lag) * h;
+    entry.center += moved;
+    for (int k = 0; k < 3; ++k) displacement.linear[k] += moved[k];
+    Vec3 angular = angular_of(velocity);
+    if (entry.movable && entry.round && !entry.impact) angular = 0.5 * (angular + angular_of(starts_[i]));
+    if (angular == Vec3::Zero()) continue;
+    const Vec3 turning = angular * h;
+    for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
+    if (!entry.round) entry.turned += turning.norm();
+    if (entry.followed && !entry.pressed) {
+      // The spin of free flight keeps its energy only with the rotation that belongs to it.
+      entry.rotation = entry.free_rotation;
+      continue;
+    }
+    entry.rotation = exp_map(turning) * entry.rotation;
+    entry.rotation.normalize();
+  }
+}
+
+/// See Solver::bound_spins.
+void BlockSolver::bound_spins(const std::vector<Body>& bodies, double h) {
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    const IslandBody& entry = bodies_[i];
+    if (!entry.movable) continue;
+    const Vec3 angular = angular_of(velocities_[i]);
+    if (!(angular.squaredNorm() * h * h > 1)) continue;
+    const Body& body = bodies[entry.index];
+    if (body.spherical) continue;
+    const double energy = 0.5 * angular.dot(entry.inverse_inertia.inverse() * angular);
+    set(velocities_[i].angular, bounded_spin(body.world_inertia(entry.rotation), energy, angular));
+  }
+}
+
+Rows BlockSolver::rows() {
+  return {contacts_.blocks.data(),    contacts_.blocks.size(), contacts_.points.data(),
+          contacts_.frictions.data(), velocities_.data(),      displacements_.data()};
+}
+
+void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
+                        std::span<ContactConstraint* const> contacts, const WorldSettings& settings, double dt,
+                        std::vector<char>& moved) {
+  const Kernels& kernels = fastest_kernels();
+  const double h = dt / sub_steps;
+  gather(bodies, contacts, dt);
+  foresee(contacts, loads, dt);
+  contacts_.build(contacts, places_, bodies_, loads, h, dt);
+  const int share = std::max(2, settings.iterations / sub_steps);
+  const int relaxing = share / 2;
+  const step::Softness softness = step::soft_contacts(settings.push_out_speed, h);
+  const PassRule soft{softness.rate, softness.speed, softness.firm, 1 - softness.giving, 1 / h, false};
+  for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
+    begin_sub_step(bodies, loads, settings, h, sub_step);
+    prepare_again(bodies);
+    kernels.warm_start(rows());
+    if (bouncy_) find_rebounds(h);
+    for (int k = 0; k < share - relaxing; ++k) kernels.solve(rows(), soft);
+    find_lags();
+    end_sub_step(h);
+    for (int k = 0; k < relaxing; ++k) kernels.solve(rows(), {.inverse_h = 1 / h, .sum_up = k + 1 == relaxing});
+    if (!rebounds_.empty()) rebound(bodies, loads, std::max(1, settings.iterations / 4));
+    bound_spins(bodies, h);
+  }
+  contacts_.store(h);
+  // Also a body that only the last pass reached has momentum from it.
+  for (const ContactConstraint* contact : contacts)
+    for (int i = 0; i < contact->count; ++i)
+      if (contact->points[static_cast<std::size_t>(i)].total_normal > 0)
+        bodies_[places_[contact->a]].touched = bodies_[places_[contact->b]].touched = true;
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    const IslandBody& entry = bodies_[i];
+    if (!entry.movable || !entry.touched) continue;
+    Body& body = bodies[entry.index];
+    body.center = entry.center;
+    body.twist = {linear_of(velocities_[i]), angular_of(velocities_[i])};
+    body.follow_center(entry.rotation);
+    moved[entry.index] = 1;
+  }
+}
+
+}  // namespace tweenfall::blocks

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "blocks/contact_blocks.h"
+#include "blocks/island_body.h"
+#include "forces/free_flight.h"
+#include "step/island_contents.h"
+
+namespace tweenfall::blocks {
+
+/// Contacts of a large island in sub-steps, four at a time: what `Solver` does, with rows prepared once for a step (and
+/// again when a body has turned), few passes, and friction at the middle of what does not slide.
+/// Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024, and SIMD Matters,
+/// 2024.
+class BlockSolver {
+ public:
+  /// From how many contacts on an island is solved here.
+  static constexpr std::size_t many = 25;
+
+  /// Whether it can solve an island: bodies that drives, stiff springs or rolling friction hold are for `Solver`, and
+  /// so are steps far shorter than those before them.
+  [[nodiscard]] static bool takes(const IslandContents& island, const std::vector<Body>& bodies, double dt);
+
+  /// Before the islands of a step.
+  void begin(std::size_t bodies) { places_.assign(bodies, 0); }
+  /// Moves the bodies of an island by `dt`; fills in the contacts' impulses.
+  /// @param moved  by index: set for the bodies that were moved
+  void solve(std::vector<Body>& bodies, const std::vector<Load>& loads, std::span<ContactConstraint* const> contacts,
+             const WorldSettings& settings, double dt, std::vector<char>& moved);
+
+ private:
+  /// A point that would rebound in this sub-step.
+  struct Rebound {
+    std::uint32_t block, row;
+    int lane;
+    double time;                ///< how long it moves the bodies, s
+    double speed_before = 0;    ///< m/s
+    double impulse_before = 0;  ///< N s
+  };
+  /// A contact that the rebound changed, with the impulses that it had before.
+  struct Reached {
+    std::uint32_t block;
+    int lane;
+    double normal[4], first[4], second[4];
+  };
+
+  void gather(const std::vector<Body>& bodies, std::span<ContactConstraint* const> contacts, double dt);
+  void foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads, double dt);
+  void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, const WorldSettings& settings,
+                      double h, int sub_step);
+  void prepare_again(const std::vector<Body>& bodies);
+  void find_lags();
+  void end_sub_step(double h);
+  void bound_spins(const std::vector<Body>& bodies, double h);
+  [[nodiscard]] Rows rows();
+
+  // Rebound
+  void find_rebounds(double h);
+  void rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads, int passes);
+  void remember(std::uint32_t block, int lane);
+  /// @return the change of velocity, in trembles
+  double rebound_contact(std::uint32_t block, int lane);
+  void move_by(const Rebound& rebound);
+  void bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads);
+  void end_rebound();
+
+  std::vector<std::uint32_t> places_;  ///< from a body's index into bodies_; 0 for none
+  std::vector<IslandBody> bodies_;     ///< the first is nobody: that of empty lanes
+  std::vector<BodyLanes> velocities_, starts_, displacements_;
+  ContactBlocks contacts_;
+  bool bouncy_ = false;                  ///< some contact has restitution
+  std::vector<std::uint32_t> meetings_;  ///< lanes
+  std::vector<Rebound> rebounds_;
+  std::vector<Reached> reached_;
+  std::vector<char> remembered_;  ///< by lane: it is in reached_
+};
+
+}  // namespace tweenfall::blocks

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "blocks/contact_block.h"
+#include "forces/free_flight.h"
+#include "step/keyed_step.h"
+
+namespace tweenfall::blocks {
+
+[[nodiscard]] inline Vec3 linear_of(const BodyLanes& body) {
+  return {body.linear[0], body.linear[1], body.linear[2]};
+}
+[[nodiscard]] inline Vec3 angular_of(const BodyLanes& body) {
+  return {body.angular[0], body.angular[1], body.angular[2]};
+}
+inline void set(double (&lanes)[4], const Vec3& value) {
+  for (int i = 0; i < 3; ++i) lanes[i] = value[i];
+}
+
+/// A body of an island while its contacts are being solved; its velocity is kept apart.
+struct IslandBody {
+  std::uint32_t index = 0;
+  bool movable = false;
+  bool impact = false;    ///< meets something in this step: its velocity jumps
+  bool touched = false;   ///< an impulse reached it in this step
+  bool pressed = false;   ///< an impulse reached it in this sub-step
+  bool followed = false;  ///< nothing pressed it in the sub-step before: its spin is followed exactly
+  bool round = false;     ///< a ball: no contact can rock it, and none sees it turn
+  bool stirred = false;   ///< by the rebound of this sub-step
+  bool stale = false;     ///< has turned since its rows were prepared
+  double roundness = 0;   ///< m
+  double turned = 0;      ///< since its rows were prepared, rad
+  double inverse_mass = 0;
+  Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared
+  Vec3 center{0, 0, 0}, start_center{0, 0, 0};
+  Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
+  Quat free_rotation{1, 0, 0, 0};  ///< at the end of the sub-step if nothing touches it
+  Vec3 lag{0, 0, 0};               ///< from the velocity at the end of the sub-step to its mean, m/s
+  KeyedCourse course;              ///< of an immovable body
+
+  // At the start of the sub-step
+  Vec3 sub_step_center{0, 0, 0};
+  Quat sub_step_rotation{1, 0, 0, 0};
+  Vec3 linear_before_rebound{0, 0, 0}, angular_before_rebound{0, 0, 0};
+};
+
+}  // namespace tweenfall::blocks

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cmath>
+
+#include "forces/free_flight.h"
+#include "step/contact_constraint.h"
+
+namespace tweenfall::step {
+
+/// When and how fast a gap closes within a span of time; `span` and 0 when it does not.
+struct Meeting {
+  double time, speed;
+};
+
+[[nodiscard]] Meeting meeting_of(double gap, double closing, double pull, double span);
+
+/// Closing acceleration free of contacts, and the speed below which a rebound would only be a tremble: what gravity
+/// makes of a step or two. Two bodies that fall together do not close, but what lies under them makes them tremble.
+struct Closing {
+  double pull, tremble;
+};
+
+[[nodiscard]] Closing closing_of(const Vec3& normal, const Load& a, const Load& b, double dt);
+
+/// Prepares the points of a contact for a step and tells whether some meet fast enough to be an impact.
+/// @param a  velocity of the first body at the start of the step
+void foresee(ContactConstraint& contact, const Twist& a, const Twist& b, const Closing& closing, double dt);
+
+}  // namespace tweenfall::step

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <algorithm>
+#include <numbers>
+
+namespace tweenfall::step {
+
+/// Sub-steps in a step; the passes are shared out among them.
+constexpr int sub_steps = 8;
+
+/// How an overlapping contact gives way while positions are corrected.
+struct Softness {
+  double rate = 0;    ///< share of the overlap that is taken apart, 1/s
+  double speed = 0;   ///< at most, m/s
+  double firm = 1;    ///< share of the speed error met by a pass
+  double giving = 0;  ///< share of the impulse let go by a pass
+};
+
+/// Of the contacts of a sub-step of `h` seconds.
+/// Source: Catto, Solver2D, 2024 (soft contacts).
+[[nodiscard]] inline Softness soft_contacts(double push_out_speed, double h) {
+  // Frequency times the sub-step, and the damping ratio.
+  constexpr double cycles = 0.125;
+  constexpr double damping = 10;
+  // In shorter sub-steps than this overlap is taken apart more slowly, in the end not at all: the speed that it needs
+  // is the shorter the step the greater, and would be a blow, s.
+  constexpr double unhurried = 1e-3 / sub_steps;
+  const double turn = 2 * std::numbers::pi * cycles;
+  const double stiffness = turn * (2 * damping + turn);
+  const double hurry = std::min(1.0, h / unhurried);
+  return {hurry * hurry * turn / (h * (2 * damping + turn)), push_out_speed, stiffness / (1 + stiffness),
+          1 / (1 + stiffness)};
+}
+
+}  // namespace tweenfall::step
