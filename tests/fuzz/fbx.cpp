@@ -6,7 +6,7 @@ using namespace tweenfall;
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t size) {
   try {
-    ModelProblems problems;
+    models::ModelProblems problems;
     (void)fbx::read({reinterpret_cast<const char*>(bytes), size}, "/nowhere/fuzz.fbx", problems);
   } catch (const ModelError&) {
   }

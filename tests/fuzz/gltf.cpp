@@ -6,7 +6,7 @@ using namespace tweenfall;
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* bytes, std::size_t size) {
   try {
-    ModelProblems problems;
+    models::ModelProblems problems;
     (void)gltf::read({reinterpret_cast<const char*>(bytes), size}, "/nowhere/fuzz.gltf", problems);
   } catch (const ModelError&) {
   }

@@ -25,7 +25,7 @@ bool usable(const Quat& value) {
 
 class ClipReader {
  public:
-  ClipReader(const Model& model, const std::map<std::string, std::size_t>& nodes, ModelProblems& problems)
+  ClipReader(const Model& model, const std::map<std::string, std::size_t>& nodes, models::ModelProblems& problems)
       : model_(model), nodes_(nodes), problems_(problems) {}
 
   Clip read(const aiAnimation& from, const std::string& name) {
@@ -81,15 +81,15 @@ class ClipReader {
     }
     if (left_out)
       problems_.repair(place_, target.node + "." + target.property + ": " +
-                                   counted(left_out, "key is out of order or not finite and was left out",
-                                           "keys are out of order or not finite and were left out"));
+                                   models::counted(left_out, "key is out of order or not finite and was left out",
+                                                   "keys are out of order or not finite and were left out"));
     if (!keys.empty())
       clip.tracks.push_back({target.node, target.property, keyed_curve<T>(std::span<const Key<T>>(keys))});
   }
 
   const Model& model_;
   const std::map<std::string, std::size_t>& nodes_;
-  ModelProblems& problems_;
+  models::ModelProblems& problems_;
   std::set<std::size_t> driven_;
   std::string place_;
   Ease straight_ = Ease::linear();
@@ -98,9 +98,9 @@ class ClipReader {
 }  // namespace
 
 std::vector<Clip> scene_clips(const aiScene& scene, const Model& model, const std::map<std::string, std::size_t>& nodes,
-                              ModelProblems& problems) {
+                              models::ModelProblems& problems) {
   std::vector<Clip> clips;
-  UniqueNames names;
+  models::UniqueNames names;
   ClipReader reader(model, nodes, problems);
   for (unsigned i = 0; i < scene.mNumAnimations; ++i) {
     const aiAnimation& animation = *scene.mAnimations[i];

@@ -17,6 +17,7 @@ namespace tweenfall::assimp {
 /// them.
 /// @param nodes  index of the first node of each of assimp's names
 [[nodiscard]] std::vector<Clip> scene_clips(const aiScene& scene, const Model& model,
-                                            const std::map<std::string, std::size_t>& nodes, ModelProblems& problems);
+                                            const std::map<std::string, std::size_t>& nodes,
+                                            models::ModelProblems& problems);
 
 }  // namespace tweenfall::assimp

@@ -67,7 +67,7 @@ void say(char letter, const std::string& text) {
 
 }  // namespace
 
-Model read_in_helper(const std::string& bytes, const std::filesystem::path& file, ModelProblems& problems) {
+Model read_in_helper(const std::string& bytes, const std::filesystem::path& file, models::ModelProblems& problems) {
   if (!can_start_programs()) {
     problems.repair("", "was read by assimp within this program, since no other can be started here");
     return read(bytes, file, problems);
@@ -98,9 +98,9 @@ int help(int count, char** words) {
     const std::uintmax_t size = std::filesystem::file_size(file, failed);
     limit_this_process(memory_for(failed ? 0 : static_cast<std::size_t>(size)), processor_seconds);
     std::string reason;
-    const auto bytes = model_bytes(file, reason);
+    const auto bytes = models::model_bytes(file, reason);
     if (!bytes) throw ModelError(file.string() + ": error: " + reason);
-    ModelProblems problems;
+    models::ModelProblems problems;
     Model model = read(*bytes, file, problems);
     model.repairs = problems.repairs();
     say('+', bytes_of(model));

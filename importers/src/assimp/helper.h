@@ -16,7 +16,7 @@ namespace tweenfall::assimp {
 /// @throws ModelError when assimp refuses the file, breaks down over it, takes more time or memory than its size
 ///         warrants, or the helper is not found.
 [[nodiscard]] Model read_in_helper(const std::string& bytes, const std::filesystem::path& file,
-                                   ModelProblems& problems);
+                                   models::ModelProblems& problems);
 
 /// What the helper does: imports `file` within bounds of memory and processor time, and writes the model, or the error,
 /// to standard output. @returns the exit code

@@ -58,7 +58,7 @@ class MemoryFiles : public Assimp::IOSystem {
     if (path == file_.string()) return new MemoryStream(std::string_view(bytes_));
     if (!is_beside(path)) return nullptr;
     std::string reason;
-    auto bytes = model_bytes(path, reason);
+    auto bytes = models::model_bytes(path, reason);
     return bytes ? new MemoryStream(std::move(*bytes)) : nullptr;
   }
 
@@ -68,7 +68,7 @@ class MemoryFiles : public Assimp::IOSystem {
   [[nodiscard]] bool is_beside(const std::filesystem::path& path) const {
     // A hostile file must not be able to read the rest of the disk.
     return path.parent_path().lexically_normal() == file_.parent_path().lexically_normal() && path.filename() != ".." &&
-           !leads_out_of(file_.parent_path(), path.filename());
+           !models::leads_out_of(file_.parent_path(), path.filename());
   }
 
   const std::string& bytes_;

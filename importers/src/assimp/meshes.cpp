@@ -78,7 +78,7 @@ Mesh plain_mesh(const aiScene& scene, const aiMesh& from) {
 }
 
 Skin skin_of_bones(const aiMesh& from, const std::map<std::string, std::size_t>& nodes, Mesh& mesh,
-                   ModelProblems& problems) {
+                   models::ModelProblems& problems) {
   const std::string place = "mesh \"" + mesh.name + "\"";
   Skin skin;
   std::vector<std::vector<Influence>> pulls(mesh.positions.size());
@@ -101,8 +101,8 @@ Skin skin_of_bones(const aiMesh& from, const std::map<std::string, std::size_t>&
     }
   }
   if (skin.joints.empty()) return skin;
-  InfluenceTally tally;
-  for (auto& each : pulls) mesh.influences.add(summing_to_one(std::move(each), tally));
+  models::InfluenceTally tally;
+  for (auto& each : pulls) mesh.influences.add(models::summing_to_one(std::move(each), tally));
   tally.report(place, problems);
   return skin;
 }
@@ -110,7 +110,7 @@ Skin skin_of_bones(const aiMesh& from, const std::map<std::string, std::size_t>&
 }  // namespace
 
 SceneMeshes scene_meshes(const aiScene& scene, const std::map<std::string, std::size_t>& nodes,
-                         ModelProblems& problems) {
+                         models::ModelProblems& problems) {
   SceneMeshes all;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     const aiMesh& from = *scene.mMeshes[i];

@@ -23,6 +23,6 @@ struct SceneMeshes {
 
 /// @param nodes  index of the first node of each name
 [[nodiscard]] SceneMeshes scene_meshes(const aiScene& scene, const std::map<std::string, std::size_t>& nodes,
-                                       ModelProblems& problems);
+                                       models::ModelProblems& problems);
 
 }  // namespace tweenfall::assimp

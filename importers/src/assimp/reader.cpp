@@ -44,14 +44,14 @@ bool has_double_names(const std::vector<Waiting>& nodes) {
   return false;
 }
 
-Pose rest_of(const aiNode& node, const std::string& name, ModelProblems& problems) {
+Pose rest_of(const aiNode& node, const std::string& name, models::ModelProblems& problems) {
   const Mat3 linear = linear_of(node.mTransformation);
   const Vec3 translation = translation_of(node.mTransformation);
   if (!linear.allFinite() || !translation.allFinite()) {
     problems.add("node \"" + name + "\"", "its placement is not finite");
     return {};
   }
-  const TakenApart parts = take_apart(linear, translation);
+  const models::TakenApart parts = models::take_apart(linear, translation);
   if (parts.shear > 1e-4)
     problems.repair("node \"" + name + "\"", "its placement holds shear, which was dropped; it moved points by up to " +
                                                  number_text(parts.shear) + " of their distance");
@@ -96,7 +96,7 @@ std::string without_leading_space(const std::string& bytes) {
 
 }  // namespace
 
-Model read(const std::string& given, const std::filesystem::path& file, ModelProblems& problems) {
+Model read(const std::string& given, const std::filesystem::path& file, models::ModelProblems& problems) {
   std::string ending = file.extension().string();
   const bool collada = ending == ".dae" || ending == ".DAE";
   // assimp looks for "<?xml" at the very start.
@@ -113,7 +113,7 @@ Model read(const std::string& given, const std::filesystem::path& file, ModelPro
   }
 
   Model model;
-  UniqueNames names;
+  models::UniqueNames names;
   std::map<std::string, std::size_t> first_named;
   for (const Waiting& each : waiting) {
     const std::string name = text_of(each.node->mName);

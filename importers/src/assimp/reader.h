@@ -12,6 +12,6 @@ namespace tweenfall::assimp {
 
 /// Units, axes and clock are the file's.
 /// @throws ModelError; but what is malformed may also end the process, see helper.h.
-[[nodiscard]] Model read(const std::string& bytes, const std::filesystem::path& file, ModelProblems& problems);
+[[nodiscard]] Model read(const std::string& bytes, const std::filesystem::path& file, models::ModelProblems& problems);
 
 }  // namespace tweenfall::assimp

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <optional>
 
-namespace tweenfall {
+namespace tweenfall::bvh {
 
 namespace {
 
@@ -84,7 +84,7 @@ struct Joint {
 
 class BvhReader {
  public:
-  BvhReader(std::string_view text, ModelProblems& problems) : words_(text), problems_(problems) {}
+  BvhReader(std::string_view text, models::ModelProblems& problems) : words_(text), problems_(problems) {}
 
   /// Stops at the first fault: what follows a misread word means nothing.
   bool read(Model& model) { return read_skeleton(model) && read_motion(model); }
@@ -233,8 +233,8 @@ class BvhReader {
   }
 
   Words words_;
-  ModelProblems& problems_;
-  UniqueNames names_;
+  models::ModelProblems& problems_;
+  models::UniqueNames names_;
   std::vector<Joint> joints_;
   std::size_t channel_count_ = 0;
   Ease straight_ = Ease::linear();
@@ -242,11 +242,11 @@ class BvhReader {
 
 }  // namespace
 
-Model read_bvh(std::string_view text, const std::filesystem::path& file, ModelProblems& problems) {
+Model read_bvh(std::string_view text, const std::filesystem::path& file, models::ModelProblems& problems) {
   Model model;
   BvhReader(text, problems).read(model);
   problems.throw_if_any(file);
   return model;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::bvh

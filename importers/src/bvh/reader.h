@@ -9,10 +9,10 @@
 
 #include <string_view>
 
-namespace tweenfall {
+namespace tweenfall::bvh {
 
 /// The skeleton and its one clip, "Motion". A position channel replaces its part of the joint's offset.
 /// @throws ModelError
-[[nodiscard]] Model read_bvh(std::string_view text, const std::filesystem::path& file, ModelProblems& problems);
+[[nodiscard]] Model read_bvh(std::string_view text, const std::filesystem::path& file, models::ModelProblems& problems);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::bvh

@@ -20,12 +20,12 @@ bool is_producer(const Object& object) {
 
 }  // namespace
 
-Nodes::Nodes(const Objects& objects, ModelProblems& problems) : objects_(objects) {
+Nodes::Nodes(const Objects& objects, models::ModelProblems& problems) : objects_(objects) {
   find_models(problems);
   make_nodes();
 }
 
-void Nodes::find_models(ModelProblems& problems) {
+void Nodes::find_models(models::ModelProblems& problems) {
   std::vector<std::size_t> models, parent(objects_.all().size(), no_node);
   for (std::size_t i = 0; i < objects_.all().size(); ++i) {
     if (objects_[i].kind != "Model") continue;
@@ -74,7 +74,7 @@ void Nodes::make_nodes() {
   std::vector<bool> split(files_.size(), false);
   for (const FileNode& file : files_)
     if (file.parent != no_node && file.inherit != Inherit::normal) split[file.parent] = true;
-  UniqueNames names;
+  models::UniqueNames names;
   std::vector<std::string> own;
   for (std::size_t i = 0; i < files_.size(); ++i) {
     const std::string& name = objects_[files_[i].object].name;

@@ -31,7 +31,7 @@ struct FileNode {
 class Nodes {
  public:
   /// @throws ModelError
-  Nodes(const Objects& objects, ModelProblems& problems);
+  Nodes(const Objects& objects, models::ModelProblems& problems);
 
   /// Parents first; axes and units are the file's.
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
@@ -52,7 +52,7 @@ class Nodes {
     Channel<Vec3> passed_on;  ///< scale that children which take factors multiply
   };
 
-  void find_models(ModelProblems& problems);
+  void find_models(models::ModelProblems& problems);
   void make_nodes();
   [[nodiscard]] std::vector<Placed> placed(const Stack* stack) const;
 

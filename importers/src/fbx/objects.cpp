@@ -35,7 +35,7 @@ double ticks_of(const File& file) {
 
 }  // namespace
 
-Objects::Objects(const File& file, const Source& source, ModelProblems& problems)
+Objects::Objects(const File& file, const Source& source, models::ModelProblems& problems)
     : source_(source), version_(file.version), ticks_(ticks_of(file)) {
   if (file.version < 7000)
     source.fail(0, "FBX " + std::to_string(file.version / 1000) + "." + std::to_string(file.version / 100 % 10) +
@@ -44,7 +44,7 @@ Objects::Objects(const File& file, const Source& source, ModelProblems& problems
   read_connections(file);
 }
 
-void Objects::read_objects(const File& file, ModelProblems& problems) {
+void Objects::read_objects(const File& file, models::ModelProblems& problems) {
   std::unordered_map<std::string_view, const Record*> templates;
   if (const Record* definitions = file.root.find("Definitions"))
     for (const Record& type : definitions->children)

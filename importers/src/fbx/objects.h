@@ -33,7 +33,7 @@ struct Connection {
 class Objects {
  public:
   /// `file` and `source` must outlive this. @throws ModelError
-  Objects(const File& file, const Source& source, ModelProblems& problems);
+  Objects(const File& file, const Source& source, models::ModelProblems& problems);
 
   [[nodiscard]] const std::vector<Object>& all() const { return objects_; }
   [[nodiscard]] const Object& operator[](std::size_t index) const { return objects_[index]; }
@@ -58,7 +58,7 @@ class Objects {
   [[nodiscard]] std::int64_t version() const { return version_; }
 
  private:
-  void read_objects(const File& file, ModelProblems& problems);
+  void read_objects(const File& file, models::ModelProblems& problems);
   void read_connections(const File& file);
   [[nodiscard]] std::vector<Connection> listed(const std::vector<std::vector<std::size_t>>& lists,
                                                std::size_t object) const;

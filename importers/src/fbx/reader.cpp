@@ -12,7 +12,7 @@ namespace {
 
 class SceneReader {
  public:
-  SceneReader(const Objects& objects, ModelProblems& problems)
+  SceneReader(const Objects& objects, models::ModelProblems& problems)
       : objects_(objects), problems_(problems), nodes_(objects, problems) {}
 
   Model read() {
@@ -148,7 +148,7 @@ class SceneReader {
     }
     const auto tell = [&](std::string_view kind, const std::string& one, const std::string& many) {
       if (const auto found = count.find(kind); found != count.end())
-        problems_.repair("", counted(found->second, one, many));
+        problems_.repair("", models::counted(found->second, one, many));
     };
     tell("Texture", "texture is not read; materials show their base color alone",
          "textures are not read; materials show their base color alone");
@@ -160,7 +160,7 @@ class SceneReader {
   }
 
   const Objects& objects_;
-  ModelProblems& problems_;
+  models::ModelProblems& problems_;
   Nodes nodes_;
   Model model_;
   std::vector<Molded> molded_;
@@ -168,7 +168,7 @@ class SceneReader {
 
 }  // namespace
 
-Model read(std::string_view bytes, const std::filesystem::path& file, ModelProblems& problems) {
+Model read(std::string_view bytes, const std::filesystem::path& file, models::ModelProblems& problems) {
   const Source source(bytes, file, !is_binary(bytes));
   const File records = read_records(source);
   const Objects objects(records, source, problems);

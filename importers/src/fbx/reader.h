@@ -13,6 +13,6 @@
 namespace tweenfall::fbx {
 
 /// @throws ModelError
-[[nodiscard]] Model read(std::string_view bytes, const std::filesystem::path& file, ModelProblems& problems);
+[[nodiscard]] Model read(std::string_view bytes, const std::filesystem::path& file, models::ModelProblems& problems);
 
 }  // namespace tweenfall::fbx

@@ -80,6 +80,7 @@ std::size_t JsonMember::name_length() const {
   return value.node_->name_length + 2;
 }
 
+namespace json_tree {
 namespace {
 
 // What a node's faults do not change: its parts are there all the same.
@@ -88,9 +89,10 @@ bool is_stored_as(const json_tree::JsonNode* node, JsonValue::Kind kind) {
 }
 
 }  // namespace
+}  // namespace json_tree
 
 JsonItems::JsonItems(const JsonValue& list) {
-  if (!is_stored_as(list.node_, JsonValue::Kind::list)) return;
+  if (!json_tree::is_stored_as(list.node_, JsonValue::Kind::list)) return;
   first_ = {list.content_, list.content_->nodes.get() + list.node_->children.first};
   size_ = list.node_->children.size;
 }
@@ -107,7 +109,7 @@ JsonValue JsonItems::operator[](std::size_t i) const {
 }
 
 JsonMembers::JsonMembers(const JsonValue& object) {
-  if (!is_stored_as(object.node_, JsonValue::Kind::object)) return;
+  if (!json_tree::is_stored_as(object.node_, JsonValue::Kind::object)) return;
   first_ = {object.content_, object.content_->nodes.get() + object.node_->children.first};
   size_ = object.node_->children.size;
 }
@@ -148,9 +150,11 @@ std::string JsonTree::pointer_to(std::size_t offset) const {
   while (true) {
     const std::size_t from = at.offset();
     if (offset == from || at.node_->offset == offset) return pointer;
-    if (is_stored_as(at.node_, JsonValue::Kind::text))
+    if (json_tree::is_stored_as(at.node_, JsonValue::Kind::text))
       return offset > from && offset < from + at.length() ? pointer : std::string();
-    if (!is_stored_as(at.node_, JsonValue::Kind::list) && !is_stored_as(at.node_, JsonValue::Kind::object)) return {};
+    if (!json_tree::is_stored_as(at.node_, JsonValue::Kind::list) &&
+        !json_tree::is_stored_as(at.node_, JsonValue::Kind::object))
+      return {};
     const json_tree::JsonNode* const first = content_->nodes.get() + at.node_->children.first;
     const json_tree::JsonNode* const last = first + at.node_->children.size;
     const json_tree::JsonNode* const after = std::upper_bound(
@@ -194,6 +198,7 @@ std::string in_quotes(std::string_view text) {
   return out + '"';
 }
 
+namespace json_tree {
 namespace {
 
 void append_on_one_line(std::string& out, const JsonValue& value) {
@@ -234,10 +239,11 @@ void append_on_one_line(std::string& out, const JsonValue& value) {
 }
 
 }  // namespace
+}  // namespace json_tree
 
 std::string on_one_line(const JsonValue& value) {
   std::string out;
-  append_on_one_line(out, value);
+  json_tree::append_on_one_line(out, value);
   return out;
 }
 

@@ -12,6 +12,7 @@
 
 namespace tweenfall {
 
+namespace models {
 namespace {
 
 std::string ending_of(const std::filesystem::path& file) {
@@ -24,7 +25,7 @@ std::string ending_of(const std::filesystem::path& file) {
 Model read_any(const std::string& bytes, const std::filesystem::path& file, ModelProblems& problems) {
   const std::string ending = ending_of(file);
   if (ending == ".glb" || ending == ".gltf" || bytes.starts_with("glTF")) return gltf::read(bytes, file, problems);
-  if (ending == ".bvh") return read_bvh(bytes, file, problems);
+  if (ending == ".bvh") return bvh::read_bvh(bytes, file, problems);
   if (ending == ".fbx") return fbx::read(bytes, file, problems);
   if (ending == ".dae" || ending == ".obj") return assimp::read_in_helper(bytes, file, problems);
   throw ModelError(file.string() + ": error: files ending in \"" + ending +
@@ -51,10 +52,11 @@ Model read_file(const std::filesystem::path& file) {
 }
 
 }  // namespace
+}  // namespace models
 
 Model load_model(const std::filesystem::path& file) {
   try {
-    Model model = read_file(file);
+    Model model = models::read_file(file);
     for (std::string& repair : model.repairs) repair = terminal_text(repair);
     return model;
   } catch (const ModelError& error) {

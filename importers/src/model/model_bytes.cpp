@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
-namespace tweenfall {
+namespace tweenfall::models {
 
 std::optional<std::string> model_bytes(const std::filesystem::path& file, std::string& reason) {
   constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 31;
@@ -44,4 +44,4 @@ bool leads_out_of(const std::filesystem::path& folder, const std::filesystem::pa
   return way.empty() || *way.begin() == "..";
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::models

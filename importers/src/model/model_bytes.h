@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace tweenfall {
+namespace tweenfall::models {
 
 /// The file's content, or nothing and the reason. Never blocks on a device or pipe.
 [[nodiscard]] std::optional<std::string> model_bytes(const std::filesystem::path& file, std::string& reason);
@@ -14,4 +14,4 @@ namespace tweenfall {
 /// Whether `below`, a path from `folder` on, leads elsewhere: by its parts, or by a link on the way.
 [[nodiscard]] bool leads_out_of(const std::filesystem::path& folder, const std::filesystem::path& below);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::models

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tweenfall {
+namespace tweenfall::models {
 
 void InfluenceTally::report(const std::string& place, ModelProblems& problems) const {
   if (unbound)
@@ -28,4 +28,4 @@ std::vector<Influence> summing_to_one(std::vector<Influence> pulls, InfluenceTal
   return pulls;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::models

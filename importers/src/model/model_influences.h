@@ -8,7 +8,7 @@
 
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::models {
 
 /// Counts what had to be mended, so that a mesh says it once.
 struct InfluenceTally {
@@ -21,4 +21,4 @@ struct InfluenceTally {
 /// All weights above 0, scaled to sum to 1, the largest first. A vertex without any follows joint 0.
 [[nodiscard]] std::vector<Influence> summing_to_one(std::vector<Influence> pulls, InfluenceTally& tally);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::models

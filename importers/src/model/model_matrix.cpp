@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::models {
 
 namespace {
 
@@ -67,4 +67,4 @@ TakenApart take_apart(const Mat3& linear, const Vec3& translation) noexcept {
   return result;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::models

@@ -4,7 +4,7 @@
 
 #include <tweenfall/curves/pose.h>
 
-namespace tweenfall {
+namespace tweenfall::models {
 
 struct TakenApart {
   Pose pose;
@@ -15,4 +15,4 @@ struct TakenApart {
 /// a negative x scale.
 [[nodiscard]] TakenApart take_apart(const Mat3& linear, const Vec3& translation) noexcept;
 
-}  // namespace tweenfall
+}  // namespace tweenfall::models

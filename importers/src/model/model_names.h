@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-namespace tweenfall {
+namespace tweenfall::models {
 
 class UniqueNames {
  public:
@@ -26,4 +26,4 @@ class UniqueNames {
   std::unordered_set<std::string> taken_;
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::models

@@ -2,7 +2,7 @@
 
 #include <tweenfall/importers/model.h>
 
-namespace tweenfall {
+namespace tweenfall::models {
 
 namespace {
 
@@ -58,4 +58,4 @@ void ModelProblems::throw_if_any(const std::filesystem::path& file, const Where&
   throw ModelError(text);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::models

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::models {
 
 /// "1 light is read as a plain node", "3 lights are read as plain nodes".
 [[nodiscard]] std::string counted(std::size_t count, const std::string& one, const std::string& many);
@@ -49,4 +49,4 @@ class ModelProblems {
   std::size_t count_ = 0, repair_count_ = 0;
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::models

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <map>
 
-namespace tweenfall {
+namespace tweenfall::page {
 
 namespace {
 
@@ -88,7 +88,7 @@ std::string owner_runs(const std::vector<Owner>& owners, const std::vector<std::
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i > 0 && owners[frames[i]] == owners[frames[i - 1]]) continue;
     if (i > 0) out += ',';
-    out += "[" + std::to_string(i) + ",\"" + owner_word(owners[frames[i]]) + "\"]";
+    out += "[" + std::to_string(i) + ",\"" + recordings::owner_word(owners[frames[i]]) + "\"]";
   }
   return out + "]";
 }
@@ -119,24 +119,27 @@ Mat3 stretching(const WorldMotion& world) {
 
 /// Places and rates of a node, frame by frame.
 void append_motion(std::string& out, const NodeRecord& node, const std::vector<std::size_t>& frames) {
-  append_quoted(out, "matrices", base64(gathered(frames, 12, [&](std::vector<float>& to, std::size_t frame) {
+  append_quoted(out, "matrices",
+                recordings::base64(gathered(frames, 12, [&](std::vector<float>& to, std::size_t frame) {
                   add_matrix(to, node.world[frame].linear);
                   add_vector(to, node.world[frame].motion.pose.position);
                 })));
-  append_quoted(out, "twists", base64(gathered(frames, 6, [&](std::vector<float>& to, std::size_t frame) {
+  append_quoted(out, "twists", recordings::base64(gathered(frames, 6, [&](std::vector<float>& to, std::size_t frame) {
                   add_vector(to, node.twist[frame].linear);
                   add_vector(to, node.twist[frame].angular);
                 })));
   const auto any = [&](auto differs) { return std::any_of(frames.begin(), frames.end(), differs); };
   // The origin's own velocity, where it is not that of the center of mass.
   if (any([&](std::size_t frame) { return node.world[frame].motion.twist.linear != node.twist[frame].linear; }))
-    append_quoted(out, "velocities", base64(gathered(frames, 3, [&](std::vector<float>& to, std::size_t frame) {
+    append_quoted(out, "velocities",
+                  recordings::base64(gathered(frames, 3, [&](std::vector<float>& to, std::size_t frame) {
                     add_vector(to, node.world[frame].motion.twist.linear);
                   })));
   if (any([&](std::size_t frame) {
         return !node.world[frame].linear_rate.isZero(0) && !stretching(node.world[frame]).isZero(1e-9);
       }))
-    append_quoted(out, "stretches", base64(gathered(frames, 9, [&](std::vector<float>& to, std::size_t frame) {
+    append_quoted(out, "stretches",
+                  recordings::base64(gathered(frames, 9, [&](std::vector<float>& to, std::size_t frame) {
                     add_matrix(to, stretching(node.world[frame]));
                   })));
 }
@@ -155,7 +158,7 @@ std::string node_json(const NodeRecord& node, const NodeDescription* description
   out += ",\"owner\":" + owner_runs(node.owner, frames);
   append_motion(out, node, frames);
   if (!node.color.empty()) {
-    append_quoted(out, "colors", base64(gathered(frames, 4, [&](std::vector<float>& to, std::size_t frame) {
+    append_quoted(out, "colors", recordings::base64(gathered(frames, 4, [&](std::vector<float>& to, std::size_t frame) {
                     for (int i = 0; i < 4; ++i) to.push_back(single(drawn(node.color[frame].rgba[i])));
                   })));
   } else if (description && description->color) {
@@ -164,7 +167,8 @@ std::string node_json(const NodeRecord& node, const NodeDescription* description
   if (!node.weights.empty() && !node.weights.front().empty()) {
     const std::size_t count = node.weights.front().size();
     out += ",\"weightCount\":" + std::to_string(count);
-    append_quoted(out, "weights", base64(gathered(frames, count, [&](std::vector<float>& to, std::size_t frame) {
+    append_quoted(out, "weights",
+                  recordings::base64(gathered(frames, count, [&](std::vector<float>& to, std::size_t frame) {
                     const std::vector<double>& weights = node.weights[frame];
                     for (std::size_t i = 0; i < count; ++i) to.push_back(i < weights.size() ? single(weights[i]) : 0);
                   })));
@@ -180,11 +184,11 @@ std::string node_json(const NodeRecord& node, const NodeDescription* description
   return out + "}";
 }
 
-std::string lane_json(const KeyLane& lane, std::size_t node) {
+std::string lane_json(const recordings::KeyLane& lane, std::size_t node) {
   std::string out = "{\"node\":" + std::to_string(node) + ",\"property\":";
   append_json_string(out, lane.property);
-  append_quoted(out, "times", base64(std::span<const double>(lane.times)));
-  append_quoted(out, "keyOf", base64(std::span<const std::uint32_t>(lane.key_of)));
+  append_quoted(out, "times", recordings::base64(std::span<const double>(lane.times)));
+  append_quoted(out, "keyOf", recordings::base64(std::span<const std::uint32_t>(lane.key_of)));
   out += ",\"keys\":[";
   for (std::size_t i = 0; i < lane.keys.size(); ++i) {
     out += i > 0 ? ",{\"value\":" : "{\"value\":";
@@ -210,9 +214,9 @@ std::string motion_json(const Motion& motion) {
 
 std::string handoff_json(const HandOff& handoff) {
   std::string out = "{\"time\":" + number_text(handoff.time) + ",\"node\":" + std::to_string(handoff.node);
-  append_quoted(out, "from", owner_word(handoff.from));
-  append_quoted(out, "to", owner_word(handoff.to));
-  append_quoted(out, "cause", cause_word(handoff.cause));
+  append_quoted(out, "from", recordings::owner_word(handoff.from));
+  append_quoted(out, "to", recordings::owner_word(handoff.to));
+  append_quoted(out, "cause", recordings::cause_word(handoff.cause));
   return out + ",\"before\":" + motion_json(handoff.before) + ",\"after\":" + motion_json(handoff.after) + "}";
 }
 
@@ -252,7 +256,7 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
   std::vector<double> times;
   times.reserve(frames.size());
   for (const std::size_t frame : frames) times.push_back(recording.times[frame]);
-  append_quoted(out, "times", base64(std::span<const double>(times)));
+  append_quoted(out, "times", recordings::base64(std::span<const double>(times)));
   out += ",\"recordedFrames\":" + std::to_string(recording.times.size());
   append_items(out, "nodes", recording.nodes, [&](const NodeRecord& node) {
     const auto found = description_of.find(node.name);
@@ -260,7 +264,7 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
   });
   const double from = recording.times.empty() ? 0 : recording.times.front();
   const double until = recording.times.empty() ? 0 : recording.times.back();
-  append_items(out, "lanes", key_lanes(stage, from, until), [&](const KeyLane& lane) {
+  append_items(out, "lanes", recordings::key_lanes(stage, from, until), [&](const recordings::KeyLane& lane) {
     const auto found = node_of.find(lane.node);
     return found == node_of.end() ? std::string() : lane_json(lane, found->second);
   });
@@ -270,4 +274,4 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
   return out + "}";
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::page

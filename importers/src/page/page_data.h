@@ -6,9 +6,9 @@
 
 #include <string>
 
-namespace tweenfall {
+namespace tweenfall::page {
 
 /// One JSON object; arrays of numbers as base64. Places are single precision: a page shows, it does not archive.
 [[nodiscard]] std::string page_data(const Recording& recording, const StageDescription& stage);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::page

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tweenfall {
+namespace tweenfall::page {
 
 namespace {
 
@@ -39,4 +39,4 @@ std::vector<std::size_t> page_frames(const Recording& recording) {
   return frames;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::page

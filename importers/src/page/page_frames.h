@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::page {
 
 /// Places of moving nodes, one for each frame and node, that a page carries at most.
 inline constexpr std::size_t most_page_places = 250 * 1000;
@@ -23,4 +23,4 @@ inline constexpr std::size_t most_page_places = 250 * 1000;
   return value > most ? infinite : value < -most ? -infinite : static_cast<float>(value);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::page

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::page {
 
 namespace {
 
@@ -21,7 +21,7 @@ std::string vectors_text(const std::vector<Vec3>& vectors) {
   numbers.reserve(vectors.size() * 3);
   for (const Vec3& vector : vectors)
     for (int i = 0; i < 3; ++i) numbers.push_back(static_cast<float>(vector[i]));
-  return base64(numbers);
+  return recordings::base64(numbers);
 }
 
 void append_mesh(std::string& out, const Mesh& mesh) {
@@ -29,7 +29,7 @@ void append_mesh(std::string& out, const Mesh& mesh) {
   append_json_string(out, mesh.name);
   append_array(out, "positions", vectors_text(mesh.positions));
   if (!mesh.normals.empty()) append_array(out, "normals", vectors_text(mesh.normals));
-  append_array(out, "triangles", base64(std::span<const std::uint32_t>(mesh.triangles)));
+  append_array(out, "triangles", recordings::base64(std::span<const std::uint32_t>(mesh.triangles)));
   if (!mesh.influences.empty()) {
     std::vector<std::uint32_t> joints;
     std::vector<float> weights;
@@ -42,8 +42,8 @@ void append_mesh(std::string& out, const Mesh& mesh) {
         joints.push_back(influence.joint);
         weights.push_back(static_cast<float>(influence.weight));
       }
-    append_array(out, "joints", base64(std::span<const std::uint32_t>(joints)));
-    append_array(out, "jointWeights", base64(weights));
+    append_array(out, "joints", recordings::base64(std::span<const std::uint32_t>(joints)));
+    append_array(out, "jointWeights", recordings::base64(weights));
   }
   out += ",\"morphs\":[";
   for (std::size_t i = 0; i < mesh.morphs.size(); ++i) {
@@ -89,7 +89,7 @@ void append_page_meshes(std::string& out, const StageDescription& stage,
       for (int row = 0; row < 3; ++row) numbers.push_back(static_cast<float>(bind.translation[row]));
     }
     out += ']';
-    append_array(out, "inverseBinds", base64(numbers));
+    append_array(out, "inverseBinds", recordings::base64(numbers));
     out += '}';
   }
   out += "],\n\"instances\":[";
@@ -105,4 +105,4 @@ void append_page_meshes(std::string& out, const StageDescription& stage,
   out += ']';
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::page

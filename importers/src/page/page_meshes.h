@@ -7,11 +7,11 @@
 #include <map>
 #include <string>
 
-namespace tweenfall {
+namespace tweenfall::page {
 
 /// Appends `,"meshes":[...],"skins":[...],"instances":[...]`. Instances and joints of nodes that `node_of` does not
 /// know are left out.
 void append_page_meshes(std::string& out, const StageDescription& stage,
                         const std::map<std::string, std::size_t>& node_of);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::page

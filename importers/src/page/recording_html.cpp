@@ -30,7 +30,7 @@ std::string recording_html(const Recording& recording, const StageDescription& s
     if (part == "title") {
       out += markup_text(name.empty() ? "recording" : name);
     } else if (part == "data") {
-      out += page_data(recording, stage);
+      out += page::page_data(recording, stage);
     } else if (part == "three.js") {
       out += three;
     } else {

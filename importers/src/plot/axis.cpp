@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 namespace {
 
@@ -79,4 +79,4 @@ void add_room(double& low, double& high) {
   high += room;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

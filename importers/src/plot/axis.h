@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 struct Axis {
   double low = 0, high = 1;  ///< values at the ends; low < high, both finite and no closer than doubles can tell ten of
@@ -24,4 +24,4 @@ struct Axis {
 /// Widens [low, high] so that curves do not touch the frame; what is flat gets a range around it.
 void add_room(double& low, double& high);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

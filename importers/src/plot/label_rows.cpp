@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 namespace {
 
@@ -50,4 +50,4 @@ LabelRows::Place LabelRows::place(double x, const std::string& text, const IsTak
   return {from, chosen};
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 /// About how wide a text of size 10 is, px.
 [[nodiscard]] double text_width(const std::string& text);
@@ -34,4 +34,4 @@ class LabelRows {
   std::vector<std::vector<std::pair<double, double>>> rows_;
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 namespace {
 
@@ -284,4 +284,4 @@ void draw_legend(SvgWriter& svg, const PlottedStage& plotted, double x, double y
   }
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

@@ -5,7 +5,7 @@
 #include "plot/plot_panel.h"
 #include "plot/plotted_track.h"
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 /// Diamonds at the keys, with the handles that they have, or short lines along the slopes where there are none.
 void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted);
@@ -22,4 +22,4 @@ void draw_colors(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted
 /// One line that shows each mark that the plot has beside its name.
 void draw_legend(SvgWriter& svg, const PlottedStage& plotted, double x, double y);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

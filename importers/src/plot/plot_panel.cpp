@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 const std::vector<double>& numbers(const TrackPoint& point, Shows shows) {
   return shows == Shows::values ? point.values : point.rates;
@@ -154,4 +154,4 @@ void draw_curves(SvgWriter& svg, const Panel& panel, const std::vector<TrackPoin
   }
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 /// Whether a panel shows the values of points or their rates.
 enum class Shows { values, rates };
@@ -34,4 +34,4 @@ void draw_frame(SvgWriter& svg, const Panel& panel, bool time_labels);
 /// A line through the points for each component.
 void draw_curves(SvgWriter& svg, const Panel& panel, const std::vector<TrackPoint>& points, bool dashed);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

@@ -8,6 +8,7 @@
 
 namespace tweenfall {
 
+namespace plotting {
 namespace {
 
 constexpr double left_margin = 58, right_margin = 16;
@@ -85,36 +86,40 @@ void draw_block(SvgWriter& svg, const PlottedTrack& plotted, const PlotOptions& 
 }
 
 }  // namespace
+}  // namespace plotting
 
 std::string plot_svg(const StageDescription& stage, const Recording* recording, const PlotOptions& options) {
   if (options.columns < 1 || options.columns > 6)
     throw std::invalid_argument("a plot has 1 to 6 columns; found " + std::to_string(options.columns));
-  const PlottedStage plotted = plotted_tracks(stage, recording, options);
+  const plotting::PlottedStage plotted = plotting::plotted_tracks(stage, recording, options);
   const std::size_t columns =
       std::clamp(plotted.tracks.size(), std::size_t{1}, static_cast<std::size_t>(options.columns));
-  const double width = column_width(static_cast<int>(columns));
-  std::vector<double> tops = {head};  // of the rows, and of what follows them
+  const double width = plotting::column_width(static_cast<int>(columns));
+  std::vector<double> tops = {plotting::head};  // of the rows, and of what follows them
   for (std::size_t i = 0; i < plotted.tracks.size(); i += columns) {
     double height = 0;
     for (std::size_t k = i; k < std::min(i + columns, plotted.tracks.size()); ++k)
-      height = std::max(height, block_height(plotted.tracks[k], options));
+      height = std::max(height, plotting::block_height(plotted.tracks[k], options));
     tops.push_back(tops.back() + height);
   }
-  SvgWriter svg(width * static_cast<double>(columns), tops.back() + foot + (plotted.left_out > 0 ? 18 : 0));
+  plotting::SvgWriter svg(width * static_cast<double>(columns),
+                          tops.back() + plotting::foot + (plotted.left_out > 0 ? 18 : 0));
   svg.leaf("rect", {{"width", "100%"}, {"height", "100%"}, {"fill", "#f7f7f5"}});
   svg.text("text", {{"x", "14"}, {"y", "23"}, {"font-size", "14"}, {"font-weight", "600"}, {"fill", "#23262b"}},
            stage.name.empty() ? "tracks" : stage.name);
   if (plotted.tracks.empty())
     svg.text("text", {{"x", "14"}, {"y", "42"}, {"fill", "#6d7178"}}, "no tracks");
   else
-    draw_legend(svg, plotted, 14, 42);
+    plotting::draw_legend(svg, plotted, 14, 42);
   for (std::size_t i = 0; i < plotted.tracks.size(); ++i) {
     const double left = width * static_cast<double>(i % columns);
-    draw_block(svg, plotted.tracks[i], options,
-               {plotted.from, plotted.until, left + left_margin, left + width - right_margin}, tops[i / columns]);
+    plotting::draw_block(
+        svg, plotted.tracks[i], options,
+        {plotted.from, plotted.until, left + plotting::left_margin, left + width - plotting::right_margin},
+        tops[i / columns]);
   }
   if (plotted.left_out > 0)
-    svg.text("text", {{"x", "14"}, {"y", px(tops.back() + 10)}, {"fill", "#6d7178"}},
+    svg.text("text", {{"x", "14"}, {"y", plotting::px(tops.back() + 10)}, {"fill", "#6d7178"}},
              "and " + std::to_string(plotted.left_out) + " more, which are drawn where they are named");
   return svg.finish();
 }

@@ -16,7 +16,7 @@
 #include <tuple>
 #include <utility>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 namespace {
 
@@ -55,15 +55,15 @@ std::vector<Shown> shown_clips(const StageDescription& stage, bool recorded, con
 
 /// Times of the keys, as often as they are passed.
 /// @param lanes  of the stage; empty where clips are shown as they are
-std::vector<double> passed_keys(const std::vector<KeyLane>& lanes, const Shown& shown, const Track& track, double from,
-                                double until) {
+std::vector<double> passed_keys(const std::vector<recordings::KeyLane>& lanes, const Shown& shown, const Track& track,
+                                double from, double until) {
   std::vector<double> times;
   if (!shown.play) {
-    for (const double time : key_times(track.curve))
+    for (const double time : recordings::key_times(track.curve))
       if (time >= from && time <= until) times.push_back(time);
     return times;
   }
-  for (const KeyLane& lane : lanes)
+  for (const recordings::KeyLane& lane : lanes)
     if (lane.node == track.node && lane.property == track.property) times = lane.times;
   return times;
 }
@@ -231,7 +231,7 @@ void add_recorded(PlottedTrack& plotted, const Recording& recording) {
   for (const HandOff& handoff : recording.handoffs)
     if (handoff.cause != Cause::start && is_below(recording, handoff.node, plotted.track->node))
       plotted.moments.push_back(
-          {handoff.time, recording.nodes[handoff.node].name + " " + owner_word(handoff.to), true});
+          {handoff.time, recording.nodes[handoff.node].name + " " + recordings::owner_word(handoff.to), true});
   const auto found = std::find_if(recording.nodes.begin(), recording.nodes.end(),
                                   [&](const NodeRecord& node) { return node.name == plotted.track->node; });
   if (found == recording.nodes.end()) return;
@@ -302,7 +302,8 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
       }
   }
 
-  const std::vector<KeyLane> lanes = recording ? key_lanes(stage, result.from, result.until) : std::vector<KeyLane>();
+  const std::vector<recordings::KeyLane> lanes =
+      recording ? recordings::key_lanes(stage, result.from, result.until) : std::vector<recordings::KeyLane>();
   std::vector<std::string> missing = options.tracks;
   std::string names;
   for (const Shown& shown : clips) {
@@ -335,4 +336,4 @@ PlottedStage plotted_tracks(const StageDescription& stage, const Recording* reco
   return result;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 /// Where a component's handle ends, as its way from the key.
 struct PlottedHandle {
@@ -56,4 +56,4 @@ struct PlottedStage {
 [[nodiscard]] PlottedStage plotted_tracks(const StageDescription& stage, const Recording* recording,
                                           const PlotOptions& options);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

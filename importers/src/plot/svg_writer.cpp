@@ -3,7 +3,7 @@
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/shown_text.h>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 SvgWriter::SvgWriter(double width, double height) {
   open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
@@ -67,4 +67,4 @@ std::string px(double x, double y) {
   return px(x) + "," + px(y);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 class SvgWriter {
  public:
@@ -40,4 +40,4 @@ class SvgWriter {
 /// "x,y"
 [[nodiscard]] std::string px(double x, double y);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 namespace {
 
@@ -155,4 +155,4 @@ void turn_into_angles(PlottedTrack& plotted) {
   plotted.rate_names = plotted.names;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

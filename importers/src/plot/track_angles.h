@@ -4,10 +4,10 @@
 
 #include "plot/plotted_track.h"
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 /// Changes a plotted rotation from x, y, z, w and rad/s to degrees and degrees per second: where all of it turns about
 /// one axis, the angle about that; else three angles, intrinsic x, y, z. From the first point on neither is wrapped.
 void turn_into_angles(PlottedTrack& plotted);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

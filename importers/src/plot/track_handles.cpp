@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <type_traits>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 namespace {
 
@@ -48,4 +48,4 @@ std::vector<TrackHandle> track_handles(const TrackCurve& curve) {
   return handles;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

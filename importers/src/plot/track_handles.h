@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 /// One handle of all components, as its way from its key.
 struct TrackHandle {
@@ -20,4 +20,4 @@ struct TrackHandle {
 /// colors.
 [[nodiscard]] std::vector<TrackHandle> track_handles(const TrackCurve& curve);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

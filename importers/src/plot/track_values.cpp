@@ -1,6 +1,6 @@
 #include "plot/track_values.h"
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 namespace {
 
@@ -59,4 +59,4 @@ std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t n
   return points;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

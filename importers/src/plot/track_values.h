@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::plotting {
 
 /// One moment of a track; components in the order of `component_names`.
 struct TrackPoint {
@@ -27,4 +27,4 @@ struct TrackPoint {
 [[nodiscard]] std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t node, Property property,
                                                      std::size_t first, std::size_t last);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::plotting

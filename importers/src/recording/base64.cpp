@@ -2,7 +2,7 @@
 
 #include <bit>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 static_assert(std::endian::native == std::endian::little, "pages hold little-endian numbers");
 
@@ -30,4 +30,4 @@ std::string base64(std::span<const std::uint32_t> numbers) {
   return base64(std::as_bytes(numbers));
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 /// RFC 4648 base64 with padding.
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
@@ -16,4 +16,4 @@ namespace tweenfall {
 [[nodiscard]] std::string base64(std::span<const double> numbers);
 [[nodiscard]] std::string base64(std::span<const std::uint32_t> numbers);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

@@ -11,6 +11,7 @@
 
 namespace tweenfall {
 
+namespace recordings {
 namespace {
 
 [[noreturn]] void fail(const Recording& recording, const std::string& what) {
@@ -79,38 +80,41 @@ double largest_number(const Shape& shape) {
 }
 
 }  // namespace
+}  // namespace recordings
 
 void check_recording(const Recording& recording) {
   for (std::size_t frame = 0; frame < recording.times.size(); ++frame) {
     if (!std::isfinite(recording.times[frame]))
-      fail(recording, "the time of frame " + std::to_string(frame) + " is not finite");
+      recordings::fail(recording, "the time of frame " + std::to_string(frame) + " is not finite");
     if (frame > 0 && recording.times[frame] <= recording.times[frame - 1])
-      fail(recording, "times must increase; " + number_text(recording.times[frame]) + " s is not after " +
-                          number_text(recording.times[frame - 1]) + " s");
+      recordings::fail(recording, "times must increase; " + number_text(recording.times[frame]) + " s is not after " +
+                                      number_text(recording.times[frame - 1]) + " s");
   }
-  for (std::size_t index = 0; index < recording.nodes.size(); ++index) check_node(recording, index);
+  for (std::size_t index = 0; index < recording.nodes.size(); ++index) recordings::check_node(recording, index);
   const auto is_finite = [](const Twist& twist) { return twist.linear.allFinite() && twist.angular.allFinite(); };
   for (const HandOff& handoff : recording.handoffs) {
     if (handoff.node >= recording.nodes.size())
-      fail(recording, "a hand-off at " + number_text(handoff.time) + " s names node " + std::to_string(handoff.node) +
-                          ", but there are " + std::to_string(recording.nodes.size()) + " nodes");
+      recordings::fail(recording, "a hand-off at " + number_text(handoff.time) + " s names node " +
+                                      std::to_string(handoff.node) + ", but there are " +
+                                      std::to_string(recording.nodes.size()) + " nodes");
     if (!std::isfinite(handoff.time) || !is_finite(handoff.before.twist) || !is_finite(handoff.after.twist))
-      fail(recording, "the hand-off of \"" + recording.nodes[handoff.node].name + "\" at " + number_text(handoff.time) +
-                          " s has no finite speed");
+      recordings::fail(recording, "the hand-off of \"" + recording.nodes[handoff.node].name + "\" at " +
+                                      number_text(handoff.time) + " s has no finite speed");
   }
   for (const UnfiredRule& unfired : recording.unfired)
     if (unfired.node >= recording.nodes.size())
-      fail(recording, "rule " + std::to_string(unfired.rule) + " waits for node " + std::to_string(unfired.node) +
-                          ", but there are " + std::to_string(recording.nodes.size()) + " nodes");
+      recordings::fail(recording, "rule " + std::to_string(unfired.rule) + " waits for node " +
+                                      std::to_string(unfired.node) + ", but there are " +
+                                      std::to_string(recording.nodes.size()) + " nodes");
   for (const StageEvent& event : recording.events) {
     if (!std::isfinite(event.time) || !std::isfinite(event.impulse))
-      fail(recording, "event \"" + event.name + "\" at " + number_text(event.time) + " s has an impulse of " +
-                          number_text(event.impulse) + " N s");
+      recordings::fail(recording, "event \"" + event.name + "\" at " + number_text(event.time) +
+                                      " s has an impulse of " + number_text(event.impulse) + " N s");
     for (const NodeId node : event.nodes)
       if (node >= recording.nodes.size())
-        fail(recording, "event \"" + event.name + "\" at " + number_text(event.time) + " s names node " +
-                            std::to_string(node) + ", but there are " + std::to_string(recording.nodes.size()) +
-                            " nodes");
+        recordings::fail(recording, "event \"" + event.name + "\" at " + number_text(event.time) + " s names node " +
+                                        std::to_string(node) + ", but there are " +
+                                        std::to_string(recording.nodes.size()) + " nodes");
   }
 }
 
@@ -120,13 +124,13 @@ void check_drawable(const Recording& recording, const StageDescription& stage) {
   constexpr const char* limit = ", beyond the 3.4e+38 that .glb files hold";
   for (const NodeRecord& node : recording.nodes)
     for (std::size_t frame = 0; frame < recording.times.size(); ++frame)
-      if (const auto [size, what] = largest_number(node, frame); size > largest_float)
-        fail(recording, "node \"" + node.name + "\" is " + brief_text(size) + " " + what + " at " +
-                            number_text(recording.times[frame]) + " s" + limit);
+      if (const auto [size, what] = recordings::largest_number(node, frame); size > largest_float)
+        recordings::fail(recording, "node \"" + node.name + "\" is " + brief_text(size) + " " + what + " at " +
+                                        number_text(recording.times[frame]) + " s" + limit);
   for (const NodeDescription& node : stage.nodes)
-    if (node.body && largest_number(node.body->shape) > largest_float)
-      fail(recording, "the shape of node \"" + node.name + "\" is " + brief_text(largest_number(node.body->shape)) +
-                          " m large" + limit);
+    if (node.body && recordings::largest_number(node.body->shape) > largest_float)
+      recordings::fail(recording, "the shape of node \"" + node.name + "\" is " +
+                                      brief_text(recordings::largest_number(node.body->shape)) + " m large" + limit);
 }
 
 }  // namespace tweenfall

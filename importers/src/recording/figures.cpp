@@ -8,7 +8,7 @@
 #include <map>
 #include <numbers>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 namespace {
 
@@ -336,4 +336,4 @@ SideScene side_scene(const Recording& recording, const StageDescription& stage, 
   return scene;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

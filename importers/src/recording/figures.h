@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 /// From the world to the picture.
 struct SideView {
@@ -55,4 +55,4 @@ struct SideScene {
 [[nodiscard]] std::vector<const NodeDescription*> descriptions(const Recording& recording,
                                                                const StageDescription& stage);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

@@ -7,7 +7,7 @@
 #include <map>
 #include <type_traits>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 namespace {
 
@@ -138,4 +138,4 @@ std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, doubl
   return lanes;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

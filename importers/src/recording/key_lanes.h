@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 /// One animated track.
 struct KeyLane {
@@ -32,4 +32,4 @@ struct KeyLane {
 /// Times of a track's keys in clip time, s.
 [[nodiscard]] std::vector<double> key_times(const TrackCurve& curve);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 namespace key_words {
 
@@ -121,4 +121,4 @@ std::vector<std::string> key_ease_texts(const TrackCurve& curve, const std::vect
   return std::visit([&](const auto& held) { return key_words::ease_texts(held, clip_times); }, curve);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 /// The value of a track at a key, with four decimals at most: "(0, 1.5, 0)", rotations as "90° about (0, 0, 1)", colors
 /// as linear "(r, g, b, a)".
@@ -17,4 +17,4 @@ namespace tweenfall {
 /// "quintic", "several" where components differ, or "end" for the last key.
 [[nodiscard]] std::vector<std::string> key_ease_texts(const TrackCurve& curve, const std::vector<double>& clip_times);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 std::vector<std::size_t> key_frames(const std::vector<double>& times, const std::vector<std::vector<Vec2>>& points,
                                     double tolerance) {
@@ -37,4 +37,4 @@ std::vector<std::size_t> key_frames(const std::vector<double>& times, const std:
   return kept;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 /// Indices of the frames to keep, first and last among them: between two of them in a row, every point of every frame
 /// lies within `tolerance` of the straight line in time.
@@ -16,4 +16,4 @@ namespace tweenfall {
 [[nodiscard]] std::vector<std::size_t> key_frames(const std::vector<double>& times,
                                                   const std::vector<std::vector<Vec2>>& points, double tolerance);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

@@ -7,6 +7,7 @@
 
 namespace tweenfall {
 
+namespace recordings {
 namespace {
 
 /// A field as RFC 4180 has it: quoted when it holds a comma, a quote or a line break. No other control character stays,
@@ -35,6 +36,7 @@ void append_columns(std::string& out, const Values& values, int count) {
 }
 
 }  // namespace
+}  // namespace recordings
 
 std::string recording_csv(const Recording& recording) {
   check_recording(recording);
@@ -44,13 +46,13 @@ std::string recording_csv(const Recording& recording) {
   for (std::size_t frame = 0; frame < recording.times.size(); ++frame) {
     for (const NodeRecord& node : recording.nodes) {
       append_number(out, recording.times[frame]);
-      ((out += ',') += field(node.name)) += ',';
-      out += owner_word(node.owner[frame]);
+      ((out += ',') += recordings::field(node.name)) += ',';
+      out += recordings::owner_word(node.owner[frame]);
       const Pose& pose = node.world[frame].motion.pose;
-      append_columns(out, pose.position, 3);
-      append_columns(out, pose.rotation.coeffs(), 4);
-      append_columns(out, node.twist[frame].linear, 3);
-      append_columns(out, node.twist[frame].angular, 3);
+      recordings::append_columns(out, pose.position, 3);
+      recordings::append_columns(out, pose.rotation.coeffs(), 4);
+      recordings::append_columns(out, node.twist[frame].linear, 3);
+      recordings::append_columns(out, node.twist[frame].angular, 3);
       out += '\n';
     }
   }

@@ -7,6 +7,7 @@
 
 namespace tweenfall {
 
+namespace recordings {
 namespace {
 
 /// "[a,b,...]" of what `append` adds for each index.
@@ -105,22 +106,24 @@ void append_lines(std::string& out, char open, char close, std::size_t size, App
 }
 
 }  // namespace
+}  // namespace recordings
 
 std::string recording_json(const Recording& recording) {
   check_recording(recording);
   std::string out = "{\"times\": ";
-  append_list(out, recording.times.size(), [&](std::size_t i) { append_number(out, recording.times[i]); });
+  recordings::append_list(out, recording.times.size(), [&](std::size_t i) { append_number(out, recording.times[i]); });
   out += ",\n \"nodes\": ";
-  append_lines(out, '{', '}', recording.nodes.size(), [&](std::size_t i) { append_node(out, recording.nodes[i]); });
+  recordings::append_lines(out, '{', '}', recording.nodes.size(),
+                           [&](std::size_t i) { recordings::append_node(out, recording.nodes[i]); });
   out += ",\n \"handoffs\": ";
-  append_lines(out, '[', ']', recording.handoffs.size(),
-               [&](std::size_t i) { append_handoff(out, recording, recording.handoffs[i]); });
+  recordings::append_lines(out, '[', ']', recording.handoffs.size(),
+                           [&](std::size_t i) { recordings::append_handoff(out, recording, recording.handoffs[i]); });
   out += ",\n \"events\": ";
-  append_lines(out, '[', ']', recording.events.size(),
-               [&](std::size_t i) { append_event(out, recording, recording.events[i]); });
+  recordings::append_lines(out, '[', ']', recording.events.size(),
+                           [&](std::size_t i) { recordings::append_event(out, recording, recording.events[i]); });
   out += ",\n \"unfired\": ";
-  append_lines(out, '[', ']', recording.unfired.size(),
-               [&](std::size_t i) { append_unfired(out, recording, recording.unfired[i]); });
+  recordings::append_lines(out, '[', ']', recording.unfired.size(),
+                           [&](std::size_t i) { recordings::append_unfired(out, recording, recording.unfired[i]); });
   out += "}\n";
   return out;
 }

@@ -9,7 +9,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 namespace {
 
@@ -123,4 +123,4 @@ Model recording_model(const Recording& recording, const StageDescription& stage)
   return model;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

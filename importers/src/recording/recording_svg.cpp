@@ -13,6 +13,7 @@
 
 namespace tweenfall {
 
+namespace recordings {
 namespace {
 
 constexpr double picture_width = 760, margin = 12, picture_head = 34, most_height = 400;
@@ -36,7 +37,7 @@ struct Drawing {
   SideView view;
   double tolerance;
   double start, length;  // s
-  SvgWriter svg;
+  plotting::SvgWriter svg;
 
   [[nodiscard]] double share(double time) const { return (time - start) / (length + rest); }
   /// Coordinates are as exact as the keyframes are.
@@ -172,7 +173,7 @@ void draw_figure(Drawing& drawing, const Figure& figure) {
   drawing.svg.open("g", {{"stroke", color},
                          {"fill", color},
                          {"fill-opacity", "0.3"},
-                         {"stroke-width", stick                                ? px(2 * figure.radius)
+                         {"stroke-width", stick                                ? plotting::px(2 * figure.radius)
                                           : figure.kind == Figure::Kind::bones ? "3"
                                                                                : "2"},
                          {"stroke-opacity", stick ? "0.7" : "1"},
@@ -189,7 +190,7 @@ void draw_figure(Drawing& drawing, const Figure& figure) {
   if (figure.kind == Figure::Kind::ball) {
     const auto x = [&](std::size_t frame) { return drawing.number(figure.points[frame][0].x()); };
     const auto y = [&](std::size_t frame) { return drawing.number(figure.points[frame][0].y()); };
-    drawing.svg.open("circle", {{"r", px(figure.radius)}, {"cx", x(0)}, {"cy", y(0)}});
+    drawing.svg.open("circle", {{"r", plotting::px(figure.radius)}, {"cx", x(0)}, {"cy", y(0)}});
     if (!still) animate(drawing, "cx", series(drawing, kept, x));
     if (!still) animate(drawing, "cy", series(drawing, kept, y));
     drawing.svg.close();
@@ -210,8 +211,9 @@ std::vector<std::size_t> lane_nodes(const Recording& recording) {
 
 void draw_lane(Drawing& drawing, std::size_t index, double top) {
   const NodeRecord& node = drawing.recording.nodes[index];
-  drawing.svg.text("text", {{"class", "quiet"}, {"x", px(margin)}, {"y", px(top + 12)}, {"font-size", "11"}},
-                   node.name.size() > 16 ? node.name.substr(0, 15) + "." : node.name);
+  drawing.svg.text(
+      "text", {{"class", "quiet"}, {"x", plotting::px(margin)}, {"y", plotting::px(top + 12)}, {"font-size", "11"}},
+      node.name.size() > 16 ? node.name.substr(0, 15) + "." : node.name);
   // Hand-offs have exact times; frames only say between which of them.
   const auto exact = [&](std::size_t frame) {
     for (const HandOff& handoff : drawing.recording.handoffs)
@@ -225,14 +227,15 @@ void draw_lane(Drawing& drawing, std::size_t index, double top) {
     const double from = drawing.lane_x(run == 0 ? drawing.start : exact(changes[run]));
     const double to =
         drawing.lane_x(run + 1 < changes.size() ? exact(changes[run + 1]) : drawing.start + drawing.length);
-    drawing.svg.leaf("rect", {{"x", px(from)},
-                              {"y", px(top + 3)},
-                              {"width", px(std::max(0.5, to - from))},
-                              {"height", px(lane_height - 7)},
+    drawing.svg.leaf("rect", {{"x", plotting::px(from)},
+                              {"y", plotting::px(top + 3)},
+                              {"width", plotting::px(std::max(0.5, to - from))},
+                              {"height", plotting::px(lane_height - 7)},
                               {"fill", owner_color(node.owner[changes[run]])}});
     if (run > 0)
-      drawing.svg.leaf("path",
-                       {{"class", "ink"}, {"d", "M" + px(from) + " " + px(top + lane_height - 1) + "l-4 5h8Z"}});
+      drawing.svg.leaf(
+          "path",
+          {{"class", "ink"}, {"d", "M" + plotting::px(from) + " " + plotting::px(top + lane_height - 1) + "l-4 5h8Z"}});
   }
 }
 
@@ -242,8 +245,8 @@ void draw_time_bar(Drawing& drawing, const std::vector<std::size_t>& lanes, doub
   const double bottom = top + static_cast<double>(lanes.size()) * (lane_height + 4) + 4;
   drawing.svg.leaf("path", {{"class", "line"},
                             {"fill", "none"},
-                            {"d", "M" + px(drawing.lane_x(drawing.start)) + " " + px(bottom) + "H" +
-                                      px(drawing.lane_x(drawing.start + drawing.length))}});
+                            {"d", "M" + plotting::px(drawing.lane_x(drawing.start)) + " " + plotting::px(bottom) + "H" +
+                                      plotting::px(drawing.lane_x(drawing.start + drawing.length))}});
   // A name that would lie over the one before is left out.
   constexpr double letter_width = 5.4;
   double taken = -1e300;
@@ -251,14 +254,21 @@ void draw_time_bar(Drawing& drawing, const std::vector<std::size_t>& lanes, doub
     const double middle = drawing.lane_x(event.time), half = letter_width * static_cast<double>(event.name.size()) / 2;
     if (!event.nodes.empty() || middle - half < taken + letter_width) continue;
     taken = middle + half;
-    drawing.svg.text(
-        "text",
-        {{"class", "quiet"}, {"x", px(middle)}, {"y", px(bottom + 13)}, {"font-size", "10"}, {"text-anchor", "middle"}},
-        event.name);
+    drawing.svg.text("text",
+                     {{"class", "quiet"},
+                      {"x", plotting::px(middle)},
+                      {"y", plotting::px(bottom + 13)},
+                      {"font-size", "10"},
+                      {"text-anchor", "middle"}},
+                     event.name);
   }
-  const std::string from = px(drawing.lane_x(drawing.start)), to = px(drawing.lane_x(drawing.start + drawing.length));
-  drawing.svg.open(
-      "rect", {{"class", "ink"}, {"x", from}, {"y", px(top - 2)}, {"width", "1.5"}, {"height", px(bottom - top + 5)}});
+  const std::string from = plotting::px(drawing.lane_x(drawing.start)),
+                    to = plotting::px(drawing.lane_x(drawing.start + drawing.length));
+  drawing.svg.open("rect", {{"class", "ink"},
+                            {"x", from},
+                            {"y", plotting::px(top - 2)},
+                            {"width", "1.5"},
+                            {"height", plotting::px(bottom - top + 5)}});
   const std::string end = short_text(drawing.length / (drawing.length + rest), 5);
   animate(drawing, "x", {from + ";" + to + ";" + to, "0;" + end + ";1"});
   drawing.svg.close();
@@ -266,7 +276,8 @@ void draw_time_bar(Drawing& drawing, const std::vector<std::size_t>& lanes, doub
 
 void draw_head(Drawing& drawing, const std::string& name) {
   drawing.svg.text(
-      "text", {{"class", "ink"}, {"x", px(margin)}, {"y", "22"}, {"font-size", "14"}, {"font-weight", "600"}}, name);
+      "text", {{"class", "ink"}, {"x", plotting::px(margin)}, {"y", "22"}, {"font-size", "14"}, {"font-weight", "600"}},
+      name);
   double x = picture_width - margin;
   for (const Owner owner : {Owner::free, Owner::driven, Owner::keyed}) {
     const bool shown =
@@ -275,10 +286,13 @@ void draw_head(Drawing& drawing, const std::string& name) {
         });
     if (!shown) continue;
     x -= 64;
-    drawing.svg.leaf(
-        "rect",
-        {{"x", px(x)}, {"y", "12"}, {"width", "11"}, {"height", "11"}, {"rx", "2"}, {"fill", owner_color(owner)}});
-    drawing.svg.text("text", {{"class", "quiet"}, {"x", px(x + 16)}, {"y", "22"}}, owner_word(owner));
+    drawing.svg.leaf("rect", {{"x", plotting::px(x)},
+                              {"y", "12"},
+                              {"width", "11"},
+                              {"height", "11"},
+                              {"rx", "2"},
+                              {"fill", owner_color(owner)}});
+    drawing.svg.text("text", {{"class", "quiet"}, {"x", plotting::px(x + 16)}, {"y", "22"}}, owner_word(owner));
   }
 }
 
@@ -292,16 +306,18 @@ std::string draw(const Recording& recording, const StageDescription& stage, cons
                   tolerance,
                   recording.times.front(),
                   recording.times.back() - recording.times.front(),
-                  SvgWriter(picture_width, height)};
-  SvgWriter& svg = drawing.svg;
+                  plotting::SvgWriter(picture_width, height)};
+  plotting::SvgWriter& svg = drawing.svg;
   svg.comment("tweenfall: keyframes within " + short_text(tolerance, 2) + " px of the recording");
   svg.text("style", {}, style);
   svg.leaf("rect", {{"class", "paper"}, {"width", "100%"}, {"height", "100%"}, {"rx", "8"}});
   draw_head(drawing, recording.name.empty() ? stage.name : recording.name);
   svg.open("clipPath", {{"id", "view"}});
-  svg.leaf(
-      "rect",
-      {{"x", px(view.left)}, {"y", px(view.top)}, {"width", px(view.width)}, {"height", px(view.height)}, {"rx", "4"}});
+  svg.leaf("rect", {{"x", plotting::px(view.left)},
+                    {"y", plotting::px(view.top)},
+                    {"width", plotting::px(view.width)},
+                    {"height", plotting::px(view.height)},
+                    {"rx", "4"}});
   svg.close();
   svg.open("g", {{"clip-path", "url(#view)"}});
   draw_ground(drawing, stage);
@@ -313,16 +329,19 @@ std::string draw(const Recording& recording, const StageDescription& stage, cons
 }
 
 }  // namespace
+}  // namespace recordings
 
 std::string recording_svg(const Recording& recording, const StageDescription& stage) {
   check_recording(recording);
   if (recording.times.empty())
     throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to show");
-  const SideScene scene = side_scene(recording, stage, margin, picture_head, picture_width - 2 * margin, most_height);
+  const recordings::SideScene scene =
+      recordings::side_scene(recording, stage, recordings::margin, recordings::picture_head,
+                             recordings::picture_width - 2 * recordings::margin, recordings::most_height);
   // As exact as the size allows.
   for (double tolerance = 0.4;; tolerance *= 2) {
-    std::string text = draw(recording, stage, scene, tolerance);
-    if (text.size() <= most_bytes || tolerance > 20) return text;
+    std::string text = recordings::draw(recording, stage, scene, tolerance);
+    if (text.size() <= recordings::most_bytes || tolerance > 20) return text;
   }
 }
 

@@ -17,7 +17,7 @@ void save_recording(const Recording& recording, const StageDescription& stage, c
   if (ending == ".csv") return write_whole_file(file, recording_csv(recording));
   if (ending == ".svg") return write_whole_file(file, recording_svg(recording, stage));
   if (ending == ".html") return write_whole_file(file, recording_html(recording, stage));
-  if (ending == ".glb") return save_glb(recording_model(recording, stage), file);
+  if (ending == ".glb") return save_glb(recordings::recording_model(recording, stage), file);
   throw std::invalid_argument("cannot tell from \"" + file.filename().string() +
                               "\" what to write; the name must end in .json, .csv, .svg, .html or .glb");
 }

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 namespace {
 
@@ -85,4 +85,4 @@ Mesh shape_mesh(const Shape& shape) {
   return mesh;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

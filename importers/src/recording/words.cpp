@@ -1,6 +1,6 @@
 #include "recording/words.h"
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 const char* owner_word(Owner owner) noexcept {
   switch (owner) {
@@ -36,4 +36,4 @@ const char* cause_word(Cause cause) noexcept {
   return "caller";
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

@@ -4,9 +4,9 @@
 
 #include <tweenfall/physics/handoff/rule.h>
 
-namespace tweenfall {
+namespace tweenfall::recordings {
 
 [[nodiscard]] const char* owner_word(Owner owner) noexcept;
 [[nodiscard]] const char* cause_word(Cause cause) noexcept;
 
-}  // namespace tweenfall
+}  // namespace tweenfall::recordings

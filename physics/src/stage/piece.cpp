@@ -24,9 +24,11 @@ void report_events(const StageState& state, double from, double to, std::vector<
     fired.insert(fired.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   }
   std::ranges::stable_sort(fired, {}, &FiredEvent::time);
-  for (FiredEvent& event : fired)
-    happenings.push_back(
-        {event.time, StageEvent{.time = event.time, .name = event.name, .data = event.data, .nodes = {}}});
+  for (FiredEvent& event : fired) {
+    Happening& happening = happenings.emplace_back();
+    happening.time = event.time;
+    happening.what = StageEvent{.time = event.time, .name = event.name, .data = event.data, .nodes = {}};
+  }
 }
 
 /// The caller's changes that are due after `from`, in order of time.

@@ -37,7 +37,7 @@ void set_data(const Record* list, bool bits, std::size_t set, FileKey& key) {
 
 class CurveReader {
  public:
-  CurveReader(const Object& curve, const Objects& objects, ModelProblems& problems)
+  CurveReader(const Object& curve, const Objects& objects, models::ModelProblems& problems)
       : record_(*curve.record), objects_(objects), problems_(problems) {}
 
   std::vector<FileKey> keys() {
@@ -132,7 +132,7 @@ class CurveReader {
 
   const Record& record_;
   const Objects& objects_;
-  ModelProblems& problems_;
+  models::ModelProblems& problems_;
 };
 
 Tangent<double> tangent(double rate, double weight) {
@@ -171,7 +171,7 @@ Curve<double> joined(const std::vector<FileKey>& keys, double scale, double tick
 }  // namespace
 
 std::optional<Curve<double>> key_curve(const Object& curve, const Objects& objects, double scale,
-                                       ModelProblems& problems) {
+                                       models::ModelProblems& problems) {
   CurveReader reader(curve, objects, problems);
   const std::vector<FileKey> keys = reader.keys();
   if (keys.empty()) return std::nullopt;

@@ -13,6 +13,6 @@ namespace tweenfall::fbx {
 /// The curve, its values times `scale`; nothing for one without keys.
 /// @throws ModelError with the place of lists that do not fit together or hold no finite numbers.
 [[nodiscard]] std::optional<Curve<double>> key_curve(const Object& curve, const Objects& objects, double scale,
-                                                     ModelProblems& problems);
+                                                     models::ModelProblems& problems);
 
 }  // namespace tweenfall::fbx

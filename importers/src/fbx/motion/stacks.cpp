@@ -34,7 +34,7 @@ Sample<double> share(const Sample<double>& percent) {
 
 class StackReader {
  public:
-  StackReader(const Objects& objects, ModelProblems& problems) : objects_(objects), problems_(problems) {}
+  StackReader(const Objects& objects, models::ModelProblems& problems) : objects_(objects), problems_(problems) {}
 
   Stack read(std::size_t index, const std::string& name) {
     const Object& object = objects_[index];
@@ -113,14 +113,14 @@ class StackReader {
   }
 
   const Objects& objects_;
-  ModelProblems& problems_;
+  models::ModelProblems& problems_;
 };
 
 }  // namespace
 
-std::vector<Stack> read_stacks(const Objects& objects, ModelProblems& problems) {
+std::vector<Stack> read_stacks(const Objects& objects, models::ModelProblems& problems) {
   std::vector<Stack> stacks;
-  UniqueNames names;
+  models::UniqueNames names;
   StackReader reader(objects, problems);
   for (std::size_t i = 0; i < objects.all().size(); ++i) {
     if (objects[i].kind != "AnimationStack") continue;

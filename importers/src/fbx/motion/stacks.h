@@ -42,6 +42,6 @@ struct Stack {
 };
 
 /// All stacks in the file's order. @throws ModelError
-[[nodiscard]] std::vector<Stack> read_stacks(const Objects& objects, ModelProblems& problems);
+[[nodiscard]] std::vector<Stack> read_stacks(const Objects& objects, models::ModelProblems& problems);
 
 }  // namespace tweenfall::fbx

@@ -20,7 +20,7 @@ struct SkinData {
 };
 /// Points that nothing pulls follow the mesh's own node.
 [[nodiscard]] SkinData read_skin(std::size_t geometry, std::size_t model, std::size_t control_points,
-                                 const Objects& objects, const Nodes& nodes, ModelProblems& problems);
+                                 const Objects& objects, const Nodes& nodes, models::ModelProblems& problems);
 
 /// One shape of a blend shape channel: how far control points move.
 struct Shape {
@@ -32,7 +32,8 @@ struct Shape {
 };
 
 /// All shapes of a geometry, channel by channel.
-[[nodiscard]] std::vector<Shape> read_shapes(std::size_t geometry, const Objects& objects, ModelProblems& problems);
+[[nodiscard]] std::vector<Shape> read_shapes(std::size_t geometry, const Objects& objects,
+                                             models::ModelProblems& problems);
 
 /// The weight of each shape, at rest or as a stack moves it.
 [[nodiscard]] std::vector<Channel<double>> shape_weights(const std::vector<Shape>& shapes, const Objects& objects,

@@ -79,7 +79,7 @@ struct VertexHash {
 class GeometryReader {
  public:
   GeometryReader(const Object& geometry, const std::vector<Color>& colors, const Objects& objects,
-                 ModelProblems& problems)
+                 models::ModelProblems& problems)
       : geometry_(geometry),
         record_(*geometry.record),
         objects_(objects),
@@ -117,8 +117,9 @@ class GeometryReader {
       ++polygons;
     }
     if (points_and_lines)
-      problems_.repair("mesh \"" + geometry_.name + "\"",
-                       counted(points_and_lines, "point or line was not read", "points or lines were not read"));
+      problems_.repair(
+          "mesh \"" + geometry_.name + "\"",
+          models::counted(points_and_lines, "point or line was not read", "points or lines were not read"));
     result_.control_points = points_.size();
     std::erase_if(result_.parts, [](const Part& part) { return part.mesh.triangles.empty(); });
     return std::move(result_);
@@ -208,7 +209,7 @@ class GeometryReader {
   const Object& geometry_;
   const Record& record_;
   const Objects& objects_;
-  ModelProblems& problems_;
+  models::ModelProblems& problems_;
   std::vector<Color> colors_;
   Record stripped_;
   LayerElement normals_, coordinates_;
@@ -221,7 +222,7 @@ class GeometryReader {
 }  // namespace
 
 Geometry read_geometry(const Object& geometry, const std::vector<Color>& colors, const Objects& objects,
-                       ModelProblems& problems) {
+                       models::ModelProblems& problems) {
   return GeometryReader(geometry, colors, objects, problems).read();
 }
 

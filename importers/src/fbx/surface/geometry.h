@@ -24,7 +24,7 @@ struct Geometry {
 /// @param colors  of the node's materials, in order
 /// @throws ModelError with the place of what points past the lists.
 [[nodiscard]] Geometry read_geometry(const Object& geometry, const std::vector<Color>& colors, const Objects& objects,
-                                     ModelProblems& problems);
+                                     models::ModelProblems& problems);
 
 /// The base color of a material.
 [[nodiscard]] Color base_color(const Object& material, const Objects& objects);

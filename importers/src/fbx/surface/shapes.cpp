@@ -61,7 +61,7 @@ std::pair<double, double> shown(const std::vector<double>& shares, std::size_t s
 
 }  // namespace
 
-std::vector<Shape> read_shapes(std::size_t geometry, const Objects& objects, ModelProblems& problems) {
+std::vector<Shape> read_shapes(std::size_t geometry, const Objects& objects, models::ModelProblems& problems) {
   std::vector<Shape> all;
   for (const std::size_t blend : objects.below(geometry, "Deformer", "BlendShape"))
     for (const std::size_t channel : objects.below(blend, "Deformer", "BlendShapeChannel")) {

@@ -24,7 +24,7 @@ bool all_finite(const Reals& numbers) {
 
 class SkinReader {
  public:
-  SkinReader(std::size_t control_points, const Objects& objects, const Nodes& nodes, ModelProblems& problems)
+  SkinReader(std::size_t control_points, const Objects& objects, const Nodes& nodes, models::ModelProblems& problems)
       : objects_(objects), nodes_(nodes), problems_(problems), pulls_(control_points) {}
 
   SkinData read(std::size_t geometry, std::size_t model) {
@@ -38,8 +38,8 @@ class SkinReader {
     }
     if (result_.skin.joints.empty()) return {};
     hang_loose_points(model);
-    InfluenceTally tally;
-    for (auto& pulls : pulls_) result_.influences.push_back(summing_to_one(std::move(pulls), tally));
+    models::InfluenceTally tally;
+    for (auto& pulls : pulls_) result_.influences.push_back(models::summing_to_one(std::move(pulls), tally));
     tally.report(place_, problems_);
     return std::move(result_);
   }
@@ -101,7 +101,7 @@ class SkinReader {
 
   const Objects& objects_;
   const Nodes& nodes_;
-  ModelProblems& problems_;
+  models::ModelProblems& problems_;
   std::vector<std::vector<Influence>> pulls_;
   SkinData result_{};
   std::size_t model_ = no_node;
@@ -125,7 +125,7 @@ Affine geometric_transform(const Objects& objects, std::size_t model) {
 }
 
 SkinData read_skin(std::size_t geometry, std::size_t model, std::size_t control_points, const Objects& objects,
-                   const Nodes& nodes, ModelProblems& problems) {
+                   const Nodes& nodes, models::ModelProblems& problems) {
   return SkinReader(control_points, objects, nodes, problems).read(geometry, model);
 }
 

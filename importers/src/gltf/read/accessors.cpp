@@ -70,7 +70,7 @@ struct Accessors::Source {
   std::size_t stride = 0;
 };
 
-Accessors::Accessors(const Container& container, ModelProblems& problems)
+Accessors::Accessors(const Container& container, models::ModelProblems& problems)
     : container_(container),
       problems_(problems),
       root_(container.document.root(), "", problems),

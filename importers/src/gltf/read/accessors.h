@@ -26,7 +26,7 @@ struct Decoded {
 
 class Accessors {
  public:
-  Accessors(const Container& container, ModelProblems& problems);
+  Accessors(const Container& container, models::ModelProblems& problems);
 
   [[nodiscard]] std::size_t size() const { return count_; }
 
@@ -44,7 +44,7 @@ class Accessors {
   bool decode_sparse(const Fields& accessor, int component, bool normalized, Decoded& decoded);
 
   const Container& container_;
-  ModelProblems& problems_;
+  models::ModelProblems& problems_;
   Fields root_;
   std::size_t count_;
   std::size_t budget_;  ///< numbers that may still be decoded

@@ -144,7 +144,7 @@ class AnimationReader {
 std::vector<Clip> read_animations(const Fields& root, Accessors& accessors, const std::vector<FileNode>& nodes,
                                   const std::vector<FileMesh>& meshes) {
   std::vector<Clip> clips;
-  UniqueNames names;
+  models::UniqueNames names;
   AnimationReader reader(root, accessors, nodes, meshes);
   for (std::size_t i = 0; i < root.list("animations").size(); ++i) {
     const Fields animation = root.at("animations", i);

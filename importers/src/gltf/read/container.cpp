@@ -23,7 +23,7 @@ struct Chunks {
   std::optional<std::string_view> binary;
 };
 
-std::optional<Chunks> take_chunks(std::string_view bytes, ModelProblems& problems) {
+std::optional<Chunks> take_chunks(std::string_view bytes, models::ModelProblems& problems) {
   if (bytes.size() < 20) {
     problems.add("", "ends after " + std::to_string(bytes.size()) + " bytes, before its first chunk");
     return std::nullopt;
@@ -104,7 +104,7 @@ std::string without_percent_signs(std::string_view uri) {
 
 std::optional<std::string> buffer_bytes(const Fields& buffer, const std::filesystem::path& file,
                                         std::optional<std::string_view> binary, bool first) {
-  ModelProblems& problems = buffer.problems();
+  models::ModelProblems& problems = buffer.problems();
   if (!buffer.has("uri")) {
     if (first && binary) return std::string(*binary);
     problems.add(buffer.place(), "has no \"uri\", and there is no binary chunk for it");
@@ -128,18 +128,18 @@ std::optional<std::string> buffer_bytes(const Fields& buffer, const std::filesys
   }
   // A hostile file must not be able to read the rest of the disk.
   const std::filesystem::path path = name;
-  if (uri.find("://") != std::string::npos || leads_out_of(file.parent_path(), path)) {
+  if (uri.find("://") != std::string::npos || models::leads_out_of(file.parent_path(), path)) {
     problems.add(buffer.place_of("uri"), "\"" + uri.substr(0, 80) + "\" must name a file in the model's own folder");
     return std::nullopt;
   }
   std::string reason;
-  auto bytes = model_bytes(file.parent_path() / path, reason);
+  auto bytes = models::model_bytes(file.parent_path() / path, reason);
   if (!bytes) problems.add(buffer.place_of("uri"), "file \"" + path.string() + "\" " + reason);
   return bytes;
 }
 
 void read_buffers(Container& container, const std::filesystem::path& file, std::optional<std::string_view> binary,
-                  ModelProblems& problems) {
+                  models::ModelProblems& problems) {
   const Fields root(container.document.root(), "", problems);
   const std::size_t count = root.list("buffers").size();
   container.buffers.resize(count);
@@ -166,7 +166,7 @@ bool can_do_without(const std::string& extension) {
   return false;
 }
 
-void check_header(const Container& container, ModelProblems& problems) {
+void check_header(const Container& container, models::ModelProblems& problems) {
   const Fields root(container.document.root(), "", problems);
   const Fields asset = root.inside("asset");
   const std::string version = asset.text("version");
@@ -178,7 +178,7 @@ void check_header(const Container& container, ModelProblems& problems) {
       problems.add("/extensionsRequired", "the file needs " + std::string(extension.text()) + ", which cannot be read");
 }
 
-void tell(const JsonFault& fault, const Container& container, ModelProblems& problems) {
+void tell(const JsonFault& fault, const Container& container, models::ModelProblems& problems) {
   if (!container.has_lines)
     problems.add("", "is not valid JSON: at byte " + std::to_string(fault.offset) + " of it, " + fault.message);
   else
@@ -205,7 +205,7 @@ std::optional<TextPlace> place_in(const Container& container, std::string_view p
   return tweenfall::place_in(container.document.text(), at.offset());
 }
 
-Container open_container(std::string_view bytes, const std::filesystem::path& file, ModelProblems& problems) {
+Container open_container(std::string_view bytes, const std::filesystem::path& file, models::ModelProblems& problems) {
   Container container;
   container.file_size = bytes.size();
   Chunks chunks{bytes, std::nullopt};

@@ -23,7 +23,7 @@ struct Container {
 /// Takes apart the bytes of a .glb or .gltf, which must outlive what is returned. Whatever is wrong goes to `problems`.
 /// @param file  where it came from; buffers in files of their own must lie in its folder or below
 [[nodiscard]] Container open_container(std::string_view bytes, const std::filesystem::path& file,
-                                       ModelProblems& problems);
+                                       models::ModelProblems& problems);
 
 /// Where the value at a place such as "/nodes/0/mesh" stands in the text, or the innermost one around it that is there;
 /// empty for places that are none and for binary files.

@@ -51,7 +51,7 @@ std::optional<std::size_t> whole_number(const JsonValue& value) {
 
 }  // namespace
 
-Fields::Fields(const JsonValue& object, std::string place, ModelProblems& problems)
+Fields::Fields(const JsonValue& object, std::string place, models::ModelProblems& problems)
     : object_(object), place_(std::move(place)), problems_(&problems) {
   if (object.is(Kind::object) && object.members().size() <= most_members) return;
   problems.add(place_, object.is(Kind::object)

@@ -14,7 +14,7 @@ namespace tweenfall::gltf {
 class Fields {
  public:
   /// @param object  must be an object; anything else is a problem and reads as empty
-  Fields(const JsonValue& object, std::string place, ModelProblems& problems);
+  Fields(const JsonValue& object, std::string place, models::ModelProblems& problems);
 
   [[nodiscard]] const std::string& place() const { return place_; }
   [[nodiscard]] std::string place_of(const std::string& name) const { return place_ + "/" + name; }
@@ -42,14 +42,14 @@ class Fields {
   /// An object of a list.
   [[nodiscard]] Fields at(const char* name, std::size_t position) const;
 
-  [[nodiscard]] ModelProblems& problems() const { return *problems_; }
+  [[nodiscard]] models::ModelProblems& problems() const { return *problems_; }
 
  private:
   std::optional<std::size_t> index_value(const JsonValue& value, const std::string& place, std::size_t count) const;
 
   JsonValue object_;
   std::string place_;
-  ModelProblems* problems_;
+  models::ModelProblems* problems_;
 };
 
 }  // namespace tweenfall::gltf

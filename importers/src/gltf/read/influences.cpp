@@ -50,7 +50,7 @@ Influences read_influences(const Fields& attributes, std::size_t vertices, Acces
     sets.push_back(std::move(*set));
   }
   if (sets.empty()) return {};
-  InfluenceTally tally;
+  models::InfluenceTally tally;
   Influences all;
   for (std::size_t vertex = 0; vertex < vertices; ++vertex) {
     std::vector<Influence> pulls;
@@ -61,7 +61,7 @@ Influences read_influences(const Fields& attributes, std::size_t vertices, Acces
         pulls.push_back({joint, weight});
         if (weight > 0) joint_count = std::max(joint_count, std::size_t{joint} + 1);
       }
-    all.add(summing_to_one(std::move(pulls), tally));
+    all.add(models::summing_to_one(std::move(pulls), tally));
   }
   tally.report(attributes.place(), attributes.problems());
   joint_count = std::max(joint_count, std::size_t{1});

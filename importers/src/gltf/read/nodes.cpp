@@ -41,7 +41,7 @@ Pose rest_of(const Fields& node) {
     for (int row = 0; row < 3; ++row) linear(row, column) = m[static_cast<std::size_t>(4 * column + row)];
   if (std::abs(m[3]) + std::abs(m[7]) + std::abs(m[11]) + std::abs(m[15] - 1) > 1e-6)
     node.problems().repair(node.place_of("matrix"), "had a last row other than 0 0 0 1, which was not read");
-  const TakenApart parts = take_apart(linear, Vec3(m[12], m[13], m[14]));
+  const models::TakenApart parts = models::take_apart(linear, Vec3(m[12], m[13], m[14]));
   if (!parts.pose.scale.allFinite()) {
     node.problems().add(node.place_of("matrix"), "holds numbers too large for a placement");
     return {};
@@ -68,7 +68,7 @@ void link_children(const Fields& root, std::vector<FileNode>& nodes) {
 }
 
 /// Follows each chain of parents once. Cycles are reported and cut, so that what follows can rely on a tree.
-void cut_cycles(std::vector<FileNode>& nodes, ModelProblems& problems) {
+void cut_cycles(std::vector<FileNode>& nodes, models::ModelProblems& problems) {
   std::vector<std::size_t> visit(nodes.size(), 0);
   for (std::size_t start = 0; start < nodes.size(); ++start) {
     const std::size_t mark = start + 1;
@@ -111,7 +111,7 @@ void mark_scene(const Fields& root, std::vector<FileNode>& nodes) {
 std::vector<FileNode> read_nodes(const Fields& root) {
   const std::size_t count = root.list("nodes").size(), meshes = root.list("meshes").size();
   std::vector<FileNode> nodes(count);
-  UniqueNames names;
+  models::UniqueNames names;
   for (std::size_t i = 0; i < count; ++i) {
     const Fields node = root.at("nodes", i);
     std::string name = node.text("name");

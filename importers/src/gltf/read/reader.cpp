@@ -16,7 +16,8 @@ namespace {
 /// Puts together what the file's parts hold, once all of them are known to be sound.
 class Assembly {
  public:
-  Assembly(std::vector<FileNode> nodes, std::vector<FileMesh> meshes, std::vector<Skin> skins, ModelProblems& problems)
+  Assembly(std::vector<FileNode> nodes, std::vector<FileMesh> meshes, std::vector<Skin> skins,
+           models::ModelProblems& problems)
       : nodes_(std::move(nodes)), meshes_(std::move(meshes)), skins_(std::move(skins)), problems_(problems) {}
 
   void check() const {
@@ -91,7 +92,7 @@ class Assembly {
   std::vector<FileNode> nodes_;
   std::vector<FileMesh> meshes_;
   std::vector<Skin> skins_;
-  ModelProblems& problems_;
+  models::ModelProblems& problems_;
   std::map<std::pair<std::size_t, std::vector<double>>, std::size_t> copies_;
   std::size_t copied_ = 0;
   std::vector<std::size_t> first_, counts_;
@@ -102,14 +103,14 @@ void tell_of_textures(const Fields& root) {
   for (std::size_t i = 0; i < root.list("materials").size(); ++i)
     textured += root.at("materials", i).inside("pbrMetallicRoughness").has("baseColorTexture");
   if (textured)
-    root.problems().repair("/materials",
-                           "textures are not read; " + counted(textured, "material shows its base color factor alone",
-                                                               "materials show their base color factor alone"));
+    root.problems().repair("/materials", "textures are not read; " +
+                                             models::counted(textured, "material shows its base color factor alone",
+                                                             "materials show their base color factor alone"));
 }
 
 }  // namespace
 
-Model read(std::string_view bytes, const std::filesystem::path& file, ModelProblems& problems) {
+Model read(std::string_view bytes, const std::filesystem::path& file, models::ModelProblems& problems) {
   const Container container = open_container(bytes, file, problems);
   // In a broken shell everything would be reported as a fault of its own.
   const auto where = [&](const std::string& place) { return place_in(container, place); };

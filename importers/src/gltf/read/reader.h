@@ -12,6 +12,6 @@
 namespace tweenfall::gltf {
 
 /// The model in the bytes of a .glb or .gltf file. @throws ModelError
-[[nodiscard]] Model read(std::string_view bytes, const std::filesystem::path& file, ModelProblems& problems);
+[[nodiscard]] Model read(std::string_view bytes, const std::filesystem::path& file, models::ModelProblems& problems);
 
 }  // namespace tweenfall::gltf

@@ -16,6 +16,7 @@
 
 namespace tweenfall {
 
+namespace gltf {
 namespace {
 
 using nlohmann::json;
@@ -52,16 +53,15 @@ void write_nodes(const Model& model, json& document) {
   }
 }
 
-json primitive_json(const gltf::WrittenPrimitive& primitive) {
+json primitive_json(const WrittenPrimitive& primitive) {
   json out{{"attributes", primitive.attributes}, {"indices", primitive.indices}, {"material", primitive.material}};
   if (!primitive.targets.empty()) out["targets"] = primitive.targets;
   return out;
 }
 
-json mesh_json(const gltf::WrittenMesh& mesh) {
+json mesh_json(const WrittenMesh& mesh) {
   json out{{"name", mesh.name}};
-  for (const gltf::WrittenPrimitive& primitive : mesh.primitives)
-    out["primitives"].push_back(primitive_json(primitive));
+  for (const WrittenPrimitive& primitive : mesh.primitives) out["primitives"].push_back(primitive_json(primitive));
   if (mesh.target_names.empty()) return out;
   out["weights"] = mesh.weights;
   out["extras"]["targetNames"] = mesh.target_names;
@@ -74,9 +74,9 @@ json material_json(const std::array<double, 4>& rgba) {
   return out;
 }
 
-void write_meshes(const Model& model, json& document, gltf::BufferWriter& buffer) {
-  const gltf::WrittenMeshes written = gltf::write_meshes(model, buffer);
-  for (const gltf::ExtraNode& extra : written.extra_nodes) {
+void add_meshes(const Model& model, json& document, BufferWriter& buffer) {
+  const WrittenMeshes written = write_meshes(model, buffer);
+  for (const ExtraNode& extra : written.extra_nodes) {
     json& nodes = document["nodes"];
     nodes[extra.parent]["children"].push_back(nodes.size());
     nodes.push_back({{"name", extra.name}});
@@ -86,11 +86,11 @@ void write_meshes(const Model& model, json& document, gltf::BufferWriter& buffer
     wearer["mesh"] = worn.mesh;
     if (worn.skin) wearer["skin"] = *worn.skin;
   }
-  for (const gltf::WrittenMesh& mesh : written.meshes) document["meshes"].push_back(mesh_json(mesh));
+  for (const WrittenMesh& mesh : written.meshes) document["meshes"].push_back(mesh_json(mesh));
   for (const auto& rgba : written.materials) document["materials"].push_back(material_json(rgba));
 }
 
-json inverse_bind_accessor(const Skin& skin, gltf::BufferWriter& buffer) {
+json inverse_bind_accessor(const Skin& skin, BufferWriter& buffer) {
   std::vector<double> all;
   for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
     const Skin::InverseBind bind = joint < skin.inverse_binds.size() ? skin.inverse_binds[joint] : Skin::InverseBind{};
@@ -101,7 +101,7 @@ json inverse_bind_accessor(const Skin& skin, gltf::BufferWriter& buffer) {
   return buffer.add_floats(all, "MAT4");
 }
 
-void write_skins(const Model& model, json& document, gltf::BufferWriter& buffer) {
+void write_skins(const Model& model, json& document, BufferWriter& buffer) {
   for (const Skin& skin : model.skins)
     document["skins"].push_back(
         {{"joints", skin.joints}, {"inverseBindMatrices", inverse_bind_accessor(skin, buffer)}});
@@ -130,14 +130,14 @@ std::size_t morph_count(const Model& model, std::size_t node) {
 }
 
 json animation_json(const Model& model, const Clip& clip, const std::map<std::string, std::size_t>& index, double fps,
-                    gltf::BufferWriter& buffer) {
+                    BufferWriter& buffer) {
   json samplers = json::array(), channels = json::array();
   std::set<std::pair<std::size_t, std::string>> taken;
   for (const Track& track : clip.tracks) {
     const char* path = path_named(track.property);
     const auto node = index.find(track.node);
     if (!path || node == index.end() || !taken.insert({node->second, path}).second) continue;
-    const gltf::SamplerKeys keys = gltf::sampler_keys(clip, track, model.nodes[node->second].rest, fps);
+    const SamplerKeys keys = sampler_keys(clip, track, model.nodes[node->second].rest, fps);
     if (keys.times.empty()) continue;
     const bool weights = std::string_view(path) == "weights";
     if (weights && keys.parts != morph_count(model, node->second)) continue;
@@ -151,7 +151,7 @@ json animation_json(const Model& model, const Clip& clip, const std::map<std::st
   return {{"name", clip.name}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}};
 }
 
-void write_animations(const Model& model, json& document, gltf::BufferWriter& buffer, double fps) {
+void write_animations(const Model& model, json& document, BufferWriter& buffer, double fps) {
   std::map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) index.emplace(model.nodes[i].name, i);
   for (const Clip& clip : model.clips) {
@@ -160,14 +160,14 @@ void write_animations(const Model& model, json& document, gltf::BufferWriter& bu
   }
 }
 
-void write_buffer(gltf::BufferWriter& buffer, json& document) {
+void write_buffer(BufferWriter& buffer, json& document) {
   buffer.finish();
   for (std::size_t i = 0; i < buffer.accessors().size(); ++i) {
-    const gltf::BufferView& view = buffer.views()[i];
+    const BufferView& view = buffer.views()[i];
     json& view_json = document["bufferViews"].emplace_back(
         json{{"buffer", 0}, {"byteOffset", view.offset}, {"byteLength", view.length}});
     if (view.target) view_json["target"] = view.target;
-    const gltf::Accessor& accessor = buffer.accessors()[i];
+    const Accessor& accessor = buffer.accessors()[i];
     json& accessor_json = document["accessors"].emplace_back(json{
         {"bufferView", i}, {"componentType", accessor.component}, {"count", accessor.count}, {"type", accessor.type}});
     if (accessor.low.empty()) continue;
@@ -188,33 +188,34 @@ std::string container(const json& document, const std::vector<unsigned char>& bi
   if (length > 0xFFFFFFFFu) throw std::runtime_error("binary glTF ends at 4 GiB");
   std::string out;
   out.reserve(length);
-  append_word(out, gltf::glb_magic);
+  append_word(out, glb_magic);
   append_word(out, 2);
   append_word(out, static_cast<std::uint32_t>(length));
   append_word(out, static_cast<std::uint32_t>(text.size()));
-  append_word(out, gltf::json_chunk);
+  append_word(out, json_chunk);
   out += text;
   if (binary.empty()) return out;
   append_word(out, static_cast<std::uint32_t>(binary.size()));
-  append_word(out, gltf::bin_chunk);
+  append_word(out, bin_chunk);
   out.append(binary.begin(), binary.end());
   return out;
 }
 
 }  // namespace
+}  // namespace gltf
 
 void save_glb(const Model& model, const std::filesystem::path& file, double fps) {
   if (!(fps > 0)) throw std::runtime_error("frames per second must be above 0, not " + number_text(fps));
   std::string content;
   try {
-    json document{{"asset", {{"version", "2.0"}, {"generator", "tweenfall"}}}};
+    nlohmann::json document{{"asset", {{"version", "2.0"}, {"generator", "tweenfall"}}}};
     gltf::BufferWriter buffer;
-    write_nodes(model, document);
-    write_meshes(model, document, buffer);
-    write_skins(model, document, buffer);
-    write_animations(model, document, buffer, fps);
-    write_buffer(buffer, document);
-    content = container(document, buffer.bytes());
+    gltf::write_nodes(model, document);
+    gltf::add_meshes(model, document, buffer);
+    gltf::write_skins(model, document, buffer);
+    gltf::write_animations(model, document, buffer, fps);
+    gltf::write_buffer(buffer, document);
+    content = gltf::container(document, buffer.bytes());
   } catch (const std::exception& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }
