@@ -65,15 +65,16 @@ std::uint64_t World::state_hash() const noexcept {
     hash.add(body.still_for);
     hash.add(std::uint64_t{body.asleep});
   }
-  for (const ContactConstraint& constraint : world.constraints) {
-    if (constraint.gone) continue;
-    hash.add(std::uint64_t{constraint.a} << 32 | constraint.b);
-    hash.add(constraint.kept_rolling);
-    hash.add(constraint.kept_step);
-    hash.add(constraint.passed_over);
-    hash.add(std::uint64_t{constraint.touching});
-    for (int i = 0; i < constraint.count; ++i) {
-      const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+  for (const std::uint32_t place : world.memories.sorted()) {
+    const ContactMemory& memory = world.memories[place];
+    if (memory.gone) continue;
+    hash.add(std::uint64_t{memory.a} << 32 | memory.b);
+    hash.add(memory.kept_rolling);
+    hash.add(memory.kept_step);
+    hash.add(memory.passed_over);
+    hash.add(std::uint64_t{memory.touching});
+    for (int i = 0; i < memory.count; ++i) {
+      const PointMemory& point = memory.points[static_cast<std::size_t>(i)];
       hash.add(std::uint64_t{point.feature});
       hash.add(point.kept_normal);
       hash.add(point.kept_friction);

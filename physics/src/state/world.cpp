@@ -101,31 +101,12 @@ void World::Implementation::wake(std::uint32_t index) {
   bodies[index].still_for = 0;
 }
 
-std::span<const std::size_t> World::Implementation::constraints_of(std::uint32_t index) {
-  if (constraint_starts.empty()) {
-    constraint_starts.assign(bodies.size() + 1, 0);
-    for (const ContactConstraint& constraint : constraints)
-      for (const std::uint32_t body : {constraint.a, constraint.b}) ++constraint_starts[body];
-    std::size_t end = 0;
-    for (std::size_t& start : constraint_starts) start = end += start;
-    constraint_places.resize(end);
-    for (std::size_t i = constraints.size(); i-- > 0;)
-      for (const std::uint32_t body : {constraints[i].a, constraints[i].b})
-        constraint_places[--constraint_starts[body]] = i;
-  }
-  if (index + std::size_t{1} >= constraint_starts.size()) return {};  // added since
-  const std::size_t start = constraint_starts[index];
-  return std::span(constraint_places).subspan(start, constraint_starts[index + 1] - start);
-}
-
-void World::Implementation::drop_constraints(std::uint32_t index) {
+void World::Implementation::drop_contacts(std::uint32_t index) {
   bool seen = false;
-  for (const std::size_t place : constraints_of(index)) {
-    ContactConstraint& constraint = constraints[place];
-    if (constraint.gone) continue;
-    seen = seen || constraint.touching;
-    constraint.gone = true;
-    ++gone;
+  for (const std::uint32_t place : memories.of(index)) {
+    ContactMemory& memory = memories[place];
+    seen = seen || (memory.touching && !memory.gone);
+    memory.gone = true;
   }
   if (seen)
     std::erase_if(contacts,
@@ -139,19 +120,19 @@ void World::Implementation::note(std::uint32_t index) {
 }
 
 void World::Implementation::wake_neighbors(std::uint32_t index) {
-  for (const std::size_t place : constraints_of(index)) {
-    const ContactConstraint& constraint = constraints[place];
-    const std::uint32_t other = constraint.a == index ? constraint.b : constraint.a;
-    if (!constraint.gone && !bodies[other].immovable()) wake(other);
+  for (const std::uint32_t place : memories.of(index)) {
+    const ContactMemory& memory = memories[place];
+    const std::uint32_t other = memory.a == index ? memory.b : memory.a;
+    if (!memory.gone && !bodies[other].immovable()) wake(other);
   }
 }
 
 void World::Implementation::forget_impulses(std::uint32_t index) {
-  for (const std::size_t place : constraints_of(index)) {
-    ContactConstraint& constraint = constraints[place];
-    constraint.kept_rolling = Vec3::Zero();
-    constraint.kept_twist = 0;
-    for (PointConstraint& point : constraint.points) {
+  for (const std::uint32_t place : memories.of(index)) {
+    ContactMemory& memory = memories[place];
+    memory.kept_rolling = Vec3::Zero();
+    memory.kept_twist = 0;
+    for (PointMemory& point : memory.points) {
       point.kept_normal = 0;
       point.kept_friction = Vec3::Zero();
     }
@@ -280,7 +261,7 @@ void World::remove(BodyId id) {
   }
   body.alive = false;
   ++body.generation;
-  world.drop_constraints(id.index);
+  world.drop_contacts(id.index);
   world.broad_phase.remove(id.index);
   world.unused.push_back(id.index);
 }

@@ -8,6 +8,7 @@
 #include "forces/forces.h"
 #include "pairs/broad_phase.h"
 #include "state/body.h"
+#include "state/contact_memories.h"
 #include "step/contact_constraint.h"
 #include "step/island_contents.h"
 #include "step/solver.h"
@@ -29,13 +30,9 @@ struct World::Implementation {
   std::vector<NumberedForce> forces;
   std::size_t next_force = 0;
   double time = 0;
-  bool stepping = false;                       ///< a field may be running: nothing may change
-  std::vector<ContactConstraint> constraints;  ///< of the last step, by pair
-  std::vector<Contact> contacts;               ///< what the caller sees of them
-  std::vector<std::size_t> constraint_starts;  ///< by body, in `constraint_places`; empty until they are asked for
-  std::vector<std::size_t> constraint_places;  ///< of each body's constraints
-  std::size_t gone = 0;                        ///< of the constraints
-
+  bool stepping = false;             ///< a field may be running: nothing may change
+  ContactMemories memories;          ///< of the last step
+  std::vector<Contact> contacts;     ///< of those that touch, what the caller sees
   std::vector<std::uint32_t> noted;  ///< bodies that the caller changed or led, and those that had been
 
   // Room for work, kept between steps
@@ -45,8 +42,10 @@ struct World::Implementation {
   std::vector<std::uint32_t> watched;    ///< sorted: what a step looks at, all but scenery at rest
   std::vector<std::uint32_t> lingering;  ///< to be looked at once more, when it has come to rest
   BroadPhase broad_phase;
-  std::vector<ContactConstraint> active;    ///< near something that stirs
-  std::vector<ContactConstraint> retained;  ///< between bodies at rest, as they were
+  std::vector<ContactConstraint> active;  ///< near something that stirs
+  std::vector<std::uint32_t> retained;    ///< memories of contacts between bodies at rest, by pair
+  std::vector<std::uint32_t> remembered;
+  std::vector<Contact> next_contacts;
   std::vector<char> flags;
   std::vector<char> carried;  ///< by island: something keyed moves it
   std::vector<std::uint32_t> contact_counts;
@@ -59,9 +58,7 @@ struct World::Implementation {
 
   Body& at(BodyId id);
   const Body& at(BodyId id) const;
-  /// Places of a body's constraints of the last step, those that are gone too.
-  [[nodiscard]] std::span<const std::size_t> constraints_of(std::uint32_t index);
-  void drop_constraints(std::uint32_t index);
+  void drop_contacts(std::uint32_t index);
   void wake(std::uint32_t index);
   void note(std::uint32_t index);  ///< the next step looks at this body
   void wake_neighbors(std::uint32_t index);

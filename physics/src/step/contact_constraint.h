@@ -1,9 +1,6 @@
 #pragma once
 
-#include <tweenfall/physics/world.h>
-
-#include <array>
-#include <cstdint>
+#include "state/contact_memories.h"
 
 namespace tweenfall {
 
@@ -29,29 +26,22 @@ struct PointConstraint {
   Vec3 friction_before_rebound{0, 0, 0};
 };
 
-/// A pair in contact, kept from step to step.
-struct ContactConstraint {
-  std::uint32_t a = 0, b = 0;  ///< indices of the bodies, a < b
+/// A pair in contact through a step.
+struct ContactConstraint : KeptImpulses {
+  std::uint32_t a = 0, b = 0;                       ///< indices of the bodies, a < b
+  std::uint32_t memory = ContactMemories::nowhere;  ///< where it is remembered, when it was there before
   Manifold manifold;
   std::array<PointConstraint, 4> points{};
   int count = 0;
   double friction = 0;
   double restitution = 0;
   double rolling_friction = 0;
-  Vec3 kept_rolling{0, 0, 0};
-  double kept_step = 0;    ///< length of the sub-step that kept impulses are of, s; 0: none are
-  double kept_twist = 0;   ///< about the normal, where friction acts at the middle of the points, N m s
-  bool slid = false;       ///< at the end of the last step that was solved in blocks
-  double passed_over = 0;  ///< time since then in sub-steps too short to be kept, s
   Vec3 rolling_impulse{0, 0, 0};
   Vec3 total_rolling{0, 0, 0};
-  bool gone = false;      ///< a body of it has left since
-  bool touching = false;  ///< an impulse passed or the shapes overlap
-  bool began = false;
+  bool began = false;      ///< did not touch in the step before
   bool impact = false;     ///< some point meets fast enough to rebound
   bool rebounds = false;   ///< in an island that does, in this sub-step
   double impact_time = 0;  ///< s after the start of the step
-  Contact seen;            ///< what the caller gets to see
 };
 
 }  // namespace tweenfall

@@ -38,8 +38,8 @@ bool World::Implementation::wake_islands() {
   flags.assign(bodies.size(), 0);
   carried.assign(bodies.size(), 0);
   const auto each_link = [&](const auto& visit) {
-    for (const auto* list : {&active, &retained})
-      for (const ContactConstraint& constraint : *list) visit(constraint.a, constraint.b);
+    for (const ContactConstraint& constraint : active) visit(constraint.a, constraint.b);
+    for (const std::uint32_t place : retained) visit(memories[place].a, memories[place].b);
     for (const NumberedForce& entry : forces) {
       const auto* spring = std::get_if<Spring>(&entry.force);
       if (spring && find_body(bodies, spring->a) && find_body(bodies, spring->b))

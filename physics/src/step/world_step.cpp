@@ -39,12 +39,8 @@ void adopt(ContactConstraint& constraint, const Body& a, const Prediction& at_a,
 }
 
 /// Hands the impulses of the step before on: to points of the same features, then to what is left nearby.
-void inherit(ContactConstraint& constraint, const ContactConstraint& old, double nearby) {
-  constraint.kept_rolling = old.kept_rolling;
-  constraint.kept_step = old.kept_step;
-  constraint.kept_twist = old.kept_twist;
-  constraint.slid = old.slid;
-  constraint.passed_over = old.passed_over;
+void inherit(ContactConstraint& constraint, const ContactMemory& old, double nearby) {
+  static_cast<KeptImpulses&>(constraint) = old;
   std::array<bool, 4> given{}, taken{};
   const auto hand_on = [&](std::size_t from, std::size_t to) {
     constraint.points[to].kept_normal = old.points[from].kept_normal;
@@ -61,7 +57,7 @@ void inherit(ContactConstraint& constraint, const ContactConstraint& old, double
     std::size_t best = old_count;
     double least = nearby;
     for (std::size_t k = 0; k < old_count; ++k) {
-      const double away = (old.points[k].start_arm_b - constraint.points[i].start_arm_b).norm();
+      const double away = (old.points[k].arm_b - constraint.points[i].start_arm_b).norm();
       if (given[k] || away >= least) continue;
       least = away;
       best = k;
@@ -70,7 +66,20 @@ void inherit(ContactConstraint& constraint, const ContactConstraint& old, double
   }
 }
 
-bool before(const ContactConstraint& left, const ContactConstraint& right) {
+void remember(const ContactConstraint& constraint, bool touching, ContactMemory& memory) {
+  memory.a = constraint.a;
+  memory.b = constraint.b;
+  memory.count = constraint.count;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(constraint.count); ++i) {
+    const PointConstraint& point = constraint.points[i];
+    memory.points[i] = {point.feature, point.start_arm_b, point.kept_normal, point.kept_friction};
+  }
+  static_cast<KeptImpulses&>(memory) = constraint;
+  memory.touching = touching;
+}
+
+template <class A, class B>
+bool before(const A& left, const B& right) {
   return left.a != right.a ? left.a < right.a : left.b < right.b;
 }
 
@@ -98,30 +107,30 @@ void World::Implementation::end_watch() {
 void World::Implementation::find_constraints(double dt) {
   active.clear();
   retained.clear();
-  if (gone > 0) std::erase_if(constraints, [](const ContactConstraint& constraint) { return constraint.gone; });
-  gone = 0;
-  constraint_starts.clear();
+  memories.tidy();
   const std::vector<Pair>& pairs = broad_phase.find(bodies, watched, loads, near_enough, dt);
   contact_counts.assign(bodies.size(), 0);
-  std::size_t next = 0;  // among the old constraints, which are sorted like the pairs
-  const auto retain_before = [&](std::uint32_t index_a, std::uint32_t index_b) {
-    for (; next < constraints.size(); ++next) {
-      const ContactConstraint& old = constraints[next];
-      if (old.a > index_a || (old.a == index_a && old.b >= index_b)) return;
-      // Nothing near it stirs: it stays as it was.
-      if (!bodies[old.a].stirs() && !bodies[old.b].stirs()) retained.push_back(old);
+  const std::span<const std::uint32_t> remembered_before = memories.sorted();
+  std::size_t next = 0;
+  /// The memory of a pair, if there is one; of those before it, which are near nothing that stirs, all is kept.
+  const auto memory_of = [&](const Pair& pair) {
+    for (; next < remembered_before.size(); ++next) {
+      const ContactMemory& memory = memories[remembered_before[next]];
+      const Pair its(memory.a, memory.b);
+      if (its > pair) break;
+      if (its == pair) return remembered_before[next++];
+      if (!bodies[memory.a].stirs() && !bodies[memory.b].stirs()) retained.push_back(remembered_before[next]);
     }
+    return ContactMemories::nowhere;
   };
-  for (const auto& [index_a, index_b] : pairs) {
-    retain_before(index_a, index_b);
-    const ContactConstraint* old = nullptr;
-    if (next < constraints.size() && constraints[next].a == index_a && constraints[next].b == index_b)
-      old = &constraints[next++];
+  for (const Pair& pair : pairs) {
+    const std::uint32_t memory = memory_of(pair);
+    const auto [index_a, index_b] = pair;
     const Body& a = bodies[index_a];
     const Body& b = bodies[index_b];
     const bool crowded = contact_counts[index_a] >= most_contacts && contact_counts[index_b] >= most_contacts;
     if (crowded && !a.immovable() && !b.immovable()) continue;
-    ContactConstraint constraint;
+    ContactConstraint& constraint = active.emplace_back();
     constraint.a = index_a;
     constraint.b = index_b;
     const Course course_a = course_of(a, loads[index_a], dt);
@@ -141,17 +150,21 @@ void World::Implementation::find_constraints(double dt) {
       constraint.manifold = collide(a.shape, at_a.node(a), b.shape, at_b.node(b), reach);
       adopt(constraint, a, at_a, b, at_b);
     }
-    if (constraint.count == 0 || !constraint.manifold.normal.allFinite()) continue;
+    if (constraint.count == 0 || !constraint.manifold.normal.allFinite()) {
+      active.pop_back();
+      continue;
+    }
     constraint.friction = std::sqrt(a.friction * b.friction);
     constraint.restitution = std::max(a.restitution, b.restitution);
     constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
-    constraint.began = !(old && old->touching);
-    if (old) inherit(constraint, *old, 0.05 * std::min(a.radius, b.radius));
-    active.push_back(constraint);
+    constraint.memory = memory;
+    const bool known = memory != ContactMemories::nowhere;
+    constraint.began = !(known && memories[memory].touching);
+    if (known) inherit(constraint, memories[memory], 0.05 * std::min(a.radius, b.radius));
     ++contact_counts[index_a];
     ++contact_counts[index_b];
   }
-  retain_before(std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max());
+  memory_of({std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()});
 }
 
 void World::Implementation::note_starts() {
@@ -191,8 +204,21 @@ void World::Implementation::advance_bodies(double dt) {
 }
 
 void World::Implementation::report() {
-  contacts.clear();
-  for (ContactConstraint& constraint : active) {
+  remembered.clear();
+  next_contacts.clear();
+  // Between bodies at rest all is as it was, but nothing has begun there.
+  std::size_t next_retained = 0, next_contact = 0;
+  const auto keep_before = [&](const auto& pair) {
+    for (; next_retained < retained.size() && before(memories[retained[next_retained]], pair); ++next_retained) {
+      const ContactMemory& memory = memories[retained[next_retained]];
+      remembered.push_back(retained[next_retained]);
+      if (!memory.touching) continue;
+      while (contacts[next_contact].a.index != memory.a || contacts[next_contact].b.index != memory.b) ++next_contact;
+      next_contacts.push_back(contacts[next_contact]);
+      next_contacts.back().began = false;
+    }
+  };
+  for (const ContactConstraint& constraint : active) {
     double normal = 0;
     Vec3 total = Vec3::Zero();
     double approach = 0;
@@ -204,22 +230,29 @@ void World::Implementation::report() {
       approach = std::max(approach, point.approach);
       overlap = overlap || point.start_gap <= 0;
     }
-    constraint.touching = normal > 0 || overlap;
+    const bool touching = normal > 0 || overlap;
     if (bodies[constraint.a].immovable()) bodies[constraint.a].reaction -= total;
     if (bodies[constraint.b].immovable()) bodies[constraint.b].reaction += total;
-    constraint.seen = {{constraint.a, bodies[constraint.a].generation},
-                       {constraint.b, bodies[constraint.b].generation},
-                       constraint.manifold,
-                       normal,
-                       total,
-                       approach,
-                       constraint.began};
+    keep_before(constraint);
+    const bool known = constraint.memory != ContactMemories::nowhere;
+    const std::uint32_t place = known ? constraint.memory : memories.take();
+    remember(constraint, touching, memories[place]);
+    remembered.push_back(place);
+    if (touching)
+      next_contacts.push_back({{constraint.a, bodies[constraint.a].generation},
+                               {constraint.b, bodies[constraint.b].generation},
+                               constraint.manifold,
+                               normal,
+                               total,
+                               approach,
+                               constraint.began});
   }
-  for (ContactConstraint& constraint : retained) constraint.seen.began = false;
-  constraints.clear();
-  std::merge(active.begin(), active.end(), retained.begin(), retained.end(), std::back_inserter(constraints), before);
-  for (const ContactConstraint& constraint : constraints)
-    if (constraint.touching) contacts.push_back(constraint.seen);
+  constexpr std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
+  ContactMemory end;
+  end.a = end.b = last;
+  keep_before(end);
+  memories.keep(remembered);
+  std::swap(contacts, next_contacts);
 }
 
 void World::Implementation::step(double dt) {

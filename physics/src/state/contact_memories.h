@@ -1,0 +1,64 @@
+#pragma once
+
+#include <tweenfall/physics/contact.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tweenfall {
+
+/// What the next step needs of a contact's point.
+struct PointMemory {
+  std::uint32_t feature = 0;
+  Vec3 arm_b{0, 0, 0};  ///< from the center of mass of b at the start of the step, world, m
+  double kept_normal = 0;
+  Vec3 kept_friction{0, 0, 0};
+};
+
+/// What a contact hands on from step to step, apart from its points.
+struct KeptImpulses {
+  Vec3 kept_rolling{0, 0, 0};
+  double kept_step = 0;    ///< length of the sub-step that kept impulses are of, s; 0: none are
+  double kept_twist = 0;   ///< about the normal, where friction acts at the middle of the points, N m s
+  bool slid = false;       ///< at the end of the last step that was solved in blocks
+  double passed_over = 0;  ///< time since then in sub-steps too short to be kept, s
+};
+
+/// What the next step needs of a pair in contact.
+struct ContactMemory : KeptImpulses {
+  std::uint32_t a = 0, b = 0;  ///< indices of the bodies, a < b
+  int count = 0;
+  std::array<PointMemory, 4> points{};
+  bool touching = false;  ///< an impulse passed or the shapes overlap
+  bool gone = false;      ///< a body of it has left since
+};
+
+/// The memories of all contacts of the last step: each keeps its place while its pair is in contact.
+class ContactMemories {
+ public:
+  static constexpr std::uint32_t nowhere = 0xffffffff;
+
+  [[nodiscard]] ContactMemory& operator[](std::uint32_t place) { return all_[place]; }
+  [[nodiscard]] const ContactMemory& operator[](std::uint32_t place) const { return all_[place]; }
+  /// Places, by pair; those that are gone too, until `tidy`.
+  [[nodiscard]] std::span<const std::uint32_t> sorted() const { return sorted_; }
+  /// Places of a body's contacts.
+  [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t body);
+
+  void tidy();                         ///< forgets what is gone
+  [[nodiscard]] std::uint32_t take();  ///< a new place, for `keep` to be given
+  /// From now on these are all, by pair; exchanged for the places so far.
+  void keep(std::vector<std::uint32_t>& sorted);
+
+ private:
+  std::vector<ContactMemory> all_;
+  std::vector<std::uint32_t> unused_;  ///< of all_
+  std::vector<std::uint32_t> sorted_;
+  std::vector<char> kept_;           ///< by place; room for `keep`
+  std::vector<std::size_t> starts_;  ///< by body, in `by_body_`; empty until they are asked for
+  std::vector<std::uint32_t> by_body_;
+};
+
+}  // namespace tweenfall
