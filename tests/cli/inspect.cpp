@@ -83,3 +83,17 @@ TEST_CASE("a model is inspected: its clips, joints and skinned mesh") {
   for (const std::string part : {"3 clips", "Survey", "Walk", "Run", "skinned mesh, 576 triangles"})
     CHECK_MESSAGE(ran.out.find(part) != std::string::npos, part);
 }
+
+TEST_CASE("a scaled body is shown with its scale, and weighs what collides") {
+  const Folder folder;
+  const Ran ran = folder.run("inspect -", R"({"tweenfall": 1, "nodes": {
+    "cart": {"scale": 3, "rotation": {"axis": "z", "angle": 90}},
+    "crate": {"parent": "cart", "scale": [1, 0.5, 1], "body": {"shape": {"box": {"size": [0.4, 0.4, 0.4]}}}},
+    "ball": {"parent": "cart", "body": {"shape": {"sphere": {"radius": 0.5}}, "mass": 2}},
+    "plain": {"body": {"shape": {"sphere": {"radius": 0.5}}}}}})");
+  REQUIRE_MESSAGE(ran.code == 0, ran.err);
+  // 1.2 m by 0.6 m by 1.2 m of 1000 kg/m^3.
+  CHECK(ran.out.find("crate  box, half 0.2 0.2 0.2, times 3 1.5 3       864") != std::string::npos);
+  CHECK(ran.out.find("ball   sphere, radius 0.5, times 3                  2") != std::string::npos);
+  CHECK(ran.out.find("plain  sphere, radius 0.5                       523.6") != std::string::npos);
+}

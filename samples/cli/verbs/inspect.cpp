@@ -47,6 +47,22 @@ std::string shape_text(const Shape& shape) {
   return std::visit(Words{}, shape.solid);
 }
 
+/// What the rest poses of a node and its ancestors make of lengths along its own axes.
+Vec3 scale_at_rest(const StageDescription& stage, std::size_t node) {
+  Mat3 frame = Mat3::Identity();
+  for (; node != no_node; node = stage.nodes[node].parent) {
+    const Pose& rest = stage.nodes[node].rest;
+    frame = rest.rotation.toRotationMatrix() * rest.scale.asDiagonal() * frame;
+  }
+  return frame.colwise().norm();
+}
+
+std::string scale_text(const Vec3& scale) {
+  if ((scale - Vec3(1, 1, 1)).cwiseAbs().maxCoeff() < 1e-12) return "";
+  const bool is_even = scale.maxCoeff() - scale.minCoeff() < 1e-12 * scale.maxCoeff();
+  return ", times " + (is_even ? brief_text(scale.x()) : brief_text(scale));
+}
+
 std::string nodes_table(const StageDescription& stage) {
   Table table(counted(stage.nodes.size(), "node"), {"name", "parent", "position, m", "shown"});
   for (std::size_t i = 0; i < stage.nodes.size(); ++i) {
@@ -121,8 +137,9 @@ std::string bodies_table(const StageDescription& stage, const std::string& file)
   for (std::size_t i = 0; i < stage.nodes.size(); ++i) {
     const NodeDescription& node = stage.nodes[i];
     if (!node.body) continue;
-    const double mass = node.body->mass.value_or(node.body->density * volume(node.body->shape.solid));
-    table.row({node.name, shape_text(node.body->shape), node.body->fixed ? "" : brief_text(mass),
+    const Vec3 scale = scale_at_rest(stage, i);
+    const double mass = node.body->mass.value_or(node.body->density * volume(node.body->shape.solid) * scale.prod());
+    table.row({node.name, shape_text(node.body->shape) + scale_text(scale), node.body->fixed ? "" : brief_text(mass),
                brief_text(node.body->friction), brief_text(node.body->restitution),
                owner_text(node, made.owner(i) == Owner::keyed)});
   }
