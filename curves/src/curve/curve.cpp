@@ -73,7 +73,7 @@ void check(std::span<const SpanType> spans) {
     for (int k = 0; k < rows_of(s); ++k)
       if (!all_finite(s.coefficients[static_cast<std::size_t>(k)]))
         refuse(i, s.start,
-               "has a non-finite number in coefficient " + std::to_string(k) + ": " +
+               "needs finite numbers, no further apart than numbers hold; coefficient " + std::to_string(k) + " is " +
                    text_of(s.coefficients[static_cast<std::size_t>(k)]));
     if (!all_finite(s.end)) refuse(i, s.start, "has a non-finite end value " + text_of(s.end));
     if constexpr (std::is_same_v<SpanType, RotationSpan>)

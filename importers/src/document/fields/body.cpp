@@ -40,7 +40,7 @@ const Table<Body>& body_table() {
         member<Body>(&Body::restitution),
         false,
         {},
-        {"bounce", "bounciness", "elasticity"}},
+        {"bounciness", "elasticity"}},
        {"rolling_friction", &ValueForms::not_negative, "m", member<Body>(&Body::rolling_friction)},
        {"linear_damping", &ValueForms::not_negative, "1/s", member<Body>(&Body::linear_damping)},
        {"angular_damping", &ValueForms::not_negative, "1/s", member<Body>(&Body::angular_damping)},

@@ -135,12 +135,14 @@ void Problems::add_foreign(const std::vector<Problem>& problems) {
 std::vector<Problem> Problems::located(Severity severity, const std::string& file, const JsonTree& tree) const {
   const Told& told = severity == Severity::note ? notes_ : errors_;
   std::vector<const Entry*> ordered;
+  ordered.reserve(told.entries.size());
   for (const Entry& entry : told.entries) ordered.push_back(&entry);
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const Entry* a, const Entry* b) { return a->fault.offset < b->fault.offset; });
   const std::size_t count = std::min(ordered.size(), most_listed);
 
   std::vector<Problem> out;
+  out.reserve(count + told.foreign.size() + 1);
   Walk walk(tree.text());
   for (std::size_t i = 0; i < count; ++i) {
     const auto& [fault, value] = *ordered[i];
