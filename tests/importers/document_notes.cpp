@@ -103,6 +103,28 @@ TEST_CASE("a clip of ages is noted, and what a pattern leaves out") {
   CHECK(has(rule, "(at /handoff/0/body)"));
 }
 
+TEST_CASE("of a group, too, what is static is left out with a note") {
+  const std::string body = "\"body\": {\"shape\": {\"sphere\": {\"radius\": 0.2}}";
+  const std::string rule =
+      notes_of("{\"tweenfall\": 1, \"nodes\": {\"post\": {\"group\": \"fence\", " + body +
+               ", \"static\": true}}, \"rail\": {\"position\": [0, 1, 0], \"group\": \"fence\", " + body +
+               "}}}, \"handoff\": [{\"group\": \"fence\", \"when\": {\"at\": 0.5}, \"to\": {\"hz\": 2}}]}");
+  CHECK(has(rule, "\"fence\" leaves out \"post\""));
+  CHECK(has(rule, "(at /handoff/0/group)"));
+}
+
+TEST_CASE("words of other programs for fields are answered with ours") {
+  const std::string said = faults_of(
+      "{\"tweenfall\": 1, \"world\": {\"dt\": 0.01}, \"nodes\": {\"a\": {\"translation\": [0, 0, 0], \"body\": "
+      "{\"shape\": "
+      "{\"sphere\": {\"radius\": 1}}, \"fixed\": true, \"Bounciness\": 1}}}}",
+      "n.json", {});
+  CHECK(has(said, "unknown field \"dt\"; did you mean \"step\"?"));
+  CHECK(has(said, "unknown field \"translation\"; did you mean \"position\"?"));
+  CHECK(has(said, "unknown field \"fixed\"; did you mean \"static\"?"));
+  CHECK(has(said, "unknown field \"Bounciness\"; did you mean \"restitution\"?"));
+}
+
 TEST_CASE("what the stage would refuse is told with its place, all at once") {
   const std::string said = faults_of(
       "{\"tweenfall\": 1, \"world\": {\"gravity\": [0, 1e300, 0]}, \"nodes\": {\n"
