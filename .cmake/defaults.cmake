@@ -11,8 +11,9 @@ if(TWEENFALL_CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
     ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros ${TWEENFALL_CCACHE})
 endif()
 
-# Sources are compiled several as one, in about half the time. A name of an anonymous namespace is therefore used once a
-# module. -DCMAKE_UNITY_BUILD=OFF compiles each alone.
+# Sources are compiled several as one, in about half the time. The names that a room keeps to itself, those of anonymous
+# namespaces too, therefore stand in the room's own namespace (tweenfall::slopes, tweenfall::staging) and are used once
+# per room; those that stand in tweenfall itself, once per module. -DCMAKE_UNITY_BUILD=OFF compiles each alone.
 if(NOT DEFINED CMAKE_UNITY_BUILD)
   set(CMAKE_UNITY_BUILD ON)
 endif()
