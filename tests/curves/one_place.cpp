@@ -12,10 +12,10 @@ using namespace tweenfall;
 namespace {
 
 // Words that mean something else too: splines, rules beyond the keys, a key's member, the ease of a key without one,
-// the degree of a polynomial, what other programs call restitution.
-const std::set<std::string> shared_words = {
-    "hold",        "linear",     "ease",   "natural",        "clamped", "uniform", "centripetal", "chordal",
-    "catmull-rom", "not-a-knot", "smooth", "smooth-clamped", "spring",  "bezier",  "cubic",       "bounce"};
+// the degree of a polynomial.
+const std::set<std::string> shared_words = {"hold",    "linear",         "ease",    "natural",     "clamped",
+                                            "uniform", "centripetal",    "chordal", "catmull-rom", "not-a-knot",
+                                            "smooth",  "smooth-clamped", "spring",  "bezier",      "cubic"};
 
 // The words that stand as such in a source: a family's without the directions, a call's without its numbers.
 std::set<std::string> source_words() {
