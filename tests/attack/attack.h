@@ -29,12 +29,17 @@ class Attack {
 };
 
 std::unique_ptr<Attack> attack_documents(std::uint64_t seed);
+/// The same documents, given to the command.
+std::unique_ptr<Attack> attack_commands(std::uint64_t seed);
 /// @param ending  of the models to start from, such as ".fbx"
 std::unique_ptr<Attack> attack_models(std::uint64_t seed, const std::string& ending);
 std::unique_ptr<Attack> attack_stage(std::uint64_t seed);
 
 /// The bytes of a file; none where it cannot be read.
 [[nodiscard]] std::string bytes_of(const std::filesystem::path& file);
+
+/// A folder for what a process writes; it goes when the process does.
+[[nodiscard]] std::filesystem::path folder_of_process(long process);
 
 /// The numbers of one case.
 inline Random random_of(std::uint64_t seed, std::uint64_t number) {

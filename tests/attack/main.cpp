@@ -1,7 +1,7 @@
 // attack KIND [--count N] [--from K] [--seed S] [--jobs J]   run cases of a kind, each job in a process of its own
 // attack KIND --show K [--seed S]                            print what case K feeds to the program
 //
-// KIND: documents, stage, or the ending of models: .gltf, .glb, .fbx, .bvh, .dae, .obj
+// KIND: documents, commands, stage, or the ending of models: .gltf, .glb, .fbx, .bvh, .dae, .obj
 // A case that crashes, takes longer than 10 s or more than 4 GB is told by its number, and the run goes on behind it.
 
 #include "attack/attack.h"
@@ -32,6 +32,7 @@ constexpr rlim_t most_bytes = rlim_t{4} << 30;
 
 std::unique_ptr<Attack> attack_of(const std::string& kind, std::uint64_t seed) {
   if (kind == "documents") return attack_documents(seed);
+  if (kind == "commands") return attack_commands(seed);
   if (kind == "stage") return attack_stage(seed);
   return attack_models(seed, kind);
 }
@@ -109,6 +110,8 @@ Result watch(const std::string& kind, std::uint64_t seed, std::uint64_t from, st
       waitpid(worker, &status, 0);
       break;
     }
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_of_process(worker), ignored);
     at = progress->next;
     result.most_kilobytes = std::max<std::uint64_t>(result.most_kilobytes, progress->most_kilobytes);
     if (!hung && WIFEXITED(status) && WEXITSTATUS(status) == 0) break;
@@ -127,7 +130,7 @@ int run(int argc, char** argv) {
   std::string kind;
   std::uint64_t count = 1000, from = 0, seed = 1, show = 0;
   unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
-  app.add_option("kind", kind, "documents, stage, or an ending of models such as .fbx")->required();
+  app.add_option("kind", kind, "documents, commands, stage, or an ending of models such as .fbx")->required();
   app.add_option("--count", count, "how many cases")->capture_default_str();
   app.add_option("--from", from, "the first case")->capture_default_str();
   app.add_option("--seed", seed, "other cases")->capture_default_str();

@@ -101,9 +101,7 @@ StageDescription stage_of(const Model& model) {
 class Models final : public Attack {
  public:
   Models(std::uint64_t seed, const std::string& ending)
-      : seed_(seed),
-        ending_(ending),
-        folder_(std::filesystem::temp_directory_path() / ("tweenfall-attack-" + std::to_string(getpid()))) {
+      : seed_(seed), ending_(ending), folder_(folder_of_process(getpid())) {
     for (const char* folder : {"samples/documents", "tests/data", "../shared/models"}) {
       const std::filesystem::path place = std::filesystem::path(TWEENFALL_SOURCE_DIR) / folder;
       if (!std::filesystem::exists(place)) continue;

@@ -16,6 +16,10 @@ std::string bytes_of(const std::filesystem::path& file) {
   return bytes.str();
 }
 
+std::filesystem::path folder_of_process(long process) {
+  return std::filesystem::temp_directory_path() / ("tweenfall-attack-" + std::to_string(process));
+}
+
 double odd_number(Random& random, bool hostile) {
   static constexpr double odd[] = {0,      -0.0,   1,     -1,         1e-300, 5e-324, 1e-17, 1e-9,  1e-6,
                                    1e-3,   0.5,    2,     3,          90,     180,    360,   720,   1e3,

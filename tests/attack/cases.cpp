@@ -1,0 +1,35 @@
+#include "attack/cases.h"
+
+#include "attack/mutation.h"
+
+#include <algorithm>
+
+namespace tweenfall::attack {
+
+ChangedDocuments::ChangedDocuments(std::uint64_t seed) : seed_(seed) {
+  const std::filesystem::path source = TWEENFALL_SOURCE_DIR;
+  for (const char* folder : {"samples/documents", "tests/data/documents/good", "../shared/faults"}) {
+    if (!std::filesystem::exists(source / folder)) continue;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source / folder)) {
+      if (entry.path().extension() == ".json" && entry.file_size() < 40'000) files_.push_back(entry.path());
+    }
+  }
+  std::sort(files_.begin(), files_.end());
+}
+
+ChangedDocument ChangedDocuments::make(std::uint64_t number) const {
+  Random random = random_of(seed_, number);
+  const std::filesystem::path& file = files_[below(random, files_.size())];
+  std::string text = bytes_of(file);
+  if (below(random, 4) != 0) {
+    nlohmann::ordered_json document = nlohmann::ordered_json::parse(text, nullptr, false, true);
+    if (!document.is_discarded()) {
+      mutate_structure(random, document);
+      return {document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), file.parent_path()};
+    }
+  }
+  mutate_bytes(random, text);
+  return {text, file.parent_path()};
+}
+
+}  // namespace tweenfall::attack
