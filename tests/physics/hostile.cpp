@@ -239,3 +239,27 @@ TEST_CASE("what turns by many radians in a step, and touches, stays finite and g
       CHECK(world.kinetic_energy() < 2 * energy + 100);
     }
 }
+
+TEST_CASE("contacts of bodies at one point grow with their number and not with its square, and all stay finite") {
+  for (const int count : {100, 400}) {
+    CAPTURE(count);
+    World world;
+    std::vector<BodyId> bodies;
+    bodies.reserve(static_cast<std::size_t>(count));
+    for (int i = 0; i < count; ++i) {
+      BodySettings body;
+      if (i % 2 == 0)
+        body.shape.solid = Sphere{0.1};
+      else
+        body.shape.solid = Box{Vec3(0.1, 0.1, 0.1)};
+      body.mass = 1.0;
+      bodies.push_back(world.add(body));
+    }
+    for (int step = 0; step < 4; ++step) {
+      world.step(1.0 / 240);
+      CHECK(world.contacts().size() > static_cast<std::size_t>(count));
+      CHECK(world.contacts().size() <= 32 * static_cast<std::size_t>(count));
+    }
+    for (const BodyId body : bodies) CHECK(world.motion(body).pose.position.norm() < 1);
+  }
+}
