@@ -337,8 +337,9 @@ void remove_node(StageState& state, NodeId node) {
     state.bodies[body].present = false;
     state.bodies[body].below.reset();
     state.unused.push_back(body);
-    for (ArmedRule& armed : std::ranges::equal_range(state.armed, body, {}, &ArmedRule::body)) {
-      armed.done = armed.gone = true;
+    const auto last = std::ranges::upper_bound(state.armed, body, {}, &ArmedRule::body);
+    for (auto armed = std::ranges::lower_bound(state.armed, body, {}, &ArmedRule::body); armed != last; ++armed) {
+      armed->done = armed->gone = true;
       ++state.gone_rules;
     }
   }
