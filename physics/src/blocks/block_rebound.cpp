@@ -14,7 +14,7 @@ namespace tweenfall::blocks {
 namespace {
 
 /// A change of velocity of this part of what counts as a tremble is left to the next sub-step.
-constexpr double quiet = 0.01;
+constexpr double quiet = 0.1;
 
 Vec3 lane_of(const Lanes3& lanes, int lane) {
   return {lanes.x[lane], lanes.y[lane], lanes.z[lane]};

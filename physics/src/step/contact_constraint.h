@@ -11,7 +11,6 @@ struct PointConstraint {
   double start_gap = 0;                             ///< along the normal at the start of the step, m
   Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};              ///< in the current sub-step
   double gap = 0;
-  double normal_mass = 0;
   double kept_normal = 0;  ///< of the last sub-step worth keeping: where the next begins, N s
   Vec3 kept_friction{0, 0, 0};
   double normal_impulse = 0;       ///< of one sub-step, N s

@@ -3,7 +3,7 @@
 /// Rows of the contact solver: each changes the velocities of two bodies by one impulse.
 
 #include "step/contact_constraint.h"
-#include "step/solver.h"
+#include "step/solver_body.h"
 
 namespace tweenfall::step {
 
@@ -22,22 +22,33 @@ struct Tangents {
 };
 [[nodiscard]] Tangents tangents_of(const Vec3& normal);
 
-/// What a unit of speed along `direction` takes, kg.
-[[nodiscard]] double mass_along(const SolverBody& a, const SolverBody& b, const PointConstraint& point,
-                                const Vec3& direction);
+/// A point along its normal and across it, as the bodies lie in a sub-step.
+struct PointRows {
+  Vec3 turn_a, turn_b;  ///< arm x normal
+  Vec3 spin_a, spin_b;  ///< angular velocity by a unit of impulse along the normal
+  double mass = 0;      ///< what a unit of speed along the normal takes, kg
+
+  // Across; only where there is friction
+  Tangents along;
+  Vec3 turn_a1, turn_a2, turn_b1, turn_b2, spin_a1, spin_a2, spin_b1, spin_b2;
+  double inverse11 = 0, inverse12 = 0, inverse22 = 0;  ///< from the slip to the impulse that stops it
+  double stiffest = 0;                                 ///< the greatest speed that a unit of impulse makes, 1/kg
+
+  void prepare(const SolverBody& a, const SolverBody& b, const PointConstraint& point, const Vec3& normal,
+               const Tangents* tangents);
+};
 
 /// Friction of one point on the circular cone: the impulse that stops the slip, or, when the cone is too narrow, a
 /// step along the slip brought back to the cone's edge, so that in the end friction opposes the slip exactly.
 /// @return the change of velocity, m/s
-double solve_friction(SolverBody& a, SolverBody& b, PointConstraint& point, Vec3& impulse, double limit,
-                      const Vec3& normal);
+double solve_friction(SolverBody& a, SolverBody& b, const PointRows& rows, Vec3& impulse, double limit);
 
 /// Resistance to rolling and spinning: a torque against the relative spin, at most `limit`.
 void solve_rolling(SolverBody& a, SolverBody& b, Vec3& impulse, double limit);
 
 /// Step of one normal row toward relative speed `wanted`, total impulse not negative.
 /// @return the change of velocity, m/s
-double solve_normal(SolverBody& a, SolverBody& b, const PointConstraint& point, double& impulse, double wanted,
+double solve_normal(SolverBody& a, SolverBody& b, const PointRows& rows, double& impulse, double wanted,
                     const Vec3& normal, double firm = 1, double giving = 0);
 
 }  // namespace tweenfall::step

@@ -7,15 +7,23 @@
 
 namespace tweenfall::step {
 
+namespace {
+
+Mat3 inertia_of(const Body& body, const Quat& rotation) {
+  return body.spherical ? body.mass.inertia : body.world_inertia(rotation);
+}
+
+}  // namespace
+
 void IslandEnergy::add(const Body& body, const Load& load, const BodyCourse& course) {
   const double mass = body.mass.mass;
   const Vec3 force = 0.5 * mass * (load.acceleration + load.end_acceleration);
   limit += 0.5 * mass * course.start.linear.squaredNorm() +
-           0.5 * course.start.angular.dot(body.world_inertia(course.start_rotation) * course.start.angular) +
+           0.5 * course.start.angular.dot(inertia_of(body, course.start_rotation) * course.start.angular) +
            force.dot(course.center - course.start_center);
   if (load.torque != Vec3::Zero())
     limit += load.torque.dot(log_map(course.rotation * course.start_rotation.conjugate()));
-  const Mat3 inertia = body.world_inertia(course.rotation);
+  const Mat3 inertia = inertia_of(body, course.rotation);
   const Vec3 linear = course.after.linear - course.before.linear;
   const Vec3 angular = course.after.angular - course.before.angular;
   const Vec3 momentum = inertia * course.before.angular;

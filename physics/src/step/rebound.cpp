@@ -32,7 +32,9 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
   double most = 0;
   const std::size_t count = contacts.size();
   for (std::size_t n = 0; n < count; ++n) {
-    ContactConstraint& constraint = *contacts[backward ? count - 1 - n : n];
+    const std::size_t index = backward ? count - 1 - n : n;
+    ContactConstraint& constraint = *contacts[index];
+    const step::PointRows* rows = &rows_[4 * index];
     SolverBody& a = at(constraint.a);
     SolverBody& b = at(constraint.b);
     // Only what the rebound reaches.
@@ -42,10 +44,10 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
     for (int i = 0; i < constraint.count; ++i) {
       PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       if (constraint.friction > 0 && constraint.impact)
-        change = std::max(change, step::solve_friction(a, b, point, point.friction_impulse,
-                                                       constraint.friction * point.normal_impulse, normal));
+        change = std::max(change, step::solve_friction(a, b, rows[i], point.friction_impulse,
+                                                       constraint.friction * point.normal_impulse));
       if (point.normal_impulse == 0 && point.gap > 0) continue;
-      change = std::max(change, step::solve_normal(a, b, point, point.normal_impulse, point.rebound, normal));
+      change = std::max(change, step::solve_normal(a, b, rows[i], point.normal_impulse, point.rebound, normal));
     }
     if (change > quiet) {
       a.stirred = a.movable;
@@ -57,7 +59,7 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
 }
 
 /// The rebound began inside the sub-step: what is left of it, it moved the bodies.
-void Solver::move_by_rebound(const ContactConstraint& constraint) {
+void Solver::move_by_rebound(const ContactConstraint& constraint, const step::PointRows* rows) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
   for (int i = 0; i < constraint.count; ++i) {
@@ -67,7 +69,7 @@ void Solver::move_by_rebound(const ContactConstraint& constraint) {
     const double part = point.rebound / (point.rebound - std::min(0.0, point.speed_before_rebound));
     // A rebound that gravity nearly uses up lasts long and takes little impulse: what neighbors pass on through the
     // point is none of it.
-    const double most = point.normal_mass * point.rebound;
+    const double most = rows[i].mass * point.rebound;
     const double own = std::clamp((point.normal_impulse - point.normal_before_rebound) * part, -most, most);
     const Vec3 moved = own * point.rebound_time * constraint.manifold.normal;
     if (moved == Vec3::Zero()) continue;
@@ -161,7 +163,7 @@ void Solver::rebound(const std::vector<Body>& bodies, const std::vector<Load>& l
   }
   for (int k = 0; k < passes; ++k)
     if (rebound_pass(contacts, k % 2 == 1) < quiet) break;
-  for (const ContactConstraint* contact : contacts) move_by_rebound(*contact);
+  for (std::size_t i = 0; i < contacts.size(); ++i) move_by_rebound(*contacts[i], &rows_[4 * i]);
   bound_energy(bodies, loads, contacts);
 }
 

@@ -159,14 +159,15 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
   }
 }
 
-void Solver::warm_start(ContactConstraint& constraint, double h) {
+void Solver::warm_start(ContactConstraint& constraint, step::PointRows* rows, double h) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
   const Vec3& normal = constraint.manifold.normal;
   const double ratio = constraint.kept_step > h ? h / constraint.kept_step : 1;
+  const step::Tangents along = constraint.friction > 0 ? step::tangents_of(normal) : step::Tangents{};
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-    point.normal_mass = step::mass_along(a, b, point, normal);
+    rows[i].prepare(a, b, point, normal, constraint.friction > 0 ? &along : nullptr);
     point.normal_impulse = ratio * point.kept_normal;
     point.friction_impulse = ratio * (point.kept_friction - normal * normal.dot(point.kept_friction));
     const Vec3 impulse = point.normal_impulse * normal + point.friction_impulse;
@@ -179,7 +180,8 @@ void Solver::warm_start(ContactConstraint& constraint, double h) {
   b.angular += b.inverse_inertia * constraint.rolling_impulse;
 }
 
-double Solver::solve_contact(ContactConstraint& constraint, const Softness& softness, double h) {
+double Solver::solve_contact(ContactConstraint& constraint, const step::PointRows* rows, const Softness& softness,
+                             double h) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
   const Vec3& normal = constraint.manifold.normal;
@@ -193,8 +195,8 @@ double Solver::solve_contact(ContactConstraint& constraint, const Softness& soft
     for (int i = 0; i < constraint.count; ++i) {
       PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       if (point.normal_impulse == 0 && point.friction_impulse == Vec3::Zero()) continue;
-      change = std::max(change, step::solve_friction(a, b, point, point.friction_impulse,
-                                                     constraint.friction * point.normal_impulse, normal));
+      change = std::max(change, step::solve_friction(a, b, rows[i], point.friction_impulse,
+                                                     constraint.friction * point.normal_impulse));
     }
   }
   for (int i = 0; i < constraint.count; ++i) {
@@ -202,7 +204,7 @@ double Solver::solve_contact(ContactConstraint& constraint, const Softness& soft
     // A gap may close within the sub-step, but not further.
     const bool soft = point.gap <= 0 && !constraint.impact && !a.pulled && !b.pulled;
     const double wanted = point.gap > 0 ? -point.gap / h : std::min(-softness.rate * point.gap, softness.speed);
-    change = std::max(change, step::solve_normal(a, b, point, point.normal_impulse, wanted, normal,
+    change = std::max(change, step::solve_normal(a, b, rows[i], point.normal_impulse, wanted, normal,
                                                  soft ? softness.firm : 1, soft ? softness.giving : 0));
   }
   return change;
@@ -234,8 +236,10 @@ double Solver::solve_drive(const std::vector<Body>& bodies, SolverBody& entry, d
 double Solver::pass(Contacts contacts, const Softness& softness, double h, bool backward) {
   double change = 0;
   const std::size_t count = contacts.size();
-  for (std::size_t i = 0; i < count; ++i)
-    change = std::max(change, solve_contact(*contacts[backward ? count - 1 - i : i], softness, h));
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::size_t i = backward ? count - 1 - n : n;
+    change = std::max(change, solve_contact(*contacts[i], &rows_[4 * i], softness, h));
+  }
   return change;
 }
 
@@ -332,6 +336,7 @@ void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
 void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, Springs springs,
                    const WorldSettings& settings, double dt, std::vector<char>& moved) {
   gather(bodies, contacts, springs, dt);
+  rows_.resize(4 * contacts.size());
   for (ContactConstraint* contact : contacts) {
     const SolverBody& a = at(contact->a);
     const SolverBody& b = at(contact->b);
@@ -354,7 +359,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Co
       if (sub_step > 0) refresh(*contact);
       if (contact->restitution > 0) meet(loads, *contact, h, dt);
     }
-    for (ContactConstraint* contact : contacts) warm_start(*contact, h);
+    for (std::size_t i = 0; i < contacts.size(); ++i) warm_start(*contacts[i], &rows_[4 * i], h);
     for (SpringRow* spring : springs) spring->begin(end_of(spring->a), end_of(spring->b), h);
     const double remaining = dt - (sub_step + 1) * h;
     for (SolverBody& body : bodies_) body.drive_impulse = body.drive_angular_impulse = Vec3::Zero();

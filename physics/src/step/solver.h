@@ -5,6 +5,7 @@
 
 #include "forces/free_flight.h"
 #include "step/contact_constraint.h"
+#include "step/contact_rows.h"
 #include "step/softness.h"
 #include "step/solver_body.h"
 #include "step/spring_row.h"
@@ -42,9 +43,10 @@ class Solver {
   void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, const WorldSettings& settings,
                       double h, int sub_step);
   void refresh(ContactConstraint& constraint) const;
-  void warm_start(ContactConstraint& constraint, double h);
+  void warm_start(ContactConstraint& constraint, step::PointRows* rows, double h);
   double pass(Contacts contacts, const step::Softness& softness, double h, bool backward);
-  double solve_contact(ContactConstraint& constraint, const step::Softness& softness, double h);
+  double solve_contact(ContactConstraint& constraint, const step::PointRows* rows, const step::Softness& softness,
+                       double h);
   double solve_drive(const std::vector<Body>& bodies, SolverBody& body, double h, double remaining);
   void find_lags(Contacts contacts);
   void add_totals(Contacts contacts, double h);
@@ -54,7 +56,7 @@ class Solver {
   // Rebound
   void rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, int passes);
   double rebound_pass(Contacts contacts, bool backward);
-  void move_by_rebound(const ContactConstraint& constraint);
+  void move_by_rebound(const ContactConstraint& constraint, const step::PointRows* rows);
   void bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts);
 
   SolverBody* end_of(std::uint32_t index) { return index == SpringRow::world ? nullptr : &at(index); }
@@ -62,8 +64,9 @@ class Solver {
   const SolverBody& at(std::uint32_t index) const { return bodies_[slots_[index]]; }
 
   std::vector<SolverBody> bodies_;
-  std::vector<std::uint32_t> slots_;  ///< from a body's index into bodies_
-  std::vector<SubStepStart> starts_;  ///< of bodies_
+  std::vector<std::uint32_t> slots_;   ///< from a body's index into bodies_
+  std::vector<SubStepStart> starts_;   ///< of bodies_
+  std::vector<step::PointRows> rows_;  ///< four per contact of the island
 };
 
 }  // namespace tweenfall
