@@ -7,7 +7,7 @@
 namespace tweenfall::character {
 
 inline constexpr double walk_cycle = 1.08;    ///< s; two steps
-inline constexpr double walk_stride = 1.296;  ///< m a cycle, so 1.2 m/s
+inline constexpr double walk_stride = 1.296;  ///< m per cycle, so 1.2 m/s
 inline constexpr int walk_forward_cycles = 4;
 
 /// Walking on the spot; repeats every `walk_cycle`. The left heel strikes at 0.

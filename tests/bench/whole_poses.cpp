@@ -91,29 +91,17 @@ void crowd_of_thousand(benchmark::State& state, Order order, Keys keys) {
   state.counters["bytes"] = static_cast<double>(figure_of_joints.bytes);
 }
 
-// Matrices and their rates, as drawing wants them; or with the rotation, angular velocity and scale of the chain.
-void local_to_world(benchmark::State& state) {
+// Of every joint what `way` gives: matrices and their rates, as drawing wants them; or with the rotation, angular
+// velocity and scale of the chain.
+template <class World>
+void local_to_world(benchmark::State& state, void (Hierarchy::*way)(std::span<const Motion>, std::span<World>) const) {
   const auto joints = static_cast<std::uint32_t>(state.range(0));
   const Figure& crowd = figure(joints, Keys::linear);
   std::vector<Motion> local(joints);
-  std::vector<WorldFrame> world(joints);
+  std::vector<World> world(joints);
   crowd.animation.sample(3.21, local);
   for (auto _ : state) {
-    crowd.animation.nodes().world_frames(local, world);
-    benchmark::DoNotOptimize(world.data());
-    benchmark::ClobberMemory();
-  }
-  tell(state, joints);
-}
-
-void local_to_world_motions(benchmark::State& state) {
-  const auto joints = static_cast<std::uint32_t>(state.range(0));
-  const Figure& crowd = figure(joints, Keys::linear);
-  std::vector<Motion> local(joints);
-  std::vector<WorldMotion> world(joints);
-  crowd.animation.sample(3.21, local);
-  for (auto _ : state) {
-    crowd.animation.nodes().world_motions(local, world);
+    (crowd.animation.nodes().*way)(local, world);
     benchmark::DoNotOptimize(world.data());
     benchmark::ClobberMemory();
   }
@@ -128,7 +116,7 @@ BENCHMARK_CAPTURE(one_figure, linear_forward, Order::forward, Keys::linear)->Arg
 BENCHMARK_CAPTURE(one_figure, linear_random, Order::random, Keys::linear)->Arg(67);
 BENCHMARK_CAPTURE(one_figure, smooth_forward, Order::forward, Keys::smooth)->Arg(67);
 BENCHMARK_CAPTURE(one_figure, smooth_random, Order::random, Keys::smooth)->Arg(67);
-BENCHMARK(local_to_world)->Arg(20)->Arg(67)->Arg(200);
-BENCHMARK(local_to_world_motions)->Arg(20)->Arg(67)->Arg(200);
+BENCHMARK_CAPTURE(local_to_world, frames, &Hierarchy::world_frames)->Arg(20)->Arg(67)->Arg(200);
+BENCHMARK_CAPTURE(local_to_world, motions, &Hierarchy::world_motions)->Arg(20)->Arg(67)->Arg(200);
 
 }  // namespace

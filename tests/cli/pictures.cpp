@@ -47,6 +47,23 @@ TEST_CASE("plot of a thrown ball tells of the hand-off") {
   CHECK(ran.out.find("1 hand-off") != std::string::npos);
 }
 
+TEST_CASE("view says at the terminal that a page carries fewer frames than were recorded, and only then") {
+  const Folder folder;
+  json document = {{"tweenfall", 1}};
+  for (int i = 0; i < 300; ++i) {
+    const std::string name = "n" + std::to_string(i);
+    document["nodes"][name] = json::object();
+    document["clips"]["rise"]["tracks"][name + ".position"] = {{0, {i, 0, 0}}, {15, {i, 1, 0}}};
+  }
+  folder.write("rise.json", document.dump());
+  const Ran ran = folder.run("view rise.json");
+  CHECK_MESSAGE(ran.code == 0, ran.err);
+  // 250,000 places of 300 nodes that move.
+  CHECK_MESSAGE(ran.err.find("of 901 frames it carries 833, with smooth motion between them") != std::string::npos,
+                ran.err);
+  CHECK(folder.run("view rise.json --until 13").err.find("it carries") == std::string::npos);
+}
+
 TEST_CASE("view writes one page named like the document, that asks for nothing from a network") {
   const Folder folder;
   folder.write("thrown.json", thrown_document);

@@ -12,8 +12,8 @@ namespace tweenfall::plotting {
 struct TrackHandle {
   double key = 0;              ///< clip time of its key, s
   bool arrives = false;        ///< on the side from which the curve comes
-  std::vector<double> time;    ///< s, one a component
-  std::vector<double> change;  ///< in the value's unit, one a component
+  std::vector<double> time;    ///< s, one per component
+  std::vector<double> change;  ///< in the value's unit, one per component
 };
 
 /// In order of their keys. Spans that are no cubics of their keys have none: eases, straight ways, formulas, rotations,

@@ -117,7 +117,7 @@ std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, doubl
       if (add_passes(play, clip, keys, static_cast<std::uint32_t>(lane.keys.size()), from, until,
                      passes[place->second]))
         lane.is_thinned = true;
-      const std::vector<std::string> eases = key_ease_texts(track.curve, keys);
+      const std::vector<std::string> eases = key_ease_texts(track, keys);
       for (std::size_t k = 0; k < keys.size(); ++k)
         lane.keys.push_back({key_value_text(track.curve, keys[k]), eases[k]});
     }

@@ -117,8 +117,16 @@ std::string key_value_text(const TrackCurve& curve, double clip_time) {
   return std::visit([&](const auto& held) { return key_words::value_text(held, clip_time); }, curve);
 }
 
-std::vector<std::string> key_ease_texts(const TrackCurve& curve, const std::vector<double>& clip_times) {
-  return std::visit([&](const auto& held) { return key_words::ease_texts(held, clip_times); }, curve);
+std::vector<std::string> key_ease_texts(const Track& track, const std::vector<double>& clip_times) {
+  std::vector<std::string> texts =
+      std::visit([&](const auto& held) { return key_words::ease_texts(held, clip_times); }, track.curve);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const auto after = std::upper_bound(track.words.begin(), track.words.end(), clip_times[i],
+                                        [](double time, const auto& said) { return time < said.first; });
+    const bool is_said = after != track.words.begin() && !(after - 1)->second.empty();
+    if (is_said && texts[i] != "end") texts[i] = (after - 1)->second;
+  }
+  return texts;
 }
 
 }  // namespace tweenfall::recordings

@@ -13,8 +13,8 @@ namespace tweenfall::recordings {
 /// as linear "(r, g, b, a)".
 [[nodiscard]] std::string key_value_text(const TrackCurve& curve, double clip_time);
 
-/// How the curve goes on from each key: "hold", "linear", "eased" (a straight way re-timed), "quadratic", "cubic",
-/// "quintic", "several" where components differ, or "end" for the last key.
-[[nodiscard]] std::vector<std::string> key_ease_texts(const TrackCurve& curve, const std::vector<double>& clip_times);
+/// How the curve goes on from each key: as the author said; where nobody said it "hold", "linear", "eased" (a straight
+/// way re-timed), "quadratic", "cubic", "quintic", or "several" where components differ; "end" for the last key.
+[[nodiscard]] std::vector<std::string> key_ease_texts(const Track& track, const std::vector<double>& clip_times);
 
 }  // namespace tweenfall::recordings

@@ -2,6 +2,8 @@
 
 #include "files/output_file.h"
 #include "motion/stage_run.h"
+#include "report/counted.h"
+#include "report/terminal.h"
 #include "verbs/verbs.h"
 
 #include <tweenfall/importers/recording_file.h>
@@ -22,6 +24,10 @@ int view_file(ViewOptions options) {
   choose_play(read, options.clip, options.file);
   const Recording recording = run_stage(read.stage, options);
   write_output(options.output, recording_html(recording, read.stage));
+  const std::size_t frames = recording.times.size(), carried = page_frame_count(recording);
+  if (carried < frames)
+    say(options.file + ": note: too much for one page: of " + counted(frames, "frame") + " it carries " +
+        std::to_string(carried) + ", with smooth motion between them; for all of them a shorter --until");
   say_written(options.output, summary_of(recording) + "; open it in a browser");
   return 0;
 }

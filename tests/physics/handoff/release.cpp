@@ -131,7 +131,7 @@ TEST_CASE("the instant is exact wherever it lies in the step") {
   }
 }
 
-TEST_CASE("after every step a keyed body is where its curve is, a quarter turn a step included") {
+TEST_CASE("after every step a keyed body is where its curve is, a quarter turn per step included") {
   for (const double step : compared_steps) {
     StageDescription description = tumbler(step);
     description.plays[0].speed = 1;

@@ -47,6 +47,9 @@ struct Track {
   TrackCurve
       curve;  ///< position, scale: Curve<Vec3>; rotation: Curve<Quat>; color: Curve<Color>; weights: WeightCurves
   bool relative = false;  ///< compose with the node's rest value instead of replacing it
+  /// The author's words for how the curve goes on from its keys ("smooth", "quad-in-out"), for people: each with the
+  /// time of the first key that it is said of, s, up to the next pair; empty words and an empty list say nothing.
+  std::vector<std::pair<double, std::string>> words{};
 
   [[nodiscard]] std::string name() const { return node + "." + property; }
 };

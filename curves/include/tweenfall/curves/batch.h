@@ -3,7 +3,7 @@
 /// Many scalar curves, sampled together at one time: what a crowd, a particle system or a graph editor asks for.
 ///
 /// A batch keeps the curves' cubics laid out closely, and remembers the one that each curve was last in, so that
-/// playing forwards costs a few instructions a curve. The numbers are those of `Curve::sample`, to the bit.
+/// playing forwards costs a few instructions per curve. The numbers are those of `Curve::sample`, to the bit.
 
 #include <tweenfall/curves/curve.h>
 

@@ -13,7 +13,7 @@ namespace tweenfall {
 
 /// Each of the four parts of the quaternion is a Hermite cubic in seconds, and the result is scaled to unit length.
 ///
-/// @param times         s, strictly increasing, one a key
+/// @param times         s, strictly increasing, one per key
 /// @param in_tangents   (x, y, z, w) rates per second arriving at each key; the first is not used
 /// @param values        (x, y, z, w), as in the file: neither aligned nor normalized beforehand
 /// @param out_tangents  rates per second leaving each key; the last is not used
@@ -37,7 +37,7 @@ namespace tweenfall {
 /// `natural` give, with the angular velocities at both ends stated.
 ///
 /// @param times       s, strictly increasing
-/// @param rotations   one a time; need not be normalized
+/// @param rotations   one per time; need not be normalized
 /// @param start, end  angular velocities, rad/s, outer axes; absent: the mean one of the first or last span
 /// @throws std::invalid_argument naming the key: no keys, times out of order, sizes that differ, a zero quaternion,
 ///         a non-finite velocity.

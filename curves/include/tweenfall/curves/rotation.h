@@ -34,7 +34,7 @@ namespace tweenfall {
 /// sum of weight (q . q_i)^2. The nearest to the first rotation's sign is returned.
 ///
 /// @param rotations  unit quaternions
-/// @param weights    one a rotation, >= 0, not all zero; only their ratios matter
+/// @param weights    one per rotation, >= 0, not all zero; only their ratios matter
 /// @throws std::invalid_argument naming the rotation: none, sizes that differ, a weight that is negative or not finite,
 ///         all weights zero, a rotation that is not of unit length to 1e-6.
 /// Source: Markley, Cheng, Crassidis, Oshman, "Averaging quaternions", 2007.

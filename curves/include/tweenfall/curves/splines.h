@@ -16,7 +16,7 @@
 
 namespace tweenfall {
 
-/// The cubic Hermite spline through `values` with `rates`, U/s; one of each a time, two or more.
+/// The cubic Hermite spline through `values` with `rates`, U/s; one of each per time, two or more.
 template <class T>
 [[nodiscard]] Curve<T> hermite_spline(std::span<const double> times, std::span<const T> values,
                                       std::span<const T> rates);

@@ -42,6 +42,9 @@ void check_drawable(const Recording& recording, const StageDescription& stage);
 /// @throws std::runtime_error when the library was built without three.js.
 [[nodiscard]] std::string recording_html(const Recording& recording, const StageDescription& stage);
 
+/// How many of the recording's frames its page carries: all of them, unless they are so many that it thins them.
+[[nodiscard]] std::size_t page_frame_count(const Recording& recording);
+
 /// By the ending of `file`: .json, .csv, .svg, .html or .glb. Written whole or not at all.
 /// @throws std::invalid_argument for another ending, std::runtime_error when it cannot be written.
 void save_recording(const Recording& recording, const StageDescription& stage, const std::filesystem::path& file);

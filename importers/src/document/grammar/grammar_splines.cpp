@@ -62,7 +62,7 @@ std::vector<Field> spline_fields(FormStore& store, const ValueForms& values, con
   Form bezier = object_of("a chain of Bezier curves: {\"degree\", \"points\", ...}",
                           {{"points", points, "end, controls, end, controls, end, ...", true},
                            {"degree", degree, "of each curve: how many controls less one", false, "3"},
-                           {"times", times, "s, one an end"},
+                           {"times", times, "s, one per end"},
                            duration});
   bezier.together = {at_most_one({"times", "duration"})};
 
@@ -95,7 +95,7 @@ std::vector<Field> rotation_spline_fields(FormStore& store, const ValueForms& va
   through.definition = "spline-rotation";
   Form bezier = object_of("a chain of Bezier curves: {\"points\", ...}",
                           {{"points", points, "end, two controls, end, two controls, end, ...", true},
-                           {"times", times, "s, one an end"},
+                           {"times", times, "s, one per end"},
                            duration});
   bezier.together = {at_most_one({"times", "duration"})};
   bezier.definition = "bezier-rotation";

@@ -4,6 +4,7 @@
 #include <tweenfall/curves/functions.h>
 #include <tweenfall/curves/number_text.h>
 
+#include "document/grammar/grammar_functions.h"
 #include "document/read/values.h"
 #include "document/tracks/read_functions.h"
 #include "document/tracks/read_keys.h"
@@ -11,6 +12,7 @@
 #include "document/tracks/read_modifiers.h"
 #include "document/tracks/read_rotation.h"
 
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -267,6 +269,27 @@ std::optional<TrackCurve> read_curve(const JsonValue& track, const std::string& 
   }
 }
 
+// How the track says that its curve goes on, from which time on. Modifiers change both times and ways, so that what the
+// keys say is then no longer so.
+std::vector<std::pair<double, std::string>> words_of(const JsonValue& track, const ClipTimes& times) {
+  std::vector<std::pair<double, std::string>> words;
+  if (usable(track, "modifiers")) return words;
+  for (const std::string& function : FunctionForms::names())
+    if (usable(track, function)) return {{-std::numeric_limits<double>::infinity(), function}};
+  const JsonValue list = track.is(Kind::list) ? track : usable(track, "keys");
+  if (!list) return words;
+  Problems heard_before;
+  const std::vector<std::optional<double>> seconds = times.of_keys(list, heard_before);
+  std::string_view said;
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
+    const JsonValue ease = key_parts(list.items()[i]).ease;
+    const std::string_view word = ease ? ease.text() : std::string_view();
+    if (seconds[i] && word != said) words.emplace_back(*seconds[i], word);
+    said = word;
+  }
+  return words;
+}
+
 }  // namespace
 
 std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times, Problems& problems) {
@@ -275,8 +298,11 @@ std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times,
   const std::string property(track.name.substr(dot + 1));
   std::optional<TrackCurve> curve = read_curve(track.value, property, times, problems);
   if (!curve) return {};
-  return Track{std::string(track.name.substr(0, dot)), property, std::move(*curve),
-               flag_in(track.value, "relative", false)};
+  return Track{.node = std::string(track.name.substr(0, dot)),
+               .property = property,
+               .curve = std::move(*curve),
+               .relative = flag_in(track.value, "relative", false),
+               .words = words_of(track.value, times)};
 }
 
 std::optional<Curve<double>> read_numbers(const JsonValue& track, const ClipTimes& times, Problems& problems) {

@@ -41,12 +41,12 @@ function updateReadout() {
     head.append(cell("span", owner, "owner " + owner));
     head.lastChild.style.background = `var(--${owner})`;
   }
-  const list = document.createElement("dl"), row = (title, values, unit) => list.append(cell("dt", title),
-    ...[0, 1, 2].map(i => cell("dd", i < values.length ? number(values[i]) : "")), cell("dd", unit, "unit"));
+  const list = document.createElement("dl"), row = (title, values, unit, digits = 3) => list.append(cell("dt", title),
+    ...[0, 1, 2].map(i => cell("dd", i < values.length ? number(values[i], digits) : "")), cell("dd", unit, "unit"));
   if (node.shown) {
     const numbers = gatheredAt(gather(node), state.time);
     row("position", numbers.position, "m");
-    row("rotation", numbers.rotation, "\u00b0");
+    row("rotation", numbers.rotation, "\u00b0", 2);
     row("velocity", numbers.velocity, "m/s");
     row("angular", numbers.angular, "rad/s");
     row("speed", [Math.hypot(...numbers.velocity)], "m/s");

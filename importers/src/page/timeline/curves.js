@@ -101,7 +101,7 @@ class Curves {
     context.fillStyle = colors.quiet;
     const local = state.local && panel.track && state.chosen.parent >= 0 ? " in parent" : "";
     context.fillText(panel.unit + local, at, 11);
-    let to = right, room = right - at - context.measureText(panel.unit + local).width - 12;
+    let to = right, room = right - at - context.measureText(panel.unit + local).width - 6;
     context.textAlign = "right";
     context.font = font(11, 600);
     const names = panel.names.map(name => fitted(context, name, 70));
@@ -142,12 +142,19 @@ class Curves {
     }
     // The ease's word between two keys, where there is room for it.
     context.font = font(9.5);
-    context.fillStyle = colors.quiet;
     context.textAlign = "center";
     seen.forEach((i, k) => {
       const key = lane.keys[lane.keyOf[i]], next = k + 1 < seen.length ? x(lane.times[seen[k + 1]]) : null;
-      if (key && next !== null && context.measureText(key.ease).width + 12 < next - x(lane.times[i]))
-        context.fillText(key.ease, (x(lane.times[i]) + next) / 2, bottom - 5);
+      const wide = key ? context.measureText(key.ease).width : 0;
+      if (next === null || wide === 0 || wide + 12 >= next - x(lane.times[i])) return;
+      const middle = (x(lane.times[i]) + next) / 2;
+      // On a patch of the ground, so that curves below leave it readable.
+      context.globalAlpha = 0.8;
+      context.fillStyle = colors.panel;
+      context.fillRect(middle - wide / 2 - 3, bottom - 11, wide + 6, 12);
+      context.globalAlpha = 1;
+      context.fillStyle = colors.quiet;
+      context.fillText(key.ease, middle, bottom - 5);
     });
   }
 

@@ -78,9 +78,11 @@ class Timeline {
   showChosen() {
     const row = state.chosen && this.list.rows.find(candidate => candidate.node === state.chosen);
     if (!row) return;
-    const bottom = row.top + rowHeight(row);
+    // With its keys, as far as there is room for them.
+    const own = this.list.rows.filter(candidate => candidate.node === row.node).pop();
+    const bottom = own.top + rowHeight(own);
+    if (bottom > rowsBox.scrollTop + rowsBox.clientHeight) rowsBox.scrollTop = bottom - rowsBox.clientHeight;
     if (row.top < rowsBox.scrollTop) rowsBox.scrollTop = row.top;
-    else if (bottom > rowsBox.scrollTop + rowsBox.clientHeight) rowsBox.scrollTop = bottom - rowsBox.clientHeight;
   }
 
   update(changed) {
