@@ -62,6 +62,7 @@ TEST_CASE("view says at the terminal that a page carries fewer frames than were 
   CHECK_MESSAGE(ran.err.find("of 901 frames it carries 833, with smooth motion between them") != std::string::npos,
                 ran.err);
   CHECK(folder.run("view rise.json --until 13").err.find("it carries") == std::string::npos);
+  CHECK(folder.read("rise.html").find("<title>rise</title>") != std::string::npos);
 }
 
 TEST_CASE("view writes one page named like the document, that asks for nothing from a network") {

@@ -134,43 +134,36 @@ TEST_CASE("a page is one file that holds its data and asks for nothing") {
 }
 
 TEST_CASE("keys of a page have the eases that the document says, and words of ours where it says none") {
-  const Document document = Document::parse(R"({"tweenfall": 1, "nodes": {"a": {}, "b": {}, "c": {}, "d": {}},
+  const Document document = Document::parse(R"json({"tweenfall": 1, "nodes": {"a": {}, "b": {}, "c": {}, "d": {}},
     "clips": {"all": {"duration": 4, "tracks": {
       "a.position": [[0, [0, 0, 0], "smooth"], [1, [1, 0, 0], "quad-in-out"], [2, [2, 0, 0], "quad-in-out"],
                      [3, [3, 0, 0]], [4, [4, 0, 0], "bounce-out"]],
       "b.position": {"keys": [{"t": 0, "v": [0, 0, 0], "out": [1, 0, 0]}, {"t": "50%", "v": [1, 0, 0], "ease": "ease-in"},
-                              [4, [2, 0, 0]]]},
+                              {"t": 4, "v": [2, 0, 0]}]},
       "c.rotation": [[0, {"angle": 0, "axis": "z"}, "tcb(0,0,0)"], [4, {"angle": 720, "axis": "z"}]],
-      "d.position": {
-    "spline" : {
-      "points" : [ [ 0, 0, 0 ], [ 1, 0, 0 ], [ 2, 1, 0 ] ], "times" : [ 0, 1, 4 ]
-    }}
-}
-}
-}
-})",
+      "d.position": {"spline": {"points": [[0, 0, 0], [1, 0, 0], [2, 1, 0]], "times": [0, 1, 4]}}}}}})json",
                                             "eases.json", ".");
-const StageDescription& stage = document.stage();
-std::string html;
-try {
-  Stage run(stage);
-  html = recording_html(record(run, 4, 30), stage);
-} catch (const std::runtime_error&) {
-  MESSAGE("SKIPPED: the page, this build has no three.js inside");
-  return;
-}
-const std::size_t start = html.find("id=\"data\">") + 10;
-const nlohmann::json data = nlohmann::json::parse(html.substr(start, html.find("</script>", start) - start));
-const auto eases = [&](std::size_t lane) {
-  std::vector<std::string> words;
-  for (const nlohmann::json& key : data["lanes"][lane]["keys"]) words.push_back(key["ease"]);
-  return words;
-};
-using Words = std::vector<std::string>;
-CHECK(eases(0) == Words{"smooth", "quad-in-out", "quad-in-out", "linear", "end"});
-CHECK(eases(1) == Words{"cubic", "ease-in", "end"});
-CHECK(eases(2) == Words{"tcb(0,0,0)", "end"});
-CHECK(eases(3) == Words{"spline", "spline", "end"});
+  const StageDescription& stage = document.stage();
+  std::string html;
+  try {
+    Stage run(stage);
+    html = recording_html(record(run, 4, 30), stage);
+  } catch (const std::runtime_error&) {
+    MESSAGE("SKIPPED: the page, this build has no three.js inside");
+    return;
+  }
+  const std::size_t start = html.find("id=\"data\">") + 10;
+  const nlohmann::json data = nlohmann::json::parse(html.substr(start, html.find("</script>", start) - start));
+  const auto eases = [&data](std::size_t lane) {
+    std::vector<std::string> words;
+    for (const nlohmann::json& key : data["lanes"][lane]["keys"]) words.push_back(key["ease"].get<std::string>());
+    return words;
+  };
+  using Words = std::vector<std::string>;
+  CHECK(eases(0) == Words{"smooth", "quad-in-out", "quad-in-out", "linear", "end"});
+  CHECK(eases(1) == Words{"cubic", "ease-in", "end"});
+  CHECK(eases(2) == Words{"tcb(0,0,0)", "end"});
+  CHECK(eases(3) == Words{"spline", "spline", "end"});
 }
 
 TEST_CASE("a name cannot break out of the page") {

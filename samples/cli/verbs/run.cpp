@@ -83,8 +83,7 @@ int run_file(const RunFileOptions& options) {
   if (to_stdout) {
     print(recording_json(recording));
   } else if (!options.output) {
-    const std::string name = read.stage.name.empty() ? options.file : read.stage.name;
-    print(terminal_text(name + ": " + summary_of(recording)) + "\n" + handoffs_table(recording) +
+    print(terminal_text(read.stage.name + ": " + summary_of(recording)) + "\n" + handoffs_table(recording) +
           events_table(recording) + ends_table(recording, read.stage));
   }
   return 0;
