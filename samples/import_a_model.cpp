@@ -10,8 +10,8 @@ using namespace tweenfall;
 int main(int count, char** arguments) {
   const std::filesystem::path file = count > 1 ? arguments[1] : TWEENFALL_SAMPLE_DOCUMENTS "/character.glb";
   const Model model = load_model(file);
-  std::printf("%s: %zu nodes, %zu meshes, %zu clips\n", model.name.c_str(), model.nodes.size(), model.meshes.size(),
-              model.clips.size());
+  std::printf("%s: %zu nodes, %zu mesh%s, %zu clips\n", model.name.c_str(), model.nodes.size(), model.meshes.size(),
+              model.meshes.size() == 1 ? "" : "es", model.clips.size());
   for (const Clip& clip : model.clips)
     std::printf("  %-12s %.2f s, %zu tracks\n", clip.name.c_str(), clip.duration, clip.tracks.size());
   if (model.clips.empty()) return 1;

@@ -1,6 +1,8 @@
 #include "support.h"
 
 #include <tweenfall/anim/play.h>
+#include <tweenfall/curves/functions.h>
+#include <tweenfall/curves/keys.h>
 
 #include <limits>
 
@@ -212,4 +214,16 @@ TEST_CASE("a loop of 1e17 plays runs backwards from its end like one of few") {
         CHECK_FALSE(a.ended);
       }
   }
+}
+
+TEST_CASE(
+    "a clip by nature lasts to its last key or event, for ever where only formulas move it, not at all when empty") {
+  const Track keyed{"ball", "position",
+                    keyed_curve<Vec3>({{.time = 0, .value = {0, 0, 0}}, {.time = 2, .value = {1, 0, 0}}})};
+  const Track endless{"ball", "size", oscillator({})};
+  CHECK(natural_duration({}) == 0);
+  CHECK(natural_duration({.tracks = {keyed}}) == 2);
+  CHECK(natural_duration({.tracks = {keyed, endless}}) == 2);
+  CHECK(natural_duration({.tracks = {endless}}) == std::numeric_limits<double>::infinity());
+  CHECK(natural_duration({.tracks = {keyed}, .events = {{.from = 1, .to = 3, .name = "late"}}}) == 3);
 }

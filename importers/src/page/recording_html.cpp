@@ -3,6 +3,7 @@
 
 #include "page/page_data.h"
 #include "page/page_files.h"
+#include "page/page_frames.h"
 
 #include <stdexcept>
 
@@ -40,6 +41,10 @@ std::string recording_html(const Recording& recording, const StageDescription& s
   }
   out.append(frame, at, std::string::npos);
   return out;
+}
+
+std::size_t page_frame_count(const Recording& recording) {
+  return page::page_frames(recording).size();
 }
 
 }  // namespace tweenfall

@@ -14,7 +14,7 @@ namespace tweenfall::cli {
 struct StageFile {
   std::string name;  ///< the file's, without folders and ending, for output beside it
   bool is_model = false;
-  StageDescription stage;  ///< named as the file where it has no name of its own
+  StageDescription stage;      ///< named as the file where it has no name of its own
   std::vector<Problem> notes;  ///< of the document, or what was lost of the model
 };
 

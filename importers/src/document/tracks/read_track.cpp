@@ -269,11 +269,14 @@ std::optional<TrackCurve> read_curve(const JsonValue& track, const std::string& 
   }
 }
 
-// How the track says that its curve goes on, from which time on. Modifiers change both times and ways, so that what the
-// keys say is then no longer so.
-std::vector<std::pair<double, std::string>> words_of(const JsonValue& track, const ClipTimes& times) {
+// How the track says that its curve goes on, from which time on: by the word of what it says nothing of, too. Modifiers
+// change both times and ways, so that what the keys say is then no longer so; steps have one way alone.
+std::vector<std::pair<double, std::string>> words_of(const JsonValue& track, const TrackCurve& curve,
+                                                     const ClipTimes& times) {
   std::vector<std::pair<double, std::string>> words;
-  if (usable(track, "modifiers")) return words;
+  const bool steps =
+      std::holds_alternative<StepCurve<bool>>(curve) || std::holds_alternative<StepCurve<std::string>>(curve);
+  if (steps || usable(track, "modifiers")) return words;
   for (const std::string& function : FunctionForms::names())
     if (usable(track, function)) return {{-std::numeric_limits<double>::infinity(), function}};
   const JsonValue list = track.is(Kind::list) ? track : usable(track, "keys");
@@ -282,8 +285,8 @@ std::vector<std::pair<double, std::string>> words_of(const JsonValue& track, con
   const std::vector<std::optional<double>> seconds = times.of_keys(list, heard_before);
   std::string_view said;
   for (std::size_t i = 0; i < seconds.size(); ++i) {
-    const JsonValue ease = key_parts(list.items()[i]).ease;
-    const std::string_view word = ease ? ease.text() : std::string_view();
+    const KeyParts parts = key_parts(list.items()[i]);
+    const std::string_view word = parts.ease ? parts.ease.text() : parts.out ? "" : "smooth-clamped";
     if (seconds[i] && word != said) words.emplace_back(*seconds[i], word);
     said = word;
   }
@@ -298,11 +301,12 @@ std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times,
   const std::string property(track.name.substr(dot + 1));
   std::optional<TrackCurve> curve = read_curve(track.value, property, times, problems);
   if (!curve) return {};
+  std::vector<std::pair<double, std::string>> words = words_of(track.value, *curve, times);
   return Track{.node = std::string(track.name.substr(0, dot)),
                .property = property,
                .curve = std::move(*curve),
                .relative = flag_in(track.value, "relative", false),
-               .words = words_of(track.value, times)};
+               .words = std::move(words)};
 }
 
 std::optional<Curve<double>> read_numbers(const JsonValue& track, const ClipTimes& times, Problems& problems) {
