@@ -70,8 +70,8 @@ class Document {
   /// fast for the step, bodies that start in each other, what a rule's pattern leaves out, what was lost of a model.
   [[nodiscard]] const std::vector<Problem>& notes() const noexcept;
 
-  /// The document as text: two spaces, one key per line, defaults left out. Reading and writing that again gives the same
-  /// text.
+  /// The document as text: two spaces, one key per line, defaults left out. Reading and writing that again gives the
+  /// same text.
   [[nodiscard]] std::string text() const;
 
   /// A document of a model's nodes and clips.
