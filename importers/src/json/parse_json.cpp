@@ -51,7 +51,7 @@ class NamesOnce {
     if (count > most_looked_through) {
       std::size_t places = 64;
       while (places < 2 * count) places *= 2;
-      table_.assign(places, 0);
+      table_.assign(places, {0, 0});
     }
     for (std::size_t i = 0; i < count; ++i) {
       JsonNode* const same = count > most_looked_through ? known(first[i]) : looked_through(first[i]);
@@ -77,21 +77,28 @@ class NamesOnce {
 
   [[nodiscard]] JsonNode* known(const JsonNode& node) {
     const std::string_view name = content_.name(node);
-    for (std::size_t place = std::hash<std::string_view>{}(name);; ++place) {
-      std::uint32_t& entry = table_[place & (table_.size() - 1)];
-      if (entry == 0) {
-        entry = static_cast<std::uint32_t>(size_ + 1);
+    const std::size_t hash = std::hash<std::string_view>{}(name);
+    const auto tag = static_cast<std::uint32_t>(hash >> 32);
+    for (std::size_t place = hash;; ++place) {
+      Place& entry = table_[place & (table_.size() - 1)];
+      if (entry.number == 0) {
+        entry = {tag, static_cast<std::uint32_t>(size_ + 1)};
         return nullptr;
       }
-      if (content_.name(kept_[entry - 1]) == name) return kept_ + entry - 1;
+      if (entry.tag == tag && content_.name(kept_[entry.number - 1]) == name) return kept_ + entry.number - 1;
     }
   }
+
+  // Names that only share a place mostly differ in the tag, so that none of them need be fetched from the text.
+  struct Place {
+    std::uint32_t tag, number;  // of the kept ones, from 1; 0 is free
+  };
 
   const Content& content_;
   std::vector<JsonFault>& faults_;
   JsonNode* kept_ = nullptr;
   std::size_t size_ = 0;
-  std::vector<std::uint32_t> table_;
+  std::vector<Place> table_;
 };
 
 // Makes nodes of what the parser tells. Children of open containers wait at the high end of the nodes, the last one
