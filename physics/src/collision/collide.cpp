@@ -24,8 +24,10 @@ static bool is_near(const Pose& pose) noexcept {
 
 Manifold collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin) noexcept {
   if (!is_near(pose_a) || !is_near(pose_b)) return {};
-  const Placed at_a = place(a, pose_a);
-  const Placed at_b = place(b, pose_b);
+  return collide(a, place(a, pose_a), b, place(b, pose_b), margin);
+}
+
+Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b, double margin) noexcept {
   return std::visit(
       [&](const auto& solid_a, const auto& solid_b) -> Manifold {
         using A = std::decay_t<decltype(solid_a)>;

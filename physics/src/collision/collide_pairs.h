@@ -25,6 +25,10 @@ namespace tweenfall {
 [[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
 [[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Hull& b, const Placed& at_b, double margin);
 
+/// Contact of two shapes that have been placed.
+[[nodiscard]] Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b,
+                               double margin) noexcept;
+
 /// Adds a point between the two surfaces, unless the gap is beyond the margin or four are there.
 inline void add_point(Manifold& manifold, const Vec3& position, double penetration, std::uint32_t feature,
                       double margin) {

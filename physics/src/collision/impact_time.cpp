@@ -13,7 +13,6 @@ namespace tweenfall {
 
 namespace {
 
-constexpr double hair = 1e-7;  // m
 constexpr int most_advances = 48;
 
 }  // namespace

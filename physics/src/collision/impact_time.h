@@ -22,6 +22,9 @@ struct Course {
   [[nodiscard]] Prediction at(double time) const;
 };
 
+/// Nearer than this is met, m.
+constexpr double hair = 1e-7;
+
 [[nodiscard]] Course course_of(const Body& body, const Load& load, double dt);
 
 /// How fast a surface point can move along any direction because the body spins, m/s. A plane is taken not to spin.

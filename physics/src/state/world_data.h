@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "blocks/block_solver.h"
+#include "collision/passage.h"
 #include "forces/forces.h"
 #include "pairs/broad_phase.h"
 #include "state/body.h"
@@ -46,6 +47,10 @@ struct World::Implementation {
   std::vector<std::uint32_t> retained;    ///< memories of contacts between bodies at rest, by pair
   std::vector<std::uint32_t> remembered;
   std::vector<Contact> next_contacts;
+  std::vector<Passage> passages;         ///< by body
+  std::vector<std::uint64_t> looked_at;  ///< by body: the look that its passage is of
+  std::uint64_t look = 0;
+  std::vector<std::pair<Pair, Apart>> aparts, aparts_before;  ///< of pairs that do not touch, sorted
   std::vector<char> flags;
   std::vector<char> carried;  ///< by island: something keyed moves it
   std::vector<std::uint32_t> contact_counts;

@@ -1,0 +1,99 @@
+#include "collision/passage.h"
+
+#include <tweenfall/physics/contact.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tweenfall {
+
+namespace {
+
+/// No place farther along a direction, from the middle of its solid.
+double support_along(const Sphere& sphere, const Mat3&, const Vec3&) {
+  return sphere.radius;
+}
+double support_along(const Box& box, const Mat3& axes, const Vec3& direction) {
+  return (axes.transpose() * direction).cwiseAbs().dot(box.half_extents);
+}
+double support_along(const Capsule& capsule, const Mat3& axes, const Vec3& direction) {
+  return std::abs(axes.col(1).dot(direction)) * capsule.half_height + capsule.radius;
+}
+double support_along(const Plane& plane, const Mat3& axes, const Vec3& direction) {
+  const bool out = (axes * plane.normal - direction).squaredNorm() < 1e-24;
+  return out ? plane.offset : std::numeric_limits<double>::infinity();
+}
+double support_along(const Hull& hull, const Mat3& axes, const Vec3& direction) {
+  const Vec3 local = axes.transpose() * direction;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Vec3& vertex : hull.convex.vertices()) most = std::max(most, local.dot(vertex));
+  return most;
+}
+
+double support_along(const Passage& passage, const Vec3& direction) {
+  return std::visit([&](const auto& solid) { return support_along(solid, passage.placed.axes, direction); },
+                    passage.body->shape.solid);
+}
+
+bool is_polyhedron(const Passage& passage) {
+  const Solid& solid = passage.body->shape.solid;
+  return std::holds_alternative<Box>(solid) || std::holds_alternative<Hull>(solid);
+}
+
+/// The face whose normal this is, but for rounding; none when there is no such.
+std::optional<Vec3> face_along(const Passage& passage, const Vec3& normal) {
+  const Vec3 local = passage.placed.axes.transpose() * normal;
+  const auto is = [&](const Vec3& face) { return (face - local).squaredNorm() < 1e-24; };
+  if (const auto* hull = std::get_if<Hull>(&passage.body->shape.solid)) {
+    for (const ConvexHull::Face& face : hull->convex.faces())
+      if (is(face.normal)) return face.normal;
+    return std::nullopt;
+  }
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 face = Vec3::Unit(i) * (local[i] < 0 ? -1.0 : 1.0);
+    if (is(face)) return face;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Passage passage_of(const Body& body, const Load& load, double dt) {
+  Passage passage{&body, place(body.shape, body.motion.pose), course_of(body, load, dt)};
+  passage.spin = passage.course.angular.norm();
+  passage.swing = swing_speed(passage.course);
+  return passage;
+}
+
+Apart apart_along(const Passage& a, const Passage& b, const Vec3& normal) {
+  if (!is_polyhedron(a) || !is_polyhedron(b)) return {Apart::Frame::a, a.placed.axes.transpose() * normal};
+  if (const std::optional<Vec3> face = face_along(a, normal)) return {Apart::Frame::a, *face};
+  if (const std::optional<Vec3> face = face_along(b, -normal)) return {Apart::Frame::b, -*face};
+  return {};
+}
+
+double gap_along(const Passage& a, const Passage& b, const Vec3& direction) {
+  return direction.dot(b.placed.center - a.placed.center) - support_along(a, direction) - support_along(b, -direction);
+}
+
+bool stay_apart(const Passage& a, const Passage& b, const Vec3& direction, double gap, double near_enough, double dt) {
+  const double rounding = 1e-14 * (a.placed.center.norm() + b.placed.center.norm());
+  if (!(gap > 1.000001 * near_enough + rounding)) return false;
+  const Vec3 before = a.course.linear - b.course.linear;
+  const Vec3 after = before + (a.course.acceleration - b.course.acceleration) * dt;
+  double closing = std::max(direction.dot(before), direction.dot(after));
+  if (is_polyhedron(a) && is_polyhedron(b)) {
+    // A face's normal turns, and with it the heights of all that lies far beside the face.
+    const double speed = std::max(before.norm(), after.norm());
+    const double across = (b.body->center - a.body->center).norm() + speed * dt + a.body->radius + b.body->radius;
+    closing += (a.spin + b.spin) * (across + speed * dt);
+  } else if ((std::isinf(a.body->radius) && a.spin > 0) || (std::isinf(b.body->radius) && b.spin > 0)) {
+    return false;
+  } else {
+    closing += a.swing + b.swing;
+  }
+  return gap > 2 * hair + rounding + std::max(0.0, closing) * dt;
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,85 @@
+#include "collision/passage.h"
+
+#include <tweenfall/curves/rotation.h>
+#include <tweenfall/physics/contact.h>
+
+#include "support.h"
+
+using namespace tweenfall;
+
+namespace {
+
+constexpr double near_enough = 2e-3;
+constexpr double dt = 1.0 / 60;
+
+Hull random_hull(test::Random& random) {
+  std::vector<Vec3> points;
+  points.reserve(12);
+  for (int i = 0; i < 12; ++i) points.push_back(random.vector(0.5));
+  return {ConvexHull(points)};
+}
+
+Body body_of(const Solid& solid, test::Random& random) {
+  Body body;
+  body.alive = true;
+  body.shape.solid = solid;
+  const bool plane = std::holds_alternative<Plane>(solid);
+  body.fixed = plane;
+  if (!plane) body.mass = mass_properties(body.shape, 1);
+  body.radius = plane ? std::numeric_limits<double>::infinity()
+                      : 1e-9 + (bounds(body.shape, {}).high - bounds(body.shape, {}).low).norm();
+  body.motion.pose.position = random.vector(0.8);
+  body.motion.pose.rotation = random.rotation();
+  const double fast = std::pow(10, random.between(-3, 1.5));
+  if (!plane) body.motion.twist = {random.vector(fast), random.vector(random.unit() < 0.3 ? 0 : fast)};
+  body.follow_motion();
+  return body;
+}
+
+}  // namespace
+
+TEST_CASE("what a direction tells apart neither touches nor meets within the step, whatever turns and falls") {
+  test::Random random(21);
+  std::size_t told = 0, told_again = 0, met = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const std::array<Solid, 5> solids{Sphere{0.4}, Box{Vec3(0.3, 0.5, 0.2)}, Capsule{0.2, 0.4}, random_hull(random),
+                                      Plane{Vec3(0, 1, 0), -0.9}};
+    Body a = body_of(solids[random.bits() % 5], random);
+    Body b = body_of(solids[random.bits() % 4], random);
+    Load load;
+    load.acceleration = random.vector(random.unit() < 0.5 ? 0 : 200);
+    Apart kept;
+    for (int step = 0; step < 8; ++step) {
+      const Passage at_a = passage_of(a, a.fixed ? Load{} : load, dt), at_b = passage_of(b, {}, dt);
+      const Manifold manifold = collide(a.shape, a.motion.pose, b.shape, b.motion.pose, near_enough);
+      const bool meets = manifold.count > 0 || impact_time(at_a.course, at_b.course, dt);
+      if (meets) ++met;
+      CAPTURE(i);
+      CAPTURE(step);
+      if (kept.frame != Apart::Frame::none) {
+        const Vec3 direction = kept.in_world(at_a, at_b);
+        if (stay_apart(at_a, at_b, direction, gap_along(at_a, at_b, direction), near_enough, dt)) {
+          CHECK(!meets);
+          ++told_again;
+        }
+      }
+      if (manifold.count == 0) {
+        const double gap = gap_along(at_a, at_b, manifold.normal);
+        if (stay_apart(at_a, at_b, manifold.normal, gap, near_enough, dt)) {
+          CHECK(!meets);
+          ++told;
+        }
+        kept = apart_along(at_a, at_b, manifold.normal);
+      }
+      for (Body* body : {&a, &b}) {
+        if (body->fixed) continue;
+        const Prediction next = (body == &a ? at_a : at_b).course.at(dt);
+        body->center = next.center;
+        body->follow_center(next.rotation);
+      }
+    }
+  }
+  CHECK(told > 10000);
+  CHECK(told_again > 8000);
+  CHECK(met > 1000);
+}
