@@ -112,15 +112,16 @@ TEST_CASE("JSON that other readers take is taken: a name given twice, zeros afte
 
 TEST_CASE("bytes of a file that are no text are spelled out where an error or a repair quotes them") {
   const ScratchFolder folder("bytes");
-  for (const auto& [name, text] : std::initializer_list<std::pair<const char*, std::string>>{
+  for (const auto& file : std::initializer_list<std::pair<std::string, std::string>>{
            {"a.bvh", "HIERARCHY\nROOT hip\n{\n OFFSET 0 0 0\n CHANNELS 1 X\xff\xfeposition\n}\n"},
            {"b.bvh", "HIERARCHY\nROOT hip\n{\n OFFSET \xff 0 0\n"},
            {"c.fbx", "; FBX 7.4.0 project file\nFBXHeaderExtension: {\n FBXVersion: 7\xff\n}\nObjects: \xff {\n"},
            {"d.dae", "<?xml version=\"1.0\"?>\n<COLLADA\xff version=\"1.4.1\"><\xe9></COLLADA>"},
            {"e.gltf", "{\"asset\": {\"version\": \"2.\xff\"}}"},
            {"f.obj", "v 1 2 \xff\nf 1 1 9\n"}}) {
+    const std::string& name = file.first;
     CAPTURE(name);
-    const std::string error = outcome(folder.file(name, text));
+    const std::string error = outcome(folder.file(name, file.second));
     CHECK(error.find(name) != std::string::npos);
     CHECK(utf8_text(error) == error);
   }
