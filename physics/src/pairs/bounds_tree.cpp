@@ -125,7 +125,7 @@ void BoundsTree::unlink(std::uint32_t leaf) {
 
 void BoundsTree::settle() {
   // Taken in one by one, very many would take longer and end in a worse tree.
-  bool again = fresh_.size() > 16 + size_ / 8 || changes_ > 64 + size_;
+  bool again = fresh_.size() > 16 + size_ / 8 || changes_ > 64 + 4 * size_;
   for (std::size_t i = 0; i < fresh_.size() && !again; ++i) {
     const std::uint32_t item = fresh_[i];
     if (has(item) && !linked(leaves_[item])) again = link(leaves_[item]) > most_depth;
@@ -139,9 +139,11 @@ void BoundsTree::rebuild() {
   for (const std::uint32_t leaf : leaves_) {
     if (leaf == none) continue;
     const Node& node = nodes_[leaf];
-    planted_.push_back({node.bounds, 0.5 * node.bounds.low + 0.5 * node.bounds.high, node.item});
+    planted_.push_back({0.5 * node.bounds.low + 0.5 * node.bounds.high, node.item});
   }
+  std::swap(nodes_, before_);
   nodes_.clear();
+  nodes_.reserve(2 * planted_.size());
   unused_.clear();
   changes_ = 0;
   root_ = planted_.empty() ? none : build(0, planted_.size(), none);
@@ -151,16 +153,14 @@ std::uint32_t BoundsTree::build(std::size_t begin, std::size_t end, std::uint32_
   const std::uint32_t index = take_node();
   nodes_[index].parent = parent;
   if (end - begin == 1) {
-    nodes_[index].bounds = planted_[begin].bounds;
+    std::uint32_t& leaf = leaves_[planted_[begin].item];
+    nodes_[index].bounds = before_[leaf].bounds;
     nodes_[index].item = planted_[begin].item;
-    leaves_[planted_[begin].item] = index;
+    leaf = index;
     return index;
   }
-  Bounds bounds = planted_[begin].bounds, middles{planted_[begin].middle, planted_[begin].middle};
-  for (std::size_t i = begin + 1; i < end; ++i) {
-    bounds = united(bounds, planted_[i].bounds);
-    middles = united(middles, {planted_[i].middle, planted_[i].middle});
-  }
+  Bounds middles{planted_[begin].middle, planted_[begin].middle};
+  for (std::size_t i = begin + 1; i < end; ++i) middles = united(middles, {planted_[i].middle, planted_[i].middle});
   int axis = 0;
   const Vec3 spread = middles.high - middles.low;
   if (spread[1] > spread[axis]) axis = 1;
@@ -170,11 +170,11 @@ std::uint32_t BoundsTree::build(std::size_t begin, std::size_t end, std::uint32_
   std::nth_element(at(begin), at(half), at(end), [axis](const Planted& a, const Planted& b) {
     return a.middle[axis] != b.middle[axis] ? a.middle[axis] < b.middle[axis] : a.item < b.item;
   });
-  nodes_[index].bounds = bounds;
   const std::uint32_t left = build(begin, half, index);
   const std::uint32_t right = build(half, end, index);
   nodes_[index].left = left;
   nodes_[index].right = right;
+  nodes_[index].bounds = united(nodes_[left].bounds, nodes_[right].bounds);
   return index;
 }
 

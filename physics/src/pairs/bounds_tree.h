@@ -85,7 +85,6 @@ class BoundsTree {
   std::uint32_t build(std::size_t begin, std::size_t end, std::uint32_t parent);
 
   struct Planted {
-    Bounds bounds;
     Vec3 middle;
     std::uint32_t item;
   };
@@ -96,6 +95,7 @@ class BoundsTree {
   std::vector<std::uint32_t> fresh_;   ///< items that visits do not see yet
   std::vector<char> closed_;           ///< by node
   std::vector<Planted> planted_;       ///< room for `rebuild`
+  std::vector<Node> before_;           ///< the tree that `rebuild` replaces
   std::uint32_t root_ = none;
   std::size_t size_ = 0;
   std::size_t changes_ = 0;  ///< since the tree was built

@@ -87,7 +87,9 @@ void BroadPhase::look_at(const Body& body, std::uint32_t index, const Load& load
       if (pairs::sides(box) <= pairs::outgrown * pairs::sides(wanted)) return;
     }
   }
-  tree.set(index, still ? entry.swept : pairs::in_space(pairs::with_room(entry.swept, travel, entry.foresight)));
+  // Not all for the same number of steps, so that bodies that fall alike do not leave their boxes all at once.
+  const int ahead = entry.foresight - static_cast<int>(index % (entry.foresight / 2 + 1u));
+  tree.set(index, still ? entry.swept : pairs::in_space(pairs::with_room(entry.swept, travel, ahead)));
   renew(index);
 }
 

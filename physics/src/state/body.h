@@ -2,41 +2,46 @@
 
 #include <tweenfall/physics/world.h>
 
+#include "state/countable.h"
+
 namespace tweenfall {
 
 /// Everything the world knows about one body. Plain values: a copy of it steps to the same bits.
 struct Body {
-  // Fixed when added
-  Shape shape;
-  MassProperties mass;                  ///< kept while keyed; the solver masks it
-  Mat3 inverse_inertia = Mat3::Zero();  ///< node axes
-  bool spherical = false;               ///< the same moment about every axis: spin feels no gyroscopic torque
-  double roundness = 0;                 ///< radius with which the surface rolls: of a ball or a capsule, m
-  double radius = 0;                    ///< farthest point from the center of mass, m; infinite for a plane
-  double friction = 0;
-  double restitution = 0;
-  double rolling_friction = 0;
-  double linear_damping = 0;
-  double angular_damping = 0;
-  bool fixed = false;
-
-  // State
+  // What every look at it begins with, side by side
   bool alive = false;
-  std::uint32_t generation = 0;
-  Drive drive;
-  Motion motion;            ///< of the node's origin, exactly as told while keyed
-  Vec3 center{0, 0, 0};     ///< center of mass, world
-  Twist twist;              ///< at the center of mass
+  bool fixed = false;
+  bool asleep = false;
   bool placed = true;       ///< added or moved by the caller since the last step: what sleeps beside it wakes
   bool has_target = false;  ///< a target was set since the last step
   bool noted = false;       ///< is among those that the next step must look at
   bool led = false;         ///< driven, and its target moved
-  Motion target;            ///< of the node's origin at the end of the step
-  Vec3 force{0, 0, 0};      ///< accumulated for the next step, N
-  Vec3 torque{0, 0, 0};     ///< N m
-  Vec3 reaction{0, 0, 0};   ///< N s
-  double still_for = 0;     ///< s
-  bool asleep = false;
+  bool spherical = false;   ///< the same moment about every axis: spin feels no gyroscopic torque
+  std::uint32_t generation = 0;
+  Drive drive;
+  double still_for = 0;  ///< s
+
+  // State
+  Vec3 center{0, 0, 0};  ///< center of mass, world
+  Twist twist;           ///< at the center of mass
+  Motion motion;         ///< of the node's origin, exactly as told while keyed
+  Vec3 force{0, 0, 0};   ///< accumulated for the next step, N
+  Vec3 torque{0, 0, 0};  ///< N m
+
+  // Fixed when added
+  double radius = 0;     ///< farthest point from the center of mass, m; infinite for a plane
+  double roundness = 0;  ///< radius with which the surface rolls: of a ball or a capsule, m
+  double linear_damping = 0;
+  double angular_damping = 0;
+  MassProperties mass;                  ///< kept while keyed; the solver masks it
+  Mat3 inverse_inertia = Mat3::Zero();  ///< node axes
+  double friction = 0;
+  double restitution = 0;
+  double rolling_friction = 0;
+  Shape shape;
+
+  Motion target;           ///< of the node's origin at the end of the step
+  Vec3 reaction{0, 0, 0};  ///< N s
 
   [[nodiscard]] bool immovable() const { return fixed || drive.owner() == Owner::keyed; }
   /// On its way to another place in this step.
@@ -47,6 +52,11 @@ struct Body {
   }
   /// May change what touches it.
   [[nodiscard]] bool stirs() const { return placed || (immovable() ? displaces() : !asleep); }
+  /// Whether its place and velocity are numbers that a world takes.
+  [[nodiscard]] bool finite() const {
+    return countable(center) && countable(motion.pose.position) && motion.pose.rotation.coeffs().allFinite() &&
+           countable(twist.linear) && countable(twist.angular) && countable(motion.twist.linear);
+  }
   [[nodiscard]] Mat3 world_inertia(const Quat& rotation) const;
   [[nodiscard]] Mat3 world_inverse_inertia(const Quat& rotation) const;
 

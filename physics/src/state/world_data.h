@@ -32,6 +32,7 @@ struct World::Implementation {
   std::size_t next_force = 0;
   double time = 0;
   bool stepping = false;             ///< a field may be running: nothing may change
+  bool failed = false;               ///< the last step left a body that is not finite
   ContactMemories memories;          ///< of the last step
   std::vector<Contact> contacts;     ///< of those that touch, what the caller sees
   std::vector<std::uint32_t> noted;  ///< bodies that the caller changed or led, and those that had been
@@ -41,6 +42,8 @@ struct World::Implementation {
   std::vector<SpringRow> stiff_springs;
   std::vector<Start> starts;
   std::vector<std::uint32_t> watched;    ///< sorted: what a step looks at, all but scenery at rest
+  std::vector<std::uint32_t> sleepers;   ///< of them
+  std::vector<std::uint32_t> drowsy;     ///< still for long enough themselves
   std::vector<std::uint32_t> lingering;  ///< to be looked at once more, when it has come to rest
   BroadPhase broad_phase;
   std::vector<ContactConstraint> active;  ///< near something that stirs
@@ -78,7 +81,6 @@ struct World::Implementation {
   void find_constraints(double dt);
   void wake_by_fields();
   bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
-  void note_starts();
   void advance_bodies(double dt);
   void let_sleep(double dt);
   void report();

@@ -9,12 +9,6 @@ namespace tweenfall {
 
 namespace step {
 
-bool countable(const Body& body) {
-  return tweenfall::countable(body.center) && tweenfall::countable(body.motion.pose.position) &&
-         body.motion.pose.rotation.coeffs().allFinite() && tweenfall::countable(body.twist.linear) &&
-         tweenfall::countable(body.twist.angular) && tweenfall::countable(body.motion.twist.linear);
-}
-
 /// What most likely threw a body: the greatest of what it had and of what acted on it.
 std::string cause_of(const Twist& before, const Load& load, bool touched, double dt) {
   const double speed = before.linear.norm(), spin = before.angular.norm();
@@ -40,7 +34,7 @@ NotFinite::NotFinite(const NotFinite& fault, const std::string& text)
 
 void World::Implementation::check_bodies(double dt, double at) const {
   for (const std::uint32_t i : watched) {
-    if (step::countable(bodies[i])) continue;
+    if (bodies[i].finite()) continue;
     // Without a step behind it, the body had been left so.
     const std::string cause = i < starts.size() && dt > 0 ? step::cause_of(starts[i].twist, loads[i], moved[i] != 0, dt)
                                                           : "it was not finite before the step";

@@ -49,8 +49,9 @@ bool World::Implementation::wake_islands() {
   each_link([&](std::uint32_t a, std::uint32_t b) {
     if (!bodies[a].immovable() && !bodies[b].immovable()) islands.join(a, b);
   });
-  for (const std::uint32_t i : watched)
-    if (!bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
+  if (!sleepers.empty())
+    for (const std::uint32_t i : watched)
+      if (!bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
   const auto disturb = [&](const Body& by, std::uint32_t other) {
     if (!by.immovable() || bodies[other].immovable() || !by.stirs()) return;
     flags[islands.of(other)] = 1;
@@ -61,7 +62,7 @@ bool World::Implementation::wake_islands() {
     disturb(bodies[b], a);
   });
   bool any = false;
-  for (const std::uint32_t i : watched) {
+  for (const std::uint32_t i : sleepers) {
     if (!bodies[i].asleep || !flags[islands.of(i)]) continue;
     wake(i);
     any = true;
@@ -80,8 +81,11 @@ void World::Implementation::let_sleep(double dt) {
   }
   // Per island the shortest stillness counts.
   stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
+  drowsy.clear();
+  failed = false;
   for (const std::uint32_t i : watched) {
     Body& body = bodies[i];
+    failed = failed || !body.finite();
     if (body.immovable()) continue;
     if (!body.asleep) {
       const bool driven = body.drive.owner() == Owner::driven;
@@ -95,10 +99,11 @@ void World::Implementation::let_sleep(double dt) {
     }
     double& shortest = stillness[islands.of(i)];
     shortest = std::min(shortest, body.still_for);
+    if (!body.asleep && body.still_for >= settings.sleep_after) drowsy.push_back(i);
   }
-  for (const std::uint32_t i : watched) {
+  for (const std::uint32_t i : drowsy) {
     Body& body = bodies[i];
-    if (body.immovable() || body.asleep || !(stillness[islands.of(i)] >= settings.sleep_after)) continue;
+    if (!(stillness[islands.of(i)] >= settings.sleep_after)) continue;
     body.asleep = true;
     body.twist = {};
     body.motion.twist = {};

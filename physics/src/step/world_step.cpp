@@ -30,28 +30,34 @@ bool before(const A& left, const B& right) {
 }  // namespace
 
 void World::Implementation::begin_watch() {
-  std::erase_if(watched,
-                [this](std::uint32_t i) { return !bodies[i].alive || bodies[i].immovable() || bodies[i].noted; });
+  sleepers.clear();
+  lingering.clear();
+  starts.resize(bodies.size());
+  const auto watch = [this](std::uint32_t i) {
+    const Body& body = bodies[i];
+    starts[i] = {body.center, body.motion.pose.rotation, body.twist, body.led};
+    if (body.asleep) sleepers.push_back(i);
+    if (body.immovable() && (body.placed || body.has_target)) lingering.push_back(i);
+  };
+  std::erase_if(watched, [&](std::uint32_t i) {
+    if (!bodies[i].alive || bodies[i].immovable() || bodies[i].noted) return true;
+    watch(i);
+    return false;
+  });
   const auto known = static_cast<std::ptrdiff_t>(watched.size());
-  for (const std::uint32_t i : noted)
-    if (bodies[i].alive) watched.push_back(i);
+  for (const std::uint32_t i : noted) {
+    if (!bodies[i].alive) continue;
+    watch(i);
+    watched.push_back(i);
+  }
   std::sort(watched.begin() + known, watched.end());
   std::inplace_merge(watched.begin(), watched.begin() + known, watched.end());
-  lingering.clear();
-  for (const std::uint32_t i : watched)
-    if (bodies[i].immovable() && (bodies[i].placed || bodies[i].has_target)) lingering.push_back(i);
 }
 
 void World::Implementation::end_watch() {
   for (const std::uint32_t i : noted) bodies[i].noted = false;
   noted.clear();
   for (const std::uint32_t i : lingering) note(i);
-}
-
-void World::Implementation::note_starts() {
-  starts.resize(bodies.size());
-  for (const std::uint32_t i : watched)
-    starts[i] = {bodies[i].center, bodies[i].motion.pose.rotation, bodies[i].twist, bodies[i].led};
 }
 
 void World::Implementation::advance_bodies(double dt) {
@@ -143,20 +149,20 @@ void World::Implementation::step(double dt) {
   } const guard{stepping};
   stepping = true;
   begin_watch();
-  check_bodies(0, time);
+  if (failed) check_bodies(0, time);
   wake_by_fields();
   do {
     gather_loads(bodies, watched, forces, settings, time, dt, loads, stiff_springs);
     check_loads(time + dt);
     find_constraints(dt);
   } while (wake_islands());
-  note_starts();
+  failed = true;
   advance_bodies(dt);
   let_sleep(dt);
   report();
   end_watch();
   time += dt;
-  check_bodies(dt, time);
+  if (failed) check_bodies(dt, time);
 }
 
 }  // namespace tweenfall
