@@ -26,11 +26,25 @@ struct KeptImpulses {
   double passed_over = 0;  ///< time since then in sub-steps too short to be kept, s
 };
 
+/// A manifold as it was found, in the bodies' own axes: it holds while they hardly move against each other.
+struct FoundManifold {
+  bool holds = false;
+  Quat turn{1, 0, 0, 0};  ///< of b, in a's axes
+  Vec3 between{0, 0, 0};  ///< from a's center of mass to b's, in a's axes, m
+  Vec3 normal{0, 1, 0};   ///< in a's axes
+  struct Point {
+    Vec3 anchor_a{0, 0, 0}, anchor_b{0, 0, 0};  ///< from the centers of mass, in each body's axes, m
+    double gap = 0;                             ///< m
+  };
+  std::array<Point, 4> points{};
+};
+
 /// What the next step needs of a pair in contact.
 struct ContactMemory : KeptImpulses {
   std::uint32_t a = 0, b = 0;  ///< indices of the bodies, a < b
   int count = 0;
   std::array<PointMemory, 4> points{};
+  FoundManifold found;
   bool touching = false;  ///< an impulse passed or the shapes overlap
   bool gone = false;      ///< a body of it has left since
 };

@@ -79,6 +79,9 @@ struct World::Implementation {
   void begin_watch();
   void end_watch();
   void find_constraints(double dt);
+  /// The manifold at the start of the step, or where the bodies meet in it. Returns false when they do not.
+  bool find_manifold(ContactConstraint& constraint, const Body& a, const Body& b, const Passage& way_a,
+                     const Passage& way_b, double dt);
   void wake_by_fields();
   bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
   void advance_bodies(double dt);

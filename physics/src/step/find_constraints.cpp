@@ -5,6 +5,7 @@
 #include "collision/collide_pairs.h"
 #include "collision/passage.h"
 #include "state/world_data.h"
+#include "step/found_manifold.h"
 
 namespace tweenfall {
 
@@ -67,6 +68,33 @@ void inherit(ContactConstraint& constraint, const ContactMemory& old, double nea
 
 }  // namespace
 
+bool World::Implementation::find_manifold(ContactConstraint& constraint, const Body& a, const Body& b,
+                                          const Passage& way_a, const Passage& way_b, double dt) {
+  const double swing = way_a.swing + way_b.swing;
+  Manifold manifold = collide(a.shape, way_a.placed, b.shape, way_b.placed, near_enough);
+  if (manifold.count > 0) {
+    if (swing * dt > near_enough)
+      manifold = collide(a.shape, way_a.placed, b.shape, way_b.placed, near_enough + swing * dt);
+    constraint.manifold = manifold;
+    adopt(constraint, a, {a.center, a.motion.pose.rotation}, b, {b.center, b.motion.pose.rotation});
+  } else {
+    const Apart apart = apart_along(way_a, way_b, manifold.normal);
+    if (apart.frame != Apart::Frame::none) aparts.emplace_back(Pair(constraint.a, constraint.b), apart);
+    const double gap = gap_along(way_a, way_b, manifold.normal);
+    if (stay_apart(way_a, way_b, manifold.normal, gap, near_enough, dt)) return false;
+    const std::optional<double> meeting = impact_time(way_a.course, way_b.course, dt);
+    if (!meeting) return false;
+    constraint.impact_time = *meeting;
+    const Prediction at_a = way_a.course.at(*meeting);
+    const Prediction at_b = way_b.course.at(*meeting);
+    // What a spin brings down in what is left of the step, too.
+    const double rest = near_enough + swing * (dt - *meeting);
+    constraint.manifold = collide(a.shape, at_a.node(a), b.shape, at_b.node(b), rest);
+    adopt(constraint, a, at_a, b, at_b);
+  }
+  return constraint.count > 0 && constraint.manifold.normal.allFinite();
+}
+
 void World::Implementation::find_constraints(double dt) {
   active.clear();
   retained.clear();
@@ -115,46 +143,27 @@ void World::Implementation::find_constraints(double dt) {
         continue;
       }
     }
-    const double swing = way_a.swing + way_b.swing;
-    Manifold manifold = collide(a.shape, way_a.placed, b.shape, way_b.placed, near_enough);
-    const bool near = manifold.count > 0;
-    if (near && swing * dt > near_enough)
-      manifold = collide(a.shape, way_a.placed, b.shape, way_b.placed, near_enough + swing * dt);
-    std::optional<double> meeting = 0;
-    if (!near) {
-      const Apart apart = apart_along(way_a, way_b, manifold.normal);
-      if (apart.frame != Apart::Frame::none) aparts.emplace_back(pair, apart);
-      const double gap = gap_along(way_a, way_b, manifold.normal);
-      if (stay_apart(way_a, way_b, manifold.normal, gap, near_enough, dt)) continue;
-      meeting = impact_time(way_a.course, way_b.course, dt);
-      if (!meeting) continue;
-    }
+    const bool known = memory != ContactMemories::nowhere;
     ContactConstraint& constraint = active.emplace_back();
     constraint.a = index_a;
     constraint.b = index_b;
-    constraint.impact_time = *meeting;
-    if (near) {
-      constraint.manifold = manifold;
-      adopt(constraint, a, {a.center, a.motion.pose.rotation}, b, {b.center, b.motion.pose.rotation});
-    } else {
-      const Prediction at_a = way_a.course.at(*meeting);
-      const Prediction at_b = way_b.course.at(*meeting);
-      // What a spin brings down in what is left of the step, too.
-      const double rest = near_enough + swing * (dt - *meeting);
-      constraint.manifold = collide(a.shape, at_a.node(a), b.shape, at_b.node(b), rest);
-      adopt(constraint, a, at_a, b, at_b);
-    }
-    if (constraint.count == 0 || !constraint.manifold.normal.allFinite()) {
+    constraint.memory = memory;
+    const bool kept = known && step::take_up(memories[memory], a, b, way_a.swing + way_b.swing, dt, constraint);
+    if (!kept && !find_manifold(constraint, a, b, way_a, way_b, dt)) {
       active.pop_back();
       continue;
     }
     constraint.friction = std::sqrt(a.friction * b.friction);
     constraint.restitution = std::max(a.restitution, b.restitution);
     constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
-    constraint.memory = memory;
-    const bool known = memory != ContactMemories::nowhere;
     constraint.began = !(known && memories[memory].touching);
-    if (known) inherit(constraint, memories[memory], 0.05 * std::min(a.radius, b.radius));
+    if (known) {
+      inherit(constraint, memories[memory], 0.05 * std::min(a.radius, b.radius));
+      if (!kept)
+        memories[memory].found = constraint.impact_time == 0 && step::keeps_manifold(a, b)
+                                     ? step::found_manifold(constraint, a, b)
+                                     : FoundManifold{};
+    }
     ++contact_counts[index_a];
     ++contact_counts[index_b];
   }

@@ -1,0 +1,61 @@
+#include "step/found_manifold.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tweenfall::step {
+
+namespace {
+
+/// Parts of the smaller body's radius by which the bodies may have moved against each other.
+constexpr double hardly = 2e-3;
+/// And at most this, m: points that come near are found before they touch.
+constexpr double unnoticed = 1e-3;
+
+}  // namespace
+
+bool keeps_manifold(const Body& a, const Body& b) {
+  return a.roundness == 0 && b.roundness == 0;
+}
+
+FoundManifold found_manifold(const ContactConstraint& contact, const Body& a, const Body& b) {
+  FoundManifold found;
+  const Quat back_a = a.motion.pose.rotation.conjugate();
+  const Quat back_b = b.motion.pose.rotation.conjugate();
+  found.holds = true;
+  found.turn = back_a * b.motion.pose.rotation;
+  found.between = back_a * Vec3(b.center - a.center);
+  found.normal = back_a * contact.manifold.normal;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
+    const PointConstraint& point = contact.points[i];
+    found.points[i] = {back_a * point.start_arm_a, back_b * point.start_arm_b, point.start_gap};
+  }
+  return found;
+}
+
+bool take_up(const ContactMemory& memory, const Body& a, const Body& b, double swing, double dt,
+             ContactConstraint& contact) {
+  const FoundManifold& found = memory.found;
+  if (!found.holds || !memory.touching || a.placed || b.placed) return false;
+  const double size = std::min(a.radius, b.radius);
+  const Quat& rotation_a = a.motion.pose.rotation;
+  const Quat& rotation_b = b.motion.pose.rotation;
+  const Vec3 between = rotation_a.conjugate() * Vec3(b.center - a.center);
+  const double turn = 2 * (found.turn.conjugate() * (rotation_a.conjugate() * rotation_b)).vec().norm();
+  if ((between - found.between).norm() + turn * size + swing * dt > std::min(hardly * size, unnoticed)) return false;
+  contact.manifold.normal = rotation_a * found.normal;
+  contact.manifold.count = contact.count = memory.count;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(memory.count); ++i) {
+    PointConstraint& point = contact.points[i];
+    point = {};
+    point.feature = memory.points[i].feature;
+    point.start_arm_a = rotation_a * found.points[i].anchor_a;
+    point.start_arm_b = rotation_b * found.points[i].anchor_b;
+    const Vec3 apart = (b.center + point.start_arm_b) - (a.center + point.start_arm_a);
+    point.start_gap = found.points[i].gap + contact.manifold.normal.dot(apart);
+    contact.manifold.points[i] = {a.center + point.start_arm_a + 0.5 * apart, -point.start_gap, point.feature};
+  }
+  return true;
+}
+
+}  // namespace tweenfall::step

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "state/body.h"
+#include "step/contact_constraint.h"
+
+namespace tweenfall::step {
+
+/// Whether a pair's manifold is worth keeping: between flat faces it costs most, and there its points would wander.
+[[nodiscard]] bool keeps_manifold(const Body& a, const Body& b);
+
+/// Notes a manifold that was just found at the start of a step.
+[[nodiscard]] FoundManifold found_manifold(const ContactConstraint& contact, const Body& a, const Body& b);
+
+/// Takes the remembered manifold up again, told about where the bodies are now.
+/// @param swing  how fast points of the surfaces move because the bodies spin, m/s
+/// @return false when they have moved against each other by too much since it was found
+[[nodiscard]] bool take_up(const ContactMemory& memory, const Body& a, const Body& b, double swing, double dt,
+                           ContactConstraint& contact);
+
+}  // namespace tweenfall::step
