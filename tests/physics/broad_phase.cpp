@@ -36,6 +36,7 @@ struct Crowd {
     body.radius = std::holds_alternative<Plane>(solid)
                       ? std::numeric_limits<double>::infinity()
                       : 0.5 * (bounds(body.shape, {}).high - bounds(body.shape, {}).low).norm();
+    if (const auto* sphere = std::get_if<Sphere>(&solid)) body.radius = body.roundness = sphere->radius;
     body.motion.pose.position = at;
     body.motion.pose.rotation = random.rotation();
     body.follow_motion();

@@ -44,6 +44,12 @@ Vec3 bounded_spin(const Mat3& inertia, double most, const Vec3& angular) {
 }
 
 Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
+  const bool steady = load.torque == Vec3::Zero();
+  if (body.spherical && steady && !(load.angular_drag > 0 || load.angular_damping > 0)) {
+    Spin spin{exp_map(start.angular * dt) * start.rotation, start.angular};
+    spin.rotation.normalize();
+    return spin;
+  }
   Vec3 momentum = body.world_inertia(start.rotation) * start.angular;
   if (load.angular_drag > 0 || load.angular_damping > 0) {
     const Mat3 inertia = body.world_inertia(start.rotation);
@@ -52,10 +58,8 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
     momentum = (inertia * (slowed.inverse() * momentum)).eval();
   }
   const Vec3 first = body.world_inverse_inertia(start.rotation) * momentum;
-  const bool steady = load.torque == Vec3::Zero();
   Spin spin{start.rotation, first};
   if (body.spherical && steady) {
-    if (!(load.angular_drag > 0 || load.angular_damping > 0)) spin.angular = start.angular;
     spin.rotation = exp_map(spin.angular * dt) * start.rotation;
     spin.rotation.normalize();
     return spin;

@@ -125,7 +125,7 @@ void BoundsTree::unlink(std::uint32_t leaf) {
 
 void BoundsTree::settle() {
   // Taken in one by one, very many would take longer and end in a worse tree.
-  bool again = fresh_.size() > 16 + size_ / 8 || changes_ > 64 + 4 * size_;
+  bool again = fresh_.size() > 16 + size_ / 8 || changes_ > 64 + 16 * size_;
   for (std::size_t i = 0; i < fresh_.size() && !again; ++i) {
     const std::uint32_t item = fresh_[i];
     if (has(item) && !linked(leaves_[item])) again = link(leaves_[item]) > most_depth;

@@ -63,9 +63,7 @@ void BroadPhase::renew(std::uint32_t index) {
 }
 
 void BroadPhase::look_at(const Body& body, std::uint32_t index, const Load& load, double margin, double dt) {
-  const Kind kind = std::holds_alternative<Plane>(body.shape.solid) ? Kind::plane
-                    : body.immovable()                              ? Kind::immovable
-                                                                    : Kind::movable;
+  const Kind kind = std::isinf(body.radius) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
   if (entries_[index].kind != kind) {
     remove(index);
     if (kind == Kind::plane) planes_.insert(std::lower_bound(planes_.begin(), planes_.end(), index), index);

@@ -13,7 +13,10 @@ Vec3 travel(const Body& body, const Load& load, double dt) {
 }
 
 Bounds swept_bounds(const Body& body, const Load& load, double room, double dt) {
-  Bounds swept = bounds(body.shape, body.motion.pose);
+  // A ball's shape need not be looked at.
+  const bool ball = body.roundness == body.radius && !body.immovable();
+  const Vec3 reach = Vec3::Constant(body.radius);
+  Bounds swept = ball ? Bounds{body.center - reach, body.center + reach} : bounds(body.shape, body.motion.pose);
   double swing = 0;
   Vec3 way(0, 0, 0);
   if (body.immovable()) {
@@ -29,8 +32,7 @@ Bounds swept_bounds(const Body& body, const Load& load, double room, double dt) 
     const Twist& twist = body.drive.owner() == Owner::driven ? load.pulled : body.twist;
     way = twist.linear * dt;
     // A ball turns in its place.
-    if (!std::holds_alternative<Sphere>(body.shape.solid))
-      swing = std::min(twist.angular.norm() * dt, 2.0) * body.radius;
+    if (!ball) swing = std::min(twist.angular.norm() * dt, 2.0) * body.radius;
     swing += load.acceleration.norm() * dt * dt;
   }
   const Vec3 around = Vec3::Constant(room + swing);
