@@ -2,6 +2,7 @@
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/physics/handoff/settle_offset.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -57,8 +58,7 @@ SettleOffset::SettleOffset(const Settle& settle, double time, const Motion& path
 
 Motion SettleOffset::apply(double time, const Motion& path) const noexcept {
   if (!any_) return path;
-  const double since = time - start_;
-  if (since < 0) return path;
+  const double since = std::max(0.0, time - start_);  // asked for a hair too early, it is where it starts
 
   if (settle_.kind == Settle::Kind::dead_blend) {
     // Source: Holden, "Dead Blending", 2023: extrapolate what was, cross-fade to what shall be. Rotation fades as the

@@ -146,6 +146,11 @@ double closing_speed(const World& world, const Contact& contact, TwistOf&& twist
   return closing;
 }
 
+/// What closes at more than this times the length of a piece was not brought there by its weight in it, m/s^2.
+double faster_than_weight(const StageState& state) {
+  return 2 * state.gravity.norm() + 1e-4;
+}
+
 /// How much of a contact's impulse was the blow. What presses on for the rest of the piece is weight: without the
 /// contact the two would have closed at the speed of the impact and, after it, at what they fell further, and one and
 /// the same mass answered for both. Of what parts again, nothing was weight.
@@ -165,6 +170,7 @@ double part_of_blow(const StageState& state, const Contact& contact, const std::
       (falls(contact.b) ? state.gravity : Vec3(0, 0, 0)) - (falls(contact.a) ? state.gravity : Vec3(0, 0, 0));
   const double unhindered = closing_speed(world, contact, [&](BodyId body) { return before[body.index]; }) -
                             contact.manifold.normal.dot(apart) * dt;
+  if (!(contact.approach_speed > 0) && unhindered > faster_than_weight(state) * dt) return 1;  // swung in along an arc
   return unhindered > contact.approach_speed ? contact.approach_speed / unhindered : 1;
 }
 
@@ -196,14 +202,20 @@ void follow_blows(StageState& state, const std::vector<Twist>& before, double dt
     Blow blow = goes_on ? *known : Blow{contact.a, contact.b, state.time, 0, 0};
     if (contact.impulse > 0) blow.impulse += contact.impulse * part_of_blow(state, contact, before, dt);
     blow.speed = std::max(blow.speed, contact.approach_speed);
-    if (!(blow.impulse > 0)) continue;
-    if (state.time - blow.began < 0.999 * step && closing_speed(state.world, contact, now) > closes * blow.speed)
+    const double closing = closing_speed(state.world, contact, now);
+    if (blow.impulse > 0) {
+      if (state.time - blow.began < 0.999 * step && closing > closes * blow.speed)
+        going_on.push_back(blow);
+      else
+        tell(blow);
+    } else if (contact.impulse > 0 && closing > faster_than_weight(state) * dt) {
+      blow.began = state.time;  // only grazed as yet: what swings in fast strikes in the next piece
       going_on.push_back(blow);
-    else
-      tell(blow);
+    }
   }
   for (std::size_t i = 0; i < met.size(); ++i)
-    if (!met[i] && state.world.contains(state.blows[i].a) && state.world.contains(state.blows[i].b))
+    if (!met[i] && state.blows[i].impulse > 0 && state.world.contains(state.blows[i].a) &&
+        state.world.contains(state.blows[i].b))
       tell(state.blows[i]);
   std::ranges::sort(going_on, {}, pair_of);
   state.blows = std::move(going_on);

@@ -75,3 +75,42 @@ TEST_CASE("a rule to a drive follows the path it names, and settles onto it") {
   CHECK(stage.owner(0) == Owner::driven);
   CHECK(near(stage.world(0).motion.pose.position, Vec3(-1, 2, 0), 1e-6));
 }
+
+TEST_CASE("a body taken back up to a billionth of a second after a step is where it was when the step ends") {
+  for (const Settle& settle : {Settle{Settle::Kind::quintic, 0.4}, Settle{Settle::Kind::half_life, 0.1},
+                               Settle{Settle::Kind::dead_blend, 0.3}})
+    for (const double late : {-1e-12, 0.0, 1e-16, 1e-12, 5e-10, 9e-10, 2e-9})
+      for (const bool restart : {false, true}) {
+        CAPTURE(static_cast<int>(settle.kind));
+        CAPTURE(late);
+        CAPTURE(restart);
+        StageDescription stage;
+        stage.world.gravity = {0, 0, 0};
+        stage.nodes = {
+            {.name = "b",
+             .rest = {.position = {0.8, 0, 0}},
+             .body = BodyDescription{
+                 .shape = {Sphere{0.1}}, .mass = 1.0, .drive = Drive::free(), .twist = {{0.3, 0, 0}, {0, 0, 0}}}}};
+        Clip clip = held("there", "b", {-0.4, 2, 0});
+        if (restart) {
+          clip.duration = 0.7;
+          clip.loop.mode = LoopMode::repeat;
+          clip.tracks = {{"b", "position",
+                          keyed_curve<Vec3>({{.time = 0, .value = {-0.4, 2, 0}}, {.time = 0.7, .value = {5, 2, 0}}})}};
+        }
+        stage.clips = {clip};
+        Rule back;
+        back.bodies = {"b"};
+        back.when.triggers = {when::At{0.5 + late}};
+        back.to = Drive::keyed();
+        back.hand_back.clip = "there";
+        back.hand_back.clock = restart ? HandBack::Clock::restart : HandBack::Clock::run;
+        back.hand_back.settle = settle;
+        stage.rules = {back};
+        Stage run(stage);
+        run.advance_to(0.5);
+        CHECK(std::abs(run.world(0).motion.pose.position.x() - 0.95) < 1e-8);
+        CHECK(std::abs(run.world(0).motion.pose.position.y()) < 1e-8);
+        if (!restart) CHECK(std::abs(run.twist(0).linear.x() - 0.3) < 1e-6);
+      }
+}

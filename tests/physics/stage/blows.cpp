@@ -195,3 +195,31 @@ TEST_CASE("two keyed bodies that touch are told of, though neither is freed") {
   CHECK(run.events()[0].name == "contact");
   CHECK(run.events()[0].impulse == doctest::Approx(0.8).epsilon(0.02));
 }
+
+TEST_CASE("a blow by what swings in fast is told once, however far it turns in a step") {
+  for (const double degrees : {20.0, 30.0, 45.0, 60.0, 90.0, 120.0, 170.0})
+    for (const double place : {33.0, 87.0, 156.5}) {
+      CAPTURE(degrees);
+      CAPTURE(place);
+      const double rate = degrees * 60 * pi / 180, angle = place * pi / 180;
+      StageDescription stage;
+      stage.step = 1.0 / 60;
+      stage.world.gravity = {0, 0, 0};
+      stage.nodes = {
+          {.name = "bar",
+           .body = BodyDescription{.shape = {Box{Vec3(2, 0.05, 0.05)}}, .mass = 1.0, .drive = Drive::keyed()}},
+          {.name = "ball",
+           .rest = {.position = 1.7 * Vec3(std::cos(angle), std::sin(angle), 0)},
+           .body = BodyDescription{.shape = {Sphere{0.05}}, .mass = 0.3}}};
+      const Curve<Quat> spin(
+          [rate](double t, Side) {
+            return Sample<Quat>{Quat(Eigen::AngleAxisd(rate * t, Vec3(0, 0, 1))), Vec3(0, 0, rate), Vec3(0, 0, 0)};
+          },
+          -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity());
+      Stage run(played(stage, "bar", "rotation", spin));
+      run.advance_to(0.5);
+      CHECK(run.twist(1).linear.norm() > 0.5 * rate * 1.7);
+      REQUIRE(run.events().size() == 1);
+      CHECK(run.events()[0].impulse > 0.2 * 0.3 * rate * 1.7);
+    }
+}
