@@ -72,8 +72,12 @@ std::vector<UnfiredRule> unfired_rules(const StageState& state) {
       reason = std::string("the body was ") + owners[static_cast<std::size_t>(rule.to.owner())] +
                " all the time, which is what the rule makes it";
     } else {
-      for (const Trigger& trigger : rule.when.triggers)
-        reason += (reason.empty() ? "" : "; ") + std::visit(Reason{state, body, armed.attempt}, trigger);
+      // Of an `all`, what has come while the rule waited was not what it lacked.
+      const bool some_lacked = rule.when.all && std::ranges::count(armed.latched, char{0}) > 0;
+      for (std::size_t i = 0; i < rule.when.triggers.size(); ++i)
+        if (!some_lacked || !armed.latched[i])
+          reason +=
+              (reason.empty() ? "" : "; ") + std::visit(Reason{state, body, armed.attempt}, rule.when.triggers[i]);
     }
     unfired.push_back({armed.rule, body.node, std::move(reason)});
   }

@@ -152,6 +152,18 @@ TEST_CASE("rules that waited in vain are listed with what is known of them") {
   }
 }
 
+TEST_CASE("a rule that waited for all of several is listed with those that did not come, and no others") {
+  StageDescription description = falling_ball();
+  Rule one = recover_at(0, "ball");
+  one.when.all = true;
+  one.when.triggers = {when::At{0.3}, when::ContactHit{.with = "nobody"}, when::At{0.4}};
+  description.rules = {one};
+  Stage stage(description);
+  const Recording recording = record(stage, 1, 10);
+  REQUIRE(recording.unfired.size() == 1);
+  CHECK(recording.unfired[0].reason == "nothing named \"nobody\" touched the body");
+}
+
 TEST_CASE(
     "a motion that is no longer finite is thrown with node, time and cause, again by who goes on, until it is gone") {
   StageDescription description;
