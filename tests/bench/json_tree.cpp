@@ -69,8 +69,8 @@ void tree(benchmark::State& state, Form form) {
   for (auto _ : state) {
     const std::size_t before = taken;
     peak = taken;
-    std::vector<JsonFault> faults;
-    const JsonTree tree = JsonTree::parse(text, faults);
+    std::vector<json::Fault> faults;
+    const json::Tree tree = json::Tree::parse(text, faults);
     benchmark::DoNotOptimize(tree.root());
     if (!faults.empty()) state.SkipWithError(faults.front().message.c_str());
     most = std::max(most, static_cast<double>(peak - before));

@@ -82,7 +82,7 @@ void check_counts(const std::string& bytes, const std::filesystem::path& file) {
     // A number takes a digit at least, and all but the last a blank.
     if (read.ec == std::errc() && count <= bytes.size() / 2 + 1) continue;
     if (read.ec == std::errc::invalid_argument) continue;
-    const TextPlace place = place_in(bytes, at);
+    const json::TextPlace place = json::place_in(bytes, at);
     throw ModelError(file.string() + ":" + std::to_string(place.line) + ":" + std::to_string(place.column) +
                      ": error: a count of " + std::string(begin, read.ptr) + " cannot be in a file of " +
                      std::to_string(bytes.size()) + " bytes");

@@ -34,7 +34,7 @@ struct Reading {
 };
 
 struct Building {
-  const JsonValue root;
+  const json::Value root;
   std::filesystem::path folder;
   Reading& reading;
   Problems& problems;
@@ -59,7 +59,7 @@ struct Building {
 
 // A document's tree and what it means.
 struct ReadDocument {
-  JsonTree tree;
+  json::Tree tree;
   StageDescription stage;
   bool names_are_free = false;
   std::vector<Problem> notes{};

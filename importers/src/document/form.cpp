@@ -9,21 +9,21 @@ namespace tweenfall::document {
 
 namespace {
 
-bool kind_fits(const Form& form, const JsonValue& value) {
+bool kind_fits(const Form& form, const json::Value& value) {
   switch (form.kind) {
     case Form::Kind::any:
       return true;
     case Form::Kind::number:
-      return value.is(JsonValue::Kind::number);
+      return value.is(json::Value::Kind::number);
     case Form::Kind::boolean:
-      return value.is(JsonValue::Kind::boolean);
+      return value.is(json::Value::Kind::boolean);
     case Form::Kind::text:
-      return value.is(JsonValue::Kind::text);
+      return value.is(json::Value::Kind::text);
     case Form::Kind::list:
     case Form::Kind::tuple:
-      return value.is(JsonValue::Kind::list);
+      return value.is(json::Value::Kind::list);
     case Form::Kind::object:
-      return value.is(JsonValue::Kind::object);
+      return value.is(json::Value::Kind::object);
     case Form::Kind::choice:
       return resolved(form, value) != nullptr;
   }
@@ -66,7 +66,7 @@ bool is_free_name(std::string_view name) {
   return name.substr(0, 2) == "//" || name.substr(0, 2) == "x-";
 }
 
-const Form* resolved(const Form& form, const JsonValue& value) {
+const Form* resolved(const Form& form, const json::Value& value) {
   if (form.kind != Form::Kind::choice) return kind_fits(form, value) ? &form : nullptr;
   if (form.select) {
     const Form* selected = form.select(value);

@@ -55,7 +55,7 @@ struct Form {
   bool only_true = false;
 
   // What to write in place of a value of another kind, "; say ...", or nothing
-  std::function<std::string(const JsonValue&)> instead{};
+  std::function<std::string(const json::Value&)> instead{};
 
   // text: one of `words`, or anything of `pattern` (ECMA 262); no limit when both are empty
   std::vector<std::string> words{};
@@ -80,11 +80,11 @@ struct Form {
   std::function<std::string(std::string_view)> name_fault{};  // what is wrong with such a name, or nothing
   // The name with a form of its own that a name of the author's may stand for, or nothing
   std::function<std::string(std::string_view)> name_meant{};
-  std::function<std::string(const JsonValue&)> foremost_fault{};  // a fault that makes all others noise, or nothing
+  std::function<std::string(const json::Value&)> foremost_fault{};  // a fault that makes all others noise, or nothing
 
   // choice: the first alternative of the value's kind, or the one that `select` names
   std::vector<const Form*> alternatives{};
-  std::function<const Form*(const JsonValue&)> select{};
+  std::function<const Form*(const json::Value&)> select{};
 
   // Writing
   bool one_a_line = false;   // each member or item on its own line, however short
@@ -101,7 +101,7 @@ struct Form {
 [[nodiscard]] bool is_free_name(std::string_view name);
 
 // The alternative that holds for a value (through choices in choices); null when the value's kind fits none.
-[[nodiscard]] const Form* resolved(const Form& form, const JsonValue& value);
+[[nodiscard]] const Form* resolved(const Form& form, const json::Value& value);
 
 // Forms live as long as the store.
 class FormStore {

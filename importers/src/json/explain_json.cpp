@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace tweenfall::json_tree {
+namespace tweenfall::json {
 
 namespace {
 
@@ -33,7 +33,7 @@ class Explainer {
   Explainer(std::string_view text, const Stop& stop, bool comments)
       : text_(text), stop_(stop), at_(skip_space(text, stop.at, comments)), comments_(comments) {}
 
-  JsonFault fault() {
+  Fault fault() {
     if (comments_ && text_.substr(at_, 2) == "/*") return here("this comment has no end; expected \"*/\"");
     if (at_ > 0 && at_ == stop_.at && text_[at_ - 1] == '0' && next() >= '0' && next() <= '9')
       return here("a number does not start with 0 before other digits");
@@ -78,12 +78,12 @@ class Explainer {
     return std::string("'") + static_cast<char>(c) + "'";
   }
 
-  [[nodiscard]] JsonFault here(std::string message, std::size_t length = 1) const {
+  [[nodiscard]] Fault here(std::string message, std::size_t length = 1) const {
     return {at_, length, std::move(message)};
   }
 
   // Something else than `wanted` stands here. What never ends is told where it begins.
-  [[nodiscard]] JsonFault missing(const std::string& wanted, const std::string& advice = {}) const {
+  [[nodiscard]] Fault missing(const std::string& wanted, const std::string& advice = {}) const {
     if (comments_ && text_.substr(at_, 2) == "/*") return here("this comment has no end; expected \"*/\"");
     if (!stop_.open) return here("expected " + wanted + ", found " + found() + advice);
     const char bracket = text_[*stop_.open];
@@ -136,7 +136,7 @@ class Explainer {
     return {};
   }
 
-  [[nodiscard]] JsonFault name(const std::string& wanted) {
+  [[nodiscard]] Fault name(const std::string& wanted) {
     if (next() == '"') return quoted();
     const std::size_t end = word_end(text_, at_);
     const std::string_view word = text_.substr(at_, end - at_);
@@ -144,7 +144,7 @@ class Explainer {
     return missing(wanted, bare ? "; write " + in_quotes(word) : std::string());
   }
 
-  [[nodiscard]] JsonFault value(const std::string& wanted) {
+  [[nodiscard]] Fault value(const std::string& wanted) {
     const char c = next();
     if (c == '"') return quoted();
     if ((c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.') return number();
@@ -153,7 +153,7 @@ class Explainer {
     return missing(wanted);
   }
 
-  [[nodiscard]] JsonFault word() const {
+  [[nodiscard]] Fault word() const {
     const std::size_t end = word_end(text_, at_);
     const std::string_view word = text_.substr(at_, end - at_);
     std::string small(word.substr(0, 10));
@@ -168,7 +168,7 @@ class Explainer {
                 word.size());
   }
 
-  [[nodiscard]] JsonFault number() {
+  [[nodiscard]] Fault number() {
     const char first = next();
     const auto digits = [&] {
       const std::size_t from = at_;
@@ -196,7 +196,7 @@ class Explainer {
     return here("this is not a number");
   }
 
-  [[nodiscard]] JsonFault quoted() {
+  [[nodiscard]] Fault quoted() {
     const std::size_t from = at_++;
     while (true) {
       if (done()) return {from, 1, "this text has no end; expected '\"'"};
@@ -206,7 +206,7 @@ class Explainer {
       if (static_cast<unsigned char>(c) < 0x20)
         return here("control characters are written with '\\'; found " + found());
       if (c == '\\') {
-        if (const std::optional<JsonFault> wrong = escape()) return *wrong;
+        if (const std::optional<Fault> wrong = escape()) return *wrong;
         continue;
       }
       const std::size_t length = character_length(text_, at_);
@@ -217,7 +217,7 @@ class Explainer {
     return here("this text cannot be read");
   }
 
-  [[nodiscard]] std::optional<JsonFault> escape() {
+  [[nodiscard]] std::optional<Fault> escape() {
     ++at_;
     if (next() != 'u') {
       if (done() || std::string_view("\"\\/bfnrt").find(next()) == std::string_view::npos)
@@ -237,7 +237,7 @@ class Explainer {
     return {};
   }
 
-  [[nodiscard]] std::optional<JsonFault> four_hex_digits(unsigned& code) {
+  [[nodiscard]] std::optional<Fault> four_hex_digits(unsigned& code) {
     code = 0;
     for (int i = 0; i < 4; ++i, ++at_) {
       const char c = next();
@@ -259,8 +259,8 @@ class Explainer {
 
 }  // namespace
 
-JsonFault explained(std::string_view text, const Stop& stop, bool comments) {
+Fault explained(std::string_view text, const Stop& stop, bool comments) {
   return Explainer(text, stop, comments).fault();
 }
 
-}  // namespace tweenfall::json_tree
+}  // namespace tweenfall::json

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-namespace tweenfall::json_tree {
+namespace tweenfall::json {
 
 // How far the parser came.
 struct Stop {
@@ -17,6 +17,6 @@ struct Stop {
   std::string_view name{};            // the last one, after a name
 };
 
-[[nodiscard]] JsonFault explained(std::string_view text, const Stop& stop, bool comments);
+[[nodiscard]] Fault explained(std::string_view text, const Stop& stop, bool comments);
 
-}  // namespace tweenfall::json_tree
+}  // namespace tweenfall::json

@@ -4,10 +4,10 @@
 
 #include "json/json_tree.h"
 
-namespace tweenfall::json_tree {
+namespace tweenfall::json {
 
 // A value; of a member with its name, which stands before it.
-struct JsonNode {
+struct Node {
   std::uint32_t offset;  // of the name of a member, else of the value
   std::uint32_t kind : 3;
   std::uint32_t faulty : 1;
@@ -25,7 +25,7 @@ struct JsonNode {
     Range children;  // nodes
   };
 };
-static_assert(sizeof(JsonNode) == 16);
+static_assert(sizeof(Node) == 16);
 
 inline constexpr std::size_t longest_name = (std::size_t{1} << 25) - 1;
 
@@ -38,16 +38,16 @@ struct Decoded {
 struct Content {
   std::string given;  // the text, where `text` had to be mended
   std::string text;   // what the nodes count bytes of: as long as the given one
-  JsonRules rules;
-  std::unique_ptr<JsonNode[]> nodes;  // the children of each container side by side
+  Rules rules;
+  std::unique_ptr<Node[]> nodes;  // the children of each container side by side
   std::size_t size = 0;
-  JsonNode root;
+  Node root;
   std::vector<Decoded> decoded;  // in order of the text
   std::string letters;           // theirs
 
-  [[nodiscard]] std::string_view between_quotes(JsonNode::Range range, bool escaped) const;
-  [[nodiscard]] std::string_view name(const JsonNode& node) const;
-  [[nodiscard]] std::size_t value_offset(const JsonNode& node) const;
+  [[nodiscard]] std::string_view between_quotes(Node::Range range, bool escaped) const;
+  [[nodiscard]] std::string_view name(const Node& node) const;
+  [[nodiscard]] std::size_t value_offset(const Node& node) const;
 };
 
-}  // namespace tweenfall::json_tree
+}  // namespace tweenfall::json

@@ -2,9 +2,9 @@
 
 #include <tweenfall/importers/shown_text.h>
 
-namespace tweenfall {
+namespace tweenfall::json {
 
-void append_json_string(std::string& out, std::string_view text) {
+void append_string(std::string& out, std::string_view text) {
   static constexpr char hex[] = "0123456789abcdef";
   out += '"';
   while (!text.empty()) {
@@ -23,4 +23,4 @@ void append_json_string(std::string& out, std::string_view text) {
   out += '"';
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::json

@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-namespace tweenfall {
+namespace tweenfall::json {
 
 /// A JSON string with its quotes; U+FFFD in place of bytes that are not UTF-8. `<` is escaped too, so that the text may
 /// stand inside an HTML script element.
-void append_json_string(std::string& out, std::string_view text);
+void append_string(std::string& out, std::string_view text);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::json

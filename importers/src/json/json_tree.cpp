@@ -8,159 +8,150 @@
 #include <algorithm>
 #include <utility>
 
-namespace tweenfall {
+namespace tweenfall::json {
 
-namespace json_tree {
-
-std::string_view Content::between_quotes(JsonNode::Range range, bool escaped) const {
+std::string_view Content::between_quotes(Node::Range range, bool escaped) const {
   if (!escaped) return std::string_view(text).substr(range.first, range.size);
   const auto found = std::lower_bound(decoded.begin(), decoded.end(), range.first,
                                       [](const Decoded& each, std::uint32_t offset) { return each.offset < offset; });
   return std::string_view(letters).substr(found->first, found->size);
 }
 
-std::string_view Content::name(const JsonNode& node) const {
+std::string_view Content::name(const Node& node) const {
   return between_quotes({node.offset + 1, node.name_length}, node.name_escaped);
 }
 
-std::size_t Content::value_offset(const JsonNode& node) const {
+std::size_t Content::value_offset(const Node& node) const {
   if (!node.named) return node.offset;
   const std::size_t colon = skip_space(text, node.offset + node.name_length + 2, rules.comments);
   return skip_space(text, colon + 1, rules.comments);
 }
 
-}  // namespace json_tree
-
-JsonValue::Kind JsonValue::kind() const {
+Value::Kind Value::kind() const {
   return !node_ ? Kind::null : node_->faulty ? Kind::faulty : static_cast<Kind>(node_->kind);
 }
 
-bool JsonValue::boolean() const {
+bool Value::boolean() const {
   return is(Kind::boolean) && node_->boolean;
 }
 
-double JsonValue::number() const {
+double Value::number() const {
   return is(Kind::number) ? node_->number : 0;
 }
 
-std::string_view JsonValue::text() const {
+std::string_view Value::text() const {
   if (!node_ || static_cast<Kind>(node_->kind) != Kind::text) return {};
   return content_->between_quotes(node_->text, node_->escaped);
 }
 
-JsonItems JsonValue::items() const {
-  return JsonItems(*this);
+Items Value::items() const {
+  return Items(*this);
 }
 
-JsonMembers JsonValue::members() const {
-  return JsonMembers(*this);
+Members Value::members() const {
+  return Members(*this);
 }
 
-JsonValue JsonValue::find(std::string_view name) const {
-  for (const JsonMember& member : members())
+Value Value::find(std::string_view name) const {
+  for (const Member& member : members())
     if (member.name == name) return member.value;
   return {};
 }
 
-std::size_t JsonValue::offset() const {
+std::size_t Value::offset() const {
   return node_ ? content_->value_offset(*node_) : 0;
 }
 
-std::size_t JsonValue::length() const {
+std::size_t Value::length() const {
   if (!node_) return 0;
   const std::size_t from = offset();
-  return json_tree::value_end(content_->text, from, content_->rules.comments) - from;
+  return value_end(content_->text, from, content_->rules.comments) - from;
 }
 
-std::size_t JsonMember::name_offset() const {
+std::size_t Member::name_offset() const {
   return value.node_->offset;
 }
 
-std::size_t JsonMember::name_length() const {
+std::size_t Member::name_length() const {
   return value.node_->name_length + 2;
 }
 
-namespace json_tree {
 namespace {
 
 // What a node's faults do not change: its parts are there all the same.
-bool is_stored_as(const json_tree::JsonNode* node, JsonValue::Kind kind) {
-  return node && static_cast<JsonValue::Kind>(node->kind) == kind;
+bool is_stored_as(const Node* node, Value::Kind kind) {
+  return node && static_cast<Value::Kind>(node->kind) == kind;
 }
 
 }  // namespace
-}  // namespace json_tree
-
-JsonItems::JsonItems(const JsonValue& list) {
-  if (!json_tree::is_stored_as(list.node_, JsonValue::Kind::list)) return;
+Items::Items(const Value& list) {
+  if (!is_stored_as(list.node_, Value::Kind::list)) return;
   first_ = {list.content_, list.content_->nodes.get() + list.node_->children.first};
   size_ = list.node_->children.size;
 }
 
-JsonItems JsonItems::only(const JsonValue& value) {
-  JsonItems items;
+Items Items::only(const Value& value) {
+  Items items;
   items.first_ = value;
   items.size_ = value ? 1 : 0;
   return items;
 }
 
-JsonValue JsonItems::operator[](std::size_t i) const {
+Value Items::operator[](std::size_t i) const {
   return {first_.content_, first_.node_ + i};
 }
 
-JsonMembers::JsonMembers(const JsonValue& object) {
-  if (!json_tree::is_stored_as(object.node_, JsonValue::Kind::object)) return;
+Members::Members(const Value& object) {
+  if (!is_stored_as(object.node_, Value::Kind::object)) return;
   first_ = {object.content_, object.content_->nodes.get() + object.node_->children.first};
   size_ = object.node_->children.size;
 }
 
-JsonMember JsonMembers::operator[](std::size_t i) const {
-  const JsonValue value{first_.content_, first_.node_ + i};
+Member Members::operator[](std::size_t i) const {
+  const Value value{first_.content_, first_.node_ + i};
   return {value.content_->name(*value.node_), value};
 }
 
-JsonTree::JsonTree() : content_(std::make_unique<json_tree::Content>()) {
+Tree::Tree() : content_(std::make_unique<Content>()) {
   content_->root = {};
   content_->root.faulty = 1;
 }
 
-JsonTree::~JsonTree() = default;
-JsonTree::JsonTree(JsonTree&&) noexcept = default;
-JsonTree& JsonTree::operator=(JsonTree&&) noexcept = default;
+Tree::~Tree() = default;
+Tree::Tree(Tree&&) noexcept = default;
+Tree& Tree::operator=(Tree&&) noexcept = default;
 
-JsonValue JsonTree::root() const {
+Value Tree::root() const {
   return {content_.get(), &content_->root};
 }
 
-std::string_view JsonTree::text() const {
+std::string_view Tree::text() const {
   return content_->given.empty() ? content_->text : content_->given;
 }
 
-void JsonTree::mark_faulty(const JsonValue& value) {
-  json_tree::JsonNode& node = value.node_ == &content_->root
-                                  ? content_->root
-                                  : content_->nodes[static_cast<std::size_t>(value.node_ - content_->nodes.get())];
+void Tree::mark_faulty(const Value& value) {
+  Node& node = value.node_ == &content_->root
+                   ? content_->root
+                   : content_->nodes[static_cast<std::size_t>(value.node_ - content_->nodes.get())];
   node.faulty = 1;
 }
 
-std::string JsonTree::pointer_to(std::size_t offset) const {
+std::string Tree::pointer_to(std::size_t offset) const {
   std::string pointer;
-  JsonValue at = root();
-  if (at.is(JsonValue::Kind::faulty) && content_->size == 0) return {};
+  Value at = root();
+  if (at.is(Value::Kind::faulty) && content_->size == 0) return {};
   while (true) {
     const std::size_t from = at.offset();
     if (offset == from || at.node_->offset == offset) return pointer;
-    if (json_tree::is_stored_as(at.node_, JsonValue::Kind::text))
+    if (is_stored_as(at.node_, Value::Kind::text))
       return offset > from && offset < from + at.length() ? pointer : std::string();
-    if (!json_tree::is_stored_as(at.node_, JsonValue::Kind::list) &&
-        !json_tree::is_stored_as(at.node_, JsonValue::Kind::object))
-      return {};
-    const json_tree::JsonNode* const first = content_->nodes.get() + at.node_->children.first;
-    const json_tree::JsonNode* const last = first + at.node_->children.size;
-    const json_tree::JsonNode* const after = std::upper_bound(
-        first, last, offset, [](std::size_t place, const json_tree::JsonNode& node) { return place < node.offset; });
+    if (!is_stored_as(at.node_, Value::Kind::list) && !is_stored_as(at.node_, Value::Kind::object)) return {};
+    const Node* const first = content_->nodes.get() + at.node_->children.first;
+    const Node* const last = first + at.node_->children.size;
+    const Node* const after =
+        std::upper_bound(first, last, offset, [](std::size_t place, const Node& node) { return place < node.offset; });
     if (after == first) return {};
-    const json_tree::JsonNode* const inside = after - 1;
+    const Node* const inside = after - 1;
     pointer += '/';
     if (inside->named) {
       for (const char c : content_->name(*inside)) {
@@ -198,11 +189,10 @@ std::string in_quotes(std::string_view text) {
   return out + '"';
 }
 
-namespace json_tree {
 namespace {
 
-void append_on_one_line(std::string& out, const JsonValue& value) {
-  using Kind = JsonValue::Kind;
+void append_on_one_line(std::string& out, const Value& value) {
+  using Kind = Value::Kind;
   const char* gap = "";
   switch (value.kind()) {
     case Kind::null:
@@ -220,7 +210,7 @@ void append_on_one_line(std::string& out, const JsonValue& value) {
       return;
     case Kind::list:
       out += '[';
-      for (const JsonValue& item : value.items()) {
+      for (const Value& item : value.items()) {
         out += std::exchange(gap, ", ");
         append_on_one_line(out, item);
       }
@@ -228,7 +218,7 @@ void append_on_one_line(std::string& out, const JsonValue& value) {
       return;
     case Kind::object:
       out += '{';
-      for (const JsonMember& member : value.members()) {
+      for (const Member& member : value.members()) {
         out += std::exchange(gap, ", ");
         out += in_quotes(member.name) + ": ";
         append_on_one_line(out, member.value);
@@ -239,12 +229,10 @@ void append_on_one_line(std::string& out, const JsonValue& value) {
 }
 
 }  // namespace
-}  // namespace json_tree
-
-std::string on_one_line(const JsonValue& value) {
+std::string on_one_line(const Value& value) {
   std::string out;
-  json_tree::append_on_one_line(out, value);
+  append_on_one_line(out, value);
   return out;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::json

@@ -12,27 +12,23 @@
 #include <string_view>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::json {
 
-class JsonItems;
-class JsonMembers;
+class Items;
+class Members;
 
-namespace json_tree {
-
-struct JsonNode;
+struct Node;
 struct Content;
 
-}  // namespace json_tree
-
 // One value of a tree, or none. It is small and copied freely, and lives no longer than its tree.
-class JsonValue {
+class Value {
  public:
   // `faulty` is a value that was reported already; whoever meets it goes on as if it were not there.
   enum class Kind { null, boolean, number, text, list, object, faulty };
 
-  JsonValue() = default;
-  explicit operator bool() const { return node_ != nullptr; }                     // whether there is a value
-  bool operator==(const JsonValue& other) const { return node_ == other.node_; }  // the same place of the same tree
+  Value() = default;
+  explicit operator bool() const { return node_ != nullptr; }                 // whether there is a value
+  bool operator==(const Value& other) const { return node_ == other.node_; }  // the same place of the same tree
 
   [[nodiscard]] Kind kind() const;
   [[nodiscard]] bool is(Kind kind) const { return node_ && this->kind() == kind; }
@@ -41,27 +37,27 @@ class JsonValue {
   [[nodiscard]] bool boolean() const;
   [[nodiscard]] double number() const;
   [[nodiscard]] std::string_view text() const;
-  [[nodiscard]] JsonItems items() const;
-  [[nodiscard]] JsonMembers members() const;                  // in the order of the text
-  [[nodiscard]] JsonValue find(std::string_view name) const;  // none when absent or not an object
+  [[nodiscard]] Items items() const;
+  [[nodiscard]] Members members() const;                  // in the order of the text
+  [[nodiscard]] Value find(std::string_view name) const;  // none when absent or not an object
 
   [[nodiscard]] std::size_t offset() const;  // of the value's first byte
   [[nodiscard]] std::size_t length() const;  // bytes; found by reading on to the value's end
 
  private:
-  friend class JsonTree;
-  friend class JsonItems;
-  friend class JsonMembers;
-  friend struct JsonMember;
-  JsonValue(const json_tree::Content* content, const json_tree::JsonNode* node) : content_(content), node_(node) {}
+  friend class Tree;
+  friend class Items;
+  friend class Members;
+  friend struct Member;
+  Value(const Content* content, const Node* node) : content_(content), node_(node) {}
 
-  const json_tree::Content* content_ = nullptr;
-  const json_tree::JsonNode* node_ = nullptr;
+  const Content* content_ = nullptr;
+  const Node* node_ = nullptr;
 };
 
-struct JsonMember {
+struct Member {
   std::string_view name;
-  JsonValue value;
+  Value value;
 
   [[nodiscard]] std::size_t name_offset() const;
   [[nodiscard]] std::size_t name_length() const;  // with its quotes
@@ -69,7 +65,7 @@ struct JsonMember {
 
 // The parts of a container; `Part` is what one of them is handed out as.
 template <class Range, class Part>
-class JsonIterator {
+class PartIterator {
  public:
   using iterator_category = std::input_iterator_tag;
   using value_type = Part;
@@ -77,62 +73,62 @@ class JsonIterator {
   using pointer = const Part*;
   using reference = Part;
 
-  JsonIterator(const Range& range, std::size_t at) : range_(range), at_(at) {}
+  PartIterator(const Range& range, std::size_t at) : range_(range), at_(at) {}
   Part operator*() const { return range_[at_]; }
-  JsonIterator& operator++() {
+  PartIterator& operator++() {
     ++at_;
     return *this;
   }
-  bool operator==(const JsonIterator& other) const { return at_ == other.at_; }
+  bool operator==(const PartIterator& other) const { return at_ == other.at_; }
 
  private:
   Range range_;
   std::size_t at_;
 };
 
-class JsonItems {
+class Items {
  public:
-  using Iterator = JsonIterator<JsonItems, JsonValue>;
+  using Iterator = PartIterator<Items, Value>;
 
-  JsonItems() = default;
-  explicit JsonItems(const JsonValue& list);
+  Items() = default;
+  explicit Items(const Value& list);
   // A list of one value that stands anywhere.
-  static JsonItems only(const JsonValue& value);
+  static Items only(const Value& value);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
-  [[nodiscard]] JsonValue operator[](std::size_t i) const;
-  [[nodiscard]] JsonValue front() const { return (*this)[0]; }
-  [[nodiscard]] JsonValue back() const { return (*this)[size_ - 1]; }
+  [[nodiscard]] Value operator[](std::size_t i) const;
+  [[nodiscard]] Value front() const { return (*this)[0]; }
+  [[nodiscard]] Value back() const { return (*this)[size_ - 1]; }
   [[nodiscard]] Iterator begin() const { return {*this, 0}; }
   [[nodiscard]] Iterator end() const { return {*this, size_}; }
 
  private:
-  JsonValue first_{};
+  Value first_{};
   std::size_t size_ = 0;
 };
 
-class JsonMembers {
+class Members {
  public:
-  using Iterator = JsonIterator<JsonMembers, JsonMember>;
+  using Iterator = PartIterator<Members, Member>;
 
-  JsonMembers() = default;
-  explicit JsonMembers(const JsonValue& object);
+  Members() = default;
+  explicit Members(const Value& object);
 
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] bool empty() const { return size_ == 0; }
-  [[nodiscard]] JsonMember operator[](std::size_t i) const;
-  [[nodiscard]] JsonMember front() const { return (*this)[0]; }
+  [[nodiscard]] Member operator[](std::size_t i) const;
+  [[nodiscard]] Member front() const { return (*this)[0]; }
   [[nodiscard]] Iterator begin() const { return {*this, 0}; }
   [[nodiscard]] Iterator end() const { return {*this, size_}; }
 
  private:
-  JsonValue first_{};
+  Value first_{};
   std::size_t size_ = 0;
 };
 
 // Something wrong at a place of the text.
-struct JsonFault {
+struct Fault {
   std::size_t offset = 0, length = 1;
   std::string message;
 };
@@ -141,7 +137,7 @@ inline constexpr std::size_t deepest_nesting = 200;
 inline constexpr std::size_t largest_json_text = std::size_t{1} << 31;  // bytes
 
 // What a text may hold beyond plain JSON, and how much.
-struct JsonRules {
+struct Rules {
   bool comments = true;  // accepted and dropped
   // Of a name given twice in one object the last value counts; else it is a fault and the first does.
   bool names_twice = false;
@@ -149,32 +145,32 @@ struct JsonRules {
 };
 
 // A whole text and the values in it.
-class JsonTree {
+class Tree {
  public:
-  JsonTree();  // of no text, with a faulty root
-  ~JsonTree();
-  JsonTree(JsonTree&&) noexcept;
-  JsonTree& operator=(JsonTree&&) noexcept;
+  Tree();  // of no text, with a faulty root
+  ~Tree();
+  Tree(Tree&&) noexcept;
+  Tree& operator=(Tree&&) noexcept;
 
   // Reads on past what can be read past, so that one fault does not hide the others; the root is faulty where it
   // cannot. Commas too many, texts in single quotes, numbers that are none and members given twice can be.
-  [[nodiscard]] static JsonTree parse(std::string text, std::vector<JsonFault>& faults, const JsonRules& rules = {});
+  [[nodiscard]] static Tree parse(std::string text, std::vector<Fault>& faults, const Rules& rules = {});
 
-  [[nodiscard]] JsonValue root() const;
+  [[nodiscard]] Value root() const;
   [[nodiscard]] std::string_view text() const;  // as it was given
 
   // Makes a value of this tree one that was reported.
-  void mark_faulty(const JsonValue& value);
+  void mark_faulty(const Value& value);
 
   // JSON pointer of the value, name or text in which a byte stands; empty where it stands between them.
   [[nodiscard]] std::string pointer_to(std::size_t offset) const;
 
  private:
-  std::unique_ptr<json_tree::Content> content_;
+  std::unique_ptr<Content> content_;
 };
 
 // Writing on one line
 [[nodiscard]] std::string in_quotes(std::string_view text);
-[[nodiscard]] std::string on_one_line(const JsonValue& value);
+[[nodiscard]] std::string on_one_line(const Value& value);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::json

@@ -8,13 +8,11 @@
 #include <functional>
 #include <utility>
 
-namespace tweenfall {
-
-namespace json_tree {
+namespace tweenfall::json {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = Value::Kind;
 
 // Walks over a text and tells how far it is; the parser keeps copies of it.
 class CountingIterator {
@@ -42,9 +40,9 @@ class CountingIterator {
 // Removes the members whose names stand twice from a row of them; returns how many are left.
 class NamesOnce {
  public:
-  NamesOnce(const Content& content, std::vector<JsonFault>& faults) : content_(content), faults_(faults) {}
+  NamesOnce(const Content& content, std::vector<Fault>& faults) : content_(content), faults_(faults) {}
 
-  std::size_t left_of(JsonNode* first, std::size_t count) {
+  std::size_t left_of(Node* first, std::size_t count) {
     constexpr std::size_t most_looked_through = 16;
     kept_ = first;
     size_ = 0;
@@ -54,7 +52,7 @@ class NamesOnce {
       table_.assign(places, {0, 0});
     }
     for (std::size_t i = 0; i < count; ++i) {
-      JsonNode* const same = count > most_looked_through ? known(first[i]) : looked_through(first[i]);
+      Node* const same = count > most_looked_through ? known(first[i]) : looked_through(first[i]);
       if (!same) {
         first[size_++] = first[i];
       } else if (content_.rules.names_twice) {
@@ -68,14 +66,14 @@ class NamesOnce {
   }
 
  private:
-  [[nodiscard]] JsonNode* looked_through(const JsonNode& node) const {
+  [[nodiscard]] Node* looked_through(const Node& node) const {
     const std::string_view name = content_.name(node);
     for (std::size_t i = 0; i < size_; ++i)
       if (content_.name(kept_[i]) == name) return kept_ + i;
     return nullptr;
   }
 
-  [[nodiscard]] JsonNode* known(const JsonNode& node) {
+  [[nodiscard]] Node* known(const Node& node) {
     const std::string_view name = content_.name(node);
     const std::size_t hash = std::hash<std::string_view>{}(name);
     const auto tag = static_cast<std::uint32_t>(hash >> 32);
@@ -95,8 +93,8 @@ class NamesOnce {
   };
 
   const Content& content_;
-  std::vector<JsonFault>& faults_;
-  JsonNode* kept_ = nullptr;
+  std::vector<Fault>& faults_;
+  Node* kept_ = nullptr;
   std::size_t size_ = 0;
   std::vector<Place> table_;
 };
@@ -111,7 +109,7 @@ class Builder {
   using string_t = nlohmann::json::string_t;
   using binary_t = nlohmann::json::binary_t;
 
-  Builder(Content& content, Survey& survey, std::vector<JsonFault>& faults)
+  Builder(Content& content, Survey& survey, std::vector<Fault>& faults)
       : content_(content),
         text_(content.text),
         faulty_(survey.faulty_values),
@@ -119,7 +117,7 @@ class Builder {
         names_(content, faults),
         capacity_(survey.most_values),
         top_(survey.most_values) {
-    content.nodes = std::make_unique_for_overwrite<JsonNode[]>(capacity_);
+    content.nodes = std::make_unique_for_overwrite<Node[]>(capacity_);
     if (text_.starts_with("\xef\xbb\xbf")) last_end_ = 3;
   }
 
@@ -140,10 +138,10 @@ class Builder {
   }
 
   bool null() {
-    return add(Kind::null, [](JsonNode&) {});
+    return add(Kind::null, [](Node&) {});
   }
   bool boolean(bool value) {
-    return add(Kind::boolean, [&](JsonNode& node) { node.boolean = value; });
+    return add(Kind::boolean, [&](Node& node) { node.boolean = value; });
   }
   bool number_integer(number_integer_t value) {
     // The parser's whole numbers have no sign of 0.
@@ -154,7 +152,7 @@ class Builder {
   bool binary(binary_t&) { return false; }
 
   bool string(string_t& value) {
-    return add(Kind::text, [&](JsonNode& node) {
+    return add(Kind::text, [&](Node& node) {
       const std::size_t from = last_start_ + 1, size = last_end_ - from - 1;
       node.text = {static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(size)};
       node.escaped = keep_decoded(from, size, value);
@@ -184,7 +182,7 @@ class Builder {
  private:
   struct Open {
     std::size_t bottom;  // where the children's stack ended when it was opened
-    JsonNode node;
+    Node node;
   };
 
   [[nodiscard]] std::size_t reached() const { return static_cast<std::size_t>(reached_ - text_.data()); }
@@ -204,9 +202,9 @@ class Builder {
     return true;
   }
 
-  [[nodiscard]] JsonNode begun(Kind kind) {
+  [[nodiscard]] Node begun(Kind kind) {
     last_start_ = start();
-    JsonNode node{};
+    Node node{};
     node.offset = static_cast<std::uint32_t>(named_ ? name_offset_ : last_start_);
     node.kind = static_cast<unsigned>(kind) & 7u;
     node.named = named_;
@@ -225,7 +223,7 @@ class Builder {
   }
 
   bool number(double value) {
-    return add(Kind::number, [&](JsonNode& node) {
+    return add(Kind::number, [&](Node& node) {
       last_end_ = number_end();
       node.number = value == 0 && text_[last_start_] != '-' ? 0.0 : value;
       if (next_faulty_ < faulty_.size() && faulty_[next_faulty_] == last_start_) {
@@ -237,20 +235,20 @@ class Builder {
 
   template <class Fill>
   bool add(Kind kind, const Fill& fill) {
-    JsonNode node = begun(kind);
+    Node node = begun(kind);
     last_end_ = reached();
     fill(node);
     return push(node);
   }
 
-  bool push(const JsonNode& node) {
+  bool push(const Node& node) {
     if (top_ <= content_.size) return stop(node.offset, "this text cannot be read");
     content_.nodes[--top_] = node;
     return true;
   }
 
   bool open(bool object) {
-    JsonNode node = begun(object ? Kind::object : Kind::list);
+    Node node = begun(object ? Kind::object : Kind::list);
     last_end_ = reached();
     if (open_.size() >= deepest_nesting)
       return stop(last_start_, "nested more than " + std::to_string(deepest_nesting) + " deep; no document needs that");
@@ -262,8 +260,8 @@ class Builder {
     last_end_ = reached();
     const auto [bottom, opened] = open_.back();
     open_.pop_back();
-    JsonNode node = opened;
-    JsonNode* const first = content_.nodes.get() + top_;
+    Node node = opened;
+    Node* const first = content_.nodes.get() + top_;
     std::size_t count = bottom - top_;
     std::reverse(first, first + count);
     if (static_cast<Kind>(node.kind) == Kind::object) count = names_.left_of(first, count);
@@ -304,7 +302,7 @@ class Builder {
   Content& content_;
   std::string_view text_;
   const std::vector<std::size_t>& faulty_;
-  std::vector<JsonFault>& faults_;
+  std::vector<Fault>& faults_;
   NamesOnce names_;
   std::size_t capacity_, top_;
   std::vector<Open> open_;
@@ -316,11 +314,9 @@ class Builder {
 
 }  // namespace
 
-}  // namespace json_tree
-
-JsonTree JsonTree::parse(std::string text, std::vector<JsonFault>& faults, const JsonRules& rules) {
-  JsonTree tree;
-  json_tree::Content& content = *tree.content_;
+Tree Tree::parse(std::string text, std::vector<Fault>& faults, const Rules& rules) {
+  Tree tree;
+  Content& content = *tree.content_;
   content.rules = rules;
   content.text = std::move(text);
   const std::size_t largest = std::min(rules.largest, largest_json_text);
@@ -328,10 +324,10 @@ JsonTree JsonTree::parse(std::string text, std::vector<JsonFault>& faults, const
     faults.push_back({0, 1, "the text is larger than " + std::to_string(largest >> 20) + " MiB"});
     return tree;
   }
-  json_tree::Survey survey = json_tree::survey(content.text, rules.comments);
+  Survey survey = json::survey(content.text, rules.comments);
   faults.insert(faults.end(), survey.faults.begin(), survey.faults.end());
   if (!survey.mended.empty()) content.given = std::exchange(content.text, std::move(survey.mended));
-  if (!json_tree::Builder(content, survey, faults).whole()) {
+  if (!Builder(content, survey, faults).whole()) {
     content.nodes.reset();
     content.size = 0;
     content.root = {};
@@ -340,4 +336,4 @@ JsonTree JsonTree::parse(std::string text, std::vector<JsonFault>& faults, const
   return tree;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::json

@@ -4,7 +4,7 @@
 #include <array>
 #include <charconv>
 
-namespace tweenfall::json_tree {
+namespace tweenfall::json {
 
 namespace {
 
@@ -232,4 +232,4 @@ Survey survey(std::string_view text, bool comments) {
   return Surveyor(text, comments).whole();
 }
 
-}  // namespace tweenfall::json_tree
+}  // namespace tweenfall::json

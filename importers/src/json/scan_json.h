@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace tweenfall::json_tree {
+namespace tweenfall::json {
 
 // The first byte from `at` on that is neither space nor comment. A comment without end is not passed over.
 [[nodiscard]] std::size_t skip_space(std::string_view text, std::size_t at, bool comments);
@@ -21,11 +21,11 @@ namespace tweenfall::json_tree {
 struct Survey {
   std::size_t most_values = 1;  // as many as there can be
   std::string mended{};         // the text, as long as it was, where something had to be mended; else empty
-  std::vector<JsonFault> faults{};
+  std::vector<Fault> faults{};
   std::vector<std::size_t> faulty_values{};  // their places, in order
 };
 
 // Mends commas before closing brackets, texts in single quotes, and numbers that are none or too large.
 [[nodiscard]] Survey survey(std::string_view text, bool comments);
 
-}  // namespace tweenfall::json_tree
+}  // namespace tweenfall::json

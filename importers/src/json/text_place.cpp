@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tweenfall {
+namespace tweenfall::json {
 
 std::size_t characters_in(std::string_view utf8) {
   return static_cast<std::size_t>(
@@ -18,4 +18,4 @@ TextPlace place_in(std::string_view text, std::size_t offset) {
           1 + characters_in(before.substr(line_start))};
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::json

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace tweenfall {
+namespace tweenfall::json {
 
 struct TextPlace {
   std::size_t line = 1, column = 1;  // in characters
@@ -16,4 +16,4 @@ struct TextPlace {
 // How many characters bytes of UTF-8 are.
 [[nodiscard]] std::size_t characters_in(std::string_view utf8);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::json

@@ -23,7 +23,7 @@ void ModelProblems::add(const std::string& place, const std::string& what) {
   keep({place, what, std::nullopt});
 }
 
-void ModelProblems::add(const TextPlace& place, const std::string& what) {
+void ModelProblems::add(const json::TextPlace& place, const std::string& what) {
   keep({"", what, place});
 }
 
@@ -49,7 +49,7 @@ void ModelProblems::throw_if_any(const std::filesystem::path& file, const Where&
   if (!any()) return;
   std::string text;
   for (const Fault& fault : faults_) {
-    const std::optional<TextPlace> at = fault.at || !where ? fault.at : where(fault.place);
+    const std::optional<json::TextPlace> at = fault.at || !where ? fault.at : where(fault.place);
     text += (text.empty() ? "" : "\n") + file.string();
     if (at) text += ":" + std::to_string(at->line) + ":" + std::to_string(at->column);
     text += ": error: " + line(fault.place, fault.what);

@@ -21,7 +21,7 @@ class ModelProblems {
  public:
   /// A fault for which the file cannot be loaded. @param place  where in the file, or empty
   void add(const std::string& place, const std::string& what);
-  void add(const TextPlace& place, const std::string& what);
+  void add(const json::TextPlace& place, const std::string& what);
 
   /// A fault that was mended, in a sentence that says how.
   void repair(const std::string& place, const std::string& what);
@@ -30,7 +30,7 @@ class ModelProblems {
   [[nodiscard]] std::vector<std::string> repairs() const;
 
   /// The line and column of a place, where they are known.
-  using Where = std::function<std::optional<TextPlace>(const std::string& place)>;
+  using Where = std::function<std::optional<json::TextPlace>(const std::string& place)>;
 
   /// @throws ModelError listing the faults, when there are any.
   void throw_if_any(const std::filesystem::path& file, const Where& where = {}) const;
@@ -38,7 +38,7 @@ class ModelProblems {
  private:
   struct Fault {
     std::string place, what;
-    std::optional<TextPlace> at;
+    std::optional<json::TextPlace> at;
   };
 
   void keep(Fault fault);

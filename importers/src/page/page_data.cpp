@@ -153,7 +153,7 @@ std::string color_json(const Color& color) {
 std::string node_json(const NodeRecord& node, const NodeDescription* description,
                       const std::vector<std::size_t>& frames) {
   std::string out = "{\"name\":";
-  append_json_string(out, node.name);
+  json::append_string(out, node.name);
   out += ",\"parent\":" + (node.parent == no_node ? std::string("-1") : std::to_string(node.parent));
   out += ",\"owner\":" + owner_runs(node.owner, frames);
   append_motion(out, node, frames);
@@ -186,15 +186,15 @@ std::string node_json(const NodeRecord& node, const NodeDescription* description
 
 std::string lane_json(const recordings::KeyLane& lane, std::size_t node) {
   std::string out = "{\"node\":" + std::to_string(node) + ",\"property\":";
-  append_json_string(out, lane.property);
+  json::append_string(out, lane.property);
   append_quoted(out, "times", recordings::base64(std::span<const double>(lane.times)));
   append_quoted(out, "keyOf", recordings::base64(std::span<const std::uint32_t>(lane.key_of)));
   out += ",\"keys\":[";
   for (std::size_t i = 0; i < lane.keys.size(); ++i) {
     out += i > 0 ? ",{\"value\":" : "{\"value\":";
-    append_json_string(out, lane.keys[i].value);
+    json::append_string(out, lane.keys[i].value);
     out += ",\"ease\":";
-    append_json_string(out, lane.keys[i].ease);
+    json::append_string(out, lane.keys[i].ease);
     out += '}';
   }
   return out + "]}";
@@ -222,7 +222,7 @@ std::string handoff_json(const HandOff& handoff) {
 
 std::string event_json(const StageEvent& event) {
   std::string out = "{\"time\":" + number_text(event.time) + ",\"name\":";
-  append_json_string(out, event.name);
+  json::append_string(out, event.name);
   out += ",\"nodes\":[";
   for (std::size_t i = 0; i < event.nodes.size(); ++i) out += (i > 0 ? "," : "") + std::to_string(event.nodes[i]);
   return out + "],\"impulse\":" + short_text(event.impulse, 6) + "}";
@@ -251,7 +251,7 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
   for (const NodeDescription& node : stage.nodes) description_of.emplace(node.name, &node);
 
   std::string out = "{\"name\":";
-  append_json_string(out, recording.name.empty() ? stage.name : recording.name);
+  json::append_string(out, recording.name.empty() ? stage.name : recording.name);
   const std::vector<std::size_t> frames = page_frames(recording);
   std::vector<double> times;
   times.reserve(frames.size());

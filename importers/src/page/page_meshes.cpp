@@ -26,7 +26,7 @@ std::string vectors_text(const std::vector<Vec3>& vectors) {
 
 void append_mesh(std::string& out, const Mesh& mesh) {
   out += "{\"name\":";
-  append_json_string(out, mesh.name);
+  json::append_string(out, mesh.name);
   append_array(out, "positions", vectors_text(mesh.positions));
   if (!mesh.normals.empty()) append_array(out, "normals", vectors_text(mesh.normals));
   append_array(out, "triangles", recordings::base64(std::span<const std::uint32_t>(mesh.triangles)));
@@ -48,7 +48,7 @@ void append_mesh(std::string& out, const Mesh& mesh) {
   out += ",\"morphs\":[";
   for (std::size_t i = 0; i < mesh.morphs.size(); ++i) {
     out += i > 0 ? ",{\"name\":" : "{\"name\":";
-    append_json_string(out, mesh.morphs[i].name);
+    json::append_string(out, mesh.morphs[i].name);
     append_array(out, "positions", vectors_text(mesh.morphs[i].position_offsets));
     if (!mesh.morphs[i].normal_offsets.empty())
       append_array(out, "normals", vectors_text(mesh.morphs[i].normal_offsets));

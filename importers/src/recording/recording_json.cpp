@@ -29,7 +29,7 @@ void append_word(std::string& out, const char* word) {
 
 void append_node(std::string& out, const NodeRecord& node) {
   const std::size_t frames = node.world.size();
-  append_json_string(out, node.name);
+  json::append_string(out, node.name);
   out += ": {\n   \"position\": ";
   append_list(out, frames, [&](std::size_t i) { append_vector(out, node.world[i].motion.pose.position); });
   out += ",\n   \"rotation\": ";
@@ -55,7 +55,7 @@ void append_handoff(std::string& out, const Recording& recording, const HandOff&
   out += "{\"time\": ";
   append_number(out, handoff.time);
   out += ", \"body\": ";
-  append_json_string(out, recording.nodes[handoff.node].name);
+  json::append_string(out, recording.nodes[handoff.node].name);
   out += ", \"from\": ";
   append_word(out, owner_word(handoff.from));
   out += ", \"to\": ";
@@ -73,12 +73,12 @@ void append_event(std::string& out, const Recording& recording, const StageEvent
   out += "{\"time\": ";
   append_number(out, event.time);
   out += ", \"name\": ";
-  append_json_string(out, event.name);
+  json::append_string(out, event.name);
   if (!event.data.empty()) (out += ", \"data\": ") += event.data;
   if (!event.nodes.empty()) {
     out += ", \"nodes\": ";
     append_list(out, event.nodes.size(),
-                [&](std::size_t i) { append_json_string(out, recording.nodes[event.nodes[i]].name); });
+                [&](std::size_t i) { json::append_string(out, recording.nodes[event.nodes[i]].name); });
     out += ", \"impulse\": ";
     append_number(out, event.impulse);
   }
@@ -87,9 +87,9 @@ void append_event(std::string& out, const Recording& recording, const StageEvent
 
 void append_unfired(std::string& out, const Recording& recording, const UnfiredRule& unfired) {
   out += "{\"rule\": " + std::to_string(unfired.rule) + ", \"body\": ";
-  append_json_string(out, recording.nodes[unfired.node].name);
+  json::append_string(out, recording.nodes[unfired.node].name);
   out += ", \"reason\": ";
-  append_json_string(out, unfired.reason);
+  json::append_string(out, unfired.reason);
   out += "}";
 }
 

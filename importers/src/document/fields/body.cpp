@@ -22,10 +22,11 @@ const Table<Body>& body_table() {
   constexpr auto offset = [](Body& body) -> Pose& { return body.shape.offset; };
   constexpr auto velocity = [](Body& body) -> Vec3& { return body.twist.linear; };
   constexpr auto spin = [](Body& body) -> Vec3& { return body.twist.angular; };
-  const Meaning<Body> shape = {
-      [](const JsonValue& value, Body& body, Building& building) { body.shape.solid = shapes::read(value, building); }};
+  const Meaning<Body> shape = {[](const json::Value& value, Body& body, Building& building) {
+    body.shape.solid = shapes::read(value, building);
+  }};
   const Meaning<Body> drive = {
-      [](const JsonValue& value, Body& body, Building& building) { body.drive = read_owner(value, building); }};
+      [](const json::Value& value, Body& body, Building& building) { body.drive = read_owner(value, building); }};
   static const Table<Body> table(
       "a body",
       {{"shape", shapes::form, "", shape, true},
@@ -68,14 +69,14 @@ const Form* body_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(form));
 }
 
-JsonValue place_of_spin(const JsonValue& body) {
+json::Value place_of_spin(const json::Value& body) {
   return below(body, {"angular_velocity"});
 }
 
-BodyDescription read_body(const JsonValue& value, Building& building) {
+BodyDescription read_body(const json::Value& value, Building& building) {
   Body body;
   body_table().read(value, body, building);
-  const JsonValue shape = usable(value, "shape");
+  const json::Value shape = usable(value, "shape");
   if (shape && std::holds_alternative<Plane>(body.shape.solid) && !body.fixed)
     building.problems.add(shape, "a plane has no mass, so it cannot move; say \"static\": true");
   return body;

@@ -26,8 +26,8 @@ const Form* owner_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(form));
 }
 
-Drive read_owner(const JsonValue& owner, Building& building) {
-  if (owner.is(JsonValue::Kind::text)) return owner.text() == "keyed" ? Drive::keyed() : Drive::free();
+Drive read_owner(const json::Value& owner, Building& building) {
+  if (owner.is(json::Value::Kind::text)) return owner.text() == "keyed" ? Drive::keyed() : Drive::free();
   // A drive remains one where its frequency is faulty.
   Drive drive{.hz = 1};
   drive_table().read(owner, drive, building);

@@ -16,13 +16,14 @@ const Table<Drag>& drag_table() {
   return table;
 }
 
-std::size_t body_called(const JsonValue& name, Building& building) {
+std::size_t body_called(const json::Value& name, Building& building) {
   const auto found = building.nodes.find(name.text());
   if (found != building.nodes.end() && building.stage.nodes[found->second].body) return found->second;
   if (building.excused(name.text())) return no_node;
-  building.problems.add(name, (found == building.nodes.end() ? "there is no node " + in_quotes(name.text())
-                                                             : "the node " + in_quotes(name.text()) + " has no body") +
-                                  suggestion_or_import(name.text(), building.body_names()));
+  building.problems.add(name,
+                        (found == building.nodes.end() ? "there is no node " + json::in_quotes(name.text())
+                                                       : "the node " + json::in_quotes(name.text()) + " has no body") +
+                            suggestion_or_import(name.text(), building.body_names()));
   return no_node;
 }
 
@@ -32,8 +33,8 @@ const Table<SpringDescription>& spring_table() {
     return member<Described>([part](Described & described) -> auto& { return described.spring.*part; });
   };
   const Meaning<Described> a = {
-      [](const JsonValue& value, Described& out, Building& building) { out.a = body_called(value, building); }};
-  const Meaning<Described> b = {[](const JsonValue& value, Described& out, Building& building) {
+      [](const json::Value& value, Described& out, Building& building) { out.a = body_called(value, building); }};
+  const Meaning<Described> b = {[](const json::Value& value, Described& out, Building& building) {
     out.b = body_called(value, building);
     if (out.a != no_node && out.a == out.b)
       building.problems.add(value, "a spring cannot pull a body to itself; leave \"b\" out for the world");
@@ -52,7 +53,7 @@ const Table<SpringDescription>& spring_table() {
 // A kind of force, which is added to those that are there.
 template <class Described, class Part>
 Row<Forces> kind_of_force(std::string name, const Table<Part>& table, std::string help) {
-  const auto read = [&table](const JsonValue& value, Forces& forces, Building& building) {
+  const auto read = [&table](const json::Value& value, Forces& forces, Building& building) {
     Part given{};
     table.read(value, given, building);
     forces.emplace_back(Described{given});
@@ -75,11 +76,11 @@ const Form* force_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(form));
 }
 
-JsonValue place_of_stiffness(const JsonValue& force) {
+json::Value place_of_stiffness(const json::Value& force) {
   return below(force, {"spring", "stiffness"});
 }
 
-void read_force(const JsonValue& force, std::vector<ForceDescription>& forces, Building& building) {
+void read_force(const json::Value& force, std::vector<ForceDescription>& forces, Building& building) {
   force_table().read(force, forces, building);
 }
 

@@ -10,7 +10,7 @@ using Node = NodeDescription;
 const Table<Node>& place_table() {
   constexpr auto position = [](Node& node) -> Vec3& { return node.rest.position; };
   constexpr auto rotation = [](Node& node) -> Quat& { return node.rest.rotation; };
-  const Meaning<Node> scale = {[](const JsonValue& value, Node& node, Building&) {
+  const Meaning<Node> scale = {[](const json::Value& value, Node& node, Building&) {
                                  if (const std::optional<Vec3> given = scale_of(value)) node.rest.scale = *given;
                                },
                                "1"};
@@ -23,7 +23,7 @@ const Table<Node>& place_table() {
 
 const Table<Node>& look_table() {
   const Meaning<Node> body = {
-      [](const JsonValue& value, Node& node, Building& building) { node.body = read_body(value, building); }};
+      [](const json::Value& value, Node& node, Building& building) { node.body = read_body(value, building); }};
   static const Table<Node> table("a node", {{"color", &ValueForms::color, "", member<Node>(&Node::color)},
                                             {"group", &ValueForms::name, "name for rules", member<Node>(&Node::group)},
                                             {"body", body_form, "", body}});
@@ -40,7 +40,7 @@ const Form* node_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(node));
 }
 
-void read_place(const JsonValue& value, NodeDescription& node, Building& building) {
+void read_place(const json::Value& value, NodeDescription& node, Building& building) {
   place_table().read(value, node, building);
 }
 
@@ -48,7 +48,7 @@ std::vector<std::string> place_names() {
   return place_table().names();
 }
 
-void read_look(const JsonValue& value, NodeDescription& node, Building& building) {
+void read_look(const json::Value& value, NodeDescription& node, Building& building) {
   look_table().read(value, node, building);
 }
 

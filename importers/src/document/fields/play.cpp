@@ -23,41 +23,41 @@ const Form* mask_form(FormStore& store, const ValueForms& values) {
                              {values.name, store.add(list_of(values.name, "a list of names or patterns"))}));
 }
 
-void read_play_clip(const JsonValue& value, Play& play, Building& building) {
+void read_play_clip(const json::Value& value, Play& play, Building& building) {
   const auto found = building.clips.find(value.text());
   play.clip = found == building.clips.end() ? no_clip : found->second;
   if (play.clip != no_clip || building.excused(value.text())) return;
   // A clip with faults of its own is there all the same.
-  const JsonValue clips = usable(building.root, "clips");
+  const json::Value clips = usable(building.root, "clips");
   if (clips && usable(clips, value.text())) return;
-  building.problems.add(
-      value, "there is no clip " + in_quotes(value.text()) + suggestion_or_import(value.text(), building.clip_names()));
+  building.problems.add(value, "there is no clip " + json::in_quotes(value.text()) +
+                                   suggestion_or_import(value.text(), building.clip_names()));
 }
 
-void read_play_speed(const JsonValue& value, Play& play, Building& building) {
+void read_play_speed(const json::Value& value, Play& play, Building& building) {
   take(value, play.speed, building);
   const std::vector<Clip>& clips = building.stage.clips;
   if (play.speed < 0 && play.clip < clips.size() && std::isinf(clips[play.clip].duration))
     building.problems.add(value, "an endless clip has no end from which to run backwards; give it a \"duration\"");
 }
 
-void read_play_weight(const JsonValue& value, Play& play, Building& building) {
-  if (value.is(JsonValue::Kind::number)) play.weight = Curve<double>(value.number());
-  if (!value.is(JsonValue::Kind::list)) return;
+void read_play_weight(const json::Value& value, Play& play, Building& building) {
+  if (value.is(json::Value::Kind::number)) play.weight = Curve<double>(value.number());
+  if (!value.is(json::Value::Kind::list)) return;
   if (const auto curve = read_weight(value, building.fps, building.problems)) play.weight = *curve;
 }
 
-void read_mask(const JsonValue& value, Play& play, Building& building) {
+void read_mask(const json::Value& value, Play& play, Building& building) {
   play.mask = names_of(value);
   for (const std::string& name : play.mask)
     if (building.nodes_named(name).empty() && !building.excused(name))
-      building.problems.add(value,
-                            "no node is called " + in_quotes(name) + suggestion_or_import(name, building.node_names()));
+      building.problems.add(
+          value, "no node is called " + json::in_quotes(name) + suggestion_or_import(name, building.node_names()));
 }
 
 const Table<Play>& play_table() {
   Meaning<Play> at = member<Play>(&Play::at), speed = member<Play>(&Play::speed);
-  at.read = [](const JsonValue& value, Play& play, Building& building) {
+  at.read = [](const json::Value& value, Play& play, Building& building) {
     const ClipTimes times(building.fps, {}, "stage time has none");
     play.at = times.seconds(value, {}, building.problems).value_or(0);
   };
@@ -78,7 +78,7 @@ const Form* play_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(play));
 }
 
-std::optional<Play> read_play(const JsonValue& value, Building& building) {
+std::optional<Play> read_play(const json::Value& value, Building& building) {
   Play play;
   play_table().read(value, play, building);
   if (play.clip == no_clip) return std::nullopt;

@@ -11,7 +11,7 @@ namespace tweenfall::document::fields {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 using Read = RuleBeingRead;
 
 // Whom it is about
@@ -22,13 +22,13 @@ const Form* rule_bodies_form(FormStore& store, const ValueForms& values) {
 }
 
 // What a name of several nodes takes is only what can move.
-void note_left_out(const JsonValue& name, const std::vector<std::string>& left_out, Building& building) {
+void note_left_out(const json::Value& name, const std::vector<std::string>& left_out, Building& building) {
   if (left_out.empty()) return;
-  building.problems.note(name, in_quotes(name.text()) + " leaves out " + listed(left_out) +
+  building.problems.note(name, json::in_quotes(name.text()) + " leaves out " + listed(left_out) +
                                    ": what is static has one owner for good, and the rule takes the others");
 }
 
-void read_rule_body(const JsonValue& name, Read& rule, Building& building) {
+void read_rule_body(const json::Value& name, Read& rule, Building& building) {
   if (!name.is(Kind::text)) return;
   const std::vector<NodeDescription>& nodes = building.stage.nodes;
   rule.rule.bodies.emplace_back(name.text());
@@ -49,22 +49,22 @@ void read_rule_body(const JsonValue& name, Read& rule, Building& building) {
   if (movable > 0) note_left_out(name, left_out, building);
   if (movable > 0 || building.excused(name.text())) return;
   if (pattern)
-    problems.add(name, "no node with a body that can move matches " + in_quotes(name.text()));
+    problems.add(name, "no node with a body that can move matches " + json::in_quotes(name.text()));
   else if (named.empty())
-    problems.add(
-        name, "there is no node " + in_quotes(name.text()) + suggestion_or_import(name.text(), building.body_names()));
+    problems.add(name, "there is no node " + json::in_quotes(name.text()) +
+                           suggestion_or_import(name.text(), building.body_names()));
   else if (!nodes[named.front()].body)
-    problems.add(name, "the node " + in_quotes(name.text()) + " has no body, so there is nothing to hand over");
+    problems.add(name, "the node " + json::in_quotes(name.text()) + " has no body, so there is nothing to hand over");
   else
-    problems.add(name, "the body of " + in_quotes(name.text()) + " is static and has one owner for good");
+    problems.add(name, "the body of " + json::in_quotes(name.text()) + " is static and has one owner for good");
 }
 
-void read_rule_bodies(const JsonValue& value, Read& rule, Building& building) {
+void read_rule_bodies(const json::Value& value, Read& rule, Building& building) {
   read_rule_body(value, rule, building);
-  for (const JsonValue& item : value.items()) read_rule_body(item, rule, building);
+  for (const json::Value& item : value.items()) read_rule_body(item, rule, building);
 }
 
-void read_rule_group(const JsonValue& value, Read& rule, Building& building) {
+void read_rule_group(const json::Value& value, Read& rule, Building& building) {
   const std::vector<NodeDescription>& nodes = building.stage.nodes;
   std::vector<std::string> groups, left_out;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -80,7 +80,7 @@ void read_rule_group(const JsonValue& value, Read& rule, Building& building) {
   std::sort(groups.begin(), groups.end());
   groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
   if (rule.bodies.empty())
-    building.problems.add(value, "no node with a body that can move is in a group " + in_quotes(value.text()) +
+    building.problems.add(value, "no node with a body that can move is in a group " + json::in_quotes(value.text()) +
                                      suggestion(value.text(), groups));
   else
     note_left_out(value, left_out, building);
@@ -88,11 +88,11 @@ void read_rule_group(const JsonValue& value, Read& rule, Building& building) {
 
 // Where a body that is taken back goes on
 
-void read_followed_clip(const JsonValue& value, HandBack& out, Building& building) {
+void read_followed_clip(const json::Value& value, HandBack& out, Building& building) {
   take(value, out.clip, building);
   if (building.clips.count(out.clip) == 0 && !building.excused(out.clip))
     building.problems.add(
-        value, "there is no clip " + in_quotes(out.clip) + suggestion_or_import(out.clip, building.clip_names()));
+        value, "there is no clip " + json::in_quotes(out.clip) + suggestion_or_import(out.clip, building.clip_names()));
 }
 
 const Table<HandBack>& path_table() {
@@ -111,7 +111,9 @@ const Table<HandBack>& path_table() {
 
 const Table<Settle>& settle_table() {
   const auto kind = [](std::string word, Settle::Kind meant) {
-    const auto read = [meant](const JsonValue& value, Settle& settle, Building&) { settle = {meant, value.number()}; };
+    const auto read = [meant](const json::Value& value, Settle& settle, Building&) {
+      settle = {meant, value.number()};
+    };
     return Row<Settle>{std::move(word), &ValueForms::positive, "s", {read}};
   };
   static const Table<Settle> table("a settle",
@@ -132,15 +134,15 @@ auto useless_to(Owner owner, const std::string& why) {
 }
 
 const Table<Read>& rule_table() {
-  const Meaning<Read> to = {[](const JsonValue& value, Read& rule, Building& building) {
+  const Meaning<Read> to = {[](const json::Value& value, Read& rule, Building& building) {
     rule.to = value;
     rule.rule.to = read_owner(value, building);
   }};
-  const Meaning<Read> velocity = {[](const JsonValue& value, Read& rule, Building& building) {
+  const Meaning<Read> velocity = {[](const json::Value& value, Read& rule, Building& building) {
                                     read_take_over(value, rule.rule.take_over, building);
                                   },
                                   "\"curve\""};
-  const Meaning<Read> settle = {[](const JsonValue& value, Read& rule, Building& building) {
+  const Meaning<Read> settle = {[](const json::Value& value, Read& rule, Building& building) {
                                   settle_table().read(value, rule.rule.hand_back.settle, building);
                                 },
                                 "{\"quintic\": " + number_text(Settle{}.seconds) + "}"};
@@ -171,11 +173,11 @@ const Form* rule_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(rule));
 }
 
-RuleBeingRead read_rule(const JsonValue& value, const std::vector<std::string>& events, Building& building) {
+RuleBeingRead read_rule(const json::Value& value, const std::vector<std::string>& events, Building& building) {
   RuleBeingRead rule;
   rule.events = &events;
   rule_table().read(value, rule, building);
-  const JsonValue path = usable(value, "path");
+  const json::Value path = usable(value, "path");
   rule.follows = path && path.find("clip");
   std::sort(rule.bodies.begin(), rule.bodies.end());
   rule.bodies.erase(std::unique(rule.bodies.begin(), rule.bodies.end()), rule.bodies.end());

@@ -11,7 +11,7 @@ namespace tweenfall::document::fields {
 
 // A time at which a rule acts, and where it says so.
 struct RuleInstant {
-  JsonValue place;
+  json::Value place;
   double seconds = 0;
 };
 
@@ -19,21 +19,21 @@ struct RuleBeingRead {
   Rule rule;
   std::vector<std::size_t> bodies;  // the nodes that it names, each once
   std::vector<RuleInstant> instants;
-  JsonValue to;                                      // where it names an owner; none where that is faulty
+  json::Value to;                                    // where it names an owner; none where that is faulty
   bool follows = false;                              // whether it names the clip to follow
   const std::vector<std::string>* events = nullptr;  // of all clips
 };
 
 const Form* rule_form(FormStore& store, const ValueForms& values);
-[[nodiscard]] RuleBeingRead read_rule(const JsonValue& value, const std::vector<std::string>& events,
+[[nodiscard]] RuleBeingRead read_rule(const json::Value& value, const std::vector<std::string>& events,
                                       Building& building);
 
 // Its "when"
 const Form* when_form(FormStore& store, const ValueForms& values);
-void read_when(const JsonValue& value, RuleBeingRead& rule, Building& building);
+void read_when(const json::Value& value, RuleBeingRead& rule, Building& building);
 
 // The velocity that a released body starts with
 const Form* take_over_form(FormStore& store, const ValueForms& values);
-void read_take_over(const JsonValue& value, TakeOver& take_over, Building& building);
+void read_take_over(const json::Value& value, TakeOver& take_over, Building& building);
 
 }  // namespace tweenfall::document::fields

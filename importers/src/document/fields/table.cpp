@@ -6,35 +6,35 @@
 
 namespace tweenfall::document::fields {
 
-void take(const JsonValue& value, double& out, Building&) {
-  if (value.is(JsonValue::Kind::number)) out = value.number();
+void take(const json::Value& value, double& out, Building&) {
+  if (value.is(json::Value::Kind::number)) out = value.number();
 }
 
-void take(const JsonValue& value, int& out, Building&) {
-  if (value.is(JsonValue::Kind::number)) out = static_cast<int>(value.number());
+void take(const json::Value& value, int& out, Building&) {
+  if (value.is(json::Value::Kind::number)) out = static_cast<int>(value.number());
 }
 
-void take(const JsonValue& value, bool& out, Building&) {
-  if (value.is(JsonValue::Kind::boolean)) out = value.boolean();
+void take(const json::Value& value, bool& out, Building&) {
+  if (value.is(json::Value::Kind::boolean)) out = value.boolean();
 }
 
-void take(const JsonValue& value, std::string& out, Building&) {
-  if (value.is(JsonValue::Kind::text)) out = value.text();
+void take(const json::Value& value, std::string& out, Building&) {
+  if (value.is(json::Value::Kind::text)) out = value.text();
 }
 
-void take(const JsonValue& value, std::optional<double>& out, Building&) {
-  if (value.is(JsonValue::Kind::number)) out = value.number();
+void take(const json::Value& value, std::optional<double>& out, Building&) {
+  if (value.is(json::Value::Kind::number)) out = value.number();
 }
 
-void take(const JsonValue& value, std::optional<Color>& out, Building&) {
+void take(const json::Value& value, std::optional<Color>& out, Building&) {
   if (const std::optional<Color> color = color_of(value)) out = color;
 }
 
-void take(const JsonValue& value, Vec3& out, Building&) {
+void take(const json::Value& value, Vec3& out, Building&) {
   if (const std::optional<Vec3> vector = vector_of(value)) out = *vector;
 }
 
-void take(const JsonValue& value, Quat& out, Building& building) {
+void take(const json::Value& value, Quat& out, Building& building) {
   const EulerOrder order = order_of(text_in(value, "order", "XYZ"));
   if (const std::optional<Quat> rotation = rotation_of(value, order, building.problems)) out = *rotation;
 }

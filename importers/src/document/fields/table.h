@@ -38,19 +38,19 @@ class FormOf {
 // What a field does to the thing it belongs to.
 template <class Thing>
 struct Meaning {
-  std::function<void(const JsonValue&, Thing&, Building&)> read;
+  std::function<void(const json::Value&, Thing&, Building&)> read;
   std::string standard{};  // JSON text of what its absence means; empty: something that no text says
 };
 
 // Values as members hold them. What was reported already leaves the member as it is.
-void take(const JsonValue& value, double& out, Building& building);
-void take(const JsonValue& value, int& out, Building& building);
-void take(const JsonValue& value, bool& out, Building& building);
-void take(const JsonValue& value, std::string& out, Building& building);
-void take(const JsonValue& value, std::optional<double>& out, Building& building);
-void take(const JsonValue& value, std::optional<Color>& out, Building& building);
-void take(const JsonValue& value, Vec3& out, Building& building);
-void take(const JsonValue& value, Quat& out, Building& building);
+void take(const json::Value& value, double& out, Building& building);
+void take(const json::Value& value, int& out, Building& building);
+void take(const json::Value& value, bool& out, Building& building);
+void take(const json::Value& value, std::string& out, Building& building);
+void take(const json::Value& value, std::optional<double>& out, Building& building);
+void take(const json::Value& value, std::optional<Color>& out, Building& building);
+void take(const json::Value& value, Vec3& out, Building& building);
+void take(const json::Value& value, Quat& out, Building& building);
 
 // The JSON text of a member's default, or nothing where none says it.
 [[nodiscard]] std::string text_of_default(double value);
@@ -68,7 +68,7 @@ template <class Other>
 template <class Thing, class Access>
 [[nodiscard]] Meaning<Thing> member(Access access) {
   Thing fresh{};
-  return {[access](const JsonValue& value, Thing& thing, Building& building) {
+  return {[access](const json::Value& value, Thing& thing, Building& building) {
             take(value, std::invoke(access, thing), building);
           },
           text_of_default(std::invoke(access, fresh))};
@@ -77,7 +77,7 @@ template <class Thing, class Access>
 // A vector in degrees or degrees/s whose member holds radians.
 template <class Thing, class Access>
 [[nodiscard]] Meaning<Thing> turning(Access access) {
-  return {[access](const JsonValue& value, Thing& thing, Building&) {
+  return {[access](const json::Value& value, Thing& thing, Building&) {
             const std::optional<Vec3> given = vector_of(value);
             if (given)
               std::invoke(access, thing) = Vec3(radians((*given)[0]), radians((*given)[1]), radians((*given)[2]));
@@ -115,7 +115,7 @@ class Table {
   [[nodiscard]] Form listing_form(FormStore& store, const ValueForms& values) const {
     Form out = form(store, values);
     out.what += ": {";
-    for (const Row<Thing>& row : rows_) out.what += (&row == &rows_.front() ? "" : ", ") + in_quotes(row.name);
+    for (const Row<Thing>& row : rows_) out.what += (&row == &rows_.front() ? "" : ", ") + json::in_quotes(row.name);
     out.what += "}";
     return out;
   }
@@ -123,7 +123,7 @@ class Table {
   [[nodiscard]] Form choosing_form(FormStore& store, const ValueForms& values) const {
     Form out = form(store, values);
     out.what += ": one of ";
-    for (const Row<Thing>& row : rows_) out.what += (&row == &rows_.front() ? "" : ", ") + in_quotes(row.name);
+    for (const Row<Thing>& row : rows_) out.what += (&row == &rows_.front() ? "" : ", ") + json::in_quotes(row.name);
     out.together = {exactly_one(names())};
     return out;
   }
@@ -134,14 +134,14 @@ class Table {
   }
 
   // Fills in what the object says, row by row, then tells which of its fields mean nothing beside the others.
-  void read(const JsonValue& object, Thing& thing, Building& building) const {
+  void read(const json::Value& object, Thing& thing, Building& building) const {
     for (const Row<Thing>& row : rows_)
-      if (const JsonValue value = usable(object, row.name)) row.meaning.read(value, thing, building);
+      if (const json::Value value = usable(object, row.name)) row.meaning.read(value, thing, building);
     for (const Row<Thing>& row : rows_) {
-      const JsonValue value = row.useless ? usable(object, row.name) : JsonValue();
+      const json::Value value = row.useless ? usable(object, row.name) : json::Value();
       if (!value) continue;
       if (const std::string why = row.useless(thing); !why.empty())
-        building.problems.add(value, in_quotes(row.name) + " means nothing " + why);
+        building.problems.add(value, json::in_quotes(row.name) + " means nothing " + why);
     }
   }
 
@@ -159,9 +159,9 @@ template <class Thing, class Word, class Access>
   Thing fresh{};
   for (const auto& [word, meant] : words) {
     spelled.push_back(word);
-    if (meant == std::invoke(access, fresh)) standard = in_quotes(word);
+    if (meant == std::invoke(access, fresh)) standard = json::in_quotes(word);
   }
-  const auto read = [words, access](const JsonValue& value, Thing& thing, Building&) {
+  const auto read = [words, access](const json::Value& value, Thing& thing, Building&) {
     for (const auto& [word, meant] : words)
       if (value.text() == word) std::invoke(access, thing) = meant;
   };
@@ -178,7 +178,7 @@ template <class Part>
 // A field that is an object with a table of its own; absent, it is as if empty.
 template <class Thing, class Part, class Access>
 [[nodiscard]] Row<Thing> part(std::string name, const Table<Part>& table, std::string help, Access access) {
-  const auto read = [&table, access](const JsonValue& value, Thing& thing, Building& building) {
+  const auto read = [&table, access](const json::Value& value, Thing& thing, Building& building) {
     table.read(value, std::invoke(access, thing), building);
   };
   return {std::move(name), form_of(table), std::move(help), {read, "{}"}};

@@ -20,7 +20,7 @@ const Row<TakeOver>& source_row() {
 }
 
 const Table<TakeOver>& take_over_table() {
-  const Meaning<TakeOver> average = {[](const JsonValue& value, TakeOver& out, Building&) {
+  const Meaning<TakeOver> average = {[](const json::Value& value, TakeOver& out, Building&) {
     out.velocity = TakeOver::Velocity::average;
     out.average_over = value.number();
   }};
@@ -43,8 +43,8 @@ const Form* take_over_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(form));
 }
 
-void read_take_over(const JsonValue& value, TakeOver& take_over, Building& building) {
-  if (value.is(JsonValue::Kind::text)) source_row().meaning.read(value, take_over, building);
+void read_take_over(const json::Value& value, TakeOver& take_over, Building& building) {
+  if (value.is(json::Value::Kind::text)) source_row().meaning.read(value, take_over, building);
   take_over_table().read(value, take_over, building);
 }
 

@@ -14,31 +14,31 @@ namespace tweenfall::document::fields {
 // A node. Where it is in its parent is said of nodes of this document, how it looks and what body it has of imported
 // ones too; parents are found when all nodes are known.
 const Form* node_form(FormStore& store, const ValueForms& values);
-void read_place(const JsonValue& value, NodeDescription& node, Building& building);
+void read_place(const json::Value& value, NodeDescription& node, Building& building);
 [[nodiscard]] std::vector<std::string> place_names();
-void read_look(const JsonValue& value, NodeDescription& node, Building& building);
+void read_look(const json::Value& value, NodeDescription& node, Building& building);
 
 const Form* body_form(FormStore& store, const ValueForms& values);
-[[nodiscard]] BodyDescription read_body(const JsonValue& body, Building& building);
-[[nodiscard]] JsonValue place_of_spin(const JsonValue& body);  // or the body, where it says none
+[[nodiscard]] BodyDescription read_body(const json::Value& body, Building& building);
+[[nodiscard]] json::Value place_of_spin(const json::Value& body);  // or the body, where it says none
 
 // Whose a body is: "free", "keyed", or a drive.
 const Form* owner_form(FormStore& store, const ValueForms& values);
-[[nodiscard]] Drive read_owner(const JsonValue& owner, Building& building);
+[[nodiscard]] Drive read_owner(const json::Value& owner, Building& building);
 
 const Form* play_form(FormStore& store, const ValueForms& values);
 // Nothing for a clip that is not known, which was noted.
-[[nodiscard]] std::optional<Play> read_play(const JsonValue& play, Building& building);
+[[nodiscard]] std::optional<Play> read_play(const json::Value& play, Building& building);
 
 const Form* world_form(FormStore& store, const ValueForms& values);
-void read_world(const JsonValue& world, Building& building);
-[[nodiscard]] JsonValue place_of_gravity(const JsonValue& world);  // or the world, where it says none; and so below
-[[nodiscard]] JsonValue place_of_step(const JsonValue& world);
-[[nodiscard]] JsonValue place_of_force(const JsonValue& world, std::size_t index);
+void read_world(const json::Value& world, Building& building);
+[[nodiscard]] json::Value place_of_gravity(const json::Value& world);  // or the world, where it says none; and so below
+[[nodiscard]] json::Value place_of_step(const json::Value& world);
+[[nodiscard]] json::Value place_of_force(const json::Value& world, std::size_t index);
 
 // The forces of a world
 const Form* force_form(FormStore& store, const ValueForms& values);
-void read_force(const JsonValue& force, std::vector<ForceDescription>& forces, Building& building);
-[[nodiscard]] JsonValue place_of_stiffness(const JsonValue& force);
+void read_force(const json::Value& force, std::vector<ForceDescription>& forces, Building& building);
+[[nodiscard]] json::Value place_of_stiffness(const json::Value& force);
 
 }  // namespace tweenfall::document::fields

@@ -11,12 +11,12 @@ namespace {
 const Table<when::ContactHit>& contact_table() {
   using Hit = when::ContactHit;
   Meaning<Hit> with = member<Hit>(&Hit::with);
-  with.read = [](const JsonValue& value, Hit& hit, Building& building) {
+  with.read = [](const json::Value& value, Hit& hit, Building& building) {
     take(value, hit.with, building);
     const std::vector<std::size_t> named = building.nodes_named(hit.with);
     const auto has_body = [&](std::size_t i) { return building.stage.nodes[i].body.has_value(); };
     if (!building.excused(hit.with) && std::none_of(named.begin(), named.end(), has_body))
-      building.problems.add(value, "no node with a body is called " + in_quotes(hit.with) +
+      building.problems.add(value, "no node with a body is called " + json::in_quotes(hit.with) +
                                        suggestion_or_import(hit.with, building.body_names()));
   };
   static const Table<Hit> table(
@@ -26,19 +26,19 @@ const Table<when::ContactHit>& contact_table() {
   return table;
 }
 
-std::string known_event(const JsonValue& name, const RuleBeingRead& rule, Building& building) {
+std::string known_event(const json::Value& name, const RuleBeingRead& rule, Building& building) {
   if (building.failed_imports.empty() &&
       std::find(rule.events->begin(), rule.events->end(), name.text()) == rule.events->end())
-    building.problems.add(name,
-                          "no clip has an event " + in_quotes(name.text()) + suggestion(name.text(), *rule.events));
+    building.problems.add(
+        name, "no clip has an event " + json::in_quotes(name.text()) + suggestion(name.text(), *rule.events));
   return std::string(name.text());
 }
 
 // What a value that is no object may be meant for.
-std::string trigger_instead_of(const JsonValue& value) {
-  if (value.is(JsonValue::Kind::number)) return "; say {\"at\": " + on_one_line(value) + "}";
-  if (!value.is(JsonValue::Kind::text)) return {};
-  const std::string name = on_one_line(value);
+std::string trigger_instead_of(const json::Value& value) {
+  if (value.is(json::Value::Kind::number)) return "; say {\"at\": " + json::on_one_line(value) + "}";
+  if (!value.is(json::Value::Kind::text)) return {};
+  const std::string name = json::on_one_line(value);
   return "; say {\"marker\": " + name + "} for an event of a clip that animates the body, or {\"event\": " + name +
          "} for one of any clip";
 }
@@ -54,12 +54,12 @@ Form only_yes() {
 // A kind of trigger, which is added to those that are there.
 template <class Read>
 Meaning<RuleBeingRead> adds(Read read) {
-  return {[read](const JsonValue& value, RuleBeingRead& rule, Building& building) {
+  return {[read](const json::Value& value, RuleBeingRead& rule, Building& building) {
     rule.rule.when.triggers.emplace_back(read(value, rule, building));
   }};
 }
 
-void read_instant(const JsonValue& value, RuleBeingRead& rule, Building& building) {
+void read_instant(const json::Value& value, RuleBeingRead& rule, Building& building) {
   const ClipTimes times(building.fps, {}, "stage time has none");
   const std::optional<double> seconds = times.seconds(value, {}, building.problems);
   if (!seconds) return;
@@ -69,15 +69,15 @@ void read_instant(const JsonValue& value, RuleBeingRead& rule, Building& buildin
 
 const Table<RuleBeingRead>& trigger_table() {
   using Rule = RuleBeingRead;
-  const auto marker = adds([](const JsonValue& value, Rule& rule, Building& building) {
+  const auto marker = adds([](const json::Value& value, Rule& rule, Building& building) {
     return when::Marker{known_event(value, rule, building)};
   });
-  const auto event = adds([](const JsonValue& value, Rule& rule, Building& building) {
+  const auto event = adds([](const json::Value& value, Rule& rule, Building& building) {
     return when::Event{known_event(value, rule, building)};
   });
-  const auto end = adds([](const JsonValue&, Rule&, Building&) { return when::ClipEnd{}; });
-  const auto asleep = adds([](const JsonValue& value, Rule&, Building&) { return when::Asleep{value.number()}; });
-  const auto contact = adds([](const JsonValue& value, Rule&, Building& building) {
+  const auto end = adds([](const json::Value&, Rule&, Building&) { return when::ClipEnd{}; });
+  const auto asleep = adds([](const json::Value& value, Rule&, Building&) { return when::Asleep{value.number()}; });
+  const auto contact = adds([](const json::Value& value, Rule&, Building& building) {
     when::ContactHit hit;
     contact_table().read(value, hit, building);
     return hit;
@@ -110,11 +110,11 @@ const Form* when_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(when));
 }
 
-void read_when(const JsonValue& value, RuleBeingRead& rule, Building& building) {
+void read_when(const json::Value& value, RuleBeingRead& rule, Building& building) {
   rule.rule.when.all = static_cast<bool>(value.find("all"));
-  const JsonValue list = usable(value, rule.rule.when.all ? "all" : "any");
+  const json::Value list = usable(value, rule.rule.when.all ? "all" : "any");
   if (!list) trigger_table().read(value, rule, building);
-  for (const JsonValue& trigger : list.items()) trigger_table().read(trigger, rule, building);
+  for (const json::Value& trigger : list.items()) trigger_table().read(trigger, rule, building);
 }
 
 }  // namespace tweenfall::document::fields

@@ -8,7 +8,7 @@ namespace tweenfall::document::fields {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 const Form* step_form(FormStore& store, const ValueForms& values) {
   Form fraction;
@@ -21,7 +21,7 @@ const Form* step_form(FormStore& store, const ValueForms& values) {
   return store.add(choice_of("a step: seconds above 0, or \"1/N\"", {values.positive, store.add(std::move(fraction))}));
 }
 
-void read_step(const JsonValue& value, StageDescription& stage, Building&) {
+void read_step(const json::Value& value, StageDescription& stage, Building&) {
   if (value.is(Kind::number)) stage.step = value.number();
   if (!value.is(Kind::text)) return;
   double parts = 240;
@@ -40,8 +40,8 @@ const Form* forces_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(forces));
 }
 
-void read_forces(const JsonValue& value, StageDescription& stage, Building& building) {
-  for (const JsonValue& force : value.items()) read_force(force, stage.forces, building);
+void read_forces(const json::Value& value, StageDescription& stage, Building& building) {
+  for (const json::Value& force : value.items()) read_force(force, stage.forces, building);
 }
 
 const Table<StageDescription>& world_table() {
@@ -52,7 +52,7 @@ const Table<StageDescription>& world_table() {
     };
   };
   Meaning<Stage> sleep_after = member<Stage>(of_world(&WorldSettings::sleep_after));
-  sleep_after.read = [](const JsonValue& value, Stage& stage, Building&) {
+  sleep_after.read = [](const json::Value& value, Stage& stage, Building&) {
     stage.world.sleep_after = value.is(Kind::text) ? std::numeric_limits<double>::infinity() : value.number();
   };
   static const Table<Stage> table(
@@ -81,20 +81,20 @@ const Form* world_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(world));
 }
 
-JsonValue place_of_gravity(const JsonValue& world) {
+json::Value place_of_gravity(const json::Value& world) {
   return below(world, {"gravity"});
 }
 
-JsonValue place_of_step(const JsonValue& world) {
+json::Value place_of_step(const json::Value& world) {
   return below(world, {"step"});
 }
 
-JsonValue place_of_force(const JsonValue& world, std::size_t index) {
-  const JsonValue forces = usable(world, "forces");
+json::Value place_of_force(const json::Value& world, std::size_t index) {
+  const json::Value forces = usable(world, "forces");
   return forces && index < forces.items().size() ? forces.items()[index] : world;
 }
 
-void read_world(const JsonValue& world, Building& building) {
+void read_world(const json::Value& world, Building& building) {
   world_table().read(world, building.stage, building);
 }
 

@@ -17,14 +17,14 @@ const Form* import_form(FormStore& store, const ValueForms& values) {
   Form path = *values.name;
   path.what = "the path of a file";
   imports.others = store.add(std::move(path));
-  imports.instead = [](const JsonValue& value) -> std::string {
-    if (!value.is(JsonValue::Kind::text)) return {};
-    return "; say {\"model\": " + on_one_line(value) + "}, and its nodes are \"model/...\"";
+  imports.instead = [](const json::Value& value) -> std::string {
+    if (!value.is(json::Value::Kind::text)) return {};
+    return "; say {\"model\": " + json::on_one_line(value) + "}, and its nodes are \"model/...\"";
   };
   imports.name_pattern = "^[^/*]+$";
   imports.name_fault = [](std::string_view name) -> std::string {
     if (!name.empty() && name.find_first_of("/*") == std::string_view::npos) return {};
-    return "the name of an import is not empty and has no '/' or '*'; found " + in_quotes(name);
+    return "the name of an import is not empty and has no '/' or '*'; found " + json::in_quotes(name);
   };
   return store.add(std::move(imports));
 }

@@ -12,7 +12,8 @@ std::string parameter_fault(std::string_view name) {
   bool fits = !name.empty() && is_letter(name.front());
   for (const char c : name) fits = fits && (is_letter(c) || (c >= '0' && c <= '9'));
   return fits ? std::string()
-              : "a parameter's name has letters, digits and \"_\" and starts with no digit; found " + in_quotes(name);
+              : "a parameter's name has letters, digits and \"_\" and starts with no digit; found " +
+                    json::in_quotes(name);
 }
 
 }  // namespace
@@ -152,20 +153,20 @@ TrackFunctions FunctionForms::of_vectors(std::size_t size) const {
           true};
 }
 
-std::size_t FunctionForms::dimension(const JsonValue& track) {
+std::size_t FunctionForms::dimension(const json::Value& track) {
   for (const char* name : {"projectile", "orbit", "path", "line", "arc"})
     if (track.find(name)) return 3;
-  JsonValue value = track.find("expression");
+  json::Value value = track.find("expression");
   const auto inside = [&](const char* function, const char* member) {
-    if (const JsonValue settings = track.find(function)) value = settings.find(member);
+    if (const json::Value settings = track.find(function)) value = settings.find(member);
   };
   inside("oscillator", "amplitude");
   inside("spring", "goal");
   for (const char* spline : {"spline", "bezier", "b_spline"}) {
     inside(spline, "points");
-    if (track.find(spline)) value = value && !value.items().empty() ? value.items().front() : JsonValue();
+    if (track.find(spline)) value = value && !value.items().empty() ? value.items().front() : json::Value();
   }
-  return value && value.is(JsonValue::Kind::list) ? value.items().size() : 1;
+  return value && value.is(json::Value::Kind::list) ? value.items().size() : 1;
 }
 
 const std::vector<std::string>& FunctionForms::names() {

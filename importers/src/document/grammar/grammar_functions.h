@@ -35,7 +35,7 @@ class FunctionForms {
   [[nodiscard]] const Form* parameters() const { return parameters_; }
 
   // How many numbers the values of a track's function have.
-  [[nodiscard]] static std::size_t dimension(const JsonValue& track);
+  [[nodiscard]] static std::size_t dimension(const json::Value& track);
   [[nodiscard]] static const std::vector<std::string>& names();
 
  private:

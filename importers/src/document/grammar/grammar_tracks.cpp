@@ -12,19 +12,19 @@ namespace tweenfall::document {
 namespace {
 
 // The value of the first key of a track, wherever it is, or the first of a mix; null when there is none.
-JsonValue first_key_value(const JsonValue& track) {
-  if (const JsonValue mix = track.find("barycentric")) {
-    const JsonValue values = mix.find("values");
-    return values && !values.items().empty() ? values.items().front() : JsonValue();
+json::Value first_key_value(const json::Value& track) {
+  if (const json::Value mix = track.find("barycentric")) {
+    const json::Value values = mix.find("values");
+    return values && !values.items().empty() ? values.items().front() : json::Value();
   }
-  const JsonValue keys = track.is(JsonValue::Kind::object) ? track.find("keys") : track;
+  const json::Value keys = track.is(json::Value::Kind::object) ? track.find("keys") : track;
   if (!keys || keys.items().empty()) return {};
-  const JsonValue key = keys.items().front();
-  if (key.is(JsonValue::Kind::list)) return key.items().size() > 1 ? key.items()[1] : JsonValue();
+  const json::Value key = keys.items().front();
+  if (key.is(json::Value::Kind::list)) return key.items().size() > 1 ? key.items()[1] : json::Value();
   return key.find("v");
 }
 
-bool has_function(const JsonValue& track) {
+bool has_function(const json::Value& track) {
   for (const std::string& name : FunctionForms::names())
     if (track.find(name)) return true;
   return false;
@@ -226,13 +226,13 @@ class TrackForms {
     Form form = choice_of("a track of rotations: a list of keys, or an object with \"keys\"",
                           {in_euler.list, in_euler.object, in_quat.list, in_quat.object, in_axis_angle.list,
                            in_axis_angle.object, in_degrees});
-    form.select = [=](const JsonValue& value) -> const Form* {
-      const bool list = value.is(JsonValue::Kind::list);
-      if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
+    form.select = [=](const json::Value& value) -> const Form* {
+      const bool list = value.is(json::Value::Kind::list);
+      if (!list && !value.is(json::Value::Kind::object)) return nullptr;
       const bool has_axis = static_cast<bool>(value.find("axis"));
       if (!list && !has_axis && (value.find("spline") || value.find("bezier"))) return in_quat.object;
       if (!list && (has_axis || has_function(value))) return in_degrees;
-      const JsonValue first = first_key_value(value);
+      const json::Value first = first_key_value(value);
       const Spelled& spelled = first && first.find("quat")    ? in_quat
                                : first && first.find("angle") ? in_axis_angle
                                                               : in_euler;
@@ -263,7 +263,8 @@ class TrackForms {
   // Names of the user's: the kind is said, else that of the first value.
   const Form* user() {
     const auto kind_field = [&](const std::string& kind, bool required) {
-      return Field{"kind", store_.add(words_of("the kind " + in_quotes(kind), {kind})), "kind of value", required};
+      return Field{"kind", store_.add(words_of("the kind " + json::in_quotes(kind), {kind})), "kind of value",
+                   required};
     };
     Form plain_text;
     plain_text.kind = Form::Kind::text;
@@ -338,26 +339,26 @@ class TrackForms {
     any_track.fields.push_back({"barycentric", values_.any, ""});
     any_track.fields.push_back({"parameters", values_.any, ""});
     const Form* unknown = store_.add(std::move(any_track));
-    form.select = [made, unknown](const JsonValue& value) -> const Form* {
-      const bool list = value.is(JsonValue::Kind::list);
-      if (!list && !value.is(JsonValue::Kind::object)) return nullptr;
-      const JsonValue first = first_key_value(value);
+    form.select = [made, unknown](const json::Value& value) -> const Form* {
+      const bool list = value.is(json::Value::Kind::list);
+      if (!list && !value.is(json::Value::Kind::object)) return nullptr;
+      const json::Value first = first_key_value(value);
       std::string kind;
-      if (const JsonValue said = value.find("kind")) {
-        kind = said.is(JsonValue::Kind::text) ? said.text() : "";
+      if (const json::Value said = value.find("kind")) {
+        kind = said.is(json::Value::Kind::text) ? said.text() : "";
         if (kind == "text") kind = "said-text";
       } else if (first) {
         switch (first.kind()) {
-          case JsonValue::Kind::number:
+          case json::Value::Kind::number:
             kind = "number";
             break;
-          case JsonValue::Kind::boolean:
+          case json::Value::Kind::boolean:
             kind = "switch";
             break;
-          case JsonValue::Kind::text:
+          case json::Value::Kind::text:
             kind = first.text().substr(0, 1) == "#" ? "color" : "text";
             break;
-          case JsonValue::Kind::list:
+          case json::Value::Kind::list:
             kind = "vector";
             break;
           default:
@@ -474,7 +475,7 @@ const Form* tracks_form(FormStore& store, const ValueForms& values) {
   tracks.name_fault = [](std::string_view name) -> std::string {
     const std::size_t dot = name.rfind('.');
     if (dot != std::string_view::npos && dot > 0 && dot + 1 < name.size()) return {};
-    return "a track is named \"node.property\", such as \"ball.position\"; found " + in_quotes(name);
+    return "a track is named \"node.property\", such as \"ball.position\"; found " + json::in_quotes(name);
   };
   return store.add(std::move(tracks));
 }

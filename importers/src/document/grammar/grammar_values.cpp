@@ -67,7 +67,7 @@ const Form* ease_form(FormStore& store) {
     const std::string word(text.substr(0, bracket));
     if (std::find(calls.begin(), calls.end(), word) == calls.end()) {
       const bool takes_none = std::find(alone.begin(), alone.end(), word) != alone.end();
-      return takes_none ? "; " + in_quotes(word) + " takes no values" : suggestion(word, calls);
+      return takes_none ? "; " + json::in_quotes(word) + " takes no values" : suggestion(word, calls);
     }
     std::string reason;
     (void)Ease::named(text, &reason);
@@ -189,11 +189,11 @@ ValueForms::ValueForms(FormStore& store) {
     Form form = object_of(what, std::move(fields));
     form.definition = "rotation-" + spelling;
     form.on_one_line = true;
-    form.foremost_fault = [spelling](const JsonValue& value) -> std::string {
+    form.foremost_fault = [spelling](const json::Value& value) -> std::string {
       for (const char* other : {"euler", "quat", "angle"})
         if (other != spelling && value.find(other) && !value.find(spelling))
-          return "rotations of one track are spelled one way; its first key has " + in_quotes(spelling) +
-                 ", this one " + in_quotes(other);
+          return "rotations of one track are spelled one way; its first key has " + json::in_quotes(spelling) +
+                 ", this one " + json::in_quotes(other);
       return {};
     };
     return store.add(std::move(form));

@@ -182,8 +182,8 @@ std::string document_schema() {
   out["title"] = "tweenfall document";
   out.update(root);
   out["definitions"] = maker.definitions();
-  std::vector<JsonFault> faults;
-  return write(document::Form{}, JsonTree::parse(out.dump(), faults).root());
+  std::vector<json::Fault> faults;
+  return write(document::Form{}, json::Tree::parse(out.dump(), faults).root());
 }
 
 }  // namespace tweenfall

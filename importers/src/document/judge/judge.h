@@ -8,11 +8,11 @@
 namespace tweenfall::document::judging {
 
 // Where a part of the stage is written; for what an import brought, the import.
-[[nodiscard]] JsonValue place_of_node(const Building& building, std::size_t node);
-[[nodiscard]] JsonValue place_of_clip(const Building& building, const std::string& clip);
+[[nodiscard]] json::Value place_of_node(const Building& building, std::size_t node);
+[[nodiscard]] json::Value place_of_clip(const Building& building, const std::string& clip);
 // The track, or the clip where it has none of that name.
-[[nodiscard]] JsonValue place_of_track(const Building& building, const Clip& clip, const Track& track);
-[[nodiscard]] JsonValue place_of_world(const Building& building);
+[[nodiscard]] json::Value place_of_track(const Building& building, const Clip& clip, const Track& track);
+[[nodiscard]] json::Value place_of_world(const Building& building);
 
 void judge_stage(Building& building);   // what the stage refuses, what starts badly
 void judge_pace(Building& building);    // what is too fast or too long for the step

@@ -11,12 +11,12 @@ namespace tweenfall::document::judging {
 
 namespace {
 
-JsonValue item_of(const JsonValue& list, std::size_t index) {
-  return list.is(JsonValue::Kind::list) && index < list.items().size() ? list.items()[index] : list;
+json::Value item_of(const json::Value& list, std::size_t index) {
+  return list.is(json::Value::Kind::list) && index < list.items().size() ? list.items()[index] : list;
 }
 
-JsonValue place_of_fault(const Building& building, const StageFault& fault) {
-  const JsonValue world = place_of_world(building);
+json::Value place_of_fault(const Building& building, const StageFault& fault) {
+  const json::Value world = place_of_world(building);
   switch (fault.part) {
     case StageFault::Part::world:
       return fields::place_of_gravity(world);
@@ -48,10 +48,10 @@ void judge_stage(Building& building) {
   const std::vector<NodeDescription>& nodes = building.stage.nodes;
   for (const StartOverlap& overlap : found.overlaps)
     building.problems.note(below(place_of_node(building, overlap.a), {"position"}),
-                           in_quotes(nodes[overlap.a].name) + " starts " + brief_text(overlap.depth) + " m deep in " +
-                               in_quotes(nodes[overlap.b].name) + "; they are pushed apart, at " +
+                           json::in_quotes(nodes[overlap.a].name) + " starts " + brief_text(overlap.depth) +
+                               " m deep in " + json::in_quotes(nodes[overlap.b].name) + "; they are pushed apart, at " +
                                brief_text(building.stage.world.push_out_speed) + " m/s at most");
-  const JsonValue world = place_of_world(building);
+  const json::Value world = place_of_world(building);
   for (const StiffSpring& stiff : found.stiff_springs)
     building.problems.note(fields::place_of_stiffness(fields::place_of_force(world, stiff.force)),
                            "this spring is too fast for the bodies on it and steps of " +

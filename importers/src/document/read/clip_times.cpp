@@ -15,10 +15,10 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 // Seconds as far as they can be told without the duration; problems are for later.
-std::optional<double> early_seconds(JsonValue time, std::optional<double> previous, std::optional<double> fps) {
+std::optional<double> early_seconds(json::Value time, std::optional<double> previous, std::optional<double> fps) {
   if (!time) return {};
   if (time.is(Kind::number)) return time.number();
   const std::optional<TimeInWords> words = time.is(Kind::text) ? time_in_words(time.text()) : std::nullopt;
@@ -29,34 +29,34 @@ std::optional<double> early_seconds(JsonValue time, std::optional<double> previo
   return words->after_previous ? *previous + amount : amount;
 }
 
-JsonValue keys_of(const JsonValue& track) {
+json::Value keys_of(const json::Value& track) {
   if (track.is(Kind::list)) return track;
   return usable(track, "keys");
 }
 
 // The tracks of numbers that a track is made of.
-JsonItems parts_of(const JsonValue& track) {
-  if (const JsonValue mix = usable(track, "barycentric"))
-    if (const JsonValue weights = usable(mix, "weights")) return weights.items();
-  if (const JsonValue ratios = usable(track, "aspect")) return JsonItems::only(ratios);
+json::Items parts_of(const json::Value& track) {
+  if (const json::Value mix = usable(track, "barycentric"))
+    if (const json::Value weights = usable(mix, "weights")) return weights.items();
+  if (const json::Value ratios = usable(track, "aspect")) return json::Items::only(ratios);
   return {};
 }
 
-bool is_endless(const JsonValue& track) {
+bool is_endless(const json::Value& track) {
   for (const char* name : {"oscillator", "spring", "projectile", "pendulum", "orbit", "expression"})
     if (track.find(name)) return true;
   return false;
 }
 
 // How long a function takes that begins at 0 s and ends; 0 where there is none.
-double passing_time(const JsonValue& track) {
+double passing_time(const json::Value& track) {
   for (const char* name : {"path", "line", "arc"})
-    if (const JsonValue function = usable(track, name)) return number_in(function, "duration", 1);
+    if (const json::Value function = usable(track, name)) return number_in(function, "duration", 1);
   for (const char* name : {"spline", "bezier", "b_spline"}) {
-    const JsonValue spline = usable(track, name);
+    const json::Value spline = usable(track, name);
     if (!spline) continue;
-    const JsonValue points = usable(spline, "points");
-    const JsonValue times = usable(spline, "times"), knots = usable(spline, "knots");
+    const json::Value points = usable(spline, "points");
+    const json::Value times = usable(spline, "times"), knots = usable(spline, "knots");
     if (times && !times.items().empty()) return times.items().back().number();
     // A B-spline ends at the knot that has the number of its points.
     if (knots && points && points.items().size() < knots.items().size())
@@ -71,18 +71,18 @@ struct Reach {
   double latest = 0;
   bool any_keys = false, any_functions = false;
 
-  void add(const JsonValue& track, std::optional<double> fps) {
+  void add(const json::Value& track, std::optional<double> fps) {
     any_functions = any_functions || is_endless(track);
     if (const double passing = passing_time(track); passing > 0) {
       any_keys = true;
       latest = std::max(latest, passing);
     }
-    for (const JsonValue& part : parts_of(track)) add(part, fps);
-    const JsonValue keys = keys_of(track);
+    for (const json::Value& part : parts_of(track)) add(part, fps);
+    const json::Value keys = keys_of(track);
     if (!keys) return;
     any_keys = true;
     std::optional<double> time;
-    for (const JsonValue& key : keys.items()) {
+    for (const json::Value& key : keys.items()) {
       time = early_seconds(key_parts(key).time, time, fps);
       if (time) latest = std::max(latest, *time);
     }
@@ -91,10 +91,10 @@ struct Reach {
 
 }  // namespace
 
-KeyParts key_parts(const JsonValue& key) {
+KeyParts key_parts(const json::Value& key) {
   KeyParts parts;
   const auto item = [&](std::size_t i) {
-    return i < key.items().size() && !key.items()[i].is(Kind::faulty) ? key.items()[i] : JsonValue();
+    return i < key.items().size() && !key.items()[i].is(Kind::faulty) ? key.items()[i] : json::Value();
   };
   if (key.is(Kind::list)) {
     parts.time = item(0);
@@ -111,7 +111,7 @@ KeyParts key_parts(const JsonValue& key) {
   return parts;
 }
 
-std::optional<double> ClipTimes::seconds(const JsonValue& time, std::optional<double> previous,
+std::optional<double> ClipTimes::seconds(const json::Value& time, std::optional<double> previous,
                                          Problems& problems) const {
   if (time.is(Kind::number)) return time.number();
   const std::optional<TimeInWords> words = time.is(Kind::text) ? time_in_words(time.text()) : std::nullopt;
@@ -119,31 +119,31 @@ std::optional<double> ClipTimes::seconds(const JsonValue& time, std::optional<do
   double amount = words->amount;
   if (words->unit == TimeInWords::Unit::frames) {
     if (!fps_) {
-      problems.add(time, in_quotes(time.text()) +
+      problems.add(time, json::in_quotes(time.text()) +
                              " counts frames; say how many there are per second, with \"fps\" in the document");
       return {};
     }
     amount /= *fps_;
   } else if (words->unit == TimeInWords::Unit::percent) {
     if (!duration_) {
-      problems.add(time, in_quotes(time.text()) + " is a share of the duration, but " + no_duration_reason_);
+      problems.add(time, json::in_quotes(time.text()) + " is a share of the duration, but " + no_duration_reason_);
       return {};
     }
     amount = amount / 100 * *duration_;
   }
   if (!words->after_previous) return amount;
   if (!previous) {
-    problems.add(time, in_quotes(time.text()) + " counts from the one before it, and there is none");
+    problems.add(time, json::in_quotes(time.text()) + " counts from the one before it, and there is none");
     return {};
   }
   return *previous + amount;
 }
 
-std::vector<std::optional<double>> ClipTimes::of_keys(const JsonValue& keys, Problems& problems) const {
+std::vector<std::optional<double>> ClipTimes::of_keys(const json::Value& keys, Problems& problems) const {
   std::vector<std::optional<double>> out;
   std::optional<double> previous;
   bool any_before = false;
-  for (const JsonValue& key : keys.items()) {
+  for (const json::Value& key : keys.items()) {
     const KeyParts parts = key_parts(key);
     std::optional<double> time;
     if (parts.time) {
@@ -162,18 +162,18 @@ std::vector<std::optional<double>> ClipTimes::of_keys(const JsonValue& keys, Pro
   return out;
 }
 
-double clip_duration(const JsonValue& clip, std::optional<double> fps) {
-  if (const JsonValue said = usable(clip, "duration"))
+double clip_duration(const json::Value& clip, std::optional<double> fps) {
+  if (const json::Value said = usable(clip, "duration"))
     if (const std::optional<double> seconds = early_seconds(said, {}, fps)) return *seconds;
   Reach reach;
-  if (const JsonValue tracks = usable(clip, "tracks"))
-    for (const JsonMember& track : tracks.members())
+  if (const json::Value tracks = usable(clip, "tracks"))
+    for (const json::Member& track : tracks.members())
       if (!is_free_name(track.name)) reach.add(track.value, fps);
   double latest = reach.latest;
   if (reach.any_functions && !reach.any_keys) return std::numeric_limits<double>::infinity();
-  if (const JsonValue events = usable(clip, "events")) {
+  if (const json::Value events = usable(clip, "events")) {
     std::optional<double> time;
-    for (const JsonValue& event : events.items()) {
+    for (const json::Value& event : events.items()) {
       if (event.is(Kind::list) && !event.items().empty()) {
         time = early_seconds(event.items().front(), time, fps);
       } else {

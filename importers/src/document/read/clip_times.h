@@ -12,9 +12,9 @@ namespace tweenfall::document {
 
 // Where a key or event keeps its parts; none for what is absent or faulty.
 struct KeyParts {
-  JsonValue time, value, ease, in, out, value_in;
+  json::Value time, value, ease, in, out, value_in;
 };
-[[nodiscard]] KeyParts key_parts(const JsonValue& key);
+[[nodiscard]] KeyParts key_parts(const json::Value& key);
 
 class ClipTimes {
  public:
@@ -23,11 +23,11 @@ class ClipTimes {
       : fps_(fps), duration_(duration), no_duration_reason_(std::move(no_duration_reason)) {}
 
   // Seconds of one time; `previous` is what "+0.25" counts from. Problems are noted.
-  [[nodiscard]] std::optional<double> seconds(const JsonValue& time, std::optional<double> previous,
+  [[nodiscard]] std::optional<double> seconds(const json::Value& time, std::optional<double> previous,
                                               Problems& problems) const;
 
   // One for each key, empty where faulty; that they increase is checked.
-  [[nodiscard]] std::vector<std::optional<double>> of_keys(const JsonValue& keys, Problems& problems) const;
+  [[nodiscard]] std::vector<std::optional<double>> of_keys(const json::Value& keys, Problems& problems) const;
 
  private:
   std::optional<double> fps_, duration_;
@@ -36,6 +36,6 @@ class ClipTimes {
 
 // The duration of a clip: what it says, else its latest key or event that does not hang on a "%".
 // Infinity for functions only; 0 for nothing at all.
-[[nodiscard]] double clip_duration(const JsonValue& clip, std::optional<double> fps);
+[[nodiscard]] double clip_duration(const json::Value& clip, std::optional<double> fps);
 
 }  // namespace tweenfall::document

@@ -12,10 +12,10 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
-void read_events(const JsonValue& list, const ClipTimes& times, double duration, Clip& clip, Problems& problems) {
-  const auto inside = [&](const JsonValue& time, double seconds) {
+void read_events(const json::Value& list, const ClipTimes& times, double duration, Clip& clip, Problems& problems) {
+  const auto inside = [&](const json::Value& time, double seconds) {
     if (seconds >= 0 && seconds <= duration) return;
     problems.add(time, seconds < 0
                            ? "an event before the clip's start would never happen; found " + number_text(seconds) + " s"
@@ -23,16 +23,16 @@ void read_events(const JsonValue& list, const ClipTimes& times, double duration,
                                  " s is after " + number_text(duration) + " s");
   };
   std::optional<double> previous;
-  for (const JsonValue& item : list.items()) {
+  for (const json::Value& item : list.items()) {
     const bool row = item.is(Kind::list);
     if (!row && !item.is(Kind::object)) continue;
     const auto part = [&](std::size_t i) {
-      return i < item.items().size() && !item.items()[i].is(Kind::faulty) ? item.items()[i] : JsonValue();
+      return i < item.items().size() && !item.items()[i].is(Kind::faulty) ? item.items()[i] : json::Value();
     };
-    const JsonValue from = row ? part(0) : usable(item, "from");
-    const JsonValue name = row ? part(1) : usable(item, "name");
-    const JsonValue data = row ? part(2) : usable(item, "data");
-    const JsonValue to = row ? JsonValue() : usable(item, "to");
+    const json::Value from = row ? part(0) : usable(item, "from");
+    const json::Value name = row ? part(1) : usable(item, "name");
+    const json::Value data = row ? part(2) : usable(item, "data");
+    const json::Value to = row ? json::Value() : usable(item, "to");
     ClipEvent event;
     const std::optional<double> start = from ? times.seconds(from, previous, problems) : std::nullopt;
     previous = start;
@@ -50,7 +50,7 @@ void read_events(const JsonValue& list, const ClipTimes& times, double duration,
       event.to = *end;
     }
     if (name) event.name = name.text();
-    if (data) event.data = on_one_line(data);
+    if (data) event.data = json::on_one_line(data);
     clip.events.push_back(std::move(event));
   }
   std::stable_sort(clip.events.begin(), clip.events.end(),
@@ -59,13 +59,13 @@ void read_events(const JsonValue& list, const ClipTimes& times, double duration,
 
 }  // namespace
 
-Clip read_clip(const JsonMember& member, std::optional<double> fps, Problems& problems) {
-  const JsonValue& value = member.value;
+Clip read_clip(const json::Member& member, std::optional<double> fps, Problems& problems) {
+  const json::Value& value = member.value;
   Clip clip;
   clip.name = member.name;
   if (!value.is(Kind::object)) return clip;
 
-  if (const JsonValue said = usable(value, "duration")) (void)ClipTimes(fps, {}, "").seconds(said, {}, problems);
+  if (const json::Value said = usable(value, "duration")) (void)ClipTimes(fps, {}, "").seconds(said, {}, problems);
   clip.duration = clip_duration(value, fps);
   const bool endless = std::isinf(clip.duration);
   const bool has_share = clip.duration > 0 && !endless;
@@ -73,7 +73,7 @@ Clip read_clip(const JsonMember& member, std::optional<double> fps, Problems& pr
       fps, has_share ? std::optional(clip.duration) : std::nullopt,
       endless ? "this clip is endless; give it a \"duration\"" : "this clip has none; give it a \"duration\"");
 
-  if (const JsonValue loop = usable(value, "loop")) {
+  if (const json::Value loop = usable(value, "loop")) {
     const std::string mode = text_in(loop, "mode");
     clip.loop.mode = mode == "repeat-offset" ? LoopMode::repeat_offset
                      : mode == "pingpong"    ? LoopMode::pingpong
@@ -82,11 +82,11 @@ Clip read_clip(const JsonMember& member, std::optional<double> fps, Problems& pr
     if (endless) problems.add(loop, "an endless clip cannot loop; give it a \"duration\"");
     if (clip.duration <= 0) problems.add(loop, "a clip of no length cannot loop; give it a \"duration\"");
   }
-  if (const JsonValue tracks = usable(value, "tracks"))
-    for (const JsonMember& track : tracks.members())
+  if (const json::Value tracks = usable(value, "tracks"))
+    for (const json::Member& track : tracks.members())
       if (!is_free_name(track.name))
         if (std::optional<Track> read = read_track(track, times, problems)) clip.tracks.push_back(std::move(*read));
-  if (const JsonValue events = usable(value, "events")) read_events(events, times, clip.duration, clip, problems);
+  if (const json::Value events = usable(value, "events")) read_events(events, times, clip.duration, clip, problems);
   return clip;
 }
 

@@ -11,11 +11,11 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 // Without nodes of its own a document's tracks make them, in order of appearance, so that it can be played.
-void make_nodes(Building& building, const JsonValue& tracks) {
-  for (const JsonMember& track : tracks.members()) {
+void make_nodes(Building& building, const json::Value& tracks) {
+  for (const json::Member& track : tracks.members()) {
     const std::size_t dot = track.name.rfind('.');
     if (is_free_name(track.name) || dot == std::string::npos || track.value.is(Kind::faulty)) continue;
     NodeDescription node;
@@ -25,57 +25,58 @@ void make_nodes(Building& building, const JsonValue& tracks) {
   }
 }
 
-void check_nodes(Building& building, const JsonValue& tracks) {
-  for (const JsonMember& track : tracks.members()) {
+void check_nodes(Building& building, const json::Value& tracks) {
+  for (const json::Member& track : tracks.members()) {
     const std::size_t dot = track.name.rfind('.');
     if (is_free_name(track.name) || dot == std::string::npos || track.value.is(Kind::faulty)) continue;
     const std::string node(track.name.substr(0, dot));
     if (building.nodes.count(node) == 0 && !building.excused(node))
       building.problems.add_name(
-          track, "there is no node " + in_quotes(node) + suggestion_or_import(node, building.node_names()));
+          track, "there is no node " + json::in_quotes(node) + suggestion_or_import(node, building.node_names()));
   }
 }
 
 }  // namespace
 
 void read_clips(Building& building) {
-  if (const JsonValue clips = usable(building.root, "clips")) {
-    for (const JsonMember& member : clips.members()) {
+  if (const json::Value clips = usable(building.root, "clips")) {
+    for (const json::Member& member : clips.members()) {
       if (is_free_name(member.name)) continue;
-      if (const JsonValue tracks = usable(member.value, "tracks")) {
+      if (const json::Value tracks = usable(member.value, "tracks")) {
         if (building.names_are_free)
           make_nodes(building, tracks);
         else
           check_nodes(building, tracks);
       }
       if (!building.clips.emplace(member.name, building.stage.clips.size()).second) {
-        building.problems.add_name(
-            member, "an import has brought a clip " + in_quotes(member.name) + " already; give this one another name");
+        building.problems.add_name(member, "an import has brought a clip " + json::in_quotes(member.name) +
+                                               " already; give this one another name");
         continue;
       }
       building.stage.clips.push_back(read_clip(member, building.fps, building.problems));
     }
   }
   // Clips of files without nodes drive nodes of this one.
-  const JsonValue imports = usable(building.root, "import");
+  const json::Value imports = usable(building.root, "import");
   for (const std::string& name : building.clips_of_others) {
     const std::string alias = name.substr(0, name.find('/'));
-    const JsonValue place = imports ? usable(imports, alias) : JsonValue();
+    const json::Value place = imports ? usable(imports, alias) : json::Value();
     for (const Track& track : building.stage.clips[building.clips.at(name)].tracks)
       if (place && building.nodes.count(track.node) == 0 && !building.excused(track.node))
-        building.problems.add(place, "its clip " + in_quotes(name) + " has the track " + in_quotes(track.name()) +
-                                         ", but there is no node " + in_quotes(track.node) +
+        building.problems.add(place, "its clip " + json::in_quotes(name) + " has the track " +
+                                         json::in_quotes(track.name()) + ", but there is no node " +
+                                         json::in_quotes(track.node) +
                                          suggestion_or_import(track.node, building.node_names()));
   }
 }
 
 void read_plays(Building& building) {
-  const JsonValue list = usable(building.root, "play");
+  const json::Value list = usable(building.root, "play");
   if (!list) {
     if (building.stage.clips.size() == 1) building.stage.plays.push_back({});
     return;
   }
-  for (const JsonValue& value : list.items())
+  for (const json::Value& value : list.items())
     if (value.is(Kind::object))
       if (std::optional<Play> play = fields::read_play(value, building))
         building.stage.plays.push_back(std::move(*play));

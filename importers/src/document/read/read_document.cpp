@@ -17,9 +17,9 @@ namespace tweenfall::document {
 namespace {
 
 // A reader does not guess at what another version means: this is then the only problem told.
-bool is_other_version(const JsonValue& root, Problems& problems) {
-  const JsonValue version = root.find("tweenfall");
-  if (!version || !version.is(JsonValue::Kind::number) || version.number() == document_version) return false;
+bool is_other_version(const json::Value& root, Problems& problems) {
+  const json::Value version = root.find("tweenfall");
+  if (!version || !version.is(json::Value::Kind::number) || version.number() == document_version) return false;
   problems.add(version, "this is version " + number_text(version.number()) + "; this reader reads version " +
                             number_text(document_version));
   return true;
@@ -29,17 +29,17 @@ bool is_other_version(const JsonValue& root, Problems& problems) {
 
 ReadDocument read_document(std::string text, const std::string& name, const std::filesystem::path& folder,
                            Reading& reading) {
-  std::vector<JsonFault> faults;
+  std::vector<json::Fault> faults;
   ReadDocument out;
-  out.tree = JsonTree::parse(std::move(text), faults, {.largest = largest_document});
-  const JsonValue root = out.tree.root();
+  out.tree = json::Tree::parse(std::move(text), faults, {.largest = largest_document});
+  const json::Value root = out.tree.root();
   Problems problems;
-  for (const JsonFault& fault : faults) problems.add(fault);
-  if (!root.is(JsonValue::Kind::faulty) && !is_other_version(root, problems)) {
+  for (const json::Fault& fault : faults) problems.add(fault);
+  if (!root.is(json::Value::Kind::faulty) && !is_other_version(root, problems)) {
     check(document_form(), out.tree, problems);
     Building building{root, folder, reading, problems};
-    if (const JsonValue title = usable(root, "name")) building.stage.name = title.text();
-    if (const JsonValue fps = usable(root, "fps")) building.fps = fps.number();
+    if (const json::Value title = usable(root, "name")) building.stage.name = title.text();
+    if (const json::Value fps = usable(root, "fps")) building.fps = fps.number();
     building.names_are_free = !root.find("nodes") && !root.find("import");
     read_imports(building);
     read_nodes(building);

@@ -91,25 +91,26 @@ class Importer {
  public:
   explicit Importer(Building& building) : building_(building) {}
 
-  void read(const JsonMember& member) {
-    const JsonValue& place = member.value;
+  void read(const json::Member& member) {
+    const json::Value& place = member.value;
     std::error_code fault;
     const fs::path given = building_.folder / fs::path(place.text());
     // Of what is not there a relative path would stay relative, and lie in no folder.
     const fs::path base = fs::weakly_canonical(fs::current_path() / building_.folder, fault);
     const fs::path file = fs::weakly_canonical(base / fs::path(place.text()), fault);
-    if (fault) return tell(place, in_quotes(place.text()) + " is no path of a file: " + fault.message());
+    if (fault) return tell(place, json::in_quotes(place.text()) + " is no path of a file: " + fault.message());
     if (!building_.reading.options.allow_outside && !is_below(file, base))
-      return tell(place, in_quotes(place.text()) + " lies outside the document's folder; move the file into it");
+      return tell(place, json::in_quotes(place.text()) + " lies outside the document's folder; move the file into it");
     if (!fs::is_regular_file(file, fault))
-      return tell(place, "there is no file " + in_quotes(place.text()) + in_folder(file, std::string(place.text())));
+      return tell(place,
+                  "there is no file " + json::in_quotes(place.text()) + in_folder(file, std::string(place.text())));
     if (std::find(building_.reading.open.begin(), building_.reading.open.end(), file) != building_.reading.open.end())
-      return tell(place, in_quotes(place.text()) +
+      return tell(place, json::in_quotes(place.text()) +
                              " imports this document, directly or through others; a file cannot contain itself");
     const std::shared_ptr<const Brought> brought = brought_by(file, given, place);
     if (!brought) return;
     const auto too_many = [&](const char* what, std::size_t most) {
-      tell(place, "with " + in_quotes(place.text()) + " more than " + std::to_string(most) + " " + what +
+      tell(place, "with " + json::in_quotes(place.text()) + " more than " + std::to_string(most) + " " + what +
                       " would be imported; a file that is imported twice brings all it has twice");
     };
     if (parts_of(building_.stage) + parts_of(brought->stage) > most_parts)
@@ -121,13 +122,13 @@ class Importer {
   }
 
  private:
-  void tell(const JsonValue& place, std::string message) { building_.problems.add(place, std::move(message)); }
+  void tell(const json::Value& place, std::string message) { building_.problems.add(place, std::move(message)); }
 
   // What the file holds; null where it has problems, which are told.
-  std::shared_ptr<const Brought> brought_by(const fs::path& file, const fs::path& given, const JsonValue& place) {
+  std::shared_ptr<const Brought> brought_by(const fs::path& file, const fs::path& given, const json::Value& place) {
     std::map<fs::path, std::shared_ptr<const Brought>>& known = building_.reading.brought;
     if (const auto found = known.find(file); found != known.end()) {
-      if (!found->second) tell(place, in_quotes(place.text()) + " has problems, told where it is imported first");
+      if (!found->second) tell(place, json::in_quotes(place.text()) + " has problems, told where it is imported first");
       return found->second;
     }
     if (known.size() >= most_files) {
@@ -139,8 +140,8 @@ class Importer {
       brought = std::make_shared<const Brought>(read_file(file, given, place));
     } catch (const DocumentError& error) {
       const std::size_t count = error.problems().size();
-      tell(place, in_quotes(place.text()) + " has " + (count == 1 ? "a problem" : std::to_string(count) + " problems") +
-                      ", told below");
+      tell(place, json::in_quotes(place.text()) + " has " +
+                      (count == 1 ? "a problem" : std::to_string(count) + " problems") + ", told below");
       building_.problems.add_foreign(error.problems());
     } catch (const ModelError& error) {
       std::string what = error.what();
@@ -151,7 +152,7 @@ class Importer {
     return brought;
   }
 
-  Brought read_file(const fs::path& file, const fs::path& given, const JsonValue& place) {
+  Brought read_file(const fs::path& file, const fs::path& given, const json::Value& place) {
     if (file.extension() == ".json") {
       ReadDocument document = read_document_file(given, building_.reading);
       building_.problems.add_foreign(document.notes);
@@ -159,7 +160,7 @@ class Importer {
     }
     Model model = load_model(given);
     for (const std::string& repair : model.repairs)
-      building_.problems.note(place, in_quotes(place.text()) + ": " + repair);
+      building_.problems.note(place, json::in_quotes(place.text()) + ": " + repair);
     return from_model(std::move(model));
   }
 
@@ -176,17 +177,17 @@ std::string Importer::in_folder(const fs::path& file, const std::string& written
     names.push_back((fs::path(written).parent_path() / entry->path().filename()).generic_string());
   std::sort(names.begin(), names.end());
   const std::string nearest = nearest_name(written, names);
-  return nearest.empty() ? std::string() : "; did you mean " + in_quotes(nearest) + "?";
+  return nearest.empty() ? std::string() : "; did you mean " + json::in_quotes(nearest) + "?";
 }
 
 }  // namespace
 
 void read_imports(Building& building) {
-  const JsonValue imports = usable(building.root, "import");
+  const json::Value imports = usable(building.root, "import");
   if (!imports) return;
   Importer importer(building);
-  for (const JsonMember& member : imports.members()) {
-    if (is_free_name(member.name) || !member.value.is(JsonValue::Kind::text)) continue;
+  for (const json::Member& member : imports.members()) {
+    if (is_free_name(member.name) || !member.value.is(json::Value::Kind::text)) continue;
     const std::size_t problems_before = building.problems.size();
     importer.read(member);
     if (building.problems.size() != problems_before) building.failed_imports.emplace(member.name);

@@ -14,7 +14,7 @@ namespace tweenfall::document {
 
 namespace {
 
-NodeDescription new_node(const JsonMember& member, Building& building) {
+NodeDescription new_node(const json::Member& member, Building& building) {
   NodeDescription node;
   node.name = member.name;
   fields::read_place(member.value, node, building);
@@ -25,7 +25,7 @@ NodeDescription new_node(const JsonMember& member, Building& building) {
 // The root of an import that is given a parent here.
 struct HungNode {
   std::size_t node;
-  JsonValue parent;
+  json::Value parent;
 };
 
 void hang(const std::vector<HungNode>& hung, Building& building) {
@@ -33,17 +33,18 @@ void hang(const std::vector<HungNode>& hung, Building& building) {
   for (const auto& [node, parent] : hung) {
     const auto found = building.nodes.find(parent.text());
     if (nodes[node].parent != no_node) {
-      building.problems.add(parent, "only the root of an import can be given a parent; " + in_quotes(nodes[node].name) +
-                                        " hangs on " + in_quotes(nodes[nodes[node].parent].name) + " in its file");
+      building.problems.add(parent, "only the root of an import can be given a parent; " +
+                                        json::in_quotes(nodes[node].name) + " hangs on " +
+                                        json::in_quotes(nodes[nodes[node].parent].name) + " in its file");
     } else if (found == building.nodes.end()) {
       if (!building.excused(parent.text()))
-        building.problems.add(parent, "there is no node " + in_quotes(parent.text()) +
+        building.problems.add(parent, "there is no node " + json::in_quotes(parent.text()) +
                                           suggestion_or_import(parent.text(), building.node_names()));
     } else {
       std::size_t at = found->second;
       while (at != no_node && at != node) at = nodes[at].parent;
       if (at == node)
-        building.problems.add(parent, in_quotes(nodes[node].name) + " would hang on itself");
+        building.problems.add(parent, json::in_quotes(nodes[node].name) + " would hang on itself");
       else
         nodes[node].parent = found->second;
     }
@@ -52,7 +53,7 @@ void hang(const std::vector<HungNode>& hung, Building& building) {
 
 // Own nodes may name parents that come later; the stage wants parents first.
 struct OwnNodes {
-  std::vector<JsonMember> members;
+  std::vector<json::Member> members;
   std::map<std::string, std::size_t, std::less<>> index;
 };
 
@@ -99,21 +100,21 @@ std::vector<std::size_t> Building::nodes_named(std::string_view name) const {
 }
 
 void read_nodes(Building& building) {
-  const JsonValue nodes = usable(building.root, "nodes");
+  const json::Value nodes = usable(building.root, "nodes");
   if (!nodes) return;
   Problems& problems = building.problems;
   OwnNodes own;
   std::vector<HungNode> hung;
-  for (const JsonMember& member : nodes.members()) {
+  for (const json::Member& member : nodes.members()) {
     if (is_free_name(member.name)) continue;
     if (const auto known = building.nodes.find(member.name); known != building.nodes.end()) {
       // A node of an import: what it is in its file stays, and this adds to it.
       for (const std::string& given : fields::place_names())
-        if (const JsonValue value = usable(member.value, given))
-          problems.add(value, in_quotes(given) +
+        if (const json::Value value = usable(member.value, given))
+          problems.add(value, json::in_quotes(given) +
                                   " of an imported node is its file's; only \"body\", \"color\" and \"group\" can be "
                                   "added, and to a root a \"parent\"");
-      if (const JsonValue parent = usable(member.value, "parent")) hung.push_back({known->second, parent});
+      if (const json::Value parent = usable(member.value, "parent")) hung.push_back({known->second, parent});
       fields::read_look(member.value, building.stage.nodes[known->second], building);
       continue;
     }
@@ -122,8 +123,8 @@ void read_nodes(Building& building) {
       std::vector<std::string> imported;
       for (const std::string& name : building.node_names())
         if (name.compare(0, slash + 1, member.name, 0, slash + 1) == 0) imported.push_back(name);
-      problems.add_name(member, "the import " + in_quotes(member.name.substr(0, slash)) + " has no node " +
-                                    in_quotes(member.name.substr(slash + 1)) + suggestion(member.name, imported));
+      problems.add_name(member, "the import " + json::in_quotes(member.name.substr(0, slash)) + " has no node " +
+                                    json::in_quotes(member.name.substr(slash + 1)) + suggestion(member.name, imported));
       continue;
     }
     own.index.emplace(member.name, own.members.size());
@@ -131,11 +132,11 @@ void read_nodes(Building& building) {
   }
 
   std::vector<std::string> names = building.node_names();
-  for (JsonMember member : own.members) names.emplace_back(member.name);
+  for (json::Member member : own.members) names.emplace_back(member.name);
   // The own node that each one hangs on, if any; unknown parents are told.
   std::vector<std::optional<std::size_t>> parent(own.members.size());
   for (std::size_t i = 0; i < own.members.size(); ++i) {
-    const JsonValue given = usable(own.members[i].value, "parent");
+    const json::Value given = usable(own.members[i].value, "parent");
     if (!given) continue;
     const auto found = own.index.find(given.text());
     if (found != own.index.end())
@@ -143,7 +144,8 @@ void read_nodes(Building& building) {
     else if (building.nodes.count(given.text()) == 0 && !building.excused(given.text())) {
       if (problems.crowded()) names.clear();
       problems.look_at(names.size());
-      problems.add(given, "there is no node " + in_quotes(given.text()) + suggestion_or_import(given.text(), names));
+      problems.add(given,
+                   "there is no node " + json::in_quotes(given.text()) + suggestion_or_import(given.text(), names));
     }
   }
 
@@ -161,14 +163,14 @@ void read_nodes(Building& building) {
     if (at && state[*at] == State::open) {
       std::string circle;
       for (auto link = std::find(chain.begin(), chain.end(), *at); link != chain.end(); ++link)
-        circle += in_quotes(own.members[*link].name) + " in ";
+        circle += json::in_quotes(own.members[*link].name) + " in ";
       problems.add(usable(own.members[*at].value, "parent"),
-                   "these parents go around in a circle: " + circle + in_quotes(own.members[*at].name));
+                   "these parents go around in a circle: " + circle + json::in_quotes(own.members[*at].name));
     }
     for (auto link = chain.rbegin(); link != chain.rend(); ++link) {
-      const JsonMember& member = own.members[*link];
+      const json::Member& member = own.members[*link];
       NodeDescription node = new_node(member, building);
-      if (const JsonValue given = usable(member.value, "parent"))
+      if (const json::Value given = usable(member.value, "parent"))
         if (const auto found = building.nodes.find(given.text()); found != building.nodes.end())
           node.parent = found->second;
       building.nodes.emplace(member.name, building.stage.nodes.size());

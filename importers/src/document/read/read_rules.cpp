@@ -22,8 +22,8 @@ class RuleReader {
     find_animated();
   }
 
-  void read(const JsonValue& value) {
-    if (!value.is(JsonValue::Kind::object)) return;
+  void read(const json::Value& value) {
+    if (!value.is(json::Value::Kind::object)) return;
     fields::RuleBeingRead read = fields::read_rule(value, events_, building_);
     check_path(read);
     check_instants(value, read);
@@ -60,7 +60,7 @@ class RuleReader {
       const bool rests = node.body->drive && node.body->drive->owner() == Owner::keyed;
       if (animated_[i] || rests) continue;
       building_.problems.add(
-          read.to, in_quotes(node.name) +
+          read.to, json::in_quotes(node.name) +
                        " has no path to be keyed to: no playing clip animates it or its parents; give a \"path\" "
                        "with a \"clip\"");
       break;
@@ -68,15 +68,15 @@ class RuleReader {
   }
 
   // Two rules that act on one body at one time would leave the outcome to their order.
-  void check_instants(const JsonValue& value, const fields::RuleBeingRead& read) {
+  void check_instants(const json::Value& value, const fields::RuleBeingRead& read) {
     if (read.rule.when.all && read.rule.when.triggers.size() > 1) return;
     for (const fields::RuleInstant& instant : read.instants) {
       for (const std::size_t body : read.bodies) {
         const auto [other, fresh] = taken_.emplace(std::pair(instant.seconds, body), value);
         if (fresh || other->second == value) continue;
-        building_.problems.add(instant.place, "another rule acts on " + in_quotes(building_.stage.nodes[body].name) +
-                                                  " at " + number_text(instant.seconds) +
-                                                  " s already; a body changes hands once at a time");
+        building_.problems.add(instant.place,
+                               "another rule acts on " + json::in_quotes(building_.stage.nodes[body].name) + " at " +
+                                   number_text(instant.seconds) + " s already; a body changes hands once at a time");
         break;
       }
     }
@@ -85,16 +85,16 @@ class RuleReader {
   Building& building_;
   std::vector<std::string> events_;
   std::vector<bool> animated_;
-  std::map<std::pair<double, std::size_t>, JsonValue> taken_;
+  std::map<std::pair<double, std::size_t>, json::Value> taken_;
 };
 
 }  // namespace
 
 void read_rules(Building& building) {
-  const JsonValue rules = usable(building.root, "handoff");
+  const json::Value rules = usable(building.root, "handoff");
   if (!rules) return;
   RuleReader reader(building);
-  for (const JsonValue& rule : rules.items()) reader.read(rule);
+  for (const json::Value& rule : rules.items()) reader.read(rule);
 }
 
 }  // namespace tweenfall::document

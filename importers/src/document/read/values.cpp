@@ -10,7 +10,7 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 }  // namespace
 
@@ -21,56 +21,56 @@ double degrees(double radians) {
   return radians * (180 / std::numbers::pi);
 }
 
-JsonValue usable(const JsonValue& object, std::string_view name) {
-  const JsonValue value = object.is(Kind::object) ? object.find(name) : JsonValue();
-  return value && !value.is(Kind::faulty) ? value : JsonValue();
+json::Value usable(const json::Value& object, std::string_view name) {
+  const json::Value value = object.is(Kind::object) ? object.find(name) : json::Value();
+  return value && !value.is(Kind::faulty) ? value : json::Value();
 }
 
-JsonValue below(JsonValue object, std::initializer_list<std::string_view> names) {
+json::Value below(json::Value object, std::initializer_list<std::string_view> names) {
   for (const std::string_view name : names) {
-    const JsonValue next = usable(object, name);
+    const json::Value next = usable(object, name);
     if (!next) break;
     object = next;
   }
   return object;
 }
 
-double number_in(const JsonValue& object, std::string_view name, double fallback) {
-  const JsonValue value = usable(object, name);
+double number_in(const json::Value& object, std::string_view name, double fallback) {
+  const json::Value value = usable(object, name);
   return value && value.is(Kind::number) ? value.number() : fallback;
 }
 
-bool flag_in(const JsonValue& object, std::string_view name, bool fallback) {
-  const JsonValue value = usable(object, name);
+bool flag_in(const json::Value& object, std::string_view name, bool fallback) {
+  const json::Value value = usable(object, name);
   return value && value.is(Kind::boolean) ? value.boolean() : fallback;
 }
 
-std::string text_in(const JsonValue& object, std::string_view name, const std::string& fallback) {
-  const JsonValue value = usable(object, name);
+std::string text_in(const json::Value& object, std::string_view name, const std::string& fallback) {
+  const json::Value value = usable(object, name);
   return value && value.is(Kind::text) ? std::string(value.text()) : fallback;
 }
 
-Vec3 vector_in(const JsonValue& object, std::string_view name, const Vec3& fallback) {
-  const JsonValue value = usable(object, name);
+Vec3 vector_in(const json::Value& object, std::string_view name, const Vec3& fallback) {
+  const json::Value value = usable(object, name);
   return value ? vector_of(value).value_or(fallback) : fallback;
 }
 
-std::vector<std::string> names_of(const JsonValue& value) {
+std::vector<std::string> names_of(const json::Value& value) {
   std::vector<std::string> out;
   if (value.is(Kind::text)) out.emplace_back(value.text());
-  for (const JsonValue& item : value.items())
+  for (const json::Value& item : value.items())
     if (item.is(Kind::text)) out.emplace_back(item.text());
   return out;
 }
 
-std::optional<Vec3> vector_of(const JsonValue& value) {
+std::optional<Vec3> vector_of(const json::Value& value) {
   if (!value.is(Kind::list) || value.items().size() != 3) return {};
-  for (const JsonValue& item : value.items())
+  for (const json::Value& item : value.items())
     if (!item.is(Kind::number)) return {};
   return Vec3(value.items()[0].number(), value.items()[1].number(), value.items()[2].number());
 }
 
-std::optional<Vec3> scale_of(const JsonValue& value) {
+std::optional<Vec3> scale_of(const json::Value& value) {
   if (value.is(Kind::number)) return Vec3(value.number(), value.number(), value.number());
   return vector_of(value);
 }
@@ -83,7 +83,7 @@ int digit_of(char c) {
 
 }  // namespace
 
-std::optional<Color> color_of(const JsonValue& value) {
+std::optional<Color> color_of(const json::Value& value) {
   if (!value.is(Kind::text) || value.text().size() < 4) return {};
   Vec4 coordinates(0, 0, 0, 1);
   const bool brief = value.text().size() == 4;
@@ -108,7 +108,7 @@ std::string color_text(const Color& color) {
   return out;
 }
 
-std::optional<Vec3> axis_of(const JsonValue& value, Problems& problems) {
+std::optional<Vec3> axis_of(const json::Value& value, Problems& problems) {
   if (value.is(Kind::text)) {
     const bool back = value.text().size() == 2;
     Vec3 axis(0, 0, 0);
@@ -135,13 +135,13 @@ EulerOrder order_of(std::string_view word) {
   return order;
 }
 
-std::optional<Quat> rotation_of(const JsonValue& value, const EulerOrder& order, Problems& problems) {
-  if (const JsonValue euler = usable(value, "euler")) {
+std::optional<Quat> rotation_of(const json::Value& value, const EulerOrder& order, Problems& problems) {
+  if (const json::Value euler = usable(value, "euler")) {
     const std::optional<Vec3> angles = vector_of(euler);
     if (!angles) return {};
     return from_euler(Vec3(radians((*angles)[0]), radians((*angles)[1]), radians((*angles)[2])), order);
   }
-  if (const JsonValue quat = usable(value, "quat")) {
+  if (const json::Value quat = usable(value, "quat")) {
     if (!quat.is(Kind::list) || quat.items().size() != 4) return {};
     Vec4 parts;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -160,8 +160,8 @@ std::optional<Quat> rotation_of(const JsonValue& value, const EulerOrder& order,
     const Vec4& used = std::abs(length - 1) < 1e-15 ? parts : unit;
     return Quat(used[3], used[0], used[1], used[2]);
   }
-  const JsonValue axis = usable(value, "axis");
-  const JsonValue angle = usable(value, "angle");
+  const json::Value axis = usable(value, "axis");
+  const json::Value angle = usable(value, "angle");
   if (!axis || !angle || !angle.is(Kind::number)) return {};
   const std::optional<Vec3> unit = axis_of(axis, problems);
   if (!unit) return {};

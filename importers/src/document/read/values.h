@@ -19,27 +19,27 @@ namespace tweenfall::document {
 [[nodiscard]] double degrees(double radians);
 
 // A member that can be used; null when absent or faulty.
-[[nodiscard]] JsonValue usable(const JsonValue& object, std::string_view name);
+[[nodiscard]] json::Value usable(const json::Value& object, std::string_view name);
 
 // The value below `object` by the names on the way, or the last that is there.
-[[nodiscard]] JsonValue below(JsonValue object, std::initializer_list<std::string_view> names);
+[[nodiscard]] json::Value below(json::Value object, std::initializer_list<std::string_view> names);
 
-[[nodiscard]] double number_in(const JsonValue& object, std::string_view name, double fallback);
-[[nodiscard]] bool flag_in(const JsonValue& object, std::string_view name, bool fallback);
-[[nodiscard]] std::string text_in(const JsonValue& object, std::string_view name, const std::string& fallback = {});
-[[nodiscard]] Vec3 vector_in(const JsonValue& object, std::string_view name, const Vec3& fallback);
+[[nodiscard]] double number_in(const json::Value& object, std::string_view name, double fallback);
+[[nodiscard]] bool flag_in(const json::Value& object, std::string_view name, bool fallback);
+[[nodiscard]] std::string text_in(const json::Value& object, std::string_view name, const std::string& fallback = {});
+[[nodiscard]] Vec3 vector_in(const json::Value& object, std::string_view name, const Vec3& fallback);
 
 // Of a name, or of a list of names.
-[[nodiscard]] std::vector<std::string> names_of(const JsonValue& value);
-[[nodiscard]] std::optional<Vec3> vector_of(const JsonValue& value);
-[[nodiscard]] std::optional<Vec3> scale_of(const JsonValue& value);  // one number is for all three axes
-[[nodiscard]] std::optional<Color> color_of(const JsonValue& value);
+[[nodiscard]] std::vector<std::string> names_of(const json::Value& value);
+[[nodiscard]] std::optional<Vec3> vector_of(const json::Value& value);
+[[nodiscard]] std::optional<Vec3> scale_of(const json::Value& value);  // one number is for all three axes
+[[nodiscard]] std::optional<Color> color_of(const json::Value& value);
 [[nodiscard]] std::string color_text(const Color& color);
 
 // Unit axis; a zero one is a problem.
-[[nodiscard]] std::optional<Vec3> axis_of(const JsonValue& value, Problems& problems);
+[[nodiscard]] std::optional<Vec3> axis_of(const json::Value& value, Problems& problems);
 [[nodiscard]] EulerOrder order_of(std::string_view word);
 // Any spelling; a zero quaternion or axis is a problem.
-[[nodiscard]] std::optional<Quat> rotation_of(const JsonValue& value, const EulerOrder& order, Problems& problems);
+[[nodiscard]] std::optional<Quat> rotation_of(const json::Value& value, const EulerOrder& order, Problems& problems);
 
 }  // namespace tweenfall::document

@@ -12,13 +12,13 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 class Checker {
  public:
-  Checker(JsonTree& tree, Problems& problems) : tree_(tree), problems_(problems) {}
+  Checker(json::Tree& tree, Problems& problems) : tree_(tree), problems_(problems) {}
 
-  void value(const Form& form, const JsonValue& value) {
+  void value(const Form& form, const json::Value& value) {
     if (value.is(Kind::faulty)) return;
     const Form* chosen = resolved(form, value);
     if (!chosen) {
@@ -53,19 +53,19 @@ class Checker {
   }
 
  private:
-  void fault(const JsonValue& at, std::string message) {
+  void fault(const json::Value& at, std::string message) {
     problems_.add(at, std::move(message));
     tree_.mark_faulty(at);
   }
 
-  void number(const Form& form, const std::string& what, const JsonValue& value) {
+  void number(const Form& form, const std::string& what, const json::Value& value) {
     const double number = value.number();
     const bool low = form.above_low ? number > form.low : number >= form.low;
     const bool whole = !form.whole || number == std::floor(number);
     if (!(low && number <= form.high && whole)) fault(value, "expected " + what + ", found " + number_text(number));
   }
 
-  void text(const Form& form, const std::string& what, const JsonValue& value) {
+  void text(const Form& form, const std::string& what, const json::Value& value) {
     if (form.words.empty() && !form.fits) return;
     if (std::find(form.words.begin(), form.words.end(), value.text()) != form.words.end()) return;
     if (form.fits && form.fits(value.text())) return;
@@ -78,18 +78,18 @@ class Checker {
     fault(value, "expected " + what + ", found " + described(value) + reason);
   }
 
-  void count(const std::string& what, const JsonValue& value, bool fits) {
+  void count(const std::string& what, const json::Value& value, bool fits) {
     if (!fits) problems_.add(value, "expected " + what + ", found " + described(value));
   }
 
-  void list(const Form& form, const std::string& what, const JsonValue& value) {
+  void list(const Form& form, const std::string& what, const json::Value& value) {
     const bool fits = value.items().size() >= form.fewest && value.items().size() <= form.most;
-    for (const JsonValue& item : value.items()) this->value(*form.element, item);
+    for (const json::Value& item : value.items()) this->value(*form.element, item);
     count(what, value, fits);
     if (!fits) tree_.mark_faulty(value);
   }
 
-  void tuple(const Form& form, const std::string& what, const JsonValue& value) {
+  void tuple(const Form& form, const std::string& what, const json::Value& value) {
     const bool fits = value.items().size() >= form.fewest && value.items().size() <= form.parts.size();
     for (std::size_t i = 0; i < std::min(value.items().size(), form.parts.size()); ++i)
       this->value(*form.parts[i], value.items()[i]);
@@ -97,7 +97,7 @@ class Checker {
     if (!fits) tree_.mark_faulty(value);
   }
 
-  void object(const Form& form, const std::string& what, const JsonValue& value) {
+  void object(const Form& form, const std::string& what, const json::Value& value) {
     if (form.foremost_fault) {
       if (std::string message = form.foremost_fault(value); !message.empty()) {
         fault(value, std::move(message));
@@ -105,13 +105,13 @@ class Checker {
       }
     }
     std::vector<std::string> meant;  // fields that a misspelled name is near to
-    for (const JsonMember& member : value.members()) {
+    for (const json::Member& member : value.members()) {
       if (is_free_name(member.name)) continue;
       const Form* expected = form.member(member.name);
       if (!expected) {
         meant.push_back(form.field_meant(member.name));
-        problems_.add_name(member,
-                           "unknown field " + in_quotes(member.name) + suggestion_of(meant.back(), form.field_names()));
+        problems_.add_name(
+            member, "unknown field " + json::in_quotes(member.name) + suggestion_of(meant.back(), form.field_names()));
         tree_.mark_faulty(member.value);
         continue;
       }
@@ -129,53 +129,55 @@ class Checker {
       const std::string ours = form.name_meant(member.name);
       if (ours.empty()) continue;
       problems_.keep(before);
-      problems_.add_name(member, "did you mean " + in_quotes(ours) + "? " + in_quotes(member.name) +
+      problems_.add_name(member, "did you mean " + json::in_quotes(ours) + "? " + json::in_quotes(member.name) +
                                      " is a property of your own, and does not hold this value");
       tree_.mark_faulty(member.value);
     }
     for (const Field& field : form.fields)
       if (field.required && !value.find(field.name) && std::find(meant.begin(), meant.end(), field.name) == meant.end())
-        problems_.add(value, "expected " + what + "; " + in_quotes(field.name) + " is missing");
+        problems_.add(value, "expected " + what + "; " + json::in_quotes(field.name) + " is missing");
     for (const Together& rule : form.together) together(rule, what, value);
   }
 
-  void together(const Together& rule, const std::string& what, const JsonValue& value) {
-    std::optional<JsonMember> first, second;
-    for (const JsonMember& member : value.members()) {
+  void together(const Together& rule, const std::string& what, const json::Value& value) {
+    std::optional<json::Member> first, second;
+    for (const json::Member& member : value.members()) {
       if (std::find(rule.names.begin(), rule.names.end(), member.name) == rule.names.end()) continue;
       (first ? second : first) = member;
       if (second) break;
     }
     if (rule.rule == Together::Rule::first_needs_second) {
       if (first && !second && first->name == rule.names[0])
-        problems_.add_name(*first, in_quotes(rule.names[0]) + " needs " + in_quotes(rule.names[1]) + " beside it");
+        problems_.add_name(*first,
+                           json::in_quotes(rule.names[0]) + " needs " + json::in_quotes(rule.names[1]) + " beside it");
       return;
     }
     if (second) {
-      problems_.add_name(*second, in_quotes(second->name) + " beside " + in_quotes(first->name) + "; give one of them");
+      problems_.add_name(
+          *second, json::in_quotes(second->name) + " beside " + json::in_quotes(first->name) + "; give one of them");
       tree_.mark_faulty(second->value);
     }
     if (!first && rule.rule == Together::Rule::exactly_one) {
       std::string names;
-      for (const std::string& name : rule.names) names += (names.empty() ? "" : ", ") + in_quotes(name);
+      for (const std::string& name : rule.names) names += (names.empty() ? "" : ", ") + json::in_quotes(name);
       // Where the name is misspelled, the unknown field was reported; that it is missing too would be noise.
-      for (const JsonMember& member : value.members())
+      for (const json::Member& member : value.members())
         if (member.value.is(Kind::faulty)) return;
       problems_.add(value, "expected " + what + "; one of " + names + " is missing");
     }
   }
 
-  JsonTree& tree_;
+  json::Tree& tree_;
   Problems& problems_;
 };
 
 }  // namespace
 
-void check(const Form& form, JsonTree& tree, Problems& problems) {
+void check(const Form& form, json::Tree& tree, Problems& problems) {
   Checker(tree, problems).value(form, tree.root());
 }
 
-std::string described(const JsonValue& value) {
+std::string described(const json::Value& value) {
   switch (value.kind()) {
     case Kind::null:
       return "null";
@@ -184,7 +186,7 @@ std::string described(const JsonValue& value) {
     case Kind::number:
       return number_text(value.number());
     case Kind::text: {
-      std::string out = in_quotes(value.text());
+      std::string out = json::in_quotes(value.text());
       if (out.size() <= 60) return out;
       std::size_t end = 57;
       while (end > 0 && (static_cast<unsigned char>(out[end]) & 0xc0) == 0x80) --end;
@@ -194,7 +196,7 @@ std::string described(const JsonValue& value) {
       return value.items().empty() ? "an empty list" : "a list of " + std::to_string(value.items().size());
     case Kind::object: {
       if (value.members().empty()) return "an empty object";
-      return "an object with " + in_quotes(value.members().front().name);
+      return "an object with " + json::in_quotes(value.members().front().name);
     }
     case Kind::faulty:
       break;

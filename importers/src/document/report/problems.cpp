@@ -9,6 +9,8 @@
 
 namespace tweenfall {
 
+namespace document {
+
 namespace {
 
 std::string all_texts(const std::vector<Problem>& problems) {
@@ -21,6 +23,8 @@ std::string all_texts(const std::vector<Problem>& problems) {
 }
 
 }  // namespace
+
+}  // namespace document
 
 std::string Problem::text() const {
   std::string out = utf8_text(file);
@@ -43,7 +47,7 @@ std::string Problem::text() const {
 }
 
 DocumentError::DocumentError(std::vector<Problem> problems)
-    : std::runtime_error(all_texts(problems)), problems_(std::move(problems)) {}
+    : std::runtime_error(document::all_texts(problems)), problems_(std::move(problems)) {}
 
 namespace document {
 
@@ -65,7 +69,7 @@ class Walk {
       line_end_ = 0;
     }
     if (offset > at_) {
-      column_ += characters_in(utf8_text(text_.substr(at_, offset - at_)));
+      column_ += json::characters_in(utf8_text(text_.substr(at_, offset - at_)));
       at_ = offset;
     }
     problem.line = line_;
@@ -95,7 +99,7 @@ class Walk {
     // What is not UTF-8 is shown by the same letters as it is counted.
     const std::string before = utf8_text(text_.substr(from, at_ - std::min(at_, from)));
     const std::string after = utf8_text(text_.substr(std::max(at_, from), to - std::min(to, std::max(at_, from))));
-    problem.excerpt_column = column_ - characters_in(before);
+    problem.excerpt_column = column_ - json::characters_in(before);
     for (const char c : before + after)
       problem.excerpt += (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7f ? ' ' : c;
   }
@@ -107,23 +111,23 @@ class Walk {
 
 }  // namespace
 
-void Problems::add(const JsonValue& at, std::string message) {
+void Problems::add(const json::Value& at, std::string message) {
   errors_.entries.push_back({{at.offset(), 0, std::move(message)}, at});
 }
 
-void Problems::add_name(const JsonMember& at, std::string message) {
-  add(JsonFault{at.name_offset(), at.name_length(), std::move(message)});
+void Problems::add_name(const json::Member& at, std::string message) {
+  add(json::Fault{at.name_offset(), at.name_length(), std::move(message)});
 }
 
 void Problems::keep(std::size_t count) {
   errors_.entries.resize(std::min(errors_.entries.size(), count - std::min(count, errors_.foreign.size())));
 }
 
-void Problems::note(const JsonValue& at, std::string message) {
+void Problems::note(const json::Value& at, std::string message) {
   notes_.entries.push_back({{at.offset(), 0, std::move(message)}, at});
 }
 
-void Problems::note_name(const JsonMember& at, std::string message) {
+void Problems::note_name(const json::Member& at, std::string message) {
   notes_.entries.push_back({{at.name_offset(), at.name_length(), std::move(message)}, {}});
 }
 
@@ -132,7 +136,7 @@ void Problems::add_foreign(const std::vector<Problem>& problems) {
     (problem.severity == Severity::note ? notes_ : errors_).foreign.push_back(problem);
 }
 
-std::vector<Problem> Problems::located(Severity severity, const std::string& file, const JsonTree& tree) const {
+std::vector<Problem> Problems::located(Severity severity, const std::string& file, const json::Tree& tree) const {
   const Told& told = severity == Severity::note ? notes_ : errors_;
   std::vector<const Entry*> ordered;
   ordered.reserve(told.entries.size());

@@ -13,14 +13,14 @@ namespace tweenfall::document {
 
 class Problems {
  public:
-  void add(const JsonFault& fault) { errors_.entries.push_back({fault, {}}); }
-  void add(const JsonValue& at, std::string message);
-  void add_name(const JsonMember& at, std::string message);
+  void add(const json::Fault& fault) { errors_.entries.push_back({fault, {}}); }
+  void add(const json::Value& at, std::string message);
+  void add_name(const json::Member& at, std::string message);
   // Forgets errors that another says better. @param count  errors that stay, the first
   void keep(std::size_t count);
   // What is no fault; a document without errors keeps it.
-  void note(const JsonValue& at, std::string message);
-  void note_name(const JsonMember& at, std::string message);
+  void note(const json::Value& at, std::string message);
+  void note_name(const json::Member& at, std::string message);
   // Problems and notes of an imported file, at their places there.
   void add_foreign(const std::vector<Problem>& problems);
 
@@ -34,7 +34,7 @@ class Problems {
   void look_at(std::size_t names) { looked_at_ += names; }
 
   // In order of the text; of very many the first.
-  [[nodiscard]] std::vector<Problem> located(Severity severity, const std::string& file, const JsonTree& tree) const;
+  [[nodiscard]] std::vector<Problem> located(Severity severity, const std::string& file, const json::Tree& tree) const;
 
   static constexpr std::size_t most_listed = 400;
 
@@ -42,8 +42,8 @@ class Problems {
   static constexpr std::size_t most_looked_at = 400000;
 
   struct Entry {
-    JsonFault fault;
-    JsonValue value;  // whose length is the fault's, unless it has one
+    json::Fault fault;
+    json::Value value;  // whose length is the fault's, unless it has one
   };
 
   struct Told {

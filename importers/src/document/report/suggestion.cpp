@@ -44,7 +44,7 @@ std::string small_letters(std::string_view text) {
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 24;
   std::string out;
-  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) out += (i ? ", " : "") + in_quotes(names[i]);
+  for (std::size_t i = 0; i < std::min(names.size(), most); ++i) out += (i ? ", " : "") + json::in_quotes(names[i]);
   if (names.size() > most) out += " and " + std::to_string(names.size() - most) + " more";
   return out;
 }
@@ -83,8 +83,8 @@ std::string suggestion_or_import(std::string_view wrong, const std::vector<std::
   };
   if (slash == 0 || std::any_of(names.begin(), names.end(), from_there) || !nearest_name(wrong, names).empty())
     return suggestion(wrong, names);
-  return "; names that begin with " + in_quotes(prefix) + " come in with \"import\": {" +
-         in_quotes(wrong.substr(0, slash)) + ": \"FILE\"}";
+  return "; names that begin with " + json::in_quotes(prefix) + " come in with \"import\": {" +
+         json::in_quotes(wrong.substr(0, slash)) + ": \"FILE\"}";
 }
 
 std::string suggestion(std::string_view wrong, const std::vector<std::string>& names) {
@@ -92,7 +92,7 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& n
 }
 
 std::string suggestion_of(const std::string& meant, const std::vector<std::string>& names) {
-  if (!meant.empty()) return "; did you mean " + in_quotes(meant) + "?";
+  if (!meant.empty()) return "; did you mean " + json::in_quotes(meant) + "?";
   return names.empty() ? std::string() : "; available: " + listed(names);
 }
 

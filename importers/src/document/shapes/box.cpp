@@ -12,7 +12,7 @@ const Form* sizes_form(FormStore& store, const ValueForms&) {
 }  // namespace
 
 SolidRow box() {
-  const fields::Meaning<Box> sizes = {[](const JsonValue& value, Box& box, Building&) {
+  const fields::Meaning<Box> sizes = {[](const json::Value& value, Box& box, Building&) {
     if (const std::optional<Vec3> size = vector_of(value)) box.half_extents = *size / 2;
   }};
   static const fields::Table<Box> table("a box", {{"size", sizes_form, "from face to face, m", sizes, true}});

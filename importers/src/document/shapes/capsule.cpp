@@ -4,7 +4,7 @@ namespace tweenfall::document::shapes {
 
 SolidRow capsule() {
   const fields::Meaning<Capsule> height = {
-      [](const JsonValue& value, Capsule& capsule, Building&) { capsule.half_height = value.number() / 2; }};
+      [](const json::Value& value, Capsule& capsule, Building&) { capsule.half_height = value.number() / 2; }};
   static const fields::Table<Capsule> table(
       "a capsule",
       {{"radius", bounded("a radius in m, above 0", 0, true), "m", fields::member<Capsule>(&Capsule::radius), true},

@@ -7,7 +7,7 @@ namespace tweenfall::document::shapes {
 namespace {
 
 struct HullFields {
-  JsonValue place;
+  json::Value place;
   std::vector<Vec3> points;
 };
 
@@ -18,13 +18,13 @@ const Form* hull_points_form(FormStore& store, const ValueForms& values) {
 }  // namespace
 
 SolidRow hull() {
-  const fields::Meaning<HullFields> points = {[](const JsonValue& value, HullFields& hull, Building&) {
+  const fields::Meaning<HullFields> points = {[](const json::Value& value, HullFields& hull, Building&) {
     hull.place = value;
     hull.points = points_3(value);
   }};
   static const fields::Table<HullFields> table("a hull", {{"points", hull_points_form, "m", points, true}});
   return shape_of("hull", "the smallest convex solid around points", table,
-                  [](const JsonValue&, const HullFields& hull, Building& building) -> std::optional<Solid> {
+                  [](const json::Value&, const HullFields& hull, Building& building) -> std::optional<Solid> {
                     if (hull.points.empty()) return std::nullopt;
                     return hull_or_problem(hull.place, building.problems,
                                            [&] { return std::span<const Vec3>(hull.points); });

@@ -7,7 +7,7 @@ namespace tweenfall::document::shapes {
 namespace {
 
 struct LatheFields {
-  JsonValue place;
+  json::Value place;
   std::vector<Vec2> profile;
   int sides = 24;
 };
@@ -25,7 +25,7 @@ const Form* turned_profile_form(FormStore& store, const ValueForms& values) {
 }  // namespace
 
 SolidRow lathe() {
-  const fields::Meaning<LatheFields> profile = {[](const JsonValue& value, LatheFields& lathe, Building&) {
+  const fields::Meaning<LatheFields> profile = {[](const json::Value& value, LatheFields& lathe, Building&) {
     lathe.place = value;
     lathe.profile = points_2(value);
   }};
@@ -34,7 +34,7 @@ SolidRow lathe() {
                   {"sides", bounded("a whole number from 3 to 64", 3, false, 64, true), "flat sides around the axis",
                    fields::member<LatheFields>(&LatheFields::sides)}});
   return shape_of("lathe", "the convex hull of a profile turned about y", table,
-                  [](const JsonValue&, const LatheFields& given, Building& building) -> std::optional<Solid> {
+                  [](const json::Value&, const LatheFields& given, Building& building) -> std::optional<Solid> {
                     if (given.profile.size() < 2) return std::nullopt;
                     return hull_or_problem(given.place, building.problems, [&] {
                       return tweenfall::lathe(polyline(given.profile),

@@ -4,7 +4,7 @@ namespace tweenfall::document::shapes {
 
 SolidRow plane() {
   fields::Meaning<Plane> normal = fields::member<Plane>(&Plane::normal);
-  normal.read = [](const JsonValue& value, Plane& plane, Building& building) {
+  normal.read = [](const json::Value& value, Plane& plane, Building& building) {
     if (const std::optional<Vec3> unit = axis_of(value, building.problems)) plane.normal = *unit;
   };
   static const fields::Table<Plane> table(

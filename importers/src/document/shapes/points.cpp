@@ -9,13 +9,13 @@ namespace tweenfall::document::shapes {
 namespace {
 
 template <class T>
-std::vector<T> points_in(const JsonValue& list) {
+std::vector<T> points_in(const json::Value& list) {
   std::vector<T> points;
-  for (const JsonValue& item : list.items()) {
+  for (const json::Value& item : list.items()) {
     T point = T::Zero();
-    bool whole = item.is(JsonValue::Kind::list) && item.items().size() == static_cast<std::size_t>(point.size());
+    bool whole = item.is(json::Value::Kind::list) && item.items().size() == static_cast<std::size_t>(point.size());
     for (std::size_t i = 0; whole && i < item.items().size(); ++i) {
-      whole = item.items()[i].is(JsonValue::Kind::number);
+      whole = item.items()[i].is(json::Value::Kind::number);
       point[static_cast<Eigen::Index>(i)] = item.items()[i].number();
     }
     if (!whole) return {};
@@ -33,10 +33,10 @@ Curve<T> polyline_through(const std::vector<T>& points) {
 
 }  // namespace
 
-std::vector<Vec2> points_2(const JsonValue& list) {
+std::vector<Vec2> points_2(const json::Value& list) {
   return points_in<Vec2>(list);
 }
-std::vector<Vec3> points_3(const JsonValue& list) {
+std::vector<Vec3> points_3(const json::Value& list) {
   return points_in<Vec3>(list);
 }
 

@@ -12,8 +12,8 @@
 namespace tweenfall::document::shapes {
 
 // None at all where one of them is faulty.
-[[nodiscard]] std::vector<Vec2> points_2(const JsonValue& list);
-[[nodiscard]] std::vector<Vec3> points_3(const JsonValue& list);
+[[nodiscard]] std::vector<Vec2> points_2(const json::Value& list);
+[[nodiscard]] std::vector<Vec3> points_3(const json::Value& list);
 
 // Straight from point to point.
 [[nodiscard]] Curve<Vec2> polyline(const std::vector<Vec2>& points);
@@ -21,7 +21,7 @@ namespace tweenfall::document::shapes {
 
 // The hull of what `make` makes; what it throws is told at the place.
 template <class Make>
-[[nodiscard]] std::optional<Solid> hull_or_problem(const JsonValue& at, Problems& problems, Make make) {
+[[nodiscard]] std::optional<Solid> hull_or_problem(const json::Value& at, Problems& problems, Make make) {
   try {
     return Hull{ConvexHull(make())};
   } catch (const std::invalid_argument& fault) {

@@ -28,7 +28,7 @@ const Form* form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(form));
 }
 
-Solid read(const JsonValue& shape, Building& building) {
+Solid read(const json::Value& shape, Building& building) {
   Solid solid;
   shape_table().read(shape, solid, building);
   return solid;

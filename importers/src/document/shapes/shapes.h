@@ -19,7 +19,7 @@ using SolidRow = fields::Row<Solid>;
 template <class Thing, class SolidOf>
 [[nodiscard]] SolidRow shape_of(std::string word, std::string help, const fields::Table<Thing>& table,
                                 SolidOf solid_of) {
-  const auto read = [&table, solid_of](const JsonValue& value, Solid& solid, Building& building) {
+  const auto read = [&table, solid_of](const json::Value& value, Solid& solid, Building& building) {
     Thing thing{};
     table.read(value, thing, building);
     if (std::optional<Solid> made = solid_of(value, thing, building)) solid = std::move(*made);
@@ -30,11 +30,11 @@ template <class Thing, class SolidOf>
 // A shape whose table fills in the solid itself.
 template <class Thing>
 [[nodiscard]] SolidRow shape_of(std::string word, const fields::Table<Thing>& table) {
-  return shape_of(std::move(word), "", table, [](const JsonValue&, const Thing& thing, Building&) { return thing; });
+  return shape_of(std::move(word), "", table, [](const json::Value&, const Thing& thing, Building&) { return thing; });
 }
 
 // A body's "shape"
 const Form* form(FormStore& store, const ValueForms& values);
-[[nodiscard]] Solid read(const JsonValue& shape, Building& building);
+[[nodiscard]] Solid read(const json::Value& shape, Building& building);
 
 }  // namespace tweenfall::document::shapes

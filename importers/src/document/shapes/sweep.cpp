@@ -25,18 +25,18 @@ const Form* rail_form(FormStore& store, const ValueForms& values) {
 SolidRow sweep() {
   using Fields = SweepFields;
   const fields::Meaning<Fields> profile = {
-      [](const JsonValue& value, Fields& sweep, Building&) { sweep.profile = points_2(value); }};
+      [](const json::Value& value, Fields& sweep, Building&) { sweep.profile = points_2(value); }};
   const fields::Meaning<Fields> rail = {
-      [](const JsonValue& value, Fields& sweep, Building&) { sweep.rail = points_3(value); }};
+      [](const json::Value& value, Fields& sweep, Building&) { sweep.rail = points_3(value); }};
   const fields::Meaning<Fields> normal = {
-      [](const JsonValue& value, Fields& sweep, Building&) { sweep.normal = vector_of(value); }};
+      [](const json::Value& value, Fields& sweep, Building&) { sweep.normal = vector_of(value); }};
   static const fields::Table<Fields> table(
       "a sweep",
       {{"profile", swept_profile_form, "[x, y], m", profile, true},
        {"rail", rail_form, "m", rail, true},
        {"normal", &ValueForms::vector, "where the profile's x points at the rail's start; absent: any", normal}});
   return shape_of("sweep", "the convex hull of a profile carried along a rail", table,
-                  [](const JsonValue& place, const Fields& given, Building& building) -> std::optional<Solid> {
+                  [](const json::Value& place, const Fields& given, Building& building) -> std::optional<Solid> {
                     if (given.profile.size() < 2 || given.rail.size() < 2) return std::nullopt;
                     SweepOptions options{.rail_steps = 1, .profile_steps = 1, .caps = false};
                     options.normal = given.normal;

@@ -12,14 +12,14 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 class ExpressionReader {
  public:
-  ExpressionReader(const JsonValue& track, Problems& problems) : problems_(problems) {
-    const JsonValue parameters = usable(track, "parameters");
+  ExpressionReader(const json::Value& track, Problems& problems) : problems_(problems) {
+    const json::Value parameters = usable(track, "parameters");
     if (!parameters) return;
-    for (const JsonMember& each : parameters.members()) {
+    for (const json::Member& each : parameters.members()) {
       if (!each.value.is(Kind::number)) continue;
       const Expression::Parameter one{std::string(each.name), each.value.number()};
       // Names that expressions have already are found by an expression that has nothing else.
@@ -32,7 +32,7 @@ class ExpressionReader {
     }
   }
 
-  std::optional<Curve<double>> number(const JsonValue& value) {
+  std::optional<Curve<double>> number(const json::Value& value) {
     if (value.is(Kind::number)) return Curve<double>(value.number());
     if (!value.is(Kind::text)) return {};
     try {
@@ -40,8 +40,8 @@ class ExpressionReader {
     } catch (const ExpressionError& error) {
       // One byte of the text is one of the file, but for the quote before it, as long as none is escaped.
       const bool plain = value.length() == value.text().size() + 2;
-      problems_.add(plain ? JsonFault{value.offset() + 1 + error.place(), 1, error.fault()}
-                          : JsonFault{value.offset(), value.length(), error.what()});
+      problems_.add(plain ? json::Fault{value.offset() + 1 + error.place(), 1, error.fault()}
+                          : json::Fault{value.offset(), value.length(), error.what()});
       return {};
     }
   }
@@ -60,8 +60,8 @@ Curve<T> vector_of_parts(const std::vector<Curve<double>>& parts) {
 
 }  // namespace
 
-std::optional<TrackCurve> read_expression(const JsonValue& track, Problems& problems) {
-  const JsonValue expression = usable(track, "expression");
+std::optional<TrackCurve> read_expression(const json::Value& track, Problems& problems) {
+  const json::Value expression = usable(track, "expression");
   if (!expression) return {};
   ExpressionReader reader(track, problems);
   if (expression.is(Kind::text)) {
@@ -69,7 +69,7 @@ std::optional<TrackCurve> read_expression(const JsonValue& track, Problems& prob
     return curve ? std::optional<TrackCurve>(*curve) : std::nullopt;
   }
   std::vector<Curve<double>> parts;
-  for (const JsonValue& each : expression.items())
+  for (const json::Value& each : expression.items())
     if (const std::optional<Curve<double>> part = reader.number(each)) parts.push_back(*part);
   if (parts.size() != expression.items().size()) return {};
   if (parts.size() == 2) return TrackCurve(parametric(parts[0], parts[1]));

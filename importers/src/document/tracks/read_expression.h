@@ -12,6 +12,6 @@ namespace tweenfall::document {
 
 // The curve of a track's "expression", with its "parameters": a number for one text, a vector for a list.
 // Empty where it is faulty, which then is noted at the place within the text.
-[[nodiscard]] std::optional<TrackCurve> read_expression(const JsonValue& track, Problems& problems);
+[[nodiscard]] std::optional<TrackCurve> read_expression(const json::Value& track, Problems& problems);
 
 }  // namespace tweenfall::document

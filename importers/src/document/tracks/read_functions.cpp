@@ -14,14 +14,14 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 template <class T>
 Curve<T> scaled(const Curve<double>& curve, const T& factor) {
   return combined<T>(std::span<const Curve<double>>(&curve, 1), std::span<const T>(&factor, 1));
 }
 
-Curve<double> oscillator_of(const JsonValue& settings, double unit) {
+Curve<double> oscillator_of(const json::Value& settings, double unit) {
   return oscillator({.amplitude = unit * number_in(settings, "amplitude", 1),
                      .hz = number_in(settings, "hz", 1),
                      .phase = radians(number_in(settings, "phase", 0)),
@@ -29,7 +29,7 @@ Curve<double> oscillator_of(const JsonValue& settings, double unit) {
                      .center = unit * number_in(settings, "center", 0)});
 }
 
-Curve<Vec3> vector_oscillator_of(const JsonValue& settings) {
+Curve<Vec3> vector_oscillator_of(const json::Value& settings) {
   const Curve<double> parts[] = {oscillator({.amplitude = 1,
                                              .hz = number_in(settings, "hz", 1),
                                              .phase = radians(number_in(settings, "phase", 0)),
@@ -40,7 +40,7 @@ Curve<Vec3> vector_oscillator_of(const JsonValue& settings) {
   return combined<Vec3>(parts, factors);
 }
 
-Curve<double> spring_of(const JsonValue& settings, double unit) {
+Curve<double> spring_of(const json::Value& settings, double unit) {
   return damped_spring({.hz = number_in(settings, "hz", 1),
                         .damping_ratio = number_in(settings, "zeta", 1),
                         .position = unit * number_in(settings, "from", 0),
@@ -50,7 +50,7 @@ Curve<double> spring_of(const JsonValue& settings, double unit) {
 }
 
 // Each component swings by itself.
-Curve<Vec3> vector_spring_of(const JsonValue& settings) {
+Curve<Vec3> vector_spring_of(const json::Value& settings) {
   const Vec3 none(0, 0, 0);
   const Vec3 from = vector_in(settings, "from", none), velocity = vector_in(settings, "velocity", none);
   const Vec3 goal = vector_in(settings, "goal", none), goal_velocity = vector_in(settings, "goal_velocity", none);
@@ -65,31 +65,31 @@ Curve<Vec3> vector_spring_of(const JsonValue& settings) {
   return parametric(axis(0), axis(1), axis(2));
 }
 
-Curve<Vec3> projectile_of(const JsonValue& settings) {
+Curve<Vec3> projectile_of(const json::Value& settings) {
   return projectile({.from = vector_in(settings, "from", Vec3(0, 0, 0)),
                      .velocity = vector_in(settings, "velocity", Vec3(0, 0, 0)),
                      .gravity = vector_in(settings, "gravity", Vec3(0, -9.81, 0))});
 }
 
-Curve<double> pendulum_of(const JsonValue& settings) {
+Curve<double> pendulum_of(const json::Value& settings) {
   return pendulum({.angle = radians(number_in(settings, "angle", 0)),
                    .rate = radians(number_in(settings, "rate", 0)),
                    .length = number_in(settings, "length", 1),
                    .gravity = number_in(settings, "gravity", 9.81)});
 }
 
-std::optional<Curve<Vec3>> orbit_of(const JsonValue& settings, Problems& problems) {
+std::optional<Curve<Vec3>> orbit_of(const json::Value& settings, Problems& problems) {
   Orbit o{.center = vector_in(settings, "center", Vec3(0, 0, 0)),
           .periapsis = number_in(settings, "periapsis", 1),
           .eccentricity = number_in(settings, "eccentricity", 0),
           .gravitational_parameter = number_in(settings, "gravitational_parameter", 1),
           .passage = number_in(settings, "passage", 0)};
-  if (const JsonValue rotation = usable(settings, "rotation")) {
+  if (const json::Value rotation = usable(settings, "rotation")) {
     const std::optional<Quat> q = rotation_of(rotation, order_of(text_in(rotation, "order", "XYZ")), problems);
     if (!q) return {};
     o.rotation = *q;
   }
-  if (const JsonValue period = usable(settings, "period")) {
+  if (const json::Value period = usable(settings, "period")) {
     if (!(o.eccentricity < 1)) {
       problems.add(period,
                    "only an eccentricity below 1 has a period; give \"gravitational_parameter\" instead, in m^3/s^2");
@@ -100,11 +100,11 @@ std::optional<Curve<Vec3>> orbit_of(const JsonValue& settings, Problems& problem
   return orbit(o);
 }
 
-std::optional<Curve<Vec3>> path_of(const JsonValue& settings, Problems& problems) {
+std::optional<Curve<Vec3>> path_of(const json::Value& settings, Problems& problems) {
   EvenPath p{.closed = flag_in(settings, "closed", false), .duration = number_in(settings, "duration", 1)};
-  const JsonValue points = usable(settings, "points");
+  const json::Value points = usable(settings, "points");
   if (!points) return {};
-  for (const JsonValue& each : points.items()) {
+  for (const json::Value& each : points.items()) {
     const std::optional<Vec3> point = vector_of(each);
     if (!point) return {};
     if (!p.points.empty() && p.points.back() == *point) {
@@ -117,14 +117,14 @@ std::optional<Curve<Vec3>> path_of(const JsonValue& settings, Problems& problems
   return even_path(p);
 }
 
-Curve<Vec3> line_of(const JsonValue& settings) {
+Curve<Vec3> line_of(const json::Value& settings) {
   return line({.from = vector_in(settings, "from", Vec3(0, 0, 0)),
                .to = vector_in(settings, "to", Vec3(0, 0, 0)),
                .duration = number_in(settings, "duration", 1)});
 }
 
-std::optional<Curve<Vec3>> arc_of(const JsonValue& settings, Problems& problems) {
-  const JsonValue axis = usable(settings, "axis");
+std::optional<Curve<Vec3>> arc_of(const json::Value& settings, Problems& problems) {
+  const json::Value axis = usable(settings, "axis");
   const std::optional<Vec3> direction = axis ? axis_of(axis, problems) : std::optional<Vec3>(Vec3(0, 0, 1));
   if (!direction) return {};
   return arc({.center = vector_in(settings, "center", Vec3(0, 0, 0)),
@@ -134,32 +134,32 @@ std::optional<Curve<Vec3>> arc_of(const JsonValue& settings, Problems& problems)
               .duration = number_in(settings, "duration", 1)});
 }
 
-bool has_spline(const JsonValue& track) {
+bool has_spline(const json::Value& track) {
   return usable(track, "spline") || usable(track, "bezier") || usable(track, "b_spline");
 }
 
-std::optional<TrackCurve> function_of(const JsonValue& track, Problems& problems) {
+std::optional<TrackCurve> function_of(const json::Value& track, Problems& problems) {
   const auto made = [](const auto& curve) { return curve ? std::optional<TrackCurve>(*curve) : std::nullopt; };
   const auto passing = [&](const auto& curve) -> std::optional<TrackCurve> {
     if (!curve) return {};
     return TrackCurve(with_outside_of(track, *curve));
   };
-  if (const JsonValue f = usable(track, "oscillator")) {
-    const JsonValue amplitude = usable(f, "amplitude");
+  if (const json::Value f = usable(track, "oscillator")) {
+    const json::Value amplitude = usable(f, "amplitude");
     if (amplitude && amplitude.is(Kind::list)) return TrackCurve(vector_oscillator_of(f));
     return TrackCurve(oscillator_of(f, 1));
   }
-  if (const JsonValue f = usable(track, "spring")) {
-    const JsonValue goal = usable(f, "goal");
+  if (const json::Value f = usable(track, "spring")) {
+    const json::Value goal = usable(f, "goal");
     if (goal && goal.is(Kind::list)) return TrackCurve(vector_spring_of(f));
     return TrackCurve(spring_of(f, 1));
   }
-  if (const JsonValue f = usable(track, "pendulum")) return TrackCurve(scaled(pendulum_of(f), degrees(1)));
-  if (const JsonValue f = usable(track, "projectile")) return TrackCurve(projectile_of(f));
-  if (const JsonValue f = usable(track, "orbit")) return made(orbit_of(f, problems));
-  if (const JsonValue f = usable(track, "path")) return passing(path_of(f, problems));
-  if (const JsonValue f = usable(track, "line")) return passing(std::optional(line_of(f)));
-  if (const JsonValue f = usable(track, "arc")) return passing(arc_of(f, problems));
+  if (const json::Value f = usable(track, "pendulum")) return TrackCurve(scaled(pendulum_of(f), degrees(1)));
+  if (const json::Value f = usable(track, "projectile")) return TrackCurve(projectile_of(f));
+  if (const json::Value f = usable(track, "orbit")) return made(orbit_of(f, problems));
+  if (const json::Value f = usable(track, "path")) return passing(path_of(f, problems));
+  if (const json::Value f = usable(track, "line")) return passing(std::optional(line_of(f)));
+  if (const json::Value f = usable(track, "arc")) return passing(arc_of(f, problems));
   if (has_spline(track)) {
     switch (FunctionForms::dimension(track)) {
       case 2:
@@ -177,34 +177,34 @@ std::optional<TrackCurve> function_of(const JsonValue& track, Problems& problems
 
 // What `make` makes; a number that the function does not take is told at its settings.
 template <class Make>
-auto guarded(const JsonValue& track, Problems& problems, const Make& make) -> decltype(make()) {
+auto guarded(const json::Value& track, Problems& problems, const Make& make) -> decltype(make()) {
   try {
     return make();
   } catch (const std::invalid_argument& fault) {
     for (const std::string& name : FunctionForms::names())
-      if (const JsonValue settings = usable(track, name)) problems.add(settings, fault.what());
+      if (const json::Value settings = usable(track, name)) problems.add(settings, fault.what());
     return {};
   }
 }
 
 }  // namespace
 
-bool has_function(const JsonValue& track) {
+bool has_function(const json::Value& track) {
   for (const std::string& name : FunctionForms::names())
     if (usable(track, name)) return true;
   return false;
 }
 
-std::optional<TrackCurve> read_function(const JsonValue& track, Problems& problems) {
+std::optional<TrackCurve> read_function(const json::Value& track, Problems& problems) {
   return guarded(track, problems, [&] { return function_of(track, problems); });
 }
 
-std::optional<Curve<double>> read_angle_function(const JsonValue& track, Problems& problems) {
+std::optional<Curve<double>> read_angle_function(const json::Value& track, Problems& problems) {
   return guarded(track, problems, [&]() -> std::optional<Curve<double>> {
-    if (const JsonValue f = usable(track, "oscillator")) return oscillator_of(f, radians(1));
-    if (const JsonValue f = usable(track, "spring")) return spring_of(f, radians(1));
+    if (const json::Value f = usable(track, "oscillator")) return oscillator_of(f, radians(1));
+    if (const json::Value f = usable(track, "spring")) return spring_of(f, radians(1));
     if (has_spline(track)) return read_spline<double>(track, radians(1), problems);
-    if (const JsonValue f = usable(track, "pendulum")) return pendulum_of(f);
+    if (const json::Value f = usable(track, "pendulum")) return pendulum_of(f);
     const std::optional<TrackCurve> angle = read_expression(track, problems);
     if (!angle || !std::holds_alternative<Curve<double>>(*angle)) return {};
     return scaled(std::get<Curve<double>>(*angle), radians(1));
@@ -223,11 +223,11 @@ Outside rule_of(std::string_view word) {
 
 }  // namespace
 
-OutsideParts outside_of(const JsonValue& track, std::string_view side) {
-  const JsonValue given = usable(track, side);
+OutsideParts outside_of(const json::Value& track, std::string_view side) {
+  const json::Value given = usable(track, side);
   if (!given) return {};
-  if (!given.is(JsonValue::Kind::object)) return {rule_of(given.text())};
-  if (const JsonValue slope = usable(given, "slope")) return {Outside::linear, 0, slope};
+  if (!given.is(json::Value::Kind::object)) return {rule_of(given.text())};
+  if (const json::Value slope = usable(given, "slope")) return {Outside::linear, 0, slope};
   return {rule_of(text_in(given, "mode")), number_in(given, "count", 0)};
 }
 

@@ -13,17 +13,17 @@
 namespace tweenfall::document {
 
 // What a track has instead of keys.
-[[nodiscard]] bool has_function(const JsonValue& track);
+[[nodiscard]] bool has_function(const json::Value& track);
 
 // Such a track's curve: a number, or a vector. Empty where it is faulty, which then is noted.
-[[nodiscard]] std::optional<TrackCurve> read_function(const JsonValue& track, Problems& problems);
+[[nodiscard]] std::optional<TrackCurve> read_function(const json::Value& track, Problems& problems);
 
 // The same for an angle about an axis, in radians.
-[[nodiscard]] std::optional<Curve<double>> read_angle_function(const JsonValue& track, Problems& problems);
+[[nodiscard]] std::optional<Curve<double>> read_angle_function(const json::Value& track, Problems& problems);
 
 // A slope in the value's unit per second; one number is for all parts.
 template <class R>
-[[nodiscard]] R slope_of(const JsonValue& slope) {
+[[nodiscard]] R slope_of(const json::Value& slope) {
   if constexpr (std::is_same_v<R, double>) {
     return slope.number();
   } else {
@@ -38,12 +38,12 @@ template <class R>
 struct OutsideParts {
   Outside rule = Outside::hold;
   double plays = 0;
-  JsonValue slope{};
+  json::Value slope{};
 };
-[[nodiscard]] OutsideParts outside_of(const JsonValue& track, std::string_view side);
+[[nodiscard]] OutsideParts outside_of(const json::Value& track, std::string_view side);
 
 template <class T>
-[[nodiscard]] Curve<T> with_outside_of(const JsonValue& track, const Curve<T>& curve) {
+[[nodiscard]] Curve<T> with_outside_of(const json::Value& track, const Curve<T>& curve) {
   const auto rule = [&track](std::string_view side) {
     const OutsideParts parts = outside_of(track, side);
     OutsideRule<T> result{parts.rule, {}, parts.plays};

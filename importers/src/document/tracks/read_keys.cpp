@@ -17,7 +17,7 @@ TangentKind tangent_kind_of(std::string_view word) {
   return TangentKind::automatic;
 }
 
-KeyOptions key_options_of(const JsonValue& track, KeyOptions options) {
+KeyOptions key_options_of(const json::Value& track, KeyOptions options) {
   const std::string overlong = text_in(track, "overlong"), ends = text_in(track, "ends");
   if (overlong == "keep-start") options.overlong = Overlong::keep_start;
   if (overlong == "contain") options.overlong = Overlong::contain;

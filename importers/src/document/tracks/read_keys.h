@@ -16,32 +16,32 @@ namespace tweenfall::document {
 // How values and rates of one kind are read; both give nothing for what is faulty. Rates may need the key's value.
 template <class T>
 struct KeyReader {
-  std::function<std::optional<T>(const JsonValue&)> value;
-  std::function<std::optional<Rate<T>>(const JsonValue& rate, const T& value)> rate;
-  double unit = 1;                                   // what slopes written in an ease are multiplied by
-  std::function<Turn(const JsonValue& key)> turn{};  // rotations only
+  std::function<std::optional<T>(const json::Value&)> value;
+  std::function<std::optional<Rate<T>>(const json::Value& rate, const T& value)> rate;
+  double unit = 1;                                     // what slopes written in an ease are multiplied by
+  std::function<Turn(const json::Value& key)> turn{};  // rotations only
 };
 
 [[nodiscard]] TangentKind tangent_kind_of(std::string_view word);
 
 // `options` with what the track says of handles and ends.
-[[nodiscard]] KeyOptions key_options_of(const JsonValue& track, KeyOptions options = {});
+[[nodiscard]] KeyOptions key_options_of(const json::Value& track, KeyOptions options = {});
 
 template <class T>
-std::optional<Tangent<T>> read_tangent(JsonValue tangent, const T& value, const KeyReader<T>& reader) {
+std::optional<Tangent<T>> read_tangent(json::Value tangent, const T& value, const KeyReader<T>& reader) {
   if (!tangent) return {};
   Tangent<T> out;
   if constexpr (!std::is_same_v<Rate<T>, double>) out.rate.setZero();
-  if (tangent.is(JsonValue::Kind::text)) {
+  if (tangent.is(json::Value::Kind::text)) {
     out.kind = tangent_kind_of(tangent.text());
     return out;
   }
   out.kind = Tangent<T>::Kind::given;
-  JsonValue rate = tangent;
-  if (tangent.is(JsonValue::Kind::object)) {
+  json::Value rate = tangent;
+  if (tangent.is(json::Value::Kind::object)) {
     rate = usable(tangent, "rate");
     out.weight = number_in(tangent, "weight", out.weight);
-    if (const JsonValue kind = usable(tangent, "kind")) {
+    if (const json::Value kind = usable(tangent, "kind")) {
       out.kind = tangent_kind_of(kind.text());
       return out;
     }
@@ -54,7 +54,7 @@ std::optional<Tangent<T>> read_tangent(JsonValue tangent, const T& value, const 
 
 // The curve through the keys; nothing where one of them is faulty.
 template <class T>
-std::optional<Curve<T>> read_keys(const JsonValue& list, const ClipTimes& times, const KeyReader<T>& reader,
+std::optional<Curve<T>> read_keys(const json::Value& list, const ClipTimes& times, const KeyReader<T>& reader,
                                   const KeyOptions& options, Problems& problems) {
   const std::size_t problems_before = problems.size();
   const std::vector<std::optional<double>> seconds = times.of_keys(list, problems);

@@ -24,9 +24,9 @@ Curve<Vec3> of_a_plane(const Curve<Vec2>& factors) {
 
 }  // namespace
 
-std::optional<std::vector<Curve<double>>> read_mix_weights(const JsonValue& mix, const ClipTimes& times,
+std::optional<std::vector<Curve<double>>> read_mix_weights(const json::Value& mix, const ClipTimes& times,
                                                            Problems& problems) {
-  const JsonValue values = usable(mix, "values"), weights = usable(mix, "weights");
+  const json::Value values = usable(mix, "values"), weights = usable(mix, "weights");
   if (!values || !weights) return {};
   if (weights.items().size() != values.items().size()) {
     problems.add(weights, "each value has a weight; there are " + std::to_string(values.items().size()) +
@@ -34,19 +34,19 @@ std::optional<std::vector<Curve<double>>> read_mix_weights(const JsonValue& mix,
     return {};
   }
   std::vector<Curve<double>> curves;
-  for (const JsonValue& each : weights.items())
+  for (const json::Value& each : weights.items())
     if (const std::optional<Curve<double>> curve = read_numbers(each, times, problems)) curves.push_back(*curve);
   if (curves.size() != weights.items().size()) return {};
   return curves;
 }
 
-std::optional<Curve<Vec3>> read_aspect(const JsonValue& ratios, const ClipTimes& times, Problems& problems) {
-  if (!ratios.is(JsonValue::Kind::list)) return {};
+std::optional<Curve<Vec3>> read_aspect(const json::Value& ratios, const ClipTimes& times, Problems& problems) {
+  if (!ratios.is(json::Value::Kind::list)) return {};
   KeyReader<double> reader;
-  reader.value = [](const JsonValue& value) {
-    return value.is(JsonValue::Kind::number) ? std::optional(value.number()) : std::nullopt;
+  reader.value = [](const json::Value& value) {
+    return value.is(json::Value::Kind::number) ? std::optional(value.number()) : std::nullopt;
   };
-  reader.rate = [&reader](const JsonValue& rate, double) { return reader.value(rate); };
+  reader.rate = [&reader](const json::Value& rate, double) { return reader.value(rate); };
   const std::optional<Curve<double>> curve = read_keys<double>(ratios, times, reader, {.logarithmic = true}, problems);
   if (!curve) return {};
   return of_a_plane(aspect_curve(*curve));

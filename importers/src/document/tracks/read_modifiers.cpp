@@ -14,18 +14,18 @@ namespace {
 
 using namespace tweenfall::modifiers;
 
-std::optional<double> number_at(const JsonValue& object, std::string_view name) {
-  const JsonValue value = usable(object, name);
+std::optional<double> number_at(const json::Value& object, std::string_view name) {
+  const json::Value value = usable(object, name);
   return value ? std::optional(value.number()) : std::nullopt;
 }
 
-std::vector<double> numbers_at(const JsonValue& list) {
+std::vector<double> numbers_at(const json::Value& list) {
   std::vector<double> result;
-  for (const JsonValue& item : list.items()) result.push_back(item.number());
+  for (const json::Value& item : list.items()) result.push_back(item.number());
   return result;
 }
 
-Cycles::Mode mode_at(const JsonValue& object, std::string_view name) {
+Cycles::Mode mode_at(const json::Value& object, std::string_view name) {
   const std::string word = text_in(object, name, "repeat");
   return word == "none"            ? Cycles::Mode::none
          : word == "repeat-offset" ? Cycles::Mode::repeat_offset
@@ -33,12 +33,12 @@ Cycles::Mode mode_at(const JsonValue& object, std::string_view name) {
                                    : Cycles::Mode::repeat;
 }
 
-Cycles cycles(const JsonValue& o) {
+Cycles cycles(const json::Value& o) {
   return {mode_at(o, "before"), mode_at(o, "after"), static_cast<int>(number_in(o, "plays_before", 0)),
           static_cast<int>(number_in(o, "plays_after", 0))};
 }
 
-Noise noise(const JsonValue& o) {
+Noise noise(const json::Value& o) {
   const std::string mix = text_in(o, "mix", "add");
   return {.mix = mix == "replace"    ? Noise::Mix::replace
                  : mix == "multiply" ? Noise::Mix::multiply
@@ -50,22 +50,22 @@ Noise noise(const JsonValue& o) {
           .layers = static_cast<int>(number_in(o, "layers", 1))};
 }
 
-Generator polynomial(const JsonValue& o) {
+Generator polynomial(const json::Value& o) {
   Generator result;
-  if (const JsonValue list = usable(o, "coefficients")) result.coefficients = numbers_at(list);
+  if (const json::Value list = usable(o, "coefficients")) result.coefficients = numbers_at(list);
   result.additive = flag_in(o, "add", false);
   return result;
 }
 
-Generator factors(const JsonValue& o) {
+Generator factors(const json::Value& o) {
   Generator result{.coefficients = {}, .factorized = true, .additive = flag_in(o, "add", false)};
-  if (const JsonValue lines = usable(o, "lines"))
-    for (const JsonValue& line : lines.items())
+  if (const json::Value lines = usable(o, "lines"))
+    for (const json::Value& line : lines.items())
       for (const double v : numbers_at(line)) result.coefficients.push_back(v);
   return result;
 }
 
-BuiltIn function(const JsonValue& o) {
+BuiltIn function(const json::Value& o) {
   static constexpr std::pair<std::string_view, BuiltIn::Function> words[] = {
       {"sin", BuiltIn::Function::sin},   {"cos", BuiltIn::Function::cos}, {"tan", BuiltIn::Function::tan},
       {"sqrt", BuiltIn::Function::sqrt}, {"ln", BuiltIn::Function::ln},   {"sinc", BuiltIn::Function::sinc}};
@@ -80,48 +80,48 @@ BuiltIn function(const JsonValue& o) {
   return result;
 }
 
-Envelope envelope(const JsonValue& o) {
+Envelope envelope(const json::Value& o) {
   Envelope result{.reference = number_in(o, "reference", 0),
                   .low = number_in(o, "low", -1),
                   .high = number_in(o, "high", 1),
                   .points = {}};
-  if (const JsonValue points = usable(o, "points"))
-    for (const JsonValue& point : points.items())
+  if (const json::Value points = usable(o, "points"))
+    for (const json::Value& point : points.items())
       if (const std::optional<Vec3> p = vector_of(point)) result.points.push_back({p->x(), p->y(), p->z()});
   return result;
 }
 
-std::optional<modifiers::Kind> kind_of(const JsonValue& modifier, Problems& problems) {
-  if (const JsonValue o = usable(modifier, "cycles")) return cycles(o);
-  if (const JsonValue o = usable(modifier, "noise")) return noise(o);
-  if (const JsonValue o = usable(modifier, "polynomial")) return polynomial(o);
-  if (const JsonValue o = usable(modifier, "factors")) return factors(o);
-  if (const JsonValue o = usable(modifier, "function")) return function(o);
-  if (const JsonValue o = usable(modifier, "stepped"))
+std::optional<modifiers::Kind> kind_of(const json::Value& modifier, Problems& problems) {
+  if (const json::Value o = usable(modifier, "cycles")) return cycles(o);
+  if (const json::Value o = usable(modifier, "noise")) return noise(o);
+  if (const json::Value o = usable(modifier, "polynomial")) return polynomial(o);
+  if (const json::Value o = usable(modifier, "factors")) return factors(o);
+  if (const json::Value o = usable(modifier, "function")) return function(o);
+  if (const json::Value o = usable(modifier, "stepped"))
     return Stepped{.step = number_in(o, "step", 1),
                    .offset = number_in(o, "offset", 0),
                    .start = number_at(o, "start"),
                    .end = number_at(o, "end")};
-  if (const JsonValue o = usable(modifier, "limits"))
+  if (const json::Value o = usable(modifier, "limits"))
     return Limits{number_at(o, "low"), number_at(o, "high"), number_at(o, "start"), number_at(o, "end")};
-  if (const JsonValue o = usable(modifier, "envelope")) return envelope(o);
-  if (const JsonValue o = usable(modifier, "placement"))
+  if (const json::Value o = usable(modifier, "envelope")) return envelope(o);
+  if (const json::Value o = usable(modifier, "placement"))
     return Placement{number_in(o, "time_offset", 0), number_in(o, "time_scale", 1), number_in(o, "value_offset", 0),
                      number_in(o, "value_scale", 1)};
-  if (const JsonValue keys = usable(modifier, "warp"))
+  if (const json::Value keys = usable(modifier, "warp"))
     if (const std::optional<Curve<double>> clock = read_plain_keys(keys, problems)) return TimeWarp{*clock};
   return {};
 }
 
 // Modifiers of `list`; `check` throws for one that cannot be. Nothing where one is faulty.
 template <class Check>
-std::optional<std::vector<Modifier>> modifiers_in(const JsonValue& list, const Check& check, Problems& problems) {
+std::optional<std::vector<Modifier>> modifiers_in(const json::Value& list, const Check& check, Problems& problems) {
   std::vector<Modifier> modifiers;
-  for (const JsonValue& item : list.items()) {
+  for (const json::Value& item : list.items()) {
     std::optional<modifiers::Kind> kind = kind_of(item, problems);
     if (!kind) continue;
     Modifier modifier{std::move(*kind)};
-    if (const JsonValue range = usable(item, "range"))
+    if (const json::Value range = usable(item, "range"))
       modifier.range = ModifierRange{number_in(range, "start", 0), number_in(range, "end", 0),
                                      number_in(range, "blend_in", 0), number_in(range, "blend_out", 0)};
     modifier.influence = number_in(item, "influence", 1);
@@ -141,8 +141,8 @@ std::optional<std::vector<Modifier>> modifiers_in(const JsonValue& list, const C
 }  // namespace
 
 template <class T>
-std::optional<Curve<T>> with_modifiers_of(const JsonValue& track, const Curve<T>& curve, Problems& problems) {
-  const JsonValue said = usable(track, "modifiers");
+std::optional<Curve<T>> with_modifiers_of(const json::Value& track, const Curve<T>& curve, Problems& problems) {
+  const json::Value said = usable(track, "modifiers");
   if (!said) return curve;
   if constexpr (std::is_same_v<T, double>) {
     const auto check = [&](const Modifier& one) { (void)modified(curve, std::span(&one, 1)); };
@@ -154,7 +154,7 @@ std::optional<Curve<T>> with_modifiers_of(const JsonValue& track, const Curve<T>
     Lists lists(size);
     bool faulty = false;
     const auto over = [&](const Lists& all) { return modified<T>(curve, std::span<const std::vector<Modifier>>(all)); };
-    const auto read = [&](const JsonValue& list, std::size_t i) {
+    const auto read = [&](const json::Value& list, std::size_t i) {
       const auto check = [&](const Modifier& one) {
         Lists alone(size);
         alone[i] = {one};
@@ -165,20 +165,20 @@ std::optional<Curve<T>> with_modifiers_of(const JsonValue& track, const Curve<T>
       else
         faulty = true;
     };
-    if (said.is(JsonValue::Kind::list)) {
+    if (said.is(json::Value::Kind::list)) {
       read(said, 0);
       std::fill(lists.begin() + 1, lists.end(), lists.front());
     } else {
       for (std::size_t i = 0; i < size; ++i)
-        if (const JsonValue list = usable(said, std::string_view("xyzw").substr(i, 1))) read(list, i);
+        if (const json::Value list = usable(said, std::string_view("xyzw").substr(i, 1))) read(list, i);
     }
     return faulty ? std::nullopt : std::optional(over(lists));
   }
 }
 
-template std::optional<Curve<double>> with_modifiers_of(const JsonValue&, const Curve<double>&, Problems&);
-template std::optional<Curve<Vec2>> with_modifiers_of(const JsonValue&, const Curve<Vec2>&, Problems&);
-template std::optional<Curve<Vec3>> with_modifiers_of(const JsonValue&, const Curve<Vec3>&, Problems&);
-template std::optional<Curve<Vec4>> with_modifiers_of(const JsonValue&, const Curve<Vec4>&, Problems&);
+template std::optional<Curve<double>> with_modifiers_of(const json::Value&, const Curve<double>&, Problems&);
+template std::optional<Curve<Vec2>> with_modifiers_of(const json::Value&, const Curve<Vec2>&, Problems&);
+template std::optional<Curve<Vec3>> with_modifiers_of(const json::Value&, const Curve<Vec3>&, Problems&);
+template std::optional<Curve<Vec4>> with_modifiers_of(const json::Value&, const Curve<Vec4>&, Problems&);
 
 }  // namespace tweenfall::document

@@ -13,7 +13,7 @@ namespace tweenfall::document {
 // The curve (of double, Vec2, Vec3 or Vec4) with the track's "modifiers" over it, if it has any; nothing where one of
 // them is faulty.
 template <class T>
-[[nodiscard]] std::optional<Curve<T>> with_modifiers_of(const JsonValue& track, const Curve<T>& curve,
+[[nodiscard]] std::optional<Curve<T>> with_modifiers_of(const json::Value& track, const Curve<T>& curve,
                                                         Problems& problems);
 
 }  // namespace tweenfall::document

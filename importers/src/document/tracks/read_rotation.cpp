@@ -18,7 +18,7 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 Vec3 in_radians(const Vec3& angles) {
   return {radians(angles[0]), radians(angles[1]), radians(angles[2])};
@@ -42,7 +42,7 @@ Mat3 turn_axes(const Vec3& angles, const EulerOrder& order) {
 
 class RotationTrack {
  public:
-  RotationTrack(const JsonValue& track, const ClipTimes& times, Problems& problems)
+  RotationTrack(const json::Value& track, const ClipTimes& times, Problems& problems)
       : track_(track),
         list_(track.is(Kind::list) ? track : usable(track, "keys")),
         times_(times),
@@ -50,13 +50,13 @@ class RotationTrack {
 
   std::optional<Curve<Quat>> read() {
     if (usable(track_, "axis")) return about_axis();
-    if (const JsonValue mix = usable(track_, "barycentric")) return mixed(mix);
+    if (const json::Value mix = usable(track_, "barycentric")) return mixed(mix);
     if (has_function(track_)) {
       const std::optional<Curve<Quat>> spline = read_rotation_spline(track_, problems_);
       return spline ? std::optional(with_outside_of(track_, *spline)) : std::nullopt;
     }
     if (!list_ || list_.items().empty()) return {};
-    const JsonValue first = key_parts(list_.items().front()).value;
+    const json::Value first = key_parts(list_.items().front()).value;
     if (!first) {
       (void)times_.of_keys(list_, problems_);
       return {};
@@ -70,12 +70,12 @@ class RotationTrack {
   std::optional<Curve<Quat>> about_axis() {
     const std::optional<Vec3> axis = axis_of(usable(track_, "axis"), problems_);
     std::optional<Curve<double>> angle;
-    if (const JsonValue mix = usable(track_, "barycentric"))
+    if (const json::Value mix = usable(track_, "barycentric"))
       angle = mixed_angle(mix);
     else if (has_function(track_))
       angle = read_angle_function(track_, problems_);
     else if (list_)
-      angle = degrees_curve([](const JsonValue& value) { return value; }, {});
+      angle = degrees_curve([](const json::Value& value) { return value; }, {});
     if (!axis || !angle) return {};
     angle = with_outside_of(track_, *angle);
     if (usable(track_, "modifiers")) angle = with_modifiers(*angle);
@@ -83,8 +83,8 @@ class RotationTrack {
     return axis_curve(*axis, *angle);
   }
 
-  std::optional<Curve<double>> mixed_angle(const JsonValue& mix) {
-    const auto angle_of = [](const JsonValue& value) {
+  std::optional<Curve<double>> mixed_angle(const json::Value& mix) {
+    const auto angle_of = [](const json::Value& value) {
       return value.is(Kind::number) ? std::optional(radians(value.number())) : std::nullopt;
     };
     const std::optional<std::vector<Curve<double>>> weights = read_mix_weights(mix, times_, problems_);
@@ -93,9 +93,9 @@ class RotationTrack {
     return barycentric_curve<double>(*values, *weights);
   }
 
-  std::optional<Curve<Quat>> mixed(const JsonValue& mix) {
+  std::optional<Curve<Quat>> mixed(const json::Value& mix) {
     const EulerOrder order = order_of(text_in(track_, "order", "XYZ"));
-    const auto rotation = [&](const JsonValue& value) { return rotation_of(value, order, problems_); };
+    const auto rotation = [&](const json::Value& value) { return rotation_of(value, order, problems_); };
     const std::optional<std::vector<Curve<double>>> weights = read_mix_weights(mix, times_, problems_);
     const std::optional<std::vector<Curve<Quat>>> values = read_mix_values<Quat>(mix, rotation);
     if (!weights || !values) return {};
@@ -117,15 +117,15 @@ class RotationTrack {
   }
 
   // The unwrapped angle about one axis. Rates are degrees per second, or angular velocities along `axis`.
-  std::optional<Curve<double>> degrees_curve(const std::function<JsonValue(const JsonValue&)>& angle_in,
+  std::optional<Curve<double>> degrees_curve(const std::function<json::Value(const json::Value&)>& angle_in,
                                              const std::optional<Vec3>& axis) {
     KeyReader<double> reader;
-    reader.value = [&](const JsonValue& value) -> std::optional<double> {
-      const JsonValue angle = angle_in(value);
+    reader.value = [&](const json::Value& value) -> std::optional<double> {
+      const json::Value angle = angle_in(value);
       if (!angle || !angle.is(Kind::number)) return {};
       return radians(angle.number());
     };
-    reader.rate = [&](const JsonValue& rate, double) -> std::optional<double> {
+    reader.rate = [&](const json::Value& rate, double) -> std::optional<double> {
       if (rate.is(Kind::number)) return radians(rate.number());
       const std::optional<Vec3> given = vector_of(rate);
       if (!given || !axis) return {};
@@ -144,13 +144,13 @@ class RotationTrack {
   std::optional<Curve<Quat>> in_euler() {
     const EulerOrder order = order_of(text_in(track_, "order", "XYZ"));
     KeyReader<Vec3> reader;
-    reader.value = [](const JsonValue& value) -> std::optional<Vec3> {
-      const JsonValue euler = usable(value, "euler");
+    reader.value = [](const json::Value& value) -> std::optional<Vec3> {
+      const json::Value euler = usable(value, "euler");
       const std::optional<Vec3> angles = euler ? vector_of(euler) : std::nullopt;
       if (!angles) return {};
       return in_radians(*angles);
     };
-    reader.rate = [&](const JsonValue& rate, const Vec3& angles) -> std::optional<Vec3> {
+    reader.rate = [&](const json::Value& rate, const Vec3& angles) -> std::optional<Vec3> {
       const std::optional<Vec3> velocity = vector_of(rate);
       if (!velocity) return {};
       if (velocity->isZero(0)) return Vec3(0, 0, 0);
@@ -180,14 +180,14 @@ class RotationTrack {
 
   // Turns about one axis keep their full turns; about different ones they are rotations like any other.
   std::optional<Curve<Quat>> in_axis_angle() {
-    const JsonValue first = usable(key_parts(list_.items().front()).value, "axis");
+    const json::Value first = usable(key_parts(list_.items().front()).value, "axis");
     std::optional<Vec3> axis = first ? axis_of(first, problems_) : std::nullopt;
     bool one_axis = axis.has_value();
-    JsonValue many_turns;
-    for (const JsonValue& key : list_.items()) {
+    json::Value many_turns;
+    for (const json::Value& key : list_.items()) {
       const KeyParts parts = key_parts(key);
-      for (const JsonValue& value : {parts.value, parts.value_in}) {
-        const JsonValue other = value ? usable(value, "axis") : JsonValue();
+      for (const json::Value& value : {parts.value, parts.value_in}) {
+        const json::Value other = value ? usable(value, "axis") : json::Value();
         Problems unheard;
         const std::optional<Vec3> unit = other ? axis_of(other, unheard) : std::nullopt;
         if (one_axis && unit && !((*unit - *axis).norm() < 1e-12)) one_axis = false;
@@ -196,7 +196,7 @@ class RotationTrack {
     }
     if (one_axis) {
       const std::optional<Curve<double>> angle =
-          degrees_curve([](const JsonValue& value) { return usable(value, "angle"); }, axis);
+          degrees_curve([](const json::Value& value) { return usable(value, "angle"); }, axis);
       if (!angle) return {};
       return axis_curve(*axis, with_outside_of(track_, *angle));
     }
@@ -209,44 +209,44 @@ class RotationTrack {
 
   std::optional<Curve<Quat>> in_quaternions(bool long_way) {
     KeyReader<Quat> reader;
-    reader.value = [&](const JsonValue& value) { return rotation_of(value, {}, problems_); };
-    reader.rate = [](const JsonValue& rate, const Quat&) -> std::optional<Vec3> {
+    reader.value = [&](const json::Value& value) { return rotation_of(value, {}, problems_); };
+    reader.rate = [](const json::Value& rate, const Quat&) -> std::optional<Vec3> {
       const std::optional<Vec3> velocity = vector_of(rate);
       if (!velocity) return {};
       return in_radians(*velocity);
     };
     reader.unit = radians(1);
-    reader.turn = [&](const JsonValue& key) { return turn_of(key, long_way); };
+    reader.turn = [&](const json::Value& key) { return turn_of(key, long_way); };
     const std::optional<Curve<Quat>> curve = read_keys<Quat>(list_, times_, reader, key_options_of(track_), problems_);
     if (!curve) return {};
     return with_outside_of(track_, *curve);
   }
 
   // The way to the next key: as the key says, else as the track does.
-  Turn turn_of(const JsonValue& key, bool long_way) {
+  Turn turn_of(const json::Value& key, bool long_way) {
     Turn turn{long_way ? Turn::Way::longer : Turn::Way::shorter};
-    const JsonValue said = key.is(Kind::object) ? usable(key, "turn") : JsonValue();
+    const json::Value said = key.is(Kind::object) ? usable(key, "turn") : json::Value();
     if (!said) return turn;
     const std::string way = said.is(Kind::text) ? std::string(said.text()) : text_in(said, "way");
     if (!way.empty()) turn.way = way == "long" ? Turn::Way::longer : Turn::Way::shorter;
     if (!said.is(Kind::object)) return turn;
     turn.whole_turns = static_cast<int>(number_in(said, "turns", 0));
-    if (const JsonValue axis = usable(said, "axis")) {
+    if (const json::Value axis = usable(said, "axis")) {
       turn.way = Turn::Way::along;
       turn.axis = axis_of(axis, problems_).value_or(Vec3(0, 0, 1));
     }
     return turn;
   }
 
-  const JsonValue& track_;
-  JsonValue list_;
+  const json::Value& track_;
+  json::Value list_;
   const ClipTimes& times_;
   Problems& problems_;
 };
 
 }  // namespace
 
-std::optional<Curve<Quat>> read_rotation_track(const JsonValue& track, const ClipTimes& times, Problems& problems) {
+std::optional<Curve<Quat>> read_rotation_track(const json::Value& track, const ClipTimes& times, Problems& problems) {
   return RotationTrack(track, times, problems).read();
 }
 

@@ -9,7 +9,7 @@
 namespace tweenfall::document {
 
 // `track` is a list of keys or an object. Nothing where faulty.
-[[nodiscard]] std::optional<Curve<Quat>> read_rotation_track(const JsonValue& track, const ClipTimes& times,
+[[nodiscard]] std::optional<Curve<Quat>> read_rotation_track(const json::Value& track, const ClipTimes& times,
                                                              Problems& problems);
 
 }  // namespace tweenfall::document

@@ -10,9 +10,9 @@ namespace tweenfall::document {
 namespace {
 
 // Nothing where one of them is faulty.
-std::vector<Quat> rotations_in(const JsonValue& settings, Problems& problems) {
+std::vector<Quat> rotations_in(const json::Value& settings, Problems& problems) {
   std::vector<Quat> result;
-  for (const JsonValue& each : usable(settings, "points").items()) {
+  for (const json::Value& each : usable(settings, "points").items()) {
     const std::optional<Quat> q = rotation_of(each, order_of(text_in(each, "order", "XYZ")), problems);
     if (!q) return {};
     result.push_back(*q);
@@ -20,13 +20,13 @@ std::vector<Quat> rotations_in(const JsonValue& settings, Problems& problems) {
   return result;
 }
 
-std::optional<Vec3> velocity_in(const JsonValue& settings, std::string_view end) {
-  const JsonValue said = usable(settings, end);
+std::optional<Vec3> velocity_in(const json::Value& settings, std::string_view end) {
+  const json::Value said = usable(settings, end);
   if (!said) return {};
   return Vec3(radians(1) * vector_in(said, "rate", Vec3(0, 0, 0)));
 }
 
-std::optional<Curve<Quat>> through_rotations(const JsonValue& settings, Problems& problems) {
+std::optional<Curve<Quat>> through_rotations(const json::Value& settings, Problems& problems) {
   const std::vector<Quat> points = rotations_in(settings, problems);
   const std::string why = "one for each of the " + std::to_string(points.size()) + " rotations";
   if (points.empty() || !has_count(settings, "times", points.size(), why, problems) ||
@@ -36,7 +36,7 @@ std::optional<Curve<Quat>> through_rotations(const JsonValue& settings, Problems
                           velocity_in(settings, "end"));
 }
 
-std::optional<Curve<Quat>> by_controls(const JsonValue& settings, Problems& problems) {
+std::optional<Curve<Quat>> by_controls(const json::Value& settings, Problems& problems) {
   const std::vector<Quat> points = rotations_in(settings, problems);
   const std::size_t curves = points.empty() ? 0 : bezier_curves_in(settings, 3, problems);
   if (curves == 0) return {};
@@ -45,9 +45,9 @@ std::optional<Curve<Quat>> by_controls(const JsonValue& settings, Problems& prob
 
 }  // namespace
 
-std::optional<Curve<Quat>> read_rotation_spline(const JsonValue& track, Problems& problems) {
+std::optional<Curve<Quat>> read_rotation_spline(const json::Value& track, Problems& problems) {
   for (const auto& [name, read] : {std::pair("spline", &through_rotations), std::pair("bezier", &by_controls)}) {
-    const JsonValue settings = usable(track, name);
+    const json::Value settings = usable(track, name);
     if (!settings || has_faults(settings) || !usable(settings, "points")) continue;
     try {
       return read(settings, problems);

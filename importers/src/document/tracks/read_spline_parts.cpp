@@ -7,24 +7,24 @@
 
 namespace tweenfall::document {
 
-bool has_faults(const JsonValue& value) {
-  if (value.is(JsonValue::Kind::faulty)) return true;
+bool has_faults(const json::Value& value) {
+  if (value.is(json::Value::Kind::faulty)) return true;
   return std::any_of(value.items().begin(), value.items().end(), has_faults) ||
          std::any_of(value.members().begin(), value.members().end(),
-                     [](const JsonMember& member) { return has_faults(member.value); });
+                     [](const json::Member& member) { return has_faults(member.value); });
 }
 
-bool has_count(const JsonValue& settings, std::string_view name, std::size_t count, const std::string& why,
+bool has_count(const json::Value& settings, std::string_view name, std::size_t count, const std::string& why,
                Problems& problems) {
-  const JsonValue list = usable(settings, name);
+  const json::Value list = usable(settings, name);
   if (!list || list.items().size() == count) return true;
   problems.add(list,
                "expected " + std::to_string(count) + ", " + why + "; found " + std::to_string(list.items().size()));
   return false;
 }
 
-bool has_rising_times(const JsonValue& settings, Problems& problems) {
-  const JsonValue times = usable(settings, "times");
+bool has_rising_times(const json::Value& settings, Problems& problems) {
+  const json::Value times = usable(settings, "times");
   for (std::size_t i = 1; times && i < times.items().size(); ++i) {
     const double before = times.items()[i - 1].number(), time = times.items()[i].number();
     if (time > before) continue;
@@ -35,8 +35,8 @@ bool has_rising_times(const JsonValue& settings, Problems& problems) {
   return true;
 }
 
-std::size_t bezier_curves_in(const JsonValue& settings, std::size_t degree, Problems& problems) {
-  const JsonValue points = usable(settings, "points");
+std::size_t bezier_curves_in(const json::Value& settings, std::size_t degree, Problems& problems) {
+  const json::Value points = usable(settings, "points");
   if (!points) return 0;
   const std::size_t count = points.items().size(), curves = (count - 1) / degree;
   if (curves == 0 || (count - 1) % degree != 0) {
@@ -49,10 +49,10 @@ std::size_t bezier_curves_in(const JsonValue& settings, std::size_t degree, Prob
   return has_count(settings, "times", curves + 1, why, problems) && has_rising_times(settings, problems) ? curves : 0;
 }
 
-std::vector<double> times_in(const JsonValue& settings, std::vector<double> proposed) {
-  if (const JsonValue stated = usable(settings, "times")) {
+std::vector<double> times_in(const json::Value& settings, std::vector<double> proposed) {
+  if (const json::Value stated = usable(settings, "times")) {
     std::vector<double> times;
-    for (const JsonValue& item : stated.items()) times.push_back(item.number());
+    for (const json::Value& item : stated.items()) times.push_back(item.number());
     return times;
   }
   const double duration = number_in(settings, "duration", 1), whole = proposed.back();

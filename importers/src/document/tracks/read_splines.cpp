@@ -12,14 +12,14 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 template <class T>
 class SplineReader {
  public:
   SplineReader(double unit, Problems& problems) : unit_(unit), problems_(problems) {}
 
-  std::optional<Curve<T>> through_points(const JsonValue& settings) {
+  std::optional<Curve<T>> through_points(const json::Value& settings) {
     const std::vector<T> points = values_in(settings, "points");
     const bool closed = flag_in(settings, "closed", false);
     const std::string each = "one for each of the " + std::to_string(points.size()) + " points";
@@ -39,17 +39,17 @@ class SplineReader {
     if (usable(settings, "rates"))
       return quintic_spline<T>(times, points, values_in(settings, "rates"), values_in(settings, "accelerations"));
     const SplineEnds<T> ends{end_in(settings, "start"), end_in(settings, "end"), closed};
-    const JsonValue word = usable(settings, "ease");
+    const json::Value word = usable(settings, "ease");
     if (!word || word.text() == "natural") return c2_spline<T>(times, points, ends);
     const std::optional<Ease> rule = Ease::named(word.text());
     if (!rule) return {};
     if (!rule->slope_rule()) {
       problems_.add(word, "a spline takes an ease that is a rule of slopes, as \"catmull-rom\" is; found " +
-                              in_quotes(word.text()));
+                              json::in_quotes(word.text()));
       return {};
     }
     for (const char* name : {"start", "end"}) {
-      const JsonValue end = usable(settings, name);
+      const json::Value end = usable(settings, name);
       if (!end || !end.is(Kind::text)) continue;
       problems_.add(end, "only a spline of the ease \"natural\" can be without a knot next to its end");
       return {};
@@ -57,7 +57,7 @@ class SplineReader {
     return cubic_spline<T>(times, points, rule->scaled(unit_), ends);
   }
 
-  std::optional<Curve<T>> of_bezier_curves(const JsonValue& settings) {
+  std::optional<Curve<T>> of_bezier_curves(const json::Value& settings) {
     const std::vector<T> points = values_in(settings, "points");
     const std::size_t degree = degree_in(settings), curves = bezier_curves_in(settings, degree, problems_);
     if (curves == 0) return {};
@@ -68,17 +68,17 @@ class SplineReader {
     return bezier_spline<T>(times, control);
   }
 
-  std::optional<Curve<T>> of_control_points(const JsonValue& settings) {
+  std::optional<Curve<T>> of_control_points(const json::Value& settings) {
     const std::vector<T> points = values_in(settings, "points");
     const int degree = static_cast<int>(degree_in(settings));
     const std::size_t knots_wanted = points.size() + static_cast<std::size_t>(degree) + 1;
     if (!has_count(settings, "knots", knots_wanted, "degree + 1 more than points", problems_)) return {};
-    if (const JsonValue knots = usable(settings, "knots")) return b_spline<T>(degree, numbers_in(knots), points);
+    if (const json::Value knots = usable(settings, "knots")) return b_spline<T>(degree, numbers_in(knots), points);
     return b_spline<T>(degree, clamped_knots(degree, points.size(), 0, number_in(settings, "duration", 1)), points);
   }
 
  private:
-  [[nodiscard]] T value_of(const JsonValue& value) const {
+  [[nodiscard]] T value_of(const json::Value& value) const {
     if constexpr (std::is_same_v<T, double>) {
       return unit_ * value.number();
     } else {
@@ -89,29 +89,29 @@ class SplineReader {
     }
   }
 
-  [[nodiscard]] std::vector<T> values_in(const JsonValue& settings, std::string_view name) const {
+  [[nodiscard]] std::vector<T> values_in(const json::Value& settings, std::string_view name) const {
     std::vector<T> result;
-    if (const JsonValue list = usable(settings, name))
-      for (const JsonValue& item : list.items()) result.push_back(value_of(item));
+    if (const json::Value list = usable(settings, name))
+      for (const json::Value& item : list.items()) result.push_back(value_of(item));
     return result;
   }
 
-  [[nodiscard]] static std::vector<double> numbers_in(const JsonValue& list) {
+  [[nodiscard]] static std::vector<double> numbers_in(const json::Value& list) {
     std::vector<double> result;
-    for (const JsonValue& item : list.items()) result.push_back(item.number());
+    for (const json::Value& item : list.items()) result.push_back(item.number());
     return result;
   }
 
-  [[nodiscard]] static std::size_t degree_in(const JsonValue& settings) {
+  [[nodiscard]] static std::size_t degree_in(const json::Value& settings) {
     return static_cast<std::size_t>(number_in(settings, "degree", 3));
   }
 
-  [[nodiscard]] SplineEnd<T> end_in(const JsonValue& settings, std::string_view name) const {
-    const JsonValue said = usable(settings, name);
+  [[nodiscard]] SplineEnd<T> end_in(const json::Value& settings, std::string_view name) const {
+    const json::Value said = usable(settings, name);
     if (!said) return {};
     if (said.is(Kind::text)) return SplineEnd<T>::not_a_knot();
-    if (const JsonValue rate = usable(said, "rate")) return SplineEnd<T>::rate(value_of(rate));
-    if (const JsonValue given = usable(said, "acceleration")) return SplineEnd<T>::acceleration(value_of(given));
+    if (const json::Value rate = usable(said, "rate")) return SplineEnd<T>::rate(value_of(rate));
+    if (const json::Value given = usable(said, "acceleration")) return SplineEnd<T>::acceleration(value_of(given));
     return {};
   }
 
@@ -122,9 +122,9 @@ class SplineReader {
 }  // namespace
 
 template <class T>
-std::optional<Curve<T>> read_spline(const JsonValue& track, double unit, Problems& problems) {
+std::optional<Curve<T>> read_spline(const json::Value& track, double unit, Problems& problems) {
   SplineReader<T> reader(unit, problems);
-  const auto read = [&](const JsonValue& settings, auto make) -> std::optional<Curve<T>> {
+  const auto read = [&](const json::Value& settings, auto make) -> std::optional<Curve<T>> {
     if (has_faults(settings) || !usable(settings, "points")) return {};
     try {
       return (reader.*make)(settings);
@@ -133,15 +133,15 @@ std::optional<Curve<T>> read_spline(const JsonValue& track, double unit, Problem
       return {};
     }
   };
-  if (const JsonValue s = usable(track, "spline")) return read(s, &SplineReader<T>::through_points);
-  if (const JsonValue s = usable(track, "bezier")) return read(s, &SplineReader<T>::of_bezier_curves);
-  if (const JsonValue s = usable(track, "b_spline")) return read(s, &SplineReader<T>::of_control_points);
+  if (const json::Value s = usable(track, "spline")) return read(s, &SplineReader<T>::through_points);
+  if (const json::Value s = usable(track, "bezier")) return read(s, &SplineReader<T>::of_bezier_curves);
+  if (const json::Value s = usable(track, "b_spline")) return read(s, &SplineReader<T>::of_control_points);
   return {};
 }
 
-template std::optional<Curve<double>> read_spline<double>(const JsonValue&, double, Problems&);
-template std::optional<Curve<Vec2>> read_spline<Vec2>(const JsonValue&, double, Problems&);
-template std::optional<Curve<Vec3>> read_spline<Vec3>(const JsonValue&, double, Problems&);
-template std::optional<Curve<Vec4>> read_spline<Vec4>(const JsonValue&, double, Problems&);
+template std::optional<Curve<double>> read_spline<double>(const json::Value&, double, Problems&);
+template std::optional<Curve<Vec2>> read_spline<Vec2>(const json::Value&, double, Problems&);
+template std::optional<Curve<Vec3>> read_spline<Vec3>(const json::Value&, double, Problems&);
+template std::optional<Curve<Vec4>> read_spline<Vec4>(const json::Value&, double, Problems&);
 
 }  // namespace tweenfall::document

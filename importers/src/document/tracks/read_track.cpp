@@ -20,36 +20,36 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 template <int size>
 using Vector = Eigen::Matrix<double, size, 1, Eigen::DontAlign>;
 
 template <int size>
-std::optional<Vector<size>> numbers_of(const JsonValue& value) {
+std::optional<Vector<size>> numbers_of(const json::Value& value) {
   if (!value.is(Kind::list) || value.items().size() != static_cast<std::size_t>(size)) return {};
   Vector<size> out;
   for (int i = 0; i < size; ++i) {
-    const JsonValue& item = value.items()[static_cast<std::size_t>(i)];
+    const json::Value& item = value.items()[static_cast<std::size_t>(i)];
     if (!item.is(Kind::number)) return {};
     out[i] = item.number();
   }
   return out;
 }
 
-std::optional<double> number_of(const JsonValue& value) {
+std::optional<double> number_of(const json::Value& value) {
   return value.is(Kind::number) ? std::optional(value.number()) : std::nullopt;
 }
 
 template <class T>
-KeyReader<T> reader_of(std::optional<T> (*read)(const JsonValue&)) {
-  return {[read](const JsonValue& value) { return read(value); },
-          [read](const JsonValue& rate, const T&) { return read(rate); }};
+KeyReader<T> reader_of(std::optional<T> (*read)(const json::Value&)) {
+  return {[read](const json::Value& value) { return read(value); },
+          [read](const json::Value& rate, const T&) { return read(rate); }};
 }
 
 class TrackReader {
  public:
-  TrackReader(const JsonValue& track, const ClipTimes& times, Problems& problems)
+  TrackReader(const json::Value& track, const ClipTimes& times, Problems& problems)
       : track_(track),
         list_(track.is(Kind::list) ? track : usable(track, "keys")),
         times_(times),
@@ -57,8 +57,8 @@ class TrackReader {
 
   std::optional<TrackCurve> read(const std::string& property) {
     if (property == "rotation") return made(read_rotation_track(track_, times_, problems_));
-    if (const JsonValue mix = usable(track_, "barycentric")) return mixed(property, mix);
-    if (const JsonValue ratios = usable(track_, "aspect")) {
+    if (const json::Value mix = usable(track_, "barycentric")) return mixed(property, mix);
+    if (const json::Value ratios = usable(track_, "aspect")) {
       const std::optional<Curve<Vec3>> factors = read_aspect(ratios, times_, problems_);
       return factors ? modified_by_track(*factors) : std::nullopt;
     }
@@ -88,12 +88,12 @@ class TrackReader {
     return std::visit([this](const auto& held) { return modified_by_track(held); }, *curve);
   }
 
-  std::optional<TrackCurve> mixed(const std::string& property, const JsonValue& mix) {
+  std::optional<TrackCurve> mixed(const std::string& property, const json::Value& mix) {
     if (property == "position") return mixed<Vec3>(mix, vector_of);
     if (property == "scale") return mixed<Vec3>(mix, scale_of);
-    const JsonValue values = usable(mix, "values");
+    const json::Value values = usable(mix, "values");
     if (!values || values.items().empty()) return {};
-    const JsonValue& first = values.items().front();
+    const json::Value& first = values.items().front();
     if (property == "color" || first.is(Kind::text)) return mixed<Color>(mix, color_of);
     if (!first.is(Kind::list)) return mixed<double>(mix, number_of);
     if (first.items().size() == 2) return mixed<Vec2>(mix, numbers_of<2>);
@@ -102,7 +102,7 @@ class TrackReader {
   }
 
   template <class T>
-  std::optional<TrackCurve> mixed(const JsonValue& mix, std::optional<T> (*value_of)(const JsonValue&)) {
+  std::optional<TrackCurve> mixed(const json::Value& mix, std::optional<T> (*value_of)(const json::Value&)) {
     const std::optional<std::vector<Curve<double>>> weights = read_mix_weights(mix, times_, problems_);
     const std::optional<std::vector<Curve<T>>> values = read_mix_values<T>(mix, value_of);
     if (!weights || !values) return {};
@@ -141,10 +141,10 @@ class TrackReader {
     const bool logarithmic = text_in(track_, "mix") == "log";
     if (!logarithmic) return keyed(reader_of<Vec3>(scale_of));
     KeyReader<Vec3> reader = reader_of<Vec3>(scale_of);
-    reader.value = [this](const JsonValue& value) -> std::optional<Vec3> {
+    reader.value = [this](const json::Value& value) -> std::optional<Vec3> {
       const std::optional<Vec3> factors = scale_of(value);
       if (!factors || factors->minCoeff() > 0) return factors;
-      problems_.add(value, "scales mixed by their logarithm are above 0, found " + on_one_line(value));
+      problems_.add(value, "scales mixed by their logarithm are above 0, found " + json::on_one_line(value));
       return {};
     };
     return keyed(reader, {.logarithmic = true});
@@ -159,13 +159,13 @@ class TrackReader {
         {"hwb", ColorSpace::hwb},       {"lab", ColorSpace::lab},   {"lch", ColorSpace::lch}};
     for (const auto& [word, meant] : spaces)
       if (space == word) options.space = meant;
-    if (const JsonValue hue = usable(track_, "hue")) {
+    if (const json::Value hue = usable(track_, "hue")) {
       options.hue = hue.text() == "longer"       ? HueRule::longer
                     : hue.text() == "increasing" ? HueRule::increasing
                     : hue.text() == "decreasing" ? HueRule::decreasing
                                                  : HueRule::shorter;
       if (hue_index(options.space) < 0)
-        problems_.add(hue, "the space " + in_quotes(space) +
+        problems_.add(hue, "the space " + json::in_quotes(space) +
                                " has no hue; spaces with one are \"oklch\", \"hsl\", \"hsv\", \"hwb\", \"lch\"");
     }
     return options;
@@ -173,20 +173,20 @@ class TrackReader {
 
   std::optional<TrackCurve> color() {
     KeyReader<Color> reader;
-    reader.value = [](const JsonValue& value) { return color_of(value); };
-    reader.rate = [](const JsonValue& rate, const Color&) { return numbers_of<4>(rate); };
+    reader.value = [](const json::Value& value) { return color_of(value); };
+    reader.rate = [](const json::Value& rate, const Color&) { return numbers_of<4>(rate); };
     return keyed(reader, color_options());
   }
 
   // One curve for each morph target.
   std::optional<TrackCurve> weights() {
-    const JsonValue first = key_parts(list_.items().front()).value;
+    const json::Value first = key_parts(list_.items().front()).value;
     const std::size_t count = first ? first.items().size() : 0;
     const std::size_t problems_before = problems_.size();
-    for (const JsonValue& key : list_.items()) {
+    for (const json::Value& key : list_.items()) {
       const KeyParts parts = key_parts(key);
-      for (const JsonValue& value : {parts.value, parts.value_in}) check_count(value, count);
-      for (const JsonValue& tangent : {parts.in, parts.out})
+      for (const json::Value& value : {parts.value, parts.value_in}) check_count(value, count);
+      for (const json::Value& tangent : {parts.in, parts.out})
         check_count(tangent && tangent.is(Kind::object) ? usable(tangent, "rate") : tangent, count);
     }
     if (problems_.size() != problems_before || count == 0) {
@@ -195,10 +195,10 @@ class TrackReader {
     }
     WeightCurves curves;
     for (std::size_t i = 0; i < count; ++i) {
-      const auto part = [i](const JsonValue& value) -> std::optional<double> {
+      const auto part = [i](const json::Value& value) -> std::optional<double> {
         return i < value.items().size() ? number_of(value.items()[i]) : std::nullopt;
       };
-      const KeyReader<double> reader{part, [part](const JsonValue& rate, double) { return part(rate); }};
+      const KeyReader<double> reader{part, [part](const json::Value& rate, double) { return part(rate); }};
       const std::optional<Curve<double>> curve =
           read_keys<double>(list_, times_, reader, key_options_of(track_), problems_);
       if (!curve) return {};
@@ -207,14 +207,14 @@ class TrackReader {
     return TrackCurve(std::move(curves));
   }
 
-  void check_count(JsonValue value, std::size_t count) {
+  void check_count(json::Value value, std::size_t count) {
     if (!value || !value.is(Kind::list) || value.items().size() == count) return;
     problems_.add(value, "the first key has " + std::to_string(count) +
                              " weights, one for each morph target; this has " + std::to_string(value.items().size()));
   }
 
   template <class T>
-  std::optional<TrackCurve> stepped(std::optional<T> (*value_of)(const JsonValue&)) {
+  std::optional<TrackCurve> stepped(std::optional<T> (*value_of)(const json::Value&)) {
     const std::size_t problems_before = problems_.size();
     const std::vector<std::optional<double>> seconds = times_.of_keys(list_, problems_);
     std::vector<std::pair<double, T>> steps;
@@ -228,19 +228,19 @@ class TrackReader {
   }
 
   std::optional<TrackCurve> user() {
-    const JsonValue first = key_parts(list_.items().front()).value;
+    const json::Value first = key_parts(list_.items().front()).value;
     if (!first) {
       (void)times_.of_keys(list_, problems_);
       return {};
     }
     switch (first.kind()) {
       case Kind::boolean:
-        return stepped<bool>([](const JsonValue& value) {
+        return stepped<bool>([](const json::Value& value) {
           return value.is(Kind::boolean) ? std::optional(value.boolean()) : std::nullopt;
         });
       case Kind::text:
         if (text_in(track_, "kind") != "text" && first.text().substr(0, 1) == "#") return color();
-        return stepped<std::string>([](const JsonValue& value) {
+        return stepped<std::string>([](const json::Value& value) {
           return value.is(Kind::text) ? std::optional(std::string(value.text())) : std::nullopt;
         });
       case Kind::list:
@@ -252,14 +252,14 @@ class TrackReader {
     }
   }
 
-  const JsonValue& track_;
-  JsonValue list_;
+  const json::Value& track_;
+  json::Value list_;
   const ClipTimes& times_;
   Problems& problems_;
 };
 
 // What a curve refuses only when all its parts are together is told of the track.
-std::optional<TrackCurve> read_curve(const JsonValue& track, const std::string& property, const ClipTimes& times,
+std::optional<TrackCurve> read_curve(const json::Value& track, const std::string& property, const ClipTimes& times,
                                      Problems& problems) {
   try {
     return TrackReader(track, times, problems).read(property);
@@ -271,7 +271,7 @@ std::optional<TrackCurve> read_curve(const JsonValue& track, const std::string& 
 
 // How the track says that its curve goes on, from which time on: by the word of what it says nothing of, too. Modifiers
 // change both times and ways, so that what the keys say is then no longer so; steps have one way alone.
-std::vector<std::pair<double, std::string>> words_of(const JsonValue& track, const TrackCurve& curve,
+std::vector<std::pair<double, std::string>> words_of(const json::Value& track, const TrackCurve& curve,
                                                      const ClipTimes& times) {
   std::vector<std::pair<double, std::string>> words;
   const bool steps =
@@ -279,7 +279,7 @@ std::vector<std::pair<double, std::string>> words_of(const JsonValue& track, con
   if (steps || usable(track, "modifiers")) return words;
   for (const std::string& function : FunctionForms::names())
     if (usable(track, function)) return {{-std::numeric_limits<double>::infinity(), function}};
-  const JsonValue list = track.is(Kind::list) ? track : usable(track, "keys");
+  const json::Value list = track.is(Kind::list) ? track : usable(track, "keys");
   if (!list) return words;
   Problems heard_before;
   const std::vector<std::optional<double>> seconds = times.of_keys(list, heard_before);
@@ -295,7 +295,7 @@ std::vector<std::pair<double, std::string>> words_of(const JsonValue& track, con
 
 }  // namespace
 
-std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times, Problems& problems) {
+std::optional<Track> read_track(const json::Member& track, const ClipTimes& times, Problems& problems) {
   const std::size_t dot = track.name.rfind('.');
   if (dot == std::string::npos || track.value.is(Kind::faulty)) return {};
   const std::string property(track.name.substr(dot + 1));
@@ -309,21 +309,21 @@ std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times,
                .words = std::move(words)};
 }
 
-std::optional<Curve<double>> read_numbers(const JsonValue& track, const ClipTimes& times, Problems& problems) {
+std::optional<Curve<double>> read_numbers(const json::Value& track, const ClipTimes& times, Problems& problems) {
   const std::optional<TrackCurve> curve = read_curve(track, "", times, problems);
   if (!curve || !std::holds_alternative<Curve<double>>(*curve)) return {};
   return std::get<Curve<double>>(*curve);
 }
 
-std::optional<Curve<double>> read_plain_keys(const JsonValue& keys, Problems& problems) {
+std::optional<Curve<double>> read_plain_keys(const json::Value& keys, Problems& problems) {
   const ClipTimes times({}, {}, "the keys of a warp have no duration of their own");
   return read_keys<double>(keys, times, reader_of<double>(number_of), {}, problems);
 }
 
-std::optional<Curve<double>> read_weight(const JsonValue& keys, std::optional<double> fps, Problems& problems) {
+std::optional<Curve<double>> read_weight(const json::Value& keys, std::optional<double> fps, Problems& problems) {
   const ClipTimes times(fps, {}, "the weight of a play runs in stage time, which has none");
   KeyReader<double> reader = reader_of<double>(number_of);
-  reader.value = [&](const JsonValue& value) -> std::optional<double> {
+  reader.value = [&](const json::Value& value) -> std::optional<double> {
     const std::optional<double> weight = number_of(value);
     if (!weight || (*weight >= 0 && *weight <= 1)) return weight;
     problems.add(value, "expected a weight from 0 to 1, found " + number_text(*weight));

@@ -13,15 +13,15 @@
 namespace tweenfall::document {
 
 // Empty where the track is faulty, which then is noted.
-[[nodiscard]] std::optional<Track> read_track(const JsonMember& track, const ClipTimes& times, Problems& problems);
+[[nodiscard]] std::optional<Track> read_track(const json::Member& track, const ClipTimes& times, Problems& problems);
 
-[[nodiscard]] Clip read_clip(const JsonMember& clip, std::optional<double> fps, Problems& problems);
+[[nodiscard]] Clip read_clip(const json::Member& clip, std::optional<double> fps, Problems& problems);
 
 // Keys of one number in seconds of their own.
-[[nodiscard]] std::optional<Curve<double>> read_plain_keys(const JsonValue& keys, Problems& problems);
+[[nodiscard]] std::optional<Curve<double>> read_plain_keys(const json::Value& keys, Problems& problems);
 
 // Keys of one number in stage time, for weights of plays.
-[[nodiscard]] std::optional<Curve<double>> read_weight(const JsonValue& keys, std::optional<double> fps,
+[[nodiscard]] std::optional<Curve<double>> read_weight(const json::Value& keys, std::optional<double> fps,
                                                        Problems& problems);
 
 }  // namespace tweenfall::document

@@ -27,7 +27,7 @@ class Parts {
     text_ += part;
   }
   void add(std::string_view name, std::string_view part) {
-    add(in_quotes(name));
+    add(json::in_quotes(name));
     text_ += ':';
     text_ += part;
   }
@@ -58,7 +58,7 @@ std::string value_json(const Vec4& value) {
   return numbers_json(value);
 }
 std::string value_json(const Color& value) {
-  return in_quotes(color_text(value));
+  return json::in_quotes(color_text(value));
 }
 std::string value_json(const Quat& value) {
   return "{\"quat\":" + numbers_json(value.coeffs()) + "}";
@@ -213,13 +213,13 @@ std::string key_json(double time, const Piece* arriving, const Piece* leaving, b
     Parts row('[');
     row.add(number_text(time));
     row.add(value(Side::out));
-    if (ease) row.add(in_quotes(ease));
+    if (ease) row.add(json::in_quotes(ease));
     return row.whole();
   }
   Parts key('{');
   key.add("t", number_text(time));
   key.add("v", value(Side::out));
-  if (ease) key.add("ease", in_quotes(ease));
+  if (ease) key.add("ease", json::in_quotes(ease));
   if (in) key.add("in", rate(Side::in));
   if (out) key.add("out", rate(Side::out));
   if (tells_arrival) key.add("v_in", value(Side::in));
@@ -283,7 +283,7 @@ std::string curve_json(const StepCurve<T>& curve) {
     if constexpr (std::is_same_v<T, bool>)
       row.add(value ? "true" : "false");
     else
-      row.add(in_quotes(value));
+      row.add(json::in_quotes(value));
     list.add(row.whole());
   }
   return list.whole();
@@ -311,8 +311,8 @@ std::string track_json(const Track& track) {
   std::visit(
       [&](const auto& curve) {
         if constexpr (requires { curve.before(); }) {
-          out.add("before", in_quotes(outside_word(curve.before())));
-          out.add("after", in_quotes(outside_word(curve.after())));
+          out.add("before", json::in_quotes(outside_word(curve.before())));
+          out.add("after", json::in_quotes(outside_word(curve.after())));
         }
         out.add("keys", curve_json(curve));
       },
@@ -336,7 +336,7 @@ class Names {
 
 std::string node_json(const Node& node, const std::vector<std::string>& names) {
   Parts out('{');
-  if (node.parent != no_node) out.add("parent", in_quotes(names[node.parent]));
+  if (node.parent != no_node) out.add("parent", json::in_quotes(names[node.parent]));
   out.add("position", numbers_json(node.rest.position));
   if (!same_value(node.rest.rotation, Quat(1, 0, 0, 0))) out.add("rotation", value_json(node.rest.rotation));
   const Vec3& scale = node.rest.scale;
@@ -346,11 +346,11 @@ std::string node_json(const Node& node, const std::vector<std::string>& names) {
 }
 
 std::string event_json(const ClipEvent& event) {
-  if (!event.is_interval()) return "[" + number_text(event.from) + "," + in_quotes(event.name) + "]";
+  if (!event.is_interval()) return "[" + number_text(event.from) + "," + json::in_quotes(event.name) + "]";
   Parts span('{');
   span.add("from", number_text(event.from));
   span.add("to", number_text(event.to));
-  span.add("name", in_quotes(event.name));
+  span.add("name", json::in_quotes(event.name));
   return span.whole();
 }
 
@@ -359,9 +359,9 @@ std::string clip_json(const Clip& clip, const std::map<std::string, std::string>
   if (clip.duration > 0 && std::isfinite(clip.duration)) out.add("duration", number_text(clip.duration));
   if (clip.loop.mode != LoopMode::once) {
     Parts loop('{');
-    loop.add("mode", in_quotes(clip.loop.mode == LoopMode::pingpong        ? "pingpong"
-                               : clip.loop.mode == LoopMode::repeat_offset ? "repeat-offset"
-                                                                           : "repeat"));
+    loop.add("mode", json::in_quotes(clip.loop.mode == LoopMode::pingpong        ? "pingpong"
+                                     : clip.loop.mode == LoopMode::repeat_offset ? "repeat-offset"
+                                                                                 : "repeat"));
     if (clip.loop.count > 0) loop.add("count", number_text(clip.loop.count));
     out.add("loop", loop.whole());
   }
@@ -382,7 +382,7 @@ std::string clip_json(const Clip& clip, const std::map<std::string, std::string>
 std::string text_of(const Model& model) {
   Parts root('{');
   root.add("tweenfall", "1");
-  if (!model.name.empty()) root.add("name", in_quotes(model.name));
+  if (!model.name.empty()) root.add("name", json::in_quotes(model.name));
 
   std::vector<std::string> names;
   std::map<std::string, std::string> renamed;

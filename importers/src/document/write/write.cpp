@@ -10,31 +10,31 @@ namespace tweenfall::document {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
 constexpr std::size_t line_width = 110;
 
 // A part of a list or an object as it is written, with its form where it has one.
 struct Part {
   std::string_view name;  // of a member
-  JsonValue value;
+  json::Value value;
   const Form* form = nullptr;
 };
 
 // What is written for a value: itself, or its parts in the order of the table.
 struct Written {
-  JsonValue value;
+  json::Value value;
   const Form* form = nullptr;  // as it was resolved
   char open = 0;               // '[' or '{'; 0 for what has no parts
   std::vector<Part> parts{};
 };
 
-Written written(const Form* form, const JsonValue& value);
+Written written(const Form* form, const json::Value& value);
 
 // Its text on one line as far as it fits into `most` bytes; longer where it does not.
 void append_line(std::string& out, const Written& what, std::size_t most) {
   if (what.open == 0) {
-    out += on_one_line(what.value);
+    out += json::on_one_line(what.value);
     return;
   }
   const char* gap = "";
@@ -42,7 +42,7 @@ void append_line(std::string& out, const Written& what, std::size_t most) {
   for (const Part& part : what.parts) {
     if (out.size() > most) return;
     out += std::exchange(gap, ", ");
-    if (what.open == '{') out += in_quotes(part.name) + ": ";
+    if (what.open == '{') out += json::in_quotes(part.name) + ": ";
     append_line(out, written(part.form, part.value), most);
   }
   out += what.open == '[' ? ']' : '}';
@@ -55,16 +55,16 @@ std::string line_of(const Written& what, std::size_t most) {
 }
 
 // Whether a member says what its absence means.
-bool says_nothing(const Field& field, const JsonValue& value) {
+bool says_nothing(const Field& field, const json::Value& value) {
   if (field.required || field.standard.empty()) return false;
   const std::string line = line_of(written(field.form, value), field.standard.size() + 2);
   return line == field.standard || line == "{}";
 }
 
-Written of_list(const Form& form, const JsonValue& value) {
+Written of_list(const Form& form, const json::Value& value) {
   Written out{value, &form, '[', {}};
   std::size_t i = 0;
-  for (const JsonValue& item : value.items()) {
+  for (const json::Value& item : value.items()) {
     const Form* const below = form.kind == Form::Kind::list                             ? form.element
                               : form.kind == Form::Kind::tuple && i < form.parts.size() ? form.parts[i]
                                                                                         : nullptr;
@@ -105,18 +105,18 @@ Written shorter(const Form& form, Written object) {
   return object;
 }
 
-Written of_object(const Form& form, const JsonValue& value) {
+Written of_object(const Form& form, const json::Value& value) {
   Written out{value, &form, '{', {}};
   for (const Field& field : form.fields)
-    if (const JsonValue member = value.find(field.name); member && !says_nothing(field, member))
+    if (const json::Value member = value.find(field.name); member && !says_nothing(field, member))
       out.parts.push_back({field.name, member, field.form});
-  for (const JsonMember& member : value.members())
+  for (const json::Member& member : value.members())
     if (!form.field(member.name))
       out.parts.push_back({member.name, member.value, is_free_name(member.name) ? nullptr : form.member(member.name)});
   return shorter(form, std::move(out));
 }
 
-Written written(const Form* form, const JsonValue& value) {
+Written written(const Form* form, const json::Value& value) {
   static const Form any;
   const Form* const chosen = form ? resolved(*form, value) : nullptr;
   if (value.is(Kind::list)) return of_list(chosen ? *chosen : any, value);
@@ -126,7 +126,7 @@ Written written(const Form* form, const JsonValue& value) {
 
 class Writer {
  public:
-  void write(const Form* form, const JsonValue& value, std::size_t indent, std::size_t column) {
+  void write(const Form* form, const json::Value& value, std::size_t indent, std::size_t column) {
     const Written what = written(form, value);
     const bool on_one_line = what.form && what.form->on_one_line, one_a_line = what.form && what.form->one_a_line;
     const std::size_t room = line_width - std::min(column, line_width);
@@ -146,7 +146,7 @@ class Writer {
     for (const Part& part : what.parts) {
       out += std::exchange(gap, ",\n");
       out += inner;
-      const std::string name = what.open == '{' ? in_quotes(part.name) + ": " : std::string();
+      const std::string name = what.open == '{' ? json::in_quotes(part.name) + ": " : std::string();
       out += name;
       write(part.form, part.value, indent + 2, indent + 2 + name.size());
     }
@@ -167,7 +167,7 @@ class Writer {
 
 }  // namespace
 
-std::string write(const Form& form, const JsonValue& value) {
+std::string write(const Form& form, const json::Value& value) {
   Writer writer;
   writer.write(&form, value, 0, 0);
   return writer.out + "\n";

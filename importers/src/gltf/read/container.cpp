@@ -174,35 +174,35 @@ void check_header(const Container& container, models::ModelProblems& problems) {
     problems.add("/asset/version", version.empty() ? "is missing; glTF 2.0 can be read"
                                                    : "is \"" + version.substr(0, 20) + "\"; glTF 2.0 can be read");
   for (const auto& extension : root.list("extensionsRequired"))
-    if (extension.is(JsonValue::Kind::text) && !can_do_without(std::string(extension.text())))
+    if (extension.is(json::Value::Kind::text) && !can_do_without(std::string(extension.text())))
       problems.add("/extensionsRequired", "the file needs " + std::string(extension.text()) + ", which cannot be read");
 }
 
-void tell(const JsonFault& fault, const Container& container, models::ModelProblems& problems) {
+void tell(const json::Fault& fault, const Container& container, models::ModelProblems& problems) {
   if (!container.has_lines)
     problems.add("", "is not valid JSON: at byte " + std::to_string(fault.offset) + " of it, " + fault.message);
   else
-    problems.add(tweenfall::place_in(container.document.text(), fault.offset), "is not valid JSON: " + fault.message);
+    problems.add(json::place_in(container.document.text(), fault.offset), "is not valid JSON: " + fault.message);
 }
 
 }  // namespace
 
-std::optional<TextPlace> place_in(const Container& container, std::string_view place) {
+std::optional<json::TextPlace> place_in(const Container& container, std::string_view place) {
   if (!container.has_lines || !place.starts_with('/')) return std::nullopt;
-  JsonValue at = container.document.root();
+  json::Value at = container.document.root();
   while (!place.empty()) {
     place.remove_prefix(1);
     const std::string_view name = place.substr(0, place.find('/'));
     place.remove_prefix(name.size());
-    JsonValue inside = at.find(name);
+    json::Value inside = at.find(name);
     std::size_t position = 0;
     const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), position);
-    if (at.is(JsonValue::Kind::list) && error == std::errc() && position < at.items().size())
+    if (at.is(json::Value::Kind::list) && error == std::errc() && position < at.items().size())
       inside = at.items()[position];
     if (!inside) break;
     at = inside;
   }
-  return tweenfall::place_in(container.document.text(), at.offset());
+  return json::place_in(container.document.text(), at.offset());
 }
 
 Container open_container(std::string_view bytes, const std::filesystem::path& file, models::ModelProblems& problems) {
@@ -222,10 +222,10 @@ Container open_container(std::string_view bytes, const std::filesystem::path& fi
     return container;
   }
   // Embedded buffers make the text as large as a model may be.
-  const JsonRules rules{.comments = false, .names_twice = true};
-  std::vector<JsonFault> faults;
-  container.document = JsonTree::parse(std::string(chunks.json), faults, rules);
-  for (const JsonFault& fault : faults) tell(fault, container, problems);
+  const json::Rules rules{.comments = false, .names_twice = true};
+  std::vector<json::Fault> faults;
+  container.document = json::Tree::parse(std::string(chunks.json), faults, rules);
+  for (const json::Fault& fault : faults) tell(fault, container, problems);
   if (!faults.empty()) return container;
   // What is no object, or too large a one, reads as empty, and all that is missing from it would be told too.
   const Fields root(container.document.root(), "", problems);

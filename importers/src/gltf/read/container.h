@@ -14,7 +14,7 @@
 namespace tweenfall::gltf {
 
 struct Container {
-  JsonTree document;
+  json::Tree document;
   bool has_lines = true;             ///< whether the document is a file of its own, which has lines and columns
   std::vector<std::string> buffers;  ///< exactly "byteLength" bytes each; empty where there was a problem
   std::size_t file_size = 0;         ///< bytes of the file and everything it names
@@ -27,6 +27,6 @@ struct Container {
 
 /// Where the value at a place such as "/nodes/0/mesh" stands in the text, or the innermost one around it that is there;
 /// empty for places that are none and for binary files.
-[[nodiscard]] std::optional<TextPlace> place_in(const Container& container, std::string_view place);
+[[nodiscard]] std::optional<json::TextPlace> place_in(const Container& container, std::string_view place);
 
 }  // namespace tweenfall::gltf

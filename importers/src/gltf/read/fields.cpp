@@ -6,21 +6,21 @@ namespace tweenfall::gltf {
 
 namespace {
 
-using Kind = JsonValue::Kind;
+using Kind = json::Value::Kind;
 
-const JsonValue& no_object() {
-  static const JsonTree tree = [] {
-    std::vector<JsonFault> faults;
-    return JsonTree::parse("{}", faults);
+const json::Value& no_object() {
+  static const json::Tree tree = [] {
+    std::vector<json::Fault> faults;
+    return json::Tree::parse("{}", faults);
   }();
-  static const JsonValue root = tree.root();
+  static const json::Value root = tree.root();
   return root;
 }
 
 /// Fields are looked for one by one, again for each element of a list beside them.
 constexpr std::size_t most_members = 1000;
 
-const char* kind_of(const JsonValue& value) {
+const char* kind_of(const json::Value& value) {
   switch (value.kind()) {
     case Kind::boolean:
       return "a boolean";
@@ -37,11 +37,11 @@ const char* kind_of(const JsonValue& value) {
   }
 }
 
-std::string shown(const JsonValue& value) {
-  return value.is(Kind::list) || value.is(Kind::object) ? kind_of(value) : on_one_line(value).substr(0, 40);
+std::string shown(const json::Value& value) {
+  return value.is(Kind::list) || value.is(Kind::object) ? kind_of(value) : json::on_one_line(value).substr(0, 40);
 }
 
-std::optional<std::size_t> whole_number(const JsonValue& value) {
+std::optional<std::size_t> whole_number(const json::Value& value) {
   constexpr double exact_below = 9007199254740992;  // 2^53
   const double number = value.number();
   if (!value.is(Kind::number) || !(number >= 0 && number < exact_below) || std::floor(number) != number)
@@ -51,7 +51,7 @@ std::optional<std::size_t> whole_number(const JsonValue& value) {
 
 }  // namespace
 
-Fields::Fields(const JsonValue& object, std::string place, models::ModelProblems& problems)
+Fields::Fields(const json::Value& object, std::string place, models::ModelProblems& problems)
     : object_(object), place_(std::move(place)), problems_(&problems) {
   if (object.is(Kind::object) && object.members().size() <= most_members) return;
   problems.add(place_, object.is(Kind::object)
@@ -62,7 +62,7 @@ Fields::Fields(const JsonValue& object, std::string place, models::ModelProblems
 }
 
 std::optional<std::size_t> Fields::whole(const char* name) const {
-  const JsonValue value = find(name);
+  const json::Value value = find(name);
   if (!value) return std::nullopt;
   const auto number = whole_number(value);
   if (!number)
@@ -72,7 +72,7 @@ std::optional<std::size_t> Fields::whole(const char* name) const {
   return number;
 }
 
-std::optional<std::size_t> Fields::index_value(const JsonValue& value, const std::string& place,
+std::optional<std::size_t> Fields::index_value(const json::Value& value, const std::string& place,
                                                std::size_t count) const {
   const auto number = whole_number(value);
   if (!number) {
@@ -86,7 +86,7 @@ std::optional<std::size_t> Fields::index_value(const JsonValue& value, const std
 }
 
 std::optional<std::size_t> Fields::index(const char* name, std::size_t count) const {
-  const JsonValue value = find(name);
+  const json::Value value = find(name);
   return value ? index_value(value, place_of(name), count) : std::nullopt;
 }
 
@@ -96,7 +96,7 @@ std::optional<std::size_t> Fields::required_index(const char* name, std::size_t 
 }
 
 std::string Fields::text(const char* name, const std::string& otherwise) const {
-  const JsonValue value = find(name);
+  const json::Value value = find(name);
   if (!value) return otherwise;
   if (value.is(Kind::text)) return std::string(value.text());
   problems_->add(place_of(name), std::string("must be a string, not ") + kind_of(value));
@@ -104,7 +104,7 @@ std::string Fields::text(const char* name, const std::string& otherwise) const {
 }
 
 bool Fields::flag(const char* name) const {
-  const JsonValue value = find(name);
+  const json::Value value = find(name);
   if (value && !value.is(Kind::boolean))
     problems_->add(place_of(name), std::string("must be true or false, not ") + kind_of(value));
   return value && value.boolean();
@@ -113,8 +113,8 @@ bool Fields::flag(const char* name) const {
 std::vector<double> Fields::numbers(const char* name, std::size_t count) const {
   std::vector<double> all;
   if (!has(name)) return all;
-  const JsonItems values = list(name);
-  for (const JsonValue& value : values)
+  const json::Items values = list(name);
+  for (const json::Value& value : values)
     if (value.is(Kind::number)) all.push_back(value.number());
   if (all.size() == values.size() && (count == 0 || all.size() == count)) return all;
   const std::string wanted = count ? std::to_string(count) + " finite numbers" : "finite numbers";
@@ -124,23 +124,23 @@ std::vector<double> Fields::numbers(const char* name, std::size_t count) const {
 
 std::vector<std::size_t> Fields::indices(const char* name, std::size_t limit) const {
   std::vector<std::size_t> all;
-  const JsonItems values = list(name);
+  const json::Items values = list(name);
   for (std::size_t i = 0; i < values.size(); ++i)
     if (const auto number = index_value(values[i], place_of(name) + "/" + std::to_string(i), limit))
       all.push_back(*number);
   return all;
 }
 
-JsonItems Fields::list(const char* name) const {
-  const JsonValue value = find(name);
-  if (!value) return JsonItems();
+json::Items Fields::list(const char* name) const {
+  const json::Value value = find(name);
+  if (!value) return json::Items();
   if (value.is(Kind::list)) return value.items();
   problems_->add(place_of(name), std::string("must be a list, not ") + kind_of(value));
-  return JsonItems();
+  return json::Items();
 }
 
 Fields Fields::inside(const char* name) const {
-  const JsonValue value = find(name);
+  const json::Value value = find(name);
   return {value ? value : no_object(), place_of(name), *problems_};
 }
 

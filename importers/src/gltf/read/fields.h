@@ -14,14 +14,14 @@ namespace tweenfall::gltf {
 class Fields {
  public:
   /// @param object  must be an object; anything else is a problem and reads as empty
-  Fields(const JsonValue& object, std::string place, models::ModelProblems& problems);
+  Fields(const json::Value& object, std::string place, models::ModelProblems& problems);
 
   [[nodiscard]] const std::string& place() const { return place_; }
   [[nodiscard]] std::string place_of(const std::string& name) const { return place_ + "/" + name; }
   [[nodiscard]] bool has(const char* name) const { return static_cast<bool>(find(name)); }
 
   /// The field as it stands, of whatever type; none when absent.
-  [[nodiscard]] JsonValue find(const char* name) const { return object_.find(name); }
+  [[nodiscard]] json::Value find(const char* name) const { return object_.find(name); }
 
   /// A whole number >= 0; empty when absent or wrong.
   [[nodiscard]] std::optional<std::size_t> whole(const char* name) const;
@@ -36,7 +36,7 @@ class Fields {
   /// A list of indices below `limit`; wrong ones are problems and left out.
   [[nodiscard]] std::vector<std::size_t> indices(const char* name, std::size_t limit) const;
   /// A list; an empty one when absent or wrong.
-  [[nodiscard]] JsonItems list(const char* name) const;
+  [[nodiscard]] json::Items list(const char* name) const;
   /// An object inside; an empty one when absent.
   [[nodiscard]] Fields inside(const char* name) const;
   /// An object of a list.
@@ -45,9 +45,9 @@ class Fields {
   [[nodiscard]] models::ModelProblems& problems() const { return *problems_; }
 
  private:
-  std::optional<std::size_t> index_value(const JsonValue& value, const std::string& place, std::size_t count) const;
+  std::optional<std::size_t> index_value(const json::Value& value, const std::string& place, std::size_t count) const;
 
-  JsonValue object_;
+  json::Value object_;
   std::string place_;
   models::ModelProblems* problems_;
 };

@@ -152,10 +152,10 @@ class MeshReader {
   static std::vector<std::string> target_names(const Fields& mesh) {
     std::vector<std::string> names;
     // Extras may hold anything; these names are a custom of the large modeling programs.
-    const JsonValue extras = mesh.find("extras");
-    const JsonValue list = extras ? extras.find("targetNames") : JsonValue();
+    const json::Value extras = mesh.find("extras");
+    const json::Value list = extras ? extras.find("targetNames") : json::Value();
     if (list)
-      for (const JsonValue& name : list.items()) names.emplace_back(name.text());
+      for (const json::Value& name : list.items()) names.emplace_back(name.text());
     return names;
   }
 

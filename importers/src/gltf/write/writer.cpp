@@ -19,24 +19,24 @@ namespace tweenfall {
 namespace gltf {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-json numbers(const Vec3& v) {
-  return json::array({v[0], v[1], v[2]});
+Json numbers(const Vec3& v) {
+  return Json::array({v[0], v[1], v[2]});
 }
 
-json node_json(const Node& node) {
-  json out{{"name", node.name}};
+Json node_json(const Node& node) {
+  Json out{{"name", node.name}};
   const Pose& rest = node.rest;
   if (!rest.position.isZero(0)) out["translation"] = numbers(rest.position);
   if (!rest.rotation.vec().isZero(0) || rest.rotation.w() < 0)
-    out["rotation"] = json::array({rest.rotation.x(), rest.rotation.y(), rest.rotation.z(), rest.rotation.w()});
+    out["rotation"] = Json::array({rest.rotation.x(), rest.rotation.y(), rest.rotation.z(), rest.rotation.w()});
   if (rest.scale != Vec3(1, 1, 1)) out["scale"] = numbers(rest.scale);
   return out;
 }
 
-void write_nodes(const Model& model, json& document) {
-  json nodes = json::array(), roots = json::array();
+void write_nodes(const Model& model, Json& document) {
+  Json nodes = Json::array(), roots = Json::array();
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     nodes.push_back(node_json(model.nodes[i]));
     const std::size_t parent = model.nodes[i].parent;
@@ -46,21 +46,21 @@ void write_nodes(const Model& model, json& document) {
       nodes[parent]["children"].push_back(i);
   }
   document["scene"] = 0;
-  document["scenes"] = json::array({json::object()});
+  document["scenes"] = Json::array({Json::object()});
   if (!nodes.empty()) {
     document["nodes"] = std::move(nodes);
     document["scenes"][0]["nodes"] = std::move(roots);
   }
 }
 
-json primitive_json(const WrittenPrimitive& primitive) {
-  json out{{"attributes", primitive.attributes}, {"indices", primitive.indices}, {"material", primitive.material}};
+Json primitive_json(const WrittenPrimitive& primitive) {
+  Json out{{"attributes", primitive.attributes}, {"indices", primitive.indices}, {"material", primitive.material}};
   if (!primitive.targets.empty()) out["targets"] = primitive.targets;
   return out;
 }
 
-json mesh_json(const WrittenMesh& mesh) {
-  json out{{"name", mesh.name}};
+Json mesh_json(const WrittenMesh& mesh) {
+  Json out{{"name", mesh.name}};
   for (const WrittenPrimitive& primitive : mesh.primitives) out["primitives"].push_back(primitive_json(primitive));
   if (mesh.target_names.empty()) return out;
   out["weights"] = mesh.weights;
@@ -68,21 +68,21 @@ json mesh_json(const WrittenMesh& mesh) {
   return out;
 }
 
-json material_json(const std::array<double, 4>& rgba) {
-  json out{{"pbrMetallicRoughness", {{"baseColorFactor", rgba}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}}}};
+Json material_json(const std::array<double, 4>& rgba) {
+  Json out{{"pbrMetallicRoughness", {{"baseColorFactor", rgba}, {"metallicFactor", 0}, {"roughnessFactor", 0.9}}}};
   if (rgba[3] < 1) out["alphaMode"] = "BLEND";
   return out;
 }
 
-void add_meshes(const Model& model, json& document, BufferWriter& buffer) {
+void add_meshes(const Model& model, Json& document, BufferWriter& buffer) {
   const WrittenMeshes written = write_meshes(model, buffer);
   for (const ExtraNode& extra : written.extra_nodes) {
-    json& nodes = document["nodes"];
+    Json& nodes = document["nodes"];
     nodes[extra.parent]["children"].push_back(nodes.size());
     nodes.push_back({{"name", extra.name}});
   }
   for (const auto& [node, worn] : written.worn) {
-    json& wearer = document["nodes"][node];
+    Json& wearer = document["nodes"][node];
     wearer["mesh"] = worn.mesh;
     if (worn.skin) wearer["skin"] = *worn.skin;
   }
@@ -90,7 +90,7 @@ void add_meshes(const Model& model, json& document, BufferWriter& buffer) {
   for (const auto& rgba : written.materials) document["materials"].push_back(material_json(rgba));
 }
 
-json inverse_bind_accessor(const Skin& skin, BufferWriter& buffer) {
+Json inverse_bind_accessor(const Skin& skin, BufferWriter& buffer) {
   std::vector<double> all;
   for (std::size_t joint = 0; joint < skin.joints.size(); ++joint) {
     const Skin::InverseBind bind = joint < skin.inverse_binds.size() ? skin.inverse_binds[joint] : Skin::InverseBind{};
@@ -101,7 +101,7 @@ json inverse_bind_accessor(const Skin& skin, BufferWriter& buffer) {
   return buffer.add_floats(all, "MAT4");
 }
 
-void write_skins(const Model& model, json& document, BufferWriter& buffer) {
+void write_skins(const Model& model, Json& document, BufferWriter& buffer) {
   for (const Skin& skin : model.skins)
     document["skins"].push_back(
         {{"joints", skin.joints}, {"inverseBindMatrices", inverse_bind_accessor(skin, buffer)}});
@@ -129,9 +129,9 @@ std::size_t morph_count(const Model& model, std::size_t node) {
   return 0;
 }
 
-json animation_json(const Model& model, const Clip& clip, const std::map<std::string, std::size_t>& index, double fps,
+Json animation_json(const Model& model, const Clip& clip, const std::map<std::string, std::size_t>& index, double fps,
                     BufferWriter& buffer) {
-  json samplers = json::array(), channels = json::array();
+  Json samplers = Json::array(), channels = Json::array();
   std::set<std::pair<std::size_t, std::string>> taken;
   for (const Track& track : clip.tracks) {
     const char* path = path_named(track.property);
@@ -151,38 +151,38 @@ json animation_json(const Model& model, const Clip& clip, const std::map<std::st
   return {{"name", clip.name}, {"samplers", std::move(samplers)}, {"channels", std::move(channels)}};
 }
 
-void write_animations(const Model& model, json& document, BufferWriter& buffer, double fps) {
+void write_animations(const Model& model, Json& document, BufferWriter& buffer, double fps) {
   std::map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) index.emplace(model.nodes[i].name, i);
   for (const Clip& clip : model.clips) {
-    json animation = animation_json(model, clip, index, fps, buffer);
+    Json animation = animation_json(model, clip, index, fps, buffer);
     if (!animation.is_null()) document["animations"].push_back(std::move(animation));
   }
 }
 
-void write_buffer(BufferWriter& buffer, json& document) {
+void write_buffer(BufferWriter& buffer, Json& document) {
   buffer.finish();
   for (std::size_t i = 0; i < buffer.accessors().size(); ++i) {
     const BufferView& view = buffer.views()[i];
-    json& view_json = document["bufferViews"].emplace_back(
-        json{{"buffer", 0}, {"byteOffset", view.offset}, {"byteLength", view.length}});
+    Json& view_json = document["bufferViews"].emplace_back(
+        Json{{"buffer", 0}, {"byteOffset", view.offset}, {"byteLength", view.length}});
     if (view.target) view_json["target"] = view.target;
     const Accessor& accessor = buffer.accessors()[i];
-    json& accessor_json = document["accessors"].emplace_back(json{
+    Json& accessor_json = document["accessors"].emplace_back(Json{
         {"bufferView", i}, {"componentType", accessor.component}, {"count", accessor.count}, {"type", accessor.type}});
     if (accessor.low.empty()) continue;
     accessor_json["min"] = accessor.low;
     accessor_json["max"] = accessor.high;
   }
-  if (!buffer.accessors().empty()) document["buffers"] = json::array({{{"byteLength", buffer.bytes().size()}}});
+  if (!buffer.accessors().empty()) document["buffers"] = Json::array({{{"byteLength", buffer.bytes().size()}}});
 }
 
 void append_word(std::string& out, std::uint32_t word) {
   for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<char>(word >> shift & 0xFF));
 }
 
-std::string container(const json& document, const std::vector<unsigned char>& binary) {
-  std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace);
+std::string container(const Json& document, const std::vector<unsigned char>& binary) {
+  std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
   text.resize((text.size() + 3) / 4 * 4, ' ');
   const std::uint64_t length = 12 + 8 + text.size() + (binary.empty() ? 0 : 8 + binary.size());
   if (length > 0xFFFFFFFFu) throw std::runtime_error("binary glTF ends at 4 GiB");
