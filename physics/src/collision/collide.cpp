@@ -12,6 +12,24 @@ concept Collides = requires(const A& a, const B& b, const Placed& at) {
   {collide(a, at, b, at, 0.0)};
 };
 
+template <class A, class B>
+concept CollidesWithin = requires(const A& a, const B& b, const Placed& at) {
+  {collide(a, at, b, at, 0.0, 0.0)};
+};
+
+/// Nothing for a pair that only its other order knows, and for two planes, of which neither moves by itself.
+template <class A, class B>
+Manifold collide_solids(const A& a, const Placed& at_a, const B& b, const Placed& at_b, double margin, double reach) {
+  if constexpr (CollidesWithin<A, B>) {
+    return collide(a, at_a, b, at_b, margin, reach);
+  } else if constexpr (Collides<A, B>) {
+    const Manifold manifold = collide(a, at_a, b, at_b, margin);
+    return manifold.count > 0 && reach > margin ? collide(a, at_a, b, at_b, reach) : manifold;
+  } else {
+    return {};
+  }
+}
+
 }  // namespace
 
 /// Whether the products that follow stay numbers.
@@ -24,22 +42,21 @@ static bool is_near(const Pose& pose) noexcept {
 
 Manifold collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin) noexcept {
   if (!is_near(pose_a) || !is_near(pose_b)) return {};
-  return collide(a, place(a, pose_a), b, place(b, pose_b), margin);
+  return collide(a, place(a, pose_a), b, place(b, pose_b), margin, margin);
 }
 
-Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b, double margin) noexcept {
+Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b, double margin,
+                 double reach) noexcept {
   return std::visit(
       [&](const auto& solid_a, const auto& solid_b) -> Manifold {
         using A = std::decay_t<decltype(solid_a)>;
         using B = std::decay_t<decltype(solid_b)>;
-        if constexpr (Collides<A, B>) {
-          return collide(solid_a, at_a, solid_b, at_b, margin);
-        } else if constexpr (Collides<B, A>) {
-          Manifold manifold = collide(solid_b, at_b, solid_a, at_a, margin);
-          manifold.normal = -manifold.normal;
-          return manifold;
+        if constexpr (Collides<A, B> || CollidesWithin<A, B>) {
+          return collide_solids(solid_a, at_a, solid_b, at_b, margin, reach);
         } else {
-          return {};  // two planes never meet: neither moves by itself
+          Manifold manifold = collide_solids(solid_b, at_b, solid_a, at_a, margin, reach);
+          if constexpr (Collides<B, A> || CollidesWithin<B, A>) manifold.normal = -manifold.normal;
+          return manifold;
         }
       },
       a.solid, b.solid);

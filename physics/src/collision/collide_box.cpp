@@ -166,24 +166,24 @@ void cross_edges(Manifold& manifold, const Separation& separation, const Box& a,
 
 }  // namespace
 
-Manifold collide(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin) {
+Manifold collide(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin, double reach) {
   Manifold manifold;
   const Separation separation = widest(a, at_a, b, at_b);
   manifold.normal = separation.normal;
   if (separation.gap > margin) return manifold;
   if (separation.kind == Separation::face_a) {
-    clip_faces(manifold, a, at_a, separation.first, separation.normal, b, at_b, margin, 0);
+    clip_faces(manifold, a, at_a, separation.first, separation.normal, b, at_b, reach, 0);
   } else if (separation.kind == Separation::face_b) {
-    clip_faces(manifold, b, at_b, separation.second, -separation.normal, a, at_a, margin, 1);
+    clip_faces(manifold, b, at_b, separation.second, -separation.normal, a, at_a, reach, 1);
   } else {
-    cross_edges(manifold, separation, a, at_a, b, at_b, margin);
+    cross_edges(manifold, separation, a, at_a, b, at_b, reach);
   }
   if (manifold.count == 0) {
     // Corners past each other: the face's sides leave nothing, yet no axis tells the boxes apart by more.
     const Vec3 corner = separation.kind == Separation::face_b ? support(a, at_a, separation.normal)
                                                               : support(b, at_b, -separation.normal);
     const double half = separation.kind == Separation::face_b ? 0.5 : -0.5;
-    add_point(manifold, corner + half * separation.gap * separation.normal, -separation.gap, 0x3000000u, margin);
+    add_point(manifold, corner + half * separation.gap * separation.normal, -separation.gap, 0x3000000u, reach);
   }
   return manifold;
 }

@@ -13,21 +13,27 @@ namespace tweenfall {
 [[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Capsule& b, const Placed& at_b,
                                double margin);
 [[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin);
 [[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Capsule& b, const Placed& at_b, double margin);
 [[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
 [[nodiscard]] Manifold collide(const Capsule& a, const Placed& at_a, const Capsule& b, const Placed& at_b,
                                double margin);
 [[nodiscard]] Manifold collide(const Capsule& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
 [[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Sphere& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin);
 [[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Capsule& b, const Placed& at_b, double margin);
 [[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Hull& b, const Placed& at_b, double margin);
 
-/// Contact of two shapes that have been placed.
-[[nodiscard]] Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b,
-                               double margin) noexcept;
+/// Polyhedra: within the margin they touch, and then points with a gap up to the reach are told.
+[[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin,
+                               double reach);
+[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin,
+                               double reach);
+[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Hull& b, const Placed& at_b, double margin,
+                               double reach);
+
+/// Contact of two shapes that have been placed: within the margin they touch, and then points with a gap up to the
+/// reach, which is no less, are told.
+[[nodiscard]] Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b, double margin,
+                               double reach) noexcept;
 
 /// Adds a point between the two surfaces, unless the gap is beyond the margin or four are there.
 inline void add_point(Manifold& manifold, const Vec3& position, double penetration, std::uint32_t feature,

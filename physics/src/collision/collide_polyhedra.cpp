@@ -124,41 +124,41 @@ void cross_two_edges(Manifold& manifold, const PolyhedraSeparation& separation, 
 
 }  // namespace
 
-Manifold collide_polyhedra(const Polyhedron& a, const Polyhedron& b, double margin) {
+Manifold collide_polyhedra(const Polyhedron& a, const Polyhedron& b, double margin, double reach) {
   using Kind = PolyhedraSeparation::Kind;
   Manifold manifold;
-  const PolyhedraSeparation separation = separation_of(a, b, margin);
+  const PolyhedraSeparation separation = separation_of(a, b, margin, reach);
   manifold.normal = separation.normal;
   if (separation.gap > margin) return manifold;
   const bool only_distance = separation.gap > 0 && std::isinf(margin);
   if (separation.kind == Kind::edges) {
-    cross_two_edges(manifold, separation, a, b, margin);
+    cross_two_edges(manifold, separation, a, b, reach);
   } else if (!only_distance) {
     const bool of_a = separation.kind == Kind::face_a;
-    clip_onto_face(manifold, of_a ? a : b, separation.first, of_a ? b : a, separation.second, margin, of_a ? 0 : 1);
+    clip_onto_face(manifold, of_a ? a : b, separation.first, of_a ? b : a, separation.second, reach, of_a ? 0 : 1);
   }
   if (manifold.count == 0) {
     // Corners past each other: the face's sides leave nothing, yet no direction tells the polyhedra apart by more.
     const bool of_a = separation.kind == Kind::face_a;
     const Vec3& corner = of_a ? b.vertices[separation.second] : a.vertices[separation.second];
     const double half = of_a ? -0.5 : 0.5;
-    add_point(manifold, corner + half * separation.gap * separation.normal, -separation.gap, 0x3000000u, margin);
+    add_point(manifold, corner + half * separation.gap * separation.normal, -separation.gap, 0x3000000u, reach);
   }
   return manifold;
 }
 
-Manifold collide(const Hull& a, const Placed& at_a, const Hull& b, const Placed& at_b, double margin) {
+Manifold collide(const Hull& a, const Placed& at_a, const Hull& b, const Placed& at_b, double margin, double reach) {
   const Mat3 into = at_a.axes.transpose();
   PolyhedronRoom room;
   const Polyhedron other = polyhedron(b, into * at_b.axes, into * (at_b.center - at_a.center), room);
-  return to_world(collide_polyhedra(polyhedron(a), other, margin), at_a);
+  return to_world(collide_polyhedra(polyhedron(a), other, margin, reach), at_a);
 }
 
-Manifold collide(const Hull& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin) {
+Manifold collide(const Hull& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin, double reach) {
   const Mat3 into = at_a.axes.transpose();
   PolyhedronRoom room;
   const Polyhedron other = polyhedron(b, into * at_b.axes, into * (at_b.center - at_a.center), room);
-  return to_world(collide_polyhedra(polyhedron(a), other, margin), at_a);
+  return to_world(collide_polyhedra(polyhedron(a), other, margin, reach), at_a);
 }
 
 }  // namespace tweenfall

@@ -79,7 +79,7 @@ void try_edges(PolyhedraSeparation& best, const Polyhedron& a, const Polyhedron&
 
 }  // namespace
 
-PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, double margin) {
+PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, double margin, double reach) {
   const double size = std::min(a.size, b.size);
   const double preference = kind_preference * size;
   const FaceGap face_a = widest_face(a, b, 0.1 * preference, margin);
@@ -93,8 +93,8 @@ PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, doub
 
   // Far apart, a face tells well enough by how much; near, only edges that come near each other can do better.
   double room = 1e300;
-  if (std::isfinite(margin))
-    room = 2 * std::max(0.0, -best.gap) + margin + preference;
+  if (std::isfinite(reach))
+    room = 2 * std::max(0.0, -best.gap) + reach + preference;
   else if (best.gap > 0.1 * size)
     return best;
   const bool of_a = best.kind == PolyhedraSeparation::Kind::face_a;

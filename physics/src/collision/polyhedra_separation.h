@@ -15,7 +15,8 @@ struct PolyhedraSeparation {
 
 /// Near ties go to a's faces, then b's, then to pairs of edges, so that the choice does not change from step to step.
 /// Found to be wider apart than `margin`, they get the first such direction.
+/// @param reach  how far apart corners are that the caller will look at, m; >= margin
 /// Source: Gregorius, The Separating Axis Test between Convex Polyhedra, GDC 2013.
-[[nodiscard]] PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, double margin);
+[[nodiscard]] PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, double margin, double reach);
 
 }  // namespace tweenfall

@@ -71,10 +71,9 @@ void inherit(ContactConstraint& constraint, const ContactMemory& old, double nea
 bool World::Implementation::find_manifold(ContactConstraint& constraint, const Body& a, const Body& b,
                                           const Passage& way_a, const Passage& way_b, double dt) {
   const double swing = way_a.swing + way_b.swing;
-  Manifold manifold = collide(a.shape, way_a.placed, b.shape, way_b.placed, near_enough);
+  const double reach = near_enough + (swing * dt > near_enough ? swing * dt : 0);
+  const Manifold manifold = collide(a.shape, way_a.placed, b.shape, way_b.placed, near_enough, reach);
   if (manifold.count > 0) {
-    if (swing * dt > near_enough)
-      manifold = collide(a.shape, way_a.placed, b.shape, way_b.placed, near_enough + swing * dt);
     constraint.manifold = manifold;
     adopt(constraint, a, {a.center, a.motion.pose.rotation}, b, {b.center, b.motion.pose.rotation});
   } else {
