@@ -117,10 +117,10 @@ void BlockSolver::remember(std::uint32_t index, int lane) {
 
 double BlockSolver::rebound_contact(std::uint32_t index, int lane) {
   const ContactBlock& block = contacts_.blocks[index];
-  IslandBody& a = bodies_[block.a[lane]];
-  IslandBody& b = bodies_[block.b[lane]];
   // Only what the rebound reaches.
-  if (!(a.stirred || b.stirred)) return 0;
+  if (!stirred_[block.a[lane]] && !stirred_[block.b[lane]]) return 0;
+  const IslandBody& a = bodies_[block.a[lane]];
+  const IslandBody& b = bodies_[block.b[lane]];
   remember(index, lane);
   const Ends ends{block, lane, a, b, velocities_[block.a[lane]], velocities_[block.b[lane]]};
   const Vec3 normal = lane_of(block.normal, lane);
@@ -150,8 +150,8 @@ double BlockSolver::rebound_contact(std::uint32_t index, int lane) {
     change = std::max(change, std::abs(pushed) / row.mass[lane]);
   }
   if (change > quiet * block.tremble[lane]) {
-    a.stirred = a.movable;
-    b.stirred = b.movable;
+    stirred_[block.a[lane]] = a.movable;
+    stirred_[block.b[lane]] = b.movable;
   }
   return change / block.tremble[lane];
 }
@@ -280,10 +280,10 @@ void BlockSolver::rebound(const std::vector<Body>& bodies, const std::vector<Loa
   });
   if (any) {
     for (std::size_t i = 1; i < bodies_.size(); ++i) {
-      bodies_[i].stirred = false;
       bodies_[i].linear_before_rebound = linear_of(velocities_[i]);
       bodies_[i].angular_before_rebound = angular_of(velocities_[i]);
     }
+    stirred_.assign(bodies_.size(), 0);
     remembered_.resize(contacts_.blocks.size() * lane_count, 0);
     for (Rebound& rebound : rebounds_) {
       const ContactBlock& block = contacts_.blocks[rebound.block];
@@ -296,8 +296,8 @@ void BlockSolver::rebound(const std::vector<Body>& bodies, const std::vector<Loa
                                         lane_of(row.turn_b, rebound.lane));
       rebound.impulse_before = row.impulse[rebound.lane];
       if (!(row.impulse[rebound.lane] > 0)) continue;
-      a.stirred = a.stirred || a.movable;
-      b.stirred = b.stirred || b.movable;
+      if (a.movable) stirred_[block.a[rebound.lane]] = 1;
+      if (b.movable) stirred_[block.b[rebound.lane]] = 1;
     }
     for (int pass = 0; pass < passes; ++pass) {
       double most = 0;

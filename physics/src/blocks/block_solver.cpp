@@ -10,9 +10,10 @@
 
 namespace tweenfall::blocks {
 
-using step::sub_steps;
-
 namespace {
+
+/// Tall stacks need many, and they are cheap here: a pyramid of fifty rows leans and falls with eight.
+constexpr int sub_steps = 10;
 
 /// Rows are prepared again when a body has turned by this since, rad.
 constexpr double turned_enough = 0.02;
@@ -161,40 +162,18 @@ void BlockSolver::find_lags() {
   for (std::size_t i = 1; i < bodies_.size(); ++i)
     bodies_[i].lag =
         bodies_[i].movable ? Vec3(0.5 * (linear_of(starts_[i]) - linear_of(velocities_[i]))) : Vec3(0, 0, 0);
-  for (const ContactBlock& block : contacts_.blocks) {
-    Lanes pressing{};
-    // Of what was pressed, and of that what slides.
-    double held[lane_count] = {};
-    for (int i = 0; i < block.points; ++i) {
-      const PointRow& point = contacts_.points[block.point + static_cast<std::uint32_t>(i)];
-      pressing = pressing + point.impulse;
-      if (block.frictions != block.points) continue;
-      const FrictionRow& grip = contacts_.frictions[block.friction + static_cast<std::uint32_t>(i)];
-      for (int lane = 0; lane < lane_count; ++lane) {
-        const double most = block.coefficient[lane] * point.impulse[lane];
-        if (point.impulse[lane] > 0 &&
-            grip.first[lane] * grip.first[lane] + grip.second[lane] * grip.second[lane] < 0.999 * most * most)
-          held[lane] = 1;
-      }
-    }
+  for (const ContactBlock& block : contacts_.blocks)
     for (int lane = 0; lane < lane_count; ++lane) {
-      if (!(pressing[lane] > 0)) continue;
-      if (block.central()) {
-        const FrictionRow& grip = contacts_.frictions[block.friction];
-        const double most = block.coefficient[lane] * pressing[lane];
-        if (grip.first[lane] * grip.first[lane] + grip.second[lane] * grip.second[lane] < 0.999 * most * most)
-          held[lane] = 1;
-      }
+      if (block.pressed[lane] == 0) continue;
       const Vec3 normal(block.normal.x[lane], block.normal.y[lane], block.normal.z[lane]);
       for (IslandBody* body : {&bodies_[block.a[lane]], &bodies_[block.b[lane]]}) {
         body->pressed = body->touched = true;
-        if (held[lane] == 0 || body->round)
+        if (block.held[lane] == 0 || body->round)
           body->lag -= normal * normal.dot(body->lag);
         else
           body->lag = Vec3::Zero();
       }
     }
-  }
   for (IslandBody& body : bodies_)
     if (body.impact && body.pressed) body.lag = Vec3::Zero();
 }
@@ -253,13 +232,16 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   const int share = std::max(2, settings.iterations / sub_steps);
   const int relaxing = share / 2;
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, h);
-  const PassRule soft{softness.rate, softness.speed, softness.firm, 1 - softness.giving, 1 / h, false};
+  PassRule soft{softness.rate, softness.speed, softness.firm, 1 - softness.giving, 1 / h};
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
     prepare_again(bodies);
     kernels.warm_start(rows());
     if (bouncy_) find_rebounds(h);
-    for (int k = 0; k < share - relaxing; ++k) kernels.solve(rows(), soft);
+    for (int k = 0; k < share - relaxing; ++k) {
+      soft.note = k + 1 == share - relaxing;
+      kernels.solve(rows(), soft);
+    }
     find_lags();
     end_sub_step(h);
     for (int k = 0; k < relaxing; ++k) kernels.solve(rows(), {.inverse_h = 1 / h, .sum_up = k + 1 == relaxing});

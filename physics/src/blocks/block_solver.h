@@ -74,6 +74,7 @@ class BlockSolver {
   std::vector<std::uint32_t> meetings_;  ///< lanes
   std::vector<Rebound> rebounds_;
   std::vector<Reached> reached_;
+  std::vector<char> stirred_;     ///< by place: by the rebound of this sub-step
   std::vector<char> remembered_;  ///< by lane: it is in reached_
 };
 

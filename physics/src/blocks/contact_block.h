@@ -52,6 +52,7 @@ struct ContactBlock {
   Lanes twist_mass, twist, total_twist;  ///< about the normal, where friction is at the middle
   Lanes pull, tremble, restitution;      ///< see Closing
   Mask hard;                             ///< does not give way: an impact
+  Mask pressed, held;                    ///< by an impulse in this sub-step; by friction that does not slide
 
   [[nodiscard]] bool central() const { return frictions == 1 && points > 1; }
 };
@@ -63,6 +64,7 @@ struct PassRule {
   double firm = 1;       ///< share of the speed error met
   double keeping = 1;    ///< share of the impulse kept
   double inverse_h = 0;  ///< of the sub-step, 1/s
+  bool note = false;     ///< notes what is pressed and held
   bool sum_up = false;   ///< adds the impulses to the totals
 };
 

@@ -17,7 +17,7 @@ inline void set(double (&lanes)[4], const Vec3& value) {
 }
 
 /// A body of an island while its contacts are being solved; its velocity is kept apart.
-struct IslandBody {
+struct alignas(64) IslandBody {
   std::uint32_t index = 0;
   bool movable = false;
   bool impact = false;    ///< meets something in this step: its velocity jumps
@@ -25,8 +25,8 @@ struct IslandBody {
   bool pressed = false;   ///< an impulse reached it in this sub-step
   bool followed = false;  ///< nothing pressed it in the sub-step before: its spin is followed exactly
   bool round = false;     ///< a ball: no contact can rock it, and none sees it turn
-  bool stirred = false;   ///< by the rebound of this sub-step
   bool stale = false;     ///< has turned since its rows were prepared
+  Vec3 lag{0, 0, 0};      ///< from the velocity at the end of the sub-step to its mean, m/s
   double roundness = 0;   ///< m
   double turned = 0;      ///< since its rows were prepared, rad
   double inverse_mass = 0;
@@ -34,7 +34,6 @@ struct IslandBody {
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
   Quat free_rotation{1, 0, 0, 0};  ///< at the end of the sub-step if nothing touches it
-  Vec3 lag{0, 0, 0};               ///< from the velocity at the end of the sub-step to its mean, m/s
   KeyedCourse course;              ///< of an immovable body
 
   // At the start of the sub-step

@@ -133,6 +133,23 @@ TWEENFALL_LANES void solve_twist(Pair& pair, ContactBlock& block, const Lanes& l
   pair.angular_b = pair.angular_b + block.inverse_inertia_b * change;
 }
 
+/// What friction holds, and what slides on the edge of the cone.
+TWEENFALL_LANES void note_grip(const PointRow* points, const FrictionRow* frictions, ContactBlock& block) {
+  const Lanes zero = all(0);
+  Lanes pressing = zero;
+  block.held = zero > zero;
+  const auto inside = [&block](const FrictionRow& row, const Lanes& normal) -> Mask {
+    const Lanes most = block.coefficient * normal;
+    return row.first * row.first + row.second * row.second < all(0.999) * most * most;
+  };
+  for (int i = 0; i < block.points; ++i) {
+    pressing = pressing + points[i].impulse;
+    if (block.frictions == block.points) block.held = block.held | inside(frictions[i], points[i].impulse);
+  }
+  if (block.central()) block.held = inside(frictions[0], pressing);
+  block.pressed = pressing > zero;
+}
+
 TWEENFALL_LANES void solve_block(const Rows& rows, ContactBlock& block, const PassRule& rule) {
   Pair pair = pair_of(rows.velocities, block);
   PointRow* points = rows.points + block.point;
@@ -167,6 +184,7 @@ TWEENFALL_LANES void solve_block(const Rows& rows, ContactBlock& block, const Pa
     push(pair, block, change * block.normal, change * point.turn_a, change * point.turn_b);
   }
   put_back(pair, rows.velocities, block);
+  if (rule.note) note_grip(points, frictions, block);
   if (!rule.sum_up) return;
   for (int i = 0; i < block.points; ++i) points[i].total = points[i].total + points[i].impulse;
   for (int i = 0; i < block.frictions; ++i) {
