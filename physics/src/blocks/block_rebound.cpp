@@ -191,16 +191,22 @@ void BlockSolver::bound_energy(const std::vector<Body>& bodies, const std::vecto
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     const IslandBody& entry = bodies_[i];
     if (!entry.movable) continue;
-    const Body& body = bodies[entry.index];
+    if (entry.even) {
+      energy.add(entry.mass, entry.moment, {linear_of(starts_[i]), angular_of(starts_[i])},
+                 {linear_of(before_rebound_[i]), angular_of(before_rebound_[i])},
+                 {linear_of(velocities_[i]), angular_of(velocities_[i])},
+                 entry.mass * entry.acceleration.dot(entry.center - entry.sub_step_center));
+      continue;
+    }
     step::BodyCourse course;
     course.start = {linear_of(starts_[i]), angular_of(starts_[i])};
     course.start_center = entry.sub_step_center;
     course.start_rotation = entry.sub_step_rotation;
-    course.before = {entry.linear_before_rebound, entry.angular_before_rebound};
+    course.before = {linear_of(before_rebound_[i]), angular_of(before_rebound_[i])};
     course.after = {linear_of(velocities_[i]), angular_of(velocities_[i])};
     course.center = entry.center;
     course.rotation = entry.rotation;
-    energy.add(body, loads[entry.index], course);
+    energy.add(bodies[entry.index], loads[entry.index], course);
   }
   // What moves by its own will does work on what it pushes.
   for (const ContactBlock& block : contacts_.blocks)
@@ -227,11 +233,12 @@ void BlockSolver::bound_energy(const std::vector<Body>& bodies, const std::vecto
   const double share = energy.share_within();
   if (share == 1) return;
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    const IslandBody& entry = bodies_[i];
-    if (!entry.movable) continue;
-    BodyLanes& velocity = velocities_[i];
-    set(velocity.linear, entry.linear_before_rebound + share * (linear_of(velocity) - entry.linear_before_rebound));
-    set(velocity.angular, entry.angular_before_rebound + share * (angular_of(velocity) - entry.angular_before_rebound));
+    if (!bodies_[i].movable) continue;
+    const auto back = [share](double(&lanes)[4], const double(&before)[4]) {
+      for (int k = 0; k < 3; ++k) lanes[k] = before[k] + share * (lanes[k] - before[k]);
+    };
+    back(velocities_[i].linear, before_rebound_[i].linear);
+    back(velocities_[i].angular, before_rebound_[i].angular);
   }
   for (const Reached& reached : reached_) {
     const ContactBlock& block = contacts_.blocks[reached.block];
@@ -279,10 +286,7 @@ void BlockSolver::rebound(const std::vector<Body>& bodies, const std::vector<Loa
     return contacts_.points[rebound.row].impulse[rebound.lane] > 0;
   });
   if (any) {
-    for (std::size_t i = 1; i < bodies_.size(); ++i) {
-      bodies_[i].linear_before_rebound = linear_of(velocities_[i]);
-      bodies_[i].angular_before_rebound = angular_of(velocities_[i]);
-    }
+    before_rebound_ = velocities_;
     stirred_.assign(bodies_.size(), 0);
     remembered_.resize(contacts_.blocks.size() * lane_count, 0);
     for (Rebound& rebound : rebounds_) {

@@ -49,7 +49,8 @@ bool BlockSolver::takes(const IslandContents& island, const std::vector<Body>& b
   return true;
 }
 
-void BlockSolver::gather(const std::vector<Body>& bodies, std::span<ContactConstraint* const> contacts, double dt) {
+void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
+                         std::span<ContactConstraint* const> contacts, Integrator integrator, double dt) {
   for (const IslandBody& body : bodies_)
     if (body.index < places_.size()) places_[body.index] = 0;
   bodies_.assign(1, {});
@@ -69,7 +70,16 @@ void BlockSolver::gather(const std::vector<Body>& bodies, std::span<ContactConst
     entry.center = entry.start_center = body.center;
     entry.rotation = entry.start_rotation = body.motion.pose.rotation;
     if (entry.movable) {
-      entry.inverse_mass = 1 / body.mass.mass;
+      const Load& load = loads[index];
+      entry.mass = body.mass.mass;
+      entry.moment = body.mass.inertia(0, 0);
+      entry.inverse_mass = 1 / entry.mass;
+      entry.even =
+          body.spherical && load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
+      entry.drag = load.drag;
+      entry.acceleration = integrator == Integrator::exact_quadratic
+                               ? Vec3(0.5 * (load.acceleration + load.end_acceleration))
+                               : load.acceleration;
       entry.inverse_inertia =
           body.spherical ? body.inverse_inertia : body.world_inverse_inertia(body.motion.pose.rotation);
       set(velocity.linear, body.twist.linear);
@@ -101,8 +111,8 @@ void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const st
   }
 }
 
-void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads,
-                                 const WorldSettings& settings, double h, int sub_step) {
+void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, double h,
+                                 int sub_step) {
   const double share = static_cast<double>(sub_step) / sub_steps;
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     IslandBody& entry = bodies_[i];
@@ -120,17 +130,15 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
       continue;
     }
     start = velocity;
+    Vec3 linear = linear_of(velocity) + entry.acceleration * h;
+    if (entry.drag > 0) linear /= 1 + entry.drag * h;
+    set(velocity.linear, linear);
+    entry.followed = !entry.pressed && !entry.even;
+    entry.pressed = false;
+    if (entry.even) continue;
     const Body& body = bodies[entry.index];
     const Load& load = loads[entry.index];
-    set(velocity.linear, accelerated(linear_of(velocity), load, settings.integrator, h));
     const Vec3 angular = angular_of(velocity);
-    const bool free = load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
-    entry.followed = !entry.pressed;
-    entry.pressed = false;
-    if (body.spherical && free) {
-      entry.followed = false;
-      continue;
-    }
     if (entry.followed || angular.norm() * h > slow_turn || load.angular_drag > 0 || load.angular_damping > 0) {
       const Spin spin = turned(body, {entry.rotation, angular}, load, h);
       set(velocity.angular, spin.angular);
@@ -226,7 +234,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
                         std::vector<char>& moved) {
   const Kernels& kernels = fastest_kernels();
   const double h = dt / sub_steps;
-  gather(bodies, contacts, dt);
+  gather(bodies, loads, contacts, settings.integrator, dt);
   foresee(contacts, loads, dt);
   contacts_.build(contacts, places_, bodies_, loads, h, dt);
   const int share = std::max(2, settings.iterations / sub_steps);
@@ -234,7 +242,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, h);
   PassRule soft{softness.rate, softness.speed, softness.firm, 1 - softness.giving, 1 / h};
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
-    begin_sub_step(bodies, loads, settings, h, sub_step);
+    begin_sub_step(bodies, loads, h, sub_step);
     prepare_again(bodies);
     kernels.warm_start(rows());
     if (bouncy_) find_rebounds(h);

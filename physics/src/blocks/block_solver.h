@@ -46,10 +46,10 @@ class BlockSolver {
     double normal[4], first[4], second[4];
   };
 
-  void gather(const std::vector<Body>& bodies, std::span<ContactConstraint* const> contacts, double dt);
+  void gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
+              std::span<ContactConstraint* const> contacts, Integrator integrator, double dt);
   void foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads, double dt);
-  void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, const WorldSettings& settings,
-                      double h, int sub_step);
+  void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, double h, int sub_step);
   void prepare_again(const std::vector<Body>& bodies);
   void find_lags();
   void end_sub_step(double h);
@@ -68,7 +68,7 @@ class BlockSolver {
 
   std::vector<std::uint32_t> places_;  ///< from a body's index into bodies_; 0 for none
   std::vector<IslandBody> bodies_;     ///< the first is nobody: that of empty lanes
-  std::vector<BodyLanes> velocities_, starts_, displacements_;
+  std::vector<BodyLanes> velocities_, starts_, before_rebound_, displacements_;
   ContactBlocks contacts_;
   bool bouncy_ = false;                  ///< some contact has restitution
   std::vector<std::uint32_t> meetings_;  ///< lanes

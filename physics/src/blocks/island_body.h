@@ -20,15 +20,20 @@ inline void set(double (&lanes)[4], const Vec3& value) {
 struct alignas(64) IslandBody {
   std::uint32_t index = 0;
   bool movable = false;
-  bool impact = false;    ///< meets something in this step: its velocity jumps
-  bool touched = false;   ///< an impulse reached it in this step
-  bool pressed = false;   ///< an impulse reached it in this sub-step
-  bool followed = false;  ///< nothing pressed it in the sub-step before: its spin is followed exactly
-  bool round = false;     ///< a ball: no contact can rock it, and none sees it turn
-  bool stale = false;     ///< has turned since its rows were prepared
-  Vec3 lag{0, 0, 0};      ///< from the velocity at the end of the sub-step to its mean, m/s
-  double roundness = 0;   ///< m
-  double turned = 0;      ///< since its rows were prepared, rad
+  bool impact = false;         ///< meets something in this step: its velocity jumps
+  bool touched = false;        ///< an impulse reached it in this step
+  bool pressed = false;        ///< an impulse reached it in this sub-step
+  bool followed = false;       ///< nothing pressed it in the sub-step before: its spin is followed exactly
+  bool round = false;          ///< a ball: no contact can rock it, and none sees it turn
+  bool stale = false;          ///< has turned since its rows were prepared
+  Vec3 lag{0, 0, 0};           ///< from the velocity at the end of the sub-step to its mean, m/s
+  double roundness = 0;        ///< m
+  double turned = 0;           ///< since its rows were prepared, rad
+  bool even = false;           ///< the same moment about every axis, and no torque: its spin changes by contacts alone
+  double mass = 0;             ///< kg
+  double moment = 0;           ///< of an even body, kg m^2
+  double drag = 0;             ///< 1/s, taken implicitly
+  Vec3 acceleration{0, 0, 0};  ///< mean of the step, free of contacts
   double inverse_mass = 0;
   Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};
@@ -39,7 +44,6 @@ struct alignas(64) IslandBody {
   // At the start of the sub-step
   Vec3 sub_step_center{0, 0, 0};
   Quat sub_step_rotation{1, 0, 0, 0};
-  Vec3 linear_before_rebound{0, 0, 0}, angular_before_rebound{0, 0, 0};
 };
 
 }  // namespace tweenfall::blocks

@@ -32,6 +32,16 @@ void IslandEnergy::add(const Body& body, const Load& load, const BodyCourse& cou
   curvature += 0.5 * mass * linear.squaredNorm() + 0.5 * angular.dot(inertia * angular);
 }
 
+void IslandEnergy::add(double mass, double moment, const Twist& start, const Twist& before, const Twist& after,
+                       double work) {
+  limit += 0.5 * mass * start.linear.squaredNorm() + 0.5 * moment * start.angular.squaredNorm() + work;
+  const Vec3 linear = after.linear - before.linear;
+  const Vec3 angular = after.angular - before.angular;
+  without += 0.5 * mass * before.linear.squaredNorm() + 0.5 * moment * before.angular.squaredNorm();
+  slope += mass * linear.dot(before.linear) + moment * angular.dot(before.angular);
+  curvature += 0.5 * mass * linear.squaredNorm() + 0.5 * moment * angular.squaredNorm();
+}
+
 double IslandEnergy::share_within() const {
   const double excess = without - limit;
   if (!(excess + slope + curvature > 0)) return 1;

@@ -17,6 +17,8 @@ struct IslandEnergy {
   double without = 0, slope = 0, curvature = 0;  ///< kinetic, by the share of the rebound that is let through
 
   void add(const Body& body, const Load& load, const BodyCourse& course);
+  /// Of a body with the same moment about every axis: `work` was done on it, J.
+  void add(double mass, double moment, const Twist& start, const Twist& before, const Twist& after, double work);
   /// The greatest share of the rebound that stays within the limit.
   [[nodiscard]] double share_within() const;
 };
