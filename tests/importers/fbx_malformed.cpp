@@ -130,3 +130,15 @@ TEST_CASE("FBX names that are not UTF-8 are taken for Latin-1") {
         "Kn\xc3\xb6"
         "chel");
 }
+
+TEST_CASE("of FBX cameras those that became nodes are noted, not the authoring program's own") {
+  const ScratchFolder folder("fbx-cameras");
+  FbxText file;
+  file.object("NodeAttribute", "NodeAttribute::eye", "Camera", "", file.model("eye", ""));
+  for (const std::string name : {"Producer Front", "Producer Top"})
+    file.object("NodeAttribute", "NodeAttribute::" + name, "Camera", "", file.model(name, ""));
+  const Model model = load_model(folder.file("cameras.fbx", file.text()));
+  CHECK(model.nodes.size() == 1);
+  REQUIRE(model.repairs.size() == 1);
+  CHECK(model.repairs[0].find("1 camera is read as a plain node") != std::string::npos);
+}

@@ -137,9 +137,12 @@ class SceneReader {
 
   void tell_what_is_left_out() {
     std::map<std::string_view, std::size_t> count;
-    for (const Object& object : objects_.all()) {
+    for (std::size_t i = 0; i < objects_.all().size(); ++i) {
+      const Object& object = objects_[i];
       if (object.kind == "NodeAttribute") {
-        if (object.form == "Camera" || object.form == "Light") ++count[object.form];
+        const bool read = std::ranges::any_of(objects_.above(i, "Model"),
+                                              [&](std::size_t model) { return nodes_.of(model) != no_node; });
+        if (read && (object.form == "Camera" || object.form == "Light")) ++count[object.form];
       } else if (object.kind == "Texture" || object.kind == "Constraint") {
         ++count[object.kind];
       } else if (object.kind == "Deformer" && object.form == "VertexCacheDeformer") {
