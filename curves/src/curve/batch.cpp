@@ -48,7 +48,7 @@ CurveBatch::CurveBatch(std::span<const Curve<double>> curves) {
     if (spans::is_plain(data)) {
       add(-spans::infinity, data.start, curve.value(data.start, Side::in));
       for (std::size_t i = 0; i < data.span_count(); ++i) {
-        const Segment segment = data.segment(i);
+        const spans::Segment segment = data.segment(i);
         double c[4]{};
         std::copy_n(&data.pool[segment.first], segment.degree + 1, c);
         add(segment.start, data.knots()[i + 1], c[0], c[1], c[2], c[3]);

@@ -223,8 +223,8 @@ Sample<T> sample_endless(const Data& d, double time, Side side) noexcept {
 namespace tweenfall {
 
 template <class T>
-Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end, const CurveEnd<T>& before,
-                                 const CurveEnd<T>& after) {
+Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end,
+                                 const spans::CurveEnd<T>& before, const spans::CurveEnd<T>& after) {
   spans::check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
@@ -239,7 +239,7 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   knots.reserve(spans.size() + 1);
   for (const auto& s : spans) knots.push_back(s.start);
   knots.push_back(end);
-  d.times = shared_times(knots);
+  d.times = spans::shared_times(knots);
   if (std::any_of(spans.begin() + 1, spans.end(), [](const auto& s) { return !s.starts_at_key; })) {
     for (std::size_t i = 0; i < spans.size(); ++i)
       if (i == 0 || spans[i].starts_at_key) d.keys.push_back(knots[i]);
@@ -410,7 +410,7 @@ Sample<T> Curve<T>::sample(double time, Side side) const noexcept {
       (time < d.end || (time == d.end && side == Side::in)))
     return d.rebuilt ? d.formula(time, side) : spans::sample_inside<T>(d, time, side);
   const bool early = time < d.start || (time == d.start && side == Side::in);
-  const CurveEnd<T>& beyond = early ? d.before : d.after;
+  const spans::CurveEnd<T>& beyond = early ? d.before : d.after;
   if (const std::optional<Rate<T>>& slope = beyond.straight(); slope && beyond.rule.rule == Outside::linear)
     return spans::straight_on(Sample<T>{spans::end_value<T>(d, early), *slope, spans::zero_rate<Rate<T>>()},
                               time - (early ? d.start : d.end));
@@ -427,7 +427,7 @@ T Curve<T>::value(double time, Side side) const noexcept {
     // The most frequent question of all, without the work for rates.
     const Data& d = *data_;
     if (time >= d.start && time < d.end && side == Side::out && d.warps.empty() && d.times) {
-      const Segment s = d.segment(d.times->locate(time));
+      const spans::Segment s = d.segment(d.times->locate(time));
       return math::polynomial_value(&d.pool[s.first], s.degree, s.position(time));
     }
   }
@@ -441,7 +441,7 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
   result.reserve(d.span_count());
   auto key = d.keys.begin();
   for (std::size_t i = 0; i < d.span_count(); ++i) {
-    const Segment s = d.segment(i);
+    const spans::Segment s = d.segment(i);
     typename SpanOf<T>::type span{};
     span.start = s.start;
     span.duration = s.duration;
@@ -475,10 +475,10 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
   return result;
 }
 
-#define TWEENFALL_CURVE(T)                                                                                            \
-  template class Curve<T>;                                                                                            \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double, const CurveEnd<T>&, \
-                                               const CurveEnd<T>&);                                                   \
+#define TWEENFALL_CURVE(T)                                                                            \
+  template class Curve<T>;                                                                            \
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double,     \
+                                               const spans::CurveEnd<T>&, const spans::CurveEnd<T>&); \
   template T CurveAccess::end_value<T>(const Curve<T>&, bool) noexcept;
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)

@@ -10,7 +10,7 @@
 #include "curve/components.h"
 #include "curve/span_times.h"
 
-namespace tweenfall {
+namespace tweenfall::spans {
 
 // Coefficients are kept in this type.
 template <class T>
@@ -54,6 +54,10 @@ struct Segment {
   [[nodiscard]] double position(double time) const noexcept { return std::min((time - start) * inverse, 1.0); }
 };
 
+}  // namespace tweenfall::spans
+
+namespace tweenfall {
+
 template <class T>
 struct Curve<T>::Data {
   // What spans are like: one for each of them, or a single one where all are alike.
@@ -64,13 +68,13 @@ struct Curve<T>::Data {
     RotationSpan::Form form;
   };
 
-  CurveEnd<T> before, after;
+  spans::CurveEnd<T> before, after;
   double start = 0, end = 0;
 
   std::shared_ptr<const SpanTimes> times;  // null where there is a formula
   std::vector<Kind> kinds;
   std::uint32_t rows = 0;  // for each span, where all are alike
-  std::vector<typename Stored<T>::type> pool;
+  std::vector<typename spans::Stored<T>::type> pool;
   // Values on arrival, one for each span; only the last where each arrives at what leaves.
   std::vector<T> ends;
   std::vector<Warp> warps;  // empty, or one for each span
@@ -92,7 +96,7 @@ struct Curve<T>::Data {
   [[nodiscard]] std::span<const double> knots() const noexcept {
     return times ? times->knots() : std::span<const double>(marks);
   }
-  [[nodiscard]] Segment segment(std::size_t i) const noexcept {
+  [[nodiscard]] spans::Segment segment(std::size_t i) const noexcept {
     const bool alike = kinds.size() == 1;
     const Kind& kind = kinds[alike ? 0 : i];
     return {times->knots()[i], times->duration(i), times->inverse(i), alike ? i * rows : kind.first,
@@ -115,7 +119,7 @@ struct Curve<T>::Data {
 
 struct CurveAccess {
   template <class T>
-  static Breaks breaks(const Curve<T>& curve) {
+  static spans::Breaks breaks(const Curve<T>& curve) {
     const std::span<const double> knots = curve.knots();
     return {{knots.begin(), knots.end()}, curve.data_->keys};
   }
@@ -127,7 +131,8 @@ struct CurveAccess {
 
   /// `value` at all times, with one knot at `time`.
   template <class T>
-  static Curve<T> one_key(const T& value, double time, const CurveEnd<T>& before = {}, const CurveEnd<T>& after = {}) {
+  static Curve<T> one_key(const T& value, double time, const spans::CurveEnd<T>& before = {},
+                          const spans::CurveEnd<T>& after = {}) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = [value](double, Side) {
       return Sample<T>{value, spans::zero_rate<Rate<T>>(), spans::zero_rate<Rate<T>>()};
@@ -142,11 +147,11 @@ struct CurveAccess {
   /// A curve of checked spans with its last knot given to the bit, and what lies beyond its ends.
   template <class T>
   static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end,
-                             const CurveEnd<T>& before = {}, const CurveEnd<T>& after = {});
+                             const spans::CurveEnd<T>& before = {}, const spans::CurveEnd<T>& after = {});
 
   /// The same curve with something else beyond its ends.
   template <class T>
-  static Curve<T> with_ends(const Curve<T>& curve, const CurveEnd<T>& before, const CurveEnd<T>& after) {
+  static Curve<T> with_ends(const Curve<T>& curve, const spans::CurveEnd<T>& before, const spans::CurveEnd<T>& after) {
     auto data = std::make_shared<typename Curve<T>::Data>(*curve.data_);
     data->before = before;
     data->after = after;
@@ -161,7 +166,7 @@ struct CurveAccess {
   /// A formula between knots, with the usual rules outside.
   template <class T>
   static Curve<T> formula_with_knots(typename Curve<T>::Formula formula, double start, double end,
-                                     const Breaks& breaks) {
+                                     const spans::Breaks& breaks) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = std::move(formula);
     data->start = start;
@@ -173,8 +178,8 @@ struct CurveAccess {
 
   /// A curve that another one is made into: it answers at all times, `rebuilt` makes it anew with other rules outside.
   template <class T>
-  static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end, const Breaks& breaks,
-                               const OutsideRule<T>& before, const OutsideRule<T>& after,
+  static Curve<T> seen_through(typename Curve<T>::Formula formula, double start, double end,
+                               const spans::Breaks& breaks, const OutsideRule<T>& before, const OutsideRule<T>& after,
                                std::function<Curve<T>(const OutsideRule<T>&, const OutsideRule<T>&)> rebuilt) {
     auto data = std::make_shared<typename Curve<T>::Data>();
     data->formula = std::move(formula);

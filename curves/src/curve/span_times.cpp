@@ -13,7 +13,7 @@ SpanTimes::SpanTimes(std::span<const double> knots) : knots_(knots.begin(), knot
   for (std::size_t b = 1; b < buckets_.size(); ++b) buckets_[b] += buckets_[b - 1];
 }
 
-std::shared_ptr<const SpanTimes> shared_times(std::span<const double> knots) {
+std::shared_ptr<const SpanTimes> spans::shared_times(std::span<const double> knots) {
   static thread_local std::weak_ptr<const SpanTimes> last;
   std::shared_ptr<const SpanTimes> times = last.lock();
   if (!times || !std::ranges::equal(times->knots(), knots)) {

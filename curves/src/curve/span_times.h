@@ -56,7 +56,11 @@ class SpanTimes {
   double bucket_scale_ = 0;
 };
 
+namespace spans {
+
 /// The same for all curves that are made one after the other with the same knots, as those of a clip often are.
 [[nodiscard]] std::shared_ptr<const SpanTimes> shared_times(std::span<const double> knots);
+
+}  // namespace spans
 
 }  // namespace tweenfall

@@ -22,8 +22,8 @@ void check_order(double from, double to) {
 
 // What lies beyond an end, of a formula too.
 template <class T>
-CurveEnd<T> end_of(const Curve<T>& curve, bool early) {
-  CurveEnd<T> end = early ? CurveAccess::data(curve).before : CurveAccess::data(curve).after;
+spans::CurveEnd<T> end_of(const Curve<T>& curve, bool early) {
+  spans::CurveEnd<T> end = early ? CurveAccess::data(curve).before : CurveAccess::data(curve).after;
   if (curve.spans().empty() && !spans::loops(end.rule.rule) && std::isfinite(early ? curve.start() : curve.end()))
     end.value = early ? curve.value(curve.start(), Side::in) : curve.value(curve.end(), Side::out);
   return end;
@@ -37,7 +37,7 @@ namespace tweenfall {
 template <class T>
 Curve<T> trimmed(const Curve<T>& curve, double from, double to) {
   editing::check_order(from, to);
-  CurveEnd<T> before, after;
+  spans::CurveEnd<T> before, after;
   if (from == curve.start()) before = editing::end_of(curve, true);
   if (to == curve.end()) after = editing::end_of(curve, false);
   before.rule = after.rule = {};
@@ -73,7 +73,7 @@ Curve<T> joined(const Curve<T>& first, const Curve<T>& second) {
         if (times.empty() || time > times.back()) times.push_back(time);
       return times;
     };
-    const Breaks breaks{united(first.knots(), second.knots()), united(first.key_times(), second.key_times())};
+    const spans::Breaks breaks{united(first.knots(), second.knots()), united(first.key_times(), second.key_times())};
     const Curve<T> whole = CurveAccess::formula_with_knots<T>(
         [first, second, seam](double time, Side side) {
           const bool early = time < seam || (time == seam && side == Side::in);

@@ -21,7 +21,7 @@ BezierPoints<T> points_of(const Span<T>& span, double end) {
   if (span.degree > 3 || (warped && !spans::is_time_bezier(span.warp)))
     throw std::invalid_argument("the span from " + spans::text_of(span.start) +
                                 " s is no cubic; fit keys to the curve instead");
-  std::vector<typename Stored<T>::type> c(4, zero<typename Stored<T>::type>());
+  std::vector<typename spans::Stored<T>::type> c(4, zero<typename spans::Stored<T>::type>());
   for (std::size_t k = 0; k <= static_cast<std::size_t>(span.degree); ++k) {
     if constexpr (std::is_same_v<T, Color>)
       c[k] = span.coefficients[k].rgba;

@@ -18,7 +18,7 @@ OutsideRule<T> with_slope(OutsideRule<T> rule, const Scale& scaled) {
 }
 
 template <class T, class Scale>
-CurveEnd<T> with_slopes(CurveEnd<T> end, const Scale& scaled) {
+spans::CurveEnd<T> with_slopes(spans::CurveEnd<T> end, const Scale& scaled) {
   end.rule = with_slope(end.rule, scaled);
   if (end.slope) end.slope = scaled(*end.slope);
   return end;
@@ -33,7 +33,7 @@ auto times(double factor) {
 // Another time for everything: `later(t)` is the new time of the old t, `earlier` its inverse, both rising.
 template <class T, class Later, class Earlier>
 Curve<T> retimed(const Curve<T>& curve, const Later& later, const Earlier& earlier, double factor) {
-  Breaks breaks = CurveAccess::breaks(curve);
+  spans::Breaks breaks = CurveAccess::breaks(curve);
   for (std::vector<double>* times : {&breaks.knots, &breaks.keys})
     for (double& time : *times) time = later(time);
   const std::vector<double>& knots = breaks.knots;
@@ -90,7 +90,7 @@ template <class T>
 Curve<T> reversed(const Curve<T>& curve) {
   spans::check_times(curve.start(), curve.end());
   const double mirror = curve.start() + curve.end();
-  Breaks breaks = CurveAccess::breaks(curve);
+  spans::Breaks breaks = CurveAccess::breaks(curve);
   for (std::vector<double>* times : {&breaks.knots, &breaks.keys}) {
     std::reverse(times->begin(), times->end());
     for (double& time : *times) time = mirror - time;
@@ -147,8 +147,8 @@ Curve<T> value_scaled(const Curve<T>& curve, const T& factor, const T& offset) {
     span.coefficients[0] += offset;
     span.end = times_factor(span.end) + offset;
   }
-  const auto scaled_end = [&](const CurveEnd<T>& end) {
-    CurveEnd<T> result = editing::with_slopes(end, times_factor);
+  const auto scaled_end = [&](const spans::CurveEnd<T>& end) {
+    spans::CurveEnd<T> result = editing::with_slopes(end, times_factor);
     if (result.value) result.value = times_factor(*result.value) + offset;
     return result;
   };

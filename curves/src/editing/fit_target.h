@@ -44,7 +44,7 @@ class FitTarget {
   FitOptions options_;
   bool plain_;  // whether differences are polynomials
   std::vector<double> boundaries_;
-  std::vector<questions::CurvePiece<typename Stored<T>::type>> pieces_;  // where they are
+  std::vector<questions::CurvePiece<typename spans::Stored<T>::type>> pieces_;  // where they are
 };
 
 }  // namespace tweenfall::editing

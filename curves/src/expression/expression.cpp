@@ -16,7 +16,7 @@ Expression::Expression(std::string_view text, std::span<const Parameter> paramet
 
 Expression::Expression(std::string_view text, std::span<const std::string> variables,
                        std::span<const Parameter> parameters)
-    : program_(std::make_shared<const Program>(Program{read_expression(text, variables, parameters)})) {}
+    : program_(std::make_shared<const Program>(Program{expressions::read_expression(text, variables, parameters)})) {}
 
 Sample<double> Expression::sample(double t, Side side) const noexcept {
   const Sample<double> time{t, 1, 0};

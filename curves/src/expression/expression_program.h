@@ -20,9 +20,13 @@ struct Expression::Program {
   std::vector<Step> steps;
 };
 
+namespace expressions {
+
 /// @throws ExpressionError
 [[nodiscard]] std::vector<Expression::Program::Step> read_expression(std::string_view text,
                                                                      std::span<const std::string> variables,
                                                                      std::span<const Expression::Parameter> parameters);
+
+}  // namespace expressions
 
 }  // namespace tweenfall

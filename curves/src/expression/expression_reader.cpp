@@ -265,21 +265,18 @@ void check_name(const std::string& name) {
 }
 
 }  // namespace
-}  // namespace tweenfall::expressions
-
-namespace tweenfall {
 
 std::vector<Expression::Program::Step> read_expression(std::string_view text, std::span<const std::string> variables,
                                                        std::span<const Expression::Parameter> parameters) {
-  for (const std::string& name : variables) expressions::check_name(name);
+  for (const std::string& name : variables) check_name(name);
   for (const Expression::Parameter& each : parameters) {
-    expressions::check_name(each.name);
+    check_name(each.name);
     if (!std::isfinite(each.value))
       throw std::invalid_argument("the parameter " + words::quoted(each.name) + " must be finite");
     if (std::find(variables.begin(), variables.end(), each.name) != variables.end())
       throw std::invalid_argument("the parameter " + words::quoted(each.name) + " has the name of a variable");
   }
-  return expressions::Reader(text, variables, parameters).read();
+  return Reader(text, variables, parameters).read();
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::expressions

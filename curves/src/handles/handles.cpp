@@ -48,9 +48,9 @@ namespace tweenfall {
 Curve<double> handle_curve(std::span<const HandleKey> keys, const HandleOptions& options) {
   const std::vector<HandleKey> placed = placed_handles(keys, options);
   const HandleKey &front = placed.front(), &back = placed.back();
-  const CurveEnd<double> before{
+  const spans::CurveEnd<double> before{
       {}, front.value, handling::slope_of(front.time - front.in.time, front.value - front.in.value)};
-  const CurveEnd<double> after{
+  const spans::CurveEnd<double> after{
       {}, back.value, handling::slope_of(back.out.time - back.time, back.out.value - back.value)};
   if (placed.size() == 1) return CurveAccess::one_key(front.value, front.time, before, after);
   std::vector<Span<double>> spans;

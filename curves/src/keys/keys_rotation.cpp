@@ -55,8 +55,8 @@ Way way_of(std::span<const Key<Quat>> keys, std::size_t i, const Quat& from, con
   return {shorter, turns * whole_turn / std::sqrt(direction.squaredNorm()) * direction};
 }
 
-std::vector<Stretch> stretches_of(std::span<const Key<Quat>> keys, bool long_way) {
-  std::vector<Stretch> result;
+std::vector<turns::Stretch> stretches_of(std::span<const Key<Quat>> keys, bool long_way) {
+  std::vector<turns::Stretch> result;
   Quat from = unit(keys, 0, keys[0].value);
   check_turn(keys, keys.size() - 1);
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
@@ -73,11 +73,11 @@ std::vector<Stretch> stretches_of(std::span<const Key<Quat>> keys, bool long_way
   return result;
 }
 
-Slopes slopes_of(std::span<const Key<Quat>> keys, const std::vector<Stretch>& stretches, Ends ends) {
+Slopes slopes_of(std::span<const Key<Quat>> keys, const std::vector<turns::Stretch>& stretches, Ends ends) {
   SlopeRequest request{3, {}, {}, ends, {}, {}};
   for (const Key<Quat>& key : keys) request.eases.push_back(&key.ease);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
-    const Stretch& s = stretches[i];
+    const turns::Stretch& s = stretches[i];
     request.durations.push_back(s.duration);
     for (int c = 0; c < 3; ++c) request.secants.push_back((s.way[c] + s.spin[c]) / s.duration);
     request.span_eases.push_back(plan_span(keys[i].ease, keys[i].out || keys[i + 1].in).slopes);
@@ -86,7 +86,7 @@ Slopes slopes_of(std::span<const Key<Quat>> keys, const std::vector<Stretch>& st
 }
 
 // A constant turn, or one through the pieces of a shape: all of the way is one polynomial times a vector.
-void append_shape(std::vector<RotationSpan>& spans, const Key<Quat>& from, const Stretch& stretch) {
+void append_shape(std::vector<RotationSpan>& spans, const Key<Quat>& from, const turns::Stretch& stretch) {
   const double end = stretch.start + stretch.duration;
   const Vec3 way = stretch.way + stretch.spin;
   const std::vector<Ease::Piece> pieces = from.ease.pieces_for(stretch.duration);
@@ -95,13 +95,13 @@ void append_shape(std::vector<RotationSpan>& spans, const Key<Quat>& from, const
     const double start = i == 0 ? stretch.start : stretch.start + piece.start * stretch.duration;
     const double stop = i + 1 < pieces.size() ? stretch.start + pieces[i + 1].start * stretch.duration : end;
     if (!(stop > start)) continue;
-    RotationSpan span = blank_span(stretch);
+    RotationSpan span = turns::blank_span(stretch);
     span.start = start;
     span.duration = stop - start;
     span.spin = {0, 0, 0};
     span.degree = piece.degree;
     for (std::size_t k = 0; k <= static_cast<std::size_t>(piece.degree); ++k)
-      span.coefficients[k] = padded(piece.coefficients[k] * way);
+      span.coefficients[k] = turns::padded(piece.coefficients[k] * way);
     if (piece.end != 1) span.end = stretch.from * exp_map(piece.end * way);
     span.warp = piece.warp;
     span.starts_at_key = start == stretch.start;
@@ -109,16 +109,16 @@ void append_shape(std::vector<RotationSpan>& spans, const Key<Quat>& from, const
   }
 }
 
-RotationSpan even_turn(const Stretch& stretch) {
-  RotationSpan span = blank_span(stretch);
+RotationSpan even_turn(const turns::Stretch& stretch) {
+  RotationSpan span = turns::blank_span(stretch);
   span.spin = {0, 0, 0};
   span.degree = 1;
-  span.coefficients[1] = padded(stretch.way + stretch.spin);
+  span.coefficients[1] = turns::padded(stretch.way + stretch.spin);
   return span;
 }
 
-RotationSpan at_rest_span(const Stretch& stretch) {
-  RotationSpan span = blank_span(stretch);
+RotationSpan at_rest_span(const turns::Stretch& stretch) {
+  RotationSpan span = turns::blank_span(stretch);
   span.spin = {0, 0, 0};
   span.end = stretch.from;
   return span;
@@ -135,9 +135,9 @@ Vec3 angular_slope(const std::optional<Tangent<Quat>>& tangent, const Quat& rota
 }
 
 // The cubic of rotation vectors with given slopes: angular velocities in the axes of the key's own rotation.
-RotationSpan hermite_span(const Key<Quat>& a, const Key<Quat>& b, const Stretch& s, const Vec3& chosen_leaving,
+RotationSpan hermite_span(const Key<Quat>& a, const Key<Quat>& b, const turns::Stretch& s, const Vec3& chosen_leaving,
                           const Vec3& chosen_arriving, Overlong overlong) {
-  RotationSpan span = blank_span(s);
+  RotationSpan span = turns::blank_span(s);
   const Vec3 straight = (s.way + s.spin) / s.duration;
   const Vec3 leaving = s.from.conjugate() * angular_slope(a.out, s.from, chosen_leaving, straight);
   const Vec3 arriving = s.to.conjugate() * angular_slope(b.in, s.to, chosen_arriving, straight);
@@ -146,9 +146,9 @@ RotationSpan hermite_span(const Key<Quat>& a, const Key<Quat>& b, const Stretch&
   const bool plain = w0 == third && w1 == third;
   // Whole turns go on evenly in the cubic's own variable, which at an end runs 1/(3 weight) times as fast as time.
   const double share0 = plain ? 1 : third / w0, share1 = plain ? 1 : third / w1;
-  const Vec4 d0 = padded(s.duration * leaving - share0 * s.spin);
-  const Vec4 d1 = padded(right_jacobian_inverse(s.way) * Vec3(s.duration * arriving - share1 * s.spin));
-  const Vec4 from(0, 0, 0, 0), change = padded(s.way);
+  const Vec4 d0 = turns::padded(s.duration * leaving - share0 * s.spin);
+  const Vec4 d1 = turns::padded(right_jacobian_inverse(s.way) * Vec3(s.duration * arriving - share1 * s.spin));
+  const Vec4 from(0, 0, 0, 0), change = turns::padded(s.way);
   span.degree = 3;
   if (plain)
     spans::cubic_coefficients(from, change, d0, d1, span.coefficients.data());
@@ -174,7 +174,7 @@ Curve<Quat> keying::rotation_curve(std::span<const Key<Quat>> keys, const KeyOpt
     keying::check_turn(keys, 0);
     return CurveAccess::one_key(keying::unit(keys, 0, keys[0].value), keys[0].time);
   }
-  const std::vector<Stretch> stretches = keying::stretches_of(keys, options.long_way);
+  const std::vector<turns::Stretch> stretches = keying::stretches_of(keys, options.long_way);
   const keying::Slopes slopes = keying::slopes_of(keys, stretches, options.ends);
   const auto has_tangents = [&](std::size_t i) { return keys[i].out.has_value() || keys[i + 1].in.has_value(); };
   const auto rule_of = [&](std::size_t i) { return has_tangents(i) ? nullptr : keys[i].ease.turn_rule(); };

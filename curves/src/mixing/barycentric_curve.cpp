@@ -26,8 +26,8 @@ void mend(std::span<Sample<double>> weights) noexcept {
 
 // Where any of them may jump or kink.
 template <class T>
-Breaks all_breaks(std::span<const Curve<T>> values, std::span<const Curve<double>> weights) {
-  Breaks result;
+spans::Breaks all_breaks(std::span<const Curve<T>> values, std::span<const Curve<double>> weights) {
+  spans::Breaks result;
   const auto add = [&result](const auto& curve) {
     result.knots.insert(result.knots.end(), curve.knots().begin(), curve.knots().end());
     result.keys.insert(result.keys.end(), curve.key_times().begin(), curve.key_times().end());

@@ -160,9 +160,9 @@ double questions::CurvePiece<V>::position_at(double time) const noexcept {
 }
 
 template <class T>
-std::vector<questions::CurvePiece<typename Stored<T>::type>> questions::curve_pieces(const Curve<T>& curve, double from,
-                                                                                     double to) {
-  using V = typename Stored<T>::type;
+std::vector<questions::CurvePiece<typename spans::Stored<T>::type>> questions::curve_pieces(const Curve<T>& curve,
+                                                                                            double from, double to) {
+  using V = typename spans::Stored<T>::type;
   spans::check_times(from, to);
   std::vector<questions::CurvePiece<V>> result;
   if (!(to > from)) return result;
@@ -198,9 +198,9 @@ std::vector<questions::CurvePiece<V>> questions::as_quintics(const questions::Cu
   return result;
 }
 
-#define TWEENFALL_PIECES(T)                                                                                        \
-  template std::vector<questions::CurvePiece<Stored<T>::type>> questions::curve_pieces<T>(const Curve<T>&, double, \
-                                                                                          double);
+#define TWEENFALL_PIECES(T)                                                                                       \
+  template std::vector<questions::CurvePiece<spans::Stored<T>::type>> questions::curve_pieces<T>(const Curve<T>&, \
+                                                                                                 double, double);
 TWEENFALL_PIECES(double)
 TWEENFALL_PIECES(Vec2)
 TWEENFALL_PIECES(Vec3)

@@ -45,8 +45,8 @@ struct CurvePiece {
 
 /// In order, without gaps, from `from` to `to`; empty where to <= from. Colors as their linear parts.
 template <class T>
-[[nodiscard]] std::vector<CurvePiece<typename Stored<T>::type>> curve_pieces(const Curve<T>& curve, double from,
-                                                                             double to);
+[[nodiscard]] std::vector<CurvePiece<typename spans::Stored<T>::type>> curve_pieces(const Curve<T>& curve, double from,
+                                                                                    double to);
 
 /// A timed piece as quintics in time, as those of an ease.
 template <class V>

@@ -62,7 +62,7 @@ double through_handles(const LongPolynomial& y, const LongPolynomial& x, double 
 
 template <class T, class Data>
 T segment_derivative(const Data& d, std::size_t i, double u, int order) noexcept {
-  const Segment segment = d.segment(i);
+  const spans::Segment segment = d.segment(i);
   T result = zero<T>();
   const T* c = &d.pool[segment.first];
   if (!segment.warped) {
@@ -141,7 +141,7 @@ bool is_plain_outside(const OutsideRule<T>& rule) noexcept {
 }
 
 template <class T>
-CurveEnd<T> end_of_rate(const Curve<T>& curve, bool early) noexcept {
+spans::CurveEnd<T> end_of_rate(const Curve<T>& curve, bool early) noexcept {
   const Outside rule = early ? curve.before() : curve.after();
   if (rule == Outside::repeat || rule == Outside::repeat_offset) return {{Outside::repeat}, {}, {}};
   return {{Outside::hold}, early ? curve.rate(curve.start(), Side::in) : curve.rate(curve.end(), Side::out), {}};
@@ -149,7 +149,7 @@ CurveEnd<T> end_of_rate(const Curve<T>& curve, bool early) noexcept {
 
 // Where spans do not say it.
 template <class T>
-Curve<T> formula_of_rate(const Curve<T>& curve, const CurveEnd<T>& before, const CurveEnd<T>& after) {
+Curve<T> formula_of_rate(const Curve<T>& curve, const spans::CurveEnd<T>& before, const spans::CurveEnd<T>& after) {
   const auto sampler = [curve](double time, Side side) {
     const Sample<T> s = curve.sample(time, side);
     return Sample<T>{s.rate, s.acceleration, known_derivative(curve, 3, time, side)};
@@ -179,7 +179,7 @@ T derivative_at(const Curve<T>& curve, int order, double time, Side side) {
 
 template <class T>
 Curve<T> derivative(const Curve<T>& curve) {
-  const CurveEnd<T> before = questions::end_of_rate(curve, true), after = questions::end_of_rate(curve, false);
+  const spans::CurveEnd<T> before = questions::end_of_rate(curve, true), after = questions::end_of_rate(curve, false);
   if (curve.start() == curve.end() && spans::has_spans(curve))
     return CurveAccess::one_key<T>(zero<T>(), curve.start(), before, after);
   questions::check_order(CurveAccess::data(curve), 3);

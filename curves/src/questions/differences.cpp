@@ -52,7 +52,7 @@ namespace tweenfall {
 template <class T>
 std::vector<Interval> differences(const Curve<T>& a, const Curve<T>& b, double from, double to, double tolerance) {
   if (to < from) std::swap(from, to);
-  using V = typename Stored<T>::type;
+  using V = typename spans::Stored<T>::type;
   std::vector<Interval> result;
   const auto add = [&result](double low, double high) {
     if (!(high > low)) return;

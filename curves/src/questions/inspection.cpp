@@ -131,7 +131,7 @@ bool is_monotone(const Curve<double>& curve) {
 
 template <class T>
 std::vector<std::size_t> redundant_knots(const Curve<T>& curve, double tolerance) {
-  using V = typename Stored<T>::type;
+  using V = typename spans::Stored<T>::type;
   std::vector<std::size_t> result;
   const std::vector<Span<T>> spans = curve.spans();
   std::size_t kept = 0;  // the span that is continued

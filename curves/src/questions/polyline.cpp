@@ -41,7 +41,7 @@ namespace tweenfall {
 
 template <class T>
 std::vector<PolylinePoint<T>> polyline(const Curve<T>& curve, double from, double to, double error) {
-  using V = typename Stored<T>::type;
+  using V = typename spans::Stored<T>::type;
   if (!(error > 0)) throw std::invalid_argument("a polyline needs an error > 0; it is " + spans::text_of(error));
   if (to < from) std::swap(from, to);
   std::vector<PolylinePoint<T>> result;

@@ -54,8 +54,9 @@ Curve<Quat> bezier_rotation(std::span<const double> times, std::span<const Quat>
   std::vector<RotationSpan> spans;
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
     const Quat* c = &units[3 * i];
-    RotationSpan span = blank_span({times[i], times[i + 1] - times[i], c[0], c[3], Vec3(0, 0, 0), Vec3(0, 0, 0)});
-    set_de_casteljau(span, c[0], c[1], c[2], c[3]);
+    RotationSpan span =
+        turns::blank_span({times[i], times[i + 1] - times[i], c[0], c[3], Vec3(0, 0, 0), Vec3(0, 0, 0)});
+    turns::set_de_casteljau(span, c[0], c[1], c[2], c[3]);
     spans.push_back(span);
   }
   return CurveAccess::from_spans<Quat>(spans, times.back());
@@ -72,7 +73,7 @@ Curve<Quat> clamped_rotation(std::span<const double> times, std::span<const Quat
       throw std::invalid_argument("the angular velocity at an end must be finite; it is " + spans::text_of(*velocity));
   const std::vector<Quat> units = rotations::aligned(rotations, "key");
   if (times.size() == 1) return CurveAccess::one_key(units[0], times[0]);
-  std::vector<Stretch> stretches;
+  std::vector<turns::Stretch> stretches;
   for (std::size_t i = 0; i + 1 < units.size(); ++i)
     stretches.push_back({times[i], times[i + 1] - times[i], units[i], units[i + 1],
                          log_map(units[i].conjugate() * units[i + 1]), Vec3(0, 0, 0)});

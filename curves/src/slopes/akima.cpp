@@ -1,11 +1,12 @@
 #include "eases/ease_row.h"
 #include "slopes/akima_slopes.h"
 
-namespace tweenfall {
+namespace tweenfall::slopes {
+namespace {
 
 // Source: Akima, "A new method of interpolation and smooth curve fitting based on local procedures", J. ACM 17, 1970.
-static void slopes_akima(const SlopeProblem& p) {
-  slopes::akima_slopes(p, [](double m0, double m1, double m2, double m3) {
+void akima(const SlopeProblem& p) {
+  akima_slopes(p, [](double m0, double m1, double m2, double m3) {
     const double w1 = std::abs(m3 - m2), w2 = std::abs(m1 - m0);
     // Where both pairs of secants agree but for rounding, their weights are nothing but that rounding.
     const double noise = 1e-9 * std::max({std::abs(m0), std::abs(m1), std::abs(m2), std::abs(m3)});
@@ -14,8 +15,13 @@ static void slopes_akima(const SlopeProblem& p) {
   });
 }
 
+}  // namespace
+}  // namespace tweenfall::slopes
+
+namespace tweenfall {
+
 Ease Ease::akima() {
-  static const Ease ease(Form{.name = "akima", .slopes = &slopes_akima});
+  static const Ease ease(Form{.name = "akima", .slopes = &slopes::akima});
   return ease;
 }
 

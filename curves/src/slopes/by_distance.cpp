@@ -26,7 +26,7 @@ double advance_of(const SlopeProblem& p, std::size_t span, Advance advance) noex
 // Catmull-Rom in a parameter of its own that runs evenly through each span, whatever the span's duration. The direction
 // at a key is one; the speed is each span's own.
 // Source: Yuksel, Schaefer, Keyser, "Parameterization and applications of Catmull-Rom curves", 2011.
-void slopes_by_distance(const SlopeProblem& p, Advance advance) {
+void by_distance(const SlopeProblem& p, Advance advance) {
   const auto slopes_at = [&p, advance](std::size_t key, std::size_t span, double* result) {
     const std::size_t a = p.before(key), b = p.after(key);
     const double t0 = a == SlopeProblem::none ? 0 : advance_of(p, a, advance);
@@ -47,25 +47,25 @@ void slopes_by_distance(const SlopeProblem& p, Advance advance) {
   p.finish_open_ends();
 }
 
+void uniform(const SlopeProblem& p) {
+  by_distance(p, [](double) { return 1.0; });
+}
+
+void centripetal(const SlopeProblem& p) {
+  by_distance(p, [](double distance) { return std::sqrt(distance); });
+}
+
+void chordal(const SlopeProblem& p) {
+  by_distance(p, [](double distance) { return distance; });
+}
+
 }  // namespace
 }  // namespace tweenfall::slopes
 
 namespace tweenfall {
 
-static void slopes_uniform(const SlopeProblem& p) {
-  slopes::slopes_by_distance(p, [](double) { return 1.0; });
-}
-
-static void slopes_centripetal(const SlopeProblem& p) {
-  slopes::slopes_by_distance(p, [](double distance) { return std::sqrt(distance); });
-}
-
-static void slopes_chordal(const SlopeProblem& p) {
-  slopes::slopes_by_distance(p, [](double distance) { return distance; });
-}
-
 Ease Ease::uniform() {
-  static const Ease ease(Form{.name = "uniform", .slopes = &slopes_uniform});
+  static const Ease ease(Form{.name = "uniform", .slopes = &slopes::uniform});
   return ease;
 }
 
@@ -74,7 +74,7 @@ extern const Row uniform_row{"uniform", &Ease::uniform};
 }  // namespace eases
 
 Ease Ease::centripetal() {
-  static const Ease ease(Form{.name = "centripetal", .slopes = &slopes_centripetal});
+  static const Ease ease(Form{.name = "centripetal", .slopes = &slopes::centripetal});
   return ease;
 }
 
@@ -83,7 +83,7 @@ extern const Row centripetal_row{"centripetal", &Ease::centripetal};
 }  // namespace eases
 
 Ease Ease::chordal() {
-  static const Ease ease(Form{.name = "chordal", .slopes = &slopes_chordal});
+  static const Ease ease(Form{.name = "chordal", .slopes = &slopes::chordal});
   return ease;
 }
 

@@ -24,7 +24,7 @@ void SlopeProblem::finish_open_ends() const {
 }
 
 // Source: Barry and Goldman, "A recursive evaluation algorithm for a class of Catmull-Rom splines", 1988.
-void slopes_catmull_rom(const SlopeProblem& p) {
+void slopes::catmull_rom(const SlopeProblem& p) {
   p.for_each_key([&p](std::size_t key, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
     if (a == SlopeProblem::none || b == SlopeProblem::none) return 0.0;
@@ -35,7 +35,7 @@ void slopes_catmull_rom(const SlopeProblem& p) {
 }
 
 Ease Ease::catmull_rom() {
-  static const Ease ease(Form{.name = "catmull-rom", .slopes = &slopes_catmull_rom, .turns = &turns_de_casteljau});
+  static const Ease ease(Form{.name = "catmull-rom", .slopes = &slopes::catmull_rom, .turns = &turns::de_casteljau});
   return ease;
 }
 

@@ -14,20 +14,15 @@ double limited(double slope, double d0, double d1) noexcept {
   return std::clamp(slope, -limit, limit);
 }
 
-}  // namespace
-}  // namespace tweenfall::slopes
-
-namespace tweenfall {
-
 // Source: Dougherty, Edelman, Hyman, "Nonnegativity-, monotonicity-, or convexity-preserving cubic and quintic Hermite
 // interpolation", Math. Comp. 52, 1989, equation 4.2, on Catmull-Rom slopes.
-static void slopes_catmull_rom_monotone(const SlopeProblem& p) {
-  slopes_catmull_rom(p);
+void catmull_rom_monotone(const SlopeProblem& p) {
+  catmull_rom(p);
   for (std::size_t i = p.first; i < p.last; ++i)
     for (std::size_t c = 0; c < p.dimensions; ++c) {
       const double own = p.secant(i, c);
       const auto limit = [&p, c, own](double& slope, std::size_t other) {
-        slope = slopes::limited(slope, own, other == SlopeProblem::none ? own : p.secant(other, c));
+        slope = limited(slope, own, other == SlopeProblem::none ? own : p.secant(other, c));
       };
       limit(p.leaving[i * p.dimensions + c], p.before(i));
       limit(p.arriving[i * p.dimensions + c], p.after(i + 1));
@@ -36,8 +31,13 @@ static void slopes_catmull_rom_monotone(const SlopeProblem& p) {
   p.finish_open_ends();
 }
 
+}  // namespace
+}  // namespace tweenfall::slopes
+
+namespace tweenfall {
+
 Ease Ease::catmull_rom_monotone() {
-  static const Ease ease(Form{.name = "catmull-rom-monotone", .slopes = &slopes_catmull_rom_monotone});
+  static const Ease ease(Form{.name = "catmull-rom-monotone", .slopes = &slopes::catmull_rom_monotone});
   return ease;
 }
 

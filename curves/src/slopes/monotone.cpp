@@ -18,13 +18,8 @@ double end_slope(double h0, double h1, double d0, double d1) noexcept {
   return slope;
 }
 
-}  // namespace
-}  // namespace tweenfall::slopes
-
-namespace tweenfall {
-
 // Source: Fritsch and Butland, "A method for constructing local monotone piecewise cubic interpolants", 1984.
-static void slopes_monotone(const SlopeProblem& p) {
+void monotone(const SlopeProblem& p) {
   p.for_each_key([&p](std::size_t key, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
     if (a == SlopeProblem::none || b == SlopeProblem::none) {
@@ -32,18 +27,23 @@ static void slopes_monotone(const SlopeProblem& p) {
       const std::size_t own = a == SlopeProblem::none ? b : a;
       if (p.spans == 1) return p.secant(own, c);
       const std::size_t next = a == SlopeProblem::none ? own + 1 : own - 1;
-      return slopes::end_slope(p.durations[own], p.durations[next], p.secant(own, c), p.secant(next, c));
+      return end_slope(p.durations[own], p.durations[next], p.secant(own, c), p.secant(next, c));
     }
     const double d0 = p.secant(a, c), d1 = p.secant(b, c);
-    if (!slopes::same_sign(d0, d1)) return 0.0;
+    if (!same_sign(d0, d1)) return 0.0;
     const double h0 = p.durations[a], h1 = p.durations[b];
     const double w0 = (2 * h1 + h0) / (3 * (h0 + h1)), w1 = (h1 + 2 * h0) / (3 * (h0 + h1));
     return 1 / (w0 / d0 + w1 / d1);
   });
 }
 
+}  // namespace
+}  // namespace tweenfall::slopes
+
+namespace tweenfall {
+
 Ease Ease::monotone() {
-  static const Ease ease(Form{.name = "monotone", .slopes = &slopes_monotone});
+  static const Ease ease(Form{.name = "monotone", .slopes = &slopes::monotone});
   return ease;
 }
 

@@ -1,14 +1,20 @@
 #include "eases/ease_row.h"
 #include "slopes/c2_slopes.h"
 
-namespace tweenfall {
+namespace tweenfall::slopes {
+namespace {
 
-static void slopes_not_a_knot(const SlopeProblem& p) {
-  slopes::solve_c2_automatic(p, slopes::C2End::Kind::not_a_knot);
+void not_a_knot(const SlopeProblem& p) {
+  solve_c2_automatic(p, C2End::Kind::not_a_knot);
 }
 
+}  // namespace
+}  // namespace tweenfall::slopes
+
+namespace tweenfall {
+
 Ease Ease::not_a_knot() {
-  static const Ease ease(Form{.name = "not-a-knot", .slopes = &slopes_not_a_knot, .continuous_acceleration = true});
+  static const Ease ease(Form{.name = "not-a-knot", .slopes = &slopes::not_a_knot, .continuous_acceleration = true});
   return ease;
 }
 

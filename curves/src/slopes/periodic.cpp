@@ -1,14 +1,20 @@
 #include "eases/ease_row.h"
 #include "slopes/c2_slopes.h"
 
-namespace tweenfall {
+namespace tweenfall::slopes {
+namespace {
 
-static void slopes_periodic(const SlopeProblem& p) {
-  slopes::solve_c2_periodic(p);
+void periodic(const SlopeProblem& p) {
+  solve_c2_periodic(p);
 }
 
+}  // namespace
+}  // namespace tweenfall::slopes
+
+namespace tweenfall {
+
 Ease Ease::periodic() {
-  static const Ease ease(Form{.name = "periodic", .slopes = &slopes_periodic, .continuous_acceleration = true});
+  static const Ease ease(Form{.name = "periodic", .slopes = &slopes::periodic, .continuous_acceleration = true});
   return ease;
 }
 

@@ -47,7 +47,11 @@ struct SlopeProblem {
   void finish_open_ends() const;
 };
 
+namespace slopes {
+
 /// On which other rules build.
-void slopes_catmull_rom(const SlopeProblem& problem);
+void catmull_rom(const SlopeProblem& problem);
+
+}  // namespace slopes
 
 }  // namespace tweenfall

@@ -11,27 +11,22 @@ double end_slope(const SlopeProblem& p, std::size_t own_span, std::size_t c) noe
   return p.ends == Ends::flat ? 0.0 : p.secant(own_span, c);
 }
 
-}  // namespace
-}  // namespace tweenfall::slopes
-
-namespace tweenfall {
-
-static void slopes_smooth(const SlopeProblem& p) {
+void smooth(const SlopeProblem& p) {
   p.for_each_key([&p](std::size_t key, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
-    if (a == SlopeProblem::none) return slopes::end_slope(p, b, c);
-    if (b == SlopeProblem::none) return slopes::end_slope(p, a, c);
+    if (a == SlopeProblem::none) return end_slope(p, b, c);
+    if (b == SlopeProblem::none) return end_slope(p, a, c);
     return 0.5 * p.secant(a, c) + 0.5 * p.secant(b, c);
   });
 }
 
 // Three times the smaller secant keeps a cubic between its two values.
 // Source: Fritsch and Carlson, "Monotone piecewise cubic interpolation", SIAM J. Numer. Anal. 17, 1980.
-static void slopes_smooth_clamped(const SlopeProblem& p) {
+void smooth_clamped(const SlopeProblem& p) {
   p.for_each_key([&p](std::size_t key, std::size_t c) {
     const std::size_t a = p.before(key), b = p.after(key);
-    if (a == SlopeProblem::none) return slopes::end_slope(p, b, c);
-    if (b == SlopeProblem::none) return slopes::end_slope(p, a, c);
+    if (a == SlopeProblem::none) return end_slope(p, b, c);
+    if (b == SlopeProblem::none) return end_slope(p, a, c);
     const double d0 = p.secant(a, c), d1 = p.secant(b, c);
     if (!((d0 > 0 && d1 > 0) || (d0 < 0 && d1 < 0))) return 0.0;
     const double limit = 3 * std::min(std::abs(d0), std::abs(d1));
@@ -39,8 +34,13 @@ static void slopes_smooth_clamped(const SlopeProblem& p) {
   });
 }
 
+}  // namespace
+}  // namespace tweenfall::slopes
+
+namespace tweenfall {
+
 Ease Ease::smooth() {
-  static const Ease ease(Form{.rule = Rule::smooth, .name = "smooth", .slopes = &slopes_smooth});
+  static const Ease ease(Form{.rule = Rule::smooth, .name = "smooth", .slopes = &slopes::smooth});
   return ease;
 }
 
@@ -50,7 +50,7 @@ extern const Row smooth_row{"smooth", &Ease::smooth};
 
 Ease Ease::smooth_clamped() {
   static const Ease ease(
-      Form{.rule = Rule::smooth_clamped, .name = "smooth-clamped", .slopes = &slopes_smooth_clamped});
+      Form{.rule = Rule::smooth_clamped, .name = "smooth-clamped", .slopes = &slopes::smooth_clamped});
   return ease;
 }
 

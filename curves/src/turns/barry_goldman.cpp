@@ -2,12 +2,13 @@
 #include "slopes/slope_rule.h"
 #include "turns/turn_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::turns {
+namespace {
 
 // Beyond an end that has no neighbor, one is taken as far off in time as the other key, and such that the slope
 // there is what the slope rule says.
 // Source: Barry and Goldman, "A recursive evaluation algorithm for a class of Catmull-Rom splines", 1988.
-static void turns_barry_goldman(const TurnProblem& p) {
+void barry_goldman(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];
     if (p.is_plain(i)) {
@@ -32,8 +33,13 @@ static void turns_barry_goldman(const TurnProblem& p) {
   }
 }
 
+}  // namespace
+}  // namespace tweenfall::turns
+
+namespace tweenfall {
+
 Ease Ease::barry_goldman() {
-  static const Ease ease(Form{.name = "barry-goldman", .slopes = &slopes_catmull_rom, .turns = &turns_barry_goldman});
+  static const Ease ease(Form{.name = "barry-goldman", .slopes = &slopes::catmull_rom, .turns = &turns::barry_goldman});
   return ease;
 }
 

@@ -3,7 +3,7 @@
 #include "rotation/moving_rotation.h"
 #include "turns/turn_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::turns {
 
 void set_de_casteljau(RotationSpan& span, const Quat& a, const Quat& b, const Quat& c, const Quat& d) {
   span.form = RotationSpan::Form::nested;
@@ -20,7 +20,7 @@ void set_de_casteljau(RotationSpan& span, const Quat& a, const Quat& b, const Qu
 // The inner controls lie a third of the duration along the angular velocities at the keys; at an open end half way to
 // the other inner control, where a straight cubic would have no second derivative.
 // Source: Shoemake, "Animating rotation with quaternion curves", 1985.
-void turns_de_casteljau(const TurnProblem& p) {
+void de_casteljau(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];
     const Vec3 leaving = p.leaving(i), arriving = p.arriving(i);
@@ -41,4 +41,4 @@ void turns_de_casteljau(const TurnProblem& p) {
   }
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::turns

@@ -192,14 +192,11 @@ class Rates {
 };
 
 }  // namespace
-}  // namespace tweenfall::turns
-
-namespace tweenfall {
 
 // Source: Mayorov, "Smooth attitude interpolation", 2018, with Newton's method for its iteration.
-void turns::append_natural(const std::vector<Stretch>& stretches, std::size_t first, std::size_t last,
-                           const turns::NaturalEnds& ends, std::vector<RotationSpan>& spans) {
-  const std::vector<Vec3> rates = turns::Rates(stretches, first, last, ends).solved();
+void append_natural(const std::vector<Stretch>& stretches, std::size_t first, std::size_t last, const NaturalEnds& ends,
+                    std::vector<RotationSpan>& spans) {
+  const std::vector<Vec3> rates = Rates(stretches, first, last, ends).solved();
   for (std::size_t i = first; i < last; ++i) {
     const Stretch& s = stretches[i];
     const std::size_t k = i - first;
@@ -208,13 +205,13 @@ void turns::append_natural(const std::vector<Stretch>& stretches, std::size_t fi
   }
 }
 
-void turns_natural(const TurnProblem& p) {
-  turns::NaturalEnds ends;
+void natural(const TurnProblem& p) {
+  NaturalEnds ends;
   ends.around = p.ends == Ends::wrap && p.first == 0 && p.last == p.stretches.size();
   const Vec3 rest(0, 0, 0);
   if (p.ends == Ends::flat && p.first == 0) ends.start = rest;
   if (p.ends == Ends::flat && p.last == p.stretches.size()) ends.end = rest;
-  turns::append_natural(p.stretches, p.first, p.last, ends, p.spans);
+  append_natural(p.stretches, p.first, p.last, ends, p.spans);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::turns

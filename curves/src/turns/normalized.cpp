@@ -1,9 +1,10 @@
 #include "eases/ease_row.h"
 #include "turns/turn_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::turns {
+namespace {
 
-static void turns_normalized(const TurnProblem& p) {
+void normalized(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     RotationSpan span = blank_span(p.stretches[i]);
     span.form = RotationSpan::Form::normalized;
@@ -14,8 +15,13 @@ static void turns_normalized(const TurnProblem& p) {
   }
 }
 
+}  // namespace
+}  // namespace tweenfall::turns
+
+namespace tweenfall {
+
 Ease Ease::nlerp() {
-  static const Ease ease(Form{.rule = Rule::linear, .name = "nlerp", .turns = &turns_normalized});
+  static const Ease ease(Form{.rule = Rule::linear, .name = "nlerp", .turns = &turns::normalized});
   return ease;
 }
 

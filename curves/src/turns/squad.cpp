@@ -5,12 +5,13 @@
 #include "slopes/slope_rule.h"
 #include "turns/turn_rule.h"
 
-namespace tweenfall {
+namespace tweenfall::turns {
+namespace {
 
 // slerp(slerp(from, to, s), slerp(b, c, s), 2 s (1 - s)): leaving, it turns with the straight way plus twice the way
 // to the control b, so that b follows from the angular velocity wanted. With that of Catmull and Rom this is
 // Shoemake's rule on even times. Source: Shoemake, "Quaternion calculus and fast animation", 1987.
-static void turns_squad(const TurnProblem& p) {
+void squad(const TurnProblem& p) {
   for (std::size_t i = p.first; i < p.last; ++i) {
     const Stretch& stretch = p.stretches[i];
     const Vec3 leaving = p.leaving(i) - stretch.way, arriving = p.arriving(i) - stretch.way;
@@ -35,8 +36,13 @@ static void turns_squad(const TurnProblem& p) {
   }
 }
 
+}  // namespace
+}  // namespace tweenfall::turns
+
+namespace tweenfall {
+
 Ease Ease::squad() {
-  static const Ease ease(Form{.name = "squad", .slopes = &slopes_catmull_rom, .turns = &turns_squad});
+  static const Ease ease(Form{.name = "squad", .slopes = &slopes::catmull_rom, .turns = &turns::squad});
   return ease;
 }
 

@@ -4,8 +4,8 @@
 namespace tweenfall {
 
 bool TurnProblem::is_plain(std::size_t i) const noexcept {
-  const Stretch& own = stretches[i];
-  for (const Stretch* stretch : {before(i), &own, after(i)})
+  const turns::Stretch& own = stretches[i];
+  for (const turns::Stretch* stretch : {before(i), &own, after(i)})
     if (stretch && !stretch->spin.isZero(0)) return true;
   const Vec3 ways[] = {own.way, leaving(i), arriving(i)};
   const Vec3* longest = &ways[0];
@@ -16,6 +16,10 @@ bool TurnProblem::is_plain(std::size_t i) const noexcept {
   return true;
 }
 
+}  // namespace tweenfall
+
+namespace tweenfall::turns {
+
 RotationSpan cubic_turn(const Stretch& stretch, const Vec3& leaving, const Vec3& arriving) {
   RotationSpan span = blank_span(stretch);
   span.degree = 3;
@@ -25,4 +29,4 @@ RotationSpan cubic_turn(const Stretch& stretch, const Vec3& leaving, const Vec3&
   return span;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::turns

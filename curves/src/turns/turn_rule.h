@@ -13,6 +13,8 @@
 
 namespace tweenfall {
 
+namespace turns {
+
 /// One stretch between two keys. The turn that leads across it is about itself, so its vector is the same
 /// in the axes of both keys.
 struct Stretch {
@@ -25,9 +27,11 @@ struct Stretch {
   [[nodiscard]] Quat near_to() const noexcept { return hemisphere_aligned(to, from); }
 };
 
+}  // namespace turns
+
 /// One run of consecutive stretches that share a rule, within all stretches of a curve.
 struct TurnProblem {
-  const std::vector<Stretch>& stretches;
+  const std::vector<turns::Stretch>& stretches;
   std::size_t first, last;  ///< the run: stretches first to last - 1
   Ends ends;
   const keying::Slopes& slopes;  ///< angular velocities by the run's slope rule, axes of the keys, whole turns included
@@ -42,10 +46,10 @@ struct TurnProblem {
     return i + 1 == stretches.size() && ends == Ends::secant;
   }
   /// Where the neighbors of a span are, around a loop too; null where there is none.
-  [[nodiscard]] const Stretch* before(std::size_t i) const noexcept {
+  [[nodiscard]] const turns::Stretch* before(std::size_t i) const noexcept {
     return i > 0 ? &stretches[i - 1] : ends == Ends::wrap ? &stretches.back() : nullptr;
   }
-  [[nodiscard]] const Stretch* after(std::size_t i) const noexcept {
+  [[nodiscard]] const turns::Stretch* after(std::size_t i) const noexcept {
     return i + 1 < stretches.size() ? &stretches[i + 1] : ends == Ends::wrap ? &stretches.front() : nullptr;
   }
   /// Whether slerps of slerps have nothing to add to the plain cubic with the slopes of the rule: all turns are about
@@ -57,6 +61,8 @@ struct TurnProblem {
     return stretches[i].duration * Vec3(&slope[3 * i]) - stretches[i].spin;
   }
 };
+
+namespace turns {
 
 [[nodiscard]] inline Vec4 padded(const Vec3& v) noexcept {
   return {v.x(), v.y(), v.z(), 0};
@@ -78,10 +84,12 @@ struct TurnProblem {
 [[nodiscard]] RotationSpan cubic_turn(const Stretch& stretch, const Vec3& leaving, const Vec3& arriving);
 
 /// For slope rules that have them.
-void turns_de_casteljau(const TurnProblem& problem);
-void turns_natural(const TurnProblem& problem);
+void de_casteljau(const TurnProblem& problem);
+void natural(const TurnProblem& problem);
 
 /// Slerps of slerps between four control rotations, the first and last of them passed.
 void set_de_casteljau(RotationSpan& span, const Quat& a, const Quat& b, const Quat& c, const Quat& d);
+
+}  // namespace turns
 
 }  // namespace tweenfall
