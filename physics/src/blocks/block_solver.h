@@ -17,7 +17,7 @@ namespace tweenfall::blocks {
 class BlockSolver {
  public:
   /// From how many contacts on an island is solved here.
-  static constexpr std::size_t many = 25;
+  static constexpr std::size_t many = 9;
 
   /// Whether it can solve an island: bodies that drives, stiff springs or rolling friction hold are for `Solver`, and
   /// so are steps far shorter than those before them.
@@ -49,7 +49,8 @@ class BlockSolver {
   void gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
               std::span<ContactConstraint* const> contacts, Integrator integrator, double dt);
   void foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads, double dt);
-  void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, double h, int sub_step);
+  void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, double dt, int sub_steps,
+                      int sub_step);
   void prepare_again(const std::vector<Body>& bodies);
   void find_lags();
   void end_sub_step(double h);

@@ -5,9 +5,6 @@
 
 namespace tweenfall::step {
 
-/// Sub-steps in a step; the passes are shared out among them.
-constexpr int sub_steps = 8;
-
 /// How an overlapping contact gives way while positions are corrected.
 struct Softness {
   double rate = 0;    ///< share of the overlap that is taken apart, 1/s
@@ -16,18 +13,19 @@ struct Softness {
   double giving = 0;  ///< share of the impulse let go by a pass
 };
 
-/// Of the contacts of a sub-step of `h` seconds.
+/// Of the contacts of a step of `dt` seconds.
 /// Source: Catto, Solver2D, 2024 (soft contacts).
-[[nodiscard]] inline Softness soft_contacts(double push_out_speed, double h) {
+[[nodiscard]] inline Softness soft_contacts(double push_out_speed, double dt, int sub_steps) {
   // Frequency times the sub-step, and the damping ratio.
   constexpr double cycles = 0.125;
   constexpr double damping = 10;
-  // In shorter sub-steps than this overlap is taken apart more slowly, in the end not at all: the speed that it needs
+  // In shorter steps than this overlap is taken apart more slowly, in the end not at all: the speed that it needs
   // is the shorter the step the greater, and would be a blow, s.
-  constexpr double unhurried = 1e-3 / sub_steps;
+  constexpr double unhurried = 1e-3;
+  const double h = dt / sub_steps;
   const double turn = 2 * std::numbers::pi * cycles;
   const double stiffness = turn * (2 * damping + turn);
-  const double hurry = std::min(1.0, h / unhurried);
+  const double hurry = std::min(1.0, dt / unhurried);
   return {hurry * hurry * turn / (h * (2 * damping + turn)), push_out_speed, stiffness / (1 + stiffness),
           1 / (1 + stiffness)};
 }

@@ -15,10 +15,11 @@ namespace tweenfall {
 using step::point_velocity;
 using step::push;
 using step::Softness;
-using step::sub_steps;
 
 namespace {
 
+/// Sub-steps in a step; the passes are shared out among them.
+constexpr int sub_steps = 8;
 /// In islands of up to this many contacts every sub-step may take all passes: few contacts are solved to the end.
 constexpr std::size_t few = 24;
 /// A change of velocity that no longer matters, m/s.
@@ -352,7 +353,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Co
   const int relaxing = std::max(1, share / 2);
   const int passes = std::max(1, share - relaxing);
   const Softness hard;
-  const Softness soft = step::soft_contacts(settings.push_out_speed, h);
+  const Softness soft = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
     for (ContactConstraint* contact : contacts) {
