@@ -8,6 +8,7 @@
 #include "stage/drive_tracks.h"
 #include "stage/scaled_shape.h"
 #include "stage/stage_data.h"
+#include "stage/whole_pose.h"
 
 namespace tweenfall::staging {
 
@@ -44,9 +45,10 @@ void forget_gone_rules(StageState& state) {
 }
 
 /// Puts the description's body on its node. When it throws, nothing has changed.
-void add_body(StageState& state, NodeId node, const BodyDescription& body) {
+/// @param authored  where the animation has the node, when that is known: a long chain of parents is not climbed again
+void add_body(StageState& state, NodeId node, const BodyDescription& body, const WorldMotion* authored = nullptr) {
   Path path(state.animation, node, state.time);
-  const WorldMotion start = path.world(state.time);
+  const WorldMotion start = authored ? path.world(state.time, *authored) : path.world(state.time);
   const BodySettings settings = settings_of(state, node, body, start);
   const BodyId id = state.world.add(settings);
   if (!body.fixed && settings.drive.owner() == Owner::free)
@@ -192,6 +194,7 @@ StageState described_state(const StageDescription& description, std::vector<Stag
   state.present.assign(state.nodes->size(), 1);
   state.body_of.assign(state.nodes->size(), no_body);
   for (NodeId node = 0; node < state.nodes->size(); ++node) link(state, node, (*state.nodes)[node].parent);
+  WholePose pose(state, state.time, Side::out);
   for (NodeId node = 0; node < description.nodes.size(); ++node) {
     const NodeDescription& described = description.nodes[node];
     state.colors.push_back(described.color);
@@ -202,8 +205,9 @@ StageState described_state(const StageDescription& description, std::vector<Stag
            "\"" + described.name + "\" is static, but a playing clip moves it; leave out \"static\" and it is keyed"});
       continue;
     }
-    attempt(faults, Part::node, node,
-            "the body of \"" + described.name + "\": ", [&] { add_body(state, node, *described.body); });
+    attempt(faults, Part::node, node, "the body of \"" + described.name + "\": ", [&] {
+      add_body(state, node, *described.body, &pose.authored(node));
+    });
   }
   // Forces and rules of bodies that could not be made would only be more of the same.
   if (!faults.empty()) return state;

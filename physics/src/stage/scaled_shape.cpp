@@ -38,16 +38,17 @@ double uniform(const Vec3& scale, const char* what) {
 }  // namespace
 
 Vec3 rest_scale(const Hierarchy& nodes, std::size_t node) {
+  bool scaled = false;
+  for (std::size_t i = node; i != no_node && !scaled; i = nodes[i].parent)
+    scaled = nodes[i].rest.scale != Vec3(1, 1, 1);
+  if (!scaled) return {1, 1, 1};
   Mat3 linear = Mat3::Identity(), turn = Mat3::Identity();
-  bool even = true;
   for (std::size_t i = node; i != no_node; i = nodes[i].parent) {
     const Pose& rest = nodes[i].rest;
-    even = even && rest.scale == Vec3(1, 1, 1);
     const Mat3 rotation = rest.rotation.toRotationMatrix();
     linear = (rotation * Mat3(rest.scale.asDiagonal()) * linear).eval();
     turn = (rotation * turn).eval();
   }
-  if (even) return {1, 1, 1};
   const Mat3 own = turn.transpose() * linear;
   if (!is_diagonal(own))
     throw std::invalid_argument(
