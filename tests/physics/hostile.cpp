@@ -263,3 +263,13 @@ TEST_CASE("contacts of bodies at one point grow with their number and not with i
     for (const BodyId body : bodies) CHECK(world.motion(body).pose.position.norm() < 1);
   }
 }
+
+TEST_CASE("shapes whose reach no number holds are refused, and are not taken for planes") {
+  World world;
+  for (const Solid& solid : {Solid(Box{Vec3(1e200, 1, 1)}), Solid(Box{Vec3(1e300, 1e300, 1e300)}), Solid(Sphere{1e31}),
+                             Solid(Capsule{1e308, 1e308})})
+    for (const bool fixed : {false, true})
+      CHECK_THROWS_AS(world.add({.shape = {solid}, .mass = 1, .fixed = fixed}), std::invalid_argument);
+  world.add({.shape = {Sphere{}}});
+  world.step(0.01);
+}

@@ -214,7 +214,7 @@ BodyId World::add(const BodySettings& settings) {
   if (const auto* sphere = std::get_if<Sphere>(&settings.shape.solid)) body.roundness = sphere->radius;
   if (const auto* capsule = std::get_if<Capsule>(&settings.shape.solid)) body.roundness = capsule->radius;
   body.radius = radius_of(settings.shape.solid);
-  require(body.radius >= smallest && (std::isinf(body.radius) || body.radius <= largest),
+  require(body.radius >= smallest && (std::holds_alternative<Plane>(settings.shape.solid) || body.radius <= largest),
           "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + number_text(body.radius) +
               " m from its center");
   body.friction = settings.friction;
