@@ -16,10 +16,10 @@ constexpr double dt = 1.0 / 60;
 /// Bodies that go where chance takes them, and their pairs, found and counted out.
 struct Crowd {
   test::Random random;
-  std::vector<Body> bodies;
-  std::vector<Load> loads;
+  std::vector<state::Body> bodies;
+  std::vector<forces::Load> loads;
   std::vector<std::uint32_t> told;  ///< of those that do not move by themselves: to be looked at
-  BroadPhase broad_phase;
+  pairs::BroadPhase broad_phase;
 
   explicit Crowd(std::uint64_t seed) : random(seed) {}
 
@@ -30,7 +30,7 @@ struct Crowd {
       bodies.resize(index + 1);
       loads.resize(index + 1);
     }
-    Body body;
+    state::Body body;
     body.shape.solid = solid;
     body.alive = true;
     body.radius = std::holds_alternative<Plane>(solid)
@@ -60,7 +60,7 @@ struct Crowd {
 
   void step() {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-      Body& body = bodies[i];
+      state::Body& body = bodies[i];
       if (body.placed || body.has_target) told.push_back(i);
       body.placed = false;
       if (body.has_target) body.motion.pose = body.target.pose;
@@ -76,7 +76,7 @@ struct Crowd {
   void disturb(double room) {
     for (int i = 0; i < 6; ++i) {
       const std::uint32_t index = any();
-      Body& body = bodies[index];
+      state::Body& body = bodies[index];
       const double what = random.unit();
       if (what < 0.2 && body.alive) {
         broad_phase.remove(index);
@@ -104,7 +104,7 @@ struct Crowd {
       }
     }
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-      Body& body = bodies[i];
+      state::Body& body = bodies[i];
       if (body.fixed || !body.immovable() || random.unit() < 0.5) continue;
       body.has_target = true;
       body.target = body.motion;
@@ -114,7 +114,7 @@ struct Crowd {
     }
   }
 
-  std::vector<Pair> found() {
+  std::vector<pairs::Pair> found() {
     std::vector<std::uint32_t> changed;
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
       if (bodies[i].alive && (!bodies[i].immovable() || std::count(told.begin(), told.end(), i) > 0))
@@ -123,7 +123,8 @@ struct Crowd {
     return broad_phase.find(bodies, changed, loads, margin, dt);
   }
 
-  [[nodiscard]] bool near(const Body& a, const Load& load_a, const Body& b, const Load& load_b) const {
+  [[nodiscard]] bool near(const state::Body& a, const forces::Load& load_a, const state::Body& b,
+                          const forces::Load& load_b) const {
     if (std::holds_alternative<Plane>(b.shape.solid)) return near(b, load_b, a, load_a);
     const Bounds box = pairs::swept_bounds(b, load_b, 0.5 * margin, dt);
     const auto* plane = std::get_if<Plane>(&a.shape.solid);
@@ -141,16 +142,16 @@ struct Crowd {
     return false;
   }
 
-  [[nodiscard]] std::vector<Pair> counted_out() const {
-    std::vector<Pair> result;
+  [[nodiscard]] std::vector<pairs::Pair> counted_out() const {
+    std::vector<pairs::Pair> result;
     std::map<std::uint32_t, std::uint32_t> counts;
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
       for (std::uint32_t k = i + 1; k < bodies.size(); ++k) {
-        const Body &a = bodies[i], &b = bodies[k];
+        const state::Body &a = bodies[i], &b = bodies[k];
         if (!a.alive || !b.alive || (a.immovable() && b.immovable()) || (!a.stirs() && !b.stirs())) continue;
         if (!near(a, loads[i], b, loads[k])) continue;
         if (!a.immovable() && !b.immovable()) {
-          if (counts[i] >= BroadPhase::most_pairs && counts[k] >= BroadPhase::most_pairs) continue;
+          if (counts[i] >= pairs::BroadPhase::most_pairs && counts[k] >= pairs::BroadPhase::most_pairs) continue;
           ++counts[i];
           ++counts[k];
         }
@@ -171,7 +172,7 @@ TEST_CASE(
     std::size_t most = 0;
     for (int step = 0; step < 150; ++step) {
       crowd.disturb(room);
-      const std::vector<Pair> expected = crowd.counted_out();
+      const std::vector<pairs::Pair> expected = crowd.counted_out();
       CAPTURE(seed);
       CAPTURE(step);
       REQUIRE(crowd.found() == expected);
@@ -187,10 +188,10 @@ TEST_CASE("hundreds at one point, beside them, gone and back again, have the pai
   for (std::uint32_t i = 0; i < 700; ++i) crowd.put(i, Sphere{0.5}, Vec3::Zero());
   for (int step = 0; step < 12; ++step) {
     CAPTURE(step);
-    const std::vector<Pair> expected = crowd.counted_out();
+    const std::vector<pairs::Pair> expected = crowd.counted_out();
     REQUIRE(crowd.found() == expected);
-    CHECK(expected.size() <= 700 * (BroadPhase::most_pairs + 300));
-    for (Body& body : crowd.bodies) {
+    CHECK(expected.size() <= 700 * (pairs::BroadPhase::most_pairs + 300));
+    for (state::Body& body : crowd.bodies) {
       body.twist.linear = crowd.random.vector(step < 6 ? 1 : 20);
       if (step == 7) body.motion.pose.position *= 100;
       if (step == 9) body.motion.pose.position = crowd.random.vector(0.1);
@@ -211,7 +212,7 @@ TEST_CASE("ten thousand at one point have no more pairs than their number allows
   for (std::uint32_t i = 0; i < 10000; ++i) changed[i] = i;
   for (int step = 0; step < 5; ++step)
     CHECK(crowd.broad_phase.find(crowd.bodies, changed, crowd.loads, margin, dt).size() <=
-          10000u * BroadPhase::most_pairs);
+          10000u * pairs::BroadPhase::most_pairs);
 }
 
 TEST_CASE("boxes without end and numbers that are none neither hang nor lose a pair") {
@@ -225,9 +226,9 @@ TEST_CASE("boxes without end and numbers that are none neither hang nor lose a p
   crowd.bodies[7].twist.linear = Vec3(end, 0, 0);
   crowd.bodies[8].motion.pose.position = Vec3(1e30, -1e30, 1e30);
   crowd.loads[9].acceleration = Vec3(std::numeric_limits<double>::quiet_NaN(), 0, 0);
-  const std::vector<Pair> found = crowd.found();
-  for (std::uint32_t i = 10; i < 300; ++i) CHECK(std::count(found.begin(), found.end(), Pair(7, i)) == 1);
-  for (std::uint32_t i = 10; i < 300; ++i) CHECK(std::count(found.begin(), found.end(), Pair(9, i)) == 1);
+  const std::vector<pairs::Pair> found = crowd.found();
+  for (std::uint32_t i = 10; i < 300; ++i) CHECK(std::count(found.begin(), found.end(), pairs::Pair(7, i)) == 1);
+  for (std::uint32_t i = 10; i < 300; ++i) CHECK(std::count(found.begin(), found.end(), pairs::Pair(9, i)) == 1);
 }
 
 TEST_CASE("nothing leaves its swept bounds within the step, cubes that spin and keyed bodies that turn included") {
@@ -235,7 +236,7 @@ TEST_CASE("nothing leaves its swept bounds within the step, cubes that spin and 
   const Solid solids[] = {Sphere{0.5}, Box{Vec3(0.5, 0.5, 0.5)}, Box{Vec3(0.1, 0.6, 0.3)}, Capsule{0.2, 0.6}};
   for (int i = 0; i < 2000; ++i) {
     crowd.put(0, solids[i % 4], crowd.random.vector(3));
-    Body& body = crowd.bodies[0];
+    state::Body& body = crowd.bodies[0];
     body.fixed = false;
     body.spherical = i % 4 < 2;
     body.twist = {crowd.random.vector(30), crowd.random.vector(60)};
@@ -246,7 +247,7 @@ TEST_CASE("nothing leaves its swept bounds within the step, cubes that spin and 
       body.target.pose.rotation = crowd.random.rotation();
     }
     const Bounds swept = pairs::swept_bounds(body, crowd.loads[0], 1e-9, dt);
-    const Course course = course_of(body, crowd.loads[0], dt);
+    const collision::Course course = collision::course_of(body, crowd.loads[0], dt);
     for (int k = 0; k <= 20; ++k) {
       const Bounds at = bounds(body.shape, course.at(k * dt / 20).node(body));
       CAPTURE(i);

@@ -19,8 +19,8 @@ Hull random_hull(test::Random& random) {
   return {ConvexHull(points)};
 }
 
-Body body_of(const Solid& solid, test::Random& random) {
-  Body body;
+state::Body body_of(const Solid& solid, test::Random& random) {
+  state::Body body;
   body.alive = true;
   body.shape.solid = solid;
   const bool plane = std::holds_alternative<Plane>(solid);
@@ -44,36 +44,38 @@ TEST_CASE("what a direction tells apart neither touches nor meets within the ste
   for (int i = 0; i < 6000; ++i) {
     const std::array<Solid, 5> solids{Sphere{0.4}, Box{Vec3(0.3, 0.5, 0.2)}, Capsule{0.2, 0.4}, random_hull(random),
                                       Plane{Vec3(0, 1, 0), -0.9}};
-    Body a = body_of(solids[random.bits() % 5], random);
-    Body b = body_of(solids[random.bits() % 4], random);
-    Load load;
+    state::Body a = body_of(solids[random.bits() % 5], random);
+    state::Body b = body_of(solids[random.bits() % 4], random);
+    forces::Load load;
     load.acceleration = random.vector(random.unit() < 0.5 ? 0 : 200);
-    Apart kept;
+    collision::Apart kept;
     for (int step = 0; step < 8; ++step) {
-      const Passage at_a = passage_of(a, a.fixed ? Load{} : load, dt), at_b = passage_of(b, {}, dt);
+      const collision::Passage at_a = collision::passage_of(a, a.fixed ? forces::Load{} : load, dt),
+                               at_b = collision::passage_of(b, {}, dt);
       const Manifold manifold = collide(a.shape, a.motion.pose, b.shape, b.motion.pose, near_enough);
-      const bool meets = manifold.count > 0 || impact_time(at_a.course, at_b.course, dt);
+      const bool meets = manifold.count > 0 || collision::impact_time(at_a.course, at_b.course, dt);
       if (meets) ++met;
       CAPTURE(i);
       CAPTURE(step);
-      if (kept.frame != Apart::Frame::none) {
+      if (kept.frame != collision::Apart::Frame::none) {
         const Vec3 direction = kept.in_world(at_a, at_b);
-        if (stay_apart(at_a, at_b, direction, gap_along(at_a, at_b, direction), near_enough, dt)) {
+        if (collision::stay_apart(at_a, at_b, direction, collision::gap_along(at_a, at_b, direction), near_enough,
+                                  dt)) {
           CHECK(!meets);
           ++told_again;
         }
       }
       if (manifold.count == 0) {
-        const double gap = gap_along(at_a, at_b, manifold.normal);
-        if (stay_apart(at_a, at_b, manifold.normal, gap, near_enough, dt)) {
+        const double gap = collision::gap_along(at_a, at_b, manifold.normal);
+        if (collision::stay_apart(at_a, at_b, manifold.normal, gap, near_enough, dt)) {
           CHECK(!meets);
           ++told;
         }
-        kept = apart_along(at_a, at_b, manifold.normal);
+        kept = collision::apart_along(at_a, at_b, manifold.normal);
       }
-      for (Body* body : {&a, &b}) {
+      for (state::Body* body : {&a, &b}) {
         if (body->fixed) continue;
-        const Prediction next = (body == &a ? at_a : at_b).course.at(dt);
+        const collision::Prediction next = (body == &a ? at_a : at_b).course.at(dt);
         body->center = next.center;
         body->follow_center(next.rotation);
       }

@@ -78,14 +78,14 @@ void BlockSolver::find_rebounds(double h) {
     const BodyLanes& a = starts_[block.a[lane]];
     const BodyLanes& b = starts_[block.b[lane]];
     const Vec3 normal = lane_of(block.normal, lane);
-    ContactConstraint& contact = *block.contacts[lane];
+    step::ContactConstraint& contact = *block.contacts[lane];
     for (int k = 0; k < contact.count; ++k) {
       PointRow& row = contacts_.points[block.point + static_cast<std::uint32_t>(k)];
       const double closing = normal.dot(linear_of(a) - linear_of(b)) + lane_of(row.turn_a, lane).dot(angular_of(a)) -
                              lane_of(row.turn_b, lane).dot(angular_of(b));
       const auto [time, speed] = step::meeting_of(row.gap[lane], closing, block.pull[lane], h);
       if (!(speed > block.tremble[lane])) continue;
-      PointConstraint& point = contact.points[static_cast<std::size_t>(k)];
+      step::PointConstraint& point = contact.points[static_cast<std::size_t>(k)];
       point.approach = std::max(point.approach, speed);
       const double left = h - time;
       const double back = contact.restitution * speed;
@@ -124,7 +124,7 @@ double BlockSolver::rebound_contact(std::uint32_t index, int lane) {
   remember(index, lane);
   const Ends ends{block, lane, a, b, velocities_[block.a[lane]], velocities_[block.b[lane]]};
   const Vec3 normal = lane_of(block.normal, lane);
-  const ContactConstraint& contact = *block.contacts[lane];
+  const step::ContactConstraint& contact = *block.contacts[lane];
   double change = 0;
   double pressing = 0;
   for (int k = 0; k < contact.count; ++k)
@@ -186,7 +186,7 @@ void BlockSolver::move_by(const Rebound& rebound) {
 }
 
 /// Takes back as much of the rebound as would leave the island more energy than it had and than was put into it.
-void BlockSolver::bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads) {
+void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads) {
   step::IslandEnergy energy;
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     const IslandBody& entry = bodies_[i];
@@ -281,7 +281,7 @@ void BlockSolver::end_rebound() {
   reached_.clear();
 }
 
-void BlockSolver::rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads, int passes) {
+void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes) {
   const bool any = std::any_of(rebounds_.begin(), rebounds_.end(), [this](const Rebound& rebound) {
     return contacts_.points[rebound.row].impulse[rebound.lane] > 0;
   });

@@ -10,6 +10,10 @@
 
 namespace tweenfall::blocks {
 
+using forces::Load;
+using state::Body;
+using step::ContactConstraint;
+
 namespace {
 
 /// Sub-steps in a step. Tall stacks need many, and few contacts can afford them: a stack of forty falls with sixteen
@@ -40,13 +44,14 @@ Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec
     return body.inverse_inertia * (turning - at.cross(body.mass.inertia * at));
   };
   Vec3 next = spin + h * rate(spin + 0.5 * h * rate(spin));
-  if (torque == Vec3::Zero()) next = bounded_spin(body.mass.inertia, 0.5 * spin.dot(body.mass.inertia * spin), next);
+  if (torque == Vec3::Zero())
+    next = forces::bounded_spin(body.mass.inertia, 0.5 * spin.dot(body.mass.inertia * spin), next);
   return rotation * next;
 }
 
 }  // namespace
 
-bool BlockSolver::takes(const IslandContents& island, const std::vector<Body>& bodies, double dt) {
+bool BlockSolver::takes(const step::IslandContents& island, const std::vector<Body>& bodies, double dt) {
   if (island.contacts.size() < many || !island.springs.empty()) return false;
   const double h = dt / sub_steps_for(island.contacts.size());
   for (const ContactConstraint* contact : island.contacts) {
@@ -96,7 +101,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
       set(velocity.linear, body.twist.linear);
       set(velocity.angular, body.twist.angular);
     } else {
-      if (body.immovable()) entry.course = keyed_course(body, dt);
+      if (body.immovable()) entry.course = step::keyed_course(body, dt);
       set(velocity.linear, entry.course.mean.linear - 0.5 * entry.course.gain.linear);
       set(velocity.angular, entry.course.mean.angular - 0.5 * entry.course.gain.angular);
     }
@@ -152,7 +157,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     const Load& load = loads[entry.index];
     const Vec3 angular = angular_of(velocity);
     if (entry.followed || angular.norm() * h > slow_turn || load.angular_drag > 0 || load.angular_damping > 0) {
-      const Spin spin = turned(body, {entry.rotation, angular}, load, h);
+      const forces::Spin spin = forces::turned(body, {entry.rotation, angular}, load, h);
       set(velocity.angular, spin.angular);
       entry.free_rotation = spin.rotation;
     } else {
@@ -232,7 +237,7 @@ void BlockSolver::bound_spins(const std::vector<Body>& bodies, double h) {
     const Body& body = bodies[entry.index];
     if (body.spherical) continue;
     const double energy = 0.5 * angular.dot(entry.inverse_inertia.inverse() * angular);
-    set(velocities_[i].angular, bounded_spin(body.world_inertia(entry.rotation), energy, angular));
+    set(velocities_[i].angular, forces::bounded_spin(body.world_inertia(entry.rotation), energy, angular));
   }
 }
 

@@ -21,14 +21,16 @@ class BlockSolver {
 
   /// Whether it can solve an island: bodies that drives, stiff springs or rolling friction hold are for `Solver`, and
   /// so are steps far shorter than those before them.
-  [[nodiscard]] static bool takes(const IslandContents& island, const std::vector<Body>& bodies, double dt);
+  [[nodiscard]] static bool takes(const step::IslandContents& island, const std::vector<state::Body>& bodies,
+                                  double dt);
 
   /// Before the islands of a step.
   void begin(std::size_t bodies) { places_.assign(bodies, 0); }
   /// Moves the bodies of an island by `dt`; fills in the contacts' impulses.
   /// @param moved  by index: set for the bodies that were moved
-  void solve(std::vector<Body>& bodies, const std::vector<Load>& loads, std::span<ContactConstraint* const> contacts,
-             const WorldSettings& settings, double dt, std::vector<char>& moved);
+  void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+             std::span<step::ContactConstraint* const> contacts, const WorldSettings& settings, double dt,
+             std::vector<char>& moved);
 
  private:
   /// A point that would rebound in this sub-step.
@@ -46,25 +48,25 @@ class BlockSolver {
     double normal[4], first[4], second[4];
   };
 
-  void gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
-              std::span<ContactConstraint* const> contacts, Integrator integrator, double dt);
-  void foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads, double dt);
-  void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, double dt, int sub_steps,
-                      int sub_step);
-  void prepare_again(const std::vector<Body>& bodies);
+  void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+              std::span<step::ContactConstraint* const> contacts, Integrator integrator, double dt);
+  void foresee(std::span<step::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads, double dt);
+  void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
+                      int sub_steps, int sub_step);
+  void prepare_again(const std::vector<state::Body>& bodies);
   void find_lags();
   void end_sub_step(double h);
-  void bound_spins(const std::vector<Body>& bodies, double h);
+  void bound_spins(const std::vector<state::Body>& bodies, double h);
   [[nodiscard]] Rows rows();
 
   // Rebound
   void find_rebounds(double h);
-  void rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads, int passes);
+  void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes);
   void remember(std::uint32_t block, int lane);
   /// @return the change of velocity, in trembles
   double rebound_contact(std::uint32_t block, int lane);
   void move_by(const Rebound& rebound);
-  void bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads);
+  void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads);
   void end_rebound();
 
   std::vector<std::uint32_t> places_;  ///< from a body's index into bodies_; 0 for none

@@ -6,7 +6,7 @@
 
 #include "blocks/lanes.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 struct ContactConstraint;
 }
 
@@ -40,11 +40,11 @@ struct FrictionRow {
 };
 
 struct ContactBlock {
-  std::uint32_t a[lane_count], b[lane_count];  ///< places of the bodies in the solver
-  ContactConstraint* contacts[lane_count];     ///< null for an empty lane
-  std::uint32_t point = 0, friction = 0;       ///< first rows
-  std::int32_t points = 0;                     ///< of the lane with most
-  std::int32_t frictions = 0;                  ///< none, one at the middle of several points, or as many as points
+  std::uint32_t a[lane_count], b[lane_count];     ///< places of the bodies in the solver
+  step::ContactConstraint* contacts[lane_count];  ///< null for an empty lane
+  std::uint32_t point = 0, friction = 0;          ///< first rows
+  std::int32_t points = 0;                        ///< of the lane with most
+  std::int32_t frictions = 0;                     ///< none, one at the middle of several points, or as many as points
   Lanes3 normal, tangent1, tangent2;
   Lanes inverse_mass_a, inverse_mass_b;
   LanesSymmetric inverse_inertia_a, inverse_inertia_b;

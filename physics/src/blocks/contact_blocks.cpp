@@ -7,6 +7,9 @@
 
 namespace tweenfall::blocks {
 
+using step::ContactConstraint;
+using step::PointConstraint;
+
 namespace {
 
 void put(Lanes3& lanes, int lane, const Vec3& value) {
@@ -66,7 +69,8 @@ void prepare_friction(FrictionRow& row, int lane, const step::Tangents& along, c
 }  // namespace
 
 void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
-                          const std::vector<IslandBody>& bodies, const std::vector<Load>& loads, double h, double dt) {
+                          const std::vector<IslandBody>& bodies, const std::vector<forces::Load>& loads, double h,
+                          double dt) {
   coloring_.reset(bodies.size());
   keys_.clear();
   counts_.assign((Coloring::none + 1) * kinds + 1, 0);
@@ -168,8 +172,8 @@ void ContactBlocks::prepare(ContactBlock& block, int lane, const std::vector<Isl
     Vec3 arm_a = point.start_arm_a, arm_b = point.start_arm_b;
     double gap = point.start_gap;
     if (displacements) {
-      arm_a = carried(turn_a, arm_a, a.roundness * normal);
-      arm_b = carried(turn_b, arm_b, -b.roundness * normal);
+      arm_a = state::carried(turn_a, arm_a, a.roundness * normal);
+      arm_b = state::carried(turn_b, arm_b, -b.roundness * normal);
       gap += normal.dot(drift + (arm_b - point.start_arm_b) - (arm_a - point.start_arm_a));
     }
     const Vec3 across_a = arm_a.cross(normal), across_b = arm_b.cross(normal);

@@ -16,8 +16,8 @@ class ContactBlocks {
  public:
   /// Sorts the contacts and begins with the impulses that they kept.
   /// @param places  from a body's index to its place in `bodies`
-  void build(std::span<ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
-             const std::vector<IslandBody>& bodies, const std::vector<Load>& loads, double h, double dt);
+  void build(std::span<step::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
+             const std::vector<IslandBody>& bodies, const std::vector<forces::Load>& loads, double h, double dt);
   /// Tells the rows of one contact how its bodies lie now.
   void prepare(ContactBlock& block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
   /// Gives the impulses back to the contacts.
@@ -28,12 +28,12 @@ class ContactBlocks {
   std::vector<FrictionRow> frictions;
 
  private:
-  void fill(ContactBlock& block, int lane, ContactConstraint& contact, const std::vector<std::uint32_t>& places,
+  void fill(ContactBlock& block, int lane, step::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
             const std::vector<IslandBody>& bodies, const step::Closing& closing, double h);
 
   Coloring coloring_;
   std::vector<std::uint32_t> keys_, counts_;
-  std::vector<ContactConstraint*> sorted_;
+  std::vector<step::ContactConstraint*> sorted_;
 };
 
 }  // namespace tweenfall::blocks

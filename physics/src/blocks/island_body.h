@@ -39,7 +39,7 @@ struct alignas(64) IslandBody {
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
   Quat free_rotation{1, 0, 0, 0};  ///< at the end of the sub-step if nothing touches it
-  KeyedCourse course;              ///< of an immovable body
+  step::KeyedCourse course;        ///< of an immovable body
 
   // At the start of the sub-step
   Vec3 sub_step_center{0, 0, 0};

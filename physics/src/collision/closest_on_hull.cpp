@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 namespace {
 
@@ -53,4 +53,4 @@ ClosestOnHull closest_on_hull(const ConvexHull& hull, const Vec3& point) {
   return closest;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

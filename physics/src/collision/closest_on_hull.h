@@ -2,7 +2,7 @@
 
 #include <tweenfall/physics/convex_hull.h>
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 /// The place on a hull's surface nearest to a point.
 struct ClosestOnHull {
@@ -14,4 +14,4 @@ struct ClosestOnHull {
 /// Inside, the face with the shortest way out; a near tie goes to the first, so that it stays there.
 [[nodiscard]] ClosestOnHull closest_on_hull(const ConvexHull& hull, const Vec3& point);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

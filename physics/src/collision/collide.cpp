@@ -5,6 +5,10 @@
 
 namespace tweenfall {
 
+namespace collision {
+
+using shapes::Placed;
+
 namespace {
 
 template <class A, class B>
@@ -30,20 +34,15 @@ Manifold collide_solids(const A& a, const Placed& at_a, const B& b, const Placed
   }
 }
 
-}  // namespace
-
 /// Whether the products that follow stay numbers.
-static bool is_near(const Pose& pose) noexcept {
+bool is_near(const Pose& pose) noexcept {
   bool near = true;
   for (int i = 0; i < 3; ++i) near = near && std::abs(pose.position[i]) <= 1e60;
   for (int i = 0; i < 4; ++i) near = near && std::abs(pose.rotation.coeffs()[i]) <= 1e3;
   return near;
 }
 
-Manifold collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin) noexcept {
-  if (!is_near(pose_a) || !is_near(pose_b)) return {};
-  return collide(a, place(a, pose_a), b, place(b, pose_b), margin, margin);
-}
+}  // namespace
 
 Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b, double margin,
                  double reach) noexcept {
@@ -60,6 +59,13 @@ Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Place
         }
       },
       a.solid, b.solid);
+}
+
+}  // namespace collision
+
+Manifold collide(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b, double margin) noexcept {
+  if (!collision::is_near(pose_a) || !collision::is_near(pose_b)) return {};
+  return collision::collide(a, shapes::place(a, pose_a), b, shapes::place(b, pose_b), margin, margin);
 }
 
 }  // namespace tweenfall

@@ -6,7 +6,9 @@
 #include "collision/collide_pairs.h"
 #include "pairs/contact_candidates.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
+
+using shapes::Placed;
 
 namespace {
 
@@ -133,7 +135,7 @@ void clip_faces(Manifold& manifold, const Box& reference, const Placed& at_refer
     polygon = cut(polygon, -out, -at + reference.half_extents[i], static_cast<std::uint32_t>(2 * i + 1), tolerance);
   }
   const double surface = normal.dot(at_reference.center) + reference.half_extents[axis];
-  std::array<ContactCandidate, 12> candidates;
+  std::array<pairs::ContactCandidate, 12> candidates;
   std::size_t count = 0;
   for (std::size_t i = 0; i < polygon.count; ++i) {
     const ClipVertex& vertex = polygon.vertices[i];
@@ -141,7 +143,7 @@ void clip_faces(Manifold& manifold, const Box& reference, const Placed& at_refer
     if (gap <= margin) candidates[count++] = {vertex.position, gap, vertex.feature};
   }
   const Vec3 leaning = at_reference.axes.col((axis + 1) % 3) + 0.37 * at_reference.axes.col((axis + 2) % 3);
-  count = reduce_to_four(std::span(candidates.data(), count), normal, leaning);
+  count = pairs::reduce_to_four(std::span(candidates.data(), count), normal, leaning);
   for (std::size_t i = 0; i < count; ++i)
     add_point(manifold, candidates[i].position - 0.5 * candidates[i].gap * normal, -candidates[i].gap,
               candidates[i].feature | tag << 28, margin);
@@ -188,4 +190,4 @@ Manifold collide(const Box& a, const Placed& at_a, const Box& b, const Placed& a
   return manifold;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

@@ -3,7 +3,7 @@
 
 #include "collision/collide_pairs.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 namespace {
 
@@ -12,7 +12,8 @@ constexpr double parallel_sine = 0.05;
 
 }  // namespace
 
-Manifold collide(const Capsule& a, const Placed& at_a, const Capsule& b, const Placed& at_b, double margin) {
+Manifold collide(const Capsule& a, const shapes::Placed& at_a, const Capsule& b, const shapes::Placed& at_b,
+                 double margin) {
   const Vec3 axis_a = at_a.axes.col(1);
   const Vec3 axis_b = at_b.axes.col(1);
   const Vec3 between = at_b.center - at_a.center;
@@ -60,4 +61,4 @@ Manifold collide(const Capsule& a, const Placed& at_a, const Capsule& b, const P
   return both.count > 0 ? both : manifold;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

@@ -4,7 +4,7 @@
 
 #include "collision/collide_pairs.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 namespace {
 
@@ -92,7 +92,8 @@ WayOut way_out(const Segment& segment, const Vec3& half_extents) {
 
 }  // namespace
 
-Manifold collide(const Box& a, const Placed& at_a, const Capsule& b, const Placed& at_b, double margin) {
+Manifold collide(const Box& a, const shapes::Placed& at_a, const Capsule& b, const shapes::Placed& at_b,
+                 double margin) {
   const Mat3 into = at_a.axes.transpose();
   const Segment segment{into * (at_b.center - at_a.center), into * at_b.axes.col(1), b.half_height};
   const double t = nearest_on_segment(segment, a.half_extents);
@@ -172,4 +173,4 @@ Manifold collide(const Box& a, const Placed& at_a, const Capsule& b, const Place
   return manifold;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

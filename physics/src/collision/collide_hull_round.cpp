@@ -5,7 +5,9 @@
 #include "collision/closest_on_hull.h"
 #include "collision/collide_pairs.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
+
+using shapes::Placed;
 
 namespace {
 
@@ -252,4 +254,4 @@ Manifold collide(const Hull& a, const Placed& at_a, const Capsule& b, const Plac
   return to_world(HullAndCapsule(a.convex, axis, b.radius, margin).collide(), at_a);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

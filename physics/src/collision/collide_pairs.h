@@ -6,34 +6,43 @@
 
 #include "shapes/placed.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
-[[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Sphere& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Capsule& b, const Placed& at_b,
+[[nodiscard]] Manifold collide(const Sphere& a, const shapes::Placed& at_a, const Sphere& b, const shapes::Placed& at_b,
                                double margin);
-[[nodiscard]] Manifold collide(const Sphere& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Capsule& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Capsule& a, const Placed& at_a, const Capsule& b, const Placed& at_b,
+[[nodiscard]] Manifold collide(const Sphere& a, const shapes::Placed& at_a, const Box& b, const shapes::Placed& at_b,
                                double margin);
-[[nodiscard]] Manifold collide(const Capsule& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Sphere& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Capsule& b, const Placed& at_b, double margin);
-[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Plane& b, const Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Sphere& a, const shapes::Placed& at_a, const Capsule& b,
+                               const shapes::Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Sphere& a, const shapes::Placed& at_a, const Plane& b, const shapes::Placed& at_b,
+                               double margin);
+[[nodiscard]] Manifold collide(const Box& a, const shapes::Placed& at_a, const Capsule& b, const shapes::Placed& at_b,
+                               double margin);
+[[nodiscard]] Manifold collide(const Box& a, const shapes::Placed& at_a, const Plane& b, const shapes::Placed& at_b,
+                               double margin);
+[[nodiscard]] Manifold collide(const Capsule& a, const shapes::Placed& at_a, const Capsule& b,
+                               const shapes::Placed& at_b, double margin);
+[[nodiscard]] Manifold collide(const Capsule& a, const shapes::Placed& at_a, const Plane& b, const shapes::Placed& at_b,
+                               double margin);
+[[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Sphere& b, const shapes::Placed& at_b,
+                               double margin);
+[[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Capsule& b, const shapes::Placed& at_b,
+                               double margin);
+[[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Plane& b, const shapes::Placed& at_b,
+                               double margin);
 
 /// Polyhedra: within the margin they touch, and then points with a gap up to the reach are told.
-[[nodiscard]] Manifold collide(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin,
-                               double reach);
-[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin,
-                               double reach);
-[[nodiscard]] Manifold collide(const Hull& a, const Placed& at_a, const Hull& b, const Placed& at_b, double margin,
-                               double reach);
+[[nodiscard]] Manifold collide(const Box& a, const shapes::Placed& at_a, const Box& b, const shapes::Placed& at_b,
+                               double margin, double reach);
+[[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Box& b, const shapes::Placed& at_b,
+                               double margin, double reach);
+[[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Hull& b, const shapes::Placed& at_b,
+                               double margin, double reach);
 
 /// Contact of two shapes that have been placed: within the margin they touch, and then points with a gap up to the
 /// reach, which is no less, are told.
-[[nodiscard]] Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b, double margin,
-                               double reach) noexcept;
+[[nodiscard]] Manifold collide(const Shape& a, const shapes::Placed& at_a, const Shape& b, const shapes::Placed& at_b,
+                               double margin, double reach) noexcept;
 
 /// Adds a point between the two surfaces, unless the gap is beyond the margin or four are there.
 inline void add_point(Manifold& manifold, const Vec3& position, double penetration, std::uint32_t feature,
@@ -43,7 +52,7 @@ inline void add_point(Manifold& manifold, const Vec3& position, double penetrati
 }
 
 /// A manifold told in a solid's own space.
-[[nodiscard]] inline Manifold to_world(Manifold manifold, const Placed& at) {
+[[nodiscard]] inline Manifold to_world(Manifold manifold, const shapes::Placed& at) {
   manifold.normal = at.axes * manifold.normal;
   for (int i = 0; i < manifold.count; ++i) {
     Vec3& position = manifold.points[static_cast<std::size_t>(i)].position;
@@ -56,4 +65,4 @@ inline void add_point(Manifold& manifold, const Vec3& position, double penetrati
 [[nodiscard]] Manifold collide_balls(const Vec3& center_a, double radius_a, const Vec3& center_b, double radius_b,
                                      const Vec3& fallback_normal, std::uint32_t feature, double margin);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

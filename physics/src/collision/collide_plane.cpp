@@ -6,7 +6,9 @@
 #include "collision/collide_pairs.h"
 #include "pairs/contact_candidates.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
+
+using shapes::Placed;
 
 namespace {
 
@@ -80,7 +82,7 @@ Manifold collide(const Hull& a, const Placed& at_a, const Plane& b, const Placed
   Manifold manifold;
   manifold.normal = -plane.normal;
   const std::span<const Vec3> vertices = a.convex.vertices();
-  std::array<ContactCandidate, ConvexHull::most_vertices> corners;
+  std::array<pairs::ContactCandidate, ConvexHull::most_vertices> corners;
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     const Vec3 position = at_a.center + at_a.axes * vertices[i];
@@ -93,11 +95,11 @@ Manifold collide(const Hull& a, const Placed& at_a, const Plane& b, const Placed
   for (std::size_t i = 0; i < vertices.size(); ++i)
     if (corners[i].gap <= highest) corners[count++] = corners[i];
   const Vec3 leaning = at_a.axes * Vec3(1, 0.61, 0.37);
-  count = reduce_to_four(std::span(corners).first(count), plane.normal, leaning);
+  count = pairs::reduce_to_four(std::span(corners).first(count), plane.normal, leaning);
   for (std::size_t i = 0; i < count; ++i)
     add_point(manifold, corners[i].position - 0.5 * corners[i].gap * plane.normal, -corners[i].gap, corners[i].feature,
               margin);
   return manifold;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

@@ -7,7 +7,9 @@
 #include "collision/polyhedra_separation.h"
 #include "pairs/contact_candidates.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
+
+using shapes::Placed;
 
 namespace {
 
@@ -86,7 +88,7 @@ void clip_onto_face(Manifold& manifold, const Polyhedron& reference, std::uint32
     cut_face(*now, out, out.dot(from), 256 + i, tolerance, *next);
     std::swap(now, next);
   }
-  std::array<ContactCandidate, 2 * ConvexHull::most_vertices> candidates;
+  std::array<pairs::ContactCandidate, 2 * ConvexHull::most_vertices> candidates;
   std::size_t count = 0;
   for (std::size_t i = 0; i < now->count; ++i) {
     const ClipCorner& corner = now->corners[i];
@@ -94,7 +96,7 @@ void clip_onto_face(Manifold& manifold, const Polyhedron& reference, std::uint32
     if (gap <= margin) candidates[count++] = {corner.position, gap, corner.feature};
   }
   const Vec3 first = (reference.vertices[corners[1]] - reference.vertices[corners[0]]).normalized();
-  count = reduce_to_four(std::span(candidates).first(count), normal, first + 0.37 * normal.cross(first));
+  count = pairs::reduce_to_four(std::span(candidates).first(count), normal, first + 0.37 * normal.cross(first));
   for (std::size_t i = 0; i < count; ++i)
     add_point(manifold, candidates[i].position - 0.5 * candidates[i].gap * normal, -candidates[i].gap,
               candidates[i].feature | tag << 28, margin);
@@ -161,4 +163,4 @@ Manifold collide(const Hull& a, const Placed& at_a, const Box& b, const Placed& 
   return to_world(collide_polyhedra(polyhedron(a), other, margin, reach), at_a);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

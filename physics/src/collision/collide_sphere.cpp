@@ -3,7 +3,9 @@
 
 #include "collision/collide_pairs.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
+
+using shapes::Placed;
 
 Manifold collide_balls(const Vec3& center_a, double radius_a, const Vec3& center_b, double radius_b,
                        const Vec3& fallback_normal, std::uint32_t feature, double margin) {
@@ -49,4 +51,4 @@ Manifold collide(const Sphere& a, const Placed& at_a, const Box& b, const Placed
   return manifold;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

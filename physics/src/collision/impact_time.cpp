@@ -9,7 +9,9 @@
 
 #include "step/keyed_step.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
+
+using state::Body;
 
 namespace {
 
@@ -33,9 +35,9 @@ Prediction Course::at(double time) const {
   return prediction;
 }
 
-Course course_of(const Body& body, const Load& load, double dt) {
+Course course_of(const Body& body, const forces::Load& load, double dt) {
   if (body.immovable() || body.asleep) {
-    const KeyedCourse course = body.immovable() ? keyed_course(body, dt) : KeyedCourse{};
+    const step::KeyedCourse course = body.immovable() ? step::keyed_course(body, dt) : step::KeyedCourse{};
     return {&body, course.mean.linear - 0.5 * course.gain.linear, course.mean.angular, course.gain.linear / dt};
   }
   // A drive may be stiff enough to take the body anywhere within the step.
@@ -74,4 +76,4 @@ std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
   return time;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

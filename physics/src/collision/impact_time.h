@@ -4,18 +4,18 @@
 
 #include "forces/free_flight.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 /// Where a body would be some time after the start of a step if nothing touched it.
 struct Prediction {
   Vec3 center;
   Quat rotation;
-  [[nodiscard]] Pose node(const Body& body) const;
+  [[nodiscard]] Pose node(const state::Body& body) const;
 };
 
 /// A body's way through the step: keyed bodies along their displacement, free ones under their load.
 struct Course {
-  const Body* body = nullptr;
+  const state::Body* body = nullptr;
   Vec3 linear{0, 0, 0};
   Vec3 angular{0, 0, 0};
   Vec3 acceleration{0, 0, 0};
@@ -25,7 +25,7 @@ struct Course {
 /// Nearer than this is met, m.
 constexpr double hair = 1e-7;
 
-[[nodiscard]] Course course_of(const Body& body, const Load& load, double dt);
+[[nodiscard]] Course course_of(const state::Body& body, const forces::Load& load, double dt);
 
 /// How fast a surface point can move along any direction because the body spins, m/s. A plane is taken not to spin.
 [[nodiscard]] double swing_speed(const Course& course);
@@ -36,4 +36,4 @@ constexpr double hair = 1e-7;
 /// @return nothing when they do not meet
 [[nodiscard]] std::optional<double> impact_time(const Course& a, const Course& b, double dt);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

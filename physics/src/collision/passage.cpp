@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 namespace {
 
@@ -59,8 +59,8 @@ std::optional<Vec3> face_along(const Passage& passage, const Vec3& normal) {
 
 }  // namespace
 
-Passage passage_of(const Body& body, const Load& load, double dt) {
-  Passage passage{&body, place(body.shape, body.motion.pose), course_of(body, load, dt)};
+Passage passage_of(const state::Body& body, const forces::Load& load, double dt) {
+  Passage passage{&body, shapes::place(body.shape, body.motion.pose), course_of(body, load, dt)};
   passage.spin = passage.course.angular.norm();
   passage.swing = swing_speed(passage.course);
   return passage;
@@ -96,4 +96,4 @@ bool stay_apart(const Passage& a, const Passage& b, const Vec3& direction, doubl
   return gap > 2 * hair + rounding + std::max(0.0, closing) * dt;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

@@ -3,18 +3,18 @@
 #include "collision/impact_time.h"
 #include "shapes/placed.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 /// A body on its way through the step, as all pairs with it look at it.
 struct Passage {
-  const Body* body = nullptr;
-  Placed placed;  ///< at the start
+  const state::Body* body = nullptr;
+  shapes::Placed placed;  ///< at the start
   Course course;
   double spin = 0;   ///< rad/s
   double swing = 0;  ///< how fast its spin moves a point of its surface, m/s
 };
 
-[[nodiscard]] Passage passage_of(const Body& body, const Load& load, double dt);
+[[nodiscard]] Passage passage_of(const state::Body& body, const forces::Load& load, double dt);
 
 /// What told two bodies apart: a direction that turns with one of them. Of two polyhedra it is a face's normal, so that
 /// bodies which it tells apart are apart for `collide` too.
@@ -38,4 +38,4 @@ struct Apart {
 [[nodiscard]] bool stay_apart(const Passage& a, const Passage& b, const Vec3& direction, double gap, double near_enough,
                               double dt);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

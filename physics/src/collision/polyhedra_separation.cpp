@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 namespace {
 
@@ -106,4 +106,4 @@ PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, doub
   return best;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

@@ -2,7 +2,7 @@
 
 #include "collision/polyhedron.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 /// The direction along which two polyhedra are farthest apart, or overlap least.
 struct PolyhedraSeparation {
@@ -19,4 +19,4 @@ struct PolyhedraSeparation {
 /// Source: Gregorius, The Separating Axis Test between Convex Polyhedra, GDC 2013.
 [[nodiscard]] PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, double margin, double reach);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

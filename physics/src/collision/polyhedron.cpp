@@ -1,6 +1,6 @@
 #include "collision/polyhedron.h"
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 namespace {
 
@@ -61,4 +61,4 @@ Polyhedron polyhedron(const Hull& hull) {
   return {&hull.convex, hull.convex.vertices(), hull.convex.faces(), hull.convex.inner_radius()};
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

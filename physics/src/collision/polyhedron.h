@@ -7,7 +7,7 @@
 #include <array>
 #include <span>
 
-namespace tweenfall {
+namespace tweenfall::collision {
 
 /// A polyhedron in some space: the places of its own, the rest of its hull's.
 struct Polyhedron {
@@ -34,4 +34,4 @@ struct PolyhedronRoom {
 /// The hull in its own space.
 [[nodiscard]] Polyhedron polyhedron(const Hull& hull);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::collision

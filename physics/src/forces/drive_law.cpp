@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <numbers>
 
-namespace tweenfall {
+namespace tweenfall::forces {
+
+using state::Body;
 
 DriveLaw drive_law(const Body& body, const Vec3& center, const Quat& rotation, double h, double target_ahead) {
   const double w = 2 * std::numbers::pi * body.drive.hz;
@@ -50,4 +52,4 @@ void pull(Body& body, const Load& load, double dt) {
   body.follow_center(rotation);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forces

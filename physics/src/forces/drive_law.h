@@ -2,7 +2,7 @@
 
 #include "forces/free_flight.h"
 
-namespace tweenfall {
+namespace tweenfall::forces {
 
 /// The pull of a driven body as an implicit change of velocity per unit mass:
 /// v' = (v + gain * wanted) / (1 + stiffness), so that v' is the velocity of a spring and damper taken at the step's
@@ -14,13 +14,13 @@ struct DriveLaw {
 };
 
 /// @param target_ahead  time from the end of this (sub-)step to the target's, s; the target is led back along its twist
-[[nodiscard]] DriveLaw drive_law(const Body& body, const Vec3& center, const Quat& rotation, double h,
+[[nodiscard]] DriveLaw drive_law(const state::Body& body, const Vec3& center, const Quat& rotation, double h,
                                  double target_ahead);
 
 /// Velocity of a driven body at the end of a step in which nothing touches it, and with which it gets there.
-[[nodiscard]] Twist pulled(const Body& body, const Load& load, Integrator integrator, double dt);
+[[nodiscard]] Twist pulled(const state::Body& body, const Load& load, Integrator integrator, double dt);
 
 /// Moves a driven body that nothing touches.
-void pull(Body& body, const Load& load, double dt);
+void pull(state::Body& body, const Load& load, double dt);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forces

@@ -5,9 +5,10 @@
 #include "forces/drive_law.h"
 #include "step/keyed_step.h"
 
-namespace tweenfall {
+namespace tweenfall::forces {
 
-namespace forces {
+using state::Body;
+
 namespace {
 
 bool moves(const Body& body) {
@@ -79,7 +80,6 @@ void add_springiness(const std::vector<Body>& bodies, const Spring& spring, doub
 }
 
 }  // namespace
-}  // namespace forces
 
 const Body* find_body(const std::vector<Body>& bodies, const BodyId& id) {
   if (id.index >= bodies.size()) return nullptr;
@@ -89,15 +89,15 @@ const Body* find_body(const std::vector<Body>& bodies, const BodyId& id) {
 
 void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t> watched,
                   const std::vector<NumberedForce>& forces, const WorldSettings& settings, double time, double dt,
-                  std::vector<Load>& loads, std::vector<SpringRow>& stiff) {
+                  std::vector<Load>& loads, std::vector<step::SpringRow>& stiff) {
   loads.resize(bodies.size());
   stiff.clear();
   for (const std::uint32_t i : watched) {
     const Body& body = bodies[i];
     Load& load = loads[i];
     load = {};
-    if (body.immovable()) load.acceleration = load.end_acceleration = keyed_course(body, dt).gain.linear / dt;
-    if (!forces::moves(body)) continue;
+    if (body.immovable()) load.acceleration = load.end_acceleration = step::keyed_course(body, dt).gain.linear / dt;
+    if (!moves(body)) continue;
     load.acceleration = settings.gravity + body.force / body.mass.mass;
     load.end_acceleration = load.acceleration;
     load.torque = body.torque;
@@ -105,10 +105,10 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     load.angular_damping = body.angular_damping;
   }
   for (const NumberedForce& entry : forces)
-    if (const auto* spring = std::get_if<Spring>(&entry.force)) forces::add_springiness(bodies, *spring, dt, loads);
+    if (const auto* spring = std::get_if<Spring>(&entry.force)) add_springiness(bodies, *spring, dt, loads);
   const auto too_stiff = [&](const Spring& spring, const Body* b) {
-    return loads[spring.a.index].springiness > forces::most_springiness ||
-           (b && loads[spring.b.index].springiness > forces::most_springiness);
+    return loads[spring.a.index].springiness > most_springiness ||
+           (b && loads[spring.b.index].springiness > most_springiness);
   };
   for (const NumberedForce& entry : forces) {
     const auto* spring = std::get_if<Spring>(&entry.force);
@@ -116,7 +116,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     const Body* a = find_body(bodies, spring->a);
     const Body* b = find_body(bodies, spring->b);
     if (!a || (!b && spring->b != BodyId{}) || !too_stiff(*spring, b)) continue;
-    SpringRow row;
+    step::SpringRow row;
     row.a = spring->a.index;
     if (b) row.b = spring->b.index;
     row.local_a = spring->anchor_a - a->mass.center;
@@ -134,7 +134,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
       if (const auto* drag = std::get_if<Drag>(&entry.force)) {
         if (at_end) continue;
         for (const std::uint32_t i : watched) {
-          if (!forces::moves(bodies[i])) continue;
+          if (!moves(bodies[i])) continue;
           const double speed = bodies[i].twist.linear.norm();
           loads[i].drag += (drag->linear + drag->quadratic * speed) / bodies[i].mass.mass;
           loads[i].angular_drag += drag->angular;
@@ -144,13 +144,11 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
         const Body* b = find_body(bodies, spring->b);
         if (!a || (!b && spring->b != BodyId{})) continue;  // an end was removed: the spring hangs loose
         if (too_stiff(*spring, b)) continue;
-        const forces::Glimpse at_a = at_end ? forces::ahead(*a, loads[spring->a.index], dt) : forces::now(*a);
-        const forces::Glimpse at_b = !b       ? forces::Glimpse{}
-                                     : at_end ? forces::ahead(*b, loads[spring->b.index], dt)
-                                              : forces::now(*b);
-        const forces::Pull pull = forces::pull_of(*spring, *a, at_a, b, at_b);
+        const Glimpse at_a = at_end ? ahead(*a, loads[spring->a.index], dt) : now(*a);
+        const Glimpse at_b = !b ? Glimpse{} : at_end ? ahead(*b, loads[spring->b.index], dt) : now(*b);
+        const Pull pull = pull_of(*spring, *a, at_a, b, at_b);
         const auto apply = [&](const Body& body, std::size_t index, const Vec3& force, const Vec3& arm) {
-          if (!forces::moves(body)) return;
+          if (!moves(body)) return;
           Load& load = loads[index];
           (at_end ? load.end_acceleration : load.acceleration) += force / body.mass.mass;
           load.torque += torque_share * arm.cross(force);
@@ -159,8 +157,8 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
         if (b) apply(*b, spring->b.index, -pull.force, pull.arm_b);
       } else if (const auto* field = std::get_if<Field>(&entry.force)) {
         for (const std::uint32_t i : watched) {
-          if (!forces::moves(bodies[i])) continue;
-          const forces::Glimpse at = at_end ? forces::ahead(bodies[i], loads[i], dt) : forces::now(bodies[i]);
+          if (!moves(bodies[i])) continue;
+          const Glimpse at = at_end ? ahead(bodies[i], loads[i], dt) : now(bodies[i]);
           const double mass = bodies[i].mass.mass;
           const Vec3 force = (*field)(mass, at.center, at.linear, at_end ? time + dt : time);
           (at_end ? loads[i].end_acceleration : loads[i].acceleration) += force / mass;
@@ -173,8 +171,8 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     if (settings.integrator == Integrator::exact_quadratic) add(true);
   }
   for (const std::uint32_t i : watched)
-    if (forces::moves(bodies[i]) && bodies[i].drive.owner() == Owner::driven)
+    if (moves(bodies[i]) && bodies[i].drive.owner() == Owner::driven)
       loads[i].pulled = pulled(bodies[i], loads[i], settings.integrator, dt);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forces

@@ -7,7 +7,7 @@
 #include "state/body.h"
 #include "step/spring_row.h"
 
-namespace tweenfall {
+namespace tweenfall::forces {
 
 struct NumberedForce {
   std::size_t number = 0;
@@ -16,11 +16,11 @@ struct NumberedForce {
 
 /// Loads of the watched bodies for a step of length `dt` that starts at `time`; `loads` becomes as long as `bodies`.
 /// Springs that are too stiff for the step go into `stiff` and into no load.
-void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t> watched,
+void gather_loads(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> watched,
                   const std::vector<NumberedForce>& forces, const WorldSettings& settings, double time, double dt,
-                  std::vector<Load>& loads, std::vector<SpringRow>& stiff);
+                  std::vector<Load>& loads, std::vector<step::SpringRow>& stiff);
 
 /// The body of a handle; null when it is gone, or for the world itself.
-[[nodiscard]] const Body* find_body(const std::vector<Body>& bodies, const BodyId& id);
+[[nodiscard]] const state::Body* find_body(const std::vector<state::Body>& bodies, const BodyId& id);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forces

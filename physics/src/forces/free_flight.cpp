@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::forces {
 
-namespace forces {
+using state::Body;
+
 namespace {
 
 /// Inverse of the derivative of the exponential, for rotation vectors in world axes, cut after the second bracket.
@@ -36,7 +37,6 @@ void keep_energy(const Body& body, const Vec3& momentum, double energy, Spin& sp
 }
 
 }  // namespace
-}  // namespace forces
 
 Vec3 bounded_spin(const Mat3& inertia, double most, const Vec3& angular) {
   const double energy = 0.5 * angular.dot(inertia * angular);
@@ -78,18 +78,18 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
     const Vec3 end_momentum = momentum + h * load.torque;
     const Vec3 k1 = body.world_inverse_inertia(spin.rotation) * momentum;
     const Vec3 turn2 = 0.5 * h * k1;
-    const Vec3 k2 = forces::inverse_derivative(turn2, angular_at(turn2, middle_momentum));
+    const Vec3 k2 = inverse_derivative(turn2, angular_at(turn2, middle_momentum));
     const Vec3 turn3 = 0.5 * h * k2;
-    const Vec3 k3 = forces::inverse_derivative(turn3, angular_at(turn3, middle_momentum));
+    const Vec3 k3 = inverse_derivative(turn3, angular_at(turn3, middle_momentum));
     const Vec3 turn4 = h * k3;
-    const Vec3 k4 = forces::inverse_derivative(turn4, angular_at(turn4, end_momentum));
+    const Vec3 k4 = inverse_derivative(turn4, angular_at(turn4, end_momentum));
     const Vec3 turn = h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
     spin.rotation = exp_map(turn) * spin.rotation;
     spin.rotation.normalize();
     momentum = end_momentum;
   }
   spin.angular = body.world_inverse_inertia(spin.rotation) * momentum;
-  if (steady) forces::keep_energy(body, momentum, 0.5 * first.dot(momentum), spin);
+  if (steady) keep_energy(body, momentum, 0.5 * first.dot(momentum), spin);
   return spin;
 }
 
@@ -117,4 +117,4 @@ void fly(Body& body, const Load& load, Integrator integrator, double dt) {
   body.follow_center(spin.rotation);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forces

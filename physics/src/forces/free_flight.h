@@ -2,7 +2,7 @@
 
 #include "state/body.h"
 
-namespace tweenfall {
+namespace tweenfall::forces {
 
 /// What acts on one body during a step, apart from contacts.
 struct Load {
@@ -24,7 +24,7 @@ struct Spin {
 /// Turns a body that nothing touches: the angular momentum in the world changes by torque times time and by nothing
 /// else, and the rotation is carried by the exponential of the mean angular velocity, to fourth order.
 /// Source: Munthe-Kaas, High order Runge-Kutta methods on manifolds, Applied Numerical Mathematics 29, 1999.
-[[nodiscard]] Spin turned(const Body& body, const Spin& start, const Load& load, double dt);
+[[nodiscard]] Spin turned(const state::Body& body, const Spin& start, const Load& load, double dt);
 
 /// An angular velocity, less as much of it as would have more than `most` joules: inertia in world axes turns with its
 /// body, so that a spin which is kept through a great turn may gain energy.
@@ -34,6 +34,6 @@ struct Spin {
 [[nodiscard]] Vec3 accelerated(const Vec3& velocity, const Load& load, Integrator integrator, double dt);
 
 /// Moves a body that nothing touches in the step.
-void fly(Body& body, const Load& load, Integrator integrator, double dt);
+void fly(state::Body& body, const Load& load, Integrator integrator, double dt);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::forces

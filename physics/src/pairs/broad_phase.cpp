@@ -5,9 +5,11 @@
 
 #include "shapes/placed.h"
 
-namespace tweenfall {
+namespace tweenfall::pairs {
 
-namespace pairs {
+using state::Body;
+
+namespace {
 
 /// Room to spare, in parts of a box's smallest side.
 constexpr double spare = 0.05;
@@ -43,7 +45,7 @@ double sides(const Bounds& bounds) {
   return (bounds.high - bounds.low).sum();
 }
 
-}  // namespace pairs
+}  // namespace
 
 void BroadPhase::remove(std::uint32_t index) {
   if (index >= entries_.size()) return;
@@ -62,7 +64,7 @@ void BroadPhase::renew(std::uint32_t index) {
   renewed_.push_back(index);
 }
 
-void BroadPhase::look_at(const Body& body, std::uint32_t index, const Load& load, double margin, double dt) {
+void BroadPhase::look_at(const Body& body, std::uint32_t index, const forces::Load& load, double margin, double dt) {
   const Kind kind = std::isinf(body.radius) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
   if (entries_[index].kind != kind) {
     remove(index);
@@ -74,20 +76,20 @@ void BroadPhase::look_at(const Body& body, std::uint32_t index, const Load& load
   entry.displaces = body.displaces();
   entry.pairs = 0;
   if (kind == Kind::plane) return;
-  entry.swept = pairs::in_space(pairs::swept_bounds(body, load, 0.5 * margin, dt));
-  pairs::BoundsTree& tree = tree_of(kind);
+  entry.swept = in_space(swept_bounds(body, load, 0.5 * margin, dt));
+  BoundsTree& tree = tree_of(kind);
   const bool still = kind == Kind::immovable && !body.has_target;
   const Vec3 travel = pairs::travel(body, load, dt);
   if (tree.has(index)) {
     const Bounds& box = tree.of(index);
-    if (pairs::contains(box, entry.swept)) {
-      const Bounds wanted = pairs::with_room(entry.swept, travel, pairs::longest_foresight);
-      if (pairs::sides(box) <= pairs::outgrown * pairs::sides(wanted)) return;
+    if (contains(box, entry.swept)) {
+      const Bounds wanted = with_room(entry.swept, travel, longest_foresight);
+      if (sides(box) <= outgrown * sides(wanted)) return;
     }
   }
   // Not all for the same number of steps, so that bodies that fall alike do not leave their boxes all at once.
   const int ahead = entry.foresight - static_cast<int>(index % (entry.foresight / 2 + 1u));
-  tree.set(index, still ? entry.swept : pairs::in_space(pairs::with_room(entry.swept, travel, ahead)));
+  tree.set(index, still ? entry.swept : in_space(with_room(entry.swept, travel, ahead)));
   renew(index);
 }
 
@@ -105,16 +107,16 @@ bool BroadPhase::look_around(std::uint32_t index, std::size_t most) {
   const Bounds& box = tree_of(entry.kind).of(index);
   movable_.visit(box, see);
   if (entry.kind == Kind::movable) immovable_.visit(box, see);
-  if (neighbors < pairs::few_neighbors)
-    entry.foresight = std::min<std::uint8_t>(pairs::longest_foresight, static_cast<std::uint8_t>(2 * entry.foresight));
-  else if (neighbors > pairs::many_neighbors)
+  if (neighbors < few_neighbors)
+    entry.foresight = std::min<std::uint8_t>(longest_foresight, static_cast<std::uint8_t>(2 * entry.foresight));
+  else if (neighbors > many_neighbors)
     entry.foresight = std::max<std::uint8_t>(1, entry.foresight / 2);
   return before + neighbors < most;
 }
 
 /// Brings `kept_` up to date, or finds that there are too many.
 void BroadPhase::keep_pairs() {
-  const std::size_t most = 4096 + pairs::kept_in_crowd * movable_.size();
+  const std::size_t most = 4096 + kept_in_crowd * movable_.size();
   fresh_.clear();
   for (const std::uint32_t index : renewed_) {
     const Kind kind = entries_[index].kind;
@@ -137,7 +139,7 @@ void BroadPhase::keep_pairs() {
 
 bool BroadPhase::counts(std::uint32_t a, std::uint32_t b) {
   Entry &first = entries_[a], &second = entries_[b];
-  if (!(first.stirs || second.stirs) || !pairs::overlap(first.swept, second.swept)) return false;
+  if (!(first.stirs || second.stirs) || !overlap(first.swept, second.swept)) return false;
   if (first.kind != Kind::movable || second.kind != Kind::movable) return true;
   if (first.pairs >= most_pairs && second.pairs >= most_pairs) return false;
   ++first.pairs;
@@ -183,7 +185,7 @@ void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std
     const Entry& entry = entries_[index];
     const Shape& shape = bodies[index].shape;
     const auto& plane = std::get<Plane>(shape.solid);
-    const Placed placed = place(shape, bodies[index].motion.pose);
+    const shapes::Placed placed = shapes::place(shape, bodies[index].motion.pose);
     const Vec3 normal = placed.axes * plane.normal;
     const double surface = normal.dot(placed.center) + plane.offset;
     for (const std::uint32_t other : changed) {
@@ -205,7 +207,7 @@ void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std
 }
 
 const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed,
-                                          const std::vector<Load>& loads, double margin, double dt) {
+                                          const std::vector<forces::Load>& loads, double margin, double dt) {
   entries_.resize(std::max(entries_.size(), bodies.size()));
   for (const std::uint32_t index : changed) look_at(bodies[index], index, loads[index], margin, dt);
   movable_.settle();
@@ -215,7 +217,7 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
   if (crowded_) {
     choose_in_crowd(changed);
     // It has thinned out: the next step keeps pairs again, and begins with none.
-    if (pairs_.size() <= pairs::found_in_crowd * movable_.size()) {
+    if (pairs_.size() <= found_in_crowd * movable_.size()) {
       crowded_ = false;
       kept_.clear();
       for (const std::uint32_t index : changed)
@@ -228,4 +230,4 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
   return pairs_;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::pairs

@@ -8,7 +8,7 @@
 #include "pairs/bounds_tree.h"
 #include "pairs/swept_bounds.h"
 
-namespace tweenfall {
+namespace tweenfall::pairs {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< indices, smaller first
 
@@ -24,8 +24,8 @@ class BroadPhase {
   /// @param changed  sorted: all bodies that move by themselves, and all others that were added, moved or handed over,
   /// or had or have a target, since they were last given
   /// @param margin  pairs with a gap up to this count too, m
-  const std::vector<Pair>& find(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed,
-                                const std::vector<Load>& loads, double margin, double dt);
+  const std::vector<Pair>& find(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
+                                const std::vector<forces::Load>& loads, double margin, double dt);
   void remove(std::uint32_t body);
 
  private:
@@ -40,18 +40,18 @@ class BroadPhase {
     std::uint32_t pairs = 0;     ///< found so far
   };
 
-  void look_at(const Body& body, std::uint32_t index, const Load& load, double margin, double dt);
+  void look_at(const state::Body& body, std::uint32_t index, const forces::Load& load, double margin, double dt);
   void renew(std::uint32_t index);
-  pairs::BoundsTree& tree_of(Kind kind) { return kind == Kind::movable ? movable_ : immovable_; }
+  BoundsTree& tree_of(Kind kind) { return kind == Kind::movable ? movable_ : immovable_; }
   void keep_pairs();
   bool look_around(std::uint32_t index, std::size_t most);
   bool counts(std::uint32_t a, std::uint32_t b);
   void choose_among_kept();
   void choose_in_crowd(std::span<const std::uint32_t> changed);
-  void add_planes(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed, double margin);
+  void add_planes(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed, double margin);
 
   std::vector<Entry> entries_;  ///< by body
-  pairs::BoundsTree movable_, immovable_;
+  BoundsTree movable_, immovable_;
   std::vector<std::uint32_t> planes_;
   std::vector<std::uint32_t> renewed_;
   std::vector<Pair> kept_;  ///< whose boxes with room to spare meet, sorted; of no use in a crowd
@@ -61,4 +61,4 @@ class BroadPhase {
   std::vector<Pair> pairs_;
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::pairs

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace tweenfall {
+namespace tweenfall::pairs {
 
 std::size_t reduce_to_four(std::span<ContactCandidate> candidates, const Vec3& normal, const Vec3& leaning) noexcept {
   if (candidates.size() <= 4) return candidates.size();
@@ -28,4 +28,4 @@ std::size_t reduce_to_four(std::span<ContactCandidate> candidates, const Vec3& n
   return count;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::pairs

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace tweenfall {
+namespace tweenfall::pairs {
 
 struct ContactCandidate {
   Vec3 position;  ///< on one of the two surfaces
@@ -23,4 +23,4 @@ struct ContactCandidate {
 [[nodiscard]] std::size_t reduce_to_four(std::span<ContactCandidate> candidates, const Vec3& normal,
                                          const Vec3& leaning) noexcept;
 
-}  // namespace tweenfall
+}  // namespace tweenfall::pairs

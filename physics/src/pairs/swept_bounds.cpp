@@ -5,14 +5,14 @@
 
 namespace tweenfall::pairs {
 
-Vec3 travel(const Body& body, const Load& load, double dt) {
+Vec3 travel(const state::Body& body, const forces::Load& load, double dt) {
   if (body.immovable())
     return body.has_target ? Vec3(body.target.pose.position - body.motion.pose.position) : Vec3(0, 0, 0);
   if (body.asleep) return {0, 0, 0};
   return (body.drive.owner() == Owner::driven ? load.pulled : body.twist).linear * dt;
 }
 
-Bounds swept_bounds(const Body& body, const Load& load, double room, double dt) {
+Bounds swept_bounds(const state::Body& body, const forces::Load& load, double room, double dt) {
   // A ball's shape need not be looked at.
   const bool ball = body.roundness == body.radius && !body.immovable();
   const Vec3 reach = Vec3::Constant(body.radius);

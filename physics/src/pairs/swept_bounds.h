@@ -6,9 +6,9 @@ namespace tweenfall::pairs {
 
 /// The box that a body cannot leave within a step of `dt` when nothing touches it, and `room` around it. Not for
 /// planes.
-[[nodiscard]] Bounds swept_bounds(const Body& body, const Load& load, double room, double dt);
+[[nodiscard]] Bounds swept_bounds(const state::Body& body, const forces::Load& load, double room, double dt);
 
 /// How far it goes meanwhile, for what comes after the step.
-[[nodiscard]] Vec3 travel(const Body& body, const Load& load, double dt);
+[[nodiscard]] Vec3 travel(const state::Body& body, const forces::Load& load, double dt);
 
 }  // namespace tweenfall::pairs

@@ -2,7 +2,7 @@
 
 #include <tweenfall/physics/shape.h>
 
-namespace tweenfall {
+namespace tweenfall::shapes {
 
 /// Where a solid is in the world, ready for arithmetic.
 struct Placed {
@@ -15,4 +15,4 @@ struct Placed {
   return {node.position + node.rotation * shape.offset.position, rotation.toRotationMatrix()};
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::shapes

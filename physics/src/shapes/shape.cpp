@@ -126,7 +126,7 @@ Mat3 inertia_about(const MassProperties& properties, const Vec3& point) noexcept
 }
 
 Bounds bounds(const Shape& shape, const Pose& node) noexcept {
-  const Placed placed = place(shape, node);
+  const shapes::Placed placed = shapes::place(shape, node);
   Vec3 reach = Vec3::Constant(std::numeric_limits<double>::infinity());
   if (const auto* sphere = std::get_if<Sphere>(&shape.solid)) {
     reach = Vec3::Constant(sphere->radius);

@@ -77,7 +77,7 @@ Motion moved_on(const Motion& motion, const Vec3& center, double seconds) {
 
 const Motion& bearable(const StageState& state, const StagedBody& body, const Motion& motion, const char* leader) {
   const auto require = [&](const Vec3& value, const char* does, const char* unit) {
-    if (countable(value)) return;
+    if (state::countable(value)) return;
     const std::string cause = std::string(leader) + " " + does + " " + number_text(value.cwiseAbs().maxCoeff()) + unit +
                               "; a body bears 1e30" + unit;
     throw NodeNotFinite(body.node, (*state.nodes)[body.node].name, NotFinite(body.id, state.time, cause));

@@ -7,6 +7,7 @@
 
 namespace tweenfall {
 
+namespace staging {
 namespace {
 
 void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& recording) {
@@ -70,18 +71,19 @@ void require_tellable(const Stage& stage) {
 }
 
 }  // namespace
+}  // namespace staging
 
 Recording record(Stage& stage, double until, double fps, double most_bytes) {
   if (!(fps > 0) || !std::isfinite(fps))
     throw std::invalid_argument("frames per second must be above 0, not " + number_text(fps));
   if (!std::isfinite(until)) throw std::invalid_argument("a recording needs an end");
-  require_affordable(stage, until, fps, most_bytes);
+  staging::require_affordable(stage, until, fps, most_bytes);
   Recording recording;
   recording.name = stage.description().name;
   std::vector<WorldMotion> world;
   const double start = stage.time();
   stage.advance(0);
-  take_frame(stage, world, recording);
+  staging::take_frame(stage, world, recording);
   for (double frame = 1;; ++frame) {
     double time = start + frame / fps;
     // A last frame closer than this to the end is the end.
@@ -89,8 +91,8 @@ Recording record(Stage& stage, double until, double fps, double most_bytes) {
     if (last) time = std::max(until, stage.time());
     if (last && time <= stage.time()) break;
     stage.advance_to(time);
-    require_tellable(stage);
-    take_frame(stage, world, recording);
+    staging::require_tellable(stage);
+    staging::take_frame(stage, world, recording);
     if (last) break;
   }
   for (NodeRecord& node : recording.nodes) {

@@ -1,6 +1,6 @@
 #include "state/body.h"
 
-namespace tweenfall {
+namespace tweenfall::state {
 
 Mat3 Body::world_inertia(const Quat& rotation) const {
   if (spherical) return mass.inertia;
@@ -27,4 +27,4 @@ void Body::follow_center(const Quat& rotation) {
   motion.twist = shifted(twist, -arm);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::state

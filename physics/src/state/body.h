@@ -4,7 +4,7 @@
 
 #include "state/countable.h"
 
-namespace tweenfall {
+namespace tweenfall::state {
 
 /// Everything the world knows about one body. Plain values: a copy of it steps to the same bits.
 struct Body {
@@ -72,4 +72,4 @@ struct Body {
   return turn * (arm - skin) + skin;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::state

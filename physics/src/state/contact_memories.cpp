@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace tweenfall {
+namespace tweenfall::state {
 
 std::span<const std::uint32_t> ContactMemories::of(std::uint32_t body) {
   if (starts_.empty()) {
@@ -49,4 +49,4 @@ void ContactMemories::keep(std::vector<std::uint32_t>& sorted) {
   starts_.clear();
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::state

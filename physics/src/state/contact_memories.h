@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace tweenfall {
+namespace tweenfall::state {
 
 /// What the next step needs of a contact's point.
 struct PointMemory {
@@ -75,4 +75,4 @@ class ContactMemories {
   std::vector<std::uint32_t> by_body_;
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::state

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace tweenfall {
+namespace tweenfall::state {
 
 /// Numbers that a world takes: their squares, and the squares of those, are far from the ends of what a double holds.
 constexpr double largest = 1e30;
@@ -17,4 +17,4 @@ constexpr double smallest = 1e-30;  ///< of what must be positive
   return countable(value.x()) && countable(value.y()) && countable(value.z());
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::state

@@ -4,6 +4,7 @@
 
 namespace tweenfall {
 
+namespace state {
 namespace {
 
 /// FNV-1a over 64-bit words with a final mix.
@@ -39,14 +40,15 @@ class Hash {
 };
 
 }  // namespace
+}  // namespace state
 
 std::uint64_t World::state_hash() const noexcept {
   if (!implementation_) return 0;
   const Implementation& world = *implementation_;
-  Hash hash;
+  state::Hash hash;
   hash.add(world.time);
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
-    const Body& body = world.bodies[i];
+    const state::Body& body = world.bodies[i];
     if (!body.alive) continue;
     hash.add(std::uint64_t{i} << 32 | body.generation);
     hash.add(body.motion);
@@ -66,7 +68,7 @@ std::uint64_t World::state_hash() const noexcept {
     hash.add(std::uint64_t{body.asleep});
   }
   for (const std::uint32_t place : world.memories.sorted()) {
-    const ContactMemory& memory = world.memories[place];
+    const state::ContactMemory& memory = world.memories[place];
     if (memory.gone) continue;
     hash.add(std::uint64_t{memory.a} << 32 | memory.b);
     hash.add(memory.kept_rolling);
@@ -74,7 +76,7 @@ std::uint64_t World::state_hash() const noexcept {
     hash.add(memory.passed_over);
     hash.add(std::uint64_t{memory.touching});
     for (int i = 0; i < memory.count; ++i) {
-      const PointMemory& point = memory.points[static_cast<std::size_t>(i)];
+      const state::PointMemory& point = memory.points[static_cast<std::size_t>(i)];
       hash.add(std::uint64_t{point.feature});
       hash.add(point.kept_normal);
       hash.add(point.kept_friction);

@@ -14,6 +14,7 @@
 
 namespace tweenfall {
 
+namespace state {
 namespace {
 
 void require(bool holds, const std::string& what) {
@@ -85,14 +86,15 @@ void clear_work(Body& body) {
 }
 
 }  // namespace
+}  // namespace state
 
-Body& World::Implementation::at(BodyId id) {
-  require(id.index < bodies.size() && bodies[id.index].alive && bodies[id.index].generation == id.generation,
-          "there is no body with index " + std::to_string(id.index) + " and generation " +
-              std::to_string(id.generation) + ": it was removed, or belongs to another world");
+state::Body& World::Implementation::at(BodyId id) {
+  state::require(id.index < bodies.size() && bodies[id.index].alive && bodies[id.index].generation == id.generation,
+                 "there is no body with index " + std::to_string(id.index) + " and generation " +
+                     std::to_string(id.generation) + ": it was removed, or belongs to another world");
   return bodies[id.index];
 }
-const Body& World::Implementation::at(BodyId id) const {
+const state::Body& World::Implementation::at(BodyId id) const {
   return const_cast<Implementation*>(this)->at(id);
 }
 
@@ -104,7 +106,7 @@ void World::Implementation::wake(std::uint32_t index) {
 void World::Implementation::drop_contacts(std::uint32_t index) {
   bool seen = false;
   for (const std::uint32_t place : memories.of(index)) {
-    ContactMemory& memory = memories[place];
+    state::ContactMemory& memory = memories[place];
     seen = seen || (memory.touching && !memory.gone);
     memory.gone = true;
   }
@@ -121,7 +123,7 @@ void World::Implementation::note(std::uint32_t index) {
 
 void World::Implementation::wake_neighbors(std::uint32_t index) {
   for (const std::uint32_t place : memories.of(index)) {
-    const ContactMemory& memory = memories[place];
+    const state::ContactMemory& memory = memories[place];
     const std::uint32_t other = memory.a == index ? memory.b : memory.a;
     if (!memory.gone && !bodies[other].immovable()) wake(other);
   }
@@ -129,10 +131,10 @@ void World::Implementation::wake_neighbors(std::uint32_t index) {
 
 void World::Implementation::forget_impulses(std::uint32_t index) {
   for (const std::uint32_t place : memories.of(index)) {
-    ContactMemory& memory = memories[place];
+    state::ContactMemory& memory = memories[place];
     memory.kept_rolling = Vec3::Zero();
     memory.kept_twist = 0;
-    for (PointMemory& point : memory.points) {
+    for (state::PointMemory& point : memory.points) {
       point.kept_normal = 0;
       point.kept_friction = Vec3::Zero();
     }
@@ -140,12 +142,15 @@ void World::Implementation::forget_impulses(std::uint32_t index) {
 }
 
 World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>()) {
-  require_finite(settings.gravity, "gravity");
-  require(settings.iterations > 0, "iterations must be at least 1, but are " + std::to_string(settings.iterations));
-  require(settings.sleep_speed >= 0, "sleep speed must not be negative, but is " + number_text(settings.sleep_speed));
-  require(settings.sleep_after >= 0, "sleep_after must not be negative, but is " + number_text(settings.sleep_after));
-  require(settings.push_out_speed >= 0,
-          "push-out speed must not be negative, but is " + number_text(settings.push_out_speed));
+  state::require_finite(settings.gravity, "gravity");
+  state::require(settings.iterations > 0,
+                 "iterations must be at least 1, but are " + std::to_string(settings.iterations));
+  state::require(settings.sleep_speed >= 0,
+                 "sleep speed must not be negative, but is " + number_text(settings.sleep_speed));
+  state::require(settings.sleep_after >= 0,
+                 "sleep_after must not be negative, but is " + number_text(settings.sleep_after));
+  state::require(settings.push_out_speed >= 0,
+                 "push-out speed must not be negative, but is " + number_text(settings.push_out_speed));
   implementation_->settings = settings;
 }
 World::~World() = default;
@@ -180,27 +185,27 @@ World::Implementation& World::changing() {
 BodyId World::add(const BodySettings& settings) {
   Implementation& world = changing();
   tweenfall::validate(settings.shape.solid);
-  validate(settings.drive);
-  require_amount(settings.friction, "friction");
-  require(settings.restitution >= 0 && settings.restitution <= 1,
-          "restitution must lie in 0 to 1, but is " + number_text(settings.restitution));
-  require_amount(settings.rolling_friction, "rolling friction");
-  require_amount(settings.linear_damping, "linear damping");
-  require_amount(settings.angular_damping, "angular damping");
-  Body body;
+  state::validate(settings.drive);
+  state::require_amount(settings.friction, "friction");
+  state::require(settings.restitution >= 0 && settings.restitution <= 1,
+                 "restitution must lie in 0 to 1, but is " + number_text(settings.restitution));
+  state::require_amount(settings.rolling_friction, "rolling friction");
+  state::require_amount(settings.linear_damping, "linear damping");
+  state::require_amount(settings.angular_damping, "angular damping");
+  state::Body body;
   body.shape = settings.shape;
   const double turn = settings.shape.offset.rotation.norm();
-  require_finite(settings.shape.offset.position, "offset of a shape");
-  require(std::isfinite(turn) && turn > 0, "rotation of a shape must be a quaternion that can be normalized");
+  state::require_finite(settings.shape.offset.position, "offset of a shape");
+  state::require(std::isfinite(turn) && turn > 0, "rotation of a shape must be a quaternion that can be normalized");
   if (std::abs(turn - 1) > 1e-12) body.shape.offset.rotation = normalized(settings.shape.offset.rotation);
   if (std::holds_alternative<Plane>(settings.shape.solid)) {
-    require(settings.fixed || settings.drive.owner() == Owner::keyed,
-            "a body with a plane must be fixed or keyed: it has no mass");
+    state::require(settings.fixed || settings.drive.owner() == Owner::keyed,
+                   "a body with a plane must be fixed or keyed: it has no mass");
     body.mass.center = settings.shape.offset.position;
   } else {
     const double mass = settings.mass ? *settings.mass : settings.density * volume(settings.shape.solid);
-    require(mass >= smallest && mass <= largest,
-            "mass must lie in 1e-30 kg to 1e30 kg, but is " + number_text(mass) + " kg");
+    state::require(mass >= state::smallest && mass <= state::largest,
+                   "mass must lie in 1e-30 kg to 1e30 kg, but is " + number_text(mass) + " kg");
     body.mass = mass_properties(body.shape, mass);
     body.inverse_inertia = body.mass.inertia.inverse();
     const double first = body.mass.inertia(0, 0);
@@ -213,10 +218,11 @@ BodyId World::add(const BodySettings& settings) {
   }
   if (const auto* sphere = std::get_if<Sphere>(&settings.shape.solid)) body.roundness = sphere->radius;
   if (const auto* capsule = std::get_if<Capsule>(&settings.shape.solid)) body.roundness = capsule->radius;
-  body.radius = radius_of(settings.shape.solid);
-  require(body.radius >= smallest && (std::holds_alternative<Plane>(settings.shape.solid) || body.radius <= largest),
-          "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + number_text(body.radius) +
-              " m from its center");
+  body.radius = state::radius_of(settings.shape.solid);
+  state::require(body.radius >= state::smallest &&
+                     (std::holds_alternative<Plane>(settings.shape.solid) || body.radius <= state::largest),
+                 "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + number_text(body.radius) +
+                     " m from its center");
   body.friction = settings.friction;
   body.restitution = settings.restitution;
   body.rolling_friction = settings.rolling_friction;
@@ -224,7 +230,7 @@ BodyId World::add(const BodySettings& settings) {
   body.angular_damping = settings.angular_damping;
   body.fixed = settings.fixed;
   body.drive = settings.drive;
-  body.motion = checked(settings.motion);
+  body.motion = state::checked(settings.motion);
   if (body.fixed) {
     body.motion.twist = {};
     body.motion.scale_rate = Vec3::Zero();
@@ -251,9 +257,9 @@ BodyId World::add(const BodySettings& settings) {
 
 void World::remove(BodyId id) {
   Implementation& world = changing();
-  Body& body = world.at(id);
+  state::Body& body = world.at(id);
   world.wake_neighbors(id.index);
-  for (const NumberedForce& entry : world.forces) {
+  for (const forces::NumberedForce& entry : world.forces) {
     const auto* spring = std::get_if<Spring>(&entry.force);
     if (!spring || (spring->a != id && spring->b != id)) continue;
     for (const BodyId& end : {spring->a, spring->b})
@@ -316,7 +322,7 @@ double World::time() const noexcept {
 
 double World::kinetic_energy() const {
   double sum = 0;
-  for (const Body& body : inside().bodies) {
+  for (const state::Body& body : inside().bodies) {
     if (!body.alive || body.immovable()) continue;
     const Vec3 momentum = body.world_inertia(body.motion.pose.rotation) * body.twist.angular;
     sum += 0.5 * body.mass.mass * body.twist.linear.squaredNorm() + 0.5 * body.twist.angular.dot(momentum);
@@ -326,8 +332,8 @@ double World::kinetic_energy() const {
 
 void World::set_motion(BodyId id, const Motion& motion) {
   Implementation& world = changing();
-  Body& body = world.at(id);
-  const Motion wanted = checked(motion);
+  state::Body& body = world.at(id);
+  const Motion wanted = state::checked(motion);
   world.wake_neighbors(id.index);
   world.wake(id.index);
   world.forget_impulses(id.index);
@@ -346,11 +352,11 @@ void World::set_motion(BodyId id, const Motion& motion) {
 
 void World::set_drive(BodyId id, const Drive& drive) {
   Implementation& world = changing();
-  Body& body = world.at(id);
-  validate(drive);
+  state::Body& body = world.at(id);
+  state::validate(drive);
   if (body.drive == drive) return;
-  require(drive.owner() == Owner::keyed || body.fixed || body.mass.mass > 0,
-          "a body with a plane must stay fixed or keyed: it has no mass");
+  state::require(drive.owner() == Owner::keyed || body.fixed || body.mass.mass > 0,
+                 "a body with a plane must stay fixed or keyed: it has no mass");
   const Owner before = body.drive.owner();
   body.drive = drive;
   if (before == drive.owner() && before != Owner::driven) return;  // only numbers that this owner does not read
@@ -358,7 +364,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
     world.wake(id.index);
     return;
   }
-  clear_work(body);
+  state::clear_work(body);
   world.note(id.index);
   body.target = body.motion;
   body.target.twist = {};
@@ -371,11 +377,12 @@ void World::set_drive(BodyId id, const Drive& drive) {
 
 void World::set_target(BodyId id, const Motion& end_of_step) {
   Implementation& world = changing();
-  Body& body = world.at(id);
-  require(!body.fixed, "a fixed body takes no target: it never moves");
-  require(body.drive.owner() != Owner::free, "a free body takes no target: only keyed and driven bodies have one");
+  state::Body& body = world.at(id);
+  state::require(!body.fixed, "a fixed body takes no target: it never moves");
+  state::require(body.drive.owner() != Owner::free,
+                 "a free body takes no target: only keyed and driven bodies have one");
   const Pose before = body.target.pose;
-  body.target = checked(end_of_step);
+  body.target = state::checked(end_of_step);
   body.has_target = true;
   world.note(id.index);
   if (body.drive.owner() != Owner::driven) return;
@@ -387,9 +394,9 @@ void World::set_target(BodyId id, const Motion& end_of_step) {
 
 void World::apply_force(BodyId id, const Vec3& force, const Vec3& point) {
   Implementation& world = changing();
-  Body& body = world.at(id);
-  require_finite(force, "force");
-  require_finite(point, "point");
+  state::Body& body = world.at(id);
+  state::require_finite(force, "force");
+  state::require_finite(point, "point");
   if (body.immovable()) return;
   world.wake(id.index);
   body.force += force;
@@ -398,8 +405,8 @@ void World::apply_force(BodyId id, const Vec3& force, const Vec3& point) {
 
 void World::apply_torque(BodyId id, const Vec3& torque) {
   Implementation& world = changing();
-  Body& body = world.at(id);
-  require_finite(torque, "torque");
+  state::Body& body = world.at(id);
+  state::require_finite(torque, "torque");
   if (body.immovable()) return;
   world.wake(id.index);
   body.torque += torque;
@@ -407,16 +414,17 @@ void World::apply_torque(BodyId id, const Vec3& torque) {
 
 void World::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {
   Implementation& world = changing();
-  Body& body = world.at(id);
-  require_finite(impulse, "impulse");
-  require_finite(point, "point");
+  state::Body& body = world.at(id);
+  state::require_finite(impulse, "impulse");
+  state::require_finite(point, "point");
   if (body.immovable()) return;
   Twist twist = body.twist;
   twist.linear += impulse / body.mass.mass;
   twist.angular += body.world_inverse_inertia(body.motion.pose.rotation) * (point - body.center).cross(impulse);
   const Twist at_origin = shifted(twist, body.motion.pose.position - body.center);
-  require(countable(twist.linear) && countable(twist.angular) && countable(at_origin.linear),
-          "the impulse would make the body faster than 1e30 m/s or rad/s");
+  state::require(
+      state::countable(twist.linear) && state::countable(twist.angular) && state::countable(at_origin.linear),
+      "the impulse would make the body faster than 1e30 m/s or rad/s");
   world.wake(id.index);
   body.twist = twist;
   body.motion.twist = at_origin;
@@ -430,7 +438,7 @@ void World::wake(BodyId id) {
 
 std::size_t World::add_force(Force force) {
   Implementation& world = changing();
-  validate(force);
+  state::validate(force);
   if (const auto* spring = std::get_if<Spring>(&force)) {
     world.at(spring->a);
     if (spring->b != BodyId{}) world.at(spring->b);
@@ -447,14 +455,15 @@ std::size_t World::add_force(Force force) {
 
 void World::remove_force(std::size_t number) {
   Implementation& world = changing();
-  const std::size_t erased = std::erase_if(world.forces, [&](const NumberedForce& f) { return f.number == number; });
-  require(erased == 1, "there is no force number " + std::to_string(number));
+  const std::size_t erased =
+      std::erase_if(world.forces, [&](const forces::NumberedForce& f) { return f.number == number; });
+  state::require(erased == 1, "there is no force number " + std::to_string(number));
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
     if (world.bodies[i].alive) world.wake(i);
 }
 
 void World::step(double dt) {
-  require(dt > 0 && std::isfinite(dt), "a step must be positive and finite, but is " + number_text(dt) + " s");
+  state::require(dt > 0 && std::isfinite(dt), "a step must be positive and finite, but is " + number_text(dt) + " s");
   changing().step(dt);
 }
 

@@ -2,7 +2,7 @@
 
 #include "state/contact_memories.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 
 /// One point of a contact through a step.
 struct PointConstraint {
@@ -26,9 +26,9 @@ struct PointConstraint {
 };
 
 /// A pair in contact through a step.
-struct ContactConstraint : KeptImpulses {
-  std::uint32_t a = 0, b = 0;                       ///< indices of the bodies, a < b
-  std::uint32_t memory = ContactMemories::nowhere;  ///< where it is remembered, when it was there before
+struct ContactConstraint : state::KeptImpulses {
+  std::uint32_t a = 0, b = 0;                              ///< indices of the bodies, a < b
+  std::uint32_t memory = state::ContactMemories::nowhere;  ///< where it is remembered, when it was there before
   Manifold manifold;
   std::array<PointConstraint, 4> points{};
   int count = 0;
@@ -43,4 +43,4 @@ struct ContactConstraint : KeptImpulses {
   double impact_time = 0;  ///< s after the start of the step
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

@@ -9,6 +9,7 @@
 
 namespace tweenfall {
 
+namespace step {
 namespace {
 
 /// Gaps up to this are contacts from the start of the step, m; wider ones only when the bodies meet within it.
@@ -17,8 +18,8 @@ constexpr double near_enough = 2e-3;
 constexpr std::uint32_t most_contacts = 32;
 
 /// The points of a manifold as constraints, told about the bodies' places at the start of the step.
-void adopt(ContactConstraint& constraint, const Body& a, const Prediction& at_a, const Body& b,
-           const Prediction& at_b) {
+void adopt(ContactConstraint& constraint, const state::Body& a, const collision::Prediction& at_a, const state::Body& b,
+           const collision::Prediction& at_b) {
   const Quat back_a = a.motion.pose.rotation * at_a.rotation.conjugate();
   const Quat back_b = b.motion.pose.rotation * at_b.rotation.conjugate();
   const Manifold& manifold = constraint.manifold;
@@ -32,15 +33,15 @@ void adopt(ContactConstraint& constraint, const Body& a, const Prediction& at_a,
     point.start_arm_b = from.position - at_b.center;
     point.start_gap = -from.penetration;
     if (constraint.impact_time == 0) continue;
-    point.start_arm_a = carried(back_a, point.start_arm_a, a.roundness * manifold.normal);
-    point.start_arm_b = carried(back_b, point.start_arm_b, -b.roundness * manifold.normal);
+    point.start_arm_a = state::carried(back_a, point.start_arm_a, a.roundness * manifold.normal);
+    point.start_arm_b = state::carried(back_b, point.start_arm_b, -b.roundness * manifold.normal);
     point.start_gap += manifold.normal.dot((b.center + point.start_arm_b) - (a.center + point.start_arm_a));
   }
 }
 
 /// Hands the impulses of the step before on: to points of the same features, then to what is left nearby.
-void inherit(ContactConstraint& constraint, const ContactMemory& old, double nearby) {
-  static_cast<KeptImpulses&>(constraint) = old;
+void inherit(ContactConstraint& constraint, const state::ContactMemory& old, double nearby) {
+  static_cast<state::KeptImpulses&>(constraint) = old;
   std::array<bool, 4> given{}, taken{};
   const auto hand_on = [&](std::size_t from, std::size_t to) {
     constraint.points[to].kept_normal = old.points[from].kept_normal;
@@ -67,29 +68,32 @@ void inherit(ContactConstraint& constraint, const ContactMemory& old, double nea
 }
 
 }  // namespace
+}  // namespace step
 
-bool World::Implementation::find_manifold(ContactConstraint& constraint, const Body& a, const Body& b,
-                                          const Passage& way_a, const Passage& way_b, double dt) {
+bool World::Implementation::find_manifold(step::ContactConstraint& constraint, const state::Body& a,
+                                          const state::Body& b, const collision::Passage& way_a,
+                                          const collision::Passage& way_b, double dt) {
   const double swing = way_a.swing + way_b.swing;
-  const double reach = near_enough + (swing * dt > near_enough ? swing * dt : 0);
-  const Manifold manifold = collide(a.shape, way_a.placed, b.shape, way_b.placed, near_enough, reach);
+  const double reach = step::near_enough + (swing * dt > step::near_enough ? swing * dt : 0);
+  const Manifold manifold = collision::collide(a.shape, way_a.placed, b.shape, way_b.placed, step::near_enough, reach);
   if (manifold.count > 0) {
     constraint.manifold = manifold;
-    adopt(constraint, a, {a.center, a.motion.pose.rotation}, b, {b.center, b.motion.pose.rotation});
+    step::adopt(constraint, a, {a.center, a.motion.pose.rotation}, b, {b.center, b.motion.pose.rotation});
   } else {
-    const Apart apart = apart_along(way_a, way_b, manifold.normal);
-    if (apart.frame != Apart::Frame::none) aparts.emplace_back(Pair(constraint.a, constraint.b), apart);
-    const double gap = gap_along(way_a, way_b, manifold.normal);
-    if (stay_apart(way_a, way_b, manifold.normal, gap, near_enough, dt)) return false;
-    const std::optional<double> meeting = impact_time(way_a.course, way_b.course, dt);
+    const collision::Apart apart = collision::apart_along(way_a, way_b, manifold.normal);
+    if (apart.frame != collision::Apart::Frame::none)
+      aparts.emplace_back(pairs::Pair(constraint.a, constraint.b), apart);
+    const double gap = collision::gap_along(way_a, way_b, manifold.normal);
+    if (collision::stay_apart(way_a, way_b, manifold.normal, gap, step::near_enough, dt)) return false;
+    const std::optional<double> meeting = collision::impact_time(way_a.course, way_b.course, dt);
     if (!meeting) return false;
     constraint.impact_time = *meeting;
-    const Prediction at_a = way_a.course.at(*meeting);
-    const Prediction at_b = way_b.course.at(*meeting);
+    const collision::Prediction at_a = way_a.course.at(*meeting);
+    const collision::Prediction at_b = way_b.course.at(*meeting);
     // What a spin brings down in what is left of the step, too.
-    const double rest = near_enough + swing * (dt - *meeting);
+    const double rest = step::near_enough + swing * (dt - *meeting);
     constraint.manifold = collide(a.shape, at_a.node(a), b.shape, at_b.node(b), rest);
-    adopt(constraint, a, at_a, b, at_b);
+    step::adopt(constraint, a, at_a, b, at_b);
   }
   return constraint.count > 0 && constraint.manifold.normal.allFinite();
 }
@@ -98,52 +102,54 @@ void World::Implementation::find_constraints(double dt) {
   active.clear();
   retained.clear();
   memories.tidy();
-  const std::vector<Pair>& pairs = broad_phase.find(bodies, watched, loads, near_enough, dt);
+  const std::vector<pairs::Pair>& pairs = broad_phase.find(bodies, watched, loads, step::near_enough, dt);
   contact_counts.assign(bodies.size(), 0);
   const std::span<const std::uint32_t> remembered_before = memories.sorted();
   std::size_t next = 0;
   /// The memory of a pair, if there is one; of those before it, which are near nothing that stirs, all is kept.
-  const auto memory_of = [&](const Pair& pair) {
+  const auto memory_of = [&](const pairs::Pair& pair) {
     for (; next < remembered_before.size(); ++next) {
-      const ContactMemory& memory = memories[remembered_before[next]];
-      const Pair its(memory.a, memory.b);
+      const state::ContactMemory& memory = memories[remembered_before[next]];
+      const pairs::Pair its(memory.a, memory.b);
       if (its > pair) break;
       if (its == pair) return remembered_before[next++];
       if (!bodies[memory.a].stirs() && !bodies[memory.b].stirs()) retained.push_back(remembered_before[next]);
     }
-    return ContactMemories::nowhere;
+    return state::ContactMemories::nowhere;
   };
   ++look;
   passages.resize(bodies.size());
   looked_at.resize(bodies.size(), 0);
-  const auto passage_at = [&](std::uint32_t index) -> const Passage& {
-    if (looked_at[index] != look) passages[index] = passage_of(bodies[index], loads[index], dt);
+  const auto passage_at = [&](std::uint32_t index) -> const collision::Passage& {
+    if (looked_at[index] != look) passages[index] = collision::passage_of(bodies[index], loads[index], dt);
     looked_at[index] = look;
     return passages[index];
   };
   std::swap(aparts, aparts_before);
   aparts.clear();
   std::size_t next_apart = 0;
-  for (const Pair& pair : pairs) {
+  for (const pairs::Pair& pair : pairs) {
     const std::uint32_t memory = memory_of(pair);
     const auto [index_a, index_b] = pair;
-    const Body& a = bodies[index_a];
-    const Body& b = bodies[index_b];
-    const bool crowded = contact_counts[index_a] >= most_contacts && contact_counts[index_b] >= most_contacts;
+    const state::Body& a = bodies[index_a];
+    const state::Body& b = bodies[index_b];
+    const bool crowded =
+        contact_counts[index_a] >= step::most_contacts && contact_counts[index_b] >= step::most_contacts;
     if (crowded && !a.immovable() && !b.immovable()) continue;
-    const Passage& way_a = passage_at(index_a);
-    const Passage& way_b = passage_at(index_b);
+    const collision::Passage& way_a = passage_at(index_a);
+    const collision::Passage& way_b = passage_at(index_b);
     while (next_apart < aparts_before.size() && aparts_before[next_apart].first < pair) ++next_apart;
     if (next_apart < aparts_before.size() && aparts_before[next_apart].first == pair) {
-      const Apart& apart = aparts_before[next_apart].second;
+      const collision::Apart& apart = aparts_before[next_apart].second;
       const Vec3 direction = apart.in_world(way_a, way_b);
-      if (stay_apart(way_a, way_b, direction, gap_along(way_a, way_b, direction), near_enough, dt)) {
+      if (collision::stay_apart(way_a, way_b, direction, collision::gap_along(way_a, way_b, direction),
+                                step::near_enough, dt)) {
         aparts.push_back(aparts_before[next_apart]);
         continue;
       }
     }
-    const bool known = memory != ContactMemories::nowhere;
-    ContactConstraint& constraint = active.emplace_back();
+    const bool known = memory != state::ContactMemories::nowhere;
+    step::ContactConstraint& constraint = active.emplace_back();
     constraint.a = index_a;
     constraint.b = index_b;
     constraint.memory = memory;
@@ -157,11 +163,11 @@ void World::Implementation::find_constraints(double dt) {
     constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
     constraint.began = !(known && memories[memory].touching);
     if (known) {
-      inherit(constraint, memories[memory], 0.05 * std::min(a.radius, b.radius));
+      step::inherit(constraint, memories[memory], 0.05 * std::min(a.radius, b.radius));
       if (!kept)
         memories[memory].found = constraint.impact_time == 0 && step::keeps_manifold(a, b)
                                      ? step::found_manifold(constraint, a, b)
-                                     : FoundManifold{};
+                                     : state::FoundManifold{};
     }
     ++contact_counts[index_a];
     ++contact_counts[index_b];

@@ -8,9 +8,10 @@
 namespace tweenfall {
 
 namespace step {
+namespace {
 
 /// What most likely threw a body: the greatest of what it had and of what acted on it.
-std::string cause_of(const Twist& before, const Load& load, bool touched, double dt) {
+std::string cause_of(const Twist& before, const forces::Load& load, bool touched, double dt) {
   const double speed = before.linear.norm(), spin = before.angular.norm();
   const double gain = load.acceleration.norm() * dt, torque = load.torque.norm();
   if (gain > 1e6 && gain > speed) return "forces accelerate it by " + number_text(load.acceleration.norm()) + " m/s^2";
@@ -20,6 +21,7 @@ std::string cause_of(const Twist& before, const Load& load, bool touched, double
   return touched ? "its contacts throw it" : "the step of " + number_text(dt) + " s is too long for what acts on it";
 }
 
+}  // namespace
 }  // namespace step
 
 NotFinite::NotFinite(BodyId which, double when, const std::string& why)
@@ -44,9 +46,9 @@ void World::Implementation::check_bodies(double dt, double at) const {
 
 void World::Implementation::check_loads(double at) const {
   for (const std::uint32_t i : watched) {
-    const Load& load = loads[i];
-    if (countable(load.acceleration) && countable(load.end_acceleration) && countable(load.torque) &&
-        std::isfinite(load.drag))
+    const forces::Load& load = loads[i];
+    if (state::countable(load.acceleration) && state::countable(load.end_acceleration) &&
+        state::countable(load.torque) && std::isfinite(load.drag))
       continue;
     throw NotFinite({i, bodies[i].generation}, at,
                     "a spring, a field or a force accelerates it by more than 1e30 m/s^2");

@@ -5,6 +5,9 @@
 
 namespace tweenfall::step {
 
+using state::Body;
+using state::FoundManifold;
+
 namespace {
 
 /// Parts of the smaller body's radius by which the bodies may have moved against each other.
@@ -33,7 +36,7 @@ FoundManifold found_manifold(const ContactConstraint& contact, const Body& a, co
   return found;
 }
 
-bool take_up(const ContactMemory& memory, const Body& a, const Body& b, double swing, double dt,
+bool take_up(const state::ContactMemory& memory, const Body& a, const Body& b, double swing, double dt,
              ContactConstraint& contact) {
   const FoundManifold& found = memory.found;
   if (!found.holds || !memory.touching || a.placed || b.placed) return false;

@@ -6,15 +6,16 @@
 namespace tweenfall::step {
 
 /// Whether a pair's manifold is worth keeping: between flat faces it costs most, and there its points would wander.
-[[nodiscard]] bool keeps_manifold(const Body& a, const Body& b);
+[[nodiscard]] bool keeps_manifold(const state::Body& a, const state::Body& b);
 
 /// Notes a manifold that was just found at the start of a step.
-[[nodiscard]] FoundManifold found_manifold(const ContactConstraint& contact, const Body& a, const Body& b);
+[[nodiscard]] state::FoundManifold found_manifold(const ContactConstraint& contact, const state::Body& a,
+                                                  const state::Body& b);
 
 /// Takes the remembered manifold up again, told about where the bodies are now.
 /// @param swing  how fast points of the surfaces move because the bodies spin, m/s
 /// @return false when they have moved against each other by too much since it was found
-[[nodiscard]] bool take_up(const ContactMemory& memory, const Body& a, const Body& b, double swing, double dt,
-                           ContactConstraint& contact);
+[[nodiscard]] bool take_up(const state::ContactMemory& memory, const state::Body& a, const state::Body& b, double swing,
+                           double dt, ContactConstraint& contact);
 
 }  // namespace tweenfall::step

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace tweenfall {
+namespace tweenfall::step {
 
-const std::vector<IslandContents>& IslandSorter::sort(const std::vector<Body>& bodies, Islands& islands,
+const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::Body>& bodies, Islands& islands,
                                                       std::vector<ContactConstraint>& contacts,
                                                       std::vector<SpringRow>& springs) {
   const auto island_of = [&](std::uint32_t a, std::uint32_t b) {
@@ -43,4 +43,4 @@ const std::vector<IslandContents>& IslandSorter::sort(const std::vector<Body>& b
   return islands_;
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

@@ -8,7 +8,7 @@
 #include "step/islands.h"
 #include "step/spring_row.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 
 /// What holds the bodies of one island together. Islands share only bodies that nothing moves, so that what one does
 /// depends on no other.
@@ -21,7 +21,7 @@ struct IslandContents {
 class IslandSorter {
  public:
   /// By the smallest index of a movable body; what is returned refers to the arguments and to this.
-  const std::vector<IslandContents>& sort(const std::vector<Body>& bodies, Islands& islands,
+  const std::vector<IslandContents>& sort(const std::vector<state::Body>& bodies, Islands& islands,
                                           std::vector<ContactConstraint>& contacts, std::vector<SpringRow>& springs);
 
  private:
@@ -34,4 +34,4 @@ class IslandSorter {
   std::vector<IslandContents> islands_;
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

@@ -9,13 +9,13 @@ namespace tweenfall::step {
 
 namespace {
 
-Mat3 inertia_of(const Body& body, const Quat& rotation) {
+Mat3 inertia_of(const state::Body& body, const Quat& rotation) {
   return body.spherical ? body.mass.inertia : body.world_inertia(rotation);
 }
 
 }  // namespace
 
-void IslandEnergy::add(const Body& body, const Load& load, const BodyCourse& course) {
+void IslandEnergy::add(const state::Body& body, const forces::Load& load, const BodyCourse& course) {
   const double mass = body.mass.mass;
   const Vec3 force = 0.5 * mass * (load.acceleration + load.end_acceleration);
   limit += 0.5 * mass * course.start.linear.squaredNorm() +

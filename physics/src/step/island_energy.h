@@ -16,7 +16,7 @@ struct IslandEnergy {
   double limit = 0;                              ///< what it may have after: what it had, and the work done on it
   double without = 0, slope = 0, curvature = 0;  ///< kinetic, by the share of the rebound that is let through
 
-  void add(const Body& body, const Load& load, const BodyCourse& course);
+  void add(const state::Body& body, const forces::Load& load, const BodyCourse& course);
   /// Of a body with the same moment about every axis: `work` was done on it, J.
   void add(double mass, double moment, const Twist& start, const Twist& before, const Twist& after, double work);
   /// The greatest share of the rebound that stays within the limit.

@@ -2,7 +2,7 @@
 
 #include <tweenfall/curves/rotation.h>
 
-namespace tweenfall {
+namespace tweenfall::step {
 
 namespace {
 
@@ -12,11 +12,11 @@ constexpr double evenness = 0.1;
 constexpr double slight = 0.01;
 /// A rate of displacement that is uncertain by more than this, m/s or rad/s, is rounding and no rate.
 constexpr double certain = 1e-6;
-constexpr double rounding = 4e-16;
+constexpr double path_rounding = 4e-16;
 
 /// One half of a course, from the displacement and the path's own velocities.
 void fit(const Vec3& displacement, const Vec3& start, const Vec3& end, double size, double dt, Vec3& mean, Vec3& gain) {
-  if (rounding * size > certain * dt) {
+  if (path_rounding * size > certain * dt) {
     mean = end;
     return;
   }
@@ -29,7 +29,7 @@ void fit(const Vec3& displacement, const Vec3& start, const Vec3& end, double si
 
 }  // namespace
 
-KeyedCourse keyed_course(const Body& body, double dt) {
+KeyedCourse keyed_course(const state::Body& body, double dt) {
   KeyedCourse course;
   if (body.fixed || !body.has_target) return course;
   const Vec3 arm = body.target.pose.rotation * body.mass.center;
@@ -42,7 +42,7 @@ KeyedCourse keyed_course(const Body& body, double dt) {
   return course;
 }
 
-void arrive(Body& body) {
+void arrive(state::Body& body) {
   if (body.fixed) return;
   if (body.has_target) {
     body.motion = body.target;
@@ -56,4 +56,4 @@ void arrive(Body& body) {
   body.follow_motion();
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

@@ -2,7 +2,7 @@
 
 #include "state/body.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 
 /// How an immovable body gets through a step: its velocity, at the center of mass, changes evenly about the mean.
 struct KeyedCourse {
@@ -12,9 +12,9 @@ struct KeyedCourse {
 
 /// What contacts feel of an immovable body. Nothing moves without a target. Where the velocities that the path tells of
 /// do not belong to the displacement (a caller that gives none, a corner of the path), the mean is kept throughout.
-[[nodiscard]] KeyedCourse keyed_course(const Body& body, double dt);
+[[nodiscard]] KeyedCourse keyed_course(const state::Body& body, double dt);
 
 /// Ends the step of a keyed body: exactly on its target with the target's own twist, or at rest where it is.
-void arrive(Body& body);
+void arrive(state::Body& body);
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

@@ -20,7 +20,7 @@ struct Closing {
   double pull, tremble;
 };
 
-[[nodiscard]] Closing closing_of(const Vec3& normal, const Load& a, const Load& b, double dt);
+[[nodiscard]] Closing closing_of(const Vec3& normal, const forces::Load& a, const forces::Load& b, double dt);
 
 /// Prepares the points of a contact for a step and tells whether some meet fast enough to be an impact.
 /// @param a  velocity of the first body at the start of the step

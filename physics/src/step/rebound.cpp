@@ -8,9 +8,9 @@
 #include "step/island_energy.h"
 #include "step/solver.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 
-using step::point_velocity;
+using state::Body;
 
 namespace {
 
@@ -34,7 +34,7 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t index = backward ? count - 1 - n : n;
     ContactConstraint& constraint = *contacts[index];
-    const step::PointRows* rows = &rows_[4 * index];
+    const PointRows* rows = &rows_[4 * index];
     SolverBody& a = at(constraint.a);
     SolverBody& b = at(constraint.b);
     // Only what the rebound reaches.
@@ -44,10 +44,10 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
     for (int i = 0; i < constraint.count; ++i) {
       PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       if (constraint.friction > 0 && constraint.impact)
-        change = std::max(change, step::solve_friction(a, b, rows[i], point.friction_impulse,
-                                                       constraint.friction * point.normal_impulse));
+        change = std::max(
+            change, solve_friction(a, b, rows[i], point.friction_impulse, constraint.friction * point.normal_impulse));
       if (point.normal_impulse == 0 && point.gap > 0) continue;
-      change = std::max(change, step::solve_normal(a, b, rows[i], point.normal_impulse, point.rebound, normal));
+      change = std::max(change, solve_normal(a, b, rows[i], point.normal_impulse, point.rebound, normal));
     }
     if (change > quiet) {
       a.stirred = a.movable;
@@ -59,7 +59,7 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
 }
 
 /// The rebound began inside the sub-step: what is left of it, it moved the bodies.
-void Solver::move_by_rebound(const ContactConstraint& constraint, const step::PointRows* rows) {
+void Solver::move_by_rebound(const ContactConstraint& constraint, const PointRows* rows) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
   for (int i = 0; i < constraint.count; ++i) {
@@ -89,8 +89,8 @@ void Solver::move_by_rebound(const ContactConstraint& constraint, const step::Po
 }
 
 /// Takes back as much of the rebound as would leave the island more energy than it had and than was put into it.
-void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts) {
-  step::IslandEnergy energy;
+void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts) {
+  IslandEnergy energy;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const SolverBody& entry = bodies_[i];
     if (!entry.movable) continue;
@@ -98,7 +98,7 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Loa
     const SubStepStart& start = starts_[i];
     // The work of a drive or a stiff spring is not known: the island is left as it is.
     if (entry.sprung || body.drive.owner() == Owner::driven) return;
-    step::BodyCourse course;
+    BodyCourse course;
     course.start = {start.linear, start.angular};
     course.start_center = start.center;
     course.start_rotation = start.rotation;
@@ -138,7 +138,8 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<Loa
     }
 }
 
-void Solver::rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, int passes) {
+void Solver::rebound(const std::vector<Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts,
+                     int passes) {
   const bool any = std::any_of(contacts.begin(), contacts.end(), rebounds);
   for (ContactConstraint* contact : contacts) contact->rebounds = any;
   if (!any) return;
@@ -167,4 +168,4 @@ void Solver::rebound(const std::vector<Body>& bodies, const std::vector<Load>& l
   bound_energy(bodies, loads, contacts);
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

@@ -7,6 +7,7 @@
 namespace tweenfall {
 
 namespace step {
+namespace {
 
 /// A driven body is never quite still while it nears its target: parts of the speed below which others are.
 constexpr double driven_share = 1e-3;
@@ -16,17 +17,18 @@ constexpr double pulling_share = 0.1;
 constexpr double rounding = 1e-14;
 
 /// Whether a body is slow and has hardly moved: what is taken out of an overlap moves without a speed.
-bool still(const Body& body, const Start& start, double speed, double dt) {
+bool still(const state::Body& body, const state::Start& start, double speed, double dt) {
   if (!(body.twist.linear.norm() < speed && body.twist.angular.norm() * body.radius < speed)) return false;
   const double turn = 2 * (body.motion.pose.rotation * start.rotation.conjugate()).vec().norm();
   return (body.center - start.center).norm() <= speed * dt + rounding * body.center.norm() &&
          turn * body.radius <= speed * dt + rounding * body.radius;
 }
 
+}  // namespace
 }  // namespace step
 
 void World::Implementation::wake_by_fields() {
-  for (const NumberedForce& entry : forces) {
+  for (const forces::NumberedForce& entry : forces) {
     if (!std::holds_alternative<Field>(entry.force)) continue;
     for (const std::uint32_t i : watched) wake(i);
     return;
@@ -38,11 +40,11 @@ bool World::Implementation::wake_islands() {
   flags.assign(bodies.size(), 0);
   carried.assign(bodies.size(), 0);
   const auto each_link = [&](const auto& visit) {
-    for (const ContactConstraint& constraint : active) visit(constraint.a, constraint.b);
+    for (const step::ContactConstraint& constraint : active) visit(constraint.a, constraint.b);
     for (const std::uint32_t place : retained) visit(memories[place].a, memories[place].b);
-    for (const NumberedForce& entry : forces) {
+    for (const forces::NumberedForce& entry : forces) {
       const auto* spring = std::get_if<Spring>(&entry.force);
-      if (spring && find_body(bodies, spring->a) && find_body(bodies, spring->b))
+      if (spring && forces::find_body(bodies, spring->a) && forces::find_body(bodies, spring->b))
         visit(spring->a.index, spring->b.index);
     }
   };
@@ -52,7 +54,7 @@ bool World::Implementation::wake_islands() {
   if (!sleepers.empty())
     for (const std::uint32_t i : watched)
       if (!bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
-  const auto disturb = [&](const Body& by, std::uint32_t other) {
+  const auto disturb = [&](const state::Body& by, std::uint32_t other) {
     if (!by.immovable() || bodies[other].immovable() || !by.stirs()) return;
     flags[islands.of(other)] = 1;
     if (by.displaces()) carried[islands.of(other)] = 1;
@@ -73,18 +75,18 @@ bool World::Implementation::wake_islands() {
 void World::Implementation::let_sleep(double dt) {
   // Whom a spring pulls may start slowly.
   flags.assign(bodies.size(), 0);
-  for (const NumberedForce& entry : forces) {
+  for (const forces::NumberedForce& entry : forces) {
     const auto* spring = std::get_if<Spring>(&entry.force);
     if (!spring) continue;
     for (const BodyId& end : {spring->a, spring->b})
-      if (find_body(bodies, end)) flags[end.index] = 1;
+      if (forces::find_body(bodies, end)) flags[end.index] = 1;
   }
   // Per island the shortest stillness counts.
   stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
   drowsy.clear();
   failed = false;
   for (const std::uint32_t i : watched) {
-    Body& body = bodies[i];
+    state::Body& body = bodies[i];
     failed = failed || !body.finite();
     if (body.immovable()) continue;
     if (!body.asleep) {
@@ -102,7 +104,7 @@ void World::Implementation::let_sleep(double dt) {
     if (!body.asleep && body.still_for >= settings.sleep_after) drowsy.push_back(i);
   }
   for (const std::uint32_t i : drowsy) {
-    Body& body = bodies[i];
+    state::Body& body = bodies[i];
     if (!(stillness[islands.of(i)] >= settings.sleep_after)) continue;
     body.asleep = true;
     body.twist = {};

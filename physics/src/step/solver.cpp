@@ -10,11 +10,10 @@
 #include "step/contact_rows.h"
 #include "step/meeting.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 
-using step::point_velocity;
-using step::push;
-using step::Softness;
+using forces::Load;
+using state::Body;
 
 namespace {
 
@@ -89,13 +88,13 @@ void Solver::meet(const std::vector<Load>& loads, ContactConstraint& constraint,
   const Vec3& normal = constraint.manifold.normal;
   // Forces change the velocity of the center on the way, and a spin changes by itself: what is left of it counts.
   const Vec3 linear = starts_[slots_[constraint.a]].linear - starts_[slots_[constraint.b]].linear;
-  const auto [pull, tremble] = step::closing_of(normal, loads[constraint.a], loads[constraint.b], dt);
+  const auto [pull, tremble] = closing_of(normal, loads[constraint.a], loads[constraint.b], dt);
   constraint.rebounds = false;
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
     point.rebound = point.rebound_time = 0;
     const double closing = normal.dot(linear + a.angular.cross(point.arm_a) - b.angular.cross(point.arm_b));
-    const auto [time, speed] = step::meeting_of(point.gap, closing, pull, h);
+    const auto [time, speed] = meeting_of(point.gap, closing, pull, h);
     if (!(speed > tremble)) continue;
     point.approach = std::max(point.approach, speed);
     const double left = h - time;
@@ -114,8 +113,8 @@ void Solver::refresh(ContactConstraint& constraint) const {
   const Vec3 drift = (b.center - b.start_center) - (a.center - a.start_center);
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-    point.arm_a = carried(a.turn, point.start_arm_a, a.roundness * normal);
-    point.arm_b = carried(b.turn, point.start_arm_b, -b.roundness * normal);
+    point.arm_a = state::carried(a.turn, point.start_arm_a, a.roundness * normal);
+    point.arm_b = state::carried(b.turn, point.start_arm_b, -b.roundness * normal);
     const Vec3 swing = (point.arm_b - point.start_arm_b) - (point.arm_a - point.start_arm_a);
     point.gap = point.start_gap + normal.dot(drift + swing);
   }
@@ -143,14 +142,15 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
     start.angular = entry.angular;
     const Body& body = bodies[entry.index];
     const Load& load = loads[entry.index];
-    entry.linear = accelerated(entry.linear, load, settings.integrator, h);
-    const Spin spin = turned(body, {entry.rotation, entry.angular}, load, h);
+    entry.linear = forces::accelerated(entry.linear, load, settings.integrator, h);
+    const forces::Spin spin = forces::turned(body, {entry.rotation, entry.angular}, load, h);
     entry.angular = spin.angular;
     entry.free_rotation = spin.rotation;
     entry.inverse_inertia = body.world_inverse_inertia(spin.rotation);
     if (!pulls_without_limit(body)) continue;
     // Implicit in the pull: contacts, too, have to move what it holds.
-    const DriveLaw law = drive_law(body, entry.center, entry.rotation, h, (sub_steps - sub_step - 1) * h);
+    const forces::DriveLaw law =
+        forces::drive_law(body, entry.center, entry.rotation, h, (sub_steps - sub_step - 1) * h);
     entry.pulled = true;
     const double given = 1 / (1 + law.stiffness);
     entry.linear = given * (entry.linear + law.linear);
@@ -160,12 +160,12 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
   }
 }
 
-void Solver::warm_start(ContactConstraint& constraint, step::PointRows* rows, double h) {
+void Solver::warm_start(ContactConstraint& constraint, PointRows* rows, double h) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
   const Vec3& normal = constraint.manifold.normal;
   const double ratio = constraint.kept_step > h ? h / constraint.kept_step : 1;
-  const step::Tangents along = constraint.friction > 0 ? step::tangents_of(normal) : step::Tangents{};
+  const Tangents along = constraint.friction > 0 ? tangents_of(normal) : Tangents{};
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
     rows[i].prepare(a, b, point, normal, constraint.friction > 0 ? &along : nullptr);
@@ -181,8 +181,7 @@ void Solver::warm_start(ContactConstraint& constraint, step::PointRows* rows, do
   b.angular += b.inverse_inertia * constraint.rolling_impulse;
 }
 
-double Solver::solve_contact(ContactConstraint& constraint, const step::PointRows* rows, const Softness& softness,
-                             double h) {
+double Solver::solve_contact(ContactConstraint& constraint, const PointRows* rows, const Softness& softness, double h) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
   const Vec3& normal = constraint.manifold.normal;
@@ -190,14 +189,14 @@ double Solver::solve_contact(ContactConstraint& constraint, const step::PointRow
   if (constraint.rolling_friction > 0) {
     double sum = 0;
     for (int i = 0; i < constraint.count; ++i) sum += constraint.points[static_cast<std::size_t>(i)].normal_impulse;
-    step::solve_rolling(a, b, constraint.rolling_impulse, constraint.rolling_friction * sum);
+    solve_rolling(a, b, constraint.rolling_impulse, constraint.rolling_friction * sum);
   }
   if (constraint.friction > 0) {
     for (int i = 0; i < constraint.count; ++i) {
       PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       if (point.normal_impulse == 0 && point.friction_impulse == Vec3::Zero()) continue;
-      change = std::max(change, step::solve_friction(a, b, rows[i], point.friction_impulse,
-                                                     constraint.friction * point.normal_impulse));
+      change = std::max(
+          change, solve_friction(a, b, rows[i], point.friction_impulse, constraint.friction * point.normal_impulse));
     }
   }
   for (int i = 0; i < constraint.count; ++i) {
@@ -205,8 +204,8 @@ double Solver::solve_contact(ContactConstraint& constraint, const step::PointRow
     // A gap may close within the sub-step, but not further.
     const bool soft = point.gap <= 0 && !constraint.impact && !a.pulled && !b.pulled;
     const double wanted = point.gap > 0 ? -point.gap / h : std::min(-softness.rate * point.gap, softness.speed);
-    change = std::max(change, step::solve_normal(a, b, rows[i], point.normal_impulse, wanted, normal,
-                                                 soft ? softness.firm : 1, soft ? softness.giving : 0));
+    change = std::max(change, solve_normal(a, b, rows[i], point.normal_impulse, wanted, normal,
+                                           soft ? softness.firm : 1, soft ? softness.giving : 0));
   }
   return change;
 }
@@ -214,7 +213,7 @@ double Solver::solve_contact(ContactConstraint& constraint, const step::PointRow
 double Solver::solve_drive(const std::vector<Body>& bodies, SolverBody& entry, double h, double remaining) {
   const Body& body = bodies[entry.index];
   if (!entry.movable || body.drive.owner() != Owner::driven || pulls_without_limit(body)) return 0;
-  const DriveLaw law = drive_law(body, entry.center, entry.rotation, h, remaining);
+  const forces::DriveLaw law = forces::drive_law(body, entry.center, entry.rotation, h, remaining);
   // Velocity as it would be without the pull: contacts included, the drive's own impulse taken out.
   const Vec3 linear = entry.linear - entry.inverse_mass * entry.drive_impulse;
   Vec3 impulse = ((linear + law.linear) / (1 + law.stiffness) - linear) / entry.inverse_mass;
@@ -330,7 +329,7 @@ void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
     const Body& body = bodies[entry.index];
     if (!entry.movable || entry.pulled || body.spherical || !(entry.angular.norm() * h > 1)) continue;
     const double energy = 0.5 * entry.angular.dot(entry.inverse_inertia.inverse() * entry.angular);
-    entry.angular = bounded_spin(body.world_inertia(entry.rotation), energy, entry.angular);
+    entry.angular = forces::bounded_spin(body.world_inertia(entry.rotation), energy, entry.angular);
   }
 }
 
@@ -341,8 +340,8 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Co
   for (ContactConstraint* contact : contacts) {
     const SolverBody& a = at(contact->a);
     const SolverBody& b = at(contact->b);
-    const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
-    step::foresee(*contact, {a.linear, a.angular}, {b.linear, b.angular}, closing, dt);
+    const Closing closing = closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+    foresee(*contact, {a.linear, a.angular}, {b.linear, b.angular}, closing, dt);
     if (!contact->impact) continue;
     at(contact->a).impact = true;
     at(contact->b).impact = true;
@@ -353,7 +352,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Co
   const int relaxing = std::max(1, share / 2);
   const int passes = std::max(1, share - relaxing);
   const Softness hard;
-  const Softness soft = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
+  const Softness soft = soft_contacts(settings.push_out_speed, dt, sub_steps);
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
     for (ContactConstraint* contact : contacts) {
@@ -393,4 +392,4 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Co
   }
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

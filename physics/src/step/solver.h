@@ -10,7 +10,7 @@
 #include "step/solver_body.h"
 #include "step/spring_row.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 
 /// A body at the start of a sub-step, and before its rebound.
 struct SubStepStart {
@@ -34,39 +34,39 @@ class Solver {
   /// Moves all bodies of one island that `contacts` touch or `springs` hold by `dt`; fills in the contacts' impulses.
   /// @param springs  those too stiff to be part of the loads
   /// @param moved  by index: set for the bodies that were moved
-  void solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, Springs springs,
-             const WorldSettings& settings, double dt, std::vector<char>& moved);
+  void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts,
+             Springs springs, const WorldSettings& settings, double dt, std::vector<char>& moved);
 
  private:
-  void gather(const std::vector<Body>& bodies, Contacts contacts, Springs springs, double dt);
-  void meet(const std::vector<Load>& loads, ContactConstraint& constraint, double h, double dt) const;
-  void begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, const WorldSettings& settings,
-                      double h, int sub_step);
+  void gather(const std::vector<state::Body>& bodies, Contacts contacts, Springs springs, double dt);
+  void meet(const std::vector<forces::Load>& loads, ContactConstraint& constraint, double h, double dt) const;
+  void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+                      const WorldSettings& settings, double h, int sub_step);
   void refresh(ContactConstraint& constraint) const;
-  void warm_start(ContactConstraint& constraint, step::PointRows* rows, double h);
-  double pass(Contacts contacts, const step::Softness& softness, double h, bool backward);
-  double solve_contact(ContactConstraint& constraint, const step::PointRows* rows, const step::Softness& softness,
-                       double h);
-  double solve_drive(const std::vector<Body>& bodies, SolverBody& body, double h, double remaining);
+  void warm_start(ContactConstraint& constraint, PointRows* rows, double h);
+  double pass(Contacts contacts, const Softness& softness, double h, bool backward);
+  double solve_contact(ContactConstraint& constraint, const PointRows* rows, const Softness& softness, double h);
+  double solve_drive(const std::vector<state::Body>& bodies, SolverBody& body, double h, double remaining);
   void find_lags(Contacts contacts);
   void add_totals(Contacts contacts, double h);
   void end_sub_step(double h);
-  void bound_spins(const std::vector<Body>& bodies, double h);
+  void bound_spins(const std::vector<state::Body>& bodies, double h);
 
   // Rebound
-  void rebound(const std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, int passes);
+  void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts,
+               int passes);
   double rebound_pass(Contacts contacts, bool backward);
-  void move_by_rebound(const ContactConstraint& constraint, const step::PointRows* rows);
-  void bound_energy(const std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts);
+  void move_by_rebound(const ContactConstraint& constraint, const PointRows* rows);
+  void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts);
 
   SolverBody* end_of(std::uint32_t index) { return index == SpringRow::world ? nullptr : &at(index); }
   SolverBody& at(std::uint32_t index) { return bodies_[slots_[index]]; }
   const SolverBody& at(std::uint32_t index) const { return bodies_[slots_[index]]; }
 
   std::vector<SolverBody> bodies_;
-  std::vector<std::uint32_t> slots_;   ///< from a body's index into bodies_
-  std::vector<SubStepStart> starts_;   ///< of bodies_
-  std::vector<step::PointRows> rows_;  ///< four per contact of the island
+  std::vector<std::uint32_t> slots_;  ///< from a body's index into bodies_
+  std::vector<SubStepStart> starts_;  ///< of bodies_
+  std::vector<PointRows> rows_;       ///< four per contact of the island
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

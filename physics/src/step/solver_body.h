@@ -2,7 +2,7 @@
 
 #include "step/keyed_step.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 
 /// A body while contacts are being solved.
 struct SolverBody {
@@ -28,4 +28,4 @@ struct SolverBody {
   Vec3 drive_impulse{0, 0, 0}, drive_angular_impulse{0, 0, 0};
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

@@ -5,9 +5,9 @@
 
 #include "step/contact_rows.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 
-namespace step {
+namespace {
 
 Mat3 inverse_mass_at(const SolverBody& body, const Vec3& arm) {
   Mat3 cross;
@@ -15,7 +15,7 @@ Mat3 inverse_mass_at(const SolverBody& body, const Vec3& arm) {
   return body.inverse_mass * Mat3::Identity() - cross * body.inverse_inertia * cross;
 }
 
-}  // namespace step
+}  // namespace
 
 void SpringRow::begin(SolverBody* body_a, SolverBody* body_b, double h) {
   arm_a = body_a->rotation * local_a;
@@ -32,22 +32,22 @@ void SpringRow::begin(SolverBody* body_a, SolverBody* body_b, double h) {
                                                : 0;
   const Mat3 along = direction * direction.transpose();
   give = h * ((h * (stiffness - across) + damping) * along + h * across * Mat3::Identity());
-  inverse_mass = step::inverse_mass_at(*body_a, arm_a);
-  if (body_b) inverse_mass += step::inverse_mass_at(*body_b, arm_b);
+  inverse_mass = inverse_mass_at(*body_a, arm_a);
+  if (body_b) inverse_mass += inverse_mass_at(*body_b, arm_b);
   solution = (Mat3::Identity() + give * inverse_mass).inverse();
-  step::push(*body_a, impulse, arm_a);
-  if (body_b) step::push(*body_b, -impulse, arm_b);
+  push(*body_a, impulse, arm_a);
+  if (body_b) push(*body_b, -impulse, arm_b);
 }
 
 double SpringRow::solve(SolverBody* body_a, SolverBody* body_b) {
-  Vec3 velocity = step::point_velocity(*body_a, arm_a);
-  if (body_b) velocity -= step::point_velocity(*body_b, arm_b);
+  Vec3 velocity = point_velocity(*body_a, arm_a);
+  if (body_b) velocity -= point_velocity(*body_b, arm_b);
   const Vec3 next = solution * (pull - give * (velocity - inverse_mass * impulse));
   const Vec3 change = next - impulse;
   impulse = next;
-  step::push(*body_a, change, arm_a);
-  if (body_b) step::push(*body_b, -change, arm_b);
+  push(*body_a, change, arm_a);
+  if (body_b) push(*body_b, -change, arm_b);
   return (inverse_mass * change).norm();
 }
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

@@ -2,7 +2,7 @@
 
 #include "step/solver_body.h"
 
-namespace tweenfall {
+namespace tweenfall::step {
 
 /// A spring too stiff for the step to be taken explicitly: its force is that at the end of each sub-step, so that no
 /// stiffness and no step can make it grow. It damps what is quicker than a sub-step.
@@ -26,4 +26,4 @@ struct SpringRow {
   double solve(SolverBody* body_a, SolverBody* body_b);
 };
 
-}  // namespace tweenfall
+}  // namespace tweenfall::step

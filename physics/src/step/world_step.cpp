@@ -8,9 +8,10 @@
 
 namespace tweenfall {
 
+namespace step {
 namespace {
 
-void remember(const ContactConstraint& constraint, bool touching, ContactMemory& memory) {
+void remember(const ContactConstraint& constraint, bool touching, state::ContactMemory& memory) {
   memory.a = constraint.a;
   memory.b = constraint.b;
   memory.count = constraint.count;
@@ -18,7 +19,7 @@ void remember(const ContactConstraint& constraint, bool touching, ContactMemory&
     const PointConstraint& point = constraint.points[i];
     memory.points[i] = {point.feature, point.start_arm_b, point.kept_normal, point.kept_friction};
   }
-  static_cast<KeptImpulses&>(memory) = constraint;
+  static_cast<state::KeptImpulses&>(memory) = constraint;
   memory.touching = touching;
 }
 
@@ -28,13 +29,14 @@ bool before(const A& left, const B& right) {
 }
 
 }  // namespace
+}  // namespace step
 
 void World::Implementation::begin_watch() {
   sleepers.clear();
   lingering.clear();
   starts.resize(bodies.size());
   const auto watch = [this](std::uint32_t i) {
-    const Body& body = bodies[i];
+    const state::Body& body = bodies[i];
     starts[i] = {body.center, body.motion.pose.rotation, body.twist, body.led};
     if (body.asleep) sleepers.push_back(i);
     if (body.immovable() && (body.placed || body.has_target)) lingering.push_back(i);
@@ -64,24 +66,24 @@ void World::Implementation::advance_bodies(double dt) {
   moved.assign(bodies.size(), 0);
   solver.begin(bodies.size());
   block_solver.begin(bodies.size());
-  for (const IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs)) {
+  for (const step::IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs)) {
     if (blocks::BlockSolver::takes(island, bodies, dt))
       block_solver.solve(bodies, loads, island.contacts, settings, dt, moved);
     else
       solver.solve(bodies, loads, island.contacts, island.springs, settings, dt, moved);
   }
   for (const std::uint32_t i : watched) {
-    Body& body = bodies[i];
+    state::Body& body = bodies[i];
     body.placed = body.led = false;
     if (body.immovable()) {
-      arrive(body);
+      step::arrive(body);
       continue;
     }
     if (!body.asleep && !moved[i]) {
       if (body.drive.owner() == Owner::driven)
-        pull(body, loads[i], dt);
+        forces::pull(body, loads[i], dt);
       else
-        fly(body, loads[i], settings.integrator, dt);
+        forces::fly(body, loads[i], settings.integrator, dt);
     }
     body.force = Vec3::Zero();
     body.torque = Vec3::Zero();
@@ -96,8 +98,8 @@ void World::Implementation::report() {
   // Between bodies at rest all is as it was, but nothing has begun there.
   std::size_t next_retained = 0, next_contact = 0;
   const auto keep_before = [&](const auto& pair) {
-    for (; next_retained < retained.size() && before(memories[retained[next_retained]], pair); ++next_retained) {
-      const ContactMemory& memory = memories[retained[next_retained]];
+    for (; next_retained < retained.size() && step::before(memories[retained[next_retained]], pair); ++next_retained) {
+      const state::ContactMemory& memory = memories[retained[next_retained]];
       remembered.push_back(retained[next_retained]);
       if (!memory.touching) continue;
       while (contacts[next_contact].a.index != memory.a || contacts[next_contact].b.index != memory.b) ++next_contact;
@@ -105,13 +107,13 @@ void World::Implementation::report() {
       next_contacts.back().began = false;
     }
   };
-  for (const ContactConstraint& constraint : active) {
+  for (const step::ContactConstraint& constraint : active) {
     double normal = 0;
     Vec3 total = Vec3::Zero();
     double approach = 0;
     bool overlap = false;
     for (int i = 0; i < constraint.count; ++i) {
-      const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      const step::PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
       normal += point.total_normal;
       total += point.total_normal * constraint.manifold.normal + point.total_friction;
       approach = std::max(approach, point.approach);
@@ -121,9 +123,9 @@ void World::Implementation::report() {
     if (bodies[constraint.a].immovable()) bodies[constraint.a].reaction -= total;
     if (bodies[constraint.b].immovable()) bodies[constraint.b].reaction += total;
     keep_before(constraint);
-    const bool known = constraint.memory != ContactMemories::nowhere;
+    const bool known = constraint.memory != state::ContactMemories::nowhere;
     const std::uint32_t place = known ? constraint.memory : memories.take();
-    remember(constraint, touching, memories[place]);
+    step::remember(constraint, touching, memories[place]);
     remembered.push_back(place);
     if (touching)
       next_contacts.push_back({{constraint.a, bodies[constraint.a].generation},
@@ -135,7 +137,7 @@ void World::Implementation::report() {
                                constraint.began});
   }
   constexpr std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
-  ContactMemory end;
+  state::ContactMemory end;
   end.a = end.b = last;
   keep_before(end);
   memories.keep(remembered);
@@ -152,7 +154,7 @@ void World::Implementation::step(double dt) {
   if (failed) check_bodies(0, time);
   wake_by_fields();
   do {
-    gather_loads(bodies, watched, forces, settings, time, dt, loads, stiff_springs);
+    forces::gather_loads(bodies, watched, forces, settings, time, dt, loads, stiff_springs);
     check_loads(time + dt);
     find_constraints(dt);
   } while (wake_islands());
