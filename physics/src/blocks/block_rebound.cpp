@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "blocks/block_solver.h"
-#include "step/island_energy.h"
+#include "islands/island_energy.h"
 
 /// The rebound of the sub-step, contact by contact: only few take part.
 
@@ -187,7 +187,7 @@ void BlockSolver::move_by(const Rebound& rebound) {
 
 /// Takes back as much of the rebound as would leave the island more energy than it had and than was put into it.
 void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads) {
-  step::IslandEnergy energy;
+  islands::IslandEnergy energy;
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     const IslandBody& entry = bodies_[i];
     if (!entry.movable) continue;
@@ -198,7 +198,7 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
                  entry.mass * entry.acceleration.dot(entry.center - entry.sub_step_center));
       continue;
     }
-    step::BodyCourse course;
+    islands::BodyCourse course;
     course.start = {linear_of(starts_[i]), angular_of(starts_[i])};
     course.start_center = entry.sub_step_center;
     course.start_rotation = entry.sub_step_rotation;

@@ -51,7 +51,7 @@ Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec
 
 }  // namespace
 
-bool BlockSolver::takes(const step::IslandContents& island, const std::vector<Body>& bodies, double dt) {
+bool BlockSolver::takes(const islands::IslandContents& island, const std::vector<Body>& bodies, double dt) {
   if (island.contacts.size() < many || !island.springs.empty()) return false;
   const double h = dt / sub_steps_for(island.contacts.size());
   for (const ContactConstraint* contact : island.contacts) {

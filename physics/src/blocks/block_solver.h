@@ -6,7 +6,7 @@
 #include "blocks/contact_blocks.h"
 #include "blocks/island_body.h"
 #include "forces/free_flight.h"
-#include "step/island_contents.h"
+#include "islands/island_contents.h"
 
 namespace tweenfall::blocks {
 
@@ -21,7 +21,7 @@ class BlockSolver {
 
   /// Whether it can solve an island: bodies that drives, stiff springs or rolling friction hold are for `Solver`, and
   /// so are steps far shorter than those before them.
-  [[nodiscard]] static bool takes(const step::IslandContents& island, const std::vector<state::Body>& bodies,
+  [[nodiscard]] static bool takes(const islands::IslandContents& island, const std::vector<state::Body>& bodies,
                                   double dt);
 
   /// Before the islands of a step.

@@ -7,11 +7,11 @@
 #include "blocks/block_solver.h"
 #include "collision/passage.h"
 #include "forces/forces.h"
+#include "islands/island_contents.h"
 #include "pairs/broad_phase.h"
 #include "state/body.h"
 #include "state/contact_memories.h"
 #include "step/contact_constraint.h"
-#include "step/island_contents.h"
 #include "step/solver.h"
 
 namespace tweenfall {
@@ -62,8 +62,8 @@ struct World::Implementation {
   std::vector<char> carried;  ///< by island: something keyed moves it
   std::vector<std::uint32_t> contact_counts;
   std::vector<double> stillness;
-  step::Islands islands;
-  step::IslandSorter island_sorter;
+  islands::Islands islands;
+  islands::IslandSorter island_sorter;
   step::Solver solver;
   blocks::BlockSolver block_solver;
   std::vector<char> moved;  ///< by a solver in this step

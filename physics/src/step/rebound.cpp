@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "islands/island_energy.h"
 #include "step/contact_rows.h"
-#include "step/island_energy.h"
 #include "step/solver.h"
 
 namespace tweenfall::step {
@@ -90,7 +90,7 @@ void Solver::move_by_rebound(const ContactConstraint& constraint, const PointRow
 
 /// Takes back as much of the rebound as would leave the island more energy than it had and than was put into it.
 void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts) {
-  IslandEnergy energy;
+  islands::IslandEnergy energy;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const SolverBody& entry = bodies_[i];
     if (!entry.movable) continue;
@@ -98,7 +98,7 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<for
     const SubStepStart& start = starts_[i];
     // The work of a drive or a stiff spring is not known: the island is left as it is.
     if (entry.sprung || body.drive.owner() == Owner::driven) return;
-    BodyCourse course;
+    islands::BodyCourse course;
     course.start = {start.linear, start.angular};
     course.start_center = start.center;
     course.start_rotation = start.rotation;

@@ -66,7 +66,7 @@ void World::Implementation::advance_bodies(double dt) {
   moved.assign(bodies.size(), 0);
   solver.begin(bodies.size());
   block_solver.begin(bodies.size());
-  for (const step::IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs)) {
+  for (const islands::IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs)) {
     if (blocks::BlockSolver::takes(island, bodies, dt))
       block_solver.solve(bodies, loads, island.contacts, settings, dt, moved);
     else

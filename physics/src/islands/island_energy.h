@@ -2,7 +2,7 @@
 
 #include "forces/free_flight.h"
 
-namespace tweenfall::step {
+namespace tweenfall::islands {
 
 /// A body through a sub-step: at its start, before the rebound, and now.
 struct BodyCourse {
@@ -23,4 +23,4 @@ struct IslandEnergy {
   [[nodiscard]] double share_within() const;
 };
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::islands

@@ -1,14 +1,14 @@
-#include "step/island_contents.h"
+#include "islands/island_contents.h"
 
 #include <algorithm>
 
-namespace tweenfall::step {
+namespace tweenfall::islands {
 
 const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::Body>& bodies, Islands& islands,
-                                                      std::vector<ContactConstraint>& contacts,
-                                                      std::vector<SpringRow>& springs) {
+                                                      std::vector<step::ContactConstraint>& contacts,
+                                                      std::vector<step::SpringRow>& springs) {
   const auto island_of = [&](std::uint32_t a, std::uint32_t b) {
-    return islands.of(b == SpringRow::world || !bodies[a].immovable() ? a : b);
+    return islands.of(b == step::SpringRow::world || !bodies[a].immovable() ? a : b);
   };
   const auto sorted = [&](auto& list, std::vector<Entry>& entries, auto& pointers) {
     entries.clear();
@@ -43,4 +43,4 @@ const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::B
   return islands_;
 }
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::islands

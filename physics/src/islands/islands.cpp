@@ -1,6 +1,6 @@
-#include "step/islands.h"
+#include "islands/islands.h"
 
-namespace tweenfall::step {
+namespace tweenfall::islands {
 
 void Islands::reset(std::size_t count) {
   parent_.resize(count);
@@ -25,4 +25,4 @@ void Islands::join(std::uint32_t a, std::uint32_t b) {
     parent_[root_a] = root_b;
 }
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::islands

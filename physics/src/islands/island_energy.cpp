@@ -1,11 +1,11 @@
-#include "step/island_energy.h"
+#include "islands/island_energy.h"
 
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall::step {
+namespace tweenfall::islands {
 
 namespace {
 
@@ -51,4 +51,4 @@ double IslandEnergy::share_within() const {
   return std::clamp((std::sqrt(square) - slope) / (2 * curvature), 0.0, 1.0);
 }
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::islands

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace tweenfall::step {
+namespace tweenfall::islands {
 
 /// Bodies that touch each other, directly or through others.
 class Islands {
@@ -16,4 +16,4 @@ class Islands {
   std::vector<std::uint32_t> parent_;
 };
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::islands
