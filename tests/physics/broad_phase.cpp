@@ -20,6 +20,7 @@ struct Crowd {
   std::vector<forces::Load> loads;
   std::vector<std::uint32_t> told;  ///< of those that do not move by themselves: to be looked at
   pairs::BroadPhase broad_phase;
+  state::IgnoredPairs ignored;
 
   explicit Crowd(std::uint64_t seed) : random(seed) {}
 
@@ -78,11 +79,21 @@ struct Crowd {
       const std::uint32_t index = any();
       state::Body& body = bodies[index];
       const double what = random.unit();
-      if (what < 0.2 && body.alive) {
+      if (what < 0.1 && body.alive) {
+        const std::uint32_t other = any();
+        if (other != index && bodies[other].alive && ignored.ask(index, other, random.unit() < 0.7))
+          broad_phase.look_again(index);
+      } else if (what < 0.15) {
+        body.groups = random.bits() % 8;
+        body.collides_with = random.bits() % 16 | 1;
+        broad_phase.look_again(index);
+      } else if (what < 0.25 && body.alive) {
         broad_phase.remove(index);
+        ignored.remove(index);
         body.alive = false;
       } else if (what < 0.4) {
         if (body.alive) broad_phase.remove(index);
+        ignored.remove(index);
         put_any(index, room);
       } else if (what < 0.5) {
         put_any(static_cast<std::uint32_t>(bodies.size()), room);
@@ -120,7 +131,7 @@ struct Crowd {
       if (bodies[i].alive && (!bodies[i].immovable() || std::count(told.begin(), told.end(), i) > 0))
         changed.push_back(i);
     told.clear();
-    return broad_phase.find(bodies, changed, loads, margin, dt);
+    return broad_phase.find(bodies, changed, loads, {bodies, ignored}, margin, dt);
   }
 
   [[nodiscard]] bool near(const state::Body& a, const forces::Load& load_a, const state::Body& b,
@@ -150,6 +161,7 @@ struct Crowd {
         const state::Body &a = bodies[i], &b = bodies[k];
         if (!a.alive || !b.alive || (a.immovable() && b.immovable()) || (!a.stirs() && !b.stirs())) continue;
         if (!near(a, loads[i], b, loads[k])) continue;
+        if ((a.groups & b.collides_with) == 0 || (b.groups & a.collides_with) == 0 || ignored.contains(k, i)) continue;
         if (!a.immovable() && !b.immovable()) {
           if (counts[i] >= pairs::BroadPhase::most_pairs && counts[k] >= pairs::BroadPhase::most_pairs) continue;
           ++counts[i];
@@ -164,7 +176,8 @@ struct Crowd {
 }  // namespace
 
 TEST_CASE(
-    "pairs are those that counting all out gives, whatever is added, removed, moved, turned, led or put to sleep") {
+    "pairs are those that counting all out gives, whatever is added, removed, moved, turned, led, put to sleep or told "
+    "whom to meet") {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     Crowd crowd(seed);
     const double room = seed % 3 == 0 ? 3 : seed % 3 == 1 ? 10 : 1e4;
@@ -211,8 +224,9 @@ TEST_CASE("ten thousand at one point have no more pairs than their number allows
   std::vector<std::uint32_t> changed(10000);
   for (std::uint32_t i = 0; i < 10000; ++i) changed[i] = i;
   for (int step = 0; step < 5; ++step)
-    CHECK(crowd.broad_phase.find(crowd.bodies, changed, crowd.loads, margin, dt).size() <=
-          10000u * pairs::BroadPhase::most_pairs);
+    CHECK(
+        crowd.broad_phase.find(crowd.bodies, changed, crowd.loads, {crowd.bodies, crowd.ignored}, margin, dt).size() <=
+        10000u * pairs::BroadPhase::most_pairs);
 }
 
 TEST_CASE("boxes without end and numbers that are none neither hang nor lose a pair") {

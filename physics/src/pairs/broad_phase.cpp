@@ -58,6 +58,12 @@ void BroadPhase::remove(std::uint32_t index) {
   entry.kind = Kind::none;
 }
 
+void BroadPhase::look_again(std::uint32_t index) {
+  // Of planes, and of bodies that no step has seen, nothing is kept.
+  if (index < entries_.size() && (entries_[index].kind == Kind::movable || entries_[index].kind == Kind::immovable))
+    renew(index);
+}
+
 void BroadPhase::renew(std::uint32_t index) {
   if (entries_[index].renewed) return;
   entries_[index].renewed = true;
@@ -94,7 +100,7 @@ void BroadPhase::look_at(const Body& body, std::uint32_t index, const forces::Lo
 }
 
 /// Adds to `fresh_` the pairs of a renewed body. @return false when they become more than `most`
-bool BroadPhase::look_around(std::uint32_t index, std::size_t most) {
+bool BroadPhase::look_around(std::uint32_t index, const PairFilter& filter, std::size_t most) {
   Entry& entry = entries_[index];
   const std::size_t before = fresh_.size();
   std::size_t neighbors = 0;
@@ -102,6 +108,7 @@ bool BroadPhase::look_around(std::uint32_t index, std::size_t most) {
     ++neighbors;
     // Of two that are renewed the smaller one finds the pair.
     if (other == index || (entries_[other].renewed && other < index) || fresh_.size() >= most) return;
+    if (!filter.lets(index, other)) return;
     fresh_.emplace_back(std::min(index, other), std::max(index, other));
   };
   const Bounds& box = tree_of(entry.kind).of(index);
@@ -115,12 +122,12 @@ bool BroadPhase::look_around(std::uint32_t index, std::size_t most) {
 }
 
 /// Brings `kept_` up to date, or finds that there are too many.
-void BroadPhase::keep_pairs() {
+void BroadPhase::keep_pairs(const PairFilter& filter) {
   const std::size_t most = 4096 + kept_in_crowd * movable_.size();
   fresh_.clear();
   for (const std::uint32_t index : renewed_) {
     const Kind kind = entries_[index].kind;
-    crowded_ = (kind == Kind::movable || kind == Kind::immovable) && !look_around(index, most);
+    crowded_ = (kind == Kind::movable || kind == Kind::immovable) && !look_around(index, filter, most);
     if (crowded_) break;
   }
   if (!crowded_ && !renewed_.empty()) {
@@ -153,17 +160,18 @@ void BroadPhase::choose_among_kept() {
 }
 
 /// The same pairs without any that are kept. Of those that have enough, only such are looked for that have not.
-void BroadPhase::choose_in_crowd(std::span<const std::uint32_t> changed) {
+void BroadPhase::choose_in_crowd(std::span<const std::uint32_t> changed, const PairFilter& filter) {
   movable_.open_all();
   for (const std::uint32_t index : changed) {
     if (entries_[index].kind != Kind::movable) continue;
     const Bounds& swept = entries_[index].swept;
     immovable_.visit(swept, [&](std::uint32_t other) {
-      if (counts(index, other)) pairs_.emplace_back(std::min(index, other), std::max(index, other));
+      if (filter.lets(index, other) && counts(index, other))
+        pairs_.emplace_back(std::min(index, other), std::max(index, other));
     });
     near_.clear();
     const auto see = [&](std::uint32_t other) {
-      if (other > index) near_.push_back(other);
+      if (other > index && filter.lets(index, other)) near_.push_back(other);
     };
     if (entries_[index].pairs >= most_pairs)
       movable_.visit_open(swept, see);
@@ -179,7 +187,8 @@ void BroadPhase::choose_in_crowd(std::span<const std::uint32_t> changed) {
   std::sort(pairs_.begin(), pairs_.end());
 }
 
-void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed, double margin) {
+void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed,
+                            const PairFilter& filter, double margin) {
   fresh_.clear();
   for (const std::uint32_t index : planes_) {
     const Entry& entry = entries_[index];
@@ -190,7 +199,7 @@ void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std
     const double surface = normal.dot(placed.center) + plane.offset;
     for (const std::uint32_t other : changed) {
       const Entry& body = entries_[other];
-      if (body.kind != Kind::movable || !(entry.stirs || body.stirs)) continue;
+      if (body.kind != Kind::movable || !(entry.stirs || body.stirs) || !filter.lets(index, other)) continue;
       if (!entry.displaces) {
         const Vec3 lowest = (normal.array() > 0).select(body.swept.low, body.swept.high);
         const double rounding = 1e-9 * (std::abs(surface) + lowest.norm());
@@ -207,15 +216,16 @@ void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std
 }
 
 const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed,
-                                          const std::vector<forces::Load>& loads, double margin, double dt) {
+                                          const std::vector<forces::Load>& loads, const PairFilter& filter,
+                                          double margin, double dt) {
   entries_.resize(std::max(entries_.size(), bodies.size()));
   for (const std::uint32_t index : changed) look_at(bodies[index], index, loads[index], margin, dt);
   movable_.settle();
   immovable_.settle();
-  if (!crowded_) keep_pairs();
+  if (!crowded_) keep_pairs(filter);
   pairs_.clear();
   if (crowded_) {
-    choose_in_crowd(changed);
+    choose_in_crowd(changed, filter);
     // It has thinned out: the next step keeps pairs again, and begins with none.
     if (pairs_.size() <= found_in_crowd * movable_.size()) {
       crowded_ = false;
@@ -226,7 +236,7 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
   } else {
     choose_among_kept();
   }
-  if (!planes_.empty()) add_planes(bodies, changed, margin);
+  if (!planes_.empty()) add_planes(bodies, changed, filter, margin);
   return pairs_;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pairs/bounds_tree.h"
+#include "pairs/pair_filter.h"
 #include "pairs/swept_bounds.h"
 
 namespace tweenfall::pairs {
@@ -20,13 +21,17 @@ class BroadPhase {
   /// one place part all the same.
   static constexpr std::uint32_t most_pairs = 128;
 
-  /// Pairs, sorted, whose swept bounds overlap, of which at least one moves by itself and at least one stirs.
+  /// Pairs, sorted, that may meet and whose swept bounds overlap, of which at least one moves by itself and at least
+  /// one stirs.
   /// @param changed  sorted: all bodies that move by themselves, and all others that were added, moved or handed over,
   /// or had or have a target, since they were last given
   /// @param margin  pairs with a gap up to this count too, m
   const std::vector<Pair>& find(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
-                                const std::vector<forces::Load>& loads, double margin, double dt);
+                                const std::vector<forces::Load>& loads, const PairFilter& filter, double margin,
+                                double dt);
   void remove(std::uint32_t body);
+  /// Looks for all pairs of the body anew: whom it may meet has changed.
+  void look_again(std::uint32_t body);
 
  private:
   enum class Kind : std::uint8_t { none, movable, immovable, plane };
@@ -43,12 +48,13 @@ class BroadPhase {
   void look_at(const state::Body& body, std::uint32_t index, const forces::Load& load, double margin, double dt);
   void renew(std::uint32_t index);
   BoundsTree& tree_of(Kind kind) { return kind == Kind::movable ? movable_ : immovable_; }
-  void keep_pairs();
-  bool look_around(std::uint32_t index, std::size_t most);
+  void keep_pairs(const PairFilter& filter);
+  bool look_around(std::uint32_t index, const PairFilter& filter, std::size_t most);
   bool counts(std::uint32_t a, std::uint32_t b);
   void choose_among_kept();
-  void choose_in_crowd(std::span<const std::uint32_t> changed);
-  void add_planes(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed, double margin);
+  void choose_in_crowd(std::span<const std::uint32_t> changed, const PairFilter& filter);
+  void add_planes(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
+                  const PairFilter& filter, double margin);
 
   std::vector<Entry> entries_;  ///< by body
   BoundsTree movable_, immovable_;

@@ -14,6 +14,7 @@ namespace {
 
 struct StandingBody {
   std::size_t node;
+  BodyId id;
   Shape shape;
   Pose pose;
   Bounds room;
@@ -38,7 +39,7 @@ std::vector<StartOverlap> overlaps_in(const StageState& state) {
   for (const StagedBody& body : state.bodies) {
     const Shape& shape = state.world.shape(body.id);
     const Pose pose = state.world.motion(body.id).pose;
-    bodies.push_back({body.node, shape, pose, bounds(shape, pose),
+    bodies.push_back({body.node, body.id, shape, pose, bounds(shape, pose),
                       !state.world.is_fixed(body.id) && state.world.owner(body.id) != Owner::keyed});
   }
   // Swept along x; a plane begins before all others.
@@ -51,7 +52,7 @@ std::vector<StartOverlap> overlaps_in(const StageState& state) {
       const StandingBody& second = bodies[bodies[i].moves ? k : i];
       if (++tried > most_tried || found.size() == most_told) return found;
       if (!first.moves || (first.room.low.array() > second.room.high.array()).any() ||
-          (second.room.low.array() > first.room.high.array()).any())
+          (second.room.low.array() > first.room.high.array()).any() || !state.world.collides(first.id, second.id))
         continue;
       if (const double depth = overlap_of(first, second); depth > 0) found.push_back({first.node, second.node, depth});
     }

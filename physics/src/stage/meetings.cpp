@@ -132,7 +132,7 @@ std::vector<Meeting> meetings(const StageState& state, double end, const std::ve
     for (std::size_t k = i + 1; k < courses.size() && courses[k].reach.low.x() <= a.reach.high.x(); ++k) {
       const Course& b = courses[k];
       if ((!watched[a.index] && !watched[b.index]) || !overlap(a.reach, b.reach)) continue;
-      if (pressing.contains(a.body->id, b.body->id)) continue;
+      if (pressing.contains(a.body->id, b.body->id) || !state.world.collides(a.body->id, b.body->id)) continue;
       const std::optional<double> time = first_touch(a, b, state.time, end);
       if (!time) continue;
       if (watched[a.index]) found.push_back({*time, a.index, b.body->id});

@@ -38,6 +38,8 @@ struct Body {
   double friction = 0;
   double restitution = 0;
   double rolling_friction = 0;
+  std::uint64_t groups = 1;  ///< as the caller last said, and so `collides_with`
+  std::uint64_t collides_with = ~std::uint64_t{0};
   Shape shape;
 
   Motion target;           ///< of the node's origin at the end of the step

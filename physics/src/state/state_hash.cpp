@@ -66,6 +66,14 @@ std::uint64_t World::state_hash() const noexcept {
     hash.add(body.reaction);
     hash.add(body.still_for);
     hash.add(std::uint64_t{body.asleep});
+    const BodySettings usual;
+    if (body.groups == usual.groups && body.collides_with == usual.collides_with) continue;
+    hash.add(body.groups);
+    hash.add(body.collides_with);
+  }
+  for (const state::IgnoredPairs::Entry& pair : world.ignored.all()) {
+    hash.add(std::uint64_t{pair.a} << 32 | pair.b);
+    hash.add(std::uint64_t{pair.holders} << 1 | std::uint64_t{pair.asked});
   }
   for (const std::uint32_t place : world.memories.sorted()) {
     const state::ContactMemory& memory = world.memories[place];

@@ -129,6 +129,12 @@ void World::Implementation::wake_neighbors(std::uint32_t index) {
   }
 }
 
+void World::Implementation::meet_or_not(std::uint32_t a, std::uint32_t b) {
+  broad_phase.look_again(a);
+  for (const std::uint32_t end : {a, b})
+    if (!bodies[end].immovable()) wake(end);
+}
+
 void World::Implementation::forget_impulses(std::uint32_t index) {
   for (const std::uint32_t place : memories.of(index)) {
     state::ContactMemory& memory = memories[place];
@@ -226,6 +232,8 @@ BodyId World::add(const BodySettings& settings) {
   body.friction = settings.friction;
   body.restitution = settings.restitution;
   body.rolling_friction = settings.rolling_friction;
+  body.groups = settings.groups;
+  body.collides_with = settings.collides_with;
   body.linear_damping = settings.linear_damping;
   body.angular_damping = settings.angular_damping;
   body.fixed = settings.fixed;
@@ -269,6 +277,7 @@ void World::remove(BodyId id) {
   ++body.generation;
   world.drop_contacts(id.index);
   world.broad_phase.remove(id.index);
+  world.ignored.remove(id.index);
   world.unused.push_back(id.index);
 }
 
@@ -390,6 +399,42 @@ void World::set_target(BodyId id, const Motion& end_of_step) {
              body.target.pose.rotation.coeffs() != before.rotation.coeffs() ||
              body.target.twist.linear != Vec3::Zero() || body.target.twist.angular != Vec3::Zero();
   if (body.led) world.wake(id.index);
+}
+
+void World::set_groups(BodyId id, std::uint64_t groups, std::uint64_t collides_with) {
+  Implementation& world = changing();
+  state::Body& body = world.at(id);
+  if (body.groups == groups && body.collides_with == collides_with) return;
+  world.wake_neighbors(id.index);
+  world.wake(id.index);
+  world.note(id.index);
+  body.groups = groups;
+  body.collides_with = collides_with;
+  body.placed = true;
+  world.broad_phase.look_again(id.index);
+}
+
+void World::ignore(BodyId a, BodyId b) {
+  Implementation& world = changing();
+  world.at(a);
+  world.at(b);
+  state::require(a != b, "a body cannot ignore itself");
+  if (world.ignored.ask(a.index, b.index, true)) world.meet_or_not(a.index, b.index);
+}
+
+void World::collide(BodyId a, BodyId b) {
+  Implementation& world = changing();
+  world.at(a);
+  world.at(b);
+  state::require(a != b, "a body cannot collide with itself");
+  if (world.ignored.ask(a.index, b.index, false)) world.meet_or_not(a.index, b.index);
+}
+
+bool World::collides(BodyId a, BodyId b) const {
+  const Implementation& world = inside();
+  world.at(a);
+  world.at(b);
+  return a != b && pairs::PairFilter{world.bodies, world.ignored}.lets(a.index, b.index);
 }
 
 void World::apply_force(BodyId id, const Vec3& force, const Vec3& point) {

@@ -11,6 +11,7 @@
 #include "pairs/broad_phase.h"
 #include "state/body.h"
 #include "state/contact_memories.h"
+#include "state/ignored_pairs.h"
 #include "step/contact_constraint.h"
 #include "step/solver.h"
 
@@ -35,9 +36,10 @@ struct World::Implementation {
   std::vector<forces::NumberedForce> forces;
   std::size_t next_force = 0;
   double time = 0;
-  bool stepping = false;             ///< a field may be running: nothing may change
-  bool failed = false;               ///< the last step left a body that is not finite
-  state::ContactMemories memories;   ///< of the last step
+  bool stepping = false;            ///< a field may be running: nothing may change
+  bool failed = false;              ///< the last step left a body that is not finite
+  state::ContactMemories memories;  ///< of the last step
+  state::IgnoredPairs ignored;
   std::vector<Contact> contacts;     ///< of those that touch, what the caller sees
   std::vector<std::uint32_t> noted;  ///< bodies that the caller changed or led, and those that had been
 
@@ -74,7 +76,8 @@ struct World::Implementation {
   void wake(std::uint32_t index);
   void note(std::uint32_t index);  ///< the next step looks at this body
   void wake_neighbors(std::uint32_t index);
-  void forget_impulses(std::uint32_t index);  ///< what the contacts of this body remember
+  void meet_or_not(std::uint32_t a, std::uint32_t b);  ///< whether the two may meet has changed
+  void forget_impulses(std::uint32_t index);           ///< what the contacts of this body remember
   void step(double dt);
 
   void check_bodies(double dt,

@@ -92,7 +92,7 @@ bool World::Implementation::find_manifold(step::ContactConstraint& constraint, c
     const collision::Prediction at_b = way_b.course.at(*meeting);
     // What a spin brings down in what is left of the step, too.
     const double rest = step::near_enough + swing * (dt - *meeting);
-    constraint.manifold = collide(a.shape, at_a.node(a), b.shape, at_b.node(b), rest);
+    constraint.manifold = tweenfall::collide(a.shape, at_a.node(a), b.shape, at_b.node(b), rest);
     step::adopt(constraint, a, at_a, b, at_b);
   }
   return constraint.count > 0 && constraint.manifold.normal.allFinite();
@@ -102,7 +102,8 @@ void World::Implementation::find_constraints(double dt) {
   active.clear();
   retained.clear();
   memories.tidy();
-  const std::vector<pairs::Pair>& pairs = broad_phase.find(bodies, watched, loads, step::near_enough, dt);
+  const std::vector<pairs::Pair>& pairs =
+      broad_phase.find(bodies, watched, loads, {bodies, ignored}, step::near_enough, dt);
   contact_counts.assign(bodies.size(), 0);
   const std::span<const std::uint32_t> remembered_before = memories.sorted();
   std::size_t next = 0;

@@ -11,6 +11,7 @@
 #include <tweenfall/physics/force.h>
 #include <tweenfall/physics/shape.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -46,6 +47,9 @@ struct BodySettings {
   double linear_damping = 0;     ///< 1/s
   double angular_damping = 0;    ///< 1/s
   bool fixed = false;            ///< part of the scenery: never moves
+  std::uint64_t groups = 1;      ///< that it belongs to, one bit each
+  std::uint64_t collides_with =
+      ~std::uint64_t{0};  ///< groups; two bodies meet when each collides with one of the other's
   Drive drive = Drive::free();
   Motion motion = {};  ///< of the node's origin, world axes
 };
@@ -118,6 +122,14 @@ class World {
   void apply_torque(BodyId body, const Vec3& torque);                   ///< N m, during the next step
   void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point);  ///< N s, at once
   void wake(BodyId body);
+
+  // Which bodies meet. A change wakes whom it concerns, at once and with no impulse; where bodies that now meet lie in
+  // each other they are taken apart as any overlap is. All throw std::invalid_argument for a stale handle.
+  void set_groups(BodyId body, std::uint64_t groups, std::uint64_t collides_with);
+  void ignore(BodyId a, BodyId b);   ///< they pass through each other. @throws std::invalid_argument for the same body
+  void collide(BodyId a, BodyId b);  ///< takes back `ignore`
+  /// Whether they may meet: by their groups, and because neither the caller nor a joint says otherwise.
+  [[nodiscard]] bool collides(BodyId a, BodyId b) const;
 
   // Forces
   std::size_t add_force(Force force);  ///< @returns a number for `remove_force`
