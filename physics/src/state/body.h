@@ -14,7 +14,6 @@ struct Body {
   bool asleep = false;
   bool placed = true;       ///< added or moved by the caller since the last step: what sleeps beside it wakes
   bool has_target = false;  ///< a target was set since the last step
-  bool noted = false;       ///< is among those that the next step must look at
   bool led = false;         ///< driven, and its target moved
   bool spherical = false;   ///< the same moment about every axis: spin feels no gyroscopic torque
   std::uint32_t generation = 0;

@@ -40,10 +40,11 @@ struct FoundManifold {
 };
 
 /// What the next step needs of a pair in contact.
-struct ContactMemory : KeptImpulses {
+struct ContactMemory {
   std::uint32_t a = 0, b = 0;  ///< indices of the bodies, a < b
   int count = 0;
   std::array<PointMemory, 4> points{};
+  KeptImpulses kept;
   FoundManifold found;
   bool touching = false;  ///< an impulse passed or the shapes overlap
   bool gone = false;      ///< a body of it has left since

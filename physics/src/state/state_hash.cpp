@@ -79,9 +79,9 @@ std::uint64_t World::state_hash() const noexcept {
     const state::ContactMemory& memory = world.memories[place];
     if (memory.gone) continue;
     hash.add(std::uint64_t{memory.a} << 32 | memory.b);
-    hash.add(memory.kept_rolling);
-    hash.add(memory.kept_step);
-    hash.add(memory.passed_over);
+    hash.add(memory.kept.kept_rolling);
+    hash.add(memory.kept.kept_step);
+    hash.add(memory.kept.passed_over);
     hash.add(std::uint64_t{memory.touching});
     for (int i = 0; i < memory.count; ++i) {
       const state::PointMemory& point = memory.points[static_cast<std::size_t>(i)];

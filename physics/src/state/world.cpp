@@ -115,12 +115,6 @@ void World::Implementation::drop_contacts(std::uint32_t index) {
                   [&](const Contact& contact) { return contact.a.index == index || contact.b.index == index; });
 }
 
-void World::Implementation::note(std::uint32_t index) {
-  if (bodies[index].noted) return;
-  bodies[index].noted = true;
-  noted.push_back(index);
-}
-
 void World::Implementation::wake_neighbors(std::uint32_t index) {
   for (const std::uint32_t place : memories.of(index)) {
     const state::ContactMemory& memory = memories[place];
@@ -138,8 +132,8 @@ void World::Implementation::meet_or_not(std::uint32_t a, std::uint32_t b) {
 void World::Implementation::forget_impulses(std::uint32_t index) {
   for (const std::uint32_t place : memories.of(index)) {
     state::ContactMemory& memory = memories[place];
-    memory.kept_rolling = Vec3::Zero();
-    memory.kept_twist = 0;
+    memory.kept.kept_rolling = Vec3::Zero();
+    memory.kept.kept_twist = 0;
     for (state::PointMemory& point : memory.points) {
       point.kept_normal = 0;
       point.kept_friction = Vec3::Zero();
@@ -163,15 +157,15 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::World(const World& other)
-    : implementation_(other.implementation_ ? std::make_unique<Implementation>(*other.implementation_) : nullptr) {
-  if (implementation_) implementation_->stepping = false;
-}
+    : implementation_(other.implementation_ ? std::make_unique<Implementation>(
+                                                  static_cast<const state::WorldState&>(*other.implementation_))
+                                            : nullptr) {}
 World& World::operator=(const World& other) {
   if (this == &other) return *this;
   if (implementation_ && implementation_->stepping) throw std::logic_error("a field cannot assign to its world");
   if (implementation_ && other.implementation_) {
-    *implementation_ = *other.implementation_;  // keeps the capacity that is there
-    implementation_->stepping = false;
+    const state::WorldState& state = *other.implementation_;
+    *implementation_ = state;  // keeps the capacity that is there
   } else {
     *this = World(other);
   }
@@ -256,7 +250,6 @@ BodyId World::add(const BodySettings& settings) {
     index = world.unused.back();
     world.unused.pop_back();
     body.generation = world.bodies[index].generation;
-    body.noted = world.bodies[index].noted;
     world.bodies[index] = body;
   }
   world.note(index);

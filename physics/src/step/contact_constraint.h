@@ -37,6 +37,7 @@ struct ContactConstraint : state::KeptImpulses {
   double rolling_friction = 0;
   Vec3 rolling_impulse{0, 0, 0};
   Vec3 total_rolling{0, 0, 0};
+  bool kept = false;       ///< its manifold was found in a step before
   bool began = false;      ///< did not touch in the step before
   bool impact = false;     ///< some point meets fast enough to rebound
   bool rebounds = false;   ///< in an island that does, in this sub-step

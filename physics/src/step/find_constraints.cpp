@@ -41,7 +41,7 @@ void adopt(ContactConstraint& constraint, const state::Body& a, const collision:
 
 /// Hands the impulses of the step before on: to points of the same features, then to what is left nearby.
 void inherit(ContactConstraint& constraint, const state::ContactMemory& old, double nearby) {
-  static_cast<state::KeptImpulses&>(constraint) = old;
+  static_cast<state::KeptImpulses&>(constraint) = old.kept;
   std::array<bool, 4> given{}, taken{};
   const auto hand_on = [&](std::size_t from, std::size_t to) {
     constraint.points[to].kept_normal = old.points[from].kept_normal;
@@ -154,8 +154,8 @@ void World::Implementation::find_constraints(double dt) {
     constraint.a = index_a;
     constraint.b = index_b;
     constraint.memory = memory;
-    const bool kept = known && step::take_up(memories[memory], a, b, way_a.swing + way_b.swing, dt, constraint);
-    if (!kept && !find_manifold(constraint, a, b, way_a, way_b, dt)) {
+    constraint.kept = known && step::take_up(memories[memory], a, b, way_a.swing + way_b.swing, dt, constraint);
+    if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt)) {
       active.pop_back();
       continue;
     }
@@ -163,13 +163,7 @@ void World::Implementation::find_constraints(double dt) {
     constraint.restitution = std::max(a.restitution, b.restitution);
     constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
     constraint.began = !(known && memories[memory].touching);
-    if (known) {
-      step::inherit(constraint, memories[memory], 0.05 * std::min(a.radius, b.radius));
-      if (!kept)
-        memories[memory].found = constraint.impact_time == 0 && step::keeps_manifold(a, b)
-                                     ? step::found_manifold(constraint, a, b)
-                                     : state::FoundManifold{};
-    }
+    if (known) step::inherit(constraint, memories[memory], 0.05 * std::min(a.radius, b.radius));
     ++contact_counts[index_a];
     ++contact_counts[index_b];
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "step/workspace.h"
+
 namespace tweenfall::step {
 
 using state::Body;
@@ -21,12 +23,12 @@ bool keeps_manifold(const Body& a, const Body& b) {
   return a.roundness == 0 && b.roundness == 0;
 }
 
-FoundManifold found_manifold(const ContactConstraint& contact, const Body& a, const Body& b) {
+FoundManifold found_manifold(const ContactConstraint& contact, const Start& a, const Start& b) {
   FoundManifold found;
-  const Quat back_a = a.motion.pose.rotation.conjugate();
-  const Quat back_b = b.motion.pose.rotation.conjugate();
+  const Quat back_a = a.rotation.conjugate();
+  const Quat back_b = b.rotation.conjugate();
   found.holds = true;
-  found.turn = back_a * b.motion.pose.rotation;
+  found.turn = back_a * b.rotation;
   found.between = back_a * Vec3(b.center - a.center);
   found.normal = back_a * contact.manifold.normal;
   for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {

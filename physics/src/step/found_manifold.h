@@ -8,9 +8,10 @@ namespace tweenfall::step {
 /// Whether a pair's manifold is worth keeping: between flat faces it costs most, and there its points would wander.
 [[nodiscard]] bool keeps_manifold(const state::Body& a, const state::Body& b);
 
-/// Notes a manifold that was just found at the start of a step.
-[[nodiscard]] state::FoundManifold found_manifold(const ContactConstraint& contact, const state::Body& a,
-                                                  const state::Body& b);
+struct Start;
+
+/// Notes a manifold that was found at the start of a step.
+[[nodiscard]] state::FoundManifold found_manifold(const ContactConstraint& contact, const Start& a, const Start& b);
 
 /// Takes the remembered manifold up again, told about where the bodies are now.
 /// @param swing  how fast points of the surfaces move because the bodies spin, m/s

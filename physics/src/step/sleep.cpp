@@ -17,7 +17,7 @@ constexpr double pulling_share = 0.1;
 constexpr double rounding = 1e-14;
 
 /// Whether a body is slow and has hardly moved: what is taken out of an overlap moves without a speed.
-bool still(const state::Body& body, const state::Start& start, double speed, double dt) {
+bool still(const state::Body& body, const Start& start, double speed, double dt) {
   if (!(body.twist.linear.norm() < speed && body.twist.angular.norm() * body.radius < speed)) return false;
   const double turn = 2 * (body.motion.pose.rotation * start.rotation.conjugate()).vec().norm();
   return (body.center - start.center).norm() <= speed * dt + rounding * body.center.norm() &&

@@ -4,6 +4,7 @@
 #include "collision/impact_time.h"
 #include "forces/drive_law.h"
 #include "state/world_data.h"
+#include "step/found_manifold.h"
 #include "step/keyed_step.h"
 
 namespace tweenfall {
@@ -19,7 +20,7 @@ void remember(const ContactConstraint& constraint, bool touching, state::Contact
     const PointConstraint& point = constraint.points[i];
     memory.points[i] = {point.feature, point.start_arm_b, point.kept_normal, point.kept_friction};
   }
-  static_cast<state::KeptImpulses&>(memory) = constraint;
+  memory.kept = constraint;
   memory.touching = touching;
 }
 
@@ -31,10 +32,27 @@ bool before(const A& left, const B& right) {
 }  // namespace
 }  // namespace step
 
+void step::Workspace::note(std::uint32_t body) {
+  if (fresh) return;
+  if (body >= is_noted.size()) is_noted.resize(body + std::size_t{1}, 0);
+  if (is_noted[body] != 0) return;
+  is_noted[body] = 1;
+  noted.push_back(body);
+}
+
 void World::Implementation::begin_watch() {
   sleepers.clear();
   lingering.clear();
   starts.resize(bodies.size());
+  is_noted.resize(bodies.size(), 0);
+  if (fresh) {
+    noted.clear();
+    watched.clear();
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+      is_noted[i] = 1;
+      noted.push_back(i);
+    }
+  }
   const auto watch = [this](std::uint32_t i) {
     const state::Body& body = bodies[i];
     starts[i] = {body.center, body.motion.pose.rotation, body.twist, body.led};
@@ -42,7 +60,7 @@ void World::Implementation::begin_watch() {
     if (body.immovable() && (body.placed || body.has_target)) lingering.push_back(i);
   };
   std::erase_if(watched, [&](std::uint32_t i) {
-    if (!bodies[i].alive || bodies[i].immovable() || bodies[i].noted) return true;
+    if (!bodies[i].alive || bodies[i].immovable() || is_noted[i] != 0) return true;
     watch(i);
     return false;
   });
@@ -57,8 +75,9 @@ void World::Implementation::begin_watch() {
 }
 
 void World::Implementation::end_watch() {
-  for (const std::uint32_t i : noted) bodies[i].noted = false;
+  for (const std::uint32_t i : noted) is_noted[i] = 0;
   noted.clear();
+  fresh = false;
   for (const std::uint32_t i : lingering) note(i);
 }
 
@@ -126,6 +145,11 @@ void World::Implementation::report() {
     const bool known = constraint.memory != state::ContactMemories::nowhere;
     const std::uint32_t place = known ? constraint.memory : memories.take();
     step::remember(constraint, touching, memories[place]);
+    if (known && !constraint.kept)
+      memories[place].found =
+          constraint.impact_time == 0 && step::keeps_manifold(bodies[constraint.a], bodies[constraint.b])
+              ? step::found_manifold(constraint, starts[constraint.a], starts[constraint.b])
+              : state::FoundManifold{};
     remembered.push_back(place);
     if (touching)
       next_contacts.push_back({{constraint.a, bodies[constraint.a].generation},

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <tweenfall/physics/world.h>
+
+#include <vector>
+
+#include "forces/forces.h"
+#include "state/body.h"
+#include "state/contact_memories.h"
+#include "state/ignored_pairs.h"
+
+namespace tweenfall::state {
+
+/// Everything that leads on from step to step, as plain values: what is copied and hashed.
+struct WorldState {
+  WorldSettings settings;
+  std::vector<Body> bodies;
+  std::vector<std::uint32_t> unused;  ///< indices of removed bodies
+  std::vector<forces::NumberedForce> forces;
+  std::size_t next_force = 0;
+  double time = 0;
+  bool failed = false;       ///< the last step left a body that is not finite
+  ContactMemories memories;  ///< of the last step
+  IgnoredPairs ignored;
+  std::vector<Contact> contacts;  ///< of those that touch, what the caller sees
+};
+
+}  // namespace tweenfall::state

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <vector>
+
+#include "blocks/block_solver.h"
+#include "collision/passage.h"
+#include "forces/forces.h"
+#include "islands/island_contents.h"
+#include "pairs/broad_phase.h"
+#include "step/contact_constraint.h"
+#include "step/solver.h"
+
+namespace tweenfall::step {
+
+/// A body at the start of a step.
+struct Start {
+  Vec3 center;
+  Quat rotation;
+  Twist twist;
+  bool led = false;  ///< by a drive whose target moves
+};
+
+/// Room for a step to work in, and what makes the next one quick. Whether it is that of the steps before or begins
+/// empty never changes a bit of what comes out, so that no copy takes it along.
+struct Workspace {
+  bool fresh = true;                     ///< knows nothing of the steps before: the next one looks at every body
+  std::vector<std::uint32_t> noted;      ///< bodies that the caller changed or led, and those that had been
+  std::vector<char> is_noted;            ///< by body
+  std::vector<std::uint32_t> watched;    ///< sorted: what a step looks at, all but scenery at rest
+  std::vector<std::uint32_t> sleepers;   ///< of them
+  std::vector<std::uint32_t> drowsy;     ///< still for long enough themselves
+  std::vector<std::uint32_t> lingering;  ///< to be looked at once more, when it has come to rest
+
+  std::vector<forces::Load> loads;
+  std::vector<SpringRow> stiff_springs;
+  std::vector<Start> starts;
+  pairs::BroadPhase broad_phase;
+  std::vector<ContactConstraint> active;  ///< near something that stirs
+  std::vector<std::uint32_t> retained;    ///< memories of contacts between bodies at rest, by pair
+  std::vector<std::uint32_t> remembered;
+  std::vector<Contact> next_contacts;
+  std::vector<collision::Passage> passages;  ///< by body
+  std::vector<std::uint64_t> looked_at;      ///< by body: the look that its passage is of
+  std::uint64_t look = 0;
+  std::vector<std::pair<pairs::Pair, collision::Apart>> aparts, aparts_before;  ///< of pairs that do not touch, sorted
+  std::vector<char> flags;
+  std::vector<char> carried;  ///< by island: something keyed moves it
+  std::vector<std::uint32_t> contact_counts;
+  std::vector<double> stillness;
+  islands::Islands islands;
+  islands::IslandSorter island_sorter;
+  Solver solver;
+  blocks::BlockSolver block_solver;
+  std::vector<char> moved;  ///< by a solver in this step
+
+  void note(std::uint32_t body);  ///< the next step looks at this body
+};
+
+}  // namespace tweenfall::step
