@@ -103,6 +103,11 @@ void BlockSolver::remember(std::uint32_t index, int lane) {
   if (known) return;
   known = 1;
   const ContactBlock& block = contacts_.blocks[index];
+  for (const std::uint32_t place : {block.a[lane], block.b[lane]}) {
+    if (known_before_[place]) continue;
+    known_before_[place] = 1;
+    before_rebound_[place] = velocities_[place];
+  }
   Reached& reached = reached_.emplace_back();
   reached.block = index;
   reached.lane = lane;
@@ -117,8 +122,6 @@ void BlockSolver::remember(std::uint32_t index, int lane) {
 
 double BlockSolver::rebound_contact(std::uint32_t index, int lane) {
   const ContactBlock& block = contacts_.blocks[index];
-  // Only what the rebound reaches.
-  if (!stirred_[block.a[lane]] && !stirred_[block.b[lane]]) return 0;
   const IslandBody& a = bodies_[block.a[lane]];
   const IslandBody& b = bodies_[block.b[lane]];
   remember(index, lane);
@@ -150,8 +153,8 @@ double BlockSolver::rebound_contact(std::uint32_t index, int lane) {
     change = std::max(change, std::abs(pushed) / row.mass[lane]);
   }
   if (change > quiet * block.tremble[lane]) {
-    stirred_[block.a[lane]] = a.movable;
-    stirred_[block.b[lane]] = b.movable;
+    if (a.movable) reach_.stir(block.a[lane]);
+    if (b.movable) reach_.stir(block.b[lane]);
   }
   return change / block.tremble[lane];
 }
@@ -191,10 +194,10 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     const IslandBody& entry = bodies_[i];
     if (!entry.movable) continue;
+    const BodyLanes& before = known_before_[i] ? before_rebound_[i] : velocities_[i];
     if (entry.even) {
       energy.add(entry.mass, entry.moment, {linear_of(starts_[i]), angular_of(starts_[i])},
-                 {linear_of(before_rebound_[i]), angular_of(before_rebound_[i])},
-                 {linear_of(velocities_[i]), angular_of(velocities_[i])},
+                 {linear_of(before), angular_of(before)}, {linear_of(velocities_[i]), angular_of(velocities_[i])},
                  entry.mass * entry.acceleration.dot(entry.center - entry.sub_step_center));
       continue;
     }
@@ -202,7 +205,7 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
     course.start = {linear_of(starts_[i]), angular_of(starts_[i])};
     course.start_center = entry.sub_step_center;
     course.start_rotation = entry.sub_step_rotation;
-    course.before = {linear_of(before_rebound_[i]), angular_of(before_rebound_[i])};
+    course.before = {linear_of(before), angular_of(before)};
     course.after = {linear_of(velocities_[i]), angular_of(velocities_[i])};
     course.center = entry.center;
     course.rotation = entry.rotation;
@@ -233,7 +236,7 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
   const double share = energy.share_within();
   if (share == 1) return;
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    if (!bodies_[i].movable) continue;
+    if (!bodies_[i].movable || !known_before_[i]) continue;
     const auto back = [share](double(&lanes)[4], const double(&before)[4]) {
       for (int k = 0; k < 3; ++k) lanes[k] = before[k] + share * (lanes[k] - before[k]);
     };
@@ -286,8 +289,9 @@ void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vec
     return contacts_.points[rebound.row].impulse[rebound.lane] > 0;
   });
   if (any) {
-    before_rebound_ = velocities_;
-    stirred_.assign(bodies_.size(), 0);
+    before_rebound_.resize(bodies_.size());
+    known_before_.assign(bodies_.size(), 0);
+    reach_.begin(contacts_.blocks, bodies_);
     remembered_.resize(contacts_.blocks.size() * lane_count, 0);
     for (Rebound& rebound : rebounds_) {
       const ContactBlock& block = contacts_.blocks[rebound.block];
@@ -300,14 +304,14 @@ void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vec
                                         lane_of(row.turn_b, rebound.lane));
       rebound.impulse_before = row.impulse[rebound.lane];
       if (!(row.impulse[rebound.lane] > 0)) continue;
-      if (a.movable) stirred_[block.a[rebound.lane]] = 1;
-      if (b.movable) stirred_[block.b[rebound.lane]] = 1;
+      if (a.movable) reach_.stir(block.a[rebound.lane]);
+      if (b.movable) reach_.stir(block.b[rebound.lane]);
     }
     for (int pass = 0; pass < passes; ++pass) {
       double most = 0;
-      for (std::uint32_t i = 0; i < contacts_.blocks.size(); ++i)
-        for (int lane = 0; lane < lane_count; ++lane)
-          if (contacts_.blocks[i].contacts[lane]) most = std::max(most, rebound_contact(i, lane));
+      reach_.visit([&](std::uint32_t lane) {
+        most = std::max(most, rebound_contact(lane / lane_count, static_cast<int>(lane % lane_count)));
+      });
       if (most < quiet) break;
     }
     for (const Rebound& rebound : rebounds_) move_by(rebound);

@@ -255,6 +255,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   gather(bodies, loads, contacts, settings.integrator, dt);
   foresee(contacts, loads, dt);
   contacts_.build(contacts, places_, bodies_, loads, h, dt);
+  reach_.forget();
   const int share = std::max(2, settings.iterations / sub_steps_of_many);
   const int relaxing = share / 2;
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);

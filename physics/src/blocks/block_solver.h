@@ -5,6 +5,7 @@
 
 #include "blocks/contact_blocks.h"
 #include "blocks/island_body.h"
+#include "blocks/rebound_reach.h"
 #include "forces/free_flight.h"
 #include "islands/island_contents.h"
 
@@ -77,8 +78,9 @@ class BlockSolver {
   std::vector<std::uint32_t> meetings_;  ///< lanes
   std::vector<Rebound> rebounds_;
   std::vector<Reached> reached_;
-  std::vector<char> stirred_;     ///< by place: by the rebound of this sub-step
-  std::vector<char> remembered_;  ///< by lane: it is in reached_
+  ReboundReach reach_;
+  std::vector<char> remembered_;    ///< by lane: it is in reached_
+  std::vector<char> known_before_;  ///< by place: it is in before_rebound_
 };
 
 }  // namespace tweenfall::blocks
