@@ -10,7 +10,7 @@
 namespace tweenfall::forces {
 
 struct NumberedForce {
-  std::size_t number = 0;
+  std::uint64_t number = 0;
   Force force;
 };
 

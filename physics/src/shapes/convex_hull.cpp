@@ -23,12 +23,22 @@ struct ConvexHull::Data {
 
   /// With planes as thick as `flat`; false when rounding spoils it.
   bool make(std::span<const Vec3> points, double flat);
+  /// From the vertices, and each face's corners among them.
+  bool assemble(std::span<const std::vector<std::uint32_t>> loops);
   bool connect();
+  void finish(const SurfaceMesh& surface);
   [[nodiscard]] bool holds(std::span<const Vec3> points, double within) const;
 };
 
 namespace shapes {
 namespace {
+
+/// How often planes may be taken for thicker, and how much each time.
+constexpr int most_attempts = 4;
+constexpr double thickening = 8;
+/// Thicknesses by which a point may lie beyond a face.
+constexpr double slack = 32;
+constexpr double most_slack = 2 * slack * thickening * thickening * thickening;
 
 constexpr double least_extent = 1e-6, greatest_extent = 1e6;  // m
 
@@ -82,12 +92,19 @@ bool ConvexHull::Data::make(std::span<const Vec3> points, double flat) {
     vertices.push_back(points[i]);
   }
   if (vertices.size() > most_vertices) return true;  // which the caller refuses
+  std::vector<std::vector<std::uint32_t>> numbered = loops;
+  for (auto& loop : numbered)
+    for (std::uint32_t& corner : loop) corner = number[corner];
+  return assemble(numbered) && holds(points, shapes::slack * flat);
+}
+
+bool ConvexHull::Data::assemble(std::span<const std::vector<std::uint32_t>> loops) {
   for (const auto& loop : loops) {
     const auto first = static_cast<std::uint32_t>(corners.size());
-    for (const std::uint32_t corner : loop) corners.push_back(number[corner]);
+    corners.insert(corners.end(), loop.begin(), loop.end());
     faces.push_back(shapes::face_of(vertices, std::span(corners).subspan(first), first));
   }
-  return connect() && holds(points, 32 * flat);
+  return connect();
 }
 
 /// Edges, which have a face on either side.
@@ -99,6 +116,10 @@ bool ConvexHull::Data::connect() {
     for (std::size_t k = 0; k < loop.size(); ++k) directed.push_back({loop[k], loop[(k + 1) % loop.size()], i});
   }
   std::sort(directed.begin(), directed.end());
+  for (std::size_t i = 0; i < directed.size(); ++i) {
+    const auto& [from, to, face] = directed[i];
+    if (from == to || (i > 0 && directed[i - 1][0] == from && directed[i - 1][1] == to)) return false;
+  }
   for (const auto& [from, to, face] : directed) {
     const auto back = std::lower_bound(directed.begin(), directed.end(), DirectedEdge{to, from, 0});
     if (back == directed.end() || (*back)[0] != to || (*back)[1] != from) return false;
@@ -126,7 +147,7 @@ ConvexHull::ConvexHull(std::span<const Vec3> points) {
   std::shared_ptr<Data> data;
   // Points that are not exact to the usual thickness of planes may be to a greater one.
   double flat = shapes::flat_distance(points);
-  for (int attempt = 0; attempt < 4 && !data; ++attempt, flat *= 8) {
+  for (int attempt = 0; attempt < shapes::most_attempts && !data; ++attempt, flat *= shapes::thickening) {
     auto made = std::make_shared<Data>();
     if (made->make(points, flat)) data = std::move(made);
   }
@@ -136,12 +157,40 @@ ConvexHull::ConvexHull(std::span<const Vec3> points) {
                                 " vertices, but these points make " + std::to_string(data->vertices.size()) +
                                 "; take fewer points, or fewer sides around");
   data_ = data;
-  data->measures = measure(surface());
-  const Vec3& center = data->measures.center;
-  data->inner_radius = shapes::greatest_extent;
-  for (const Face& face : data->faces)
-    data->inner_radius = std::min(data->inner_radius, face.offset - face.normal.dot(center));
-  for (const Vec3& vertex : data->vertices) data->outer_radius = std::max(data->outer_radius, (vertex - center).norm());
+  data->finish(surface());
+}
+
+void ConvexHull::Data::finish(const SurfaceMesh& surface) {
+  measures = measure(surface);
+  const Vec3& center = measures.center;
+  inner_radius = shapes::greatest_extent;
+  for (const Face& face : faces) inner_radius = std::min(inner_radius, face.offset - face.normal.dot(center));
+  for (const Vec3& vertex : vertices) outer_radius = std::max(outer_radius, (vertex - center).norm());
+}
+
+ConvexHull::ConvexHull(std::span<const Vec3> vertices, std::span<const std::vector<std::uint32_t>> faces) {
+  shapes::require_usable(vertices);
+  const auto require = [](bool holds, const char* what) {
+    if (!holds) throw std::invalid_argument(std::string("these vertices and faces are no convex hull: ") + what);
+  };
+  require(vertices.size() <= most_vertices, "there are too many vertices");
+  std::vector<std::size_t> used(vertices.size(), 0);
+  for (const auto& loop : faces) {
+    require(loop.size() >= 3 && loop.size() <= vertices.size(), "a face needs 3 corners, and each vertex only once");
+    for (const std::uint32_t corner : loop) {
+      require(corner < vertices.size(), "a corner is none of the vertices");
+      ++used[corner];
+    }
+  }
+  require(std::ranges::all_of(used, [](std::size_t count) { return count >= 3; }), "a vertex has fewer than 3 faces");
+  auto data = std::make_shared<Data>();
+  data->vertices.assign(vertices.begin(), vertices.end());
+  require(data->assemble(faces), "faces do not meet at edges, two at each");
+  require(data->holds(vertices, shapes::most_slack * shapes::flat_distance(vertices)),
+          "a face is not flat or not outside");
+  data_ = data;
+  data->finish(surface());
+  require(data->measures.volume > 0, "it is inside out");
 }
 
 ConvexHull::ConvexHull(const SurfaceMesh& mesh) : ConvexHull(std::span<const Vec3>(mesh.positions)) {}

@@ -1,8 +1,15 @@
 #include "state/contact_memories.h"
 
 #include <algorithm>
+#include <numeric>
+#include <utility>
 
 namespace tweenfall::state {
+
+ContactMemories::ContactMemories(std::vector<ContactMemory> all) : all_(std::move(all)) {
+  sorted_.resize(all_.size());
+  std::iota(sorted_.begin(), sorted_.end(), std::uint32_t{0});
+}
 
 std::span<const std::uint32_t> ContactMemories::of(std::uint32_t body) {
   if (starts_.empty()) {

@@ -55,6 +55,9 @@ class ContactMemories {
  public:
   static constexpr std::uint32_t nowhere = 0xffffffff;
 
+  ContactMemories() = default;
+  explicit ContactMemories(std::vector<ContactMemory> all);  ///< by pair
+
   [[nodiscard]] ContactMemory& operator[](std::uint32_t place) { return all_[place]; }
   [[nodiscard]] const ContactMemory& operator[](std::uint32_t place) const { return all_[place]; }
   /// Places, by pair; those that are gone too, until `tidy`.

@@ -10,6 +10,15 @@ namespace tweenfall::state {
 /// together that wants it so.
 class IgnoredPairs {
  public:
+  struct Entry {
+    std::uint32_t a = 0, b = 0;  ///< a < b
+    std::uint32_t holders = 0;
+    bool asked = false;
+  };
+
+  IgnoredPairs() = default;
+  explicit IgnoredPairs(std::vector<Entry> entries) : entries_(std::move(entries)) {}  ///< by pair
+
   [[nodiscard]] bool contains(std::uint32_t a, std::uint32_t b) const;
   /// What the caller asks for. @return whether the pair met before and does not now, or the other way round
   bool ask(std::uint32_t a, std::uint32_t b, bool ignore);
@@ -17,13 +26,7 @@ class IgnoredPairs {
   bool hold(std::uint32_t a, std::uint32_t b);
   /// One less. @return whether the pair meets again
   bool let_go(std::uint32_t a, std::uint32_t b);
-  void remove(std::uint32_t body);  ///< with all its pairs
-
-  struct Entry {
-    std::uint32_t a = 0, b = 0;  ///< a < b
-    std::uint32_t holders = 0;
-    bool asked = false;
-  };
+  void remove(std::uint32_t body);                                          ///< with all its pairs
   [[nodiscard]] const std::vector<Entry>& all() const { return entries_; }  ///< by pair
 
  private:

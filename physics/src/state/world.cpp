@@ -1,14 +1,12 @@
 #include <tweenfall/physics/world.h>
 
 #include <tweenfall/curves/number_text.h>
-#include <tweenfall/curves/rotation.h>
 
-#include <Eigen/LU>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "state/checks.h"
 #include "state/countable.h"
 #include "state/world_data.h"
 
@@ -16,68 +14,6 @@ namespace tweenfall {
 
 namespace state {
 namespace {
-
-void require(bool holds, const std::string& what) {
-  if (!holds) throw std::invalid_argument(what);
-}
-
-void require_finite(const Vec3& value, const char* name) {
-  require(countable(value), std::string(name) + " must be finite and at most 1e30, but is (" + number_text(value.x()) +
-                                ", " + number_text(value.y()) + ", " + number_text(value.z()) + ")");
-}
-
-void require_amount(double value, const char* name) {
-  require(value >= 0 && countable(value), std::string(name) + " must lie in 0 to 1e30, but is " + number_text(value));
-}
-
-void validate(const Force& force) {
-  if (const auto* drag = std::get_if<Drag>(&force)) {
-    require_amount(drag->linear, "linear drag");
-    require_amount(drag->quadratic, "quadratic drag");
-    require_amount(drag->angular, "angular drag");
-  } else if (const auto* spring = std::get_if<Spring>(&force)) {
-    require_finite(spring->anchor_a, "first anchor of a spring");
-    require_finite(spring->anchor_b, "second anchor of a spring");
-    require_amount(spring->rest_length, "rest length of a spring");
-    require_amount(spring->stiffness, "stiffness of a spring");
-    require_amount(spring->damping, "damping of a spring");
-  } else {
-    require(static_cast<bool>(std::get<Field>(force)), "a field must hold a function");
-  }
-}
-
-void validate(const Drive& drive) {
-  require(drive.hz >= 0, "frequency of a drive must be 0 (free), positive, or infinite (keyed), but is " +
-                             number_text(drive.hz) + " Hz");
-  require(drive.zeta >= 0 && std::isfinite(drive.zeta),
-          "damping ratio of a drive must not be negative and must be finite, but is " + number_text(drive.zeta));
-  require(drive.max_force >= 0,
-          "greatest force of a drive must not be negative, but is " + number_text(drive.max_force));
-  require(drive.max_torque >= 0,
-          "greatest torque of a drive must not be negative, but is " + number_text(drive.max_torque));
-}
-
-Motion checked(Motion motion) {
-  require_finite(motion.pose.position, "position");
-  require_finite(motion.pose.scale, "scale");
-  require_finite(motion.twist.linear, "linear velocity");
-  require_finite(motion.twist.angular, "angular velocity");
-  require_finite(motion.scale_rate, "rate of the scale");
-  const double length = motion.pose.rotation.norm();
-  require(std::isfinite(length) && length > 0, "rotation must be a quaternion that can be normalized");
-  // A unit quaternion stays as it was given, to the bit.
-  if (std::abs(length - 1) > 1e-12) motion.pose.rotation = normalized(motion.pose.rotation);
-  return motion;
-}
-
-/// Farthest point of the solid from its center of mass.
-double radius_of(const Solid& solid) {
-  if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&solid)) return box->half_extents.norm();
-  if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius + capsule->half_height;
-  if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.outer_radius();
-  return std::numeric_limits<double>::infinity();
-}
 
 void clear_work(Body& body) {
   body.force = Vec3::Zero();
@@ -142,15 +78,7 @@ void World::Implementation::forget_impulses(std::uint32_t index) {
 }
 
 World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>()) {
-  state::require_finite(settings.gravity, "gravity");
-  state::require(settings.iterations > 0,
-                 "iterations must be at least 1, but are " + std::to_string(settings.iterations));
-  state::require(settings.sleep_speed >= 0,
-                 "sleep speed must not be negative, but is " + number_text(settings.sleep_speed));
-  state::require(settings.sleep_after >= 0,
-                 "sleep_after must not be negative, but is " + number_text(settings.sleep_after));
-  state::require(settings.push_out_speed >= 0,
-                 "push-out speed must not be negative, but is " + number_text(settings.push_out_speed));
+  state::validate(settings);
   implementation_->settings = settings;
 }
 World::~World() = default;
@@ -184,45 +112,11 @@ World::Implementation& World::changing() {
 
 BodyId World::add(const BodySettings& settings) {
   Implementation& world = changing();
-  tweenfall::validate(settings.shape.solid);
   state::validate(settings.drive);
-  state::require_amount(settings.friction, "friction");
-  state::require(settings.restitution >= 0 && settings.restitution <= 1,
-                 "restitution must lie in 0 to 1, but is " + number_text(settings.restitution));
-  state::require_amount(settings.rolling_friction, "rolling friction");
-  state::require_amount(settings.linear_damping, "linear damping");
-  state::require_amount(settings.angular_damping, "angular damping");
   state::Body body;
   body.shape = settings.shape;
-  const double turn = settings.shape.offset.rotation.norm();
-  state::require_finite(settings.shape.offset.position, "offset of a shape");
-  state::require(std::isfinite(turn) && turn > 0, "rotation of a shape must be a quaternion that can be normalized");
-  if (std::abs(turn - 1) > 1e-12) body.shape.offset.rotation = normalized(settings.shape.offset.rotation);
-  if (std::holds_alternative<Plane>(settings.shape.solid)) {
-    state::require(settings.fixed || settings.drive.owner() == Owner::keyed,
-                   "a body with a plane must be fixed or keyed: it has no mass");
-    body.mass.center = settings.shape.offset.position;
-  } else {
-    const double mass = settings.mass ? *settings.mass : settings.density * volume(settings.shape.solid);
-    state::require(mass >= state::smallest && mass <= state::largest,
-                   "mass must lie in 1e-30 kg to 1e30 kg, but is " + number_text(mass) + " kg");
-    body.mass = mass_properties(body.shape, mass);
-    body.inverse_inertia = body.mass.inertia.inverse();
-    const double first = body.mass.inertia(0, 0);
-    body.spherical = std::holds_alternative<Sphere>(settings.shape.solid) ||
-                     (body.mass.inertia - first * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-14 * first;
-    if (body.spherical) {
-      body.mass.inertia = first * Mat3::Identity();
-      body.inverse_inertia = 1 / first * Mat3::Identity();
-    }
-  }
-  if (const auto* sphere = std::get_if<Sphere>(&settings.shape.solid)) body.roundness = sphere->radius;
-  if (const auto* capsule = std::get_if<Capsule>(&settings.shape.solid)) body.roundness = capsule->radius;
-  body.radius = state::radius_of(settings.shape.solid);
-  state::require(body.radius >= state::smallest &&
-                     (std::holds_alternative<Plane>(settings.shape.solid) || body.radius <= state::largest),
-                 "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + number_text(body.radius) +
-                     " m from its center");
+  body.fixed = settings.fixed;
+  body.drive = settings.drive;
   body.friction = settings.friction;
   body.restitution = settings.restitution;
   body.rolling_friction = settings.rolling_friction;
@@ -230,8 +124,8 @@ BodyId World::add(const BodySettings& settings) {
   body.collides_with = settings.collides_with;
   body.linear_damping = settings.linear_damping;
   body.angular_damping = settings.angular_damping;
-  body.fixed = settings.fixed;
-  body.drive = settings.drive;
+  state::validate_surface(body);
+  state::give_mass(body, settings.mass, settings.density);
   body.motion = state::checked(settings.motion);
   if (body.fixed) {
     body.motion.twist = {};
@@ -486,7 +380,7 @@ std::size_t World::add_force(Force force) {
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
       if (world.bodies[i].alive) world.wake(i);
   }
-  const std::size_t number = world.next_force++;
+  const auto number = static_cast<std::size_t>(world.next_force++);
   world.forces.push_back({number, std::move(force)});
   return number;
 }

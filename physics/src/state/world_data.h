@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "state/world_state.h"
 #include "step/workspace.h"
 
@@ -10,7 +12,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   bool stepping = false;  ///< a field may be running: nothing may change
 
   Implementation() = default;
-  explicit Implementation(const state::WorldState& other) : WorldState(other) {}
+  explicit Implementation(state::WorldState other) : WorldState(std::move(other)) {}
   Implementation& operator=(const state::WorldState& other) {
     WorldState::operator=(other);
     Workspace::operator=({});

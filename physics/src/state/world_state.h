@@ -11,13 +11,14 @@
 
 namespace tweenfall::state {
 
-/// Everything that leads on from step to step, as plain values: what is copied and hashed.
+/// Everything that leads on from step to step, as plain values: what is copied, hashed, saved and loaded. Its
+/// fields are told of in `state/fields.h`.
 struct WorldState {
   WorldSettings settings;
   std::vector<Body> bodies;
   std::vector<std::uint32_t> unused;  ///< indices of removed bodies
   std::vector<forces::NumberedForce> forces;
-  std::size_t next_force = 0;
+  std::uint64_t next_force = 0;
   double time = 0;
   bool failed = false;       ///< the last step left a body that is not finite
   ContactMemories memories;  ///< of the last step

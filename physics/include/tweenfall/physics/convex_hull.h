@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace tweenfall {
 
@@ -36,6 +37,10 @@ class ConvexHull {
   explicit ConvexHull(std::span<const Vec3> points);
   /// The hull of the mesh's vertices.
   explicit ConvexHull(const SurfaceMesh& mesh);
+  /// The hull that has these vertices and faces, as another tells them, to the bit.
+  /// @param faces  corners among the vertices, counter-clockwise seen from outside
+  /// @throws std::invalid_argument when they are no convex hull
+  ConvexHull(std::span<const Vec3> vertices, std::span<const std::vector<std::uint32_t>> faces);
   // Moving copies, so that no hull is ever without its data.
   ConvexHull(const ConvexHull&) noexcept = default;
   ConvexHull& operator=(const ConvexHull&) noexcept = default;

@@ -11,6 +11,7 @@
 #include <tweenfall/physics/force.h>
 #include <tweenfall/physics/shape.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -146,8 +147,16 @@ class World {
   /// Pairs that touched in the last step, in a fixed order.
   [[nodiscard]] std::span<const Contact> contacts() const noexcept;
 
-  /// A number that changes when any bit of any body's state does.
+  // Keeping it
+  /// A number that changes when any bit does of what the world is: of all that tells on its next steps.
   [[nodiscard]] std::uint64_t state_hash() const noexcept;
+  /// The world as bytes, from which `load` makes it again, with the same handles: it then steps to the same bits.
+  /// @throws std::invalid_argument when the world has a field, for a function cannot be saved: take it away with
+  /// `remove_force` and add it again after loading; or when a body is not finite
+  [[nodiscard]] std::vector<std::byte> save() const;
+  /// Becomes the world that was saved.
+  /// @throws std::invalid_argument telling what is wrong with the bytes; nothing has changed then
+  void load(std::span<const std::byte> saved);
 
  private:
   struct Implementation;

@@ -1,0 +1,120 @@
+#pragma once
+
+/// A world's state as bytes: little-endian, every number in its own width, in the order of `each_field`.
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "state/walk.h"
+
+namespace tweenfall::state {
+
+/// The unsigned integer in which a number is written.
+template <class T>
+using Word = std::conditional_t<sizeof(T) == 1, std::uint8_t,
+                                std::conditional_t<sizeof(T) == 2, std::uint16_t,
+                                                   std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
+
+template <class T>
+[[nodiscard]] Word<T> word_of(T value) {
+  if constexpr (std::is_floating_point_v<T>)
+    return std::bit_cast<Word<T>>(value);
+  else
+    return static_cast<Word<T>>(value);
+}
+
+class ByteWriter : public Teller<ByteWriter> {
+ public:
+  template <class T>
+  void number(const T& value) {
+    const Word<T> word = word_of(value);
+    for (std::size_t i = 0; i < sizeof(word); ++i) bytes.push_back(static_cast<std::byte>(word >> (8 * i) & 0xff));
+  }
+  /// Of hulls that are shared only the first is written; then its number.
+  void hull(const ConvexHull& hull);
+  /// @throws std::invalid_argument
+  [[noreturn]] void field(const Field&);
+
+  std::vector<std::byte> bytes;
+
+ private:
+  std::unordered_map<const Vec3*, std::uint32_t> hulls_;
+};
+
+/// All functions throw std::invalid_argument when the bytes are too few or tell what cannot be.
+class ByteReader {
+ public:
+  explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  template <class T>
+  void number(T& value) {
+    Word<T> word = 0;
+    require(bytes_.size() - place_ >= sizeof(word), "it ends too early");
+    for (std::size_t i = 0; i < sizeof(word); ++i)
+      word = static_cast<Word<T>>(word | static_cast<Word<T>>(bytes_[place_ + i]) << (8 * i));
+    if constexpr (std::is_same_v<T, bool>) require(word <= 1, "this should be 0 or 1");
+    place_ += sizeof(word);
+    if constexpr (std::is_floating_point_v<T>)
+      value = std::bit_cast<T>(word);
+    else
+      value = static_cast<T>(word);
+  }
+  template <class T>
+  void list(std::vector<T>& values) {
+    values.clear();
+    // One by one: a count that is wrong comes to the end of the bytes before it takes much room.
+    for (std::uint64_t left = count(); left > 0; --left) walk(*this, values.emplace_back());
+  }
+  void list(ContactMemories& memories) {
+    std::vector<ContactMemory> all;
+    list(all);
+    memories = ContactMemories(std::move(all));
+  }
+  void list(IgnoredPairs& pairs) {
+    std::vector<IgnoredPairs::Entry> all;
+    list(all);
+    pairs = IgnoredPairs(std::move(all));
+  }
+  template <class... T>
+  void choice(std::variant<T...>& value) {
+    std::uint8_t index = 0;
+    number(index);
+    std::size_t kind = 0;
+    bool found = false;
+    const auto try_kind = [&](auto make) {
+      if (kind++ != index) return;
+      found = true;
+      make();
+    };
+    (try_kind([&] { read_as<T>(value); }), ...);
+    require(found, "there is no such kind");
+  }
+  [[noreturn]] void field(Field&);
+
+  /// @throws std::invalid_argument telling where in the bytes that is
+  void require(bool holds, const char* what) const;
+  [[nodiscard]] std::size_t place() const { return place_; }
+  [[nodiscard]] bool at_end() const { return place_ == bytes_.size(); }
+
+ private:
+  /// Of things of which each takes a byte or more.
+  std::uint64_t count();
+  template <class T, class Variant>
+  void read_as(Variant& value) {
+    if constexpr (std::is_same_v<T, Hull>)
+      value = read_hull();
+    else
+      walk(*this, value.template emplace<T>());
+  }
+  [[nodiscard]] Hull read_hull();
+
+  std::span<const std::byte> bytes_;
+  std::size_t place_ = 0;
+  std::vector<ConvexHull> hulls_;
+};
+
+}  // namespace tweenfall::state

@@ -1,0 +1,133 @@
+#include "state/checks.h"
+
+#include <tweenfall/curves/number_text.h>
+#include <tweenfall/curves/rotation.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "state/countable.h"
+
+namespace tweenfall::state {
+
+namespace {
+
+/// Farthest point of the solid from its center of mass.
+double radius_of(const Solid& solid) {
+  if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&solid)) return box->half_extents.norm();
+  if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius + capsule->half_height;
+  if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.outer_radius();
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+void require_finite(const Vec3& value, const char* name) {
+  require(countable(value), std::string(name) + " must be finite and at most 1e30, but is (" + number_text(value.x()) +
+                                ", " + number_text(value.y()) + ", " + number_text(value.z()) + ")");
+}
+
+void require_amount(double value, const char* name) {
+  require(value >= 0 && countable(value), std::string(name) + " must lie in 0 to 1e30, but is " + number_text(value));
+}
+
+void validate(const Force& force) {
+  if (const auto* drag = std::get_if<Drag>(&force)) {
+    require_amount(drag->linear, "linear drag");
+    require_amount(drag->quadratic, "quadratic drag");
+    require_amount(drag->angular, "angular drag");
+  } else if (const auto* spring = std::get_if<Spring>(&force)) {
+    require_finite(spring->anchor_a, "first anchor of a spring");
+    require_finite(spring->anchor_b, "second anchor of a spring");
+    require_amount(spring->rest_length, "rest length of a spring");
+    require_amount(spring->stiffness, "stiffness of a spring");
+    require_amount(spring->damping, "damping of a spring");
+  } else {
+    require(static_cast<bool>(std::get<Field>(force)), "a field must hold a function");
+  }
+}
+
+void validate(const Drive& drive) {
+  require(drive.hz >= 0, "frequency of a drive must be 0 (free), positive, or infinite (keyed), but is " +
+                             number_text(drive.hz) + " Hz");
+  require(drive.zeta >= 0 && std::isfinite(drive.zeta),
+          "damping ratio of a drive must not be negative and must be finite, but is " + number_text(drive.zeta));
+  require(drive.max_force >= 0,
+          "greatest force of a drive must not be negative, but is " + number_text(drive.max_force));
+  require(drive.max_torque >= 0,
+          "greatest torque of a drive must not be negative, but is " + number_text(drive.max_torque));
+}
+
+Motion checked(Motion motion) {
+  require_finite(motion.pose.position, "position");
+  require_finite(motion.pose.scale, "scale");
+  require_finite(motion.twist.linear, "linear velocity");
+  require_finite(motion.twist.angular, "angular velocity");
+  require_finite(motion.scale_rate, "rate of the scale");
+  const double length = motion.pose.rotation.norm();
+  require(std::isfinite(length) && length > 0, "rotation must be a quaternion that can be normalized");
+  // A unit quaternion stays as it was given, to the bit.
+  if (std::abs(length - 1) > 1e-12) motion.pose.rotation = normalized(motion.pose.rotation);
+  return motion;
+}
+
+void validate(const WorldSettings& settings) {
+  require_finite(settings.gravity, "gravity");
+  require(settings.iterations > 0, "iterations must be at least 1, but are " + std::to_string(settings.iterations));
+  require(settings.sleep_speed >= 0, "sleep speed must not be negative, but is " + number_text(settings.sleep_speed));
+  require(settings.sleep_after >= 0, "sleep_after must not be negative, but is " + number_text(settings.sleep_after));
+  require(settings.push_out_speed >= 0,
+          "push-out speed must not be negative, but is " + number_text(settings.push_out_speed));
+}
+
+void validate_surface(const Body& body) {
+  require_amount(body.friction, "friction");
+  require(body.restitution >= 0 && body.restitution <= 1,
+          "restitution must lie in 0 to 1, but is " + number_text(body.restitution));
+  require_amount(body.rolling_friction, "rolling friction");
+  require_amount(body.linear_damping, "linear damping");
+  require_amount(body.angular_damping, "angular damping");
+}
+
+void give_mass(Body& body, const std::optional<double>& given, double density) {
+  tweenfall::validate(body.shape.solid);
+  Pose& offset = body.shape.offset;
+  const double turn = offset.rotation.norm();
+  require_finite(offset.position, "offset of a shape");
+  require(std::isfinite(turn) && turn > 0, "rotation of a shape must be a quaternion that can be normalized");
+  if (std::abs(turn - 1) > 1e-12) offset.rotation = normalized(offset.rotation);
+  const Solid& solid = body.shape.solid;
+  const bool endless = std::holds_alternative<Plane>(solid);
+  if (endless) {
+    require(body.immovable(), "a body with a plane must be fixed or keyed: it has no mass");
+    body.mass.center = offset.position;
+  } else {
+    const double mass = given ? *given : density * volume(solid);
+    require(mass >= smallest && mass <= largest,
+            "mass must lie in 1e-30 kg to 1e30 kg, but is " + number_text(mass) + " kg");
+    body.mass = mass_properties(body.shape, mass);
+    body.inverse_inertia = body.mass.inertia.inverse();
+    const double first = body.mass.inertia(0, 0);
+    body.spherical = std::holds_alternative<Sphere>(solid) ||
+                     (body.mass.inertia - first * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-14 * first;
+    if (body.spherical) {
+      body.mass.inertia = first * Mat3::Identity();
+      body.inverse_inertia = 1 / first * Mat3::Identity();
+    }
+  }
+  if (const auto* sphere = std::get_if<Sphere>(&solid)) body.roundness = sphere->radius;
+  if (const auto* capsule = std::get_if<Capsule>(&solid)) body.roundness = capsule->radius;
+  body.radius = radius_of(solid);
+  require(body.radius >= smallest && (endless || body.radius <= largest),
+          "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + number_text(body.radius) +
+              " m from its center");
+}
+
+}  // namespace tweenfall::state

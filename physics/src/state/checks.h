@@ -1,0 +1,31 @@
+#pragma once
+
+/// What a world takes. All throw std::invalid_argument that tells what is wrong.
+
+#include <tweenfall/physics/world.h>
+
+#include <optional>
+#include <string>
+
+#include "state/body.h"
+
+namespace tweenfall::state {
+
+void require(bool holds, const std::string& what);
+void require_finite(const Vec3& value, const char* name);
+void require_amount(double value, const char* name);
+
+void validate(const WorldSettings& settings);
+void validate(const Force& force);
+void validate(const Drive& drive);
+/// Friction, restitution and damping.
+void validate_surface(const Body& body);
+
+/// The motion with its rotation normalized where it is not.
+[[nodiscard]] Motion checked(Motion motion);
+
+/// Sets what follows from a body's shape and mass: mass properties, radius, roundness. A plane has none.
+/// @param given  kg; absent: density times volume
+void give_mass(Body& body, const std::optional<double>& given, double density);
+
+}  // namespace tweenfall::state

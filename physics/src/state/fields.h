@@ -1,0 +1,202 @@
+#pragma once
+
+/// The fields of all that a world's state is made of, each listed once: what is hashed, saved and loaded is the same. A
+/// field that is added and not listed here does not compile.
+
+#include <concepts>
+#include <cstdint>
+
+#include "state/world_state.h"
+
+namespace tweenfall::state {
+
+template <class T, class Of>
+concept Is = std::same_as<std::remove_const_t<T>, Of>;
+
+/// Names fields that follow from others.
+inline void follows_from_others(const auto&...) {}
+
+// each_field(value, visit): calls `visit(field, field, ...)`, perhaps several times, with all of them in a fixed order.
+
+template <Is<Pose> T, class Visit>
+void each_field(T& pose, const Visit& visit) {
+  auto& [position, rotation, scale] = pose;
+  visit(position, rotation, scale);
+}
+
+template <Is<Twist> T, class Visit>
+void each_field(T& twist, const Visit& visit) {
+  auto& [linear, angular] = twist;
+  visit(linear, angular);
+}
+
+template <Is<Motion> T, class Visit>
+void each_field(T& motion, const Visit& visit) {
+  auto& [pose, twist, scale_rate] = motion;
+  visit(pose, twist, scale_rate);
+}
+
+template <Is<Drive> T, class Visit>
+void each_field(T& drive, const Visit& visit) {
+  auto& [hz, zeta, max_force, max_torque] = drive;
+  visit(hz, zeta, max_force, max_torque);
+}
+
+template <Is<BodyId> T, class Visit>
+void each_field(T& id, const Visit& visit) {
+  auto& [index, generation] = id;
+  visit(index, generation);
+}
+
+template <Is<Sphere> T, class Visit>
+void each_field(T& sphere, const Visit& visit) {
+  auto& [radius] = sphere;
+  visit(radius);
+}
+
+template <Is<Box> T, class Visit>
+void each_field(T& box, const Visit& visit) {
+  auto& [half_extents] = box;
+  visit(half_extents);
+}
+
+template <Is<Capsule> T, class Visit>
+void each_field(T& capsule, const Visit& visit) {
+  auto& [radius, half_height] = capsule;
+  visit(radius, half_height);
+}
+
+template <Is<Plane> T, class Visit>
+void each_field(T& plane, const Visit& visit) {
+  auto& [normal, offset] = plane;
+  visit(normal, offset);
+}
+
+template <Is<Hull> T, class Visit>
+void each_field(T& hull, const Visit& visit) {
+  auto& [convex] = hull;
+  visit(convex);
+}
+
+template <Is<Shape> T, class Visit>
+void each_field(T& shape, const Visit& visit) {
+  auto& [solid, offset] = shape;
+  visit(solid, offset);
+}
+
+template <Is<MassProperties> T, class Visit>
+void each_field(T& properties, const Visit& visit) {
+  auto& [mass, center, inertia] = properties;
+  visit(mass);
+  follows_from_others(center, inertia);
+}
+
+template <Is<Body> T, class Visit>
+void each_field(T& body, const Visit& visit) {
+  auto& [alive, fixed, asleep, placed, has_target, led, spherical, generation, drive, still_for, center, twist, motion,
+         force, torque, radius, roundness, linear_damping, angular_damping, mass, inverse_inertia, friction,
+         restitution, rolling_friction, groups, collides_with, shape, target, reaction] = body;
+  visit(alive, generation);
+  if (!alive) return;  // its place and number alone matter
+  visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion, force, torque, linear_damping,
+        angular_damping, mass, friction, restitution, rolling_friction, groups, collides_with, shape, target, reaction);
+  follows_from_others(spherical, radius, roundness, inverse_inertia);
+}
+
+template <Is<Drag> T, class Visit>
+void each_field(T& drag, const Visit& visit) {
+  auto& [linear, quadratic, angular] = drag;
+  visit(linear, quadratic, angular);
+}
+
+template <Is<Spring> T, class Visit>
+void each_field(T& spring, const Visit& visit) {
+  auto& [a, b, anchor_a, anchor_b, rest_length, stiffness, damping] = spring;
+  visit(a, b, anchor_a, anchor_b, rest_length, stiffness, damping);
+}
+
+template <Is<forces::NumberedForce> T, class Visit>
+void each_field(T& entry, const Visit& visit) {
+  auto& [number, force] = entry;
+  visit(number, force);
+}
+
+template <Is<PointMemory> T, class Visit>
+void each_field(T& point, const Visit& visit) {
+  auto& [feature, arm_b, kept_normal, kept_friction] = point;
+  visit(feature, arm_b, kept_normal, kept_friction);
+}
+
+template <Is<KeptImpulses> T, class Visit>
+void each_field(T& kept, const Visit& visit) {
+  auto& [kept_rolling, kept_step, kept_twist, slid, passed_over] = kept;
+  visit(kept_rolling, kept_step, kept_twist, slid, passed_over);
+}
+
+template <Is<FoundManifold::Point> T, class Visit>
+void each_field(T& point, const Visit& visit) {
+  auto& [anchor_a, anchor_b, gap] = point;
+  visit(anchor_a, anchor_b, gap);
+}
+
+template <Is<FoundManifold> T, class Visit>
+void each_field(T& found, const Visit& visit) {
+  auto& [holds, turn, between, normal, points] = found;
+  visit(holds);
+  if (!holds) return;
+  visit(turn, between, normal);
+  for (auto& point : points) visit(point);
+}
+
+/// The number of points that an array of them has room for, whatever it is told.
+[[nodiscard]] constexpr std::size_t within_four(int count) {
+  return static_cast<std::size_t>(count < 0 ? 0 : count > 4 ? 4 : count);
+}
+
+template <Is<ContactMemory> T, class Visit>
+void each_field(T& memory, const Visit& visit) {
+  auto& [a, b, count, points, kept, found, touching, gone] = memory;
+  visit(a, b, count, kept, found, touching);
+  for (std::size_t i = 0; i < within_four(count); ++i) visit(points[i]);
+  follows_from_others(gone);  // those that are gone are not told of
+}
+
+template <Is<IgnoredPairs::Entry> T, class Visit>
+void each_field(T& pair, const Visit& visit) {
+  auto& [a, b, holders, asked] = pair;
+  visit(a, b, holders, asked);
+}
+
+template <Is<ContactPoint> T, class Visit>
+void each_field(T& point, const Visit& visit) {
+  auto& [position, penetration, feature] = point;
+  visit(position, penetration, feature);
+}
+
+template <Is<Manifold> T, class Visit>
+void each_field(T& manifold, const Visit& visit) {
+  auto& [normal, points, count] = manifold;
+  visit(normal, count);
+  for (std::size_t i = 0; i < within_four(count); ++i) visit(points[i]);
+}
+
+template <Is<Contact> T, class Visit>
+void each_field(T& contact, const Visit& visit) {
+  auto& [a, b, manifold, impulse, total_impulse, approach_speed, began] = contact;
+  visit(a, b, manifold, impulse, total_impulse, approach_speed, began);
+}
+
+template <Is<WorldSettings> T, class Visit>
+void each_field(T& settings, const Visit& visit) {
+  auto& [gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed] = settings;
+  visit(gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed);
+}
+
+template <Is<WorldState> T, class Visit>
+void each_field(T& world, const Visit& visit) {
+  auto& [settings, bodies, unused, forces, next_force, time, failed, memories, ignored, contacts] = world;
+  visit(settings, bodies, unused, forces, next_force, time, memories, ignored, contacts);
+  follows_from_others(failed);  // a body that is not finite cannot be saved, and is found again
+}
+
+}  // namespace tweenfall::state

@@ -1,0 +1,254 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "state/bytes.h"
+#include "state/checks.h"
+#include "state/countable.h"
+#include "state/word_hash.h"
+#include "state/world_data.h"
+
+namespace tweenfall {
+
+namespace state {
+namespace {
+
+/// Before the contents: what it is, in which version, how long, and a checksum.
+constexpr std::array<char, 16> signature = {'t', 'w', 'e', 'e', 'n', 'f', 'a', 'l',
+                                            'l', ' ', 'w', 'o', 'r', 'l', 'd', '\n'};
+/// Raised whenever the fields change, so that older bytes are refused and not misread.
+constexpr std::uint32_t version = 1;
+constexpr std::size_t header_size = signature.size() + 4 + 8 + 8;
+
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+  WordHash hash;
+  for (std::size_t i = 0; i < bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    for (std::size_t k = 0; k < std::min<std::size_t>(8, bytes.size() - i); ++k)
+      word |= static_cast<std::uint64_t>(bytes[i + k]) << (8 * k);
+    hash.add(word);
+  }
+  return hash.value();
+}
+
+/// The contents of saved bytes, when what stands before them is right.
+std::span<const std::byte> contents_of(std::span<const std::byte> saved) {
+  require(saved.size() >= header_size,
+          "these " + std::to_string(saved.size()) + " bytes are too few for a saved world");
+  ByteReader header(saved);
+  for (const char expected : signature) {
+    char found = 0;
+    header.number(found);
+    require(found == expected, "these bytes are no saved world: they do not begin with \"tweenfall world\"");
+  }
+  std::uint32_t its_version = 0;
+  std::uint64_t size = 0, sum = 0;
+  header.number(its_version);
+  header.number(size);
+  header.number(sum);
+  require(its_version == version, "this saved world is of version " + std::to_string(its_version) + "; only version " +
+                                      std::to_string(version) + " can be read");
+  const std::span<const std::byte> contents = saved.subspan(header_size);
+  require(contents.size() == size, "a saved world should have " + std::to_string(size) +
+                                       " bytes after its header, but has " + std::to_string(contents.size()));
+  require(checksum(contents) == sum, "a saved world was damaged: its checksum is not that of its contents");
+  return contents;
+}
+
+bool unit(const Quat& rotation) {
+  return std::abs(rotation.norm() - 1) <= 1e-9;
+}
+
+// Impulses and ways between bodies may be larger than what a world takes of its caller.
+void require_number(double value, const char* name) {
+  require(std::isfinite(value), std::string(name) + " must be a finite number");
+}
+void require_numbers(const Vec3& value, const char* name) {
+  require(value.allFinite(), std::string(name) + " must be finite numbers");
+}
+
+/// Sets what follows from the rest, too.
+void check(Body& body) {
+  validate_surface(body);
+  validate(body.drive);
+  require(unit(body.shape.offset.rotation), "rotation of a shape must be a unit quaternion");
+  const std::optional<double> mass = body.mass.mass;
+  body.mass = {};
+  give_mass(body, mass, 0);
+  for (const Motion& motion : {body.motion, body.target}) {
+    static_cast<void>(checked(motion));
+    require(unit(motion.pose.rotation), "rotation of a body must be a unit quaternion");
+  }
+  require(body.finite(), "its place and velocity must be finite and at most 1e30");
+  require(body.force.allFinite() && body.torque.allFinite() && body.reaction.allFinite(), "its forces must be finite");
+  require_amount(body.still_for, "time of stillness");
+}
+
+void check(const FoundManifold& found) {
+  if (!found.holds) return;
+  require(unit(found.turn), "its turn must be a unit quaternion");
+  require(std::abs(found.normal.norm() - 1) <= 1e-6, "its normal must have length 1");
+  require_numbers(found.between, "way between the bodies");
+  for (const FoundManifold::Point& point : found.points) {
+    require_numbers(point.anchor_a, "anchor of a point");
+    require_numbers(point.anchor_b, "anchor of a point");
+    require_number(point.gap, "gap of a point");
+  }
+}
+
+void check(const ContactMemory& memory) {
+  require(memory.count >= 1 && memory.count <= 4, "it must have 1 to 4 points");
+  for (std::size_t i = 0; i < within_four(memory.count); ++i) {
+    const PointMemory& point = memory.points[i];
+    require_numbers(point.arm_b, "arm of a point");
+    require_number(point.kept_normal, "impulse of a point");
+    require_numbers(point.kept_friction, "friction of a point");
+  }
+  require_numbers(memory.kept.kept_rolling, "rolling impulse");
+  require_number(memory.kept.kept_step, "length of a sub-step");
+  require(memory.kept.kept_step >= 0 && memory.kept.passed_over >= 0, "its times must not be negative");
+  require_number(memory.kept.kept_twist, "twisting impulse");
+  require_number(memory.kept.passed_over, "time passed over");
+  check(memory.found);
+}
+
+void check(const Contact& contact) {
+  require(contact.manifold.count >= 1 && contact.manifold.count <= 4, "it must have 1 to 4 points");
+  require(std::abs(contact.manifold.normal.norm() - 1) <= 1e-6, "its normal must have length 1");
+  for (std::size_t i = 0; i < within_four(contact.manifold.count); ++i) {
+    require(contact.manifold.points[i].position.allFinite(), "its points must be finite");
+    require(std::isfinite(contact.manifold.points[i].penetration), "its points must be finite");
+  }
+  require(contact.impulse >= 0 && std::isfinite(contact.impulse) && contact.total_impulse.allFinite(),
+          "its impulses must be finite");
+  require(contact.approach_speed >= 0 && std::isfinite(contact.approach_speed), "its approach speed must be finite");
+}
+
+/// Runs a check with the place of what is checked in front of its words.
+template <class Check>
+void at(const std::string& place, const Check& check_it) {
+  try {
+    check_it();
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument("a saved world has a bad " + place + ": " + fault.what());
+  }
+}
+
+bool in_order(std::uint32_t a, std::uint32_t b, const std::pair<std::uint32_t, std::uint32_t>* before) {
+  return a < b && (!before || *before < std::pair(a, b));
+}
+
+void check_bodies(WorldState& world) {
+  std::vector<char> free(world.bodies.size(), 0);
+  for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+    if (world.bodies[i].alive)
+      at("body " + std::to_string(i), [&] { check(world.bodies[i]); });
+    else
+      free[i] = 1;
+  }
+  for (const std::uint32_t index : world.unused) {
+    require(index < free.size() && free[index] != 0, "a saved world has a bad list of free places");
+    free[index] = 0;
+  }
+  require(std::ranges::count(free, 1) == 0, "a saved world has a bad list of free places");
+}
+
+void check_pairs(const WorldState& world) {
+  const auto here = [&](std::uint32_t index) { return index < world.bodies.size() && world.bodies[index].alive; };
+  using IndexPair = std::pair<std::uint32_t, std::uint32_t>;
+  IndexPair before;
+  bool first = true;
+  const auto require_pair = [&](std::uint32_t a, std::uint32_t b) {
+    require(here(a) && here(b), "there are no such bodies");
+    require(in_order(a, b, first ? nullptr : &before), "pairs must come in order");
+    before = {a, b};
+    first = false;
+  };
+  for (std::size_t i = 0; i < world.contacts.size(); ++i)
+    at("contact " + std::to_string(i), [&] {
+      const Contact& contact = world.contacts[i];
+      require_pair(contact.a.index, contact.b.index);
+      require(world.bodies[contact.a.index].generation == contact.a.generation &&
+                  world.bodies[contact.b.index].generation == contact.b.generation,
+              "there are no such bodies");
+      check(contact);
+    });
+  first = true;
+  std::size_t told = 0, number = 0;
+  for (const std::uint32_t place : world.memories.sorted())
+    at("memory of contact " + std::to_string(number++), [&] {
+      const ContactMemory& memory = world.memories[place];
+      require_pair(memory.a, memory.b);
+      check(memory);
+      if (!memory.touching) return;
+      const auto before_it = [&](const Contact& contact) {
+        return std::tie(contact.a.index, contact.b.index) < std::tie(memory.a, memory.b);
+      };
+      while (told < world.contacts.size() && before_it(world.contacts[told])) ++told;
+      require(told < world.contacts.size() && world.contacts[told].a.index == memory.a &&
+                  world.contacts[told].b.index == memory.b,
+              "a contact that touches is not among the contacts");
+    });
+  first = true;
+  for (std::size_t i = 0; i < world.ignored.all().size(); ++i)
+    at("ignored pair " + std::to_string(i), [&] {
+      const IgnoredPairs::Entry& pair = world.ignored.all()[i];
+      require_pair(pair.a, pair.b);
+      require(pair.asked || pair.holders > 0, "nothing ignores it");
+    });
+}
+
+/// Sets what follows from the rest, too.
+void check(WorldState& world) {
+  at("setting", [&] {
+    validate(world.settings);
+    require(world.settings.integrator == Integrator::exact_quadratic ||
+                world.settings.integrator == Integrator::semi_implicit_euler,
+            "there is no such integrator");
+  });
+  require(world.time >= 0 && std::isfinite(world.time), "a saved world has a bad time");
+  check_bodies(world);
+  std::uint64_t least = 0;
+  for (const forces::NumberedForce& entry : world.forces)
+    at("force " + std::to_string(entry.number), [&] {
+      validate(entry.force);
+      require(entry.number >= least && entry.number < world.next_force, "numbers of forces must come in order");
+      least = entry.number + 1;
+    });
+  check_pairs(world);
+}
+
+}  // namespace
+}  // namespace state
+
+std::vector<std::byte> World::save() const {
+  const state::WorldState& world = inside();
+  for (std::size_t i = 0; i < world.bodies.size(); ++i)
+    state::require(!world.bodies[i].alive || world.bodies[i].finite(),
+                   "a world whose body " + std::to_string(i) + " is not finite cannot be saved");
+  state::ByteWriter contents;
+  walk(contents, world);
+  state::ByteWriter saved;
+  for (const char c : state::signature) saved.number(c);
+  saved.number(state::version);
+  saved.number(static_cast<std::uint64_t>(contents.bytes.size()));
+  saved.number(state::checksum(contents.bytes));
+  saved.bytes.insert(saved.bytes.end(), contents.bytes.begin(), contents.bytes.end());
+  return std::move(saved.bytes);
+}
+
+void World::load(std::span<const std::byte> saved) {
+  static_cast<void>(changing());
+  state::ByteReader reader(state::contents_of(saved));
+  state::WorldState loaded;
+  walk(reader, loaded);
+  reader.require(reader.at_end(), "there is more than a world");
+  state::check(loaded);
+  implementation_ = std::make_unique<Implementation>(std::move(loaded));
+}
+
+}  // namespace tweenfall

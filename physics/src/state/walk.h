@@ -1,0 +1,94 @@
+#pragma once
+
+/// Walks through a world's state down to its numbers.
+
+#include <array>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "state/fields.h"
+
+namespace tweenfall::state {
+
+template <class T>
+struct IsVector : std::false_type {};
+template <class T>
+struct IsVector<std::vector<T>> : std::true_type {};
+template <class T>
+struct IsVariant : std::false_type {};
+template <class... T>
+struct IsVariant<std::variant<T...>> : std::true_type {};
+
+/// Hands every number to `tool.number(...)`, and what is not made of fields to `tool.list`, `tool.choice` and
+/// `tool.hull`, in a fixed order.
+template <class Tool>
+class Walk {
+ public:
+  explicit Walk(Tool& tool) : tool_(tool) {}
+
+  template <class... T>
+  void operator()(T&... values) const {
+    (one(values), ...);
+  }
+
+ private:
+  template <class T>
+  void one(T& value) const {
+    using Value = std::remove_const_t<T>;
+    if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
+      tool_.number(value);
+    } else if constexpr (std::is_same_v<Value, Vec3> || std::is_same_v<Value, Mat3>) {
+      for (int i = 0; i < static_cast<int>(value.size()); ++i) tool_.number(value.data()[i]);
+    } else if constexpr (std::is_same_v<Value, Quat>) {
+      for (int i = 0; i < 4; ++i) tool_.number(value.coeffs().data()[i]);
+    } else if constexpr (IsVector<Value>::value || std::is_same_v<Value, ContactMemories> ||
+                         std::is_same_v<Value, IgnoredPairs>) {
+      tool_.list(value);
+    } else if constexpr (IsVariant<Value>::value) {
+      tool_.choice(value);
+    } else if constexpr (std::is_same_v<Value, ConvexHull>) {
+      tool_.hull(value);
+    } else if constexpr (std::is_same_v<Value, Field>) {
+      tool_.field(value);
+    } else {
+      each_field(value, *this);
+    }
+  }
+
+  Tool& tool_;
+};
+
+template <class Tool, class T>
+void walk(Tool& tool, T& value) {
+  Walk<Tool>{tool}(value);
+}
+
+/// What is common to tools that only read the state.
+template <class Tool>
+class Teller {
+ public:
+  template <class T>
+  void list(const std::vector<T>& values) {
+    tool().number(static_cast<std::uint64_t>(values.size()));
+    for (const T& value : values) walk(tool(), value);
+  }
+  void list(const ContactMemories& memories) {
+    std::uint64_t count = 0;
+    for (const std::uint32_t place : memories.sorted()) count += memories[place].gone ? 0 : 1;
+    tool().number(count);
+    for (const std::uint32_t place : memories.sorted())
+      if (!memories[place].gone) walk(tool(), memories[place]);
+  }
+  void list(const IgnoredPairs& pairs) { list(pairs.all()); }
+  template <class... T>
+  void choice(const std::variant<T...>& value) {
+    tool().number(static_cast<std::uint8_t>(value.index()));
+    std::visit([this](const auto& chosen) { walk(tool(), chosen); }, value);
+  }
+
+ private:
+  Tool& tool() { return static_cast<Tool&>(*this); }
+};
+
+}  // namespace tweenfall::state
