@@ -196,6 +196,52 @@ Scenario islands() {
   return {"many islands", 140, make, step};
 }
 
+/// Every kind of joint, one that breaks, one that is removed, and one whose body is.
+Scenario joints() {
+  const auto make = [] {
+    World world;
+    add_floor(world);
+    const std::vector<JointKind> kinds = {
+        BallJoint{},
+        HingeJoint{.limits = Limits{-1, 1}, .motor = Motor{.speed = 2, .max_force = 3}},
+        SliderJoint{.motor = Motor{.position = 0.3}},
+        FixedJoint{},
+        DistanceJoint{{0.2, 1}},
+        UniversalJoint{.first_limits = Limits{-0.5, 0.5}},
+        SwingTwistJoint{.swing_y = 0.5, .swing_z = 1, .twist = {-0.5, 0.5}, .toward = Quat(1, 0, 0, 0)},
+        WheelJoint{.motor = Motor{.speed = 1}},
+        PulleyJoint{.pulley_a = Vec3(0, 4, 0), .pulley_b = Vec3(1, 4, 0)},
+        GearJoint{2},
+        SpringJoint{0.5, 300, 2}};
+    BodyId last{};
+    for (std::size_t i = 0; i < 2 * kinds.size(); ++i) {
+      const double x = 0.7 * static_cast<double>(i);
+      BodySettings settings = solid_at(Box{Vec3(0.3, 0.1, 0.15)}, Vec3(x, 2, 0), 0.6);
+      settings.motion.twist.angular = Vec3(0, 0.1 * static_cast<double>(i % 3), 0);
+      const BodyId body = world.add(settings);
+      const bool apart = i % 5 == 0;  // chains of five
+      const JointFrames frames = joint_frames(apart ? Pose{} : world.motion(last).pose, world.motion(body).pose,
+                                              Vec3(x - 0.35, 2, 0), Vec3(0, 0, 1));
+      world.add_joint({.a = apart ? BodyId{} : last,
+                       .b = body,
+                       .frame_a = frames.a,
+                       .frame_b = frames.b,
+                       .kind = kinds[i % kinds.size()],
+                       .break_force = i == 3 ? 2000.0 : HUGE_VAL,
+                       .collide = i % 4 == 0});
+      last = body;
+    }
+    return world;
+  };
+  const auto step = [](World& world, int n) {
+    if (n == 40) world.remove_joint(world.joints()[5]);
+    if (n == 60) world.remove(world.bodies()[8]);
+    if (n == 70) world.set_drive(world.bodies()[11], Drive::keyed());
+    world.step(1.0 / 60);
+  };
+  return {"joints", 120, make, step};
+}
+
 }  // namespace
 
 std::vector<BodySettings> mixed_bodies(unsigned seed, int count) {
@@ -219,7 +265,8 @@ std::vector<Scenario> scenarios() {
           springs(),
           fast(),
           crowd(),
-          islands()};
+          islands(),
+          joints()};
 }
 
 }  // namespace tweenfall::test

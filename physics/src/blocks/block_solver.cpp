@@ -21,11 +21,13 @@ namespace {
 constexpr std::size_t few = 128;
 constexpr int sub_steps_of_few = 24;
 constexpr int sub_steps_of_many = 10;
+constexpr int sub_steps_of_jointed = 12;
 /// Impulses of much longer sub-steps would bring their rounding along.
 constexpr double long_enough = 0.15;
 
-int sub_steps_for(std::size_t contacts) {
-  return contacts <= few ? sub_steps_of_few : sub_steps_of_many;
+int sub_steps_for(const islands::IslandContents& island) {
+  if (!island.joints.empty()) return sub_steps_of_jointed;
+  return island.contacts.size() <= few ? sub_steps_of_few : sub_steps_of_many;
 }
 
 /// Rows are prepared again when a body has turned by this since, rad.
@@ -52,8 +54,9 @@ Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec
 }  // namespace
 
 bool BlockSolver::takes(const islands::IslandContents& island, const std::vector<Body>& bodies, double dt) {
+  if (!island.joints.empty()) return true;
   if (island.contacts.size() < many || !island.springs.empty()) return false;
-  const double h = dt / sub_steps_for(island.contacts.size());
+  const double h = dt / sub_steps_for(island);
   for (const ContactConstraint* contact : island.contacts) {
     if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return false;
     for (const std::uint32_t index : {contact->a, contact->b}) {
@@ -66,7 +69,7 @@ bool BlockSolver::takes(const islands::IslandContents& island, const std::vector
 }
 
 void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
-                         std::span<ContactConstraint* const> contacts, Integrator integrator, double dt) {
+                         const islands::IslandContents& island, Integrator integrator, double dt) {
   for (const IslandBody& body : bodies_)
     if (body.index < places_.size()) places_[body.index] = 0;
   bodies_.assign(1, {});
@@ -106,11 +109,21 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
       set(velocity.angular, entry.course.mean.angular - 0.5 * entry.course.gain.angular);
     }
   };
-  for (const ContactConstraint* contact : contacts) {
+  for (const ContactConstraint* contact : island.contacts) {
     add(contact->a);
     add(contact->b);
     bouncy_ = bouncy_ || contact->restitution > 0;
   }
+  anchored_ = false;
+  for (const joints::JointLink* link : island.joints) {
+    anchored_ = anchored_ || link->a == joints::JointLink::world;
+    for (const std::uint32_t end : {link->a, link->b}) {
+      if (end == joints::JointLink::world) continue;
+      add(end);
+      bodies_[places_[end]].jointed = true;
+    }
+  }
+  for (std::size_t i = 1; i < bodies_.size(); ++i) anchored_ = anchored_ || !bodies_[i].movable;
   starts_.resize(bodies_.size());
   displacements_.assign(bodies_.size(), {});
 }
@@ -170,6 +183,8 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
   bool any = false;
   for (IslandBody& entry : bodies_) {
     entry.stale = !entry.round && entry.turned > turned_enough;
+    if (entry.jointed && entry.movable && !bodies[entry.index].spherical)
+      entry.inverse_inertia = bodies[entry.index].world_inverse_inertia(entry.rotation);
     if (!entry.stale) continue;
     any = true;
     entry.turned = 0;
@@ -201,6 +216,26 @@ void BlockSolver::find_lags() {
     }
   for (IslandBody& body : bodies_)
     if (body.impact && body.pressed) body.lag = Vec3::Zero();
+  if (!joints_.empty()) find_lags_of_jointed();
+}
+
+/// What joints alone hold together flies as one: its center of mass has the mean velocity, and nothing else is free to
+/// tremble. What hangs on something is held as by a contact.
+void BlockSolver::find_lags_of_jointed() {
+  bool free = !anchored_;
+  double mass = 0;
+  Vec3 gained = Vec3::Zero();
+  for (std::size_t i = 1; i < bodies_.size() && free; ++i) {
+    free = !bodies_[i].pressed;
+    mass += bodies_[i].mass;
+    gained += bodies_[i].mass * (linear_of(velocities_[i]) - linear_of(starts_[i]));
+  }
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    IslandBody& body = bodies_[i];
+    if (!body.jointed || !body.movable) continue;
+    body.pressed = body.touched = true;
+    body.lag = free ? Vec3(-0.5 / mass * gained) : Vec3(0, 0, 0);
+  }
 }
 
 void BlockSolver::end_sub_step(double h) {
@@ -212,7 +247,8 @@ void BlockSolver::end_sub_step(double h) {
     entry.center += moved;
     for (int k = 0; k < 3; ++k) displacement.linear[k] += moved[k];
     Vec3 angular = angular_of(velocity);
-    if (entry.movable && entry.round && !entry.impact) angular = 0.5 * (angular + angular_of(starts_[i]));
+    if (entry.movable && entry.round && !entry.impact && !entry.jointed)
+      angular = 0.5 * (angular + angular_of(starts_[i]));
     if (angular == Vec3::Zero()) continue;
     const Vec3 turning = angular * h;
     for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
@@ -247,15 +283,17 @@ Rows BlockSolver::rows() {
 }
 
 void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
-                        std::span<ContactConstraint* const> contacts, const WorldSettings& settings, double dt,
+                        const islands::IslandContents& island, const WorldSettings& settings, double dt,
                         std::vector<char>& moved) {
   const Kernels& kernels = fastest_kernels();
-  const int sub_steps = sub_steps_for(contacts.size());
+  const std::span<ContactConstraint* const> contacts = island.contacts;
+  const int sub_steps = sub_steps_for(island);
   const double h = dt / sub_steps;
-  gather(bodies, loads, contacts, settings.integrator, dt);
+  gather(bodies, loads, island, settings.integrator, dt);
   foresee(contacts, loads, dt);
   contacts_.build(contacts, places_, bodies_, loads, h, dt);
   reach_.forget();
+  joints_.build(island.joints, places_, bodies_, h, dt);
   const int share = std::max(2, settings.iterations / sub_steps_of_many);
   const int relaxing = share / 2;
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
@@ -264,18 +302,29 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
     kernels.warm_start(rows());
+    joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
     if (bouncy_) find_rebounds(h);
     for (int k = 0; k < share - relaxing; ++k) {
       soft.note = k + 1 == share - relaxing;
+      joints_.solve(velocities_, true, k % 2 != 0);
       kernels.solve(rows(), soft);
     }
     find_lags();
+    joints_.move(velocities_);
     end_sub_step(h);
-    for (int k = 0; k < relaxing; ++k) kernels.solve(rows(), {.inverse_h = 1 / h, .sum_up = k + 1 == relaxing});
-    if (!rebounds_.empty()) rebound(bodies, loads, std::max(1, settings.iterations / 4));
+    for (int k = 0; k < relaxing; ++k) {
+      joints_.solve(velocities_, false, k % 2 == 0);
+      kernels.solve(rows(), {.inverse_h = 1 / h, .sum_up = k + 1 == relaxing});
+    }
+    if (!rebounds_.empty()) {
+      rebound(bodies, loads, std::max(1, settings.iterations / 4));
+      joints_.solve(velocities_, false, true);
+    }
+    joints_.add_up();
     bound_spins(bodies, h);
   }
   contacts_.store(h);
+  joints_.end_step(bodies, bodies_, velocities_);
   // Also a body that only the last pass reached has momentum from it.
   for (const ContactConstraint* contact : contacts)
     for (int i = 0; i < contact->count; ++i)

@@ -8,6 +8,7 @@
 #include "blocks/rebound_reach.h"
 #include "forces/free_flight.h"
 #include "islands/island_contents.h"
+#include "joints/island_joints.h"
 
 namespace tweenfall::blocks {
 
@@ -27,11 +28,10 @@ class BlockSolver {
 
   /// Before the islands of a step.
   void begin(std::size_t bodies) { places_.assign(bodies, 0); }
-  /// Moves the bodies of an island by `dt`; fills in the contacts' impulses.
+  /// Moves the bodies of an island by `dt`; fills in the impulses of its contacts and joints.
   /// @param moved  by index: set for the bodies that were moved
   void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-             std::span<step::ContactConstraint* const> contacts, const WorldSettings& settings, double dt,
-             std::vector<char>& moved);
+             const islands::IslandContents& island, const WorldSettings& settings, double dt, std::vector<char>& moved);
 
  private:
   /// A point that would rebound in this sub-step.
@@ -50,12 +50,13 @@ class BlockSolver {
   };
 
   void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-              std::span<step::ContactConstraint* const> contacts, Integrator integrator, double dt);
+              const islands::IslandContents& island, Integrator integrator, double dt);
   void foresee(std::span<step::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads, double dt);
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
                       int sub_steps, int sub_step);
   void prepare_again(const std::vector<state::Body>& bodies);
   void find_lags();
+  void find_lags_of_jointed();
   void end_sub_step(double h);
   void bound_spins(const std::vector<state::Body>& bodies, double h);
   [[nodiscard]] Rows rows();
@@ -74,6 +75,8 @@ class BlockSolver {
   std::vector<IslandBody> bodies_;     ///< the first is nobody: that of empty lanes
   std::vector<BodyLanes> velocities_, starts_, before_rebound_, displacements_;
   ContactBlocks contacts_;
+  joints::IslandJoints joints_;
+  bool anchored_ = false;                ///< some body of the island, or what a joint holds it to, does not move freely
   bool bouncy_ = false;                  ///< some contact has restitution
   std::vector<std::uint32_t> meetings_;  ///< lanes
   std::vector<Rebound> rebounds_;

@@ -26,6 +26,7 @@ struct alignas(64) IslandBody {
   bool followed = false;       ///< nothing pressed it in the sub-step before: its spin is followed exactly
   bool round = false;          ///< a ball: no contact can rock it, and none sees it turn
   bool stale = false;          ///< has turned since its rows were prepared
+  bool jointed = false;        ///< a joint holds it
   Vec3 lag{0, 0, 0};           ///< from the velocity at the end of the sub-step to its mean, m/s
   double roundness = 0;        ///< m
   double turned = 0;           ///< since its rows were prepared, rad

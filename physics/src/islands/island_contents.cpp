@@ -6,9 +6,12 @@ namespace tweenfall::islands {
 
 const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::Body>& bodies, Islands& islands,
                                                       std::vector<step::ContactConstraint>& contacts,
-                                                      std::vector<step::SpringRow>& springs) {
+                                                      std::vector<step::SpringRow>& springs,
+                                                      std::vector<joints::JointLink>& links) {
+  static_assert(step::SpringRow::world == joints::JointLink::world);
   const auto island_of = [&](std::uint32_t a, std::uint32_t b) {
-    return islands.of(b == step::SpringRow::world || !bodies[a].immovable() ? a : b);
+    const bool by_a = a != step::SpringRow::world && (b == step::SpringRow::world || !bodies[a].immovable());
+    return islands.of(by_a ? a : b);
   };
   const auto sorted = [&](auto& list, std::vector<Entry>& entries, auto& pointers) {
     entries.clear();
@@ -22,14 +25,18 @@ const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::B
   };
   sorted(contacts, contact_entries_, contacts_);
   sorted(springs, spring_entries_, springs_);
+  sorted(links, link_entries_, links_);
 
   islands_.clear();
   std::size_t contact = 0;
   std::size_t spring = 0;
-  while (contact < contacts_.size() || spring < springs_.size()) {
-    const std::uint32_t none = 0xffffffffu;
-    const std::uint32_t island = std::min(contact < contacts_.size() ? contact_entries_[contact].island : none,
-                                          spring < springs_.size() ? spring_entries_[spring].island : none);
+  std::size_t link = 0;
+  while (contact < contacts_.size() || spring < springs_.size() || link < links_.size()) {
+    const auto next_of = [](const std::vector<Entry>& entries, std::size_t next) {
+      return next < entries.size() ? entries[next].island : 0xffffffffu;
+    };
+    const std::uint32_t island =
+        std::min({next_of(contact_entries_, contact), next_of(spring_entries_, spring), next_of(link_entries_, link)});
     const auto taken = [island](const std::vector<Entry>& entries, std::size_t& next, const auto& pointers) {
       const std::size_t first = next;
       while (next < entries.size() && entries[next].island == island) ++next;
@@ -38,6 +45,7 @@ const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::B
     IslandContents contents;
     contents.contacts = taken(contact_entries_, contact, contacts_);
     contents.springs = taken(spring_entries_, spring, springs_);
+    contents.joints = taken(link_entries_, link, links_);
     islands_.push_back(contents);
   }
   return islands_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "islands/islands.h"
+#include "joints/joint_link.h"
 #include "state/body.h"
 #include "step/contact_constraint.h"
 #include "step/spring_row.h"
@@ -15,23 +16,25 @@ namespace tweenfall::islands {
 struct IslandContents {
   std::span<step::ContactConstraint* const> contacts;  ///< by pair
   std::span<step::SpringRow* const> springs;
+  std::span<joints::JointLink* const> joints;
 };
 
-/// Sorts contacts and stiff springs by islands.
+/// Sorts contacts, stiff springs and joints by islands.
 class IslandSorter {
  public:
   /// By the smallest index of a movable body; what is returned refers to the arguments and to this.
   const std::vector<IslandContents>& sort(const std::vector<state::Body>& bodies, Islands& islands,
                                           std::vector<step::ContactConstraint>& contacts,
-                                          std::vector<step::SpringRow>& springs);
+                                          std::vector<step::SpringRow>& springs, std::vector<joints::JointLink>& links);
 
  private:
   struct Entry {
     std::uint32_t island, number;
   };
-  std::vector<Entry> contact_entries_, spring_entries_;
+  std::vector<Entry> contact_entries_, spring_entries_, link_entries_;
   std::vector<step::ContactConstraint*> contacts_;
   std::vector<step::SpringRow*> springs_;
+  std::vector<joints::JointLink*> links_;
   std::vector<IslandContents> islands_;
 };
 

@@ -161,6 +161,91 @@ void each_field(T& memory, const Visit& visit) {
   follows_from_others(gone);  // those that are gone are not told of
 }
 
+template <Is<Limits> T, class Visit>
+void each_field(T& limits, const Visit& visit) {
+  auto& [low, high, hz, zeta] = limits;
+  visit(low, high, hz, zeta);
+}
+
+template <Is<Motor> T, class Visit>
+void each_field(T& motor, const Visit& visit) {
+  auto& [speed, position, hz, zeta, max_force] = motor;
+  visit(speed, position, hz, zeta, max_force);
+}
+
+template <class T, class Visit>
+requires Is<T, BallJoint> || Is<T, FixedJoint>
+void each_field(T&, const Visit&) {}
+
+template <class T, class Visit>
+requires Is<T, HingeJoint> || Is<T, SliderJoint>
+void each_field(T& joint, const Visit& visit) {
+  auto& [limits, motor] = joint;
+  visit(limits, motor);
+}
+
+template <Is<DistanceJoint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [limits] = joint;
+  visit(limits);
+}
+
+template <Is<UniversalJoint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [first_limits, second_limits, first_motor, second_motor] = joint;
+  visit(first_limits, second_limits, first_motor, second_motor);
+}
+
+template <Is<SwingTwistJoint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [swing_y, swing_z, twist, toward, hz, zeta, max_torque] = joint;
+  visit(swing_y, swing_z, twist, toward, hz, zeta, max_torque);
+}
+
+template <Is<WheelJoint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [hz, zeta, suspension, motor] = joint;
+  visit(hz, zeta, suspension, motor);
+}
+
+template <Is<PulleyJoint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [pulley_a, pulley_b, ratio, length] = joint;
+  visit(pulley_a, pulley_b, ratio, length);
+}
+
+template <Is<GearJoint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [ratio] = joint;
+  visit(ratio);
+}
+
+template <Is<SpringJoint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [length, stiffness, damping] = joint;
+  visit(length, stiffness, damping);
+}
+
+template <Is<JointId> T, class Visit>
+void each_field(T& id, const Visit& visit) {
+  auto& [index, generation] = id;
+  visit(index, generation);
+}
+
+template <Is<JointSettings> T, class Visit>
+void each_field(T& settings, const Visit& visit) {
+  auto& [a, b, frame_a, frame_b, kind, break_force, break_torque, collide] = settings;
+  visit(a, b, frame_a, frame_b, kind, break_force, break_torque, collide);
+}
+
+template <Is<Joint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [alive, generation, settings, kept, kept_step, passed_over, angles, force, torque] = joint;
+  visit(alive, generation);
+  if (!alive) return;
+  visit(settings, kept, kept_step, passed_over, angles, force, torque);
+}
+
 template <Is<IgnoredPairs::Entry> T, class Visit>
 void each_field(T& pair, const Visit& visit) {
   auto& [a, b, holders, asked] = pair;
@@ -194,8 +279,9 @@ void each_field(T& settings, const Visit& visit) {
 
 template <Is<WorldState> T, class Visit>
 void each_field(T& world, const Visit& visit) {
-  auto& [settings, bodies, unused, forces, next_force, time, failed, memories, ignored, contacts] = world;
-  visit(settings, bodies, unused, forces, next_force, time, memories, ignored, contacts);
+  auto& [settings, bodies, unused, forces, next_force, time, failed, memories, ignored, joints, unused_joints, broken,
+         contacts] = world;
+  visit(settings, bodies, unused, forces, next_force, time, memories, ignored, joints, unused_joints, broken, contacts);
   follows_from_others(failed);  // a body that is not finite cannot be saved, and is found again
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "joints/validate.h"
 #include "state/bytes.h"
 #include "state/checks.h"
 #include "state/countable.h"
@@ -157,6 +158,45 @@ void check_bodies(WorldState& world) {
   require(std::ranges::count(free, 1) == 0, "a saved world has a bad list of free places");
 }
 
+void check(const Joint& joint, const WorldState& world) {
+  const JointSettings& settings = joint.settings;
+  const auto here = [&](const BodyId& id) {
+    return id.index < world.bodies.size() && world.bodies[id.index].alive &&
+           world.bodies[id.index].generation == id.generation;
+  };
+  require(here(settings.b) && (settings.a == BodyId{} || here(settings.a)) && settings.a != settings.b,
+          "there are no such bodies");
+  static_cast<void>(joints::checked(settings));
+  require(unit(settings.frame_a.rotation) && unit(settings.frame_b.rotation),
+          "rotation of a joint's frame must be a unit quaternion");
+  if (const auto* limb = std::get_if<SwingTwistJoint>(&settings.kind); limb && limb->toward)
+    require(unit(*limb->toward), "the rotation that a joint is turned to must be a unit quaternion");
+  if (const auto* pulley = std::get_if<PulleyJoint>(&settings.kind))
+    require(pulley->length.has_value(), "a pulley's rope must have a length");
+  for (const double impulse : joint.kept) require_number(impulse, "impulse");
+  for (const double angle : joint.angles) require_amount(std::abs(angle), "angle");
+  require(joint.kept_step >= 0 && std::isfinite(joint.kept_step) && joint.passed_over >= 0 &&
+              std::isfinite(joint.passed_over),
+          "its times must not be negative");
+  require_numbers(joint.force, "force");
+  require_numbers(joint.torque, "torque");
+}
+
+void check_joints(const WorldState& world) {
+  std::vector<char> free(world.joints.size(), 0);
+  for (std::size_t i = 0; i < world.joints.size(); ++i) {
+    if (world.joints[i].alive)
+      at("joint " + std::to_string(i), [&] { check(world.joints[i], world); });
+    else
+      free[i] = 1;
+  }
+  for (const std::uint32_t index : world.unused_joints) {
+    require(index < free.size() && free[index] != 0, "a saved world has a bad list of free joints");
+    free[index] = 0;
+  }
+  require(std::ranges::count(free, 1) == 0, "a saved world has a bad list of free joints");
+}
+
 void check_pairs(const WorldState& world) {
   const auto here = [&](std::uint32_t index) { return index < world.bodies.size() && world.bodies[index].alive; };
   using IndexPair = std::pair<std::uint32_t, std::uint32_t>;
@@ -220,6 +260,7 @@ void check(WorldState& world) {
       least = entry.number + 1;
     });
   check_pairs(world);
+  check_joints(world);
 }
 
 }  // namespace

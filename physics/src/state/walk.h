@@ -3,6 +3,7 @@
 /// Walks through a world's state down to its numbers.
 
 #include <array>
+#include <optional>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -19,6 +20,15 @@ template <class T>
 struct IsVariant : std::false_type {};
 template <class... T>
 struct IsVariant<std::variant<T...>> : std::true_type {};
+
+template <class T>
+struct IsOptional : std::false_type {};
+template <class T>
+struct IsOptional<std::optional<T>> : std::true_type {};
+template <class T>
+struct IsArray : std::false_type {};
+template <class T, std::size_t count>
+struct IsArray<std::array<T, count>> : std::true_type {};
 
 /// Hands every number to `tool.number(...)`, and what is not made of fields to `tool.list`, `tool.choice` and
 /// `tool.hull`, in a fixed order.
@@ -45,6 +55,16 @@ class Walk {
     } else if constexpr (IsVector<Value>::value || std::is_same_v<Value, ContactMemories> ||
                          std::is_same_v<Value, IgnoredPairs>) {
       tool_.list(value);
+    } else if constexpr (IsArray<Value>::value) {
+      for (auto& element : value) one(element);
+    } else if constexpr (IsOptional<Value>::value) {
+      bool has = value.has_value();
+      tool_.number(has);
+      if constexpr (!std::is_const_v<T>) {
+        if (has) value.emplace();
+        if (!has) value.reset();
+      }
+      if (has) one(*value);
     } else if constexpr (IsVariant<Value>::value) {
       tool_.choice(value);
     } else if constexpr (std::is_same_v<Value, ConvexHull>) {

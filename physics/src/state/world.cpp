@@ -160,6 +160,7 @@ void World::remove(BodyId id) {
     for (const BodyId& end : {spring->a, spring->b})
       if (contains(end)) world.wake(end.index);
   }
+  world.remove_joints_of(id.index);
   body.alive = false;
   ++body.generation;
   world.drop_contacts(id.index);
@@ -231,6 +232,7 @@ void World::set_motion(BodyId id, const Motion& motion) {
   state::Body& body = world.at(id);
   const Motion wanted = state::checked(motion);
   world.wake_neighbors(id.index);
+  world.wake_jointed(id.index);
   world.wake(id.index);
   world.forget_impulses(id.index);
   world.note(id.index);
@@ -268,6 +270,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
   world.forget_impulses(id.index);
   body.placed = true;
   world.wake_neighbors(id.index);
+  world.wake_jointed(id.index);
   world.wake(id.index);
 }
 

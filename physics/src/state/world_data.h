@@ -23,6 +23,12 @@ struct World::Implementation : state::WorldState, step::Workspace {
 
   state::Body& at(BodyId id);
   const state::Body& at(BodyId id) const;
+  state::Joint& at(JointId id);
+  const state::Joint& at(JointId id) const;
+  void wake_ends(const state::Joint& joint);
+  void wake_jointed(std::uint32_t index);  ///< what a joint holds to this body, and itself
+  void remove_joint(std::uint32_t index);
+  void remove_joints_of(std::uint32_t body);
   void drop_contacts(std::uint32_t index);
   void wake(std::uint32_t index);
   void wake_neighbors(std::uint32_t index);
@@ -39,6 +45,9 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// The manifold at the start of the step, or where the bodies meet in it. Returns false when they do not.
   bool find_manifold(step::ContactConstraint& constraint, const state::Body& a, const state::Body& b,
                      const collision::Passage& way_a, const collision::Passage& way_b, double dt);
+  void gather_links();          ///< joints that hold something that can move
+  void leave_sleeping_links();  ///< out of what is solved
+  void end_links(double dt);    ///< reactions, and what breaks
   void wake_by_fields();
   bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
   void advance_bodies(double dt);

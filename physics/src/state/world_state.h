@@ -8,6 +8,7 @@
 #include "state/body.h"
 #include "state/contact_memories.h"
 #include "state/ignored_pairs.h"
+#include "state/joint.h"
 
 namespace tweenfall::state {
 
@@ -23,7 +24,10 @@ struct WorldState {
   bool failed = false;       ///< the last step left a body that is not finite
   ContactMemories memories;  ///< of the last step
   IgnoredPairs ignored;
-  std::vector<Contact> contacts;  ///< of those that touch, what the caller sees
+  std::vector<Joint> joints;
+  std::vector<std::uint32_t> unused_joints;  ///< indices of removed joints
+  std::vector<JointId> broken;               ///< in the last step
+  std::vector<Contact> contacts;             ///< of those that touch, what the caller sees
 };
 
 }  // namespace tweenfall::state

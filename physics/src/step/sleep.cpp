@@ -47,6 +47,8 @@ bool World::Implementation::wake_islands() {
       if (spring && forces::find_body(bodies, spring->a) && forces::find_body(bodies, spring->b))
         visit(spring->a.index, spring->b.index);
     }
+    for (const joints::JointLink& link : links)
+      if (link.a != joints::JointLink::world) visit(link.a, link.b);
   };
   each_link([&](std::uint32_t a, std::uint32_t b) {
     if (!bodies[a].immovable() && !bodies[b].immovable()) islands.join(a, b);

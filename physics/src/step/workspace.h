@@ -6,6 +6,7 @@
 #include "collision/passage.h"
 #include "forces/forces.h"
 #include "islands/island_contents.h"
+#include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
 #include "step/contact_constraint.h"
 #include "step/solver.h"
@@ -33,6 +34,7 @@ struct Workspace {
 
   std::vector<forces::Load> loads;
   std::vector<SpringRow> stiff_springs;
+  std::vector<joints::JointLink> links;
   std::vector<Start> starts;
   pairs::BroadPhase broad_phase;
   std::vector<ContactConstraint> active;  ///< near something that stirs

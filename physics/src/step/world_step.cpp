@@ -83,11 +83,12 @@ void World::Implementation::end_watch() {
 
 void World::Implementation::advance_bodies(double dt) {
   moved.assign(bodies.size(), 0);
+  leave_sleeping_links();
   solver.begin(bodies.size());
   block_solver.begin(bodies.size());
-  for (const islands::IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs)) {
+  for (const islands::IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs, links)) {
     if (blocks::BlockSolver::takes(island, bodies, dt))
-      block_solver.solve(bodies, loads, island.contacts, settings, dt, moved);
+      block_solver.solve(bodies, loads, island, settings, dt, moved);
     else
       solver.solve(bodies, loads, island.contacts, island.springs, settings, dt, moved);
   }
@@ -180,12 +181,14 @@ void World::Implementation::step(double dt) {
   do {
     forces::gather_loads(bodies, watched, forces, settings, time, dt, loads, stiff_springs);
     check_loads(time + dt);
+    gather_links();
     find_constraints(dt);
   } while (wake_islands());
   failed = true;
   advance_bodies(dt);
   let_sleep(dt);
   report();
+  end_links(dt);
   end_watch();
   time += dt;
   if (failed) check_bodies(dt, time);

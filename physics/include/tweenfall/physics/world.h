@@ -9,6 +9,7 @@
 #include <tweenfall/physics/contact.h>
 #include <tweenfall/physics/drive.h>
 #include <tweenfall/physics/force.h>
+#include <tweenfall/physics/joint.h>
 #include <tweenfall/physics/shape.h>
 
 #include <cstddef>
@@ -131,6 +132,19 @@ class World {
   void collide(BodyId a, BodyId b);  ///< takes back `ignore`
   /// Whether they may meet: by their groups, and because neither the caller nor a joint says otherwise.
   [[nodiscard]] bool collides(BodyId a, BodyId b) const;
+
+  // Joints; all throw std::invalid_argument for a stale handle. Removing a body removes its joints
+  JointId add_joint(
+      const JointSettings& joint);   ///< wakes both ends. @throws std::invalid_argument naming what is wrong
+  void remove_joint(JointId joint);  ///< wakes both ends
+  [[nodiscard]] bool contains(JointId joint) const noexcept;
+  [[nodiscard]] std::vector<JointId> joints() const;
+  [[nodiscard]] const JointSettings& joint(JointId joint) const;
+  /// Other limits, motors and so on for a joint of the same kind; wakes both ends.
+  void set_joint(JointId joint, const JointKind& kind);
+  [[nodiscard]] JointReading reading(JointId joint) const;
+  /// Those that broke in the last step, in order; they are gone.
+  [[nodiscard]] std::span<const JointId> broken_joints() const noexcept;
 
   // Forces
   std::size_t add_force(Force force);  ///< @returns a number for `remove_force`

@@ -1,0 +1,27 @@
+#include "joints/kinds.h"
+
+namespace tweenfall::joints {
+
+Coordinates coordinates_of(const DistanceJoint&, const state::Joint&, const Placement& at) {
+  Coordinates coordinates;
+  const Vec3 gap = at.gap();
+  const double length = gap.norm();
+  // Where both ends are in one place any direction leads apart.
+  coordinates.add(length, apart(at, length > 0 ? Vec3(gap / length) : at.x_a()));
+  return coordinates;
+}
+
+void write_rows(const DistanceJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+  const Coordinates length = coordinates_of(kind, joint, at);
+  const bool rod = kind.limits.low == kind.limits.high && kind.limits.hz == 0;
+  if (rod) {
+    const Vec3 rate = at.gap_rate();
+    const double across = rate.cross(length.direction[0].linear_b).squaredNorm();
+    const double bend =
+        length.direction[0].linear_b.dot(at.gap_bend()) + (length.position[0] > 0 ? across / length.position[0] : 0);
+    rows.hold(length.direction[0], length.position[0] - kind.limits.low, bend);
+  }
+  rows.bound(length.direction[0], length.position[0], rod ? nullptr : &kind.limits);
+}
+
+}  // namespace tweenfall::joints

@@ -1,0 +1,18 @@
+#include "joints/kinds.h"
+
+namespace tweenfall::joints {
+
+/// The angles are sums of what the bodies have turned: nothing else tells whole turns of bodies that also move.
+Coordinates coordinates_of(const GearJoint&, const state::Joint& joint, const Placement& at) {
+  Coordinates coordinates;
+  coordinates.add(joint.angles[0], {Vec3::Zero(), -at.x_a(), Vec3::Zero(), Vec3::Zero()});
+  coordinates.add(joint.angles[1], {Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), at.x_b()});
+  return coordinates;
+}
+
+void write_rows(const GearJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+  rows.hold({Vec3::Zero(), -kind.ratio * at.x_a(), Vec3::Zero(), at.x_b()},
+            kind.ratio * joint.angles[0] + joint.angles[1], 0);
+}
+
+}  // namespace tweenfall::joints

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "blocks/contact_block.h"
+#include "blocks/island_body.h"
+#include "joints/joint_link.h"
+#include "joints/joint_rows.h"
+#include "joints/joint_system.h"
+
+namespace tweenfall::joints {
+
+/// The joints of an island in sub-steps: errors are taken apart while bodies move, and the speed of that is taken away
+/// again. What all of them hold is solved together; bounds and motors one by one.
+/// Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024 (relaxation).
+class IslandJoints {
+ public:
+  /// Begins with the impulses that the joints kept.
+  /// @param places  from a body's index to its place in the island; 0 for none, and for the world
+  void build(std::span<JointLink* const> links, const std::vector<std::uint32_t>& places,
+             const std::vector<blocks::IslandBody>& island, double h, double dt);
+  [[nodiscard]] bool empty() const { return joints_.empty(); }
+
+  /// Rows for the bodies as they stand, and the impulses of the sub-step before applied again.
+  /// @param starts  velocities with which the sub-step begins
+  void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
+                      const std::vector<blocks::BodyLanes>& starts, std::vector<blocks::BodyLanes>& velocities);
+  /// One pass over all joints, forward or backward.
+  /// @param moving  errors are being taken apart
+  void solve(std::vector<blocks::BodyLanes>& velocities, bool moving, bool backward);
+  /// The bodies move with these velocities.
+  void move(const std::vector<blocks::BodyLanes>& velocities);
+  /// Adds up what the sub-step did.
+  void add_up();
+  /// Gives impulses, forces and torques back to the joints, and velocities that fit the places where the step ends.
+  void end_step(const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
+                std::vector<blocks::BodyLanes>& velocities);
+
+ private:
+  struct Entry {
+    state::Joint* joint = nullptr;
+    std::uint32_t a = 0, b = 0;  ///< places
+    double inverse_mass_a = 0, inverse_mass_b = 0;
+    Vec3 arm_b{0, 0, 0};
+    Vec3 axis_a{0, 0, 0}, axis_b{0, 0, 0};  ///< x axes of the frames
+    Vec3 push{0, 0, 0}, turn{0, 0, 0};      ///< on b in the step so far, N s and N m s
+    JointRows rows;
+  };
+  void write(const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
+             const std::vector<blocks::BodyLanes>& velocities);
+  void store();
+  void solve_bounds(Entry& entry, std::vector<blocks::BodyLanes>& velocities, bool moving);
+  void solve_together(std::vector<blocks::BodyLanes>& velocities, bool moving, bool backward);
+  void apply(const Entry& entry, const Row& row, double impulse, std::vector<blocks::BodyLanes>& velocities) const;
+
+  std::vector<Entry> joints_;
+  JointSystem system_;
+  std::vector<JointSystem::Member> members_;
+  std::vector<Masses> masses_;
+  std::vector<JointSystem::Values> impulses_;
+  double h_ = 0, dt_ = 0, rate_ = 0;
+};
+
+}  // namespace tweenfall::joints

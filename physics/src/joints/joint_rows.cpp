@@ -1,0 +1,195 @@
+#include "joints/joint_rows.h"
+
+#include <tweenfall/curves/rotation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace tweenfall::joints {
+
+Direction operator-(const Direction& direction) {
+  return {-direction.linear_a, -direction.turn_a, -direction.linear_b, -direction.turn_b};
+}
+
+Direction about(const Vec3& axis) {
+  return {Vec3::Zero(), axis, Vec3::Zero(), axis};
+}
+
+Direction along(const Placement& at, const Vec3& axis) {
+  return {axis, (at.arm_a + at.gap()).cross(axis), axis, at.arm_b.cross(axis)};
+}
+
+Direction apart(const Placement& at, const Vec3& direction) {
+  return {direction, at.arm_a.cross(direction), direction, at.arm_b.cross(direction)};
+}
+
+void JointRows::begin(const Masses& masses, double h, double rate) {
+  masses_ = masses;
+  h_ = h;
+  rate_ = rate;
+  together = count = 0;
+}
+
+Row& JointRows::add(const Direction& direction) {
+  Row& row = rows[count++];
+  const double kept = row.impulse;
+  row = {};
+  row.impulse = kept;
+  row.direction = direction;
+  row.spin_a = masses_.inverse_inertia_a * direction.turn_a;
+  row.spin_b = masses_.inverse_inertia_b * direction.turn_b;
+  const double inverse = masses_.inverse_mass_a * direction.linear_a.squaredNorm() + direction.turn_a.dot(row.spin_a) +
+                         masses_.inverse_mass_b * direction.linear_b.squaredNorm() + direction.turn_b.dot(row.spin_b);
+  row.mass = inverse > 0 ? 1 / inverse : 0;
+  return row;
+}
+
+void JointRows::idle(std::size_t many) {
+  for (; many > 0; --many) rows[count++] = {};
+}
+
+/// What moves straight for a sub-step leaves its arc: half of the bend brings it back onto it, and the other half is
+/// what the next sub-step begins with, so that no energy is lost on the way around. Source: Andersen, Rattle, Journal
+/// of Computational Physics 52, 1983.
+void JointRows::hold(const Direction& direction, double error, double bend) {
+  Row& row = add(direction);
+  row.wanted_after = -0.5 * h_ * bend;
+  row.wanted = row.wanted_after - rate_ * error;
+  ++together;
+}
+
+void JointRows::hold_across(const Placement& at, const Vec3& axis) {
+  const Vec3& spin = at.twist_a.angular;
+  const Vec3 gap = at.gap();
+  hold(along(at, axis), axis.dot(gap),
+       axis.dot(at.gap_bend()) + 2 * spin.cross(axis).dot(at.gap_rate()) + spin.cross(spin.cross(axis)).dot(gap));
+}
+
+void JointRows::hold_square(const Placement& at, const Vec3& axis_a, const Vec3& axis_b) {
+  const Vec3& spin_a = at.twist_a.angular;
+  const Vec3& spin_b = at.twist_b.angular;
+  const double bend = Placement::bend(at.twist_a, axis_a).dot(axis_b) +
+                      2 * spin_a.cross(axis_a).dot(spin_b.cross(axis_b)) +
+                      axis_a.dot(Placement::bend(at.twist_b, axis_b));
+  hold(about(axis_b.cross(axis_a)), axis_a.dot(axis_b), bend);
+}
+
+void JointRows::hold_point(const Placement& at) {
+  const Vec3 gap = at.gap();
+  const Vec3 bend = at.gap_bend();
+  for (int i = 0; i < 3; ++i) hold(apart(at, Vec3::Unit(i)), gap[i], bend[i]);
+}
+
+void JointRows::hold_rotation(const Placement& at) {
+  const Vec3 off = log_map(at.axes_b * at.axes_a.conjugate());
+  for (int i = 0; i < 3; ++i) hold(about(Vec3::Unit(i)), off[i], 0);
+}
+
+void JointRows::bound(const Direction& direction, double position, const Limits* limits) {
+  for (const bool low : {true, false}) {
+    const double gap = !limits ? 0 : low ? position - limits->low : limits->high - position;
+    if (!limits || std::isinf(gap)) {
+      idle();
+      continue;
+    }
+    // Nothing that can be followed turns by so much within a sub-step, rad.
+    constexpr double far = 0.5;
+    const bool angular = direction.linear_b == Vec3::Zero();
+    const bool soft = limits->hz > 0;
+    if ((angular && gap > far) || (soft && gap > 0)) {
+      idle();
+      continue;
+    }
+    if (soft) {
+      draw(low ? direction : -direction, gap, 0, limits->hz, limits->zeta, std::numeric_limits<double>::infinity());
+    } else {
+      Row& row = add(low ? direction : -direction);
+      row.wanted = gap > 0 ? -gap / h_ : -rate_ * gap;
+      row.wanted_after = gap > 0 ? row.wanted : 0;
+    }
+    Row& row = rows[count - 1];
+    row.low = 0;
+    row.high = std::numeric_limits<double>::infinity();
+    row.impulse = std::max(row.impulse, 0.0);
+  }
+}
+
+void JointRows::drive(const Direction& direction, double position, const Motor* motor) {
+  if (!motor) {
+    idle();
+  } else if (motor->position) {
+    draw(direction, position - *motor->position, motor->speed, motor->hz, motor->zeta, motor->max_force);
+  } else {
+    Row& row = add(direction);
+    row.wanted = row.wanted_after = motor->speed;
+    row.high = motor->max_force * h_;
+    row.low = -row.high;
+  }
+}
+
+void JointRows::draw(const Direction& direction, double error, double speed, double hz, double zeta, double most) {
+  Row& row = add(direction);
+  // Source: Catto, Soft Constraints, GDC 2011: an implicit spring on the mass that the row sees.
+  const double turn = 2 * std::numbers::pi * hz * h_;
+  const double pull = turn * (2 * zeta + turn);
+  row.firm = pull / (1 + pull);
+  row.giving = 1 / (1 + pull);
+  row.wanted = row.wanted_after = speed - (pull > 0 ? turn / (h_ * (2 * zeta + turn)) * error : 0);
+  row.high = most * h_;
+  row.low = -row.high;
+}
+
+void JointRows::spring(const Direction& direction, double error, double stiffness, double damping) {
+  const double firmness = h_ * (damping + h_ * stiffness);
+  if (!(firmness > 0)) return idle();
+  Row& row = add(direction);
+  const double softness = row.mass / firmness;
+  row.firm = 1 / (1 + softness);
+  row.giving = softness / (1 + softness);
+  row.wanted = row.wanted_after = -stiffness / (damping + h_ * stiffness) * error;
+}
+
+double JointRows::coupling(const Row& first, const Row& second) const {
+  return masses_.inverse_mass_a * first.direction.linear_a.dot(second.direction.linear_a) +
+         first.direction.turn_a.dot(second.spin_a) +
+         masses_.inverse_mass_b * first.direction.linear_b.dot(second.direction.linear_b) +
+         first.direction.turn_b.dot(second.spin_b);
+}
+
+void JointRows::finish() {
+  const auto acts = [](const Row& row) { return row.mass > 0; };
+  const auto first = rows.begin() + static_cast<std::ptrdiff_t>(together);
+  if (together == 0 || std::none_of(first, rows.begin() + static_cast<std::ptrdiff_t>(count), acts)) return;
+  std::array<std::array<double, most_together>, most_together> factor{};
+  for (std::size_t i = 0; i < together; ++i)
+    for (std::size_t k = 0; k <= i; ++k) {
+      double sum = coupling(rows[i], rows[k]);
+      for (std::size_t n = 0; n < k; ++n) sum -= factor[i][n] * factor[k][n];
+      if (k < i)
+        factor[i][k] = factor[k][k] > 0 ? sum / factor[k][k] : 0;
+      else
+        factor[i][i] = sum * rows[i].mass > new_enough ? std::sqrt(sum) : 0;
+    }
+  for (std::size_t r = together; r < count; ++r) {
+    Row& row = rows[r];
+    if (!acts(row)) continue;
+    // factor y = J M^-1 r; what is left of the row's inverse mass is 1 / mass - |y|^2.
+    double left = 1 / row.mass;
+    for (std::size_t i = 0; i < together; ++i) {
+      double sum = coupling(rows[i], row);
+      for (std::size_t k = 0; k < i; ++k) sum -= factor[i][k] * row.along[k];
+      row.along[i] = factor[i][i] > 0 ? sum / factor[i][i] : 0;
+      left -= row.along[i] * row.along[i];
+    }
+    // Where the joint holds all that the row could move, it has nothing to do.
+    row.mass = left * row.mass > new_enough ? 1 / left : 0;
+    for (std::size_t i = together; i-- > 0;) {
+      for (std::size_t k = i + 1; k < together; ++k) row.along[i] -= factor[k][i] * row.along[k];
+      row.along[i] = factor[i][i] > 0 ? row.along[i] / factor[i][i] : 0;
+    }
+    if (row.mass == 0) row.impulse = 0;
+  }
+}
+
+}  // namespace tweenfall::joints

@@ -1,0 +1,59 @@
+#pragma once
+
+/// What each kind of joint holds, bounds and drives, one file for each.
+
+#include "joints/joint_rows.h"
+
+namespace tweenfall::joints {
+
+/// Positions of a joint's coordinates, and how each is moved.
+struct Coordinates {
+  int count = 0;
+  std::array<double, 3> position{};
+  std::array<Direction, 3> direction{};
+
+  void add(double where, const Direction& how) {
+    position[static_cast<std::size_t>(count)] = where;
+    direction[static_cast<std::size_t>(count++)] = how;
+  }
+};
+
+/// Coordinates of a joint whose frames lie so.
+[[nodiscard]] Coordinates coordinates_of(const BallJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const HingeJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const SliderJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const FixedJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const DistanceJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const UniversalJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const SwingTwistJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const WheelJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const PulleyJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const GearJoint& kind, const state::Joint& joint, const Placement& at);
+[[nodiscard]] Coordinates coordinates_of(const SpringJoint& kind, const state::Joint& joint, const Placement& at);
+
+[[nodiscard]] Coordinates coordinates_of(const state::Joint& joint, const Placement& at);
+
+/// Writes the rows of a sub-step; always as many for one kind, in the same order.
+void write_rows(const BallJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const HingeJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const SliderJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const FixedJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const DistanceJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const UniversalJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const SwingTwistJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const WheelJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const PulleyJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const GearJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const SpringJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+
+/// An angle within -pi to pi as the one nearest to the last, whole turns included.
+[[nodiscard]] double unwrapped(double angle, double last);
+/// How far a rotation turns about the x axis: its twist, rad.
+[[nodiscard]] double twist_of(const Quat& rotation);
+
+template <class Value>
+[[nodiscard]] const Value* pointer_to(const std::optional<Value>& value) {
+  return value ? &*value : nullptr;
+}
+
+}  // namespace tweenfall::joints

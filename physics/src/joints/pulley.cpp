@@ -1,0 +1,23 @@
+#include "joints/kinds.h"
+
+namespace tweenfall::joints {
+
+Coordinates coordinates_of(const PulleyJoint& kind, const state::Joint&, const Placement& at) {
+  Coordinates coordinates;
+  const Vec3 rope_a = at.point_a() - kind.pulley_a;
+  const Vec3 rope_b = at.point_b() - kind.pulley_b;
+  const double length_a = rope_a.norm();
+  const double length_b = rope_b.norm();
+  const Vec3 away_a = length_a > 0 ? Vec3(rope_a / length_a) : Vec3(0, -1, 0);
+  const Vec3 away_b = kind.ratio * (length_b > 0 ? Vec3(rope_b / length_b) : Vec3(0, -1, 0));
+  coordinates.add(length_a + kind.ratio * length_b, {-away_a, -at.arm_a.cross(away_a), away_b, at.arm_b.cross(away_b)});
+  return coordinates;
+}
+
+void write_rows(const PulleyJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+  const Coordinates rope = coordinates_of(kind, joint, at);
+  const Limits limits{0, kind.length.value_or(std::numeric_limits<double>::infinity())};
+  rows.bound(rope.direction[0], rope.position[0], &limits);
+}
+
+}  // namespace tweenfall::joints

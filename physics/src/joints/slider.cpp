@@ -1,0 +1,20 @@
+#include "joints/kinds.h"
+
+namespace tweenfall::joints {
+
+Coordinates coordinates_of(const SliderJoint&, const state::Joint&, const Placement& at) {
+  Coordinates coordinates;
+  const Vec3 axis = at.x_a();
+  coordinates.add(axis.dot(at.gap()), along(at, axis));
+  return coordinates;
+}
+
+void write_rows(const SliderJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+  for (const Vec3& axis : {at.y_a(), at.z_a()}) rows.hold_across(at, axis);
+  rows.hold_rotation(at);
+  const Coordinates way = coordinates_of(kind, joint, at);
+  rows.bound(way.direction[0], way.position[0], pointer_to(kind.limits));
+  rows.drive(way.direction[0], way.position[0], pointer_to(kind.motor));
+}
+
+}  // namespace tweenfall::joints

@@ -1,0 +1,104 @@
+#include <tweenfall/curves/elementary.h>
+#include <tweenfall/curves/rotation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "joints/kinds.h"
+
+namespace tweenfall::joints {
+
+namespace {
+
+/// A cone narrower than this is a hinge's business, rad.
+constexpr double narrowest = 1e-3;
+
+/// A rotation as a swing after a twist about x: rotation = exp(swing) * twist, with swing.x = 0.
+struct Swing {
+  Vec3 vector{0, 0, 0};  ///< rad
+  Quat rotation{1, 0, 0, 0};
+};
+
+Swing swing_of(const Quat& rotation) {
+  Quat twist(rotation.w(), rotation.x(), 0, 0);
+  const double length = twist.norm();
+  // Turned over by half a turn, any twist will do.
+  twist = length > 0 ? Quat(twist.w() / length, twist.x() / length, 0, 0) : Quat(1, 0, 0, 0);
+  Swing swing;
+  swing.rotation = rotation * twist.conjugate();
+  swing.vector = log_map(swing.rotation);
+  swing.vector.x() = 0;
+  return swing;
+}
+
+/// The axis in a's frame along which an angular velocity changes a function of the swing whose gradient is given:
+/// the derivative of the exponential undone, and blind to the twist about x as b carries it.
+/// Source: Bullo and Murray, Proportional Derivative Control on the Euclidean Group, 1995 (dexp and its inverse).
+Vec3 axis_of(const Swing& swing, const Vec3& gradient) {
+  const double angle = swing.vector.norm();
+  const Vec3 carried = swing.rotation * Vec3(1, 0, 0);
+  const double half = 0.5 * angle;
+  const auto [sin, cos] = elementary::sin_cos(half);
+  // half cot(half), and what it leaves
+  const double cotangent = sin > 0 ? half * cos / sin : 1;
+  const double rest = angle > 1e-4 ? (1 - cotangent) / (angle * angle) : 1.0 / 12;
+  // Transpose of the inverse of the left derivative: 1 + [s]/2 + rest [s]^2.
+  const auto undone = [&](const Vec3& value) -> Vec3 {
+    const Vec3 once = swing.vector.cross(value);
+    return value + 0.5 * once + rest * swing.vector.cross(once);
+  };
+  const Vec3 first = undone(gradient);
+  const Vec3 free = undone(Vec3(1, 0, 0));
+  const double carry = free.dot(carried);
+  return std::abs(carry) > 1e-9 ? Vec3(first - first.dot(carried) / carry * free) : first;
+}
+
+}  // namespace
+
+Coordinates coordinates_of(const SwingTwistJoint&, const state::Joint&, const Placement& at) {
+  Coordinates coordinates;
+  const Quat relative = at.relative();
+  const Swing swing = swing_of(relative);
+  const Vec3 x_a = at.x_a();
+  const Vec3 both = x_a + at.x_b();
+  const double sum = 1 + x_a.dot(at.x_b());
+  coordinates.add(twist_of(relative), about(sum > 1e-9 ? Vec3(both / sum) : x_a));
+  coordinates.add(swing.vector.y(), about(at.axes_a * axis_of(swing, Vec3(0, 1, 0))));
+  coordinates.add(swing.vector.z(), about(at.axes_a * axis_of(swing, Vec3(0, 0, 1))));
+  return coordinates;
+}
+
+void write_rows(const SwingTwistJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+  rows.hold_point(at);
+  const Quat relative = at.relative();
+  const Swing swing = swing_of(relative);
+  const double y = std::max(kind.swing_y, narrowest);
+  const double z = std::max(kind.swing_z, narrowest);
+  // The ellipse (s_y / y)^2 + (s_z / z)^2 = 1, and the distance to it to first order.
+  const Vec3 scaled(0, swing.vector.y() / y, swing.vector.z() / z);
+  const double share = scaled.norm();
+  const Vec3 gradient = share > 0 ? Vec3(0, scaled.y() / (share * y), scaled.z() / (share * z)) : Vec3(0, 0, 0);
+  const double steepness = gradient.norm();
+  if (steepness > 0) {
+    const Limits cone{-std::numeric_limits<double>::infinity(), 1 / steepness, kind.twist.hz, kind.twist.zeta};
+    rows.bound(about(at.axes_a * axis_of(swing, gradient / steepness)), share / steepness, &cone);
+  } else {
+    rows.idle(2);
+  }
+  const Vec3 x_a = at.x_a();
+  const Vec3 both = x_a + at.x_b();
+  const double sum = 1 + x_a.dot(at.x_b());
+  rows.bound(about(sum > 1e-9 ? Vec3(both / sum) : x_a), twist_of(relative), &kind.twist);
+  if (kind.toward) {
+    // Along b's own axes, which for a limb are nearly those of its inertia: the springs hardly act on each other.
+    const Vec3 off = log_map(kind.toward->conjugate() * relative);
+    for (int i = 0; i < 3; ++i)
+      rows.draw(about(at.axes_b * Vec3::Unit(i)), off[i], 0, kind.hz, kind.zeta, kind.max_torque);
+  } else {
+    rows.idle(3);
+  }
+  static_cast<void>(joint);
+}
+
+}  // namespace tweenfall::joints
