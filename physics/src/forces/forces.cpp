@@ -62,6 +62,9 @@ Pull pull_of(const Spring& spring, const Body& body_a, const Glimpse& a, const B
   return pull;
 }
 
+/// Bodies that are worth a part of their own.
+constexpr std::size_t worth_a_part = 256;
+
 /// Above this a spring would ring through the step, and above 4 it would grow.
 constexpr double most_springiness = 1;
 
@@ -89,21 +92,26 @@ const Body* find_body(const std::vector<Body>& bodies, const BodyId& id) {
 
 void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t> watched,
                   const std::vector<NumberedForce>& forces, const WorldSettings& settings, double time, double dt,
-                  std::vector<Load>& loads, std::vector<step::SpringRow>& stiff) {
+                  const threads::Workers& workers, std::vector<Load>& loads, std::vector<step::SpringRow>& stiff) {
   loads.resize(bodies.size());
   stiff.clear();
-  for (const std::uint32_t i : watched) {
+  const auto each_watched = [&](const auto& see) {
+    workers.ranges(watched.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) see(watched[k]);
+    });
+  };
+  each_watched([&](std::uint32_t i) {
     const Body& body = bodies[i];
     Load& load = loads[i];
     load = {};
     if (body.immovable()) load.acceleration = load.end_acceleration = step::keyed_course(body, dt).gain.linear / dt;
-    if (!moves(body)) continue;
+    if (!moves(body)) return;
     load.acceleration = settings.gravity + body.force / body.mass.mass;
     load.end_acceleration = load.acceleration;
     load.torque = body.torque;
     load.drag = body.linear_damping;
     load.angular_damping = body.angular_damping;
-  }
+  });
   for (const NumberedForce& entry : forces)
     if (const auto* spring = std::get_if<Spring>(&entry.force)) add_springiness(bodies, *spring, dt, loads);
   const auto too_stiff = [&](const Spring& spring, const Body* b) {
@@ -170,9 +178,10 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     add(false);
     if (settings.integrator == Integrator::exact_quadratic) add(true);
   }
-  for (const std::uint32_t i : watched)
+  each_watched([&](std::uint32_t i) {
     if (moves(bodies[i]) && bodies[i].drive.owner() == Owner::driven)
       loads[i].pulled = pulled(bodies[i], loads[i], settings.integrator, dt);
+  });
 }
 
 }  // namespace tweenfall::forces

@@ -6,6 +6,7 @@
 #include "forces/free_flight.h"
 #include "state/body.h"
 #include "step/spring_row.h"
+#include "threads/workers.h"
 
 namespace tweenfall::forces {
 
@@ -18,7 +19,7 @@ struct NumberedForce {
 /// Springs that are too stiff for the step go into `stiff` and into no load.
 void gather_loads(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> watched,
                   const std::vector<NumberedForce>& forces, const WorldSettings& settings, double time, double dt,
-                  std::vector<Load>& loads, std::vector<step::SpringRow>& stiff);
+                  const threads::Workers& workers, std::vector<Load>& loads, std::vector<step::SpringRow>& stiff);
 
 /// The body of a handle; null when it is gone, or for the world itself.
 [[nodiscard]] const state::Body* find_body(const std::vector<state::Body>& bodies, const BodyId& id);

@@ -67,7 +67,7 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
   // A tenth of a radian a piece keeps the energy of a tumbling body to parts in a billion.
   const double angle =
       (first.norm() + 0.5 * dt * (body.world_inverse_inertia(start.rotation) * load.torque).norm()) * dt;
-  const int pieces = static_cast<int>(std::clamp(std::ceil(angle / 0.1), 1.0, 64.0));
+  const int pieces = static_cast<int>(std::min(64.0, std::max(1.0, std::ceil(angle / 0.1))));  // 1 for no number
   const double h = dt / pieces;
   const auto angular_at = [&](const Vec3& turn, const Vec3& at_momentum) -> Vec3 {
     const Quat rotation = exp_map(turn) * spin.rotation;

@@ -5,7 +5,7 @@
 namespace tweenfall::islands {
 
 const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::Body>& bodies, Islands& islands,
-                                                      std::vector<step::ContactConstraint>& contacts,
+                                                      std::span<step::ContactConstraint* const> contacts,
                                                       std::vector<step::SpringRow>& springs,
                                                       std::vector<joints::JointLink>& links) {
   static_assert(step::SpringRow::world == joints::JointLink::world);
@@ -13,19 +13,24 @@ const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::B
     const bool by_a = a != step::SpringRow::world && (b == step::SpringRow::world || !bodies[a].immovable());
     return islands.of(by_a ? a : b);
   };
-  const auto sorted = [&](auto& list, std::vector<Entry>& entries, auto& pointers) {
+  const auto sorted = [](const auto& list, std::vector<Entry>& entries, auto& pointers, const auto& island_of_item) {
     entries.clear();
-    for (const auto& item : list)
-      entries.push_back({island_of(item.a, item.b), static_cast<std::uint32_t>(entries.size())});
+    for (const auto* item : list)
+      entries.push_back({island_of_item(item->a, item->b), static_cast<std::uint32_t>(entries.size())});
     std::sort(entries.begin(), entries.end(), [](const Entry& left, const Entry& right) {
       return left.island != right.island ? left.island < right.island : left.number < right.number;
     });
     pointers.clear();
-    for (const Entry& entry : entries) pointers.push_back(&list[entry.number]);
+    for (const Entry& entry : entries) pointers.push_back(list[entry.number]);
   };
-  sorted(contacts, contact_entries_, contacts_);
-  sorted(springs, spring_entries_, springs_);
-  sorted(links, link_entries_, links_);
+  const auto list_of = [](auto& list, auto& pointers) -> const auto& {
+    pointers.clear();
+    for (auto& item : list) pointers.push_back(&item);
+    return pointers;
+  };
+  sorted(contacts, contact_entries_, contacts_, island_of);
+  sorted(list_of(springs, listed_springs_), spring_entries_, springs_, island_of);
+  sorted(list_of(links, listed_links_), link_entries_, links_, island_of);
 
   islands_.clear();
   std::size_t contact = 0;

@@ -24,7 +24,7 @@ class IslandSorter {
  public:
   /// By the smallest index of a movable body; what is returned refers to the arguments and to this.
   const std::vector<IslandContents>& sort(const std::vector<state::Body>& bodies, Islands& islands,
-                                          std::vector<step::ContactConstraint>& contacts,
+                                          std::span<step::ContactConstraint* const> contacts,
                                           std::vector<step::SpringRow>& springs, std::vector<joints::JointLink>& links);
 
  private:
@@ -33,8 +33,8 @@ class IslandSorter {
   };
   std::vector<Entry> contact_entries_, spring_entries_, link_entries_;
   std::vector<step::ContactConstraint*> contacts_;
-  std::vector<step::SpringRow*> springs_;
-  std::vector<joints::JointLink*> links_;
+  std::vector<step::SpringRow*> springs_, listed_springs_;
+  std::vector<joints::JointLink*> links_, listed_links_;
   std::vector<IslandContents> islands_;
 };
 

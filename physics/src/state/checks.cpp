@@ -83,6 +83,8 @@ void validate(const WorldSettings& settings) {
   require(settings.iterations > 0, "iterations must be at least 1, but are " + std::to_string(settings.iterations));
   require(settings.sleep_speed >= 0, "sleep speed must not be negative, but is " + number_text(settings.sleep_speed));
   require(settings.sleep_after >= 0, "sleep_after must not be negative, but is " + number_text(settings.sleep_after));
+  require(settings.threads >= 0 && settings.threads <= 256,
+          "threads must be 0 to 256, but are " + std::to_string(settings.threads));
   require(settings.push_out_speed >= 0,
           "push-out speed must not be negative, but is " + number_text(settings.push_out_speed));
 }

@@ -15,6 +15,8 @@ concept Is = std::same_as<std::remove_const_t<T>, Of>;
 
 /// Names fields that follow from others.
 inline void follows_from_others(const auto&...) {}
+/// Names fields on which no later bit depends.
+inline void leads_to_nothing(const auto&...) {}
 
 // each_field(value, visit): calls `visit(field, field, ...)`, perhaps several times, with all of them in a fixed order.
 
@@ -158,7 +160,7 @@ void each_field(T& memory, const Visit& visit) {
   auto& [a, b, count, points, kept, found, touching, gone] = memory;
   visit(a, b, count, kept, found, touching);
   for (std::size_t i = 0; i < within_four(count); ++i) visit(points[i]);
-  follows_from_others(gone);  // those that are gone are not told of
+  leads_to_nothing(gone);  // those that are gone are not told of
 }
 
 template <Is<Limits> T, class Visit>
@@ -273,8 +275,9 @@ void each_field(T& contact, const Visit& visit) {
 
 template <Is<WorldSettings> T, class Visit>
 void each_field(T& settings, const Visit& visit) {
-  auto& [gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed] = settings;
+  auto& [gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed, threads] = settings;
   visit(gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed);
+  leads_to_nothing(threads);
 }
 
 template <Is<WorldState> T, class Visit>

@@ -283,13 +283,14 @@ std::vector<std::byte> World::save() const {
 }
 
 void World::load(std::span<const std::byte> saved) {
-  static_cast<void>(changing());
+  const Implementation& before = changing();
   state::ByteReader reader(state::contents_of(saved));
   state::WorldState loaded;
   walk(reader, loaded);
   reader.require(reader.at_end(), "there is more than a world");
   state::check(loaded);
-  implementation_ = std::make_unique<Implementation>(std::move(loaded));
+  loaded.settings.threads = before.settings.threads;
+  implementation_ = std::make_unique<Implementation>(std::move(loaded), before.executor);
 }
 
 }  // namespace tweenfall

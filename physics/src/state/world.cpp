@@ -80,20 +80,23 @@ void World::Implementation::forget_impulses(std::uint32_t index) {
 World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>()) {
   state::validate(settings);
   implementation_->settings = settings;
+  if (settings.threads > 1)
+    implementation_->executor = std::make_shared<ThreadPool>(static_cast<std::size_t>(settings.threads));
 }
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 World::World(const World& other)
-    : implementation_(other.implementation_ ? std::make_unique<Implementation>(
-                                                  static_cast<const state::WorldState&>(*other.implementation_))
-                                            : nullptr) {}
+    : implementation_(other.implementation_
+                          ? std::make_unique<Implementation>(*other.implementation_, other.implementation_->executor)
+                          : nullptr) {}
 World& World::operator=(const World& other) {
   if (this == &other) return *this;
   if (implementation_ && implementation_->stepping) throw std::logic_error("a field cannot assign to its world");
   if (implementation_ && other.implementation_) {
     const state::WorldState& state = *other.implementation_;
     *implementation_ = state;  // keeps the capacity that is there
+    implementation_->executor = other.implementation_->executor;
   } else {
     *this = World(other);
   }
@@ -395,6 +398,10 @@ void World::remove_force(std::size_t number) {
   state::require(erased == 1, "there is no force number " + std::to_string(number));
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
     if (world.bodies[i].alive) world.wake(i);
+}
+
+void World::set_executor(std::shared_ptr<Executor> executor) {
+  changing().executor = std::move(executor);
 }
 
 void World::step(double dt) {

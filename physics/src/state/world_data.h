@@ -9,10 +9,12 @@ namespace tweenfall {
 
 /// What a world is, and the room that it works in.
 struct World::Implementation : state::WorldState, step::Workspace {
-  bool stepping = false;  ///< a field may be running: nothing may change
+  bool stepping = false;               ///< a field may be running: nothing may change
+  std::shared_ptr<Executor> executor;  ///< null: the thread that calls
 
   Implementation() = default;
-  explicit Implementation(state::WorldState other) : WorldState(std::move(other)) {}
+  explicit Implementation(state::WorldState other, std::shared_ptr<Executor> shared)
+      : WorldState(std::move(other)), executor(std::move(shared)) {}
   Implementation& operator=(const state::WorldState& other) {
     WorldState::operator=(other);
     Workspace::operator=({});
@@ -36,6 +38,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void forget_impulses(std::uint32_t index);           ///< what the contacts of this body remember
   void step(double dt);
 
+  [[nodiscard]] threads::Workers workers() const { return threads::Workers(executor.get()); }
   void check_bodies(double dt,
                     double at) const;  ///< @throws NotFinite for the first that is not; dt of the step before
   void check_loads(double at) const;   ///< @throws NotFinite for the first body with one that is not
@@ -44,12 +47,19 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void find_constraints(double dt);
   /// The manifold at the start of the step, or where the bodies meet in it. Returns false when they do not.
   bool find_manifold(step::ContactConstraint& constraint, const state::Body& a, const state::Body& b,
-                     const collision::Passage& way_a, const collision::Passage& way_b, double dt);
+                     const collision::Passage& way_a, const collision::Passage& way_b, double dt,
+                     std::vector<step::KnownApart>& aparts) const;
+  /// Which memories the pairs of the broad phase have, and which of the others are kept; @return whether two bodies of
+  /// a pair may each have as many contacts as a body can
+  bool recall(std::span<const pairs::Pair> pairs);
+  void find_part(std::span<const pairs::Pair> pairs, std::span<const std::uint32_t> memories_of, bool crowded,
+                 double dt, step::FoundPart& part);
   void gather_links();          ///< joints that hold something that can move
   void leave_sleeping_links();  ///< out of what is solved
   void end_links(double dt);    ///< reactions, and what breaks
   void wake_by_fields();
   bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
+  void solve_islands(double dt);
   void advance_bodies(double dt);
   void let_sleep(double dt);
   void report();

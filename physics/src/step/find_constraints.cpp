@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "collision/collide_pairs.h"
 #include "collision/passage.h"
@@ -16,6 +17,8 @@ namespace {
 constexpr double near_enough = 2e-3;
 /// Two bodies that both have so many contacts already get none with each other.
 constexpr std::uint32_t most_contacts = 32;
+/// Pairs, or bodies, that are worth a part of their own.
+constexpr std::size_t worth_a_part = 64;
 
 /// The points of a manifold as constraints, told about the bodies' places at the start of the step.
 void adopt(ContactConstraint& constraint, const state::Body& a, const collision::Prediction& at_a, const state::Body& b,
@@ -72,7 +75,8 @@ void inherit(ContactConstraint& constraint, const state::ContactMemory& old, dou
 
 bool World::Implementation::find_manifold(step::ContactConstraint& constraint, const state::Body& a,
                                           const state::Body& b, const collision::Passage& way_a,
-                                          const collision::Passage& way_b, double dt) {
+                                          const collision::Passage& way_b, double dt,
+                                          std::vector<step::KnownApart>& told_apart) const {
   const double swing = way_a.swing + way_b.swing;
   const double reach = step::near_enough + (swing * dt > step::near_enough ? swing * dt : 0);
   const Manifold manifold = collision::collide(a.shape, way_a.placed, b.shape, way_b.placed, step::near_enough, reach);
@@ -81,8 +85,7 @@ bool World::Implementation::find_manifold(step::ContactConstraint& constraint, c
     step::adopt(constraint, a, {a.center, a.motion.pose.rotation}, b, {b.center, b.motion.pose.rotation});
   } else {
     const collision::Apart apart = collision::apart_along(way_a, way_b, manifold.normal);
-    if (apart.frame != collision::Apart::Frame::none)
-      aparts.emplace_back(pairs::Pair(constraint.a, constraint.b), apart);
+    if (apart.frame != collision::Apart::Frame::none) told_apart.push_back({{constraint.a, constraint.b}, apart});
     const double gap = collision::gap_along(way_a, way_b, manifold.normal);
     if (collision::stay_apart(way_a, way_b, manifold.normal, gap, step::near_enough, dt)) return false;
     const std::optional<double> meeting = collision::impact_time(way_a.course, way_b.course, dt);
@@ -98,16 +101,15 @@ bool World::Implementation::find_manifold(step::ContactConstraint& constraint, c
   return constraint.count > 0 && constraint.manifold.normal.allFinite();
 }
 
-void World::Implementation::find_constraints(double dt) {
-  active.clear();
-  retained.clear();
-  memories.tidy();
-  const std::vector<pairs::Pair>& pairs =
-      broad_phase.find(bodies, watched, loads, {bodies, ignored}, step::near_enough, dt);
+bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
+  ++look;
+  looked_at.resize(bodies.size(), 0);
+  looked_for.clear();
+  pair_memories.clear();
   contact_counts.assign(bodies.size(), 0);
   const std::span<const std::uint32_t> remembered_before = memories.sorted();
   std::size_t next = 0;
-  /// The memory of a pair, if there is one; of those before it, which are near nothing that stirs, all is kept.
+  /// Of memories before the pair, which are near nothing that stirs, all is kept.
   const auto memory_of = [&](const pairs::Pair& pair) {
     for (; next < remembered_before.size(); ++next) {
       const state::ContactMemory& memory = memories[remembered_before[next]];
@@ -118,56 +120,107 @@ void World::Implementation::find_constraints(double dt) {
     }
     return state::ContactMemories::nowhere;
   };
-  ++look;
-  passages.resize(bodies.size());
-  looked_at.resize(bodies.size(), 0);
-  const auto passage_at = [&](std::uint32_t index) -> const collision::Passage& {
-    if (looked_at[index] != look) passages[index] = collision::passage_of(bodies[index], loads[index], dt);
-    looked_at[index] = look;
-    return passages[index];
-  };
-  std::swap(aparts, aparts_before);
-  aparts.clear();
-  std::size_t next_apart = 0;
+  bool crowded = false;
   for (const pairs::Pair& pair : pairs) {
-    const std::uint32_t memory = memory_of(pair);
-    const auto [index_a, index_b] = pair;
+    pair_memories.push_back(memory_of(pair));
+    for (const std::uint32_t index : {pair.first, pair.second}) {
+      if (looked_at[index] == look) continue;
+      looked_at[index] = look;
+      looked_for.push_back(index);
+    }
+    crowded = crowded ||
+              (contact_counts[pair.first] >= step::most_contacts && contact_counts[pair.second] >= step::most_contacts);
+    ++contact_counts[pair.first];
+    ++contact_counts[pair.second];
+  }
+  memory_of({std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()});
+  return crowded;
+}
+
+void World::Implementation::find_part(std::span<const pairs::Pair> pairs, std::span<const std::uint32_t> memories_of,
+                                      bool crowded, double dt, step::FoundPart& part) {
+  part.contacts.clear();
+  part.aparts.clear();
+  auto next_apart =
+      pairs.empty()
+          ? aparts.cend()
+          : std::lower_bound(aparts.cbegin(), aparts.cend(), pairs.front(),
+                             [](const step::KnownApart& known, const pairs::Pair& pair) { return known.pair < pair; });
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto [index_a, index_b] = pairs[i];
     const state::Body& a = bodies[index_a];
     const state::Body& b = bodies[index_b];
-    const bool crowded =
-        contact_counts[index_a] >= step::most_contacts && contact_counts[index_b] >= step::most_contacts;
-    if (crowded && !a.immovable() && !b.immovable()) continue;
-    const collision::Passage& way_a = passage_at(index_a);
-    const collision::Passage& way_b = passage_at(index_b);
-    while (next_apart < aparts_before.size() && aparts_before[next_apart].first < pair) ++next_apart;
-    if (next_apart < aparts_before.size() && aparts_before[next_apart].first == pair) {
-      const collision::Apart& apart = aparts_before[next_apart].second;
-      const Vec3 direction = apart.in_world(way_a, way_b);
+    if (crowded && contact_counts[index_a] >= step::most_contacts && contact_counts[index_b] >= step::most_contacts &&
+        !a.immovable() && !b.immovable())
+      continue;
+    const collision::Passage& way_a = passages[index_a];
+    const collision::Passage& way_b = passages[index_b];
+    while (next_apart != aparts.cend() && next_apart->pair < pairs[i]) ++next_apart;
+    if (next_apart != aparts.cend() && next_apart->pair == pairs[i]) {
+      const Vec3 direction = next_apart->apart.in_world(way_a, way_b);
       if (collision::stay_apart(way_a, way_b, direction, collision::gap_along(way_a, way_b, direction),
                                 step::near_enough, dt)) {
-        aparts.push_back(aparts_before[next_apart]);
+        part.aparts.push_back(*next_apart);
         continue;
       }
     }
-    const bool known = memory != state::ContactMemories::nowhere;
-    step::ContactConstraint& constraint = active.emplace_back();
+    const bool known = memories_of[i] != state::ContactMemories::nowhere;
+    const state::ContactMemory* memory = known ? &std::as_const(memories)[memories_of[i]] : nullptr;
+    step::ContactConstraint& constraint = part.contacts.emplace_back();
     constraint.a = index_a;
     constraint.b = index_b;
-    constraint.memory = memory;
-    constraint.kept = known && step::take_up(memories[memory], a, b, way_a.swing + way_b.swing, dt, constraint);
-    if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt)) {
-      active.pop_back();
+    constraint.memory = memories_of[i];
+    constraint.kept = memory && step::take_up(*memory, a, b, way_a.swing + way_b.swing, dt, constraint);
+    if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt, part.aparts)) {
+      part.contacts.pop_back();
       continue;
     }
     constraint.friction = std::sqrt(a.friction * b.friction);
     constraint.restitution = std::max(a.restitution, b.restitution);
     constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
-    constraint.began = !(known && memories[memory].touching);
-    if (known) step::inherit(constraint, memories[memory], 0.05 * std::min(a.radius, b.radius));
+    constraint.began = !(memory && memory->touching);
+    if (memory) step::inherit(constraint, *memory, 0.05 * std::min(a.radius, b.radius));
+    if (!crowded) continue;
     ++contact_counts[index_a];
     ++contact_counts[index_b];
   }
-  memory_of({std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()});
+}
+
+void World::Implementation::find_constraints(double dt) {
+  active.clear();
+  retained.clear();
+  memories.tidy();
+  const threads::Workers work = workers();
+  const std::vector<pairs::Pair>& pairs =
+      broad_phase.find(bodies, watched, loads, {bodies, ignored}, step::near_enough, dt);
+  const bool crowded = recall(pairs);
+  passages.resize(bodies.size());
+  work.ranges(looked_for.size(), step::worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      passages[looked_for[i]] = collision::passage_of(bodies[looked_for[i]], loads[looked_for[i]], dt);
+  });
+  const std::span<const pairs::Pair> all = pairs;
+  const std::span<const std::uint32_t> known = pair_memories;
+  const auto find = [&](std::size_t part, std::size_t begin, std::size_t end) {
+    find_part(all.subspan(begin, end - begin), known.subspan(begin, end - begin), crowded, dt, found[part]);
+  };
+  // In a crowd what a pair may have depends on the pairs before it.
+  const std::size_t parts = crowded ? 1 : std::max<std::size_t>(1, work.range_count(pairs.size(), step::worth_a_part));
+  found.resize(std::max(parts, found.size()));
+  for (std::size_t i = parts; i < found.size(); ++i) found[i].contacts.clear();
+  if (crowded) {
+    contact_counts.assign(bodies.size(), 0);
+    find(0, 0, pairs.size());
+  } else if (pairs.empty()) {
+    find(0, 0, 0);
+  } else {
+    work.numbered_ranges(pairs.size(), step::worth_a_part, find);
+  }
+  aparts.clear();
+  for (std::size_t i = 0; i < parts; ++i) {
+    aparts.insert(aparts.end(), found[i].aparts.begin(), found[i].aparts.end());
+    for (step::ContactConstraint& contact : found[i].contacts) active.push_back(&contact);
+  }
 }
 
 }  // namespace tweenfall

@@ -10,6 +10,7 @@
 #include "pairs/broad_phase.h"
 #include "step/contact_constraint.h"
 #include "step/solver.h"
+#include "threads/workers.h"
 
 namespace tweenfall::step {
 
@@ -19,6 +20,23 @@ struct Start {
   Quat rotation;
   Twist twist;
   bool led = false;  ///< by a drive whose target moves
+};
+
+/// A pair that was told apart in the step before.
+struct KnownApart {
+  pairs::Pair pair;
+  collision::Apart apart;
+};
+
+/// What a part of the pairs comes to, in their order.
+struct FoundPart {
+  std::vector<ContactConstraint> contacts;
+  std::vector<KnownApart> aparts;
+};
+
+struct Solvers {
+  Solver few;
+  blocks::BlockSolver many;
 };
 
 /// Room for a step to work in, and what makes the next one quick. Whether it is that of the steps before or begins
@@ -37,22 +55,25 @@ struct Workspace {
   std::vector<joints::JointLink> links;
   std::vector<Start> starts;
   pairs::BroadPhase broad_phase;
-  std::vector<ContactConstraint> active;  ///< near something that stirs
-  std::vector<std::uint32_t> retained;    ///< memories of contacts between bodies at rest, by pair
+  std::vector<FoundPart> found;            ///< of all pairs, in their order
+  std::vector<ContactConstraint*> active;  ///< in `found`: contacts near something that stirs
+  std::vector<std::uint32_t> retained;     ///< memories of contacts between bodies at rest, by pair
   std::vector<std::uint32_t> remembered;
   std::vector<Contact> next_contacts;
   std::vector<collision::Passage> passages;  ///< by body
   std::vector<std::uint64_t> looked_at;      ///< by body: the look that its passage is of
   std::uint64_t look = 0;
-  std::vector<std::pair<pairs::Pair, collision::Apart>> aparts, aparts_before;  ///< of pairs that do not touch, sorted
+  std::vector<std::uint32_t> looked_for;     ///< bodies of which this look needs a passage
+  std::vector<std::uint32_t> pair_memories;  ///< by pair of the broad phase
+  std::vector<KnownApart> aparts;            ///< of pairs that do not touch, sorted
   std::vector<char> flags;
   std::vector<char> carried;  ///< by island: something keyed moves it
   std::vector<std::uint32_t> contact_counts;
   std::vector<double> stillness;
   islands::Islands islands;
   islands::IslandSorter island_sorter;
-  Solver solver;
-  blocks::BlockSolver block_solver;
+  std::vector<Solvers> solvers;  ///< one for each thread
+  std::vector<std::uint32_t> islands_by_size;
   std::vector<char> moved;  ///< by a solver in this step
 
   void note(std::uint32_t body);  ///< the next step looks at this body

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <atomic>
 #include <limits>
+#include <numeric>
 
 #include "collision/impact_time.h"
 #include "forces/drive_law.h"
@@ -11,6 +13,9 @@ namespace tweenfall {
 
 namespace step {
 namespace {
+
+/// Bodies, or contacts, that are worth more than one thread.
+constexpr std::size_t worth_sharing = 128;
 
 void remember(const ContactConstraint& constraint, bool touching, state::ContactMemory& memory) {
   memory.a = constraint.a;
@@ -81,35 +86,64 @@ void World::Implementation::end_watch() {
   for (const std::uint32_t i : lingering) note(i);
 }
 
-void World::Implementation::advance_bodies(double dt) {
+void World::Implementation::solve_islands(double dt) {
   moved.assign(bodies.size(), 0);
   leave_sleeping_links();
-  solver.begin(bodies.size());
-  block_solver.begin(bodies.size());
-  for (const islands::IslandContents& island : island_sorter.sort(bodies, islands, active, stiff_springs, links)) {
-    if (blocks::BlockSolver::takes(island, bodies, dt))
-      block_solver.solve(bodies, loads, island, settings, dt, moved);
-    else
-      solver.solve(bodies, loads, island.contacts, island.springs, settings, dt, moved);
+  const std::vector<islands::IslandContents>& all = island_sorter.sort(bodies, islands, active, stiff_springs, links);
+  if (all.empty()) return;
+  const threads::Workers work = workers();
+  const std::size_t shares =
+      active.size() + 4 * links.size() < step::worth_sharing ? 1 : std::min(work.threads(), all.size());
+  if (solvers.size() < shares) solvers.resize(shares);
+  for (std::size_t i = 0; i < shares; ++i) {
+    solvers[i].few.begin(bodies.size());
+    solvers[i].many.begin(bodies.size());
   }
-  for (const std::uint32_t i : watched) {
-    state::Body& body = bodies[i];
-    body.placed = body.led = false;
-    if (body.immovable()) {
-      step::arrive(body);
-      continue;
-    }
-    if (!body.asleep && !moved[i]) {
-      if (body.drive.owner() == Owner::driven)
-        forces::pull(body, loads[i], dt);
+  // The biggest first, so that no thread is left with one at the end.
+  const auto size_of = [&](std::uint32_t island) {
+    const islands::IslandContents& contents = all[island];
+    return contents.contacts.size() + contents.springs.size() + 4 * contents.joints.size();
+  };
+  islands_by_size.resize(all.size());
+  std::iota(islands_by_size.begin(), islands_by_size.end(), std::uint32_t{0});
+  if (shares > 1)
+    std::stable_sort(islands_by_size.begin(), islands_by_size.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return size_of(a) > size_of(b); });
+  std::atomic<std::size_t> next{0};
+  work.parts(shares, [&](std::size_t share) {
+    for (std::size_t i = next.fetch_add(1); i < all.size(); i = next.fetch_add(1)) {
+      const islands::IslandContents& island = all[islands_by_size[i]];
+      if (blocks::BlockSolver::takes(island, bodies, dt))
+        solvers[share].many.solve(bodies, loads, island, settings, dt, moved);
       else
-        forces::fly(body, loads[i], settings.integrator, dt);
+        solvers[share].few.solve(bodies, loads, island.contacts, island.springs, settings, dt, moved);
     }
-    body.force = Vec3::Zero();
-    body.torque = Vec3::Zero();
-    if (body.drive.owner() == Owner::driven) body.target.twist = {};
-    body.has_target = false;
-  }
+  });
+}
+
+void World::Implementation::advance_bodies(double dt) {
+  solve_islands(dt);
+  workers().ranges(watched.size(), step::worth_sharing, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = watched[k];
+      state::Body& body = bodies[i];
+      body.placed = body.led = false;
+      if (body.immovable()) {
+        step::arrive(body);
+        continue;
+      }
+      if (!body.asleep && !moved[i]) {
+        if (body.drive.owner() == Owner::driven)
+          forces::pull(body, loads[i], dt);
+        else
+          forces::fly(body, loads[i], settings.integrator, dt);
+      }
+      body.force = Vec3::Zero();
+      body.torque = Vec3::Zero();
+      if (body.drive.owner() == Owner::driven) body.target.twist = {};
+      body.has_target = false;
+    }
+  });
 }
 
 void World::Implementation::report() {
@@ -127,7 +161,8 @@ void World::Implementation::report() {
       next_contacts.back().began = false;
     }
   };
-  for (const step::ContactConstraint& constraint : active) {
+  for (const step::ContactConstraint* active_contact : active) {
+    const step::ContactConstraint& constraint = *active_contact;
     double normal = 0;
     Vec3 total = Vec3::Zero();
     double approach = 0;
@@ -179,7 +214,7 @@ void World::Implementation::step(double dt) {
   if (failed) check_bodies(0, time);
   wake_by_fields();
   do {
-    forces::gather_loads(bodies, watched, forces, settings, time, dt, loads, stiff_springs);
+    forces::gather_loads(bodies, watched, forces, settings, time, dt, workers(), loads, stiff_springs);
     check_loads(time + dt);
     gather_links();
     find_constraints(dt);

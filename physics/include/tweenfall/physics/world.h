@@ -8,6 +8,7 @@
 
 #include <tweenfall/physics/contact.h>
 #include <tweenfall/physics/drive.h>
+#include <tweenfall/physics/executor.h>
 #include <tweenfall/physics/force.h>
 #include <tweenfall/physics/joint.h>
 #include <tweenfall/physics/shape.h>
@@ -37,6 +38,7 @@ struct WorldSettings {
   double sleep_speed = 0.02;    ///< m/s (and rad/s times size) below which a body counts as still
   double sleep_after = 0.5;     ///< s of stillness after which a body sleeps; infinity: never
   double push_out_speed = 0.5;  ///< greatest speed at which overlap is taken apart, m/s
+  int threads = 0;              ///< that share a step, 0 to 256; 0 and 1: the one that calls. No bit depends on it
 };
 
 struct BodySettings {
@@ -157,6 +159,9 @@ class World {
   /// `set_motion`. When a spring or a field is the cause, nothing has moved yet.
   /// @throws what a field throws; nothing has moved then
   void step(double dt);
+  /// Who does the parts of a step, in place of the threads of the settings; null for the thread that calls. Copies
+  /// share it, as they share the threads of the settings. Fields are called by the calling thread alone.
+  void set_executor(std::shared_ptr<Executor> executor);
 
   /// Pairs that touched in the last step, in a fixed order.
   [[nodiscard]] std::span<const Contact> contacts() const noexcept;
