@@ -123,6 +123,9 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
       bodies_[places_[end]].jointed = true;
     }
   }
+  for (const step::SpringRow* spring : island.springs)
+    for (const std::uint32_t end : {spring->a, spring->b})
+      if (end != step::SpringRow::world) add(end);
   for (std::size_t i = 1; i < bodies_.size(); ++i) anchored_ = anchored_ || !bodies_[i].movable;
   starts_.resize(bodies_.size());
   displacements_.assign(bodies_.size(), {});
@@ -184,11 +187,11 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
   for (IslandBody& entry : bodies_) {
     entry.stale = !entry.round && entry.turned > turned_enough;
     if (entry.jointed && entry.movable && !bodies[entry.index].spherical)
-      entry.inverse_inertia = bodies[entry.index].world_inverse_inertia(entry.rotation);
+      entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
     if (!entry.stale) continue;
     any = true;
     entry.turned = 0;
-    if (entry.movable) entry.inverse_inertia = bodies[entry.index].world_inverse_inertia(entry.rotation);
+    if (entry.movable) entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
   }
   if (!any) return;
   for (ContactBlock& block : contacts_.blocks)
@@ -215,7 +218,9 @@ void BlockSolver::find_lags() {
       }
     }
   for (IslandBody& body : bodies_)
-    if (body.impact && body.pressed) body.lag = Vec3::Zero();
+    if (body.held || (body.impact && body.pressed)) body.lag = Vec3::Zero();
+  for (IslandBody& body : bodies_)
+    if (body.held && body.movable) body.pressed = body.touched = true;
   if (!joints_.empty()) find_lags_of_jointed();
 }
 
@@ -226,7 +231,7 @@ void BlockSolver::find_lags_of_jointed() {
   double mass = 0;
   Vec3 gained = Vec3::Zero();
   for (std::size_t i = 1; i < bodies_.size() && free; ++i) {
-    free = !bodies_[i].pressed;
+    free = !bodies_[i].pressed && !bodies_[i].held;
     mass += bodies_[i].mass;
     gained += bodies_[i].mass * (linear_of(velocities_[i]) - linear_of(starts_[i]));
   }
@@ -291,7 +296,9 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   const double h = dt / sub_steps;
   gather(bodies, loads, island, settings.integrator, dt);
   foresee(contacts, loads, dt);
+  holds_.gather(island, bodies, places_, bodies_, h);
   contacts_.build(contacts, places_, bodies_, loads, h, dt);
+  holds_.gather(contacts_, h);
   reach_.forget();
   joints_.build(island.joints, places_, bodies_, h, dt);
   const int share = std::max(2, settings.iterations / sub_steps_of_many);
@@ -302,10 +309,12 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
     kernels.warm_start(rows());
+    holds_.begin_sub_step(bodies, bodies_, contacts_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
     if (bouncy_) find_rebounds(h);
     for (int k = 0; k < share - relaxing; ++k) {
       soft.note = k + 1 == share - relaxing;
+      holds_.solve(bodies, bodies_, contacts_, velocities_);
       joints_.solve(velocities_, true, k % 2 != 0);
       kernels.solve(rows(), soft);
     }
@@ -313,6 +322,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     joints_.move(velocities_);
     end_sub_step(h);
     for (int k = 0; k < relaxing; ++k) {
+      holds_.solve(bodies, bodies_, contacts_, velocities_);
       joints_.solve(velocities_, false, k % 2 == 0);
       kernels.solve(rows(), {.inverse_h = 1 / h, .sum_up = k + 1 == relaxing});
     }
@@ -321,9 +331,11 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       joints_.solve(velocities_, false, true);
     }
     joints_.add_up();
+    holds_.add_up(contacts_);
     bound_spins(bodies, h);
   }
   contacts_.store(h);
+  holds_.store(contacts_);
   joints_.end_step(bodies, bodies_, velocities_);
   // Also a body that only the last pass reached has momentum from it.
   for (const ContactConstraint* contact : contacts)

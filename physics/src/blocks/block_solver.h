@@ -5,6 +5,7 @@
 
 #include "blocks/contact_blocks.h"
 #include "blocks/island_body.h"
+#include "blocks/island_holds.h"
 #include "blocks/rebound_reach.h"
 #include "forces/free_flight.h"
 #include "islands/island_contents.h"
@@ -76,6 +77,7 @@ class BlockSolver {
   std::vector<BodyLanes> velocities_, starts_, before_rebound_, displacements_;
   ContactBlocks contacts_;
   joints::IslandJoints joints_;
+  IslandHolds holds_;
   bool anchored_ = false;                ///< some body of the island, or what a joint holds it to, does not move freely
   bool bouncy_ = false;                  ///< some contact has restitution
   std::vector<std::uint32_t> meetings_;  ///< lanes

@@ -129,7 +129,7 @@ void ContactBlocks::fill(ContactBlock& block, int lane, ContactConstraint& conta
   block.restitution[lane] = contact.restitution;
   block.pull[lane] = closing.pull;
   block.tremble[lane] = closing.tremble;
-  block.hard[lane] = contact.impact ? -1 : 0;
+  block.hard[lane] = contact.impact || bodies[block.a[lane]].pulled || bodies[block.b[lane]].pulled ? -1 : 0;
   const double ratio = contact.kept_step > h ? h / contact.kept_step : 1;
   block.twist[lane] = block.central() ? ratio * contact.kept_twist : 0;
   Vec3 friction = Vec3::Zero();

@@ -27,6 +27,9 @@ struct alignas(64) IslandBody {
   bool round = false;          ///< a ball: no contact can rock it, and none sees it turn
   bool stale = false;          ///< has turned since its rows were prepared
   bool jointed = false;        ///< a joint holds it
+  bool held = false;           ///< a drive or a stiff spring holds it
+  bool pulled = false;         ///< by a drive without a limit: a soft contact would not hold against it
+  double given = 1;            ///< share of an impulse that such a drive lets through
   Vec3 lag{0, 0, 0};           ///< from the velocity at the end of the sub-step to its mean, m/s
   double roundness = 0;        ///< m
   double turned = 0;           ///< since its rows were prepared, rad
