@@ -132,3 +132,26 @@ TEST_CASE("a clip that is named plays alone") {
   REQUIRE(ran.code == 0);
   CHECK(near(vec(json::parse(ran.out)["nodes"]["a"]["position"][1]), Vec3(0, -0.5, 0), 1e-12));
 }
+
+TEST_CASE("a recording is the same to the byte with any number of threads, asked for by an option or by the document") {
+  json pile = {{"tweenfall", 1},
+               {"nodes", {{"floor", {{"body", {{"shape", {{"plane", json::object()}}}, {"static", true}}}}}}}};
+  const json ball = {{"sphere", {{"radius", 0.2}}}}, box = {{"box", {{"size", {0.4, 0.4, 0.4}}}}};
+  for (int i = 0; i < 200; ++i)
+    pile["nodes"]["body " + std::to_string(i)] = {
+        {"position", {0.39 * (i % 5) + 0.003 * (i % 7), 0.3 + 0.4 * (i / 25), 0.39 * (i / 5 % 5)}},
+        {"body", {{"shape", i % 3 == 0 ? ball : box}, {"restitution", 0.1 * (i % 3)}}}};
+  const Folder folder;
+  folder.write("pile.json", pile.dump());
+  const std::string one = folder.run("run pile.json --until 1 --json").out;
+  CHECK(one.size() > 10000);
+  for (const std::string threads : {"1", "2", "3", "8"}) {
+    CAPTURE(threads);
+    const Ran ran = folder.run("run pile.json --until 1 --json --threads " + threads);
+    CHECK_MESSAGE(ran.code == 0, ran.err);
+    CHECK(ran.out == one);
+  }
+  pile["world"]["threads"] = 3;
+  folder.write("pile.json", pile.dump());
+  CHECK(folder.run("run pile.json --until 1 --json").out == one);
+}

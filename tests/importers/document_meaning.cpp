@@ -192,6 +192,7 @@ TEST_CASE("every field reaches the stage's description") {
     CHECK(stage.world.sleep_speed == 0.05);
     CHECK(std::isinf(stage.world.sleep_after));
     CHECK(stage.world.push_out_speed == 1);
+    CHECK(stage.world.threads == 2);
     REQUIRE(stage.forces.size() == 3);
     CHECK(std::get<DragDescription>(stage.forces[0]).drag.quadratic == 0.2);
     const SpringDescription& spring = std::get<SpringDescription>(stage.forces[1]);

@@ -10,12 +10,15 @@
 #include <tweenfall/importers/recording_file.h>
 #include <tweenfall/importers/shown_text.h>
 
+#include <cmath>
+
 namespace tweenfall::cli {
 
 namespace {
 
 struct RunFileOptions : RunOptions {
   std::optional<std::string> output;
+  std::optional<double> threads;
   bool json = false;
 };
 
@@ -72,8 +75,12 @@ int run_file(const RunFileOptions& options) {
   const std::vector<std::string> endings{".json", ".csv", ".svg", ".html", ".glb"};
   if (options.output) require_output(*options.output, options.file, endings);
   require_amount(options);
+  if (options.threads &&
+      !(*options.threads >= 1 && *options.threads <= 256 && std::floor(*options.threads) == *options.threads))
+    throw UsageError("--threads must be a whole number from 1 to 256, not " + brief_text(*options.threads));
   StageFile read = read_stage_file(options.file);
   choose_play(read, options.clip, options.file);
+  if (options.threads) read.stage.world.threads = static_cast<int>(*options.threads);
   const Recording recording = run_stage(read.stage, options);
   const bool to_stdout = options.json || options.output == "-";
   if (options.output && *options.output != "-") {
@@ -96,6 +103,8 @@ Run declare_run(Arguments& arguments) {
   declare_amount(arguments, *options);
   arguments.text("-o,--output", "OUT", options->output,
                  "the recording: .json .csv .svg .html or .glb; - prints the JSON; without it a summary");
+  arguments.number("--threads", "N", options->threads,
+                   "threads that share a step of physics; not a bit of the recording depends on it");
   arguments.flag("--json", options->json, "print the recording as JSON");
   return [options] { return run_file(*options); };
 }

@@ -56,20 +56,23 @@ const Table<StageDescription>& world_table() {
     stage.world.sleep_after = value.is(Kind::text) ? std::numeric_limits<double>::infinity() : value.number();
   };
   static const Table<Stage> table(
-      "a world", {{"gravity", &ValueForms::vector, "m/s^2", member<Stage>(of_world(&WorldSettings::gravity))},
-                  {"step", step_form, "s", {read_step, "\"1/240\""}, false, {}, {"dt", "timestep", "time_step"}},
-                  one_of<Stage, Integrator>("integrator", "an integrator",
-                                            {{"exact-quadratic", Integrator::exact_quadratic},
-                                             {"semi-implicit-euler", Integrator::semi_implicit_euler}},
-                                            "", of_world(&WorldSettings::integrator)),
-                  {"iterations", bounded("a whole number from 1 to 10000", 1, false, 10000, true),
-                   "passes of the contact solver", member<Stage>(of_world(&WorldSettings::iterations))},
-                  {"sleep_speed", &ValueForms::not_negative, "m/s below which a body counts as still",
-                   member<Stage>(of_world(&WorldSettings::sleep_speed))},
-                  {"sleep_after", sleep_form, "seconds of stillness", sleep_after},
-                  {"push_out_speed", &ValueForms::not_negative, "m/s at which overlap is taken apart",
-                   member<Stage>(of_world(&WorldSettings::push_out_speed))},
-                  {"forces", forces_form, "", {read_forces, "[]"}}});
+      "a world",
+      {{"gravity", &ValueForms::vector, "m/s^2", member<Stage>(of_world(&WorldSettings::gravity))},
+       {"step", step_form, "s", {read_step, "\"1/240\""}, false, {}, {"dt", "timestep", "time_step"}},
+       one_of<Stage, Integrator>(
+           "integrator", "an integrator",
+           {{"exact-quadratic", Integrator::exact_quadratic}, {"semi-implicit-euler", Integrator::semi_implicit_euler}},
+           "", of_world(&WorldSettings::integrator)),
+       {"iterations", bounded("a whole number from 1 to 10000", 1, false, 10000, true), "passes of the contact solver",
+        member<Stage>(of_world(&WorldSettings::iterations))},
+       {"sleep_speed", &ValueForms::not_negative, "m/s below which a body counts as still",
+        member<Stage>(of_world(&WorldSettings::sleep_speed))},
+       {"sleep_after", sleep_form, "seconds of stillness", sleep_after},
+       {"push_out_speed", &ValueForms::not_negative, "m/s at which overlap is taken apart",
+        member<Stage>(of_world(&WorldSettings::push_out_speed))},
+       {"threads", bounded("a whole number from 0 to 256", 0, false, 256, true),
+        "that share a step; nothing that is recorded depends on it", member<Stage>(of_world(&WorldSettings::threads))},
+       {"forces", forces_form, "", {read_forces, "[]"}}});
   return table;
 }
 

@@ -103,7 +103,7 @@ std::optional<modifiers::Kind> kind_of(const json::Value& modifier, Problems& pr
                    .start = number_at(o, "start"),
                    .end = number_at(o, "end")};
   if (const json::Value o = usable(modifier, "limits"))
-    return Limits{number_at(o, "low"), number_at(o, "high"), number_at(o, "start"), number_at(o, "end")};
+    return modifiers::Limits{number_at(o, "low"), number_at(o, "high"), number_at(o, "start"), number_at(o, "end")};
   if (const json::Value o = usable(modifier, "envelope")) return envelope(o);
   if (const json::Value o = usable(modifier, "placement"))
     return Placement{number_in(o, "time_offset", 0), number_in(o, "time_scale", 1), number_in(o, "value_offset", 0),
