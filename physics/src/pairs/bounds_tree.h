@@ -38,6 +38,23 @@ class BoundsTree {
     walk(within, see, [](std::uint32_t) { return true; });
   }
 
+  /// Calls `see(item)` for every item in boxes for which `enters(box)`, which may become false for boxes that were
+  /// entered before; of two branches first for the one that lies before the other along a direction.
+  template <class Enters, class See>
+  void visit_along(const Vec3& direction, const Enters& enters, const See& see) const {
+    walk_boxes(enters, see, [&](const Bounds& left, const Bounds& right) {
+      return direction.dot(right.low - left.low) + direction.dot(right.high - left.high) >= 0;
+    });
+  }
+  /// The same, of two branches first for that which is nearer to a point.
+  template <class Enters, class See>
+  void visit_near(const Vec3& point, const Enters& enters, const See& see) const {
+    const auto away = [&](const Bounds& box) {
+      return (box.low - point).cwiseMax(point - box.high).cwiseMax(0.0).squaredNorm();
+    };
+    walk_boxes(enters, see, [&](const Bounds& left, const Bounds& right) { return away(left) <= away(right); });
+  }
+
   /// Closed items are passed by, in whole branches where all are, by `visit_open`.
   void open_all() { closed_.assign(nodes_.size(), 0); }
   void close(std::uint32_t item);
@@ -73,6 +90,25 @@ class BoundsTree {
         ahead[count++] = node.right;
         ahead[count++] = node.left;
       }
+    }
+  }
+
+  template <class Enters, class See, class LeftFirst>
+  void walk_boxes(const Enters& enters, const See& see, const LeftFirst& left_first) const {
+    if (root_ == none) return;
+    std::array<std::uint32_t, most_depth + 2> ahead;
+    std::size_t count = 0;
+    ahead[count++] = root_;
+    while (count > 0) {
+      const Node& node = nodes_[ahead[--count]];
+      if (!enters(node.bounds)) continue;
+      if (node.left == none) {
+        see(node.item);
+        continue;
+      }
+      const bool left = left_first(nodes_[node.left].bounds, nodes_[node.right].bounds);
+      ahead[count++] = left ? node.right : node.left;
+      ahead[count++] = left ? node.left : node.right;
     }
   }
 

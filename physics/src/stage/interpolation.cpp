@@ -107,6 +107,10 @@ WorldMotion body_world(const StageState& from, const StageState& to, std::size_t
   return carried(shape, motion);
 }
 
+Pose body_pose(const StageState& from, const StageState& to, std::size_t index, double time) {
+  return rigid(shown_motion(from, to, body_in_force(from, to, index, time), time)).pose;
+}
+
 Twist body_twist(const StageState& from, const StageState& to, std::size_t index, double time) {
   return shown_motion(from, to, body_in_force(from, to, index, time), time).twist;
 }

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "stage/timeline.h"
+#include "stage/stage_implementation.h"
 
 namespace tweenfall {
 
@@ -40,10 +40,6 @@ NodeNotFinite::NodeNotFinite(NodeId which, const std::string& name, const NotFin
     : NotFinite(fault, "the motion of \"" + name + "\" is no longer finite at " + number_text(fault.time) +
                            " s: " + fault.cause),
       node(which) {}
-
-struct Stage::Implementation : staging::Timeline {
-  using Timeline::Timeline;
-};
 
 Stage::Stage(StageDescription description)
     : implementation_(std::make_shared<Implementation>(std::move(description))) {}

@@ -213,6 +213,8 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
 
 // interpolation.cpp: what a stage shows, between two states that follow each other or, with one twice, beside one
 [[nodiscard]] WorldMotion body_world(const StageState& from, const StageState& to, std::size_t body, double time);
+/// Where the world has, or would have, its shape.
+[[nodiscard]] Pose body_pose(const StageState& from, const StageState& to, std::size_t body, double time);
 [[nodiscard]] Twist body_twist(const StageState& from, const StageState& to, std::size_t body, double time);
 void stage_world(const StageState& from, const StageState& to, double time, std::span<WorldMotion> out);
 /// Local motion of a node without a body. @param above  the nearest body above it; null for none

@@ -58,6 +58,7 @@ void Timeline::tell(bool aloud, double until) {
   while (!abandoned && told_ < happenings_.size() && happenings_[told_].time <= until) {
     const Happening happening = happenings_[told_++];
     now_ = std::max(now_, happening.time);
+    scene.forget();
     // Copies of the callbacks: they may put others in their place.
     if (const auto* handoff = std::get_if<HandOff>(&happening.what)) {
       handoffs.push_back(*handoff);
@@ -75,6 +76,7 @@ void Timeline::tell(bool aloud, double until) {
 void Timeline::run_to(double target, bool aloud) {
   for (;;) {
     tell(aloud, target);
+    scene.forget();
     if (abandoned || to_.time >= target) break;
     next_piece();
   }
@@ -111,6 +113,7 @@ void Timeline::reach_now() {
 }
 
 void Timeline::command(std::function<void(StageState&, double, std::vector<Happening>&)> run) {
+  scene.forget();
   // What is not there yet when the change turns out to be impossible comes as it would have.
   const auto untold = happenings_.begin() + static_cast<std::ptrdiff_t>(told_);
   const std::vector<Happening> coming(untold, happenings_.end());
@@ -144,6 +147,7 @@ void Timeline::command(std::function<void(StageState&, double, std::vector<Happe
 }
 
 void Timeline::restart() {
+  scene.forget();
   from_ = initial_;
   to_ = initial_;
   happenings_.clear();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "queries/lazy_scene.h"
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
@@ -32,7 +33,8 @@ class Timeline {
   std::vector<HandOff> handoffs;
   std::function<void(const StageEvent&)> on_event, on_contact;
   std::function<void(const HandOff&)> on_handoff;
-  bool abandoned = false;  ///< the stage is gone, from inside a callback: nothing more is told
+  queries::LazyScene scene;  ///< of the bodies at `now`, for questions
+  bool abandoned = false;    ///< the stage is gone, from inside a callback: nothing more is told
 
  private:
   void take(StageState& state);

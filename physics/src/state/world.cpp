@@ -110,6 +110,7 @@ const World::Implementation& World::inside() const {
 World::Implementation& World::changing() {
   static_cast<void>(inside());
   if (implementation_->stepping) throw std::logic_error("a field cannot change the world that it acts in");
+  implementation_->scene.forget();
   return *implementation_;
 }
 
@@ -305,6 +306,13 @@ void World::set_groups(BodyId id, std::uint64_t groups, std::uint64_t collides_w
   body.collides_with = collides_with;
   body.placed = true;
   world.broad_phase.look_again(id.index);
+}
+
+std::uint64_t World::groups(BodyId id) const {
+  return inside().at(id).groups;
+}
+std::uint64_t World::collides_with(BodyId id) const {
+  return inside().at(id).collides_with;
 }
 
 void World::ignore(BodyId a, BodyId b) {

@@ -8,6 +8,7 @@
 #include "islands/island_contents.h"
 #include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
+#include "queries/lazy_scene.h"
 #include "step/contact_constraint.h"
 #include "step/solver.h"
 #include "threads/workers.h"
@@ -74,7 +75,8 @@ struct Workspace {
   islands::IslandSorter island_sorter;
   std::vector<Solvers> solvers;  ///< one for each thread
   std::vector<std::uint32_t> islands_by_size;
-  std::vector<char> moved;  ///< by a solver in this step
+  std::vector<char> moved;   ///< by a solver in this step
+  queries::LazyScene scene;  ///< of the bodies between two changes
 
   void note(std::uint32_t body);  ///< the next step looks at this body
 };

@@ -207,8 +207,12 @@ void World::Implementation::report() {
 void World::Implementation::step(double dt) {
   struct Stepping {
     bool& flag;
-    ~Stepping() { flag = false; }
-  } const guard{stepping};
+    queries::LazyScene& scene;
+    ~Stepping() {
+      flag = false;
+      scene.forget();
+    }
+  } const guard{stepping, scene};
   stepping = true;
   begin_watch();
   if (failed) check_bodies(0, time);

@@ -25,6 +25,10 @@
 
 namespace tweenfall {
 
+namespace queries {
+class Inside;
+}
+
 /// How a free body's state goes through a step.
 enum class Integrator {
   exact_quadratic,      ///< x += v h + a h^2/2: exact under constant force (the default)
@@ -130,6 +134,8 @@ class World {
   // Which bodies meet. A change wakes whom it concerns, at once and with no impulse; where bodies that now meet lie in
   // each other they are taken apart as any overlap is. All throw std::invalid_argument for a stale handle.
   void set_groups(BodyId body, std::uint64_t groups, std::uint64_t collides_with);
+  [[nodiscard]] std::uint64_t groups(BodyId body) const;
+  [[nodiscard]] std::uint64_t collides_with(BodyId body) const;
   void ignore(BodyId a, BodyId b);   ///< they pass through each other. @throws std::invalid_argument for the same body
   void collide(BodyId a, BodyId b);  ///< takes back `ignore`
   /// Whether they may meet: by their groups, and because neither the caller nor a joint says otherwise.
@@ -178,6 +184,7 @@ class World {
   void load(std::span<const std::byte> saved);
 
  private:
+  friend class queries::Inside;
   struct Implementation;
   [[nodiscard]] const Implementation& inside() const;  ///< @throws std::logic_error when moved from
   [[nodiscard]] Implementation& changing();            ///< @throws std::logic_error when moved from or in a step

@@ -24,6 +24,10 @@
 
 namespace tweenfall {
 
+namespace queries {
+class InsideStage;
+}
+
 using NodeId = std::size_t;
 
 /// An event of a clip, or a contact that began, as `on_event` and recordings see it.
@@ -106,6 +110,7 @@ class Stage {
   [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
  private:
+  friend class queries::InsideStage;
   struct Implementation;
   [[nodiscard]] Implementation& inside() const;  ///< @throws std::logic_error when moved from
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <tweenfall/physics/shape.h>
+
+namespace tweenfall::queries {
+
+// Each throws std::invalid_argument, naming what is wrong.
+
+/// @param name  with its article, to begin a sentence
+void require_finite(const Vec3& value, const char* name);
+void require_amount(double value, const char* name);  ///< not negative; may be infinite
+void require_place(const Pose& pose);
+void require_no_plane(const Shape& shape);
+/// Not two planes, and both at finite places.
+void require_pair(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b);
+
+}  // namespace tweenfall::queries

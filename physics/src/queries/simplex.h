@@ -1,0 +1,28 @@
+#pragma once
+
+#include <tweenfall/curves/values.h>
+
+#include <array>
+
+namespace tweenfall::queries {
+
+/// Up to four differences of points of two bodies, and which mix of them is nearest to zero.
+struct Simplex {
+  struct Corner {
+    Vec3 difference;
+    Vec3 on_a, on_b;
+  };
+  std::array<Corner, 4> corners;
+  std::array<double, 4> weights{};
+  int count = 0;
+
+  [[nodiscard]] bool has(const Vec3& difference) const;
+  void add(const Corner& corner) { corners[static_cast<std::size_t>(count++)] = corner; }
+  /// Weighs the corners, drops those that the nearest mix does without.
+  /// @return that mix; zero where the corners enclose it
+  Vec3 reduce();
+  [[nodiscard]] Vec3 on_a() const;
+  [[nodiscard]] Vec3 on_b() const;
+};
+
+}  // namespace tweenfall::queries

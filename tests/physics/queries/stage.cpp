@@ -1,0 +1,98 @@
+#include "physics/handoff/scenes.h"
+#include "physics/queries/solids.h"
+
+#include <tweenfall/physics/stage/query.h>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// A body on a path above a floor and balls that fall; the body is let go at 0.3137 s.
+StageDescription asked_stage() {
+  StageDescription stage = tumbler(1.0 / 60);
+  stage.nodes.push_back({.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});
+  for (int i = 0; i < 6; ++i)
+    stage.nodes.push_back({.name = "ball " + std::to_string(i),
+                           .rest = {.position = Vec3(i - 3, 1 + 0.3 * i, 0.5)},
+                           .body = BodyDescription{.shape = {Sphere{0.2 + 0.02 * i}}, .restitution = 0.5}});
+  stage.nodes.push_back({.name = "mark", .rest = {.position = Vec3(0, 2, 0)}});
+  stage.rules = {release_at(0.3137, "body")};
+  return stage;
+}
+
+}  // namespace
+
+TEST_CASE("at any instant a stage answers where its bodies are shown, between steps and after going back") {
+  Stage stage(asked_stage());
+  Random random(4);
+  const auto check = [&] {
+    CAPTURE(stage.time());
+    for (int i = 0; i < 6; ++i) {
+      const NodeId ball = stage.node("ball " + std::to_string(i));
+      const Vec3 place = stage.world(ball).motion.pose.position;
+      const NodeFilter only{.accept = [ball](NodeId node) { return node == ball; }};
+      const std::optional<NodeRayHit> hit = cast_ray(stage, place + Vec3(0, 0, 5), Vec3(0, 0, -1), 9, only);
+      REQUIRE(hit.has_value());
+      CHECK(hit->node == ball);
+      CHECK(hit->distance == doctest::Approx(5 - 0.2 - 0.02 * i).epsilon(1e-12));
+      const std::vector<NodeId> here = overlapping(stage, {Sphere{0.01}}, {.position = place});
+      CHECK(std::ranges::find(here, ball) != here.end());
+      CHECK(nearest_body(stage, place, 0)->distance == 0);
+      const Separation gap = distance(stage, ball, stage.node("floor"));
+      CHECK(gap.distance == doctest::Approx(std::max(0.0, place.y() - 0.2 - 0.02 * i)).epsilon(1e-9));
+    }
+    const NodeId body = stage.node("body");
+    const WorldMotion shown = stage.world(body);
+    const Shape& shape = stage.description().nodes[body].body->shape;
+    const NodeFilter only{.accept = [body](NodeId node) { return node == body; }};
+    const Vec3 from = shown.motion.pose.position + random.vector(4), way = shown.motion.pose.position - from;
+    const auto expected = cast_ray(shape, shown.motion.pose, from, way);
+    const auto hit = cast_ray(stage, from, way, without_end, only);
+    REQUIRE(hit.has_value() == expected.has_value());
+    if (hit) CHECK(hit->distance == doctest::Approx(expected->distance).epsilon(1e-9));
+  };
+  check();
+  for (const double time : {0.01, 0.1234, 0.3137, 0.32, 0.5, 0.7001, 1.5}) {
+    stage.advance_to(time);
+    check();
+  }
+  stage.seek(0.2);
+  check();
+  stage.release(stage.node("body"));
+  check();
+  stage.advance(0.05);
+  check();
+}
+
+TEST_CASE("a stage's answers follow what comes and goes, also within a callback") {
+  Stage stage(asked_stage());
+  stage.advance(0.1);
+  const NodeId wall = stage.add({.name = "wall",
+                                 .rest = {.position = Vec3(0, 50, 0)},
+                                 .body = BodyDescription{.shape = {Box{{1, 1, 1}}}, .fixed = true}});
+  const auto down = [&](double height) { return cast_ray(stage, Vec3(0, height, 0), Vec3(0, -1, 0)); };
+  CHECK(down(60)->node == wall);
+  CHECK(down(60)->distance == 9);
+  CHECK(cast_shape(stage, {Sphere{1}}, {.position = Vec3(0, 60, 0)}, Vec3(0, -10, 0))->fraction ==
+        doctest::Approx(0.8).epsilon(1e-12));
+  CHECK(cast_ray_through(stage, Vec3(0, 60, 0), Vec3(0, -1, 0)).front().node == wall);
+  stage.remove(wall);
+  CHECK(down(60)->node != wall);
+  CHECK(!cast_ray(stage, Vec3(0, 60, 0), Vec3(0, -1, 0), 20).has_value());
+  int told = 0;
+  stage.on_contact([&](const StageEvent& event) {
+    ++told;
+    for (const NodeId node : event.nodes) {
+      // The floor has no end, and the origin of the body on the path lies outside of it.
+      if (!stage.nodes()[node].name.starts_with("ball")) continue;
+      const Vec3 place = stage.world(node).motion.pose.position;
+      const std::vector<NodeId> here = overlapping(stage, {Sphere{1e-3}}, {.position = place});
+      CHECK(std::ranges::find(here, node) != here.end());
+    }
+  });
+  stage.advance(1.5);
+  CHECK(told > 3);
+  CHECK_THROWS_AS((void)distance(stage, stage.node("mark"), stage.node("floor")), std::invalid_argument);
+  CHECK_THROWS_AS((void)distance(stage, 999, stage.node("floor")), std::invalid_argument);
+}
