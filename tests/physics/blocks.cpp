@@ -37,11 +37,28 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
   using namespace blocks;
   struct Work {
     std::vector<ContactBlock> blocks;
+    std::vector<BallBlock> balls;
     std::vector<PointRow> points;
     std::vector<FrictionRow> frictions;
+    std::vector<InertiaRow> inertias;
+    std::vector<MeetingRow> meetings;
     std::vector<BodyLanes> velocities, displacements;
+    std::vector<BodyLag> lags;
     [[nodiscard]] Rows rows() {
-      return {blocks.data(), blocks.size(), points.data(), frictions.data(), velocities.data(), displacements.data()};
+      return {.blocks = blocks.data(),
+              .pairs = blocks.size() / 2,
+              .count = blocks.size(),
+              .balls = balls.data(),
+              .ball_pairs = balls.size() / 2,
+              .ball_count = balls.size(),
+              .points = points.data(),
+              .frictions = frictions.data(),
+              .inertias = inertias.data(),
+              .meetings = meetings.data(),
+              .ball_meetings = meetings.data(),
+              .velocities = velocities.data(),
+              .displacements = displacements.data(),
+              .lags = lags.data()};
     }
   };
   test::Random random(8);
@@ -58,34 +75,56 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
   constexpr int count = 40;
   fill(first.points, 4 * count);
   fill(first.frictions, 4 * count);
+  fill(first.inertias, count);
+  fill(first.meetings, count);
   fill(first.velocities, 8 * count);
   fill(first.displacements, 8 * count);
+  fill(first.lags, 8 * count);
+  const auto make_positive = [](Lanes& lanes) {
+    for (int lane = 0; lane < lane_count; ++lane) lanes[lane] = std::abs(lanes[lane]);
+  };
   for (BodyLanes& body : first.velocities) body.linear[3] = body.angular[3] = 0;
-  for (PointRow& row : first.points)
-    for (Lanes* lanes : {&row.mass, &row.impulse})
-      for (int lane = 0; lane < lane_count; ++lane) (*lanes)[lane] = std::abs((*lanes)[lane]);
+  for (PointRow& row : first.points) {
+    make_positive(row.mass);
+    make_positive(row.impulse);
+  }
+  for (MeetingRow& row : first.meetings) row.restitution = Lanes{0.5, 0.5, 0.5, 0.5};
   fill(first.blocks, count);
-  for (int i = 0; i < count; ++i) {
-    ContactBlock& block = first.blocks[static_cast<std::size_t>(i)];
+  fill(first.balls, count);
+  const auto place = [&make_positive](auto& block, int i) {
     for (int lane = 0; lane < lane_count; ++lane) {
       block.a[lane] = static_cast<std::uint32_t>((8 * i + 2 * lane) % (8 * count));
       block.b[lane] = static_cast<std::uint32_t>((8 * i + 2 * lane + 9) % (8 * count));
       block.hard[lane] = lane % 2 == 0 ? -1 : 0;
-      block.coefficient[lane] = std::abs(block.coefficient[lane]);
-      block.restitution[lane] = 0.5;
     }
-    block.points = 1 + i % 4;
-    block.frictions = i % 3 == 0 ? 0 : i % 3 == 1 ? 1 : block.points;
+    make_positive(block.coefficient);
+  };
+  for (int i = 0; i < count; ++i) {
+    ContactBlock& block = first.blocks[static_cast<std::size_t>(i)];
+    place(block, i);
+    for (int lane = 0; lane < lane_count; ++lane) {
+      block.round_a[lane] = lane % 3 == 0 ? -1 : 0;
+      block.round_b[lane] = lane % 3 == 1 ? -1 : 0;
+    }
+    block.points = static_cast<std::int8_t>(1 + i % 4);
+    block.frictions = i % 3 == 0 ? std::int8_t{0} : i % 3 == 1 ? std::int8_t{1} : block.points;
     block.point = block.friction = static_cast<std::uint32_t>(4 * i);
+    block.inertia = static_cast<std::uint32_t>(i);
+    block.even = i % 5 < 3;
+    BallBlock& ball = first.balls[static_cast<std::size_t>(i)];
+    place(ball, i);
+    make_positive(ball.mass);
+    make_positive(ball.impulse);
   }
   const Work before = first;
   Work second = first;
-  std::vector<std::uint32_t> found_first(4 * count), found_second(4 * count);
+  std::vector<std::uint32_t> found_first(8 * count), found_second(8 * count);
   const auto run = [](Work& work, const Kernels& kernels, std::vector<std::uint32_t>& found) {
     kernels.warm_start(work.rows());
     const std::size_t meetings = kernels.find_meetings(work.rows(), work.displacements.data(), 0.01, found.data());
     found.resize(meetings);
-    for (int pass = 0; pass < 3; ++pass) kernels.solve(work.rows(), {0.7, 0.2, 0.9, 0.1, 240, true});
+    for (int pass = 0; pass < 3; ++pass) kernels.solve(work.rows(), {0.7, 0.2, 0.9, 0.1, 240, true, pass == 2});
+    kernels.hold(work.rows());
   };
   run(first, plain_kernels(), found_first);
   run(second, fastest_kernels(), found_second);
@@ -97,8 +136,12 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
   CHECK(same(first.velocities, second.velocities));
   CHECK(same(first.points, second.points));
   CHECK(same(first.frictions, second.frictions));
+  CHECK(same(first.balls, second.balls));
+  CHECK(same(first.lags, second.lags));
   CHECK(!same(first.velocities, before.velocities));
   CHECK(!same(first.points, before.points));
+  CHECK(!same(first.balls, before.balls));
+  CHECK(!same(first.lags, before.lags));
   if (&plain_kernels() == &fastest_kernels()) MESSAGE("SKIPPED: this processor has one instruction set only");
 }
 
@@ -126,13 +169,15 @@ TEST_CASE("a cloud of bodies that meets in its middle keeps its momentum, and ga
       return sum;
     };
     const Vec3 before = momentum();
-    double energy = world.kinetic_energy();
+    const double start = world.kinetic_energy();
+    double energy = start;
     std::size_t most = 0;
     for (int step = 0; step < 240; ++step) {
       world.step(1.0 / 120);
       most = std::max(most, world.contacts().size());
       CAPTURE(step);
-      CHECK(world.kinetic_energy() <= energy * (1 + 1e-9));
+      // Taking overlaps apart leaves traces of speed.
+      CHECK(world.kinetic_energy() <= energy + 1e-8 * start);
       energy = world.kinetic_energy();
     }
     CHECK(most > 75);

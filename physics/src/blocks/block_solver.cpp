@@ -37,6 +37,8 @@ constexpr double followable = 0.5;
 /// Up to this turn in a sub-step a pressed body's spin changes by itself as two evaluations of Euler's equations say.
 constexpr double slow_turn = 0.05;
 
+constexpr BodyLag pressed_still = {{0, 0, 0, 1}};
+
 /// Angular velocity after the time h in which a body's spin and the torque on it change it, to second order.
 Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec3& torque, double h) {
   const Quat back = rotation.conjugate();
@@ -74,39 +76,50 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
     if (body.index < places_.size()) places_[body.index] = 0;
   bodies_.assign(1, {});
   bodies_[0].index = 0xffffffffu;
+  paces_.assign(1, {});
   velocities_.assign(1, {});
-  bouncy_ = false;
+  uneven_.clear();
+  bouncy_ = driven_ = any_stale_ = false;
   const auto add = [&](std::uint32_t index) {
     if (places_[index] != 0) return;
     places_[index] = static_cast<std::uint32_t>(bodies_.size());
     const Body& body = bodies[index];
     IslandBody& entry = bodies_.emplace_back();
+    BodyPace& pace = paces_.emplace_back();
     BodyLanes& velocity = velocities_.emplace_back();
     entry.index = index;
     entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
-    entry.movable = !body.immovable() && !body.asleep;
+    entry.movable = pace.movable = !body.immovable() && !body.asleep;
     entry.roundness = body.roundness;
     entry.center = entry.start_center = body.center;
     entry.rotation = entry.start_rotation = body.motion.pose.rotation;
     if (entry.movable) {
       const Load& load = loads[index];
-      entry.mass = body.mass.mass;
-      entry.moment = body.mass.inertia(0, 0);
-      entry.inverse_mass = 1 / entry.mass;
-      entry.even =
-          body.spherical && load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
+      entry.inverse_mass = 1 / body.mass.mass;
       entry.drag = load.drag;
-      entry.acceleration = integrator == Integrator::exact_quadratic
-                               ? Vec3(0.5 * (load.acceleration + load.end_acceleration))
-                               : load.acceleration;
+      entry.isotropic = body.spherical;
+      entry.inverse_moment = body.spherical ? body.inverse_inertia(0, 0) : 0;
       entry.inverse_inertia =
           body.spherical ? body.inverse_inertia : body.world_inverse_inertia(body.motion.pose.rotation);
+      pace.mass = body.mass.mass;
+      pace.moment = body.mass.inertia(0, 0);
+      set(pace.acceleration, integrator == Integrator::exact_quadratic
+                                 ? Vec3(0.5 * (load.acceleration + load.end_acceleration))
+                                 : load.acceleration);
+      pace.even = body.spherical && load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
+      pace.steady = pace.even && !(load.drag > 0);
+      pace.unturned = pace.steady && entry.round;
+      if (!body.spherical) uneven_.push_back(places_[index]);
       set(velocity.linear, body.twist.linear);
       set(velocity.angular, body.twist.angular);
     } else {
       if (body.immovable()) entry.course = step::keyed_course(body, dt);
-      set(velocity.linear, entry.course.mean.linear - 0.5 * entry.course.gain.linear);
-      set(velocity.angular, entry.course.mean.angular - 0.5 * entry.course.gain.angular);
+      const auto& [mean, gain] = entry.course;
+      entry.still = mean.linear == Vec3::Zero() && mean.angular == Vec3::Zero() && gain.linear == Vec3::Zero() &&
+                    gain.angular == Vec3::Zero();
+      driven_ = driven_ || !entry.still;
+      set(velocity.linear, mean.linear - 0.5 * gain.linear);
+      set(velocity.angular, mean.angular - 0.5 * gain.angular);
     }
   };
   for (const ContactConstraint* contact : island.contacts) {
@@ -128,18 +141,20 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
       if (end != step::SpringRow::world) add(end);
   for (std::size_t i = 1; i < bodies_.size(); ++i) anchored_ = anchored_ || !bodies_[i].movable;
   starts_.resize(bodies_.size());
+  lags_.assign(bodies_.size(), {});
+  sub_starts_.resize(bodies_.size());
   displacements_.assign(bodies_.size(), {});
 }
 
 void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads, double dt) {
+  closings_.clear();
+  closings_.reserve(contacts.size());
   for (ContactConstraint* contact : contacts) {
-    const BodyLanes& a = velocities_[places_[contact->a]];
-    const BodyLanes& b = velocities_[places_[contact->b]];
-    const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
-    step::foresee(*contact, {linear_of(a), angular_of(a)}, {linear_of(b), angular_of(b)}, closing, dt);
-    if (!contact->impact) continue;
-    bodies_[places_[contact->a]].impact = true;
-    bodies_[places_[contact->b]].impact = true;
+    const std::uint32_t a = places_[contact->a], b = places_[contact->b];
+    closings_.push_back(step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt));
+    step::foresee(*contact, {linear_of(velocities_[a]), angular_of(velocities_[a])},
+                  {linear_of(velocities_[b]), angular_of(velocities_[b])}, closings_.back(), dt);
+    if (contact->impact) paces_[a].impact = paces_[b].impact = true;
   }
 }
 
@@ -148,12 +163,19 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
   const double h = dt / sub_steps;
   const double share = static_cast<double>(sub_step) / sub_steps;
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    IslandBody& entry = bodies_[i];
+    BodyPace& pace = paces_[i];
     BodyLanes& velocity = velocities_[i];
     BodyLanes& start = starts_[i];
+    std::copy_n(displacements_[i].linear, 4, sub_starts_[i].lanes);
+    if (pace.steady) {
+      start = velocity;
+      for (int k = 0; k < 4; ++k) velocity.linear[k] += pace.acceleration[k] * h;
+      continue;
+    }
+    IslandBody& entry = bodies_[i];
     entry.sub_step_center = entry.center;
     entry.sub_step_rotation = entry.rotation;
-    if (!entry.movable) {
+    if (!pace.movable) {
       const auto& [mean, gain] = entry.course;
       set(start.linear, mean.linear + (share - 0.5) * gain.linear);
       set(start.angular, mean.angular + (share - 0.5) * gain.angular);
@@ -163,12 +185,11 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
       continue;
     }
     start = velocity;
-    Vec3 linear = linear_of(velocity) + entry.acceleration * h;
-    if (entry.drag > 0) linear /= 1 + entry.drag * h;
-    set(velocity.linear, linear);
-    entry.followed = !entry.pressed && !entry.even;
-    entry.pressed = false;
-    if (entry.even) continue;
+    for (int k = 0; k < 3; ++k)
+      velocity.linear[k] = (velocity.linear[k] + pace.acceleration[k] * h) / (1 + entry.drag * h);
+    entry.followed = !pace.pressed && !pace.even;
+    pace.pressed = false;
+    if (pace.even) continue;
     const Body& body = bodies[entry.index];
     const Load& load = loads[entry.index];
     const Vec3 angular = angular_of(velocity);
@@ -183,44 +204,37 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
 }
 
 void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
-  bool any = false;
+  if (!any_stale_ && joints_.empty()) return;
+  any_stale_ = false;
   for (IslandBody& entry : bodies_) {
     entry.stale = !entry.round && entry.turned > turned_enough;
     if (entry.jointed && entry.movable && !bodies[entry.index].spherical)
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
     if (!entry.stale) continue;
-    any = true;
     entry.turned = 0;
     if (entry.movable) entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
   }
-  if (!any) return;
-  for (ContactBlock& block : contacts_.blocks)
+  for (std::size_t i = 0; i < contacts_.blocks.size(); ++i) {
+    const ContactBlock& block = contacts_.blocks[i];
     for (int lane = 0; lane < lane_count; ++lane)
-      if (block.contacts[lane] && (bodies_[block.a[lane]].stale || bodies_[block.b[lane]].stale))
-        contacts_.prepare(block, lane, bodies_, displacements_.data());
+      if (contacts_.origins[i][static_cast<std::size_t>(lane)] &&
+          (bodies_[block.a[lane]].stale || bodies_[block.b[lane]].stale))
+        contacts_.prepare(i, lane, bodies_, displacements_.data());
+  }
 }
 
 /// Where a contact holds a body, the velocity after the impulses counts: a mean would leave every tremble undamped.
 void BlockSolver::find_lags() {
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    const double share = paces_[i].movable ? 0.5 : 0;
+    for (int k = 0; k < 4; ++k) lags_[i].lanes[k] = share * (starts_[i].linear[k] - velocities_[i].linear[k]);
+  }
+  fastest_kernels().hold(rows());
   for (std::size_t i = 1; i < bodies_.size(); ++i)
-    bodies_[i].lag =
-        bodies_[i].movable ? Vec3(0.5 * (linear_of(starts_[i]) - linear_of(velocities_[i]))) : Vec3(0, 0, 0);
-  for (const ContactBlock& block : contacts_.blocks)
-    for (int lane = 0; lane < lane_count; ++lane) {
-      if (block.pressed[lane] == 0) continue;
-      const Vec3 normal(block.normal.x[lane], block.normal.y[lane], block.normal.z[lane]);
-      for (IslandBody* body : {&bodies_[block.a[lane]], &bodies_[block.b[lane]]}) {
-        body->pressed = body->touched = true;
-        if (block.held[lane] == 0 || body->round)
-          body->lag -= normal * normal.dot(body->lag);
-        else
-          body->lag = Vec3::Zero();
-      }
-    }
-  for (IslandBody& body : bodies_)
-    if (body.held || (body.impact && body.pressed)) body.lag = Vec3::Zero();
-  for (IslandBody& body : bodies_)
-    if (body.held && body.movable) body.pressed = body.touched = true;
+    if (paces_[i].impact && lags_[i].lanes[3] != 0) lags_[i] = pressed_still;
+  if (!holds_.empty())
+    for (std::size_t i = 1; i < bodies_.size(); ++i)
+      if (bodies_[i].held && bodies_[i].movable) lags_[i] = pressed_still;
   if (!joints_.empty()) find_lags_of_jointed();
 }
 
@@ -231,34 +245,49 @@ void BlockSolver::find_lags_of_jointed() {
   double mass = 0;
   Vec3 gained = Vec3::Zero();
   for (std::size_t i = 1; i < bodies_.size() && free; ++i) {
-    free = !bodies_[i].pressed && !bodies_[i].held;
-    mass += bodies_[i].mass;
-    gained += bodies_[i].mass * (linear_of(velocities_[i]) - linear_of(starts_[i]));
+    free = lags_[i].lanes[3] == 0 && !bodies_[i].held;
+    mass += paces_[i].mass;
+    gained += paces_[i].mass * (linear_of(velocities_[i]) - linear_of(starts_[i]));
   }
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    IslandBody& body = bodies_[i];
-    if (!body.jointed || !body.movable) continue;
-    body.pressed = body.touched = true;
-    body.lag = free ? Vec3(-0.5 / mass * gained) : Vec3(0, 0, 0);
+    if (!bodies_[i].jointed || !bodies_[i].movable) continue;
+    lags_[i] = pressed_still;
+    if (free) set(lags_[i].lanes, -0.5 / mass * gained);
   }
 }
 
 void BlockSolver::end_sub_step(double h) {
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    IslandBody& entry = bodies_[i];
+    BodyPace& pace = paces_[i];
     const BodyLanes& velocity = velocities_[i];
     BodyLanes& displacement = displacements_[i];
-    const Vec3 moved = (linear_of(velocity) + entry.lag) * h;
-    entry.center += moved;
-    for (int k = 0; k < 3; ++k) displacement.linear[k] += moved[k];
+    pace.pressed = pace.movable && lags_[i].lanes[3] != 0;
+    pace.touched = pace.touched || pace.pressed;
+    double moved[3];
+    for (int k = 0; k < 3; ++k) {
+      moved[k] = (velocity.linear[k] + lags_[i].lanes[k]) * h;
+      displacement.linear[k] += moved[k];
+    }
+    if (pace.unturned) {
+      // What rolls has the mean of its spins.
+      const double kept = pace.impact ? 1 : 0.5;
+      for (int k = 0; k < 3; ++k)
+        displacement.angular[k] += (kept * velocity.angular[k] + (1 - kept) * starts_[i].angular[k]) * h;
+      continue;
+    }
+    IslandBody& entry = bodies_[i];
+    for (int k = 0; k < 3; ++k) entry.center[k] += moved[k];
     Vec3 angular = angular_of(velocity);
-    if (entry.movable && entry.round && !entry.impact && !entry.jointed)
+    if (entry.movable && entry.round && !pace.impact && !entry.jointed)
       angular = 0.5 * (angular + angular_of(starts_[i]));
     if (angular == Vec3::Zero()) continue;
     const Vec3 turning = angular * h;
     for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
-    if (!entry.round) entry.turned += turning.norm();
-    if (entry.followed && !entry.pressed) {
+    if (!entry.round) {
+      entry.turned += turning.norm();
+      any_stale_ = any_stale_ || entry.turned > turned_enough;
+    }
+    if (entry.followed && !pace.pressed) {
       // The spin of free flight keeps its energy only with the rotation that belongs to it.
       entry.rotation = entry.free_rotation;
       continue;
@@ -270,21 +299,33 @@ void BlockSolver::end_sub_step(double h) {
 
 /// See Solver::bound_spins.
 void BlockSolver::bound_spins(const std::vector<Body>& bodies, double h) {
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    const IslandBody& entry = bodies_[i];
-    if (!entry.movable) continue;
+  for (const std::uint32_t i : uneven_) {
     const Vec3 angular = angular_of(velocities_[i]);
     if (!(angular.squaredNorm() * h * h > 1)) continue;
-    const Body& body = bodies[entry.index];
-    if (body.spherical) continue;
+    const IslandBody& entry = bodies_[i];
     const double energy = 0.5 * angular.dot(entry.inverse_inertia.inverse() * angular);
-    set(velocities_[i].angular, forces::bounded_spin(body.world_inertia(entry.rotation), energy, angular));
+    set(velocities_[i].angular,
+        forces::bounded_spin(bodies[entry.index].world_inertia(entry.rotation), energy, angular));
   }
 }
 
 Rows BlockSolver::rows() {
-  return {contacts_.blocks.data(),    contacts_.blocks.size(), contacts_.points.data(),
-          contacts_.frictions.data(), velocities_.data(),      displacements_.data()};
+  Rows rows;
+  rows.blocks = contacts_.blocks.data();
+  rows.pairs = contacts_.pairs;
+  rows.count = contacts_.blocks.size();
+  rows.balls = contacts_.balls.data();
+  rows.ball_pairs = contacts_.ball_pairs;
+  rows.ball_count = contacts_.balls.size();
+  rows.points = contacts_.points.data();
+  rows.frictions = contacts_.frictions.data();
+  rows.inertias = contacts_.inertias.data();
+  rows.meetings = contacts_.meetings.data();
+  rows.ball_meetings = contacts_.ball_meetings.data();
+  rows.velocities = velocities_.data();
+  rows.displacements = displacements_.data();
+  rows.lags = lags_.data();
+  return rows;
 }
 
 void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
@@ -297,7 +338,9 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   gather(bodies, loads, island, settings.integrator, dt);
   foresee(contacts, loads, dt);
   holds_.gather(island, bodies, places_, bodies_, h);
-  contacts_.build(contacts, places_, bodies_, loads, h, dt);
+  for (std::size_t i = 1; i < bodies_.size(); ++i)
+    if (bodies_[i].held || bodies_[i].jointed) paces_[i].steady = paces_[i].unturned = false;
+  contacts_.build(contacts, places_, bodies_, closings_, h);
   holds_.gather(contacts_, h);
   reach_.forget();
   joints_.build(island.joints, places_, bodies_, h, dt);
@@ -341,10 +384,15 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   for (const ContactConstraint* contact : contacts)
     for (int i = 0; i < contact->count; ++i)
       if (contact->points[static_cast<std::size_t>(i)].total_normal > 0)
-        bodies_[places_[contact->a]].touched = bodies_[places_[contact->b]].touched = true;
+        paces_[places_[contact->a]].touched = paces_[places_[contact->b]].touched = true;
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    const IslandBody& entry = bodies_[i];
-    if (!entry.movable || !entry.touched) continue;
+    IslandBody& entry = bodies_[i];
+    if (!entry.movable || !paces_[i].touched) continue;
+    if (paces_[i].unturned) {
+      entry.center += linear_of(displacements_[i]);
+      entry.rotation = exp_map(angular_of(displacements_[i])) * entry.rotation;
+      entry.rotation.normalize();
+    }
     Body& body = bodies[entry.index];
     body.center = entry.center;
     body.twist = {linear_of(velocities_[i]), angular_of(velocities_[i])};

@@ -37,17 +37,10 @@ class BlockSolver {
  private:
   /// A point that would rebound in this sub-step.
   struct Rebound {
-    std::uint32_t block, row;
-    int lane;
+    std::uint32_t lane, point;  ///< 4 * block + lane, and which of the contact's points
+    double speed;               ///< wanted at the end of the sub-step, m/s
     double time;                ///< how long it moves the bodies, s
     double speed_before = 0;    ///< m/s
-    double impulse_before = 0;  ///< N s
-  };
-  /// A contact that the rebound changed, with the impulses that it had before.
-  struct Reached {
-    std::uint32_t block;
-    int lane;
-    double normal[4], first[4], second[4];
   };
 
   void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
@@ -65,27 +58,28 @@ class BlockSolver {
   // Rebound
   void find_rebounds(double h);
   void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes);
-  void remember(std::uint32_t block, int lane);
-  /// @return the change of velocity, in trembles
-  double rebound_contact(std::uint32_t block, int lane);
-  void move_by(const Rebound& rebound);
+  void move_by(const Rebound& rebound, const ReboundContact& contact);
+  [[nodiscard]] double work_of_driven() const;
   void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads);
-  void end_rebound();
 
   std::vector<std::uint32_t> places_;  ///< from a body's index into bodies_; 0 for none
   std::vector<IslandBody> bodies_;     ///< the first is nobody: that of empty lanes
-  std::vector<BodyLanes> velocities_, starts_, before_rebound_, displacements_;
+  std::vector<BodyPace> paces_;
+  std::vector<BodyLanes> velocities_, starts_, displacements_;
+  std::vector<BodyLag> lags_;
+  std::vector<BodyLag> sub_starts_;      ///< linear displacements at the start of the sub-step
+  std::vector<std::uint32_t> uneven_;    ///< places of movable bodies with different moments about their axes
+  std::vector<step::Closing> closings_;  ///< of the contacts
   ContactBlocks contacts_;
   joints::IslandJoints joints_;
   IslandHolds holds_;
   bool anchored_ = false;                ///< some body of the island, or what a joint holds it to, does not move freely
   bool bouncy_ = false;                  ///< some contact has restitution
+  bool driven_ = false;                  ///< something moves by its own will
+  bool any_stale_ = false;               ///< a body has turned since its rows were prepared
   std::vector<std::uint32_t> meetings_;  ///< lanes
   std::vector<Rebound> rebounds_;
-  std::vector<Reached> reached_;
   ReboundReach reach_;
-  std::vector<char> remembered_;    ///< by lane: it is in reached_
-  std::vector<char> known_before_;  ///< by place: it is in before_rebound_
 };
 
 }  // namespace tweenfall::blocks

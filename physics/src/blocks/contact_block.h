@@ -6,10 +6,6 @@
 
 #include "blocks/lanes.h"
 
-namespace tweenfall::step {
-struct ContactConstraint;
-}
-
 namespace tweenfall::blocks {
 
 /// What the rows change of a body: its velocity; and in another array how far it has come since the step began.
@@ -18,16 +14,20 @@ struct alignas(64) BodyLanes {
   double angular[4] = {};  ///< of a displacement: the sum of the turns, rad
 };
 
+/// From a body's velocity at the end of a sub-step to its mean, m/s.
+struct alignas(32) BodyLag {
+  double lanes[4] = {};  ///< x, y, z, and 1 where something presses on the body
+};
+
 /// One point of each pair along the normal.
 struct PointRow {
   Lanes3 turn_a, turn_b;  ///< arm x normal
   Lanes mass;             ///< what a unit of speed takes, kg; 0 where a lane has no such point
-  Lanes base;             ///< gap before any displacement, m
   Lanes gap;              ///< at the start of the sub-step
   Lanes impulse;          ///< of the sub-step, N s
-  Lanes total;            ///< of the step
   Lanes lever;            ///< from the middle of the points, m
-  Lanes rebound;          ///< speed wanted at the end of the sub-step, m/s
+  Lanes base;             ///< gap before any displacement, m
+  Lanes total;            ///< impulse of the step
 };
 
 /// Friction at a point, or for all of them at their middle.
@@ -39,22 +39,49 @@ struct FrictionRow {
   Lanes total_first, total_second;
 };
 
+/// Of bodies that turn about some axes more easily than about others.
+struct InertiaRow {
+  LanesSymmetric inverse_a, inverse_b;
+};
+
 struct ContactBlock {
-  std::uint32_t a[lane_count], b[lane_count];     ///< places of the bodies in the solver
-  step::ContactConstraint* contacts[lane_count];  ///< null for an empty lane
-  std::uint32_t point = 0, friction = 0;          ///< first rows
-  std::int32_t points = 0;                        ///< of the lane with most
-  std::int32_t frictions = 0;                     ///< none, one at the middle of several points, or as many as points
+  std::uint32_t a[lane_count], b[lane_count];            ///< places of the bodies in the solver
+  std::uint32_t point = 0, friction = 0;                 ///< first rows
+  std::uint32_t inertia = 0;                             ///< its row, where it is not even
+  std::int8_t points = 0;                                ///< of the lane with most
+  std::int8_t frictions = 0;                             ///< none, one at the middle of several points, or as many
+  bool even = true;                                      ///< all bodies have one moment about every axis
+  std::int8_t round_a[lane_count], round_b[lane_count];  ///< -1 for a ball: no contact can rock it
   Lanes3 normal, tangent1, tangent2;
   Lanes inverse_mass_a, inverse_mass_b;
-  LanesSymmetric inverse_inertia_a, inverse_inertia_b;
-  Lanes coefficient;                     ///< of friction
-  Lanes twist_mass, twist, total_twist;  ///< about the normal, where friction is at the middle
-  Lanes pull, tremble, restitution;      ///< see Closing
-  Mask hard;                             ///< does not give way: an impact
-  Mask pressed, held;                    ///< by an impulse in this sub-step; by friction that does not slide
+  Lanes inverse_moment_a, inverse_moment_b;  ///< where it is even
+  Lanes coefficient;                         ///< of friction
+  Lanes twist_mass, twist, total_twist;      ///< about the normal, where friction is at the middle
+  Mask hard;                                 ///< does not give way: an impact
+  Mask pressed, held;                        ///< by an impulse in this sub-step; by friction that does not slide
 
   [[nodiscard]] bool central() const { return frictions == 1 && points > 1; }
+};
+
+/// Two balls, or one on something that stays where it is: what pushes along the line to the middle turns nothing.
+struct BallBlock {
+  std::uint32_t a[lane_count], b[lane_count];
+  Lanes3 normal;
+  Lanes inverse_mass_a, inverse_mass_b;
+  Lanes arm_a, arm_b;     ///< from the middles to the contact, m
+  Lanes spin_a, spin_b;   ///< arm times inverse moment
+  Lanes mass, slip_mass;  ///< along the normal, and across it
+  Lanes gap, impulse;     ///< as of a PointRow
+  Lanes3 friction;        ///< impulse of the sub-step, N s
+  Lanes coefficient;
+  Mask hard, pressed;
+  Lanes base, total;
+  Lanes3 total_friction;
+};
+
+/// How contacts may meet: see Closing.
+struct MeetingRow {
+  Lanes pull, tremble, restitution;
 };
 
 /// How an overlapping contact gives way in a pass.
@@ -68,14 +95,21 @@ struct PassRule {
   bool sum_up = false;   ///< adds the impulses to the totals
 };
 
-/// Rows of a whole island, and its bodies.
+/// Rows of a whole island, and its bodies. What stands firm has the last word: contacts of one movable body come after
+/// those of two.
 struct Rows {
   ContactBlock* blocks = nullptr;
-  std::size_t count = 0;
+  std::size_t pairs = 0, count = 0;  ///< blocks with two movable bodies in each lane, and all
+  BallBlock* balls = nullptr;
+  std::size_t ball_pairs = 0, ball_count = 0;
   PointRow* points = nullptr;
   FrictionRow* frictions = nullptr;
+  const InertiaRow* inertias = nullptr;
+  const MeetingRow* meetings = nullptr;       ///< of blocks
+  const MeetingRow* ball_meetings = nullptr;  ///< of balls
   BodyLanes* velocities = nullptr;
   const BodyLanes* displacements = nullptr;
+  BodyLag* lags = nullptr;
 };
 
 /// What is done with rows, for one instruction set. The bits do not depend on it.
@@ -84,7 +118,10 @@ struct Kernels {
   void (*warm_start)(const Rows& rows);
   /// One pass over all blocks: friction on the circular cone, then the normals.
   void (*solve)(const Rows& rows, const PassRule& rule);
-  /// Finds what may meet in the sub-step fast enough to rebound: lanes as 4 * block + lane, in order.
+  /// Takes out of the lags of what is pressed what a contact holds: along the normal, or all of it.
+  void (*hold)(const Rows& rows);
+  /// Finds what may meet in the sub-step fast enough to rebound: lanes as 4 * block + lane, in order; balls after all
+  /// blocks.
   /// `starts`: velocities at the start of the sub-step; `found`: room for all lanes. Returns how many.
   std::size_t (*find_meetings)(const Rows& rows, const BodyLanes* starts, double h, std::uint32_t* found);
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -14,26 +15,50 @@ namespace tweenfall::blocks {
 /// The contacts of an island, four at a time, by color.
 class ContactBlocks {
  public:
+  /// Which contacts a block holds; null for an empty lane.
+  using Origin = std::array<step::ContactConstraint*, lane_count>;
+
   /// Sorts the contacts and begins with the impulses that they kept.
-  /// @param places  from a body's index to its place in `bodies`
+  /// @param places    from a body's index to its place in `bodies`
+  /// @param closings  of the contacts
   void build(std::span<step::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
-             const std::vector<IslandBody>& bodies, const std::vector<forces::Load>& loads, double h, double dt);
+             const std::vector<IslandBody>& bodies, std::span<const step::Closing> closings, double h);
   /// Tells the rows of one contact how its bodies lie now.
-  void prepare(ContactBlock& block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
+  void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
   /// Gives the impulses back to the contacts.
   void store(double h);
 
+  [[nodiscard]] std::size_t size() const { return blocks.size() + balls.size(); }
+  /// Of blocks, and after them of balls.
+  [[nodiscard]] const Origin& origin(std::size_t i) const {
+    return i < blocks.size() ? origins[i] : ball_origins[i - blocks.size()];
+  }
+
+  /// Of a point of the contact in a lane, 4 * block + lane, N s.
+  [[nodiscard]] double impulse(std::uint32_t lane, std::uint32_t point) const {
+    const std::size_t i = lane / lane_count;
+    return i < blocks.size() ? points[blocks[i].point + point].impulse[lane % lane_count]
+                             : balls[i - blocks.size()].impulse[lane % lane_count];
+  }
+
   std::vector<ContactBlock> blocks;
+  std::vector<BallBlock> balls;
+  std::size_t pairs = 0, ball_pairs = 0;  ///< those of two movable bodies come first
   std::vector<PointRow> points;
   std::vector<FrictionRow> frictions;
+  std::vector<InertiaRow> inertias;
+  std::vector<MeetingRow> meetings, ball_meetings;
+  std::vector<Origin> origins, ball_origins;
 
  private:
-  void fill(ContactBlock& block, int lane, step::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
+  void open(std::uint32_t kind);
+  void fill(int lane, step::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
             const std::vector<IslandBody>& bodies, const step::Closing& closing, double h);
+  void fill_ball(int lane, step::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
+                 const std::vector<IslandBody>& bodies, const step::Closing& closing, double h);
 
   Coloring coloring_;
-  std::vector<std::uint32_t> keys_, counts_;
-  std::vector<step::ContactConstraint*> sorted_;
+  std::vector<std::uint32_t> keys_, counts_, sorted_;
 };
 
 }  // namespace tweenfall::blocks

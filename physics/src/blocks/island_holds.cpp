@@ -60,6 +60,7 @@ void IslandHolds::gather(const islands::IslandContents& island, const std::vecto
     entry.pulled = true;
     entry.given = 1 / (1 + forces::drive_law(body, entry.center, entry.rotation, h, 0).stiffness);
     entry.inverse_mass *= entry.given;
+    entry.inverse_moment *= entry.given;
     entry.inverse_inertia *= entry.given;
   }
   for (step::SpringRow* row : island.springs) {
@@ -74,8 +75,8 @@ void IslandHolds::gather(const islands::IslandContents& island, const std::vecto
 void IslandHolds::gather(const ContactBlocks& contacts, double h) {
   rolls_.clear();
   for (std::uint32_t i = 0; i < contacts.blocks.size(); ++i)
-    for (int lane = 0; lane < lane_count; ++lane) {
-      ContactConstraint* contact = contacts.blocks[i].contacts[lane];
+    for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
+      ContactConstraint* contact = contacts.origins[i][lane];
       if (!contact || !(contact->rolling_friction > 0)) continue;
       rolls_.push_back({i, lane});
       contact->rolling_impulse = (contact->kept_step > h ? h / contact->kept_step : 1) * contact->kept_rolling;
@@ -99,7 +100,7 @@ void IslandHolds::begin_sub_step(const std::vector<Body>& bodies, const std::vec
             [&](SolverBody& a, SolverBody& b) { held.row->begin(&a, held.b == 0 ? nullptr : &b, h_); });
   for (const Rolling& rolling : rolls_) {
     const ContactBlock& block = contacts.blocks[rolling.block];
-    const Vec3& impulse = block.contacts[rolling.lane]->rolling_impulse;
+    const Vec3& impulse = contacts.origins[rolling.block][rolling.lane]->rolling_impulse;
     between(block.a[rolling.lane], block.b[rolling.lane], entries, velocities, [&](SolverBody& a, SolverBody& b) {
       a.angular -= a.inverse_inertia * impulse;
       b.angular += b.inverse_inertia * impulse;
@@ -138,7 +139,7 @@ void IslandHolds::solve(const std::vector<Body>& bodies, const std::vector<Islan
     if (!held.without_limit) solve_drive(held, bodies, entries, velocities);
   for (const Rolling& rolling : rolls_) {
     const ContactBlock& block = contacts.blocks[rolling.block];
-    ContactConstraint& contact = *block.contacts[rolling.lane];
+    ContactConstraint& contact = *contacts.origins[rolling.block][rolling.lane];
     double pressing = 0;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(contact.count); ++i)
       pressing += contacts.points[block.point + i].impulse[rolling.lane];
@@ -150,14 +151,14 @@ void IslandHolds::solve(const std::vector<Body>& bodies, const std::vector<Islan
 
 void IslandHolds::add_up(const ContactBlocks& contacts) const {
   for (const Rolling& rolling : rolls_) {
-    ContactConstraint& contact = *contacts.blocks[rolling.block].contacts[rolling.lane];
+    ContactConstraint& contact = *contacts.origins[rolling.block][rolling.lane];
     contact.total_rolling += contact.rolling_impulse;
   }
 }
 
 void IslandHolds::store(const ContactBlocks& contacts) const {
   for (const Rolling& rolling : rolls_) {
-    ContactConstraint& contact = *contacts.blocks[rolling.block].contacts[rolling.lane];
+    ContactConstraint& contact = *contacts.origins[rolling.block][rolling.lane];
     contact.kept_rolling = contact.rolling_impulse;
   }
 }

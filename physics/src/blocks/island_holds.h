@@ -40,8 +40,7 @@ class IslandHolds {
     std::uint32_t a = 0, b = 0;  ///< places
   };
   struct Rolling {
-    std::uint32_t block = 0;
-    int lane = 0;
+    std::uint32_t block = 0, lane = 0;
   };
   void solve_drive(HeldByDrive& held, const std::vector<state::Body>& bodies, const std::vector<IslandBody>& entries,
                    std::vector<BodyLanes>& velocities) const;

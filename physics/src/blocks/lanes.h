@@ -52,6 +52,9 @@ TWEENFALL_LANES Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
 TWEENFALL_LANES Lanes3 operator*(const Lanes& s, const Lanes3& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
+TWEENFALL_LANES Lanes3 cross(const Lanes3& a, const Lanes3& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 TWEENFALL_LANES Lanes dot(const Lanes3& a, const Lanes3& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }

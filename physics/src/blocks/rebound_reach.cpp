@@ -2,18 +2,25 @@
 
 namespace tweenfall::blocks {
 
-void ReboundReach::begin(const std::vector<ContactBlock>& blocks, const std::vector<IslandBody>& bodies) {
-  stirred_.assign(bodies.size(), 0);
-  reached_.assign((blocks.size() * lane_count + 63) / 64, 0);
+void ReboundReach::begin(const ContactBlocks& contacts, const std::vector<IslandBody>& bodies) {
+  known_.assign(bodies.size(), 0);
+  before_.resize(bodies.size());
+  open_.assign((contacts.size() * lane_count + 63) / 64, 0);
+  slots_.assign(contacts.size() * lane_count, 0);
+  reached_ = 0;
   if (!starts_.empty()) return;
   const auto each_end = [&](const auto& see) {
-    for (std::size_t i = blocks.size(); i-- > 0;)
-      for (int lane = lane_count; lane-- > 0;) {
-        if (!blocks[i].contacts[lane]) continue;
-        for (const std::uint32_t place : {blocks[i].a[lane], blocks[i].b[lane]})
-          if (bodies[place].movable)
-            see(place, static_cast<std::uint32_t>(lane_count * i) + static_cast<std::uint32_t>(lane));
+    for (std::size_t i = contacts.size(); i-- > 0;) {
+      const ContactBlocks::Origin& origin = contacts.origin(i);
+      const bool ball = i >= contacts.blocks.size();
+      const std::uint32_t* a = ball ? contacts.balls[i - contacts.blocks.size()].a : contacts.blocks[i].a;
+      const std::uint32_t* b = ball ? contacts.balls[i - contacts.blocks.size()].b : contacts.blocks[i].b;
+      for (std::size_t lane = lane_count; lane-- > 0;) {
+        if (!origin[lane]) continue;
+        for (const std::uint32_t place : {a[lane], b[lane]})
+          if (bodies[place].movable) see(place, static_cast<std::uint32_t>(lane_count * i + lane));
       }
+    }
   };
   starts_.assign(bodies.size() + 1, 0);
   each_end([this](std::uint32_t place, std::uint32_t) { ++starts_[place]; });
@@ -23,11 +30,24 @@ void ReboundReach::begin(const std::vector<ContactBlock>& blocks, const std::vec
   each_end([this](std::uint32_t place, std::uint32_t lane) { lanes_[--starts_[place]] = lane; });
 }
 
-void ReboundReach::stir(std::uint32_t place) {
-  if (stirred_[place]) return;
-  stirred_[place] = 1;
-  for (std::uint32_t i = starts_[place]; i < starts_[place + 1]; ++i)
-    reached_[lanes_[i] / 64] |= std::uint64_t{1} << (lanes_[i] % 64);
+ReboundContact& ReboundReach::reach(std::uint32_t lane, const ContactBlocks& contacts,
+                                    const std::vector<IslandBody>& bodies, const std::vector<BodyLanes>& velocities) {
+  std::uint32_t& slot = slots_[lane];
+  if (slot != 0) return contacts_[slot - 1];
+  if (reached_ == contacts_.size()) contacts_.emplace_back();
+  ReboundContact& contact = contacts_[reached_++];
+  slot = static_cast<std::uint32_t>(reached_);
+  contact.take(contacts, lane, bodies);
+  for (const std::uint32_t place : {contact.a(), contact.b()}) {
+    if (known_[place]) continue;
+    known_[place] = 1;
+    before_[place] = velocities[place];
+  }
+  return contact;
+}
+
+void ReboundReach::push(std::uint32_t place) {
+  for (std::uint32_t i = starts_[place]; i < starts_[place + 1]; ++i) look_at(lanes_[i]);
 }
 
 }  // namespace tweenfall::blocks

@@ -2,41 +2,60 @@
 
 #include <bit>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "blocks/contact_block.h"
-#include "blocks/island_body.h"
+#include "blocks/contact_blocks.h"
+#include "blocks/rebound_contact.h"
 
 namespace tweenfall::blocks {
 
-/// Which contacts a rebound reaches: those of the bodies that it stirs. Contacts are lanes here: 4 * block + lane.
+/// The contacts that a rebound reaches, and which of them are to be looked at again because a body of theirs was
+/// pushed. Contacts are told by lanes: 4 * block + lane, balls after all blocks.
 class ReboundReach {
  public:
   /// The blocks have others in them.
   void forget() { starts_.clear(); }
-  /// Nothing is stirred yet.
-  void begin(const std::vector<ContactBlock>& blocks, const std::vector<IslandBody>& bodies);
-  /// From now on the contacts of a movable body are reached.
-  void stir(std::uint32_t place);
-  [[nodiscard]] bool stirred(std::uint32_t place) const { return stirred_[place] != 0; }
+  /// Nothing is reached yet.
+  void begin(const ContactBlocks& contacts, const std::vector<IslandBody>& bodies);
+  /// The contact of a lane, from now on reached; to be looked at when a body of it is pushed.
+  /// @return it, as it stands in its block when it is reached for the first time
+  ReboundContact& reach(std::uint32_t lane, const ContactBlocks& contacts, const std::vector<IslandBody>& bodies,
+                        const std::vector<BodyLanes>& velocities);
+  /// All contacts of a movable body are to be looked at.
+  void push(std::uint32_t place);
+  void look_at(std::uint32_t lane) { open_[lane / 64] |= std::uint64_t{1} << (lane % 64); }
+  void pass_by(std::uint32_t lane) { open_[lane / 64] &= ~(std::uint64_t{1} << (lane % 64)); }
 
-  /// Calls `visit(lane)` for what is reached, in order; also for what comes to be reached further on meanwhile.
+  /// Calls `visit(lane)` in order for what is to be looked at; also for what comes to be so further on meanwhile.
+  /// @return whether there was any
   template <class Visit>
-  void visit(const Visit& visit) {
-    for (std::size_t word = 0; word < reached_.size(); ++word) {
+  bool visit(const Visit& visit) {
+    bool any = false;
+    for (std::size_t word = 0; word < open_.size(); ++word) {
       std::uint64_t ahead = ~std::uint64_t{0};
-      while (const std::uint64_t open = reached_[word] & ahead) {
+      while (const std::uint64_t open = open_[word] & ahead) {
         const auto bit = static_cast<std::uint32_t>(std::countr_zero(open));
         ahead = bit == 63 ? 0 : ~std::uint64_t{0} << (bit + 1);
+        any = true;
         visit(static_cast<std::uint32_t>(64 * word) + bit);
       }
     }
+    return any;
   }
+
+  [[nodiscard]] std::span<ReboundContact> contacts() { return std::span(contacts_).first(reached_); }
+  /// The velocity that a body had before, if a contact of it was reached.
+  [[nodiscard]] const BodyLanes* before(std::uint32_t place) const { return known_[place] ? &before_[place] : nullptr; }
 
  private:
   std::vector<std::uint32_t> starts_, lanes_;  ///< by place: the contacts of each movable body
-  std::vector<char> stirred_;                  ///< by place
-  std::vector<std::uint64_t> reached_;         ///< bits of lanes
+  std::vector<std::uint64_t> open_;            ///< bits of lanes
+  std::vector<std::uint32_t> slots_;           ///< by lane: one more than where it is in contacts_; 0 for nowhere
+  std::vector<ReboundContact> contacts_;
+  std::size_t reached_ = 0;  ///< how many of them
+  std::vector<char> known_;  ///< by place: it is in before_
+  std::vector<BodyLanes> before_;
 };
 
 }  // namespace tweenfall::blocks

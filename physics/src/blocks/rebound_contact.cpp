@@ -1,0 +1,217 @@
+#include "blocks/rebound_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tweenfall::blocks {
+
+namespace {
+
+void add(double (&lanes)[4], const Vec3& value) {
+  for (int i = 0; i < 3; ++i) lanes[i] += value[i];
+}
+
+}  // namespace
+
+void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, const std::vector<IslandBody>& bodies) {
+  lane_ = index;
+  const std::size_t i = index / lane_count;
+  const int lane = static_cast<int>(index % lane_count);
+  ball_ = i >= contacts.blocks.size();
+  const step::ContactConstraint& contact = *contacts.origin(i)[static_cast<std::size_t>(lane)];
+  coefficient_ = contact.friction;
+  grips_ = contact.impact;
+  const auto ends = [&](const auto& block) {
+    a_ = block.a[lane];
+    b_ = block.b[lane];
+    body_a_ = &bodies[a_];
+    body_b_ = &bodies[b_];
+    inverse_mass_a_ = body_a_->inverse_mass;
+    inverse_mass_b_ = body_b_->inverse_mass;
+    inverse_moment_a_ = body_a_->inverse_moment;
+    inverse_moment_b_ = body_b_->inverse_moment;
+    normal_ = lane_of(block.normal, lane);
+  };
+  const auto point = [&](std::size_t k, double mass, double gap, double impulse, const Vec3& turn_a,
+                         const Vec3& turn_b) { points_[k] = {mass, gap, impulse, impulse, 0, turn_a, turn_b}; };
+  if (ball_) {
+    const BallBlock& block = contacts.balls[i - contacts.blocks.size()];
+    ends(block);
+    tremble_ = contacts.ball_meetings[i - contacts.blocks.size()].tremble[lane];
+    count_ = 1;
+    frictions_ = 0;
+    isotropic_ = true;
+    arm_a_ = block.arm_a[lane];
+    arm_b_ = block.arm_b[lane];
+    slip_mass_ = block.slip_mass[lane];
+    friction_ = friction_before_ = lane_of(block.friction, lane);
+    point(0, block.mass[lane], block.gap[lane], block.impulse[lane], Vec3::Zero(), Vec3::Zero());
+    return;
+  }
+  const ContactBlock& block = contacts.blocks[i];
+  ends(block);
+  tremble_ = contacts.meetings[i].tremble[lane];
+  count_ = static_cast<std::size_t>(contact.count);
+  central_ = block.central();
+  isotropic_ = block.even;
+  frictions_ = central_ ? 1 : block.frictions > 0 ? count_ : 0;
+  tangent1_ = lane_of(block.tangent1, lane);
+  tangent2_ = lane_of(block.tangent2, lane);
+  for (std::size_t k = 0; k < count_; ++k) {
+    const PointRow& row = contacts.points[block.point + k];
+    point(k, row.mass[lane], row.gap[lane], row.impulse[lane], lane_of(row.turn_a, lane), lane_of(row.turn_b, lane));
+  }
+  for (std::size_t k = 0; k < frictions_; ++k) {
+    const FrictionRow& row = contacts.frictions[block.friction + k];
+    rows_[k] = {row.inverse11[lane],
+                row.inverse12[lane],
+                row.inverse22[lane],
+                row.firm[lane],
+                row.first[lane],
+                row.second[lane],
+                row.first[lane],
+                row.second[lane],
+                lane_of(row.first_a, lane),
+                lane_of(row.first_b, lane),
+                lane_of(row.second_a, lane),
+                lane_of(row.second_b, lane)};
+  }
+}
+
+void ReboundContact::push(BodyLanes& a, BodyLanes& b, const Vec3& impulse) const {
+  add(a.linear, -inverse_mass_a_ * impulse);
+  add(b.linear, inverse_mass_b_ * impulse);
+}
+
+void ReboundContact::turn(BodyLanes& a, BodyLanes& b, const Vec3& turn_a, const Vec3& turn_b) const {
+  if (isotropic_) {
+    add(a.angular, -inverse_moment_a_ * turn_a);
+    add(b.angular, inverse_moment_b_ * turn_b);
+  } else {
+    add(a.angular, -(body_a_->inverse_inertia * turn_a));
+    add(b.angular, body_b_->inverse_inertia * turn_b);
+  }
+}
+
+double ReboundContact::solve_friction(Friction& row, double limit, BodyLanes& a, BodyLanes& b) const {
+  const Vec3 slip = linear_of(b) - linear_of(a);
+  const Vec3 angular_a = angular_of(a), angular_b = angular_of(b);
+  const double slip1 = tangent1_.dot(slip) + row.first_b.dot(angular_b) - row.first_a.dot(angular_a);
+  const double slip2 = tangent2_.dot(slip) + row.second_b.dot(angular_b) - row.second_a.dot(angular_a);
+  double next1 = row.first - (row.inverse11 * slip1 + row.inverse12 * slip2);
+  double next2 = row.second - (row.inverse12 * slip1 + row.inverse22 * slip2);
+  if (next1 * next1 + next2 * next2 > limit * limit) {
+    next1 = row.first - row.firm * slip1;
+    next2 = row.second - row.firm * slip2;
+    const double length = std::sqrt(next1 * next1 + next2 * next2);
+    if (length > limit) {
+      next1 *= limit / length;
+      next2 *= limit / length;
+    }
+  }
+  const double change1 = next1 - row.first, change2 = next2 - row.second;
+  row.first = next1;
+  row.second = next2;
+  push(a, b, change1 * tangent1_ + change2 * tangent2_);
+  turn(a, b, change1 * row.first_a + change2 * row.second_a, change1 * row.first_b + change2 * row.second_b);
+  return row.firm > 0 ? std::max(std::abs(change1), std::abs(change2)) / row.firm : 0;
+}
+
+double ReboundContact::solve_ball_friction(BodyLanes& a, BodyLanes& b) {
+  const Vec3 relative = linear_of(b) - linear_of(a);
+  const Vec3 slip =
+      relative - normal_.dot(relative) * normal_ - Vec3(arm_a_ * angular_of(a) + arm_b_ * angular_of(b)).cross(normal_);
+  const double limit = coefficient_ * points_[0].impulse;
+  Vec3 next = friction_ - slip_mass_ * slip;
+  const double length = next.norm();
+  if (length > limit) next *= limit / length;
+  const Vec3 change = next - friction_;
+  friction_ = next;
+  push(a, b, change);
+  const Vec3 turning = normal_.cross(change);
+  turn(a, b, arm_a_ * turning, -arm_b_ * turning);
+  return change.norm() / slip_mass_;
+}
+
+double ReboundContact::solve(std::vector<BodyLanes>& velocities) {
+  BodyLanes &a = velocities[a_], &b = velocities[b_];
+  double change = 0;
+  if (grips_ && ball_) change = solve_ball_friction(a, b);
+  if (grips_ && !ball_) {
+    double pressing = 0;
+    for (std::size_t k = 0; k < count_; ++k) pressing += points_[k].impulse;
+    for (std::size_t k = 0; k < frictions_; ++k)
+      change =
+          std::max(change, solve_friction(rows_[k], coefficient_ * (central_ ? pressing : points_[k].impulse), a, b));
+  }
+  for (std::size_t k = 0; k < count_; ++k) {
+    Point& point = points_[k];
+    if (point.impulse == 0 && point.gap > 0) continue;
+    const double next = std::max(0.0, point.impulse - point.mass * (speed(k, velocities) - point.wanted));
+    const double pushed = next - point.impulse;
+    if (pushed == 0) continue;
+    point.impulse = next;
+    push(a, b, pushed * normal_);
+    if (!ball_) turn(a, b, pushed * point.turn_a, pushed * point.turn_b);
+    change = std::max(change, std::abs(pushed) / point.mass);
+  }
+  return change;
+}
+
+double ReboundContact::speed(std::size_t i, const std::vector<BodyLanes>& velocities) const {
+  const BodyLanes &a = velocities[a_], &b = velocities[b_];
+  const double along = normal_.dot(linear_of(b) - linear_of(a));
+  return ball_ ? along : along + points_[i].turn_b.dot(angular_of(b)) - points_[i].turn_a.dot(angular_of(a));
+}
+
+double ReboundContact::work(const BodyLanes& will, bool a_moves) const {
+  const Vec3 linear = linear_of(will), angular = angular_of(will);
+  double sum = 0;
+  for (std::size_t k = 0; k < count_; ++k)
+    sum += given(k) * (normal_.dot(linear) + (a_moves ? points_[k].turn_b : points_[k].turn_a).dot(angular));
+  for (std::size_t k = 0; k < frictions_; ++k) {
+    const Friction& row = rows_[k];
+    const Vec3 &first = a_moves ? row.first_b : row.first_a, &second = a_moves ? row.second_b : row.second_a;
+    sum += (row.first - row.first_before) * (tangent1_.dot(linear) + first.dot(angular)) +
+           (row.second - row.second_before) * (tangent2_.dot(linear) + second.dot(angular));
+  }
+  return a_moves ? -sum : sum;
+}
+
+void ReboundContact::take_back(double share) {
+  const auto back = [share](double& value, double before) { value = before + share * (value - before); };
+  for (std::size_t k = 0; k < count_; ++k) back(points_[k].impulse, points_[k].before);
+  for (std::size_t k = 0; k < frictions_; ++k) {
+    back(rows_[k].first, rows_[k].first_before);
+    back(rows_[k].second, rows_[k].second_before);
+  }
+  if (ball_) friction_ = friction_before_ + share * (friction_ - friction_before_);
+}
+
+void ReboundContact::put_back(ContactBlocks& contacts) const {
+  const std::size_t i = lane_ / lane_count;
+  const int lane = static_cast<int>(lane_ % lane_count);
+  if (ball_) {
+    BallBlock& block = contacts.balls[i - contacts.blocks.size()];
+    block.total[lane] += given(0);
+    if (points_[0].wanted > 0) block.impulse[lane] = 0;
+    const Vec3 dragged = friction_ - friction_before_;
+    block.total_friction.x[lane] += dragged.x();
+    block.total_friction.y[lane] += dragged.y();
+    block.total_friction.z[lane] += dragged.z();
+    return;
+  }
+  const ContactBlock& block = contacts.blocks[i];
+  for (std::size_t k = 0; k < count_; ++k) {
+    PointRow& row = contacts.points[block.point + k];
+    row.total[lane] += given(k);
+    if (points_[k].wanted > 0) row.impulse[lane] = 0;
+  }
+  for (std::size_t k = 0; k < frictions_; ++k) {
+    FrictionRow& row = contacts.frictions[block.friction + k];
+    row.total_first[lane] += rows_[k].first - rows_[k].first_before;
+    row.total_second[lane] += rows_[k].second - rows_[k].second_before;
+  }
+}
+
+}  // namespace tweenfall::blocks
