@@ -17,6 +17,13 @@ Vec3 ours(const btVector3& v) {
   return {static_cast<double>(v.x()), static_cast<double>(v.y()), static_cast<double>(v.z())};
 }
 
+btTransform bullets(const Pose& pose) {
+  const Quat& turn = pose.rotation;
+  const btQuaternion rotation(static_cast<btScalar>(turn.x()), static_cast<btScalar>(turn.y()),
+                              static_cast<btScalar>(turn.z()), static_cast<btScalar>(turn.w()));
+  return btTransform(rotation, bullets(pose.position));
+}
+
 std::unique_ptr<btCollisionShape> bullets(const Solid& solid) {
   if (const auto* sphere = std::get_if<Sphere>(&solid))
     return std::make_unique<btSphereShape>(static_cast<btScalar>(sphere->radius));
@@ -67,8 +74,19 @@ class BulletEngine : public Engine {
       else
         world_.addRigidBody(&body, 1, 0);
     }
+    for (const JointSettings& joint : scene.joints) {
+      const auto& limb = std::get<SwingTwistJoint>(joint.kind);
+      auto made = std::make_unique<btConeTwistConstraint>(*bodies_[joint.a.index], *bodies_[joint.b.index],
+                                                          bullets(joint.frame_a), bullets(joint.frame_b));
+      // Its cone is told about z first; its twist is the same both ways.
+      made->setLimit(static_cast<btScalar>(limb.swing_z), static_cast<btScalar>(limb.swing_y),
+                     static_cast<btScalar>(limb.twist.high));
+      world_.addConstraint(made.get(), true);
+      joints_.push_back(std::move(made));
+    }
   }
   ~BulletEngine() override {
+    for (const auto& joint : joints_) world_.removeConstraint(joint.get());
     for (const auto& body : bodies_) world_.removeRigidBody(body.get());
   }
   void step() override { world_.stepSimulation(dt_, 0); }
@@ -93,6 +111,7 @@ class BulletEngine : public Engine {
   btDiscreteDynamicsWorld world_{&dispatcher_, &broad_phase_, &solver_, &configuration_};
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  std::vector<std::unique_ptr<btConeTwistConstraint>> joints_;
 };
 
 }  // namespace

@@ -22,7 +22,8 @@ struct Scene {
   int steps = 0;
   std::vector<BodySettings> settings;  ///< in the file's order
   std::vector<BodyId> bodies;          ///< of `settings`
-  std::set<std::string> left_out;      ///< kinds of shapes that no body here can have
+  std::vector<JointSettings> joints;
+  std::set<std::string> left_out;  ///< kinds of shapes that no body here can have
   std::optional<BodyId> pushed;
   Vec3 push{0, 0, 0};  ///< N, on `pushed`, every step
 
@@ -48,12 +49,17 @@ inline std::optional<Solid> solid_from(const nlohmann::json& shape) {
   return Hull{ConvexHull(points)};
 }
 
-/// Joints are not read.
+inline Pose frame_from(const nlohmann::json& frame) {
+  const auto& turn = frame.at("rot");
+  return {vector_from(frame.at("pos")), Quat(turn.at(3), turn.at(0), turn.at(1), turn.at(2)).normalized()};
+}
+
+/// Joints are swing-twist joints, all that scenes have.
 inline Scene scene_from(const nlohmann::json& json) {
   WorldSettings settings;
   settings.gravity = vector_from(json.at("gravity"));
   settings.sleep_after = std::numeric_limits<double>::infinity();
-  Scene scene{json, World(settings), json.at("dt").get<double>(), json.at("steps").get<int>(), {}, {}, {},
+  Scene scene{json, World(settings), json.at("dt").get<double>(), json.at("steps").get<int>(), {}, {}, {}, {},
               {},   {0, 0, 0}};
   const bool multiply = json.value("friction_combine", "") == "multiply";
   for (const auto& body : json.at("bodies")) {
@@ -80,6 +86,18 @@ inline Scene scene_from(const nlohmann::json& json) {
     if (body.contains("angular_velocity")) entry.motion.twist.angular = vector_from(body.at("angular_velocity"));
     scene.bodies.push_back(scene.world.add(entry));
     scene.settings.push_back(entry);
+  }
+  for (const auto& joint : json.value("joints", nlohmann::json::array())) {
+    SwingTwistJoint kind;
+    kind.swing_y = joint.at("swing_y").get<double>();
+    kind.swing_z = joint.at("swing_z").get<double>();
+    kind.twist = {joint.at("twist_min").get<double>(), joint.at("twist_max").get<double>()};
+    scene.joints.push_back({.a = scene.bodies.at(joint.at("a").get<std::size_t>()),
+                            .b = scene.bodies.at(joint.at("b").get<std::size_t>()),
+                            .frame_a = frame_from(joint.at("frame_a")),
+                            .frame_b = frame_from(joint.at("frame_b")),
+                            .kind = kind});
+    scene.world.add_joint(scene.joints.back());
   }
   if (json.contains("force")) {
     scene.pushed = scene.bodies.at(json.at("force").at("body").get<std::size_t>());

@@ -21,12 +21,16 @@ namespace {
 constexpr std::size_t few = 128;
 constexpr int sub_steps_of_few = 24;
 constexpr int sub_steps_of_many = 10;
-constexpr int sub_steps_of_jointed = 12;
+/// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s.
+constexpr int fewest_of_jointed = 4;
+constexpr double longest_of_jointed = 1.0 / 720;
 /// Impulses of much longer sub-steps would bring their rounding along.
 constexpr double long_enough = 0.15;
 
-int sub_steps_for(const islands::IslandContents& island) {
-  if (!island.joints.empty()) return sub_steps_of_jointed;
+int sub_steps_for(const islands::IslandContents& island, double dt) {
+  if (!island.joints.empty())
+    return static_cast<int>(
+        std::clamp(std::ceil(dt / longest_of_jointed - 1e-6), double{fewest_of_jointed}, double{sub_steps_of_few}));
   return island.contacts.size() <= few ? sub_steps_of_few : sub_steps_of_many;
 }
 
@@ -58,7 +62,7 @@ Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec
 bool BlockSolver::takes(const islands::IslandContents& island, const std::vector<Body>& bodies, double dt) {
   if (!island.joints.empty()) return true;
   if (island.contacts.size() < many || !island.springs.empty()) return false;
-  const double h = dt / sub_steps_for(island);
+  const double h = dt / sub_steps_for(island, dt);
   for (const ContactConstraint* contact : island.contacts) {
     if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return false;
     for (const std::uint32_t index : {contact->a, contact->b}) {
@@ -127,19 +131,15 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
     add(contact->b);
     bouncy_ = bouncy_ || contact->restitution > 0;
   }
-  anchored_ = false;
-  for (const joints::JointLink* link : island.joints) {
-    anchored_ = anchored_ || link->a == joints::JointLink::world;
+  for (const joints::JointLink* link : island.joints)
     for (const std::uint32_t end : {link->a, link->b}) {
       if (end == joints::JointLink::world) continue;
       add(end);
       bodies_[places_[end]].jointed = true;
     }
-  }
   for (const step::SpringRow* spring : island.springs)
     for (const std::uint32_t end : {spring->a, spring->b})
       if (end != step::SpringRow::world) add(end);
-  for (std::size_t i = 1; i < bodies_.size(); ++i) anchored_ = anchored_ || !bodies_[i].movable;
   starts_.resize(bodies_.size());
   lags_.assign(bodies_.size(), {});
   sub_starts_.resize(bodies_.size());
@@ -193,12 +193,14 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     const Body& body = bodies[entry.index];
     const Load& load = loads[entry.index];
     const Vec3 angular = angular_of(velocity);
-    if (entry.followed || angular.norm() * h > slow_turn || load.angular_drag > 0 || load.angular_damping > 0) {
+    const bool slow = !entry.followed && angular.squaredNorm() * h * h <= slow_turn * slow_turn;
+    if (!slow || load.angular_drag > 0) {
       const forces::Spin spin = forces::turned(body, {entry.rotation, angular}, load, h);
       set(velocity.angular, spin.angular);
       entry.free_rotation = spin.rotation;
     } else {
-      set(velocity.angular, spun(body, entry.rotation, angular, load.torque, h));
+      const Vec3 damped = angular / (1 + load.angular_damping * h);
+      set(velocity.angular, spun(body, entry.rotation, damped, load.torque, h));
     }
   }
 }
@@ -208,7 +210,7 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
   any_stale_ = false;
   for (IslandBody& entry : bodies_) {
     entry.stale = !entry.round && entry.turned > turned_enough;
-    if (entry.jointed && entry.movable && !bodies[entry.index].spherical)
+    if (!joints_.empty() && entry.movable && !bodies[entry.index].spherical)
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
     if (!entry.stale) continue;
     entry.turned = 0;
@@ -239,13 +241,15 @@ void BlockSolver::find_lags() {
 }
 
 /// What joints alone hold together flies as one: its center of mass has the mean velocity, and nothing else is free to
-/// tremble. What hangs on something is held as by a contact.
+/// tremble. What hangs on something is held as by a contact. A joint that is slack holds nothing.
 void BlockSolver::find_lags_of_jointed() {
-  bool free = !anchored_;
+  for (IslandBody& body : bodies_) body.jointed = false;
+  bool free = !joints_.find_held(bodies_);
   double mass = 0;
   Vec3 gained = Vec3::Zero();
   for (std::size_t i = 1; i < bodies_.size() && free; ++i) {
-    free = lags_[i].lanes[3] == 0 && !bodies_[i].held;
+    if (!bodies_[i].jointed) continue;
+    free = bodies_[i].movable && lags_[i].lanes[3] == 0 && !bodies_[i].held;
     mass += paces_[i].mass;
     gained += paces_[i].mass * (linear_of(velocities_[i]) - linear_of(starts_[i]));
   }
@@ -333,7 +337,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
                         std::vector<char>& moved) {
   const Kernels& kernels = fastest_kernels();
   const std::span<ContactConstraint* const> contacts = island.contacts;
-  const int sub_steps = sub_steps_for(island);
+  const int sub_steps = sub_steps_for(island, dt);
   const double h = dt / sub_steps;
   gather(bodies, loads, island, settings.integrator, dt);
   foresee(contacts, loads, dt);

@@ -73,7 +73,6 @@ class BlockSolver {
   ContactBlocks contacts_;
   joints::IslandJoints joints_;
   IslandHolds holds_;
-  bool anchored_ = false;                ///< some body of the island, or what a joint holds it to, does not move freely
   bool bouncy_ = false;                  ///< some contact has restitution
   bool driven_ = false;                  ///< something moves by its own will
   bool any_stale_ = false;               ///< a body has turned since its rows were prepared

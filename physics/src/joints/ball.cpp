@@ -6,7 +6,7 @@ Coordinates coordinates_of(const BallJoint&, const state::Joint&, const Placemen
   return {};
 }
 
-void write_rows(const BallJoint&, const state::Joint&, const Placement& at, JointRows& rows) {
+void write_rows(const BallJoint&, state::Joint&, const Placement& at, JointRows& rows) {
   rows.hold_point(at);
 }
 

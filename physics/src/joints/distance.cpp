@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "joints/kinds.h"
 
 namespace tweenfall::joints {
@@ -11,14 +13,18 @@ Coordinates coordinates_of(const DistanceJoint&, const state::Joint&, const Plac
   return coordinates;
 }
 
-void write_rows(const DistanceJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+void write_rows(const DistanceJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   const Coordinates length = coordinates_of(kind, joint, at);
+  const Vec3& side = length.direction[0].linear_b;
+  const double kept = joint.side.dot(side);
+  joint.side = side;
   const bool rod = kind.limits.low == kind.limits.high && kind.limits.hz == 0;
+  rows.keep_of_next(0, rod ? kept : std::max(0.0, kept));
+  rows.keep_of_next(1, std::max(0.0, kept));
   if (rod) {
     const Vec3 rate = at.gap_rate();
-    const double across = rate.cross(length.direction[0].linear_b).squaredNorm();
-    const double bend =
-        length.direction[0].linear_b.dot(at.gap_bend()) + (length.position[0] > 0 ? across / length.position[0] : 0);
+    const double across = rate.cross(side).squaredNorm();
+    const double bend = side.dot(at.gap_bend()) + (length.position[0] > 0 ? across / length.position[0] : 0);
     rows.hold(length.direction[0], length.position[0] - kind.limits.low, bend);
   }
   rows.bound(length.direction[0], length.position[0], rod ? nullptr : &kind.limits);

@@ -6,7 +6,7 @@ Coordinates coordinates_of(const FixedJoint&, const state::Joint&, const Placeme
   return {};
 }
 
-void write_rows(const FixedJoint&, const state::Joint&, const Placement& at, JointRows& rows) {
+void write_rows(const FixedJoint&, state::Joint&, const Placement& at, JointRows& rows) {
   rows.hold_point(at);
   rows.hold_rotation(at);
 }

@@ -10,7 +10,7 @@ Coordinates coordinates_of(const GearJoint&, const state::Joint& joint, const Pl
   return coordinates;
 }
 
-void write_rows(const GearJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+void write_rows(const GearJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   rows.hold({Vec3::Zero(), -kind.ratio * at.x_a(), Vec3::Zero(), at.x_b()},
             kind.ratio * joint.angles[0] + joint.angles[1], 0);
 }

@@ -8,7 +8,7 @@ Coordinates coordinates_of(const HingeJoint&, const state::Joint& joint, const P
   return coordinates;
 }
 
-void write_rows(const HingeJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+void write_rows(const HingeJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   rows.hold_point(at);
   rows.hold_square(at, at.y_a(), at.x_b());
   rows.hold_square(at, at.z_a(), at.x_b());

@@ -16,6 +16,8 @@ constexpr double taken_apart = 0.3;
 /// In shorter steps than this, s, errors are taken apart more slowly: the speed that it needs is the shorter the step
 /// the greater.
 constexpr double unhurried = 1e-3;
+/// The bend of an arc tells nothing when a sub-step turns further, rad.
+constexpr double followable = 0.3;
 /// Impulses of sub-steps much shorter than the last one kept hold mostly rounding, which would grow with the ratio.
 constexpr double long_enough = 0.15;
 /// After so many times the last one's length what it told is old.
@@ -70,6 +72,12 @@ void IslandJoints::build(std::span<JointLink* const> links, const std::vector<st
 
 void IslandJoints::write(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
                          const std::vector<BodyLanes>& velocities) {
+  const auto followed = [&](const BodyLanes& velocity) {
+    Twist twist{blocks::linear_of(velocity), blocks::angular_of(velocity)};
+    const double turn = twist.angular.norm() * h_;
+    if (turn > followable) twist.angular *= followable / turn;
+    return twist;
+  };
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     Entry& entry = joints_[i];
     const IslandBody& a = island[entry.a];
@@ -77,8 +85,8 @@ void IslandJoints::write(const std::vector<state::Body>& bodies, const std::vect
     const Vec3 mass_center_a = entry.a == 0 ? Vec3(0, 0, 0) : bodies[a.index].mass.center;
     Placement at = placement_of(entry.joint->settings, a.center, a.rotation, mass_center_a, b.center, b.rotation,
                                 bodies[b.index].mass.center);
-    at.twist_a = {blocks::linear_of(velocities[entry.a]), blocks::angular_of(velocities[entry.a])};
-    at.twist_b = {blocks::linear_of(velocities[entry.b]), blocks::angular_of(velocities[entry.b])};
+    at.twist_a = followed(velocities[entry.a]);
+    at.twist_b = followed(velocities[entry.b]);
     entry.inverse_mass_a = a.inverse_mass;
     entry.inverse_mass_b = b.inverse_mass;
     entry.arm_b = at.arm_b;
@@ -189,6 +197,19 @@ void IslandJoints::solve(std::vector<BodyLanes>& velocities, bool moving, bool b
   for (std::size_t n = 0; n < joints_.size(); ++n)
     solve_bounds(joints_[backward ? joints_.size() - 1 - n : n], velocities, moving);
   solve_together(velocities, moving, backward);
+}
+
+bool IslandJoints::find_held(std::vector<IslandBody>& island) const {
+  bool anchored = false;
+  for (const Entry& entry : joints_) {
+    const auto acts = [](const Row& row) { return row.impulse != 0; };
+    if (std::none_of(entry.rows.rows.begin(), entry.rows.rows.begin() + static_cast<std::ptrdiff_t>(entry.rows.count),
+                     acts))
+      continue;
+    island[entry.a].jointed = island[entry.b].jointed = true;
+    anchored = anchored || entry.a == 0;
+  }
+  return anchored;
 }
 
 void IslandJoints::move(const std::vector<BodyLanes>& velocities) {

@@ -29,6 +29,8 @@ class IslandJoints {
   /// One pass over all joints, forward or backward.
   /// @param moving  errors are being taken apart
   void solve(std::vector<blocks::BodyLanes>& velocities, bool moving, bool backward);
+  /// Marks the bodies that a joint acts on in this sub-step. @return whether one of those joints ends in the world
+  bool find_held(std::vector<blocks::IslandBody>& island) const;
   /// The bodies move with these velocities.
   void move(const std::vector<blocks::BodyLanes>& velocities);
   /// Adds up what the sub-step did.

@@ -71,6 +71,9 @@ class JointRows {
   void spring(const Direction& direction, double error, double stiffness, double damping);
   void idle(std::size_t rows = 1);
 
+  /// Lets the impulse of a coming row begin with a share of what it was.
+  void keep_of_next(std::size_t ahead, double share) { rows[count + ahead].impulse *= share; }
+
   /// Once all are written: lets the rows with bounds see the mass that they move while the joint holds.
   void finish();
 

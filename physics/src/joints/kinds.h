@@ -33,18 +33,19 @@ struct Coordinates {
 
 [[nodiscard]] Coordinates coordinates_of(const state::Joint& joint, const Placement& at);
 
-/// Writes the rows of a sub-step; always as many for one kind, in the same order.
-void write_rows(const BallJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const HingeJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const SliderJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const FixedJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const DistanceJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const UniversalJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const SwingTwistJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const WheelJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const PulleyJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const GearJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
-void write_rows(const SpringJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows);
+/// Writes the rows of a sub-step; always as many for one kind, in the same order. Notes in the joint what the next
+/// sub-step must know of this one.
+void write_rows(const BallJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const HingeJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const SliderJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const FixedJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const DistanceJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const UniversalJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const SwingTwistJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const WheelJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const PulleyJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const GearJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
+void write_rows(const SpringJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
 
 /// An angle within -pi to pi as the one nearest to the last, whole turns included.
 [[nodiscard]] double unwrapped(double angle, double last);

@@ -14,7 +14,7 @@ Coordinates coordinates_of(const PulleyJoint& kind, const state::Joint&, const P
   return coordinates;
 }
 
-void write_rows(const PulleyJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+void write_rows(const PulleyJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   const Coordinates rope = coordinates_of(kind, joint, at);
   const Limits limits{0, kind.length.value_or(std::numeric_limits<double>::infinity())};
   rows.bound(rope.direction[0], rope.position[0], &limits);

@@ -9,7 +9,7 @@ Coordinates coordinates_of(const SliderJoint&, const state::Joint&, const Placem
   return coordinates;
 }
 
-void write_rows(const SliderJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+void write_rows(const SliderJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   for (const Vec3& axis : {at.y_a(), at.z_a()}) rows.hold_across(at, axis);
   rows.hold_rotation(at);
   const Coordinates way = coordinates_of(kind, joint, at);

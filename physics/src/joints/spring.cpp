@@ -6,8 +6,11 @@ Coordinates coordinates_of(const SpringJoint&, const state::Joint& joint, const 
   return coordinates_of(DistanceJoint{}, joint, at);
 }
 
-void write_rows(const SpringJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+void write_rows(const SpringJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   const Coordinates length = coordinates_of(kind, joint, at);
+  // An impulse stays what it was while its line turns.
+  rows.keep_of_next(0, joint.side.dot(length.direction[0].linear_b));
+  joint.side = length.direction[0].linear_b;
   rows.spring(length.direction[0], length.position[0] - kind.length, kind.stiffness, kind.damping);
 }
 

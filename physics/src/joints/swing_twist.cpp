@@ -69,7 +69,7 @@ Coordinates coordinates_of(const SwingTwistJoint&, const state::Joint&, const Pl
   return coordinates;
 }
 
-void write_rows(const SwingTwistJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+void write_rows(const SwingTwistJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   rows.hold_point(at);
   const Quat relative = at.relative();
   const Swing swing = swing_of(relative);
@@ -81,8 +81,12 @@ void write_rows(const SwingTwistJoint& kind, const state::Joint& joint, const Pl
   const Vec3 gradient = share > 0 ? Vec3(0, scaled.y() / (share * y), scaled.z() / (share * z)) : Vec3(0, 0, 0);
   const double steepness = gradient.norm();
   if (steepness > 0) {
+    const Vec3 side = gradient / steepness;
+    // The last impulse was on the side where the limb was then.
+    rows.keep_of_next(1, std::max(0.0, joint.side.dot(side)));
+    joint.side = side;
     const Limits cone{-std::numeric_limits<double>::infinity(), 1 / steepness, kind.twist.hz, kind.twist.zeta};
-    rows.bound(about(at.axes_a * axis_of(swing, gradient / steepness)), share / steepness, &cone);
+    rows.bound(about(at.axes_a * axis_of(swing, side)), share / steepness, &cone);
   } else {
     rows.idle(2);
   }
@@ -98,7 +102,6 @@ void write_rows(const SwingTwistJoint& kind, const state::Joint& joint, const Pl
   } else {
     rows.idle(3);
   }
-  static_cast<void>(joint);
 }
 
 }  // namespace tweenfall::joints

@@ -18,7 +18,7 @@ Coordinates coordinates_of(const UniversalJoint&, const state::Joint& joint, con
   return coordinates;
 }
 
-void write_rows(const UniversalJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+void write_rows(const UniversalJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   rows.hold_point(at);
   rows.hold_square(at, at.x_a(), at.y_b());
   const Coordinates angles = coordinates_of(kind, joint, at);

@@ -10,7 +10,7 @@ Coordinates coordinates_of(const WheelJoint&, const state::Joint& joint, const P
   return coordinates;
 }
 
-void write_rows(const WheelJoint& kind, const state::Joint& joint, const Placement& at, JointRows& rows) {
+void write_rows(const WheelJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   for (const Vec3& axis : {at.x_a(), at.z_a()}) rows.hold_across(at, axis);
   for (const Vec3& axis : {at.y_a(), at.z_a()}) rows.hold_square(at, axis, at.x_b());
   const Coordinates own = coordinates_of(kind, joint, at);

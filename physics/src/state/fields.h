@@ -242,10 +242,10 @@ void each_field(T& settings, const Visit& visit) {
 
 template <Is<Joint> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
-  auto& [alive, generation, settings, kept, kept_step, passed_over, angles, force, torque] = joint;
+  auto& [alive, generation, settings, kept, kept_step, passed_over, angles, side, force, torque] = joint;
   visit(alive, generation);
   if (!alive) return;
-  visit(settings, kept, kept_step, passed_over, angles, force, torque);
+  visit(settings, kept, kept_step, passed_over, angles, side, force, torque);
 }
 
 template <Is<IgnoredPairs::Entry> T, class Visit>

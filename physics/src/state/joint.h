@@ -18,6 +18,7 @@ struct Joint {
   double passed_over = 0;                ///< time since, in sub-steps too short to be kept, s
   std::array<double, 2>
       angles{};          ///< of a hinge, wheel or universal joint, and of a gear's wheels, whole turns included, rad
+  Vec3 side{0, 0, 0};    ///< unit: along which its last impulse was, of a cone in a's frame, of a distance in the world
   Vec3 force{0, 0, 0};   ///< on b in the last step, N
   Vec3 torque{0, 0, 0};  ///< about b's frame, N m
 };

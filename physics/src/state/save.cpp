@@ -178,6 +178,7 @@ void check(const Joint& joint, const WorldState& world) {
   require(joint.kept_step >= 0 && std::isfinite(joint.kept_step) && joint.passed_over >= 0 &&
               std::isfinite(joint.passed_over),
           "its times must not be negative");
+  require(joint.side.allFinite() && joint.side.norm() <= 1 + 1e-6, "its side must be a unit vector or 0");
   require_numbers(joint.force, "force");
   require_numbers(joint.torque, "torque");
 }
