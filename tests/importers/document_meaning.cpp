@@ -420,6 +420,18 @@ TEST_CASE("modifiers are laid over tracks of numbers in their order") {
   CHECK(std::isfinite(curve<double>(clip, "b.all").value(1.3)));
 }
 
+TEST_CASE("cylinders, cones and tapered capsules are as long and as wide as they say") {
+  const Document document = good("round");
+  const auto solid = [&](std::size_t i) -> const Solid& { return document.stage().nodes.at(i).body->shape.solid; };
+  CHECK(std::get<Cylinder>(solid(0)).radius == 0.25);
+  CHECK(std::get<Cylinder>(solid(0)).half_height == 1);
+  CHECK(std::get<Cone>(solid(1)).radius == 0.5);
+  CHECK(std::get<Cone>(solid(1)).half_height == 0.75);
+  CHECK(std::get<TaperedCapsule>(solid(2)).bottom_radius == 0.3);
+  CHECK(std::get<TaperedCapsule>(solid(2)).top_radius == 0.1);
+  CHECK(std::get<TaperedCapsule>(solid(2)).half_height == 0.5);
+}
+
 TEST_CASE("hulls, turned and swept profiles are the convex solids that they describe") {
   const Document document = good("hulls");
   const auto hull = [&](std::size_t node) {

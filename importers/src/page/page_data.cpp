@@ -7,6 +7,7 @@
 #include "page/page_meshes.h"
 #include "recording/base64.h"
 #include "recording/key_lanes.h"
+#include "recording/turned_profile.h"
 #include "recording/words.h"
 
 #include <algorithm>
@@ -58,6 +59,17 @@ void append_hull(std::string& out, const ConvexHull& hull) {
   out += "]}";
 }
 
+/// An outline about y, from the top down: [radius, height, normal's radius, normal's height].
+void append_turned(std::string& out, const std::vector<recordings::ProfilePoint>& profile) {
+  out += "\"turned\":[";
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    out += i > 0 ? ",[" : "[";
+    out += number_text(profile[i].radius) + "," + number_text(profile[i].height) + "," +
+           number_text(profile[i].normal_radius) + "," + number_text(profile[i].normal_height) + "]";
+  }
+  out += "]";
+}
+
 std::string shape_json(const Shape& shape) {
   std::string out = "{";
   std::visit(Overloaded{[&](const Sphere& s) { out += "\"sphere\":" + number_text(s.radius); },
@@ -73,7 +85,8 @@ std::string shape_json(const Shape& shape) {
                           append_vector(out, p.normal);
                           out += ",\"offset\":" + number_text(p.offset);
                         },
-                        [&](const Hull& h) { append_hull(out, h.convex); }},
+                        [&](const Hull& h) { append_hull(out, h.convex); },
+                        [&](const auto&) { append_turned(out, recordings::turned_profile(shape.solid)); }},
              shape.solid);
   out += ",\"position\":";
   append_vector(out, shape.offset.position);

@@ -69,6 +69,11 @@ double largest_number(const Shape& shape) {
     double operator()(const Sphere& sphere) const { return sphere.radius; }
     double operator()(const Box& box) const { return box.half_extents.maxCoeff(); }
     double operator()(const Capsule& capsule) const { return capsule.radius + capsule.half_height; }
+    double operator()(const Cylinder& cylinder) const { return std::max(cylinder.radius, cylinder.half_height); }
+    double operator()(const Cone& cone) const { return std::max(cone.radius, cone.half_height); }
+    double operator()(const TaperedCapsule& capsule) const {
+      return std::max(capsule.bottom_radius, capsule.top_radius) + capsule.half_height;
+    }
     double operator()(const Plane& plane) const { return std::abs(plane.offset); }
     double operator()(const Hull& hull) const {
       double size = 0;

@@ -8,6 +8,8 @@
 #include <map>
 #include <numbers>
 
+#include "recording/turned_profile.h"
+
 namespace tweenfall::recordings {
 
 namespace {
@@ -29,6 +31,18 @@ std::vector<Vec3> hull_points(const ConvexHull& hull) {
     points.push_back(hull.vertices()[edge.to]);
   }
   if (points.size() > before + 2 * many) points.resize(before);
+  return points;
+}
+
+/// A middle, and places all around of what is turned about y.
+std::vector<Vec3> turned_points(const std::vector<ProfilePoint>& profile) {
+  constexpr int around = 24;
+  std::vector<Vec3> points(1, Vec3(0, 0.5 * (profile.front().height + profile.back().height), 0));
+  for (const ProfilePoint& point : profile)
+    for (int i = 0; i < around; ++i) {
+      const auto [sine, cosine] = elementary::sin_cos(2 * std::numbers::pi * i / around);
+      points.emplace_back(point.radius * sine, point.height, point.radius * cosine);
+    }
   return points;
 }
 
@@ -67,6 +81,11 @@ std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
   if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
     figure.kind = Figure::Kind::hull;
     points = hull_points(hull->convex);
+    figure.vertices = hull->convex.vertices().size();
+  } else if (const std::vector<ProfilePoint> profile = turned_profile(shape.solid); !profile.empty()) {
+    figure.kind = Figure::Kind::hull;
+    points = turned_points(profile);
+    figure.vertices = points.size() - 1;
   }
   for (Vec3& point : points)
     point = transform_point({shape.offset.position, shape.offset.rotation, Vec3(1, 1, 1)}, point);
@@ -232,8 +251,8 @@ std::vector<Figure> flat_figures(const Recording& recording, const StageDescript
     const double scale = std::cbrt(std::abs(recording.nodes[i].world.front().linear.determinant()));
     const std::vector<Vec3> points = outline(described[i]->body->shape, figure, scale);
     place(figure, recording.nodes[i], points, across);
-    if (const auto* hull = std::get_if<Hull>(&described[i]->body->shape.solid))
-      for (std::vector<Vec2>& placed : figure.points) placed = outlined(placed, hull->convex.vertices().size());
+    if (figure.kind == Figure::Kind::hull)
+      for (std::vector<Vec2>& placed : figure.points) placed = outlined(placed, figure.vertices);
     list.push_back(std::move(figure));
     drawn[i] = true;
   }

@@ -35,6 +35,7 @@ struct Figure {
   Kind kind = Kind::box;
   std::size_t node = no_node;  ///< whose owner colors it
   double radius = 0;           ///< px
+  std::size_t vertices = 0;    ///< of a hull, before its outline is taken
   bool fixed = false;
   std::vector<std::vector<Vec2>> points;  ///< [frame][point], px
 };

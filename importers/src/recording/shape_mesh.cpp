@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "recording/turned_profile.h"
+
 namespace tweenfall::recordings {
 
 namespace {
@@ -30,6 +32,26 @@ void add_round(Mesh& mesh, double radius, double half_height) {
       const std::uint32_t a = ring * (sectors + 1) + sector, b = a + sectors + 1;
       if (ring > 0) mesh.triangles.insert(mesh.triangles.end(), {a, a + 1, b + 1});
       if (ring < rings) mesh.triangles.insert(mesh.triangles.end(), {a, b + 1, b});
+    }
+  }
+}
+
+/// An outline turned about y.
+void add_turned(Mesh& mesh, const std::vector<ProfilePoint>& profile) {
+  for (const ProfilePoint& point : profile)
+    for (std::uint32_t sector = 0; sector <= sectors; ++sector) {
+      const auto around = elementary::sin_cos(2 * std::numbers::pi * (sector % sectors) / sectors);
+      mesh.positions.emplace_back(point.radius * around.sin, point.height, point.radius * around.cos);
+      mesh.normals.emplace_back(point.normal_radius * around.sin, point.normal_height,
+                                point.normal_radius * around.cos);
+    }
+  for (std::uint32_t ring = 0; ring + 1 < profile.size(); ++ring) {
+    const ProfilePoint &upper = profile[ring], &lower = profile[ring + 1];
+    if (upper.radius == lower.radius && upper.height == lower.height) continue;
+    for (std::uint32_t sector = 0; sector < sectors; ++sector) {
+      const std::uint32_t a = ring * (sectors + 1) + sector, b = a + sectors + 1;
+      if (upper.radius > 0) mesh.triangles.insert(mesh.triangles.end(), {a, b + 1, a + 1});
+      if (lower.radius > 0) mesh.triangles.insert(mesh.triangles.end(), {a, b, b + 1});
     }
   }
 }
@@ -74,6 +96,8 @@ Mesh shape_mesh(const Shape& shape) {
     add_box(mesh, box->half_extents);
   } else if (const auto* plane = std::get_if<Plane>(&shape.solid)) {
     add_plane(mesh, *plane);
+  } else if (const std::vector<ProfilePoint> profile = turned_profile(shape.solid); !profile.empty()) {
+    add_turned(mesh, profile);
   } else if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
     SurfaceMesh surface = hull->convex.surface();
     mesh.positions = std::move(surface.positions);

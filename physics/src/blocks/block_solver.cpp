@@ -94,7 +94,6 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
     entry.index = index;
     entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
     entry.movable = pace.movable = !body.immovable() && !body.asleep;
-    entry.roundness = body.roundness;
     entry.center = entry.start_center = body.center;
     entry.rotation = entry.start_rotation = body.motion.pose.rotation;
     if (entry.movable) {

@@ -257,8 +257,8 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
     PointRow& row = points[block.point + static_cast<std::uint32_t>(i)];
     Vec3 arm_a = point.start_arm_a, arm_b = point.start_arm_b;
     if (displacements) {
-      arm_a = state::carried(a.rotation * a.start_rotation.conjugate(), arm_a, a.roundness * normal);
-      arm_b = state::carried(b.rotation * b.start_rotation.conjugate(), arm_b, -b.roundness * normal);
+      arm_a = state::carried(a.rotation * a.start_rotation.conjugate(), arm_a, point.skin_a * normal);
+      arm_b = state::carried(b.rotation * b.start_rotation.conjugate(), arm_b, -point.skin_b * normal);
     }
     const Vec3 across_a = arm_a.cross(normal), across_b = arm_b.cross(normal);
     put(row.turn_a, lane, across_a);

@@ -46,7 +46,6 @@ struct alignas(64) IslandBody {
   bool held = false;      ///< a drive or a stiff spring holds it
   bool pulled = false;    ///< by a drive without a limit: a soft contact would not hold against it
   double given = 1;       ///< share of an impulse that such a drive lets through
-  double roundness = 0;   ///< m
   double turned = 0;      ///< since its rows were prepared, rad
   double drag = 0;        ///< 1/s, taken implicitly
   double inverse_mass = 0;

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "collision/collide_pairs.h"
+#include "convex/collide_convex.h"
 
 namespace tweenfall {
 
@@ -21,6 +22,29 @@ concept CollidesWithin = requires(const A& a, const B& b, const Placed& at) {
   {collide(a, at, b, at, 0.0, 0.0)};
 };
 
+template <class A>
+concept HasCore = requires(const A& a, const Placed& at) {
+  {convex::core_of(a, at)};
+};
+
+/// Solids that have no way of their own, by the general one, seen from the first.
+template <class A, class B>
+Manifold collide_cores(const A& a, const Placed& at_a, const B& b, const Placed& at_b, double margin, double reach) {
+  const Mat3 into = at_a.axes.transpose();
+  convex::Core core_a = convex::core_of(a, {Vec3(0, 0, 0), Mat3::Identity()});
+  convex::Core core_b = convex::core_of(b, {into * (at_b.center - at_a.center), into * at_b.axes});
+  return to_world(convex::collide_convex(core_a, core_b, margin, reach), at_a);
+}
+
+template <class A>
+Manifold collide_core_with_plane(const A& a, const Placed& at_a, const Plane& plane, const Placed& at_plane,
+                                 double margin, double reach) {
+  const Vec3 normal = at_plane.axes * plane.normal;
+  const double offset = normal.dot(at_plane.center) + plane.offset;
+  convex::Core core = convex::core_of(a, at_a);
+  return convex::collide_with_plane(core, normal, offset, margin, reach);
+}
+
 /// Nothing for a pair that only its other order knows, and for two planes, of which neither moves by itself.
 template <class A, class B>
 Manifold collide_solids(const A& a, const Placed& at_a, const B& b, const Placed& at_b, double margin, double reach) {
@@ -29,6 +53,10 @@ Manifold collide_solids(const A& a, const Placed& at_a, const B& b, const Placed
   } else if constexpr (Collides<A, B>) {
     const Manifold manifold = collide(a, at_a, b, at_b, margin);
     return manifold.count > 0 && reach > margin ? collide(a, at_a, b, at_b, reach) : manifold;
+  } else if constexpr (HasCore<A> && HasCore<B>) {
+    return collide_cores(a, at_a, b, at_b, margin, reach);
+  } else if constexpr (HasCore<A> && std::is_same_v<B, Plane>) {
+    return collide_core_with_plane(a, at_a, b, at_b, margin, reach);
   } else {
     return {};
   }
@@ -50,11 +78,14 @@ Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Place
       [&](const auto& solid_a, const auto& solid_b) -> Manifold {
         using A = std::decay_t<decltype(solid_a)>;
         using B = std::decay_t<decltype(solid_b)>;
-        if constexpr (Collides<A, B> || CollidesWithin<A, B>) {
+        constexpr bool known = Collides<A, B> || CollidesWithin<A, B>;
+        constexpr bool known_turned = Collides<B, A> || CollidesWithin<B, A>;
+        constexpr bool turned = known_turned || std::is_same_v<A, Plane>;
+        if constexpr (known || !turned) {
           return collide_solids(solid_a, at_a, solid_b, at_b, margin, reach);
         } else {
           Manifold manifold = collide_solids(solid_b, at_b, solid_a, at_a, margin, reach);
-          if constexpr (Collides<B, A> || CollidesWithin<B, A>) manifold.normal = -manifold.normal;
+          manifold.normal = -manifold.normal;
           return manifold;
         }
       },

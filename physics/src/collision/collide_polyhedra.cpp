@@ -5,51 +5,17 @@
 
 #include "collision/collide_pairs.h"
 #include "collision/polyhedra_separation.h"
+#include "convex/clip.h"
 #include "pairs/contact_candidates.h"
 
 namespace tweenfall::collision {
 
+using convex::ClipCorner;
+using convex::ClipPolygon;
+using convex::cut_face;
 using shapes::Placed;
 
 namespace {
-
-struct ClipCorner {
-  Vec3 position;
-  std::uint32_t feature;
-  std::uint32_t edge;  ///< of the polygon, from this corner on: a side of the face that is cut, or a cutting plane
-};
-
-/// A face being cut; each plane adds at most one corner.
-struct ClipPolygon {
-  std::array<ClipCorner, 2 * ConvexHull::most_vertices> corners;
-  std::size_t count = 0;
-  void add(const Vec3& position, std::uint32_t feature, std::uint32_t edge) {
-    if (count < corners.size()) corners[count++] = {position, feature, edge};
-  }
-};
-
-/// What lies behind the plane, into `result`. New corners are named by the plane and the edge it cut.
-void cut_face(const ClipPolygon& polygon, const Vec3& normal, double offset, std::uint32_t plane, double tolerance,
-              ClipPolygon& result) {
-  result.count = 0;
-  for (std::size_t i = 0; i < polygon.count; ++i) {
-    const ClipCorner& from = polygon.corners[i];
-    const ClipCorner& to = polygon.corners[i + 1 < polygon.count ? i + 1 : 0];
-    const double at_from = normal.dot(from.position) - offset;
-    const double at_to = normal.dot(to.position) - offset;
-    const bool leaves = at_from < -tolerance && at_to > tolerance;
-    const bool enters = at_from > tolerance && at_to < -tolerance;
-    // A corner on the plane stays the same corner on whichever side rounding puts it.
-    if (at_from <= tolerance)
-      result.add(from.position, from.feature, at_from >= -tolerance && at_to > tolerance ? plane : from.edge);
-    if (!leaves && !enters) continue;
-    const Vec3 position = from.position + (to.position - from.position) * (at_from / (at_from - at_to));
-    if (leaves)
-      result.add(position, 0x1000000u | from.edge << 9 | plane, plane);
-    else
-      result.add(position, 0x1000000u | plane << 9 | from.edge, from.edge);
-  }
-}
 
 /// The face around a vertex that looks most against a direction.
 std::uint32_t face_toward(const Polyhedron& polyhedron, std::uint32_t vertex, const Vec3& direction) {

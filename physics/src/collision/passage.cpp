@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shapes/turned.h"
+
 namespace tweenfall::collision {
 
 namespace {
@@ -29,6 +31,12 @@ double support_along(const Hull& hull, const Mat3& axes, const Vec3& direction) 
   double most = -std::numeric_limits<double>::infinity();
   for (const Vec3& vertex : hull.convex.vertices()) most = std::max(most, local.dot(vertex));
   return most;
+}
+
+template <class Turned>
+double support_along(const Turned& solid, const Mat3& axes, const Vec3& direction) {
+  const Vec3 local = axes.transpose() * direction;
+  return local.dot(shapes::farthest(solid, local));
 }
 
 double support_along(const Passage& passage, const Vec3& direction) {

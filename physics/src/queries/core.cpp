@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "shapes/turned.h"
+
 namespace tweenfall::queries {
 
 namespace {
@@ -32,6 +34,11 @@ Vec3 farthest_of(const Hull& hull, const Vec3& direction) {
     best = i;
   }
   return vertices[best];
+}
+
+template <class Turned>
+Vec3 farthest_of(const Turned& solid, const Vec3& direction) {
+  return shapes::farthest(solid, direction);
 }
 
 Vec3 farthest_of(const Plane&, const Vec3&) {

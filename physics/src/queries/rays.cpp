@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <stdexcept>
 
 #include "queries/checked.h"
+#include "queries/sweep.h"
 #include "shapes/placed.h"
 
 namespace tweenfall::queries {
@@ -116,6 +118,32 @@ MaybeEntry enters(const Capsule& capsule, const Vec3& from, const Vec3& directio
   return first;
 }
 
+template <class T>
+concept IsTurned = std::same_as<T, Cylinder> || std::same_as<T, Cone> || std::same_as<T, TaperedCapsule>;
+
+/// Not asked for: a ray meets them step by step.
+template <IsTurned Turned>
+MaybeEntry enters(const Turned&, const Vec3&, const Vec3&) {
+  return std::nullopt;
+}
+
+/// Where a point that goes along the ray meets what is near.
+std::optional<RayHit> first_by_steps(const Shape& shape, const Pose& pose, const Ray& ray) {
+  const Bounds box = bounds(shape, pose);
+  const double past = (0.5 * (box.low + box.high) - ray.from).norm() + (box.high - box.low).norm();
+  const double length = std::min(ray.length, past);
+  Pose start;
+  start.position = ray.from;
+  const std::optional<ShapeHit> met = first_on_way({Sphere{0}}, start, length * ray.direction, shape, pose);
+  if (!met) return std::nullopt;
+  RayHit hit;
+  hit.distance = met->fraction * length;
+  hit.inside = met->inside;
+  hit.point = ray.from + hit.distance * ray.direction;
+  hit.normal = met->inside ? Vec3(-ray.direction) : met->normal;
+  return hit;
+}
+
 }  // namespace
 
 Ray checked_ray(const Vec3& from, const Vec3& direction, double length) {
@@ -130,6 +158,8 @@ Ray checked_ray(const Vec3& from, const Vec3& direction, double length) {
 }
 
 std::optional<RayHit> first_on_ray(const Shape& shape, const Pose& pose, const Ray& ray) {
+  const auto is_turned = [](const auto& solid) { return IsTurned<std::decay_t<decltype(solid)>>; };
+  if (std::visit(is_turned, shape.solid)) return first_by_steps(shape, pose, ray);
   const shapes::Placed at = shapes::place(shape, pose);
   const Vec3 from = at.axes.transpose() * (ray.from - at.center);
   const Vec3 direction = at.axes.transpose() * ray.direction;

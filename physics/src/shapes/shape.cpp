@@ -8,6 +8,7 @@
 #include <string>
 
 #include "shapes/placed.h"
+#include "shapes/turned.h"
 
 namespace tweenfall {
 
@@ -19,6 +20,19 @@ constexpr double pi = std::numbers::pi;
 void require_positive(double value, const char* name) {
   if (!(value > 0) || !std::isfinite(value))
     throw std::invalid_argument(std::string(name) + " must be positive and finite, but is " + number_text(value));
+}
+
+void require_two_balls(const TaperedCapsule& capsule) {
+  require_positive(capsule.bottom_radius, "bottom radius of a tapered capsule");
+  require_positive(capsule.top_radius, "top radius of a tapered capsule");
+  require_positive(capsule.half_height, "half height of a tapered capsule");
+  const bool bottom = capsule.bottom_radius > capsule.top_radius;
+  if (std::abs(capsule.bottom_radius - capsule.top_radius) < 2 * capsule.half_height) return;
+  throw std::invalid_argument(
+      std::string("the ") + (bottom ? "bottom" : "top") + " ball of a tapered capsule, of radius " +
+      number_text(bottom ? capsule.bottom_radius : capsule.top_radius) + ", holds its other ball, of radius " +
+      number_text(bottom ? capsule.top_radius : capsule.bottom_radius) + " and " +
+      number_text(2 * capsule.half_height) + " m away; set them farther apart, or make it a sphere");
 }
 
 /// Principal moments about the solid's own center.
@@ -61,6 +75,14 @@ void validate(const Solid& solid) {
     if (!(capsule->half_height >= 0) || !std::isfinite(capsule->half_height))
       throw std::invalid_argument("half height of a capsule must not be negative and must be finite, but is " +
                                   number_text(capsule->half_height));
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&solid)) {
+    shapes::require_positive(cylinder->radius, "radius of a cylinder");
+    shapes::require_positive(cylinder->half_height, "half height of a cylinder");
+  } else if (const auto* cone = std::get_if<Cone>(&solid)) {
+    shapes::require_positive(cone->radius, "radius of a cone");
+    shapes::require_positive(cone->half_height, "half height of a cone");
+  } else if (const auto* tapered = std::get_if<TaperedCapsule>(&solid)) {
+    shapes::require_two_balls(*tapered);
   } else if (const auto* plane = std::get_if<Plane>(&solid)) {
     const double length = plane->normal.norm();
     if (!(std::abs(length - 1) <= 1e-6))
@@ -79,6 +101,9 @@ double volume(const Solid& solid) noexcept {
     return shapes::pi * capsule->radius * capsule->radius * (2 * capsule->half_height + 4 * capsule->radius / 3);
   }
   if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.measures().volume;
+  if (const auto* cylinder = std::get_if<Cylinder>(&solid)) return shapes::measures_of(*cylinder).volume;
+  if (const auto* cone = std::get_if<Cone>(&solid)) return shapes::measures_of(*cone).volume;
+  if (const auto* tapered = std::get_if<TaperedCapsule>(&solid)) return shapes::measures_of(*tapered).volume;
   return std::numeric_limits<double>::infinity();
 }
 
@@ -86,6 +111,10 @@ MassProperties mass_properties(const Shape& shape, double mass) {
   shapes::require_positive(mass, "mass");
   Vec3 center(0, 0, 0);
   Mat3 inertia;
+  const auto take = [&](const shapes::TurnedMeasures& measures) {
+    center = Vec3(0, measures.center, 0);
+    inertia = (mass / measures.volume * Vec3(measures.across, measures.along, measures.across)).asDiagonal();
+  };
   if (const auto* sphere = std::get_if<Sphere>(&shape.solid)) {
     inertia = shapes::principal_inertia(*sphere, mass).asDiagonal();
   } else if (const auto* box = std::get_if<Box>(&shape.solid)) {
@@ -96,6 +125,12 @@ MassProperties mass_properties(const Shape& shape, double mass) {
     const MeshMeasures& measures = hull->convex.measures();
     center = measures.center;
     inertia = mass / measures.volume * measures.inertia;
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.solid)) {
+    take(shapes::measures_of(*cylinder));
+  } else if (const auto* cone = std::get_if<Cone>(&shape.solid)) {
+    take(shapes::measures_of(*cone));
+  } else if (const auto* tapered = std::get_if<TaperedCapsule>(&shape.solid)) {
+    take(shapes::measures_of(*tapered));
   } else {
     throw std::invalid_argument("a plane has no mass: only fixed and keyed bodies can be planes");
   }
@@ -125,6 +160,24 @@ Mat3 inertia_about(const MassProperties& properties, const Vec3& point) noexcept
   return properties.inertia + properties.mass * shift;
 }
 
+namespace shapes {
+namespace {
+
+/// Of what has a farthest place along every direction.
+template <class Turned>
+Bounds turned_bounds(const Turned& solid, const Placed& placed) {
+  Bounds result{placed.center, placed.center};
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 along = placed.axes.row(i);
+    result.high[i] += along.dot(farthest(solid, along));
+    result.low[i] += along.dot(farthest(solid, -along));
+  }
+  return result;
+}
+
+}  // namespace
+}  // namespace shapes
+
 Bounds bounds(const Shape& shape, const Pose& node) noexcept {
   const shapes::Placed placed = shapes::place(shape, node);
   Vec3 reach = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -153,6 +206,9 @@ Bounds bounds(const Shape& shape, const Pose& node) noexcept {
     }
     return result;
   }
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape.solid)) return shapes::turned_bounds(*cylinder, placed);
+  if (const auto* cone = std::get_if<Cone>(&shape.solid)) return shapes::turned_bounds(*cone, placed);
+  if (const auto* tapered = std::get_if<TaperedCapsule>(&shape.solid)) return shapes::turned_bounds(*tapered, placed);
   return {placed.center - reach, placed.center + reach};
 }
 

@@ -35,6 +35,14 @@ double uniform(const Vec3& scale, const char* what) {
   return size.x();
 }
 
+/// A solid turned about y, mirrored by an even scale, points where its mirrored axis does.
+void mirror(Shape& shape, const Vec3& scale) {
+  const Vec3 axis = shape.offset.rotation * Vec3(0, 1, 0);
+  const Vec3 mirrored = axis.cwiseProduct(scale.cwiseQuotient(scale.cwiseAbs()));
+  if (mirrored == axis) return;
+  shape.offset.rotation = (Quat::FromTwoVectors(axis, mirrored) * shape.offset.rotation).normalized();
+}
+
 }  // namespace
 
 Vec3 rest_scale(const Hierarchy& nodes, std::size_t node) {
@@ -72,6 +80,23 @@ Shape scaled(const Shape& shape, const Vec3& scale) {
     const double factor = uniform(scale, "a capsule");
     capsule->radius *= factor;
     capsule->half_height *= factor;
+    mirror(result, scale);
+  } else if (auto* cylinder = std::get_if<Cylinder>(&result.solid)) {
+    const double factor = uniform(scale, "a cylinder");
+    cylinder->radius *= factor;
+    cylinder->half_height *= factor;
+    mirror(result, scale);
+  } else if (auto* cone = std::get_if<Cone>(&result.solid)) {
+    const double factor = uniform(scale, "a cone");
+    cone->radius *= factor;
+    cone->half_height *= factor;
+    mirror(result, scale);
+  } else if (auto* tapered = std::get_if<TaperedCapsule>(&result.solid)) {
+    const double factor = uniform(scale, "a tapered capsule");
+    tapered->bottom_radius *= factor;
+    tapered->top_radius *= factor;
+    tapered->half_height *= factor;
+    mirror(result, scale);
   } else if (auto* box = std::get_if<Box>(&result.solid)) {
     if (!is_diagonal(own))
       throw std::invalid_argument(

@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "shapes/turned.h"
 #include "state/countable.h"
 
 namespace tweenfall::state {
@@ -20,6 +21,9 @@ double radius_of(const Solid& solid) {
   if (const auto* box = std::get_if<Box>(&solid)) return box->half_extents.norm();
   if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius + capsule->half_height;
   if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.outer_radius();
+  if (const auto* cylinder = std::get_if<Cylinder>(&solid)) return shapes::radius_of(*cylinder);
+  if (const auto* cone = std::get_if<Cone>(&solid)) return shapes::radius_of(*cone);
+  if (const auto* tapered = std::get_if<TaperedCapsule>(&solid)) return shapes::radius_of(*tapered);
   return std::numeric_limits<double>::infinity();
 }
 
@@ -126,6 +130,8 @@ void give_mass(Body& body, const std::optional<double>& given, double density) {
   }
   if (const auto* sphere = std::get_if<Sphere>(&solid)) body.roundness = sphere->radius;
   if (const auto* capsule = std::get_if<Capsule>(&solid)) body.roundness = capsule->radius;
+  body.turned = std::holds_alternative<Cylinder>(solid) || std::holds_alternative<Cone>(solid) ||
+                std::holds_alternative<TaperedCapsule>(solid);
   body.radius = radius_of(solid);
   require(body.radius >= smallest && (endless || body.radius <= largest),
           "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + number_text(body.radius) +

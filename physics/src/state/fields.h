@@ -80,6 +80,24 @@ void each_field(T& hull, const Visit& visit) {
   visit(convex);
 }
 
+template <Is<Cylinder> T, class Visit>
+void each_field(T& cylinder, const Visit& visit) {
+  auto& [radius, half_height] = cylinder;
+  visit(radius, half_height);
+}
+
+template <Is<Cone> T, class Visit>
+void each_field(T& cone, const Visit& visit) {
+  auto& [radius, half_height] = cone;
+  visit(radius, half_height);
+}
+
+template <Is<TaperedCapsule> T, class Visit>
+void each_field(T& capsule, const Visit& visit) {
+  auto& [bottom_radius, top_radius, half_height] = capsule;
+  visit(bottom_radius, top_radius, half_height);
+}
+
 template <Is<Shape> T, class Visit>
 void each_field(T& shape, const Visit& visit) {
   auto& [solid, offset] = shape;
@@ -95,14 +113,14 @@ void each_field(T& properties, const Visit& visit) {
 
 template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [alive, fixed, asleep, placed, has_target, led, spherical, generation, drive, still_for, center, twist, motion,
-         force, torque, radius, roundness, linear_damping, angular_damping, mass, inverse_inertia, friction,
+  auto& [alive, fixed, asleep, placed, has_target, led, turned, spherical, generation, drive, still_for, center, twist,
+         motion, force, torque, radius, roundness, linear_damping, angular_damping, mass, inverse_inertia, friction,
          restitution, rolling_friction, groups, collides_with, shape, target, reaction] = body;
   visit(alive, generation);
   if (!alive) return;  // its place and number alone matter
   visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion, force, torque, linear_damping,
         angular_damping, mass, friction, restitution, rolling_friction, groups, collides_with, shape, target, reaction);
-  follows_from_others(spherical, radius, roundness, inverse_inertia);
+  follows_from_others(turned, spherical, radius, roundness, inverse_inertia);
 }
 
 template <Is<Drag> T, class Visit>

@@ -9,7 +9,8 @@ struct PointConstraint {
   std::uint32_t feature = 0;
   Vec3 start_arm_a{0, 0, 0}, start_arm_b{0, 0, 0};  ///< from the centers of mass at the start of the step, world, m
   double start_gap = 0;                             ///< along the normal at the start of the step, m
-  Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};              ///< in the current sub-step
+  double skin_a = 0, skin_b = 0;        ///< radii with which the surfaces roll here; 0 where they are flat or sharp, m
+  Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};  ///< in the current sub-step
   double gap = 0;
   double kept_normal = 0;  ///< of the last sub-step worth keeping: where the next begins, N s
   Vec3 kept_friction{0, 0, 0};

@@ -5,6 +5,7 @@
 
 #include "collision/collide_pairs.h"
 #include "collision/passage.h"
+#include "shapes/turned.h"
 #include "state/world_data.h"
 #include "step/found_manifold.h"
 
@@ -19,6 +20,15 @@ constexpr double near_enough = 2e-3;
 constexpr std::uint32_t most_contacts = 32;
 /// Pairs, or bodies, that are worth a part of their own.
 constexpr std::size_t worth_a_part = 64;
+
+/// How a body's surface rolls where something touches it, m.
+double rolling_radius(const state::Body& body, const collision::Prediction& at, const Vec3& position, const Vec3& out) {
+  if (body.roundness > 0) return body.roundness;
+  if (!body.turned) return 0;
+  const shapes::Placed placed = shapes::place(body.shape, at.node(body));
+  const Mat3 into = placed.axes.transpose();
+  return shapes::rolling_radius(body.shape.solid, into * (position - placed.center), into * out);
+}
 
 /// The points of a manifold as constraints, told about the bodies' places at the start of the step.
 void adopt(ContactConstraint& constraint, const state::Body& a, const collision::Prediction& at_a, const state::Body& b,
@@ -35,9 +45,11 @@ void adopt(ContactConstraint& constraint, const state::Body& a, const collision:
     point.start_arm_a = from.position - at_a.center;
     point.start_arm_b = from.position - at_b.center;
     point.start_gap = -from.penetration;
+    point.skin_a = rolling_radius(a, at_a, from.position, manifold.normal);
+    point.skin_b = rolling_radius(b, at_b, from.position, -manifold.normal);
     if (constraint.impact_time == 0) continue;
-    point.start_arm_a = state::carried(back_a, point.start_arm_a, a.roundness * manifold.normal);
-    point.start_arm_b = state::carried(back_b, point.start_arm_b, -b.roundness * manifold.normal);
+    point.start_arm_a = state::carried(back_a, point.start_arm_a, point.skin_a * manifold.normal);
+    point.start_arm_b = state::carried(back_b, point.start_arm_b, -point.skin_b * manifold.normal);
     point.start_gap += manifold.normal.dot((b.center + point.start_arm_b) - (a.center + point.start_arm_a));
   }
 }

@@ -19,8 +19,11 @@ constexpr double unnoticed = 1e-3;
 
 }  // namespace
 
-bool keeps_manifold(const Body& a, const Body& b) {
-  return a.roundness == 0 && b.roundness == 0;
+bool keeps_manifold(const ContactConstraint& contact) {
+  bool flat = true;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i)
+    flat = flat && contact.points[i].skin_a == 0 && contact.points[i].skin_b == 0;
+  return flat;
 }
 
 FoundManifold found_manifold(const ContactConstraint& contact, const Start& a, const Start& b) {

@@ -5,8 +5,8 @@
 
 namespace tweenfall::step {
 
-/// Whether a pair's manifold is worth keeping: between flat faces it costs most, and there its points would wander.
-[[nodiscard]] bool keeps_manifold(const state::Body& a, const state::Body& b);
+/// Whether a manifold is worth keeping: between flat faces it costs most, and there its points would wander.
+[[nodiscard]] bool keeps_manifold(const ContactConstraint& contact);
 
 struct Start;
 

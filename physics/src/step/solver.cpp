@@ -52,7 +52,6 @@ void Solver::gather(const std::vector<Body>& bodies, Contacts contacts, Springs 
     entry.index = index;
     entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
     entry.movable = !body.immovable() && !body.asleep;
-    entry.roundness = body.roundness;
     entry.center = entry.start_center = body.center;
     entry.rotation = entry.start_rotation = body.motion.pose.rotation;
     entry.turn = Quat::Identity();
@@ -113,8 +112,8 @@ void Solver::refresh(ContactConstraint& constraint) const {
   const Vec3 drift = (b.center - b.start_center) - (a.center - a.start_center);
   for (int i = 0; i < constraint.count; ++i) {
     PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-    point.arm_a = state::carried(a.turn, point.start_arm_a, a.roundness * normal);
-    point.arm_b = state::carried(b.turn, point.start_arm_b, -b.roundness * normal);
+    point.arm_a = state::carried(a.turn, point.start_arm_a, point.skin_a * normal);
+    point.arm_b = state::carried(b.turn, point.start_arm_b, -point.skin_b * normal);
     const Vec3 swing = (point.arm_b - point.start_arm_b) - (point.arm_a - point.start_arm_a);
     point.gap = point.start_gap + normal.dot(drift + swing);
   }

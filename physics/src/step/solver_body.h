@@ -16,7 +16,6 @@ struct SolverBody {
   bool pulled = false;   ///< by a drive: a soft contact would not hold against it
   bool stirred = false;  ///< by the rebound of this sub-step
   Vec3 lag{0, 0, 0};     ///< from the velocity at the end of the sub-step to its mean, m/s
-  double roundness = 0;  ///< m
   double inverse_mass = 0;
   Mat3 inverse_inertia = Mat3::Zero();
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};

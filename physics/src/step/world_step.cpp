@@ -182,10 +182,9 @@ void World::Implementation::report() {
     const std::uint32_t place = known ? constraint.memory : memories.take();
     step::remember(constraint, touching, memories[place]);
     if (known && !constraint.kept)
-      memories[place].found =
-          constraint.impact_time == 0 && step::keeps_manifold(bodies[constraint.a], bodies[constraint.b])
-              ? step::found_manifold(constraint, starts[constraint.a], starts[constraint.b])
-              : state::FoundManifold{};
+      memories[place].found = constraint.impact_time == 0 && step::keeps_manifold(constraint)
+                                  ? step::found_manifold(constraint, starts[constraint.a], starts[constraint.b])
+                                  : state::FoundManifold{};
     remembered.push_back(place);
     if (touching)
       next_contacts.push_back({{constraint.a, bodies[constraint.a].generation},

@@ -38,6 +38,16 @@ std::string shape_text(const Shape& shape) {
     std::string operator()(const Capsule& capsule) const {
       return "capsule, radius " + brief_text(capsule.radius) + ", half height " + brief_text(capsule.half_height);
     }
+    std::string operator()(const Cylinder& cylinder) const {
+      return "cylinder, radius " + brief_text(cylinder.radius) + ", half height " + brief_text(cylinder.half_height);
+    }
+    std::string operator()(const Cone& cone) const {
+      return "cone, radius " + brief_text(cone.radius) + ", half height " + brief_text(cone.half_height);
+    }
+    std::string operator()(const TaperedCapsule& capsule) const {
+      return "tapered capsule, radii " + brief_text(capsule.bottom_radius) + " and " + brief_text(capsule.top_radius) +
+             ", half height " + brief_text(capsule.half_height);
+    }
     std::string operator()(const Plane& plane) const { return "plane, normal " + brief_text(plane.normal); }
     std::string operator()(const Hull& hull) const {
       return "hull, " + std::to_string(hull.convex.vertices().size()) + " vertices, " +

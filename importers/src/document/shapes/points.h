@@ -19,15 +19,21 @@ namespace tweenfall::document::shapes {
 [[nodiscard]] Curve<Vec2> polyline(const std::vector<Vec2>& points);
 [[nodiscard]] Curve<Vec3> polyline(const std::vector<Vec3>& points);
 
-// The hull of what `make` makes; what it throws is told at the place.
+// What `make` makes; what it throws is told at the place.
 template <class Make>
-[[nodiscard]] std::optional<Solid> hull_or_problem(const json::Value& at, Problems& problems, Make make) {
+[[nodiscard]] std::optional<Solid> solid_or_problem(const json::Value& at, Problems& problems, Make make) {
   try {
-    return Hull{ConvexHull(make())};
+    return make();
   } catch (const std::invalid_argument& fault) {
     problems.add(at, fault.what());
     return std::nullopt;
   }
+}
+
+// The hull of what `make` makes.
+template <class Make>
+[[nodiscard]] std::optional<Solid> hull_or_problem(const json::Value& at, Problems& problems, Make make) {
+  return solid_or_problem(at, problems, [&]() -> Solid { return Hull{ConvexHull(make())}; });
 }
 
 }  // namespace tweenfall::document::shapes

@@ -3,7 +3,9 @@
 #include <utility>
 
 // Every shape there is: the functions in the files of these names.
-#define TWEENFALL_SHAPES(one) one(sphere) one(box) one(capsule) one(plane) one(hull) one(lathe) one(sweep)
+#define TWEENFALL_SHAPES(one)                                                                                    \
+  one(sphere) one(box) one(capsule) one(tapered_capsule) one(cylinder) one(cone) one(plane) one(hull) one(lathe) \
+      one(sweep)
 
 namespace tweenfall::document::shapes {
 

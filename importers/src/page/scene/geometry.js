@@ -75,6 +75,7 @@ function shapeGeometry(shape, planeSize) {
   if (shape.box) return boxGeometry(shape.box);
   if (shape.capsule) return capsuleGeometry(shape.capsule[0], shape.capsule[1]);
   if (shape.hull) return hullGeometry(shape.hull);
+  if (shape.turned) return revolved(shape.turned, 32);
   return planeGeometry(shape.plane, shape.offset, planeSize);
 }
 
@@ -89,26 +90,41 @@ function gridGeometry(step, cells) {
   return geometry;
 }
 
-// The outline of what collides, as lines: three great circles of a ball, sides and rims of a capsule, edges of the others.
+// The outline of what collides, as lines: three great circles of a ball, sides and rims of what is turned about y, edges of the others.
 function wireGeometry(shape) {
   if (shape.box) return new THREE.EdgesGeometry(boxGeometry(shape.box));
   if (shape.hull) return new THREE.EdgesGeometry(hullGeometry(shape.hull), 1);
-  const [radius, half] = shape.capsule || [shape.sphere, 0], points = [];
-  const arc = (from, to, place) => {
+  const [radius, half] = shape.capsule || [shape.sphere || 0, 0], points = [];
+  const arc = (from, to, place, size = radius) => {
     const count = Math.ceil((to - from) / (Math.PI / 24));
     for (let i = 0; i < count; ++i)
       for (const end of [i, i + 1]) {
         const angle = from + (to - from) * end / count;
-        points.push(...place(radius * Math.cos(angle), radius * Math.sin(angle)));
+        points.push(...place(size * Math.cos(angle), size * Math.sin(angle)));
       }
   };
+  const lines = () => {
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+    return geometry;
+  };
+  if (shape.turned) {
+    shape.turned.slice(1).forEach(([radiusTo, heightTo, ...normalTo], i) => {
+      const [radiusFrom, heightFrom, ...normalFrom] = shape.turned[i];
+      for (const [c, s] of [[1, 0], [0, 1], [-1, 0], [0, -1]])
+        points.push(radiusFrom * c, heightFrom, radiusFrom * s, radiusTo * c, heightTo, radiusTo * s);
+      // A rim at either end of what is straight.
+      if (normalFrom.every((value, k) => value === normalTo[k]))
+        for (const [r, y] of [[radiusFrom, heightFrom], [radiusTo, heightTo]])
+          if (r > 0) arc(0, 2 * Math.PI, (c, s) => [r * c, y, r * s], 1);
+    });
+    return lines();
+  }
   for (const lift of half > 0 ? [half, -half] : [0]) arc(0, 2 * Math.PI, (c, s) => [c, lift, s]);
   for (const place of [(c, s, y) => [c, s + y, 0], (c, s, y) => [0, s + y, c]]) {
     arc(0, Math.PI, (c, s) => place(c, s, half));
     arc(Math.PI, 2 * Math.PI, (c, s) => place(c, s, -half));
     if (half > 0) for (const side of [-radius, radius]) points.push(...place(side, 0, half), ...place(side, 0, -half));
   }
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
-  return geometry;
+  return lines();
 }

@@ -21,6 +21,22 @@ struct Capsule {
   double radius = 0.25;      ///< m; > 0
   double half_height = 0.5;  ///< half the length of the cylinder part, m; >= 0
 };
+/// A round rod with flat ends, along the local y axis.
+struct Cylinder {
+  double radius = 0.5;       ///< m; > 0
+  double half_height = 0.5;  ///< half the distance between its ends, m; > 0
+};
+/// A cone along the local y axis, its tip up; the origin is midway between tip and base.
+struct Cone {
+  double radius = 0.5;       ///< of the base, m; > 0
+  double half_height = 0.5;  ///< half the distance from base to tip, m; > 0
+};
+/// All that lies between two balls on the local y axis.
+struct TaperedCapsule {
+  double bottom_radius = 0.25;  ///< of the ball at -y, m; > 0
+  double top_radius = 0.15;     ///< of the ball at +y, m; > 0
+  double half_height = 0.5;     ///< half the distance between their centers, m; neither ball holds the other
+};
 /// Everything behind an infinite plane; only for bodies that never move by themselves.
 struct Plane {
   Vec3 normal{0, 1, 0};  ///< unit, out of the solid
@@ -32,7 +48,7 @@ struct Hull {
   ConvexHull convex;
 };
 
-using Solid = std::variant<Sphere, Box, Capsule, Plane, Hull>;
+using Solid = std::variant<Sphere, Box, Capsule, Plane, Hull, Cylinder, Cone, TaperedCapsule>;
 
 /// A solid and its place on the node that carries it.
 struct Shape {

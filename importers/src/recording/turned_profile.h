@@ -1,0 +1,19 @@
+#pragma once
+
+// Cylinders, cones and tapered capsules as they are drawn: an outline turned about y.
+
+#include <tweenfall/physics/shape.h>
+
+#include <vector>
+
+namespace tweenfall::recordings {
+
+struct ProfilePoint {
+  double radius, height;                // m
+  double normal_radius, normal_height;  // unit, out of the solid
+};
+
+// From the top down; places where the surface has an edge are there twice. Empty for other solids.
+[[nodiscard]] std::vector<ProfilePoint> turned_profile(const Solid& solid);
+
+}  // namespace tweenfall::recordings

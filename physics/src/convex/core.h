@@ -1,0 +1,41 @@
+#pragma once
+
+/// Convex solids as a general search sees them: by the farthest place along a direction.
+
+#include <tweenfall/physics/shape.h>
+
+#include "shapes/placed.h"
+
+namespace tweenfall::convex {
+
+/// A convex solid in some space: all that is nearer than a radius to its core.
+struct Core {
+  enum class Kind : std::uint8_t { point, segment, box, hull, cylinder, cone, drop };
+  Kind kind = Kind::point;
+  /// Of a box, half extents; of what is turned about y, its radius and half its height. A drop is a ball of that radius
+  /// and the point across from it: the ball above where y is positive.
+  Vec3 half{0, 0, 0};
+  const ConvexHull* hull = nullptr;
+  double radius = 0;  ///< around the core, m
+  double size = 0;    ///< about from its middle to the nearest place of its surface, m
+  double reach = 0;   ///< no place of the core is farther from its origin, m
+  Mat3 turn = Mat3::Identity();
+  Vec3 shift{0, 0, 0};
+  std::uint32_t vertex = 0;  ///< of the hull, where the last search ended
+
+  /// The farthest place of the core along a direction of any length.
+  [[nodiscard]] Vec3 support(const Vec3& direction);
+  /// The farthest place of the solid along a unit direction is at this height, m.
+  [[nodiscard]] double height(const Vec3& direction) { return direction.dot(support(direction)) + radius; }
+  [[nodiscard]] Vec3 place(const Vec3& local) const { return shift + turn * local; }
+};
+
+[[nodiscard]] Core core_of(const Sphere& sphere, const shapes::Placed& at);
+[[nodiscard]] Core core_of(const Box& box, const shapes::Placed& at);
+[[nodiscard]] Core core_of(const Capsule& capsule, const shapes::Placed& at);
+[[nodiscard]] Core core_of(const Hull& hull, const shapes::Placed& at);
+[[nodiscard]] Core core_of(const Cylinder& cylinder, const shapes::Placed& at);
+[[nodiscard]] Core core_of(const Cone& cone, const shapes::Placed& at);
+[[nodiscard]] Core core_of(const TaperedCapsule& capsule, const shapes::Placed& at);
+
+}  // namespace tweenfall::convex

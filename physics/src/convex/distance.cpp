@@ -1,0 +1,158 @@
+#include "convex/distance.h"
+
+#include <array>
+#include <cmath>
+
+namespace tweenfall::convex {
+
+namespace {
+
+constexpr int most_searches = 128;
+
+/// A place of a less one of b.
+struct SimplexPoint {
+  Vec3 apart, on_a, on_b;
+};
+
+/// The smallest simplex found so far that has the place nearest to the origin.
+class NearestSimplex {
+ public:
+  /// The place nearest to the origin; the points that it does not lie between are let go.
+  Vec3 reduce() {
+    best_ = {};
+    for (int i = 0; i < count_; ++i) try_point(i);
+    for (int i = 0; i < count_; ++i)
+      for (int k = i + 1; k < count_; ++k) try_segment(i, k);
+    for (int i = 0; i + 2 < count_; ++i)
+      for (int k = i + 1; k + 1 < count_; ++k)
+        for (int l = k + 1; l < count_; ++l) try_triangle(i, k, l);
+    keep(best_);
+    return best_.place;
+  }
+
+  /// Of a tetrahedron.
+  [[nodiscard]] bool holds_origin() const {
+    if (count_ < 4) return false;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Vec3& a = points_[(i + 1) % 4].apart;
+      const Vec3& b = points_[(i + 2) % 4].apart;
+      const Vec3& c = points_[(i + 3) % 4].apart;
+      const Vec3 out = (b - a).cross(c - a);
+      if (!(out.dot(points_[i].apart - a) * out.dot(-a) > 0)) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool has(const Vec3& apart) const {
+    for (int i = 0; i < count_; ++i)
+      if (points_[static_cast<std::size_t>(i)].apart == apart) return true;
+    return false;
+  }
+  void add(const SimplexPoint& point) {
+    points_[static_cast<std::size_t>(count_)] = point;
+    shares_[static_cast<std::size_t>(count_++)] = 0;
+  }
+  void tell(Nearness& nearness) const {
+    nearness.on_a = nearness.on_b = Vec3::Zero();
+    for (int i = 0; i < count_; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      nearness.on_a += shares_[k] * points_[k].on_a;
+      nearness.on_b += shares_[k] * points_[k].on_b;
+    }
+  }
+
+ private:
+  struct Candidate {
+    double square = 1e300;
+    Vec3 place{0, 0, 0};
+    std::array<int, 3> corners{};
+    std::array<double, 3> shares{};
+    int count = 0;
+  };
+
+  [[nodiscard]] const Vec3& at(int i) const { return points_[static_cast<std::size_t>(i)].apart; }
+
+  void try_candidate(Candidate candidate) {
+    candidate.place = Vec3::Zero();
+    for (int i = 0; i < candidate.count; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      candidate.place += candidate.shares[k] * at(candidate.corners[k]);
+    }
+    candidate.square = candidate.place.squaredNorm();
+    if (candidate.square < best_.square) best_ = candidate;
+  }
+  void try_point(int i) { try_candidate({.corners = {i}, .shares = {1}, .count = 1}); }
+  void try_segment(int i, int k) {
+    const Vec3 along = at(k) - at(i);
+    const double square = along.squaredNorm(), share = -along.dot(at(i));
+    if (!(share > 0) || !(share < square)) return;
+    try_candidate({.corners = {i, k}, .shares = {1 - share / square, share / square}, .count = 2});
+  }
+  void try_triangle(int i, int k, int l) {
+    const Vec3 &a = at(i), &b = at(k), &c = at(l);
+    const Vec3 normal = (b - a).cross(c - a);
+    const double of_a = normal.dot(b.cross(c)), of_b = normal.dot(c.cross(a)), of_c = normal.dot(a.cross(b));
+    if (!(of_a > 0) || !(of_b > 0) || !(of_c > 0)) return;
+    const double all = of_a + of_b + of_c;
+    try_candidate({.corners = {i, k, l}, .shares = {of_a / all, of_b / all, of_c / all}, .count = 3});
+  }
+
+  void keep(const Candidate& best) {
+    const std::array<SimplexPoint, 4> before = points_;
+    count_ = best.count;
+    for (int i = 0; i < count_; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      points_[k] = before[static_cast<std::size_t>(best.corners[k])];
+      shares_[k] = best.shares[k];
+    }
+  }
+
+  std::array<SimplexPoint, 4> points_;
+  std::array<double, 4> shares_{};
+  int count_ = 0;
+  Candidate best_;
+};
+
+}  // namespace
+
+Nearness nearness_of(Core& a, Core& b, double enough) {
+  const double extent = a.reach + b.reach + (a.shift - b.shift).norm();
+  const double rounding = 4e-16 * extent, touching = 1e-9 * std::min(a.reach + a.radius, b.reach + b.radius);
+  NearestSimplex simplex;
+  Vec3 nearest = a.shift - b.shift;
+  if (!(nearest.squaredNorm() > 0)) nearest = Vec3(1, 0, 0);
+  double square = 1e300;
+  Nearness nearness;
+  for (int i = 0; i < most_searches; ++i) {
+    SimplexPoint point;
+    point.on_a = a.support(-nearest);
+    point.on_b = b.support(nearest);
+    point.apart = point.on_a - point.on_b;
+    const double length = nearest.norm(), lowest = nearest.dot(point.apart) / length;
+    if (lowest > enough) {
+      nearness.distance = lowest;
+      nearness.normal = -nearest / length;
+      nearness.on_a = point.on_a;
+      nearness.on_b = point.on_b;
+      return nearness;
+    }
+    if (i > 0 && (length - lowest <= 1e-13 * length + rounding || simplex.has(point.apart))) break;
+    simplex.add(point);
+    if (simplex.holds_origin()) return {};
+    const NearestSimplex before = simplex;
+    const Vec3 next = simplex.reduce();
+    if (!(next.squaredNorm() < square)) {
+      if (i > 0) simplex = before;
+      break;
+    }
+    nearest = next;
+    square = nearest.squaredNorm();
+    if (!(square > touching * touching)) return {};
+  }
+  nearness.distance = nearest.norm();
+  nearness.normal = -nearest / nearness.distance;
+  simplex.tell(nearness);
+  return nearness;
+}
+
+}  // namespace tweenfall::convex
