@@ -1,10 +1,11 @@
 // Scenes of many bodies, one thread, nothing asleep: milliseconds of process time for each step, beside Bullet where it
 // is installed, and what state they end in.
-//   bench_physics [--scenes FOLDER] [--runs N] [--steps N] [--ours] [SCENE...]
+//   bench_physics [--scenes FOLDER] [--runs N] [--steps N] [--ours] [--threads N] [SCENE...]
 // The engines take turns, run by run; of the runs the least median and the least 99th of a hundred are told. `--ours`
 // leaves Bullet out, so that one scene can be looked into: perf record -g bench_physics --ours --runs 1 pyramid50
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -26,12 +27,17 @@ struct Wanted {
   int runs = 3;
   int steps = 0;  // 0: as many as the scene says
   bool only_ours = false;
+  int threads = 0;  // more than one: also by so many, in time that passes
   std::vector<std::string> names;
 };
 
 class OurEngine : public Engine {
  public:
-  explicit OurEngine(const test::Scene& scene) : world_(scene.world), bodies_(scene.bodies), dt_(scene.dt) {}
+  OurEngine(const test::Scene& scene, std::shared_ptr<Executor> executor)
+      : world_(scene.world), bodies_(scene.bodies), dt_(scene.dt) {
+    world_.set_executor(std::move(executor));
+  }
+  [[nodiscard]] std::uint64_t hash() const { return world_.state_hash(); }
   void step() override { world_.step(dt_); }
   [[nodiscard]] Motion motion(std::size_t body) const override {
     Motion motion = world_.motion(bodies_[body]);
@@ -69,6 +75,49 @@ void run(Engine& engine, int steps, Measured& measured) {
   std::sort(times.begin(), times.end());
   measured.median = std::min(measured.median, times[times.size() / 2]);
   measured.slow = std::min(measured.slow, times[times.size() * 99 / 100]);
+}
+
+/// Does all parts alone and sums up their time: what is left of a step is what no number of threads makes faster.
+class Accountant : public Executor {
+ public:
+  explicit Accountant(int threads) : threads_(static_cast<std::size_t>(threads)) {}
+  void for_each(std::size_t count, const Work& work) override {
+    const double before = process_time();
+    for (std::size_t i = 0; i < count; ++i) work(i);
+    shared += 1e3 * (process_time() - before);
+    ++calls;
+  }
+  [[nodiscard]] std::size_t threads() const noexcept override { return threads_; }
+  double shared = 0;  // ms
+  int calls = 0;
+
+ private:
+  std::size_t threads_;
+};
+
+/// How much faster so many threads are than one, in time that passes: step by step, in turns.
+void compare_threads(const test::Scene& scene, int steps, int threads) {
+  OurEngine one(scene, nullptr), many(scene, std::make_shared<ThreadPool>(static_cast<std::size_t>(threads)));
+  std::vector<double> ratios, times;
+  const auto time_of = [](Engine& engine) {
+    const auto before = std::chrono::steady_clock::now();
+    engine.step();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - before).count();
+  };
+  for (int i = 0; i < steps; ++i) {
+    const double alone = time_of(one);
+    times.push_back(time_of(many));
+    ratios.push_back(alone / times.back());
+  }
+  std::sort(ratios.begin(), ratios.end());
+  std::sort(times.begin(), times.end());
+  double load[1] = {0};
+  if (getloadavg(load, 1) != 1) load[0] = NAN;
+  std::printf(
+      "  %d threads %8.3f ms, %.2f times as fast as one in the median step (%.2f in the quarter of the fastest; "
+      "load %.1f); the same state: %s\n",
+      threads, times[times.size() / 2], ratios[ratios.size() / 2], ratios[ratios.size() * 3 / 4], load[0],
+      one.hash() == many.hash() ? "yes" : "NO");
 }
 
 void look(const Engine& engine, const test::Scene& scene, Measured& measured) {
@@ -135,7 +184,7 @@ bool compare(const Wanted& wanted, const std::string& name) {
   Measured ours;
   [[maybe_unused]] Measured bullets;
   for (int i = 0; i < wanted.runs; ++i) {
-    OurEngine engine(scene);
+    OurEngine engine(scene, nullptr);
     run(engine, steps, ours);
     if (i == 0) look(engine, scene, ours);
 #ifdef TWEENFALL_BESIDE_BULLET
@@ -151,6 +200,7 @@ bool compare(const Wanted& wanted, const std::string& name) {
     std::printf("%s, %d steps\n", name.c_str(), steps);
   tell("tweenfall", ours);
   if (std::isfinite(bullets.median)) tell("Bullet", bullets);
+  if (wanted.threads > 1) compare_threads(scene, steps, wanted.threads);
   std::fflush(stdout);
   return true;
 }
@@ -169,6 +219,8 @@ int main(int count, char** arguments) try {
       wanted.runs = std::max(1, std::atoi(value()));
     else if (argument == "--steps")
       wanted.steps = std::atoi(value());
+    else if (argument == "--threads")
+      wanted.threads = std::atoi(value());
     else if (argument == "--ours")
       wanted.only_ours = true;
     else

@@ -95,6 +95,8 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
     for (int lane = 0; lane < lane_count; ++lane) {
       block.a[lane] = static_cast<std::uint32_t>((8 * i + 2 * lane) % (8 * count));
       block.b[lane] = static_cast<std::uint32_t>((8 * i + 2 * lane + 9) % (8 * count));
+      block.to_a[lane] = block.a[lane];
+      block.to_b[lane] = block.b[lane];
       block.hard[lane] = lane % 2 == 0 ? -1 : 0;
     }
     make_positive(block.coefficient);

@@ -242,6 +242,42 @@ Scenario joints() {
   return {"joints", 120, make, step};
 }
 
+/// One island of several hundred contacts, of boxes, hulls and balls that slide, stick and rebound on a moving floor.
+Scenario large_island() {
+  const auto make = [] {
+    World world;
+    BodySettings floor = solid_at(Box{Vec3(20, 0.5, 20)}, Vec3(0, -0.5, 0));
+    floor.drive = Drive::keyed();
+    world.add(floor);
+    Random random(31);
+    for (int row = 0; row < 16; ++row)
+      for (int i = 0; i + row < 16; ++i) {
+        const Solid solids[] = {Box{Vec3(0.25, 0.25, 0.25)}, Sphere{0.25}, Box{Vec3(0.25, 0.25, 0.3)}, wedge()};
+        BodySettings body = solid_at(solids[row > 9        ? (i + row) % 4
+                                            : row % 3 == 2 ? 2
+                                                           : 0],
+                                     Vec3(0.505 * i + 0.25 * row, 0.25 + 0.5 * row, 0.01 * random.unit()), 0.4);
+        body.restitution = i % 3 == 0 ? 0.4 : 0;
+        world.add(body);
+      }
+    return world;
+  };
+  const auto step = [](World& world, int n) {
+    Motion target;
+    target.pose.position = Vec3(0.002 * (n + 1), -0.5, 0);
+    target.twist.linear = Vec3(0.12, 0, 0);
+    world.set_target(world.bodies()[0], target);
+    if (n == 20) {
+      BodySettings ball = solid_at(Sphere{0.6}, Vec3(-4, 2, 0));
+      ball.motion.twist.linear = Vec3(20, 0, 0);
+      ball.restitution = 0.5;
+      world.add(ball);
+    }
+    world.step(1.0 / 60);
+  };
+  return {"a large island", 60, make, step};
+}
+
 }  // namespace
 
 std::vector<BodySettings> mixed_bodies(unsigned seed, int count) {
@@ -266,6 +302,7 @@ std::vector<Scenario> scenarios() {
           fast(),
           crowd(),
           islands(),
+          large_island(),
           joints()};
 }
 

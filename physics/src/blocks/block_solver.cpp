@@ -146,22 +146,25 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
 }
 
 void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads, double dt) {
-  closings_.clear();
-  closings_.reserve(contacts.size());
-  for (ContactConstraint* contact : contacts) {
-    const std::uint32_t a = places_[contact->a], b = places_[contact->b];
-    closings_.push_back(step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt));
-    step::foresee(*contact, {linear_of(velocities_[a]), angular_of(velocities_[a])},
-                  {linear_of(velocities_[b]), angular_of(velocities_[b])}, closings_.back(), dt);
-    if (contact->impact) paces_[a].impact = paces_[b].impact = true;
-  }
+  closings_.resize(contacts.size());
+  work_.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      ContactConstraint& contact = *contacts[i];
+      const std::uint32_t a = places_[contact.a], b = places_[contact.b];
+      closings_[i] = step::closing_of(contact.manifold.normal, loads[contact.a], loads[contact.b], dt);
+      step::foresee(contact, {linear_of(velocities_[a]), angular_of(velocities_[a])},
+                    {linear_of(velocities_[b]), angular_of(velocities_[b])}, closings_[i], dt);
+    }
+  });
+  for (const ContactConstraint* contact : contacts)
+    if (contact->impact) paces_[places_[contact->a]].impact = paces_[places_[contact->b]].impact = true;
 }
 
 void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, double dt,
                                  int sub_steps, int sub_step) {
   const double h = dt / sub_steps;
   const double share = static_cast<double>(sub_step) / sub_steps;
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+  each_body([&](std::size_t i) {
     BodyPace& pace = paces_[i];
     BodyLanes& velocity = velocities_[i];
     BodyLanes& start = starts_[i];
@@ -169,7 +172,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     if (pace.steady) {
       start = velocity;
       for (int k = 0; k < 4; ++k) velocity.linear[k] += pace.acceleration[k] * h;
-      continue;
+      return;
     }
     IslandBody& entry = bodies_[i];
     entry.sub_step_center = entry.center;
@@ -181,14 +184,14 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
       const double middle = share + 0.5 / sub_steps - 0.5;
       set(velocity.linear, mean.linear + middle * gain.linear);
       set(velocity.angular, mean.angular + middle * gain.angular);
-      continue;
+      return;
     }
     start = velocity;
     for (int k = 0; k < 3; ++k)
       velocity.linear[k] = (velocity.linear[k] + pace.acceleration[k] * h) / (1 + entry.drag * h);
     entry.followed = !pace.pressed && !pace.even;
     pace.pressed = false;
-    if (pace.even) continue;
+    if (pace.even) return;
     const Body& body = bodies[entry.index];
     const Load& load = loads[entry.index];
     const Vec3 angular = angular_of(velocity);
@@ -201,7 +204,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
       const Vec3 damped = angular / (1 + load.angular_damping * h);
       set(velocity.angular, spun(body, entry.rotation, damped, load.torque, h));
     }
-  }
+  });
 }
 
 void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
@@ -215,24 +218,28 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
     entry.turned = 0;
     if (entry.movable) entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
   }
-  for (std::size_t i = 0; i < contacts_.blocks.size(); ++i) {
-    const ContactBlock& block = contacts_.blocks[i];
-    for (int lane = 0; lane < lane_count; ++lane)
-      if (contacts_.origins[i][static_cast<std::size_t>(lane)] &&
-          (bodies_[block.a[lane]].stale || bodies_[block.b[lane]].stale))
-        contacts_.prepare(i, lane, bodies_, displacements_.data());
-  }
+  work_.ranges(contacts_.blocks.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const ContactBlock& block = contacts_.blocks[i];
+      for (int lane = 0; lane < lane_count; ++lane)
+        if (contacts_.origins[i][static_cast<std::size_t>(lane)] &&
+            (bodies_[block.a[lane]].stale || bodies_[block.b[lane]].stale))
+          contacts_.prepare(i, lane, bodies_, displacements_.data());
+    }
+  });
 }
 
 /// Where a contact holds a body, the velocity after the impulses counts: a mean would leave every tremble undamped.
 void BlockSolver::find_lags() {
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+  each_body([&](std::size_t i) {
     const double share = paces_[i].movable ? 0.5 : 0;
     for (int k = 0; k < 4; ++k) lags_[i].lanes[k] = share * (starts_[i].linear[k] - velocities_[i].linear[k]);
-  }
-  fastest_kernels().hold(rows());
-  for (std::size_t i = 1; i < bodies_.size(); ++i)
+  });
+  const Kernels& kernels = fastest_kernels();
+  by_color([&](const Rows& some) { kernels.hold(some); });
+  each_body([&](std::size_t i) {
     if (paces_[i].impact && lags_[i].lanes[3] != 0) lags_[i] = pressed_still;
+  });
   if (!holds_.empty())
     for (std::size_t i = 1; i < bodies_.size(); ++i)
       if (bodies_[i].held && bodies_[i].movable) lags_[i] = pressed_still;
@@ -260,56 +267,64 @@ void BlockSolver::find_lags_of_jointed() {
 }
 
 void BlockSolver::end_sub_step(double h) {
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    BodyPace& pace = paces_[i];
-    const BodyLanes& velocity = velocities_[i];
-    BodyLanes& displacement = displacements_[i];
-    pace.pressed = pace.movable && lags_[i].lanes[3] != 0;
-    pace.touched = pace.touched || pace.pressed;
-    double moved[3];
-    for (int k = 0; k < 3; ++k) {
-      moved[k] = (velocity.linear[k] + lags_[i].lanes[k]) * h;
-      displacement.linear[k] += moved[k];
+  stale_.assign(work_.range_count(bodies_.size() - 1, worth_a_part), 0);
+  work_.numbered_ranges(bodies_.size() - 1, worth_a_part, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    bool stale = false;
+    for (std::size_t i = begin + 1; i < end + 1; ++i) {
+      BodyPace& pace = paces_[i];
+      const BodyLanes& velocity = velocities_[i];
+      BodyLanes& displacement = displacements_[i];
+      pace.pressed = pace.movable && lags_[i].lanes[3] != 0;
+      pace.touched = pace.touched || pace.pressed;
+      double moved[3];
+      for (int k = 0; k < 3; ++k) {
+        moved[k] = (velocity.linear[k] + lags_[i].lanes[k]) * h;
+        displacement.linear[k] += moved[k];
+      }
+      if (pace.unturned) {
+        // What rolls has the mean of its spins.
+        const double kept = pace.impact ? 1 : 0.5;
+        for (int k = 0; k < 3; ++k)
+          displacement.angular[k] += (kept * velocity.angular[k] + (1 - kept) * starts_[i].angular[k]) * h;
+        continue;
+      }
+      IslandBody& entry = bodies_[i];
+      for (int k = 0; k < 3; ++k) entry.center[k] += moved[k];
+      Vec3 angular = angular_of(velocity);
+      if (entry.movable && entry.round && !pace.impact && !entry.jointed)
+        angular = 0.5 * (angular + angular_of(starts_[i]));
+      if (angular == Vec3::Zero()) continue;
+      const Vec3 turning = angular * h;
+      for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
+      if (!entry.round) {
+        entry.turned += turning.norm();
+        stale = stale || entry.turned > turned_enough;
+      }
+      if (entry.followed && !pace.pressed) {
+        // The spin of free flight keeps its energy only with the rotation that belongs to it.
+        entry.rotation = entry.free_rotation;
+        continue;
+      }
+      entry.rotation = exp_map(turning) * entry.rotation;
+      entry.rotation.normalize();
     }
-    if (pace.unturned) {
-      // What rolls has the mean of its spins.
-      const double kept = pace.impact ? 1 : 0.5;
-      for (int k = 0; k < 3; ++k)
-        displacement.angular[k] += (kept * velocity.angular[k] + (1 - kept) * starts_[i].angular[k]) * h;
-      continue;
-    }
-    IslandBody& entry = bodies_[i];
-    for (int k = 0; k < 3; ++k) entry.center[k] += moved[k];
-    Vec3 angular = angular_of(velocity);
-    if (entry.movable && entry.round && !pace.impact && !entry.jointed)
-      angular = 0.5 * (angular + angular_of(starts_[i]));
-    if (angular == Vec3::Zero()) continue;
-    const Vec3 turning = angular * h;
-    for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
-    if (!entry.round) {
-      entry.turned += turning.norm();
-      any_stale_ = any_stale_ || entry.turned > turned_enough;
-    }
-    if (entry.followed && !pace.pressed) {
-      // The spin of free flight keeps its energy only with the rotation that belongs to it.
-      entry.rotation = entry.free_rotation;
-      continue;
-    }
-    entry.rotation = exp_map(turning) * entry.rotation;
-    entry.rotation.normalize();
-  }
+    stale_[part] = stale ? 1 : 0;
+  });
+  for (const char stale : stale_) any_stale_ = any_stale_ || stale != 0;
 }
 
 /// See Solver::bound_spins.
 void BlockSolver::bound_spins(const std::vector<Body>& bodies, double h) {
-  for (const std::uint32_t i : uneven_) {
-    const Vec3 angular = angular_of(velocities_[i]);
-    if (!(angular.squaredNorm() * h * h > 1)) continue;
-    const IslandBody& entry = bodies_[i];
-    const double energy = 0.5 * angular.dot(entry.inverse_inertia.inverse() * angular);
-    set(velocities_[i].angular,
-        forces::bounded_spin(bodies[entry.index].world_inertia(entry.rotation), energy, angular));
-  }
+  work_.ranges(uneven_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      BodyLanes& velocity = velocities_[uneven_[k]];
+      const Vec3 angular = angular_of(velocity);
+      if (!(angular.squaredNorm() * h * h > 1)) continue;
+      const IslandBody& entry = bodies_[uneven_[k]];
+      const double energy = 0.5 * angular.dot(entry.inverse_inertia.inverse() * angular);
+      set(velocity.angular, forces::bounded_spin(bodies[entry.index].world_inertia(entry.rotation), energy, angular));
+    }
+  });
 }
 
 Rows BlockSolver::rows() {
@@ -333,7 +348,8 @@ Rows BlockSolver::rows() {
 
 void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
                         const islands::IslandContents& island, const WorldSettings& settings, double dt,
-                        std::vector<char>& moved) {
+                        std::vector<char>& moved, const threads::Workers& workers) {
+  work_ = workers;
   const Kernels& kernels = fastest_kernels();
   const std::span<ContactConstraint* const> contacts = island.contacts;
   const int sub_steps = sub_steps_for(island, dt);
@@ -344,6 +360,8 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   for (std::size_t i = 1; i < bodies_.size(); ++i)
     if (bodies_[i].held || bodies_[i].jointed) paces_[i].steady = paces_[i].unturned = false;
   contacts_.build(contacts, places_, bodies_, closings_, h);
+  velocities_.resize(contacts_.room);
+  lags_.resize(contacts_.room);
   holds_.gather(contacts_, h);
   reach_.forget();
   joints_.build(island.joints, places_, bodies_, h, dt);
@@ -354,7 +372,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
-    kernels.warm_start(rows());
+    by_color([&](const Rows& some) { kernels.warm_start(some); });
     holds_.begin_sub_step(bodies, bodies_, contacts_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
     if (bouncy_) find_rebounds(h);
@@ -362,7 +380,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       soft.note = k + 1 == share - relaxing;
       holds_.solve(bodies, bodies_, contacts_, velocities_);
       joints_.solve(velocities_, true, k % 2 != 0);
-      kernels.solve(rows(), soft);
+      by_color([&](const Rows& some) { kernels.solve(some, soft); });
     }
     find_lags();
     joints_.move(velocities_);
@@ -370,7 +388,8 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     for (int k = 0; k < relaxing; ++k) {
       holds_.solve(bodies, bodies_, contacts_, velocities_);
       joints_.solve(velocities_, false, k % 2 == 0);
-      kernels.solve(rows(), {.inverse_h = 1 / h, .sum_up = k + 1 == relaxing});
+      const PassRule hard{.inverse_h = 1 / h, .sum_up = k + 1 == relaxing};
+      by_color([&](const Rows& some) { kernels.solve(some, hard); });
     }
     if (!rebounds_.empty()) {
       rebound(bodies, loads, std::max(1, settings.iterations / 4));
@@ -380,7 +399,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     holds_.add_up(contacts_);
     bound_spins(bodies, h);
   }
-  contacts_.store(h);
+  contacts_.store(h, work_);
   holds_.store(contacts_);
   joints_.end_step(bodies, bodies_, velocities_);
   // Also a body that only the last pass reached has momentum from it.
@@ -388,9 +407,9 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     for (int i = 0; i < contact->count; ++i)
       if (contact->points[static_cast<std::size_t>(i)].total_normal > 0)
         paces_[places_[contact->a]].touched = paces_[places_[contact->b]].touched = true;
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+  each_body([&](std::size_t i) {
     IslandBody& entry = bodies_[i];
-    if (!entry.movable || !paces_[i].touched) continue;
+    if (!entry.movable || !paces_[i].touched) return;
     if (paces_[i].unturned) {
       entry.center += linear_of(displacements_[i]);
       entry.rotation = exp_map(angular_of(displacements_[i])) * entry.rotation;
@@ -401,7 +420,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     body.twist = {linear_of(velocities_[i]), angular_of(velocities_[i])};
     body.follow_center(entry.rotation);
     moved[entry.index] = 1;
-  }
+  });
 }
 
 }  // namespace tweenfall::blocks

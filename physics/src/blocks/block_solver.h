@@ -32,7 +32,8 @@ class BlockSolver {
   /// Moves the bodies of an island by `dt`; fills in the impulses of its contacts and joints.
   /// @param moved  by index: set for the bodies that were moved
   void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-             const islands::IslandContents& island, const WorldSettings& settings, double dt, std::vector<char>& moved);
+             const islands::IslandContents& island, const WorldSettings& settings, double dt, std::vector<char>& moved,
+             const threads::Workers& workers = {});
 
  private:
   /// A point that would rebound in this sub-step.
@@ -54,6 +55,28 @@ class BlockSolver {
   void end_sub_step(double h);
   void bound_spins(const std::vector<state::Body>& bodies, double h);
   [[nodiscard]] Rows rows();
+  /// Calls see(rows) for all blocks, or for parts of those of one color after the other.
+  template <class See>
+  void by_color(const See& see) {
+    const Rows all = rows();
+    if (work_.threads() == 1) {
+      see(all);
+      return;
+    }
+    for (const ContactBlocks::Phase& phase : contacts_.phases) {
+      const std::size_t count = phase.end - phase.begin;
+      work_.ranges(count, phase.divisible ? worth_a_part : count, [&](std::size_t begin, std::size_t end) {
+        see(part_of(all, phase.of_balls, phase.begin + begin, phase.begin + end));
+      });
+    }
+  }
+  /// Calls see(place) for all bodies.
+  template <class See>
+  void each_body(const See& see) const {
+    work_.ranges(bodies_.size() - 1, worth_a_part, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin + 1; i < end + 1; ++i) see(i);
+    });
+  }
 
   // Rebound
   void find_rebounds(double h);
@@ -62,6 +85,10 @@ class BlockSolver {
   [[nodiscard]] double work_of_driven() const;
   void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads);
 
+  /// Bodies, or blocks, that are worth a part of their own.
+  static constexpr std::size_t worth_a_part = 48;
+
+  threads::Workers work_;              ///< within the island that is being solved
   std::vector<std::uint32_t> places_;  ///< from a body's index into bodies_; 0 for none
   std::vector<IslandBody> bodies_;     ///< the first is nobody: that of empty lanes
   std::vector<BodyPace> paces_;
@@ -75,6 +102,7 @@ class BlockSolver {
   IslandHolds holds_;
   bool bouncy_ = false;                  ///< some contact has restitution
   bool driven_ = false;                  ///< something moves by its own will
+  std::vector<char> stale_;              ///< by part of the bodies: one of them has
   bool any_stale_ = false;               ///< a body has turned since its rows were prepared
   std::vector<std::uint32_t> meetings_;  ///< lanes
   std::vector<Rebound> rebounds_;

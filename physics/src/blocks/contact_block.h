@@ -45,12 +45,14 @@ struct InertiaRow {
 };
 
 struct ContactBlock {
-  std::uint32_t a[lane_count], b[lane_count];            ///< places of the bodies in the solver
-  std::uint32_t point = 0, friction = 0;                 ///< first rows
-  std::uint32_t inertia = 0;                             ///< its row, where it is not even
-  std::int8_t points = 0;                                ///< of the lane with most
-  std::int8_t frictions = 0;                             ///< none, one at the middle of several points, or as many
-  bool even = true;                                      ///< all bodies have one moment about every axis
+  std::uint32_t a[lane_count], b[lane_count];        ///< places of the bodies in the solver
+  std::uint32_t to_a[lane_count], to_b[lane_count];  ///< where their velocities go: for a body that does not move to
+                                                     ///< a place that nobody reads
+  std::uint32_t point = 0, friction = 0;             ///< first rows
+  std::uint32_t inertia = 0;                         ///< its row, where it is not even
+  std::int8_t points = 0;                            ///< of the lane with most
+  std::int8_t frictions = 0;                         ///< none, one at the middle of several points, or as many
+  bool even = true;                                  ///< all bodies have one moment about every axis
   std::int8_t round_a[lane_count], round_b[lane_count];  ///< -1 for a ball: no contact can rock it
   Lanes3 normal, tangent1, tangent2;
   Lanes inverse_mass_a, inverse_mass_b;
@@ -66,6 +68,7 @@ struct ContactBlock {
 /// Two balls, or one on something that stays where it is: what pushes along the line to the middle turns nothing.
 struct BallBlock {
   std::uint32_t a[lane_count], b[lane_count];
+  std::uint32_t to_a[lane_count], to_b[lane_count];
   Lanes3 normal;
   Lanes inverse_mass_a, inverse_mass_b;
   Lanes arm_a, arm_b;     ///< from the middles to the contact, m
@@ -111,6 +114,18 @@ struct Rows {
   const BodyLanes* displacements = nullptr;
   BodyLag* lags = nullptr;
 };
+
+/// Some blocks, or balls, of rows.
+[[nodiscard]] inline Rows part_of(Rows rows, bool of_balls, std::size_t begin, std::size_t end) {
+  rows.pairs = rows.count = of_balls ? 0 : end - begin;
+  rows.ball_pairs = rows.ball_count = of_balls ? end - begin : 0;
+  (of_balls ? rows.ball_meetings : rows.meetings) += begin;
+  if (of_balls)
+    rows.balls += begin;
+  else
+    rows.blocks += begin;
+  return rows;
+}
 
 /// What is done with rows, for one instruction set. The bits do not depend on it.
 struct Kernels {

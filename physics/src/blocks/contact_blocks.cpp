@@ -85,10 +85,13 @@ void prepare_friction(FrictionRow& row, int lane, const step::Tangents& along, c
 }
 
 template <class Visit>
-void each_lane(const std::vector<ContactBlocks::Origin>& origins, const Visit& visit) {
-  for (std::size_t i = 0; i < origins.size(); ++i)
-    for (int lane = 0; lane < lane_count; ++lane)
-      if (ContactConstraint* contact = origins[i][static_cast<std::size_t>(lane)]) visit(i, lane, *contact);
+void each_lane(const std::vector<ContactBlocks::Origin>& origins, const threads::Workers& work, const Visit& visit) {
+  constexpr std::size_t worth_a_part = 32;
+  work.ranges(origins.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int lane = 0; lane < lane_count; ++lane)
+        if (ContactConstraint* contact = origins[i][static_cast<std::size_t>(lane)]) visit(i, lane, *contact);
+  });
 }
 
 }  // namespace
@@ -120,8 +123,15 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
   ball_meetings.clear();
   origins.clear();
   ball_origins.clear();
+  color_blocks_.clear();
+  color_balls_.clear();
+  room = static_cast<std::uint32_t>(bodies.size());
   std::size_t next = 0;
   for (std::uint32_t key = 0; key + 1 < counts_.size(); ++key) {
+    if (key % kinds == 0) {
+      color_blocks_.push_back(blocks.size());
+      color_balls_.push_back(balls.size());
+    }
     if (key == Coloring::half * kinds) {
       pairs = blocks.size();
       ball_pairs = balls.size();
@@ -139,8 +149,41 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
         else
           fill(lane, contact, places, bodies, closing, h);
       }
+      if (kind == ball_kind)
+        close(balls.back());
+      else
+        close(blocks.back());
     }
   }
+  find_phases();
+}
+
+template <class Block>
+void ContactBlocks::close(Block& block) {
+  bool any = false;
+  for (std::uint32_t* to : {block.to_a, block.to_b})
+    for (int lane = 0; lane < lane_count; ++lane) {
+      if (to[lane] != 0) continue;
+      to[lane] = room;
+      any = true;
+    }
+  if (any) ++room;
+}
+
+void ContactBlocks::find_phases() {
+  phases.clear();
+  color_blocks_.push_back(blocks.size());
+  color_balls_.push_back(balls.size());
+  const auto add = [this](bool of_balls, std::uint32_t from, std::uint32_t to) {
+    const std::vector<std::size_t>& starts = of_balls ? color_balls_ : color_blocks_;
+    for (std::uint32_t color = from; color < to; ++color)
+      if (starts[color] < starts[color + 1])
+        phases.push_back({of_balls, color != Coloring::none, starts[color], starts[color + 1]});
+  };
+  add(true, 0, Coloring::half);
+  add(false, 0, Coloring::half);
+  add(true, Coloring::half, Coloring::none + 1);
+  add(false, Coloring::half, Coloring::none + 1);
 }
 
 void ContactBlocks::open(std::uint32_t kind) {
@@ -171,6 +214,8 @@ void ContactBlocks::fill_ball(int lane, ContactConstraint& contact, const std::v
   BallBlock& block = balls.back();
   const IslandBody& a = bodies[block.a[lane] = places[contact.a]];
   const IslandBody& b = bodies[block.b[lane] = places[contact.b]];
+  if (a.movable) block.to_a[lane] = block.a[lane];
+  if (b.movable) block.to_b[lane] = block.b[lane];
   const Vec3& normal = contact.manifold.normal;
   const PointConstraint& point = contact.points[0];
   const double ratio = contact.kept_step > h ? h / contact.kept_step : 1;
@@ -200,6 +245,8 @@ void ContactBlocks::fill(int lane, ContactConstraint& contact, const std::vector
   ContactBlock& block = blocks.back();
   const IslandBody& a = bodies[block.a[lane] = places[contact.a]];
   const IslandBody& b = bodies[block.b[lane] = places[contact.b]];
+  if (a.movable) block.to_a[lane] = block.a[lane];
+  if (b.movable) block.to_b[lane] = block.b[lane];
   origins.back()[static_cast<std::size_t>(lane)] = &contact;
   const Vec3& normal = contact.manifold.normal;
   const step::Tangents along = step::tangents_of(normal);
@@ -286,7 +333,7 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
   block.twist_mass[lane] = inverse > 0 ? 1 / inverse : 0;
 }
 
-void ContactBlocks::store(double h) {
+void ContactBlocks::store(double h, const threads::Workers& work) {
   /// Parts of the grip from which a contact counts as sliding.
   constexpr double sliding = 0.999;
   const auto begin = [h](ContactConstraint& contact) {
@@ -295,7 +342,7 @@ void ContactBlocks::store(double h) {
     contact.kept_twist = 0;
     contact.slid = false;
   };
-  each_lane(ball_origins, [&](std::size_t i, int lane, ContactConstraint& contact) {
+  each_lane(ball_origins, work, [&](std::size_t i, int lane, ContactConstraint& contact) {
     const BallBlock& block = balls[i];
     begin(contact);
     PointConstraint& point = contact.points[0];
@@ -306,7 +353,7 @@ void ContactBlocks::store(double h) {
     const double most = sliding * contact.friction * point.kept_normal;
     contact.slid = most > 0 && point.kept_friction.squaredNorm() >= most * most;
   });
-  each_lane(origins, [&](std::size_t i, int lane, ContactConstraint& contact) {
+  each_lane(origins, work, [&](std::size_t i, int lane, ContactConstraint& contact) {
     const ContactBlock& block = blocks[i];
     begin(contact);
     contact.kept_twist = block.twist[lane];

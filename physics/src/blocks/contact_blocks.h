@@ -9,6 +9,7 @@
 #include "blocks/island_body.h"
 #include "step/contact_constraint.h"
 #include "step/meeting.h"
+#include "threads/workers.h"
 
 namespace tweenfall::blocks {
 
@@ -26,7 +27,7 @@ class ContactBlocks {
   /// Tells the rows of one contact how its bodies lie now.
   void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
   /// Gives the impulses back to the contacts.
-  void store(double h);
+  void store(double h, const threads::Workers& work);
 
   [[nodiscard]] std::size_t size() const { return blocks.size() + balls.size(); }
   /// Of blocks, and after them of balls.
@@ -50,8 +51,21 @@ class ContactBlocks {
   std::vector<MeetingRow> meetings, ball_meetings;
   std::vector<Origin> origins, ball_origins;
 
+  /// Blocks, or balls, of one color, in the order in which they are solved. They share no body that moves, unless they
+  /// found no color.
+  struct Phase {
+    bool of_balls = false;
+    bool divisible = true;
+    std::size_t begin = 0, end = 0;
+  };
+  std::vector<Phase> phases;
+  std::uint32_t room = 0;  ///< of bodies, and after them of what is written and not read
+
  private:
   void open(std::uint32_t kind);
+  template <class Block>
+  void close(Block& block);
+  void find_phases();
   void fill(int lane, step::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
             const std::vector<IslandBody>& bodies, const step::Closing& closing, double h);
   void fill_ball(int lane, step::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
@@ -59,6 +73,7 @@ class ContactBlocks {
 
   Coloring coloring_;
   std::vector<std::uint32_t> keys_, counts_, sorted_;
+  std::vector<std::size_t> color_blocks_, color_balls_;  ///< by color: where its blocks begin
 };
 
 }  // namespace tweenfall::blocks

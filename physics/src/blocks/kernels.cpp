@@ -75,10 +75,10 @@ TWEENFALL_LANES Pair pair_of(const BodyLanes* bodies, const ContactBlock& block)
 
 TWEENFALL_LANES void put_back(const Pair& pair, BodyLanes* bodies, const ContactBlock& block) {
   const Lanes3 impulse = pair.pushed * block.normal + (pair.dragged1 * block.tangent1 + pair.dragged2 * block.tangent2);
-  put_linear(pair.linear_a - block.inverse_mass_a * impulse, bodies, block.a);
-  put_angular(pair.angular_a, bodies, block.a);
-  put_linear(pair.linear_b + block.inverse_mass_b * impulse, bodies, block.b);
-  put_angular(pair.angular_b, bodies, block.b);
+  put_linear(pair.linear_a - block.inverse_mass_a * impulse, bodies, block.to_a);
+  put_angular(pair.angular_a, bodies, block.to_a);
+  put_linear(pair.linear_b + block.inverse_mass_b * impulse, bodies, block.to_b);
+  put_angular(pair.angular_b, bodies, block.to_b);
 }
 
 template <bool even>
@@ -235,10 +235,10 @@ TWEENFALL_LANES void warm_start_balls(const Rows& rows, BallBlock& block) {
   block.gap = block.base + dot(block.normal, linear(rows.displacements, block.b) - linear(rows.displacements, block.a));
   const Lanes3 impulse = block.impulse * block.normal + block.friction;
   const Lanes3 turn = cross(block.normal, block.friction);
-  put_linear(linear(rows.velocities, block.a) - block.inverse_mass_a * impulse, rows.velocities, block.a);
-  put_angular(angular(rows.velocities, block.a) - block.spin_a * turn, rows.velocities, block.a);
-  put_linear(linear(rows.velocities, block.b) + block.inverse_mass_b * impulse, rows.velocities, block.b);
-  put_angular(angular(rows.velocities, block.b) - block.spin_b * turn, rows.velocities, block.b);
+  put_linear(linear(rows.velocities, block.a) - block.inverse_mass_a * impulse, rows.velocities, block.to_a);
+  put_angular(angular(rows.velocities, block.a) - block.spin_a * turn, rows.velocities, block.to_a);
+  put_linear(linear(rows.velocities, block.b) + block.inverse_mass_b * impulse, rows.velocities, block.to_b);
+  put_angular(angular(rows.velocities, block.b) - block.spin_b * turn, rows.velocities, block.to_b);
 }
 
 TWEENFALL_LANES void solve_balls(const Rows& rows, BallBlock& block, const PassRule& rule) {
@@ -260,10 +260,10 @@ TWEENFALL_LANES void solve_balls(const Rows& rows, BallBlock& block, const PassR
   const Lanes3 turn = cross(block.normal, dragged);
   block.friction = friction;
   block.impulse = next;
-  put_linear(linear_a - block.inverse_mass_a * impulse, rows.velocities, block.a);
-  put_angular(angular_a - block.spin_a * turn, rows.velocities, block.a);
-  put_linear(linear_b + block.inverse_mass_b * impulse, rows.velocities, block.b);
-  put_angular(angular_b - block.spin_b * turn, rows.velocities, block.b);
+  put_linear(linear_a - block.inverse_mass_a * impulse, rows.velocities, block.to_a);
+  put_angular(angular_a - block.spin_a * turn, rows.velocities, block.to_a);
+  put_linear(linear_b + block.inverse_mass_b * impulse, rows.velocities, block.to_b);
+  put_angular(angular_b - block.spin_b * turn, rows.velocities, block.to_b);
   if (rule.note) block.pressed = next > all(0);
   if (!rule.sum_up) return;
   block.total = block.total + next;
@@ -275,29 +275,30 @@ TWEENFALL_LANES Mask mask_of(const std::int8_t* lanes) {
 }
 
 /// Lags of four bodies, less what a contact along the normal holds.
-TWEENFALL_LANES void hold_lags(BodyLag* lags, const std::uint32_t* at, const Lanes3& normal, const Mask& pressed,
-                               const Mask& wholly) {
-  double *r0 = lags[at[0]].lanes, *r1 = lags[at[1]].lanes, *r2 = lags[at[2]].lanes, *r3 = lags[at[3]].lanes;
+TWEENFALL_LANES void hold_lags(BodyLag* lags, const std::uint32_t* at, const std::uint32_t* to, const Lanes3& normal,
+                               const Mask& pressed, const Mask& wholly) {
+  const double *r0 = lags[at[0]].lanes, *r1 = lags[at[1]].lanes, *r2 = lags[at[2]].lanes, *r3 = lags[at[3]].lanes;
   const Lanes known{r0[3], r1[3], r2[3], r3[3]};
   Lanes3 lag = gathered(r0, r1, r2, r3);
   const Lanes zero = all(0);
   const Lanes along = select(pressed, dot(normal, lag), zero);
   lag = lag - along * normal;
   lag = {select(wholly, zero, lag.x), select(wholly, zero, lag.y), select(wholly, zero, lag.z)};
-  scatter(lag, select(pressed, all(1), known), r0, r1, r2, r3);
+  scatter(lag, select(pressed, all(1), known), lags[to[0]].lanes, lags[to[1]].lanes, lags[to[2]].lanes,
+          lags[to[3]].lanes);
 }
 
 TWEENFALL_LANES void hold_block(const Rows& rows, const ContactBlock& block) {
   if (!any(block.pressed)) return;
   const Mask held = block.pressed & block.held;
-  hold_lags(rows.lags, block.a, block.normal, block.pressed, held & ~mask_of(block.round_a));
-  hold_lags(rows.lags, block.b, block.normal, block.pressed, held & ~mask_of(block.round_b));
+  hold_lags(rows.lags, block.a, block.to_a, block.normal, block.pressed, held & ~mask_of(block.round_a));
+  hold_lags(rows.lags, block.b, block.to_b, block.normal, block.pressed, held & ~mask_of(block.round_b));
 }
 TWEENFALL_LANES void hold_balls(const Rows& rows, const BallBlock& block) {
   if (!any(block.pressed)) return;
   const Mask none = all(0) > all(0);
-  hold_lags(rows.lags, block.a, block.normal, block.pressed, none);
-  hold_lags(rows.lags, block.b, block.normal, block.pressed, none);
+  hold_lags(rows.lags, block.a, block.to_a, block.normal, block.pressed, none);
+  hold_lags(rows.lags, block.b, block.to_b, block.normal, block.pressed, none);
 }
 
 /// Which points arrive within the sub-step, and fast enough.

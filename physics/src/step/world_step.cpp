@@ -16,6 +16,8 @@ namespace {
 
 /// Bodies, or contacts, that are worth more than one thread.
 constexpr std::size_t worth_sharing = 128;
+/// Contacts of an island that are worth dividing it.
+constexpr std::size_t worth_dividing = 256;
 
 void remember(const ContactConstraint& constraint, bool touching, state::ContactMemory& memory) {
   memory.a = constraint.a;
@@ -99,25 +101,30 @@ void World::Implementation::solve_islands(double dt) {
     solvers[i].few.begin(bodies.size());
     solvers[i].many.begin(bodies.size());
   }
-  // The biggest first, so that no thread is left with one at the end.
+  // The biggest first, so that no thread is left with one at the end; the very big ones by all threads together.
   const auto size_of = [&](std::uint32_t island) {
     const islands::IslandContents& contents = all[island];
     return contents.contacts.size() + contents.springs.size() + 4 * contents.joints.size();
   };
   islands_by_size.resize(all.size());
   std::iota(islands_by_size.begin(), islands_by_size.end(), std::uint32_t{0});
-  if (shares > 1)
+  if (work.threads() > 1)
     std::stable_sort(islands_by_size.begin(), islands_by_size.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return size_of(a) > size_of(b); });
-  std::atomic<std::size_t> next{0};
+  const auto solve = [&](std::size_t island, step::Solvers& by, const threads::Workers& within) {
+    const islands::IslandContents& contents = all[islands_by_size[island]];
+    if (blocks::BlockSolver::takes(contents, bodies, dt))
+      by.many.solve(bodies, loads, contents, settings, dt, moved, within);
+    else
+      by.few.solve(bodies, loads, contents.contacts, contents.springs, settings, dt, moved);
+  };
+  std::size_t divided = 0;
+  if (work.threads() > 1)
+    while (divided < all.size() && all[islands_by_size[divided]].contacts.size() >= step::worth_dividing)
+      solve(divided++, solvers[0], work);
+  std::atomic<std::size_t> next{divided};
   work.parts(shares, [&](std::size_t share) {
-    for (std::size_t i = next.fetch_add(1); i < all.size(); i = next.fetch_add(1)) {
-      const islands::IslandContents& island = all[islands_by_size[i]];
-      if (blocks::BlockSolver::takes(island, bodies, dt))
-        solvers[share].many.solve(bodies, loads, island, settings, dt, moved);
-      else
-        solvers[share].few.solve(bodies, loads, island.contacts, island.springs, settings, dt, moved);
-    }
+    for (std::size_t i = next.fetch_add(1); i < all.size(); i = next.fetch_add(1)) solve(i, solvers[share], {});
   });
 }
 
