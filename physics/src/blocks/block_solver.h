@@ -46,7 +46,8 @@ class BlockSolver {
 
   void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
               const islands::IslandContents& island, Integrator integrator, double dt);
-  void foresee(std::span<step::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads, double dt);
+  void foresee(std::span<step::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads, double h,
+               double dt);
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
                       int sub_steps, int sub_step);
   void prepare_again(const std::vector<state::Body>& bodies);
