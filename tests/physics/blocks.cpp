@@ -40,6 +40,7 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
     std::vector<BallBlock> balls;
     std::vector<PointRow> points;
     std::vector<FrictionRow> frictions;
+    std::vector<DriftRow> drifts;
     std::vector<InertiaRow> inertias;
     std::vector<MeetingRow> meetings;
     std::vector<BodyLanes> velocities, displacements;
@@ -53,6 +54,7 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
               .ball_count = balls.size(),
               .points = points.data(),
               .frictions = frictions.data(),
+              .drifts = drifts.data(),
               .inertias = inertias.data(),
               .meetings = meetings.data(),
               .ball_meetings = meetings.data(),
@@ -75,6 +77,7 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
   constexpr int count = 40;
   fill(first.points, 4 * count);
   fill(first.frictions, 4 * count);
+  fill(first.drifts, 4 * count);
   fill(first.inertias, count);
   fill(first.meetings, count);
   fill(first.velocities, 8 * count);
@@ -108,6 +111,7 @@ TEST_CASE("rows are solved to the same bits with every instruction set") {
       block.round_a[lane] = lane % 3 == 0 ? -1 : 0;
       block.round_b[lane] = lane % 3 == 1 ? -1 : 0;
     }
+    block.drifts = i % 5 < 2;
     block.points = static_cast<std::int8_t>(1 + i % 4);
     block.frictions = i % 3 == 0 ? std::int8_t{0} : i % 3 == 1 ? std::int8_t{1} : block.points;
     block.point = block.friction = static_cast<std::uint32_t>(4 * i);

@@ -124,6 +124,8 @@ double BlockSolver::work_of_driven() const {
 
 /// Takes back as much of the rebound as would leave the island more energy than it had and than was put into it.
 void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads) {
+  // The work of a surface is not known: the island is left as it is.
+  if (conveyed_) return;
   islands::IslandEnergy energy;
   for (std::uint32_t i = 1; i < bodies_.size(); ++i) {
     const BodyPace& pace = paces_[i];

@@ -64,7 +64,8 @@ bool BlockSolver::takes(const islands::IslandContents& island, const std::vector
   if (island.contacts.size() < many || !island.springs.empty()) return false;
   const double h = dt / sub_steps_for(island, dt);
   for (const ContactConstraint* contact : island.contacts) {
-    if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return false;
+    if (contact->rolling_friction > 0 || contact->spinning_friction > 0 || h < long_enough * contact->kept_step)
+      return false;
     for (const std::uint32_t index : {contact->a, contact->b}) {
       const Body& body = bodies[index];
       if (body.immovable()) continue;
@@ -83,7 +84,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   paces_.assign(1, {});
   velocities_.assign(1, {});
   uneven_.clear();
-  bouncy_ = driven_ = any_stale_ = false;
+  bouncy_ = driven_ = conveyed_ = any_stale_ = false;
   const auto add = [&](std::uint32_t index) {
     if (places_[index] != 0) return;
     places_[index] = static_cast<std::uint32_t>(bodies_.size());
@@ -94,6 +95,9 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
     entry.index = index;
     entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
     entry.movable = pace.movable = !body.immovable() && !body.asleep;
+    entry.conveys = body.conveys;
+    if (body.conveys) entry.surface = body.surface();
+    conveyed_ = conveyed_ || body.conveys;
     entry.center = entry.start_center = body.center;
     entry.rotation = entry.start_rotation = body.motion.pose.rotation;
     if (entry.movable) {
@@ -343,6 +347,7 @@ Rows BlockSolver::rows() {
   rows.ball_count = contacts_.balls.size();
   rows.points = contacts_.points.data();
   rows.frictions = contacts_.frictions.data();
+  rows.drifts = contacts_.drifts.data();
   rows.inertias = contacts_.inertias.data();
   rows.meetings = contacts_.meetings.data();
   rows.ball_meetings = contacts_.ball_meetings.data();

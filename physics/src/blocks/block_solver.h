@@ -103,6 +103,7 @@ class BlockSolver {
   IslandHolds holds_;
   bool bouncy_ = false;                  ///< some contact has restitution
   bool driven_ = false;                  ///< something moves by its own will
+  bool conveyed_ = false;                ///< some surface moves
   std::vector<char> stale_;              ///< by part of the bodies: one of them has
   bool any_stale_ = false;               ///< a body has turned since its rows were prepared
   std::vector<std::uint32_t> meetings_;  ///< lanes

@@ -39,6 +39,12 @@ struct FrictionRow {
   Lanes total_first, total_second;
 };
 
+/// How the surfaces of the bodies move against each other at a row of friction, besides what the bodies do.
+struct DriftRow {
+  Lanes first, second;  ///< of b against a along the tangents, m/s
+  Lanes twist;          ///< about the normal, rad/s
+};
+
 /// Of bodies that turn about some axes more easily than about others.
 struct InertiaRow {
   LanesSymmetric inverse_a, inverse_b;
@@ -52,6 +58,7 @@ struct ContactBlock {
   std::uint32_t inertia = 0;                         ///< its row, where it is not even
   std::int8_t points = 0;                            ///< of the lane with most
   std::int8_t frictions = 0;                         ///< none, one at the middle of several points, or as many
+  bool drifts = false;                               ///< some surface moves: there are rows that tell how
   bool even = true;                                  ///< all bodies have one moment about every axis
   std::int8_t round_a[lane_count], round_b[lane_count];  ///< -1 for a ball: no contact can rock it
   Lanes3 normal, tangent1, tangent2;
@@ -107,6 +114,7 @@ struct Rows {
   std::size_t ball_pairs = 0, ball_count = 0;
   PointRow* points = nullptr;
   FrictionRow* frictions = nullptr;
+  const DriftRow* drifts = nullptr;  ///< beside `frictions`; of blocks without any not read
   const InertiaRow* inertias = nullptr;
   const MeetingRow* meetings = nullptr;       ///< of blocks
   const MeetingRow* ball_meetings = nullptr;  ///< of balls

@@ -58,7 +58,8 @@ Grip grip_of(const ContactConstraint& contact) {
 
 std::uint32_t kind_of(const ContactConstraint& contact, const IslandBody& a, const IslandBody& b) {
   const auto smooth = [](const IslandBody& body) { return body.movable ? body.round : body.still; };
-  if (contact.count == 1 && !(contact.rolling_friction > 0) && smooth(a) && smooth(b)) return ball_kind;
+  const bool plain = !(contact.rolling_friction > 0) && !(contact.spinning_friction > 0) && !a.conveys && !b.conveys;
+  if (contact.count == 1 && plain && smooth(a) && smooth(b)) return ball_kind;
   return 2 * (3 * static_cast<std::uint32_t>(contact.count - 1) + static_cast<std::uint32_t>(grip_of(contact))) +
          (a.isotropic && b.isotropic ? 1 : 0);
 }
@@ -118,6 +119,8 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
   balls.clear();
   points.clear();
   frictions.clear();
+  drifts.clear();
+  conveyed_ = std::ranges::any_of(bodies, &IslandBody::conveys);
   inertias.clear();
   meetings.clear();
   ball_meetings.clear();
@@ -204,6 +207,7 @@ void ContactBlocks::open(std::uint32_t kind) {
   block.friction = static_cast<std::uint32_t>(frictions.size());
   points.resize(points.size() + static_cast<std::size_t>(block.points));
   frictions.resize(frictions.size() + static_cast<std::size_t>(block.frictions));
+  if (conveyed_) drifts.resize(frictions.size());
   if (block.even) return;
   block.inertia = static_cast<std::uint32_t>(inertias.size());
   inertias.emplace_back();
@@ -283,6 +287,16 @@ void ContactBlocks::fill(int lane, ContactConstraint& contact, const std::vector
   prepare(blocks.size() - 1, lane, bodies, nullptr);
 }
 
+void ContactBlocks::prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a,
+                                  const IslandBody& b, const Vec3& arm_a, const Vec3& arm_b) {
+  if (!a.conveys && !b.conveys) return;
+  block.drifts = true;
+  const Vec3 drift = step::drift_at(a.surface, arm_a, b.surface, arm_b);
+  drifts[row].first[lane] = lane_of(block.tangent1, lane).dot(drift);
+  drifts[row].second[lane] = lane_of(block.tangent2, lane).dot(drift);
+  drifts[row].twist[lane] = lane_of(block.normal, lane).dot(b.surface.angular - a.surface.angular);
+}
+
 void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<IslandBody>& bodies,
                             const BodyLanes* displacements) {
   ContactBlock& block = blocks[index];
@@ -318,8 +332,11 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
                        (across_b.dot(angular_of(displacements[block.b[lane]])) -
                         across_a.dot(angular_of(displacements[block.a[lane]])));
     }
-    if (block.frictions == block.points)
-      prepare_friction(frictions[block.friction + static_cast<std::uint32_t>(i)], lane, along, masses, arm_a, arm_b);
+    if (block.frictions == block.points) {
+      const std::uint32_t grip = block.friction + static_cast<std::uint32_t>(i);
+      prepare_friction(frictions[grip], lane, along, masses, arm_a, arm_b);
+      prepare_drift(block, grip, lane, a, b, arm_a, arm_b);
+    }
     arms[static_cast<std::size_t>(i)] = arm_b;
     middle_a += share * arm_a;
     middle_b += share * arm_b;
@@ -329,6 +346,7 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
     points[block.point + static_cast<std::uint32_t>(i)].lever[lane] =
         (arms[static_cast<std::size_t>(i)] - middle_b).norm();
   prepare_friction(frictions[block.friction], lane, along, masses, middle_a, middle_b);
+  prepare_drift(block, block.friction, lane, a, b, middle_a, middle_b);
   const double inverse = masses.turning(normal, normal, normal, normal);
   block.twist_mass[lane] = inverse > 0 ? 1 / inverse : 0;
 }

@@ -47,6 +47,7 @@ class ContactBlocks {
   std::size_t pairs = 0, ball_pairs = 0;  ///< those of two movable bodies come first
   std::vector<PointRow> points;
   std::vector<FrictionRow> frictions;
+  std::vector<DriftRow> drifts;  ///< beside `frictions`, or none where no surface moves
   std::vector<InertiaRow> inertias;
   std::vector<MeetingRow> meetings, ball_meetings;
   std::vector<Origin> origins, ball_origins;
@@ -71,6 +72,10 @@ class ContactBlocks {
   void fill_ball(int lane, step::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
                  const std::vector<IslandBody>& bodies, const step::Closing& closing, double h);
 
+  void prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a, const IslandBody& b,
+                     const Vec3& arm_a, const Vec3& arm_b);
+
+  bool conveyed_ = false;  ///< some surface moves
   Coloring coloring_;
   std::vector<std::uint32_t> keys_, counts_, sorted_;
   std::vector<std::size_t> color_blocks_, color_balls_;  ///< by color: where its blocks begin

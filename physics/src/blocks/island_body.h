@@ -45,6 +45,8 @@ struct alignas(64) IslandBody {
   bool jointed = false;   ///< a joint holds it
   bool held = false;      ///< a drive or a stiff spring holds it
   bool pulled = false;    ///< by a drive without a limit: a soft contact would not hold against it
+  bool conveys = false;   ///< its surface moves against it
+  Twist surface;          ///< so, at the center of mass, world axes
   double given = 1;       ///< share of an impulse that such a drive lets through
   double turned = 0;      ///< since its rows were prepared, rad
   double drag = 0;        ///< 1/s, taken implicitly

@@ -16,6 +16,7 @@ namespace {
 /// A body as rows that are solved one by one see it.
 SolverBody seen(const IslandBody& entry, const BodyLanes& velocity) {
   SolverBody body;
+  body.surface = entry.surface;
   body.inverse_mass = entry.inverse_mass;
   body.inverse_inertia = entry.inverse_inertia;
   body.center = entry.center;
@@ -77,9 +78,11 @@ void IslandHolds::gather(const ContactBlocks& contacts, double h) {
   for (std::uint32_t i = 0; i < contacts.blocks.size(); ++i)
     for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
       ContactConstraint* contact = contacts.origins[i][lane];
-      if (!contact || !(contact->rolling_friction > 0)) continue;
+      if (!contact || !(contact->rolling_friction > 0 || contact->spinning_friction > 0)) continue;
       rolls_.push_back({i, lane});
-      contact->rolling_impulse = (contact->kept_step > h ? h / contact->kept_step : 1) * contact->kept_rolling;
+      const double ratio = contact->kept_step > h ? h / contact->kept_step : 1;
+      contact->rolling_impulse = ratio * contact->kept_rolling;
+      contact->spin_impulse = ratio * contact->kept_spin;
     }
 }
 
@@ -100,7 +103,8 @@ void IslandHolds::begin_sub_step(const std::vector<Body>& bodies, const std::vec
             [&](SolverBody& a, SolverBody& b) { held.row->begin(&a, held.b == 0 ? nullptr : &b, h_); });
   for (const Rolling& rolling : rolls_) {
     const ContactBlock& block = contacts.blocks[rolling.block];
-    const Vec3& impulse = contacts.origins[rolling.block][rolling.lane]->rolling_impulse;
+    const ContactConstraint& contact = *contacts.origins[rolling.block][rolling.lane];
+    const Vec3 impulse = contact.rolling_impulse + contact.spin_impulse * contact.manifold.normal;
     between(block.a[rolling.lane], block.b[rolling.lane], entries, velocities, [&](SolverBody& a, SolverBody& b) {
       a.angular -= a.inverse_inertia * impulse;
       b.angular += b.inverse_inertia * impulse;
@@ -144,7 +148,10 @@ void IslandHolds::solve(const std::vector<Body>& bodies, const std::vector<Islan
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(contact.count); ++i)
       pressing += contacts.points[block.point + i].impulse[rolling.lane];
     between(block.a[rolling.lane], block.b[rolling.lane], entries, velocities, [&](SolverBody& a, SolverBody& b) {
-      step::solve_rolling(a, b, contact.rolling_impulse, contact.rolling_friction * pressing);
+      if (contact.rolling_friction > 0)
+        step::solve_rolling(a, b, contact.rolling_impulse, contact.rolling_friction * pressing);
+      if (contact.spinning_friction > 0)
+        step::solve_spinning(a, b, contact.manifold.normal, contact.spin_impulse, contact.spinning_friction * pressing);
     });
   }
 }
@@ -160,6 +167,7 @@ void IslandHolds::store(const ContactBlocks& contacts) const {
   for (const Rolling& rolling : rolls_) {
     ContactConstraint& contact = *contacts.origins[rolling.block][rolling.lane];
     contact.kept_rolling = contact.rolling_impulse;
+    contact.kept_spin = contact.spin_impulse;
   }
 }
 

@@ -123,9 +123,14 @@ TWEENFALL_LANES void warm_start_block(const Rows& rows, ContactBlock& block) {
 
 template <bool even>
 TWEENFALL_LANES void solve_friction(Pair& pair, const ContactBlock& block, const InertiaRow* inertia,
-                                    const Lanes& inverse_mass, FrictionRow& row, const Lanes& limit) {
-  const Lanes slip1 = pair.slip1 + (dot(row.first_b, pair.angular_b) - dot(row.first_a, pair.angular_a));
-  const Lanes slip2 = pair.slip2 + (dot(row.second_b, pair.angular_b) - dot(row.second_a, pair.angular_a));
+                                    const Lanes& inverse_mass, FrictionRow& row, const DriftRow* drift,
+                                    const Lanes& limit) {
+  Lanes slip1 = pair.slip1 + (dot(row.first_b, pair.angular_b) - dot(row.first_a, pair.angular_a));
+  Lanes slip2 = pair.slip2 + (dot(row.second_b, pair.angular_b) - dot(row.second_a, pair.angular_a));
+  if (drift) {
+    slip1 = slip1 + drift->first;
+    slip2 = slip2 + drift->second;
+  }
   Lanes next1 = row.first - (row.inverse11 * slip1 + row.inverse12 * slip2);
   Lanes next2 = row.second - (row.inverse12 * slip1 + row.inverse22 * slip2);
   const Lanes most = limit * limit;
@@ -152,8 +157,10 @@ TWEENFALL_LANES void solve_friction(Pair& pair, const ContactBlock& block, const
 }
 
 template <bool even>
-TWEENFALL_LANES void solve_twist(Pair& pair, ContactBlock& block, const InertiaRow* inertia, const Lanes& limit) {
-  const Lanes speed = dot(block.normal, pair.angular_b - pair.angular_a);
+TWEENFALL_LANES void solve_twist(Pair& pair, ContactBlock& block, const InertiaRow* inertia, const DriftRow* drift,
+                                 const Lanes& limit) {
+  Lanes speed = dot(block.normal, pair.angular_b - pair.angular_a);
+  if (drift) speed = speed + drift->twist;
   const Lanes next = greater(-limit, lesser(limit, block.twist - block.twist_mass * speed));
   const Lanes3 change = (next - block.twist) * block.normal;
   block.twist = next;
@@ -196,6 +203,7 @@ TWEENFALL_LANES void solve_block(const Rows& rows, ContactBlock& block, const Pa
   Pair pair = pair_of(rows.velocities, block);
   PointRow* points = rows.points + block.point;
   FrictionRow* frictions = rows.frictions + block.friction;
+  const DriftRow* drifts = block.drifts ? rows.drifts + block.friction : nullptr;
   const InertiaRow* inertia = rows.inertias + block.inertia;
   const Lanes inverse_mass = block.inverse_mass_a + block.inverse_mass_b;
   if (block.central()) {
@@ -204,11 +212,12 @@ TWEENFALL_LANES void solve_block(const Rows& rows, ContactBlock& block, const Pa
       pressing = pressing + points[i].impulse;
       twisting = twisting + points[i].impulse * points[i].lever;
     }
-    solve_twist<even>(pair, block, inertia, block.coefficient * twisting);
-    solve_friction<even>(pair, block, inertia, inverse_mass, frictions[0], block.coefficient * pressing);
+    solve_twist<even>(pair, block, inertia, drifts, block.coefficient * twisting);
+    solve_friction<even>(pair, block, inertia, inverse_mass, frictions[0], drifts, block.coefficient * pressing);
   } else {
     for (int i = 0; i < block.frictions; ++i)
-      solve_friction<even>(pair, block, inertia, inverse_mass, frictions[i], block.coefficient * points[i].impulse);
+      solve_friction<even>(pair, block, inertia, inverse_mass, frictions[i], drifts ? drifts + i : nullptr,
+                           block.coefficient * points[i].impulse);
   }
   for (int i = 0; i < block.points; ++i) {
     PointRow& point = points[i];

@@ -75,6 +75,9 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
                 lane_of(row.first_b, lane),
                 lane_of(row.second_a, lane),
                 lane_of(row.second_b, lane)};
+    if (!block.drifts) continue;
+    rows_[k].drift1 = contacts.drifts[block.friction + k].first[lane];
+    rows_[k].drift2 = contacts.drifts[block.friction + k].second[lane];
   }
 }
 
@@ -96,8 +99,8 @@ void ReboundContact::turn(BodyLanes& a, BodyLanes& b, const Vec3& turn_a, const 
 double ReboundContact::solve_friction(Friction& row, double limit, BodyLanes& a, BodyLanes& b) const {
   const Vec3 slip = linear_of(b) - linear_of(a);
   const Vec3 angular_a = angular_of(a), angular_b = angular_of(b);
-  const double slip1 = tangent1_.dot(slip) + row.first_b.dot(angular_b) - row.first_a.dot(angular_a);
-  const double slip2 = tangent2_.dot(slip) + row.second_b.dot(angular_b) - row.second_a.dot(angular_a);
+  const double slip1 = tangent1_.dot(slip) + row.first_b.dot(angular_b) - row.first_a.dot(angular_a) + row.drift1;
+  const double slip2 = tangent2_.dot(slip) + row.second_b.dot(angular_b) - row.second_a.dot(angular_a) + row.drift2;
   double next1 = row.first - (row.inverse11 * slip1 + row.inverse12 * slip2);
   double next2 = row.second - (row.inverse12 * slip1 + row.inverse22 * slip2);
   if (next1 * next1 + next2 * next2 > limit * limit) {

@@ -46,6 +46,7 @@ class ReboundContact {
     double inverse11, inverse12, inverse22, firm;
     double first, second, first_before, second_before;
     Vec3 first_a, first_b, second_a, second_b;
+    double drift1 = 0, drift2 = 0;  ///< of the surfaces, m/s
   };
   double solve_friction(Friction& row, double limit, BodyLanes& a, BodyLanes& b) const;
   double solve_ball_friction(BodyLanes& a, BodyLanes& b);

@@ -10,7 +10,9 @@ namespace tweenfall::queries {
 template <class Asked, class Filter>
 [[nodiscard]] Scene::Accept accept(const Asked& asked, const Filter& filter) {
   return [&asked, &filter](std::uint32_t item) {
-    return (asked.scene()[item].groups & filter.groups) != 0 && (!filter.accept || filter.accept(asked.id(item)));
+    const Item& what = asked.scene()[item];
+    return (what.groups & filter.groups) != 0 && (filter.sensors || !what.sensor) &&
+           (!filter.accept || filter.accept(asked.id(item)));
   };
 }
 

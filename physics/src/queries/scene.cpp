@@ -133,7 +133,9 @@ std::vector<std::uint32_t> Scene::overlapping(const Shape& shape, const Pose& po
       found.push_back(item);
   };
   for (const std::uint32_t plane : planes_) see(plane);
-  tree_.visit(with_room(bounds(shape, pose), 0), see);
+  const Vec3 end = Vec3::Constant(std::numeric_limits<double>::infinity());
+  const bool endless = std::holds_alternative<Plane>(shape.solid);
+  tree_.visit(endless ? Bounds{-end, end} : with_room(bounds(shape, pose), 0), see);
   std::ranges::sort(found);
   return found;
 }

@@ -16,6 +16,7 @@ struct Item {
   Pose pose;
   std::uint64_t mark = 0;  ///< another one means another thing: its shape may have changed
   std::uint64_t groups = 0;
+  bool sensor = false;
 };
 
 /// Things where they are, with their boxes in a tree.

@@ -1,6 +1,7 @@
 #include <tweenfall/physics/query.h>
 
 #include "queries/answers.h"
+#include "queries/body_scene.h"
 #include "queries/closest.h"
 #include "state/world_data.h"
 
@@ -12,20 +13,13 @@ namespace queries {
 class Inside {
  public:
   explicit Inside(const World& asked)
-      : world_(asked.inside()), scene_(world_.scene.get([this](Scene& scene) { arrange(scene); })) {}
+      : world_(asked.inside()),
+        scene_(world_.scene.get([this](Scene& scene) { arrange_bodies(scene, world_.bodies); })) {}
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] BodyId id(std::uint32_t index) const { return {index, world_.bodies[index].generation}; }
 
  private:
-  void arrange(Scene& scene) const {
-    scene.arrange(world_.bodies.size(), [this](std::uint32_t index) -> Item {
-      const state::Body& body = world_.bodies[index];
-      if (!body.alive) return {};
-      return {&body.shape, body.motion.pose, body.generation, body.groups};
-    });
-  }
-
   const World::Implementation& world_;
   const Scene& scene_;
 };

@@ -30,7 +30,8 @@ class InsideStage {
       const staging::StagedBody& body = first.bodies[index];
       if (!body.present) return {};
       return {&first.world.shape(body.id), staging::body_pose(first, second, index, timeline_.now()),
-              std::uint64_t{body.id.generation} << 32 | body.id.index, first.world.groups(body.id)};
+              std::uint64_t{body.id.generation} << 32 | body.id.index, first.world.groups(body.id),
+              first.world.is_sensor(body.id)};
     });
   }
 

@@ -38,6 +38,12 @@ struct Body {
   double friction = 0;
   double restitution = 0;
   double rolling_friction = 0;
+  double spinning_friction = 0;
+  Combine friction_combine = Combine::usual;
+  Combine restitution_combine = Combine::usual;
+  bool sensor = false;
+  bool conveys = false;      ///< its surface moves
+  Twist surface_velocity;    ///< at the center of mass, node axes
   std::uint64_t groups = 1;  ///< as the caller last said, and so `collides_with`
   std::uint64_t collides_with = ~std::uint64_t{0};
   Shape shape;
@@ -61,6 +67,11 @@ struct Body {
   }
   [[nodiscard]] Mat3 world_inertia(const Quat& rotation) const;
   [[nodiscard]] Mat3 world_inverse_inertia(const Quat& rotation) const;
+
+  /// How the surface moves against the body, at the center of mass, world axes.
+  [[nodiscard]] Twist surface() const {
+    return {motion.pose.rotation * surface_velocity.linear, motion.pose.rotation * surface_velocity.angular};
+  }
 
   /// Sets center and twist at the center of mass from the node's motion.
   void follow_motion();

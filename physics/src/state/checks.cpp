@@ -98,6 +98,11 @@ void validate_surface(const Body& body) {
   require(body.restitution >= 0 && body.restitution <= 1,
           "restitution must lie in 0 to 1, but is " + number_text(body.restitution));
   require_amount(body.rolling_friction, "rolling friction");
+  require_amount(body.spinning_friction, "spinning friction");
+  require(body.friction_combine <= Combine::maximum && body.restitution_combine <= Combine::maximum,
+          "there is no such rule to combine frictions or restitutions");
+  require_finite(body.surface_velocity.linear, "velocity of a surface");
+  require_finite(body.surface_velocity.angular, "angular velocity of a surface");
   require_amount(body.linear_damping, "linear damping");
   require_amount(body.angular_damping, "angular damping");
 }

@@ -21,6 +21,10 @@ void validate(const Drive& drive);
 /// Friction, restitution and damping.
 void validate_surface(const Body& body);
 
+[[nodiscard]] inline bool conveys(const Twist& surface) {
+  return surface.linear != Vec3::Zero() || surface.angular != Vec3::Zero();
+}
+
 /// The motion with its rotation normalized where it is not.
 [[nodiscard]] Motion checked(Motion motion);
 

@@ -20,6 +20,7 @@ struct PointMemory {
 /// What a contact hands on from step to step, apart from its points.
 struct KeptImpulses {
   Vec3 kept_rolling{0, 0, 0};
+  double kept_spin = 0;    ///< of the resistance to spinning, about the normal, N m s
   double kept_step = 0;    ///< length of the sub-step that kept impulses are of, s; 0: none are
   double kept_twist = 0;   ///< about the normal, where friction acts at the middle of the points, N m s
   bool slid = false;       ///< at the end of the last step that was solved in blocks

@@ -115,12 +115,14 @@ template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
   auto& [alive, fixed, asleep, placed, has_target, led, turned, spherical, generation, drive, still_for, center, twist,
          motion, force, torque, radius, roundness, linear_damping, angular_damping, mass, inverse_inertia, friction,
-         restitution, rolling_friction, groups, collides_with, shape, target, reaction] = body;
+         restitution, rolling_friction, spinning_friction, friction_combine, restitution_combine, sensor, conveys,
+         surface_velocity, groups, collides_with, shape, target, reaction] = body;
   visit(alive, generation);
   if (!alive) return;  // its place and number alone matter
   visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion, force, torque, linear_damping,
-        angular_damping, mass, friction, restitution, rolling_friction, groups, collides_with, shape, target, reaction);
-  follows_from_others(turned, spherical, radius, roundness, inverse_inertia);
+        angular_damping, mass, friction, restitution, rolling_friction, spinning_friction, friction_combine,
+        restitution_combine, sensor, surface_velocity, groups, collides_with, shape, target, reaction);
+  follows_from_others(conveys, turned, spherical, radius, roundness, inverse_inertia);
 }
 
 template <Is<Drag> T, class Visit>
@@ -149,8 +151,8 @@ void each_field(T& point, const Visit& visit) {
 
 template <Is<KeptImpulses> T, class Visit>
 void each_field(T& kept, const Visit& visit) {
-  auto& [kept_rolling, kept_step, kept_twist, slid, passed_over] = kept;
-  visit(kept_rolling, kept_step, kept_twist, slid, passed_over);
+  auto& [kept_rolling, kept_spin, kept_step, kept_twist, slid, passed_over] = kept;
+  visit(kept_rolling, kept_spin, kept_step, kept_twist, slid, passed_over);
 }
 
 template <Is<FoundManifold::Point> T, class Visit>
@@ -291,6 +293,18 @@ void each_field(T& contact, const Visit& visit) {
   visit(a, b, manifold, impulse, total_impulse, approach_speed, began);
 }
 
+template <Is<EndedContact> T, class Visit>
+void each_field(T& ended, const Visit& visit) {
+  auto& [a, b] = ended;
+  visit(a, b);
+}
+
+template <Is<SensorOverlap> T, class Visit>
+void each_field(T& overlap, const Visit& visit) {
+  auto& [sensor, body, began] = overlap;
+  visit(sensor, body, began);
+}
+
 template <Is<WorldSettings> T, class Visit>
 void each_field(T& settings, const Visit& visit) {
   auto& [gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed, threads] = settings;
@@ -301,8 +315,10 @@ void each_field(T& settings, const Visit& visit) {
 template <Is<WorldState> T, class Visit>
 void each_field(T& world, const Visit& visit) {
   auto& [settings, bodies, unused, forces, next_force, time, failed, memories, ignored, joints, unused_joints, broken,
-         contacts] = world;
-  visit(settings, bodies, unused, forces, next_force, time, memories, ignored, joints, unused_joints, broken, contacts);
+         contacts, ended, gone_contacts, sensors, overlaps, left_sensors] = world;
+  visit(settings, bodies, unused, forces, next_force, time, memories, ignored, joints, unused_joints, broken, contacts,
+        ended, gone_contacts, overlaps, left_sensors);
+  follows_from_others(sensors);
   follows_from_others(failed);  // a body that is not finite cannot be saved, and is found again
 }
 

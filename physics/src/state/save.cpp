@@ -22,7 +22,7 @@ namespace {
 constexpr std::array<char, 16> signature = {'t', 'w', 'e', 'e', 'n', 'f', 'a', 'l',
                                             'l', ' ', 'w', 'o', 'r', 'l', 'd', '\n'};
 /// Raised whenever the fields change, so that older bytes are refused and not misread.
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t header_size = signature.size() + 4 + 8 + 8;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
@@ -75,6 +75,7 @@ void require_numbers(const Vec3& value, const char* name) {
 /// Sets what follows from the rest, too.
 void check(Body& body) {
   validate_surface(body);
+  body.conveys = conveys(body.surface_velocity);
   validate(body.drive);
   require(unit(body.shape.offset.rotation), "rotation of a shape must be a unit quaternion");
   const std::optional<double> mass = body.mass.mass;
@@ -110,6 +111,7 @@ void check(const ContactMemory& memory) {
     require_numbers(point.kept_friction, "friction of a point");
   }
   require_numbers(memory.kept.kept_rolling, "rolling impulse");
+  require_number(memory.kept.kept_spin, "spinning impulse");
   require_number(memory.kept.kept_step, "length of a sub-step");
   require(memory.kept.kept_step >= 0 && memory.kept.passed_over >= 0, "its times must not be negative");
   require_number(memory.kept.kept_twist, "twisting impulse");
@@ -146,10 +148,12 @@ bool in_order(std::uint32_t a, std::uint32_t b, const std::pair<std::uint32_t, s
 void check_bodies(WorldState& world) {
   std::vector<char> free(world.bodies.size(), 0);
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-    if (world.bodies[i].alive)
-      at("body " + std::to_string(i), [&] { check(world.bodies[i]); });
-    else
+    if (!world.bodies[i].alive) {
       free[i] = 1;
+      continue;
+    }
+    at("body " + std::to_string(i), [&] { check(world.bodies[i]); });
+    if (world.bodies[i].sensor) world.sensors.push_back(static_cast<std::uint32_t>(i));
   }
   for (const std::uint32_t index : world.unused) {
     require(index < free.size() && free[index] != 0, "a saved world has a bad list of free places");

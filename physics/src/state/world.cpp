@@ -2,6 +2,7 @@
 
 #include <tweenfall/curves/number_text.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -46,9 +47,12 @@ void World::Implementation::drop_contacts(std::uint32_t index) {
     seen = seen || (memory.touching && !memory.gone);
     memory.gone = true;
   }
-  if (seen)
-    std::erase_if(contacts,
-                  [&](const Contact& contact) { return contact.a.index == index || contact.b.index == index; });
+  if (!seen) return;
+  std::erase_if(contacts, [&](const Contact& contact) {
+    const bool goes = contact.a.index == index || contact.b.index == index;
+    if (goes) gone_contacts.push_back({contact.a, contact.b});
+    return goes;
+  });
 }
 
 void World::Implementation::wake_neighbors(std::uint32_t index) {
@@ -69,7 +73,7 @@ void World::Implementation::forget_impulses(std::uint32_t index) {
   for (const std::uint32_t place : memories.of(index)) {
     state::ContactMemory& memory = memories[place];
     memory.kept.kept_rolling = Vec3::Zero();
-    memory.kept.kept_twist = 0;
+    memory.kept.kept_twist = memory.kept.kept_spin = 0;
     for (state::PointMemory& point : memory.points) {
       point.kept_normal = 0;
       point.kept_friction = Vec3::Zero();
@@ -124,6 +128,12 @@ BodyId World::add(const BodySettings& settings) {
   body.friction = settings.friction;
   body.restitution = settings.restitution;
   body.rolling_friction = settings.rolling_friction;
+  body.spinning_friction = settings.spinning_friction;
+  body.friction_combine = settings.friction_combine;
+  body.restitution_combine = settings.restitution_combine;
+  body.surface_velocity = settings.surface_velocity;
+  body.conveys = state::conveys(settings.surface_velocity);
+  body.sensor = settings.sensor;
   body.groups = settings.groups;
   body.collides_with = settings.collides_with;
   body.linear_damping = settings.linear_damping;
@@ -151,6 +161,7 @@ BodyId World::add(const BodySettings& settings) {
     world.bodies[index] = body;
   }
   world.note(index);
+  if (body.sensor) world.sensors.insert(std::lower_bound(world.sensors.begin(), world.sensors.end(), index), index);
   return {index, world.bodies[index].generation};
 }
 
@@ -165,9 +176,10 @@ void World::remove(BodyId id) {
       if (contains(end)) world.wake(end.index);
   }
   world.remove_joints_of(id.index);
+  world.drop_contacts(id.index);
+  if (body.sensor) std::erase(world.sensors, id.index);
   body.alive = false;
   ++body.generation;
-  world.drop_contacts(id.index);
   world.broad_phase.remove(id.index);
   world.ignored.remove(id.index);
   world.unused.push_back(id.index);
@@ -207,6 +219,9 @@ Drive World::drive(BodyId id) const {
 }
 bool World::is_fixed(BodyId id) const {
   return inside().at(id).fixed;
+}
+bool World::is_sensor(BodyId id) const {
+  return inside().at(id).sensor;
 }
 double World::still_for(BodyId id) const {
   return inside().at(id).still_for;
@@ -293,6 +308,22 @@ void World::set_target(BodyId id, const Motion& end_of_step) {
              body.target.pose.rotation.coeffs() != before.rotation.coeffs() ||
              body.target.twist.linear != Vec3::Zero() || body.target.twist.angular != Vec3::Zero();
   if (body.led) world.wake(id.index);
+}
+
+void World::set_surface_velocity(BodyId id, const Twist& velocity) {
+  Implementation& world = changing();
+  state::Body& body = world.at(id);
+  state::require_finite(velocity.linear, "velocity of a surface");
+  state::require_finite(velocity.angular, "angular velocity of a surface");
+  if (body.surface_velocity.linear == velocity.linear && body.surface_velocity.angular == velocity.angular) return;
+  body.surface_velocity = velocity;
+  body.conveys = state::conveys(velocity);
+  world.wake_neighbors(id.index);
+  world.wake(id.index);
+}
+
+Twist World::surface_velocity(BodyId id) const {
+  return inside().at(id).surface_velocity;
 }
 
 void World::set_groups(BodyId id, std::uint64_t groups, std::uint64_t collides_with) {
@@ -415,6 +446,19 @@ void World::set_executor(std::shared_ptr<Executor> executor) {
 void World::step(double dt) {
   state::require(dt > 0 && std::isfinite(dt), "a step must be positive and finite, but is " + number_text(dt) + " s");
   changing().step(dt);
+}
+
+std::span<const EndedContact> World::ended_contacts() const noexcept {
+  return implementation_ ? std::span<const EndedContact>(implementation_->ended) : std::span<const EndedContact>();
+}
+
+std::span<const SensorOverlap> World::sensor_overlaps() const noexcept {
+  return implementation_ ? std::span<const SensorOverlap>(implementation_->overlaps) : std::span<const SensorOverlap>();
+}
+
+std::span<const SensorOverlap> World::ended_sensor_overlaps() const noexcept {
+  return implementation_ ? std::span<const SensorOverlap>(implementation_->left_sensors)
+                         : std::span<const SensorOverlap>();
 }
 
 std::span<const Contact> World::contacts() const noexcept {

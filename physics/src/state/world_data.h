@@ -63,6 +63,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void advance_bodies(double dt);
   void let_sleep(double dt);
   void report();
+  void sense();
 };
 
 }  // namespace tweenfall

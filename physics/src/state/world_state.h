@@ -28,6 +28,11 @@ struct WorldState {
   std::vector<std::uint32_t> unused_joints;  ///< indices of removed joints
   std::vector<JointId> broken;               ///< in the last step
   std::vector<Contact> contacts;             ///< of those that touch, what the caller sees
+  std::vector<EndedContact> ended;           ///< in the last step
+  std::vector<EndedContact> gone_contacts;   ///< with bodies that were removed since then
+  std::vector<std::uint32_t> sensors;        ///< indices of bodies, sorted
+  std::vector<SensorOverlap> overlaps;       ///< by sensor, then by body
+  std::vector<SensorOverlap> left_sensors;   ///< in the last step
 };
 
 }  // namespace tweenfall::state

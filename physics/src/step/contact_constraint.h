@@ -36,13 +36,15 @@ struct ContactConstraint : state::KeptImpulses {
   double friction = 0;
   double restitution = 0;
   double rolling_friction = 0;
+  double spinning_friction = 0;
   Vec3 rolling_impulse{0, 0, 0};
   Vec3 total_rolling{0, 0, 0};
-  bool kept = false;       ///< its manifold was found in a step before
-  bool began = false;      ///< did not touch in the step before
-  bool impact = false;     ///< some point meets fast enough to rebound
-  bool rebounds = false;   ///< in an island that does, in this sub-step
-  double impact_time = 0;  ///< s after the start of the step
+  double spin_impulse = 0;  ///< of the sub-step, about the normal, N m s
+  bool kept = false;        ///< its manifold was found in a step before
+  bool began = false;       ///< did not touch in the step before
+  bool impact = false;      ///< some point meets fast enough to rebound
+  bool rebounds = false;    ///< in an island that does, in this sub-step
+  double impact_time = 0;   ///< s after the start of the step
 };
 
 }  // namespace tweenfall::step

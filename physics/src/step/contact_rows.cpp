@@ -27,6 +27,12 @@ void PointRows::prepare(const SolverBody& a, const SolverBody& b, const PointCon
   stiffest = 0;
   if (!tangents) return;
   along = *tangents;
+  drifts = a.conveys || b.conveys;
+  if (drifts) {
+    const Vec3 drift = drift_at(a.surface, point.arm_a, b.surface, point.arm_b);
+    drift1 = along.first.dot(drift);
+    drift2 = along.second.dot(drift);
+  }
   turn_a1 = point.arm_a.cross(along.first);
   turn_a2 = point.arm_a.cross(along.second);
   turn_b1 = point.arm_b.cross(along.first);
@@ -49,8 +55,12 @@ void PointRows::prepare(const SolverBody& a, const SolverBody& b, const PointCon
 double solve_friction(SolverBody& a, SolverBody& b, const PointRows& rows, Vec3& impulse, double limit) {
   if (!(rows.stiffest > 0)) return 0;
   const Vec3 slip = b.linear - a.linear;
-  const double slip1 = rows.along.first.dot(slip) + rows.turn_b1.dot(b.angular) - rows.turn_a1.dot(a.angular);
-  const double slip2 = rows.along.second.dot(slip) + rows.turn_b2.dot(b.angular) - rows.turn_a2.dot(a.angular);
+  double slip1 = rows.along.first.dot(slip) + rows.turn_b1.dot(b.angular) - rows.turn_a1.dot(a.angular);
+  double slip2 = rows.along.second.dot(slip) + rows.turn_b2.dot(b.angular) - rows.turn_a2.dot(a.angular);
+  if (rows.drifts) {
+    slip1 += rows.drift1;
+    slip2 += rows.drift2;
+  }
   const double old1 = impulse.dot(rows.along.first), old2 = impulse.dot(rows.along.second);
   double new1 = old1 - (rows.inverse11 * slip1 + rows.inverse12 * slip2);
   double new2 = old2 - (rows.inverse12 * slip1 + rows.inverse22 * slip2);
@@ -85,6 +95,18 @@ void solve_rolling(SolverBody& a, SolverBody& b, Vec3& impulse, double limit) {
   impulse = next;
   a.angular -= a.inverse_inertia * change;
   b.angular += b.inverse_inertia * change;
+}
+
+void solve_spinning(SolverBody& a, SolverBody& b, const Vec3& normal, double& impulse, double limit) {
+  const Vec3 turn_a = a.inverse_inertia * normal, turn_b = b.inverse_inertia * normal;
+  const double inverse = normal.dot(turn_a + turn_b);
+  if (!(inverse > 0)) return;
+  const double spin = normal.dot(b.angular + b.surface.angular - a.angular - a.surface.angular);
+  const double next = std::clamp(impulse - spin / inverse, -limit, limit);
+  const double change = next - impulse;
+  impulse = next;
+  a.angular -= change * turn_a;
+  b.angular += change * turn_b;
 }
 
 double solve_normal(SolverBody& a, SolverBody& b, const PointRows& rows, double& impulse, double wanted,

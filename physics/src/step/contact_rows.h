@@ -32,7 +32,9 @@ struct PointRows {
   Tangents along;
   Vec3 turn_a1, turn_a2, turn_b1, turn_b2, spin_a1, spin_a2, spin_b1, spin_b2;
   double inverse11 = 0, inverse12 = 0, inverse22 = 0;  ///< from the slip to the impulse that stops it
-  double stiffest = 0;                                 ///< the greatest speed that a unit of impulse makes, 1/kg
+  double drift1 = 0, drift2 = 0;                       ///< of b's surface against a's, besides the bodies' motion, m/s
+  bool drifts = false;
+  double stiffest = 0;  ///< the greatest speed that a unit of impulse makes, 1/kg
 
   void prepare(const SolverBody& a, const SolverBody& b, const PointConstraint& point, const Vec3& normal,
                const Tangents* tangents);
@@ -45,6 +47,14 @@ double solve_friction(SolverBody& a, SolverBody& b, const PointRows& rows, Vec3&
 
 /// Resistance to rolling and spinning: a torque against the relative spin, at most `limit`.
 void solve_rolling(SolverBody& a, SolverBody& b, Vec3& impulse, double limit);
+
+/// Resistance to spinning: a torque about the normal against the spin of b's surface against a's, at most `limit`.
+void solve_spinning(SolverBody& a, SolverBody& b, const Vec3& normal, double& impulse, double limit);
+
+/// How the surface of b moves against that of a at a contact, besides what the bodies do, m/s.
+[[nodiscard]] inline Vec3 drift_at(const Twist& a, const Vec3& arm_a, const Twist& b, const Vec3& arm_b) {
+  return b.linear + b.angular.cross(arm_b) - a.linear - a.angular.cross(arm_a);
+}
 
 /// Step of one normal row toward relative speed `wanted`, total impulse not negative.
 /// @return the change of velocity, m/s

@@ -7,6 +7,7 @@
 #include "collision/passage.h"
 #include "shapes/turned.h"
 #include "state/world_data.h"
+#include "step/combine.h"
 #include "step/found_manifold.h"
 
 namespace tweenfall {
@@ -187,9 +188,11 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs, std::s
       part.contacts.pop_back();
       continue;
     }
-    constraint.friction = std::sqrt(a.friction * b.friction);
-    constraint.restitution = std::max(a.restitution, b.restitution);
+    constraint.friction = step::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
+    constraint.restitution =
+        step::combined_restitution(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
     constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
+    constraint.spinning_friction = std::max(a.spinning_friction, b.spinning_friction);
     constraint.began = !(memory && memory->touching);
     if (memory) step::inherit(constraint, *memory, 0.05 * std::min(a.radius, b.radius));
     if (!crowded) continue;

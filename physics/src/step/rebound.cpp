@@ -113,6 +113,12 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<for
     const ContactConstraint& constraint = *contact;
     const SolverBody& a = at(constraint.a);
     const SolverBody& b = at(constraint.b);
+    // And so does a surface.
+    if (a.conveys || b.conveys)
+      for (int i = 0; i < constraint.count; ++i) {
+        const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+        energy.limit -= point.friction_impulse.dot(drift_at(a.surface, point.arm_a, b.surface, point.arm_b));
+      }
     if (a.movable == b.movable) continue;
     for (int i = 0; i < constraint.count; ++i) {
       const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];

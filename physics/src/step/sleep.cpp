@@ -57,6 +57,8 @@ bool World::Implementation::wake_islands() {
     for (const std::uint32_t i : watched)
       if (!bodies[i].immovable() && !bodies[i].asleep) flags[islands.of(i)] = 1;
   const auto disturb = [&](const state::Body& by, std::uint32_t other) {
+    // What lies on a belt is under way, however slowly.
+    if (by.conveys && !bodies[other].immovable()) carried[islands.of(other)] = 1;
     if (!by.immovable() || bodies[other].immovable() || !by.stirs()) return;
     flags[islands.of(other)] = 1;
     if (by.displaces()) carried[islands.of(other)] = 1;

@@ -52,6 +52,8 @@ void Solver::gather(const std::vector<Body>& bodies, Contacts contacts, Springs 
     entry.index = index;
     entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
     entry.movable = !body.immovable() && !body.asleep;
+    entry.conveys = body.conveys;
+    if (body.conveys) entry.surface = body.surface();
     entry.center = entry.start_center = body.center;
     entry.rotation = entry.start_rotation = body.motion.pose.rotation;
     entry.turn = Quat::Identity();
@@ -178,6 +180,10 @@ void Solver::warm_start(ContactConstraint& constraint, PointRows* rows, double h
   constraint.rolling_impulse = ratio * constraint.kept_rolling;
   a.angular -= a.inverse_inertia * constraint.rolling_impulse;
   b.angular += b.inverse_inertia * constraint.rolling_impulse;
+  constraint.spin_impulse = ratio * constraint.kept_spin;
+  if (constraint.spin_impulse == 0) return;
+  a.angular -= a.inverse_inertia * (constraint.spin_impulse * normal);
+  b.angular += b.inverse_inertia * (constraint.spin_impulse * normal);
 }
 
 double Solver::solve_contact(ContactConstraint& constraint, const PointRows* rows, const Softness& softness, double h) {
@@ -185,10 +191,13 @@ double Solver::solve_contact(ContactConstraint& constraint, const PointRows* row
   SolverBody& b = at(constraint.b);
   const Vec3& normal = constraint.manifold.normal;
   double change = 0;
-  if (constraint.rolling_friction > 0) {
+  if (constraint.rolling_friction > 0 || constraint.spinning_friction > 0) {
     double sum = 0;
     for (int i = 0; i < constraint.count; ++i) sum += constraint.points[static_cast<std::size_t>(i)].normal_impulse;
-    solve_rolling(a, b, constraint.rolling_impulse, constraint.rolling_friction * sum);
+    if (constraint.rolling_friction > 0)
+      solve_rolling(a, b, constraint.rolling_impulse, constraint.rolling_friction * sum);
+    if (constraint.spinning_friction > 0)
+      solve_spinning(a, b, normal, constraint.spin_impulse, constraint.spinning_friction * sum);
   }
   if (constraint.friction > 0) {
     for (int i = 0; i < constraint.count; ++i) {
@@ -291,6 +300,7 @@ void Solver::add_totals(Contacts contacts, double h) {
       point.kept_friction = point.friction_impulse;
     }
     constraint.kept_rolling = constraint.rolling_impulse;
+    constraint.kept_spin = constraint.spin_impulse;
     constraint.kept_step = h;
     constraint.passed_over = 0;
   }

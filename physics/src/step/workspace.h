@@ -61,6 +61,7 @@ struct Workspace {
   std::vector<std::uint32_t> retained;     ///< memories of contacts between bodies at rest, by pair
   std::vector<std::uint32_t> remembered;
   std::vector<Contact> next_contacts;
+  std::vector<SensorOverlap> next_overlaps;
   std::vector<collision::Passage> passages;  ///< by body
   std::vector<std::uint64_t> looked_at;      ///< by body: the look that its passage is of
   std::uint64_t look = 0;

@@ -208,6 +208,15 @@ void World::Implementation::report() {
   keep_before(end);
   memories.keep(remembered);
   std::swap(contacts, next_contacts);
+  // Both by pair; bodies that left meanwhile took theirs along.
+  ended.clear();
+  std::swap(ended, gone_contacts);
+  auto still = contacts.cbegin();
+  const auto pair_of = [](const Contact& contact) { return pairs::Pair(contact.a.index, contact.b.index); };
+  for (const Contact& before : next_contacts) {
+    while (still != contacts.cend() && pair_of(*still) < pair_of(before)) ++still;
+    if (still == contacts.cend() || pair_of(*still) != pair_of(before)) ended.push_back({before.a, before.b});
+  }
 }
 
 void World::Implementation::step(double dt) {
@@ -233,6 +242,7 @@ void World::Implementation::step(double dt) {
   advance_bodies(dt);
   let_sleep(dt);
   report();
+  sense();
   end_links(dt);
   end_watch();
   time += dt;

@@ -68,6 +68,7 @@ struct Separation {
 template <class Who>
 struct Asked {
   std::uint64_t groups = ~std::uint64_t{0};  ///< bodies that belong to one of these
+  bool sensors = false;                      ///< and, of sensors, only if they are asked for
   std::function<bool(Who)> accept{};         ///< and of them those that it is true for; absent: all
 };
 using QueryFilter = Asked<BodyId>;

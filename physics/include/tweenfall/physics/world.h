@@ -45,17 +45,35 @@ struct WorldSettings {
   int threads = 0;              ///< that share a step, 0 to 256; 0 and 1: the one that calls. No bit depends on it
 };
 
+/// How two bodies' frictions, or restitutions, make one. Of two bodies that name different rules the one that comes
+/// later here holds: any that is named beats the usual one, and `maximum` all.
+/// Source of the order from `average` on: PhysX's PxCombineMode, of which the greater holds.
+enum class Combine : std::uint8_t {
+  usual,           ///< frictions by their geometric mean, restitutions by the larger
+  geometric_mean,  ///< sqrt(a b)
+  average,         ///< (a + b) / 2
+  minimum,
+  multiply,  ///< a b
+  maximum,
+};
+
 struct BodySettings {
   Shape shape = {};
   std::optional<double> mass{};  ///< kg; absent: density times volume
   double density = 1000;         ///< kg/m^3
-  double friction = 0.5;         ///< Coulomb coefficient; a pair takes sqrt(f1 f2)
-  double restitution = 0;        ///< 0 to 1; a pair takes the larger
-  double rolling_friction = 0;   ///< resistance to rolling, as a length: torque <= length times normal force, m
-  double linear_damping = 0;     ///< 1/s
-  double angular_damping = 0;    ///< 1/s
-  bool fixed = false;            ///< part of the scenery: never moves
-  std::uint64_t groups = 1;      ///< that it belongs to, one bit each
+  double friction = 0.5;         ///< Coulomb coefficient; a pair takes sqrt(f1 f2) unless told otherwise
+  double restitution = 0;        ///< 0 to 1; a pair takes the larger unless told otherwise
+  Combine friction_combine = Combine::usual;
+  Combine restitution_combine = Combine::usual;
+  double rolling_friction = 0;  ///< resistance to turning, as a length: torque <= length times normal force, m
+  double spinning_friction =
+      0;                        ///< besides that, the torque about the normal alone, likewise; pairs take the larger, m
+  Twist surface_velocity = {};  ///< of the surface against the body, at its center of mass, node axes: a belt's
+  bool sensor = false;          ///< reports what overlaps it, and neither pushes nor is pushed
+  double linear_damping = 0;    ///< 1/s
+  double angular_damping = 0;   ///< 1/s
+  bool fixed = false;           ///< part of the scenery: never moves
+  std::uint64_t groups = 1;     ///< that it belongs to, one bit each
   std::uint64_t collides_with =
       ~std::uint64_t{0};  ///< groups; two bodies meet when each collides with one of the other's
   Drive drive = Drive::free();
@@ -70,6 +88,18 @@ struct Contact {
   Vec3 total_impulse{0, 0, 0};  ///< on b, friction included, N s
   double approach_speed = 0;    ///< normal speed at which they met, before the step's impulses, m/s
   bool began = false;           ///< the pair did not touch in the step before
+};
+
+/// Two bodies that touched and do not any more.
+struct EndedContact {
+  BodyId a, b;  ///< may have been removed
+};
+
+/// A body in a sensor. Never another sensor, nor a fixed body in a fixed sensor; and by groups and ignored pairs as for
+/// contacts.
+struct SensorOverlap {
+  BodyId sensor, body;
+  bool began = false;  ///< was not in it at the end of the step before
 };
 
 /// A body's place or velocity is no longer a number, or beyond 1e30 m, m/s or rad/s; or a force on it is not finite.
@@ -110,6 +140,7 @@ class World {
   [[nodiscard]] Owner owner(BodyId body) const;
   [[nodiscard]] Drive drive(BodyId body) const;
   [[nodiscard]] bool is_fixed(BodyId body) const;
+  [[nodiscard]] bool is_sensor(BodyId body) const;
   [[nodiscard]] double still_for(BodyId body) const;  ///< s of stillness so far
   [[nodiscard]] bool asleep(BodyId body) const;
   [[nodiscard]] Vec3 reaction(
@@ -130,6 +161,11 @@ class World {
   void apply_torque(BodyId body, const Vec3& torque);                   ///< N m, during the next step
   void apply_impulse(BodyId body, const Vec3& impulse, const Vec3& point);  ///< N s, at once
   void wake(BodyId body);
+
+  /// How the body's surface moves against it, at its center of mass in its node's axes: friction takes along what lies
+  /// on it. Wakes what touches it.
+  void set_surface_velocity(BodyId body, const Twist& velocity);
+  [[nodiscard]] Twist surface_velocity(BodyId body) const;
 
   // Which bodies meet. A change wakes whom it concerns, at once and with no impulse; where bodies that now meet lie in
   // each other they are taken apart as any overlap is. All throw std::invalid_argument for a stale handle.
@@ -171,6 +207,13 @@ class World {
 
   /// Pairs that touched in the last step, in a fixed order.
   [[nodiscard]] std::span<const Contact> contacts() const noexcept;
+  /// Pairs that touched before the last step and not in it, or of which a body was removed before it. A contact that is
+  /// among `contacts` and did not begin has persisted.
+  [[nodiscard]] std::span<const EndedContact> ended_contacts() const noexcept;
+  /// What was in sensors at the end of the last step, awake or asleep, by index of the sensor and then of the body.
+  [[nodiscard]] std::span<const SensorOverlap> sensor_overlaps() const noexcept;
+  /// What was in them one step before and was not then, or was removed.
+  [[nodiscard]] std::span<const SensorOverlap> ended_sensor_overlaps() const noexcept;
 
   // Keeping it
   /// A number that changes when any bit does of what the world is: of all that tells on its next steps.

@@ -1,0 +1,56 @@
+#include <algorithm>
+
+#include "queries/body_scene.h"
+#include "state/world_data.h"
+
+namespace tweenfall {
+
+namespace step {
+namespace {
+
+bool sensed_before(const SensorOverlap& a, const SensorOverlap& b) {
+  return a.sensor.index != b.sensor.index ? a.sensor.index < b.sensor.index : a.body.index < b.body.index;
+}
+
+bool same_pair(const SensorOverlap& a, const SensorOverlap& b) {
+  return a.sensor == b.sensor && a.body == b.body;
+}
+
+}  // namespace
+}  // namespace step
+
+void World::Implementation::sense() {
+  left_sensors.clear();
+  if (sensors.empty() && overlaps.empty()) return;
+  next_overlaps.clear();
+  scene.forget();
+  const queries::Scene& here = scene.get([this](queries::Scene& ahead) { queries::arrange_bodies(ahead, bodies); });
+  for (const std::uint32_t index : sensors) {
+    const state::Body& sensor = bodies[index];
+    if (!here[index].shape) continue;
+    const bool endless = std::holds_alternative<Plane>(sensor.shape.solid);
+    const auto counts = [&](std::uint32_t other) {
+      const state::Body& body = bodies[other];
+      if (other == index || body.sensor || (sensor.fixed && body.fixed)) return false;
+      if (endless && std::holds_alternative<Plane>(body.shape.solid)) return false;
+      return (sensor.groups & body.collides_with) != 0 && (body.groups & sensor.collides_with) != 0 &&
+             !ignored.contains(index, other);
+    };
+    for (const std::uint32_t other : here.overlapping(sensor.shape, sensor.motion.pose, counts))
+      next_overlaps.push_back({{index, sensor.generation}, {other, bodies[other].generation}, false});
+  }
+  // Both by index; a body that came in the place of another is another.
+  auto before = overlaps.cbegin();
+  for (SensorOverlap& overlap : next_overlaps) {
+    for (; before != overlaps.cend() && step::sensed_before(*before, overlap); ++before)
+      left_sensors.push_back(*before);
+    const bool known = before != overlaps.cend() && step::same_pair(*before, overlap);
+    overlap.began = !known;
+    if (known) ++before;
+  }
+  left_sensors.insert(left_sensors.end(), before, overlaps.cend());
+  for (SensorOverlap& left : left_sensors) left.began = false;
+  std::swap(overlaps, next_overlaps);
+}
+
+}  // namespace tweenfall
