@@ -1,0 +1,69 @@
+#include "ragdoll/fitted_capsule.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tweenfall::ragdoll {
+
+namespace {
+
+/// Parts of the points that a capsule is wide enough for, and that may stay beyond each end.
+constexpr double within = 0.9;
+constexpr double beyond = 0.02;
+
+double at_share(std::vector<double>& values, double share) {
+  const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + place, values.end());
+  return values[static_cast<std::size_t>(place)];
+}
+
+FittedCapsule along_axis(std::span<const Vec3> points, const Vec3& middle, const Vec3& axis) {
+  std::vector<double> heights, distances;
+  heights.reserve(points.size());
+  distances.reserve(points.size());
+  for (const Vec3& point : points) {
+    const Vec3 from = point - middle;
+    const double height = axis.dot(from);
+    heights.push_back(height);
+    distances.push_back((from - height * axis).norm());
+  }
+  const double radius = at_share(distances, within);
+  const double low = at_share(heights, beyond);
+  const double high = at_share(heights, 1 - beyond);
+  FittedCapsule fitted;
+  fitted.axis = axis;
+  fitted.center = middle + 0.5 * (low + high) * axis;
+  fitted.capsule.radius = radius;
+  fitted.capsule.half_height = std::max(0.0, 0.5 * (high - low) - radius);
+  return fitted;
+}
+
+}  // namespace
+
+std::optional<FittedCapsule> fitted_capsule(std::span<const Vec3> points, const std::optional<Vec3>& along) {
+  if (points.empty()) return std::nullopt;
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& point : points) middle += point / static_cast<double>(points.size());
+  Mat3 spread = Mat3::Zero();
+  for (const Vec3& point : points) spread += (point - middle) * (point - middle).transpose();
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(spread);
+  std::vector<Vec3> axes;
+  if (along) axes.push_back(*along);
+  for (int i = 2; i >= 0; --i) axes.emplace_back(principal.eigenvectors().col(i));
+  std::optional<FittedCapsule> best;
+  double least = 0;
+  for (const Vec3& axis : axes) {
+    const FittedCapsule fitted = along_axis(points, middle, axis);
+    if (!(fitted.capsule.radius > 0)) continue;
+    const double size = volume(fitted.capsule);
+    // The bone's own way is right unless another is clearly better.
+    if (best && !(size < 0.8 * least)) continue;
+    best = fitted;
+    least = size;
+  }
+  return best;
+}
+
+}  // namespace tweenfall::ragdoll

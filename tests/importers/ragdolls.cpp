@@ -1,0 +1,212 @@
+// Ragdolls of real skeletons: the sample character, and every skinned model at hand.
+
+#include "random.h"
+#include "support.h"
+
+#include <tweenfall/curves/rotation.h>
+#include <tweenfall/importers/model.h>
+#include <tweenfall/physics/ragdoll/ragdoll.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+using namespace tweenfall;
+
+namespace {
+
+struct SkinnedFigure {
+  Hierarchy hierarchy;
+  std::vector<SkinnedMesh> meshes;
+  std::vector<Motion> local;
+  std::vector<WorldMotion> world;
+};
+
+/// All skinned meshes of a model; none where it has none.
+std::optional<SkinnedFigure> figure_of(const Model& model) {
+  SkinnedFigure figure{Hierarchy(model.nodes), {}, {}, {}};
+  for (const MeshInstance& instance : model.instances)
+    if (instance.skin != no_node && !model.meshes[instance.mesh].influences.empty())
+      figure.meshes.push_back({&model.meshes[instance.mesh], &model.skins[instance.skin]});
+  if (figure.meshes.empty()) return std::nullopt;
+  for (const Node& node : model.nodes) figure.local.push_back({node.rest, {}, Vec3::Zero()});
+  figure.world.resize(model.nodes.size());
+  figure.hierarchy.world_motions(figure.local, figure.world);
+  return figure;
+}
+
+/// Lets a figure fall on a floor and collapse; the world steps at 1/60 s.
+struct Fall {
+  World world;
+  std::vector<RagdollBone> bones;
+  std::optional<Ragdoll> ragdoll;
+  double size = 0, widest = 0, highest = -HUGE_VAL;
+
+  explicit Fall(const SkinnedFigure& figure) : bones(fit_ragdoll(figure.hierarchy, figure.meshes, figure.world)) {
+    ragdoll.emplace(world, bones, figure.world);
+    double low = HUGE_VAL;
+    for (std::size_t i = 0; i < bones.size(); ++i) {
+      const Bounds box = bounds(bones[i].shape, world.motion(ragdoll->bodies()[i]).pose);
+      low = std::min(low, box.low.y());
+      size = std::max(size, (box.high - box.low).norm());
+    }
+    for (const Bounds& box : boxes()) size = std::max(size, box.high.y() - low);
+    world.add({.shape = {Plane{Vec3(0, 1, 0), low - 0.2 * size}}, .fixed = true});
+    floor = low - 0.2 * size;
+  }
+  double floor = 0;
+
+  [[nodiscard]] std::vector<Bounds> boxes() const {
+    std::vector<Bounds> result;
+    for (std::size_t i = 0; i < bones.size(); ++i)
+      result.push_back(bounds(bones[i].shape, world.motion(ragdoll->bodies()[i]).pose));
+    return result;
+  }
+  void run(double seconds) {
+    for (int i = 0; i < seconds * 60; ++i) {
+      world.step(1.0 / 60);
+      for (const JointId& joint : world.joints()) widest = std::max(widest, world.reading(joint).gap);
+    }
+    for (const Bounds& box : boxes()) highest = std::max(highest, box.high.y());
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the sample character becomes a ragdoll whose bones are its limbs") {
+  const Model model = load_model(std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/documents/character.glb");
+  const std::optional<SkinnedFigure> figure = figure_of(model);
+  REQUIRE(figure);
+  const std::vector<RagdollBone> bones = fit_ragdoll(figure->hierarchy, figure->meshes, figure->world);
+  CHECK(bones.size() >= 11);
+  CHECK(bones.size() <= 21);
+  double mass = 0;
+  int roots = 0;
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    mass += bones[i].mass;
+    CHECK(bones[i].mass > 0);
+    if (bones[i].parent == no_bone)
+      ++roots;
+    else
+      CHECK(bones[i].parent < i);
+  }
+  CHECK(roots == 1);
+  CHECK(mass == doctest::Approx(70).epsilon(1e-12));
+  // Most of the skin is within its capsules, or near.
+  const Mesh& mesh = *figure->meshes.front().mesh;
+  std::vector<Vec3> vertices(mesh.positions.size());
+  deform(mesh, {}, figure->meshes.front().skin, 0, figure->world, vertices);
+  std::size_t inside = 0;
+  for (const Vec3& vertex : vertices)
+    for (const RagdollBone& bone : bones) {
+      Shape grown = bone.shape;
+      auto& capsule = std::get<Capsule>(grown.solid);
+      capsule.radius *= 1.25;
+      const Pose pose{figure->world[bone.node].motion.pose.position, figure->world[bone.node].motion.pose.rotation};
+      if (collide({Sphere{1e-9}}, {.position = vertex}, grown, pose).count == 0) continue;
+      ++inside;
+      break;
+    }
+  CHECK(static_cast<double>(inside) > 0.9 * static_cast<double>(vertices.size()));
+
+  CHECK_THROWS_AS(static_cast<void>(fit_ragdoll(figure->hierarchy, figure->meshes, figure->world,
+                                                {.limits = {{"no such bone", SwingTwistJoint{}}}})),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(static_cast<void>(fit_ragdoll(figure->hierarchy, figure->meshes, figure->world, {.mass = -1})),
+                  std::invalid_argument);
+  Mesh bare = mesh;
+  bare.influences = {};
+  const std::vector<SkinnedMesh> unskinned{{&bare, figure->meshes.front().skin}};
+  CHECK_THROWS_AS(static_cast<void>(fit_ragdoll(figure->hierarchy, unskinned, figure->world)), std::invalid_argument);
+}
+
+TEST_CASE("a ragdoll takes over the figure's pose and motion, and gives it back") {
+  const Model model = load_model(std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/documents/character.glb");
+  std::optional<SkinnedFigure> figure = figure_of(model);
+  REQUIRE(figure);
+  const std::vector<RagdollBone> bones = fit_ragdoll(figure->hierarchy, figure->meshes, figure->world);
+  // Any pose that turns at every joint.
+  test::Random random(5);
+  for (std::size_t i = 0; i < figure->local.size(); ++i) {
+    Motion& motion = figure->local[i];
+    motion.pose.rotation = motion.pose.rotation * exp_map(0.3 * random.vector(1));
+    motion.twist.angular = random.vector(1);
+  }
+  figure->local[0].twist.linear = Vec3(1, 2, 3);
+  figure->hierarchy.world_motions(figure->local, figure->world);
+  World world;
+  const Ragdoll ragdoll(world, bones, figure->world);
+  std::vector<Motion> back = figure->local;
+  for (const RagdollBone& bone : bones) {
+    back[bone.node].pose.rotation = Quat(1, 0, 0, 0);
+    back[bone.node].twist = {};
+  }
+  for (const RagdollBone& bone : bones)
+    if (bone.parent != no_bone) back[bone.node].twist.linear = figure->local[bone.node].twist.linear;
+  ragdoll.pose(world, figure->hierarchy, back);
+  std::vector<WorldMotion> again(back.size());
+  figure->hierarchy.world_motions(back, again);
+  for (const RagdollBone& bone : bones) {
+    const Motion &is = again[bone.node].motion, &was = figure->world[bone.node].motion;
+    CHECK((is.pose.position - was.pose.position).norm() < 1e-9);
+    CHECK(std::abs(is.pose.rotation.dot(was.pose.rotation)) == doctest::Approx(1).epsilon(1e-12));
+    CHECK((is.twist.linear - was.twist.linear).norm() < 1e-9);
+    CHECK((is.twist.angular - was.twist.angular).norm() < 1e-9);
+  }
+  // Driven, it follows.
+  ragdoll.set_drive(world, Drive::keyed());
+  ragdoll.follow(world, figure->world);
+  world.step(1.0 / 60);
+  for (std::size_t i = 0; i < bones.size(); ++i)
+    CHECK(world.motion(ragdoll.bodies()[i]).pose.position == figure->world[bones[i].node].motion.pose.position);
+  ragdoll.remove(world);
+  CHECK(world.bodies().empty());
+  CHECK(world.joints().empty());
+}
+
+TEST_CASE("the sample character collapses and keeps together") {
+  const Model model = load_model(std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/documents/character.glb");
+  Fall fall(*figure_of(model));
+  const double energy = fall.world.kinetic_energy();
+  fall.run(6);
+  CHECK(energy == 0);
+  CHECK(fall.widest < 0.01);
+  CHECK(fall.highest - fall.floor < 0.6 * fall.size);
+  CHECK(fall.world.kinetic_energy() < 1);
+}
+
+TEST_CASE("every skinned model at hand becomes a ragdoll that falls without flying apart") {
+  const std::filesystem::path folder = test::models_folder();
+  if (!std::filesystem::exists(folder)) {
+    MESSAGE("SKIPPED: no models in ", folder.string());
+    return;
+  }
+  int figures = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    static const std::set<std::string> endings{".glb", ".gltf", ".fbx"};
+    if (!endings.contains(entry.path().extension().string()) ||
+        entry.path().string().find("malformed") != std::string::npos)
+      continue;
+    Model model;
+    try {
+      model = load_model(entry.path());
+    } catch (const ModelError&) {
+      continue;
+    }
+    const std::optional<SkinnedFigure> figure = figure_of(model);
+    if (!figure) continue;
+    CAPTURE(entry.path().filename().string());
+    try {
+      Fall fall(*figure);
+      ++figures;
+      fall.run(2);
+      MESSAGE(entry.path().filename().string(), ": ", fall.bones.size(), " bones, joints apart ",
+              fall.widest / fall.size, " of its size, ends ", (fall.highest - fall.floor) / fall.size, " high");
+      CHECK(fall.widest < 0.05 * fall.size);
+      CHECK(fall.highest - fall.floor < 2 * fall.size);
+    } catch (const std::invalid_argument& refused) {
+      MESSAGE(entry.path().filename().string(), " is refused: ", refused.what());
+    }
+  }
+  CHECK(figures >= 3);
+}
