@@ -118,6 +118,14 @@ void compare_threads(const test::Scene& scene, int steps, int threads) {
       "load %.1f); the same state: %s\n",
       threads, times[times.size() / 2], ratios[ratios.size() / 2], ratios[ratios.size() * 3 / 4], load[0],
       one.hash() == many.hash() ? "yes" : "NO");
+  const auto accountant = std::make_shared<Accountant>(threads);
+  OurEngine counted(scene, accountant);
+  const double before = process_time();
+  for (int i = 0; i < steps; ++i) counted.step();
+  const double all = 1e3 * (process_time() - before);
+  std::printf("  %.0f %% of the time is shared, in %d calls a step: at most %.2f times as fast\n",
+              100 * accountant->shared / all, accountant->calls / steps,
+              all / (all - accountant->shared * (threads - 1) / threads));
 }
 
 void look(const Engine& engine, const test::Scene& scene, Measured& measured) {
