@@ -21,6 +21,8 @@ constexpr std::uint8_t longest_foresight = 16;
 constexpr std::size_t few_neighbors = 6, many_neighbors = 16;
 /// More pairs of boxes than this for each body are a crowd.
 constexpr std::size_t kept_in_crowd = 64, found_in_crowd = 16;
+/// Bodies that are worth a part of their own.
+constexpr std::size_t worth_a_part = 128;
 /// Boxes end here: a difference of any two is still a number.
 constexpr double end_of_space = 1e100;
 
@@ -70,32 +72,36 @@ void BroadPhase::renew(std::uint32_t index) {
   renewed_.push_back(index);
 }
 
-void BroadPhase::look_at(const Body& body, std::uint32_t index, const forces::Load& load, double margin, double dt) {
-  const Kind kind = std::isinf(body.radius) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
-  if (entries_[index].kind != kind) {
-    remove(index);
-    if (kind == Kind::plane) planes_.insert(std::lower_bound(planes_.begin(), planes_.end(), index), index);
-  }
+BroadPhase::Look BroadPhase::look_at(const Body& body, std::uint32_t index, const forces::Load& load, double margin,
+                                     double dt) {
   Entry& entry = entries_[index];
-  entry.kind = kind;
+  Look look;
+  look.kind = std::isinf(body.radius) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
   entry.stirs = body.stirs();
   entry.displaces = body.displaces();
   entry.pairs = 0;
-  if (kind == Kind::plane) return;
+  if (look.kind == Kind::plane) return look;
   entry.swept = in_space(swept_bounds(body, load, 0.5 * margin, dt));
-  BoundsTree& tree = tree_of(kind);
-  const bool still = kind == Kind::immovable && !body.has_target;
-  const Vec3 travel = pairs::travel(body, load, dt);
-  if (tree.has(index)) {
-    const Bounds& box = tree.of(index);
-    if (contains(box, entry.swept)) {
-      const Bounds wanted = with_room(entry.swept, travel, longest_foresight);
-      if (sides(box) <= outgrown * sides(wanted)) return;
-    }
+  look.still = look.kind == Kind::immovable && !body.has_target;
+  look.travel = pairs::travel(body, load, dt);
+  const BoundsTree& tree = tree_of(look.kind);
+  if (entry.kind != look.kind || !tree.has(index) || !contains(tree.of(index), entry.swept)) return look;
+  const Bounds wanted = with_room(entry.swept, look.travel, longest_foresight);
+  look.leaves = !(sides(tree.of(index)) <= outgrown * sides(wanted));
+  return look;
+}
+
+void BroadPhase::follow(const Look& look, std::uint32_t index) {
+  if (entries_[index].kind != look.kind) {
+    remove(index);
+    if (look.kind == Kind::plane) planes_.insert(std::lower_bound(planes_.begin(), planes_.end(), index), index);
   }
+  Entry& entry = entries_[index];
+  entry.kind = look.kind;
+  if (look.kind == Kind::plane || !look.leaves) return;
   // Not all for the same number of steps, so that bodies that fall alike do not leave their boxes all at once.
   const int ahead = entry.foresight - static_cast<int>(index % (entry.foresight / 2 + 1u));
-  tree.set(index, still ? entry.swept : in_space(with_room(entry.swept, travel, ahead)));
+  tree_of(look.kind).set(index, look.still ? entry.swept : in_space(with_room(entry.swept, look.travel, ahead)));
   renew(index);
 }
 
@@ -217,9 +223,14 @@ void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std
 
 const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed,
                                           const std::vector<forces::Load>& loads, const PairFilter& filter,
-                                          double margin, double dt) {
+                                          double margin, double dt, const threads::Workers& work) {
   entries_.resize(std::max(entries_.size(), bodies.size()));
-  for (const std::uint32_t index : changed) look_at(bodies[index], index, loads[index], margin, dt);
+  looks_.resize(changed.size());
+  work.ranges(changed.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      looks_[i] = look_at(bodies[changed[i]], changed[i], loads[changed[i]], margin, dt);
+  });
+  for (std::size_t i = 0; i < changed.size(); ++i) follow(looks_[i], changed[i]);
   movable_.settle();
   immovable_.settle();
   if (!crowded_) keep_pairs(filter);

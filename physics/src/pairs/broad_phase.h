@@ -8,6 +8,7 @@
 #include "pairs/bounds_tree.h"
 #include "pairs/pair_filter.h"
 #include "pairs/swept_bounds.h"
+#include "threads/workers.h"
 
 namespace tweenfall::pairs {
 
@@ -28,7 +29,7 @@ class BroadPhase {
   /// @param margin  pairs with a gap up to this count too, m
   const std::vector<Pair>& find(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
                                 const std::vector<forces::Load>& loads, const PairFilter& filter, double margin,
-                                double dt);
+                                double dt, const threads::Workers& work = {});
   void remove(std::uint32_t body);
   /// Looks for all pairs of the body anew: whom it may meet has changed.
   void look_again(std::uint32_t body);
@@ -45,7 +46,16 @@ class BroadPhase {
     std::uint32_t pairs = 0;     ///< found so far
   };
 
-  void look_at(const state::Body& body, std::uint32_t index, const forces::Load& load, double margin, double dt);
+  /// A body that is looked at: where it may be, before any box is changed.
+  struct Look {
+    Kind kind = Kind::none;
+    bool leaves = true;  ///< needs another box
+    bool still = false;
+    Vec3 travel{0, 0, 0};
+  };
+  [[nodiscard]] Look look_at(const state::Body& body, std::uint32_t index, const forces::Load& load, double margin,
+                             double dt);
+  void follow(const Look& look, std::uint32_t index);
   void renew(std::uint32_t index);
   BoundsTree& tree_of(Kind kind) { return kind == Kind::movable ? movable_ : immovable_; }
   void keep_pairs(const PairFilter& filter);
@@ -57,6 +67,7 @@ class BroadPhase {
                   const PairFilter& filter, double margin);
 
   std::vector<Entry> entries_;  ///< by body
+  std::vector<Look> looks_;     ///< at those that have changed
   BoundsTree movable_, immovable_;
   std::vector<std::uint32_t> planes_;
   std::vector<std::uint32_t> renewed_;

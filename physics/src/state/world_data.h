@@ -62,6 +62,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void solve_islands(double dt);
   void advance_bodies(double dt);
   void let_sleep(double dt);
+  void remember_contacts();
   void report();
   void sense();
 };

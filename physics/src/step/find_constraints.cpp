@@ -207,7 +207,7 @@ void World::Implementation::find_constraints(double dt) {
   memories.tidy();
   const threads::Workers work = workers();
   const std::vector<pairs::Pair>& pairs =
-      broad_phase.find(bodies, watched, loads, {bodies, ignored}, step::near_enough, dt);
+      broad_phase.find(bodies, watched, loads, {bodies, ignored}, step::near_enough, dt, work);
   const bool crowded = recall(pairs);
   passages.resize(bodies.size());
   work.ranges(looked_for.size(), step::worth_a_part, [&](std::size_t begin, std::size_t end) {

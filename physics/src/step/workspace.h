@@ -35,6 +35,21 @@ struct FoundPart {
   std::vector<KnownApart> aparts;
 };
 
+/// What came of a contact.
+struct Outcome {
+  std::uint32_t place = 0;  ///< of its memory
+  bool touching = false;
+  double normal = 0;    ///< N s
+  double approach = 0;  ///< m/s
+  Vec3 total{0, 0, 0};  ///< on the second body, N s
+};
+
+/// Where a contact that the caller is told of comes from: an active one, or the caller was told of it before.
+struct Told {
+  std::uint32_t number = 0;
+  bool active = false;
+};
+
 struct Solvers {
   Solver few;
   blocks::BlockSolver many;
@@ -60,6 +75,8 @@ struct Workspace {
   std::vector<ContactConstraint*> active;  ///< in `found`: contacts near something that stirs
   std::vector<std::uint32_t> retained;     ///< memories of contacts between bodies at rest, by pair
   std::vector<std::uint32_t> remembered;
+  std::vector<Outcome> outcomes;  ///< of `active`
+  std::vector<Told> told;
   std::vector<Contact> next_contacts;
   std::vector<SensorOverlap> next_overlaps;
   std::vector<collision::Passage> passages;  ///< by body

@@ -153,60 +153,90 @@ void World::Implementation::advance_bodies(double dt) {
   });
 }
 
+void World::Implementation::remember_contacts() {
+  outcomes.resize(active.size());
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    const std::uint32_t memory = active[i]->memory;
+    outcomes[i].place = memory != state::ContactMemories::nowhere ? memory : memories.take();
+  }
+  workers().ranges(active.size(), step::worth_sharing, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const step::ContactConstraint& constraint = *active[k];
+      step::Outcome& outcome = outcomes[k];
+      double normal = 0;
+      Vec3 total = Vec3::Zero();
+      double approach = 0;
+      bool overlap = false;
+      for (int i = 0; i < constraint.count; ++i) {
+        const step::PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+        normal += point.total_normal;
+        total += point.total_normal * constraint.manifold.normal + point.total_friction;
+        approach = std::max(approach, point.approach);
+        overlap = overlap || point.start_gap <= 0;
+      }
+      outcome.normal = normal;
+      outcome.total = total;
+      outcome.approach = approach;
+      outcome.touching = normal > 0 || overlap;
+      step::remember(constraint, outcome.touching, memories[outcome.place]);
+      if (constraint.memory == state::ContactMemories::nowhere || constraint.kept) continue;
+      memories[outcome.place].found = constraint.impact_time == 0 && step::keeps_manifold(constraint)
+                                          ? step::found_manifold(constraint, starts[constraint.a], starts[constraint.b])
+                                          : state::FoundManifold{};
+    }
+  });
+}
+
 void World::Implementation::report() {
+  remember_contacts();
   remembered.clear();
-  next_contacts.clear();
-  // Between bodies at rest all is as it was, but nothing has begun there.
-  std::size_t next_retained = 0, next_contact = 0;
+  told.clear();
+  std::size_t next_retained = 0;
+  std::uint32_t next_contact = 0;
   const auto keep_before = [&](const auto& pair) {
     for (; next_retained < retained.size() && step::before(memories[retained[next_retained]], pair); ++next_retained) {
       const state::ContactMemory& memory = memories[retained[next_retained]];
       remembered.push_back(retained[next_retained]);
       if (!memory.touching) continue;
       while (contacts[next_contact].a.index != memory.a || contacts[next_contact].b.index != memory.b) ++next_contact;
-      next_contacts.push_back(contacts[next_contact]);
-      next_contacts.back().began = false;
+      told.push_back({next_contact, false});
     }
   };
-  for (const step::ContactConstraint* active_contact : active) {
-    const step::ContactConstraint& constraint = *active_contact;
-    double normal = 0;
-    Vec3 total = Vec3::Zero();
-    double approach = 0;
-    bool overlap = false;
-    for (int i = 0; i < constraint.count; ++i) {
-      const step::PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-      normal += point.total_normal;
-      total += point.total_normal * constraint.manifold.normal + point.total_friction;
-      approach = std::max(approach, point.approach);
-      overlap = overlap || point.start_gap <= 0;
-    }
-    const bool touching = normal > 0 || overlap;
-    if (bodies[constraint.a].immovable()) bodies[constraint.a].reaction -= total;
-    if (bodies[constraint.b].immovable()) bodies[constraint.b].reaction += total;
+  for (std::uint32_t i = 0; i < active.size(); ++i) {
+    const step::ContactConstraint& constraint = *active[i];
+    const step::Outcome& outcome = outcomes[i];
+    if (bodies[constraint.a].immovable()) bodies[constraint.a].reaction -= outcome.total;
+    if (bodies[constraint.b].immovable()) bodies[constraint.b].reaction += outcome.total;
     keep_before(constraint);
-    const bool known = constraint.memory != state::ContactMemories::nowhere;
-    const std::uint32_t place = known ? constraint.memory : memories.take();
-    step::remember(constraint, touching, memories[place]);
-    if (known && !constraint.kept)
-      memories[place].found = constraint.impact_time == 0 && step::keeps_manifold(constraint)
-                                  ? step::found_manifold(constraint, starts[constraint.a], starts[constraint.b])
-                                  : state::FoundManifold{};
-    remembered.push_back(place);
-    if (touching)
-      next_contacts.push_back({{constraint.a, bodies[constraint.a].generation},
-                               {constraint.b, bodies[constraint.b].generation},
-                               constraint.manifold,
-                               normal,
-                               total,
-                               approach,
-                               constraint.began});
+    remembered.push_back(outcome.place);
+    if (outcome.touching) told.push_back({i, true});
   }
   constexpr std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
   state::ContactMemory end;
   end.a = end.b = last;
   keep_before(end);
   memories.keep(remembered);
+  next_contacts.resize(told.size());
+  workers().ranges(told.size(), step::worth_sharing, [&](std::size_t first, std::size_t behind) {
+    for (std::size_t i = first; i < behind; ++i) {
+      Contact& contact = next_contacts[i];
+      if (!told[i].active) {
+        // Between bodies at rest all is as it was, but nothing has begun there.
+        contact = contacts[told[i].number];
+        contact.began = false;
+        continue;
+      }
+      const step::ContactConstraint& constraint = *active[told[i].number];
+      const step::Outcome& outcome = outcomes[told[i].number];
+      contact = {{constraint.a, bodies[constraint.a].generation},
+                 {constraint.b, bodies[constraint.b].generation},
+                 constraint.manifold,
+                 outcome.normal,
+                 outcome.total,
+                 outcome.approach,
+                 constraint.began};
+    }
+  });
   std::swap(contacts, next_contacts);
   // Both by pair; bodies that left meanwhile took theirs along.
   ended.clear();
