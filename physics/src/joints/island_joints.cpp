@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "joints/kinds.h"
+#include "joints/kinds/kinds.h"
 
 namespace tweenfall::joints {
 

@@ -2,7 +2,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "joints/kinds.h"
+#include "joints/kinds/kinds.h"
 #include "joints/validate.h"
 #include "state/world_data.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "joints/kinds.h"
+#include "joints/kinds/kinds.h"
 
 namespace tweenfall::joints {
 

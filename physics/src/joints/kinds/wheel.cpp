@@ -1,4 +1,4 @@
-#include "joints/kinds.h"
+#include "joints/kinds/kinds.h"
 
 namespace tweenfall::joints {
 

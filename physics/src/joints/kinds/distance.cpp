@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "joints/kinds.h"
+#include "joints/kinds/kinds.h"
 
 namespace tweenfall::joints {
 

@@ -1,6 +1,6 @@
 #include <tweenfall/curves/elementary.h>
 
-#include "joints/kinds.h"
+#include "joints/kinds/kinds.h"
 
 namespace tweenfall::joints {
 
