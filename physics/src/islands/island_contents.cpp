@@ -17,9 +17,10 @@ const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::B
     entries.clear();
     for (const auto* item : list)
       entries.push_back({island_of_item(item->a, item->b), static_cast<std::uint32_t>(entries.size())});
-    std::sort(entries.begin(), entries.end(), [](const Entry& left, const Entry& right) {
+    const auto before = [](const Entry& left, const Entry& right) {
       return left.island != right.island ? left.island < right.island : left.number < right.number;
-    });
+    };
+    if (!std::is_sorted(entries.begin(), entries.end(), before)) std::sort(entries.begin(), entries.end(), before);
     pointers.clear();
     for (const Entry& entry : entries) pointers.push_back(list[entry.number]);
   };

@@ -9,21 +9,12 @@ struct PointConstraint {
   std::uint32_t feature = 0;
   Vec3 start_arm_a{0, 0, 0}, start_arm_b{0, 0, 0};  ///< from the centers of mass at the start of the step, world, m
   double start_gap = 0;                             ///< along the normal at the start of the step, m
-  double skin_a = 0, skin_b = 0;        ///< radii with which the surfaces roll here; 0 where they are flat or sharp, m
-  Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};  ///< in the current sub-step
-  double gap = 0;
-  double kept_normal = 0;  ///< of the last sub-step worth keeping: where the next begins, N s
+  double skin_a = 0, skin_b = 0;  ///< radii with which the surfaces roll here; 0 where they are flat or sharp, m
+  double kept_normal = 0;         ///< of the last sub-step worth keeping: where the next begins, N s
   Vec3 kept_friction{0, 0, 0};
-  double normal_impulse = 0;       ///< of one sub-step, N s
-  Vec3 friction_impulse{0, 0, 0};  ///< of one sub-step, world, N s
-  double total_normal = 0;         ///< of the whole step
+  double total_normal = 0;  ///< of the whole step
   Vec3 total_friction{0, 0, 0};
-  double approach = 0;              ///< closing speed where they meet, m/s
-  double rebound = 0;               ///< normal speed wanted at the end of the sub-step, m/s
-  double rebound_time = 0;          ///< how long the rebound moves the bodies in this sub-step, s
-  double speed_before_rebound = 0;  ///< m/s
-  double normal_before_rebound = 0;
-  Vec3 friction_before_rebound{0, 0, 0};
+  double approach = 0;  ///< closing speed where they meet, m/s
 };
 
 /// A pair in contact through a step.
@@ -43,7 +34,6 @@ struct ContactConstraint : state::KeptImpulses {
   bool kept = false;        ///< its manifold was found in a step before
   bool began = false;       ///< did not touch in the step before
   bool impact = false;      ///< some point meets fast enough to rebound
-  bool rebounds = false;    ///< in an island that does, in this sub-step
   double impact_time = 0;   ///< s after the start of the step
 };
 

@@ -15,7 +15,7 @@ Tangents tangents_of(const Vec3& normal) {
   return tangents;
 }
 
-void PointRows::prepare(const SolverBody& a, const SolverBody& b, const PointConstraint& point, const Vec3& normal,
+void PointRows::prepare(const SolverBody& a, const SolverBody& b, const SolvedPoint& point, const Vec3& normal,
                         const Tangents* tangents) {
   const double inverse_mass = a.inverse_mass + b.inverse_mass;
   turn_a = point.arm_a.cross(normal);

@@ -2,7 +2,7 @@
 
 /// Rows of the contact solver: each changes the velocities of two bodies by one impulse.
 
-#include "step/contact_constraint.h"
+#include "step/solved_contact.h"
 #include "step/solver_body.h"
 
 namespace tweenfall::step {
@@ -36,7 +36,7 @@ struct PointRows {
   bool drifts = false;
   double stiffest = 0;  ///< the greatest speed that a unit of impulse makes, 1/kg
 
-  void prepare(const SolverBody& a, const SolverBody& b, const PointConstraint& point, const Vec3& normal,
+  void prepare(const SolverBody& a, const SolverBody& b, const SolvedPoint& point, const Vec3& normal,
                const Tangents* tangents);
 };
 

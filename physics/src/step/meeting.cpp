@@ -23,15 +23,12 @@ void foresee(ContactConstraint& contact, const Twist& a, const Twist& b, const C
   contact.impact = false;
   for (int i = 0; i < contact.count; ++i) {
     PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
-    point.arm_a = point.start_arm_a;
-    point.arm_b = point.start_arm_b;
-    point.gap = point.start_gap;
     point.total_normal = 0;
     point.total_friction = Vec3::Zero();
-    const Vec3 velocity_a = a.linear + a.angular.cross(point.arm_a);
-    const Vec3 velocity_b = b.linear + b.angular.cross(point.arm_b);
+    const Vec3 velocity_a = a.linear + a.angular.cross(point.start_arm_a);
+    const Vec3 velocity_b = b.linear + b.angular.cross(point.start_arm_b);
     const double speed = normal.dot(velocity_a - velocity_b);
-    point.approach = std::max(0.0, meeting_of(point.gap, speed, closing.pull, dt).speed);
+    point.approach = std::max(0.0, meeting_of(point.start_gap, speed, closing.pull, dt).speed);
     contact.impact = contact.impact || point.approach > closing.tremble;
   }
   contact.total_rolling = Vec3::Zero();

@@ -18,9 +18,9 @@ namespace {
 constexpr double quiet = 1e-14;
 
 /// Whether a point that shall rebound was reached.
-bool rebounds(const ContactConstraint* contact) {
-  for (int i = 0; i < contact->count; ++i) {
-    const PointConstraint& point = contact->points[static_cast<std::size_t>(i)];
+bool rebounds(const SolvedContact& contact) {
+  for (int i = 0; i < contact.count; ++i) {
+    const SolvedPoint& point = contact.points[static_cast<std::size_t>(i)];
     if (point.rebound > 0 && point.normal_impulse > 0) return true;
   }
   return false;
@@ -33,16 +33,16 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
   const std::size_t count = contacts.size();
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t index = backward ? count - 1 - n : n;
-    ContactConstraint& constraint = *contacts[index];
+    SolvedContact& constraint = contacts[index];
     const PointRows* rows = &rows_[4 * index];
     SolverBody& a = at(constraint.a);
     SolverBody& b = at(constraint.b);
     // Only what the rebound reaches.
     if (!(a.stirred || b.stirred)) continue;
-    const Vec3& normal = constraint.manifold.normal;
+    const Vec3& normal = constraint.normal;
     double change = 0;
     for (int i = 0; i < constraint.count; ++i) {
-      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
       if (constraint.friction > 0 && constraint.impact)
         change = std::max(
             change, solve_friction(a, b, rows[i], point.friction_impulse, constraint.friction * point.normal_impulse));
@@ -59,11 +59,11 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
 }
 
 /// The rebound began inside the sub-step: what is left of it, it moved the bodies.
-void Solver::move_by_rebound(const ContactConstraint& constraint, const PointRows* rows) {
+void Solver::move_by_rebound(const SolvedContact& constraint, const PointRows* rows) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
   for (int i = 0; i < constraint.count; ++i) {
-    const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    const SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     if (!(point.rebound > 0)) continue;
     // Bodies still closing when it was solved are on the surface already: stopping them moves nothing.
     const double part = point.rebound / (point.rebound - std::min(0.0, point.speed_before_rebound));
@@ -71,7 +71,7 @@ void Solver::move_by_rebound(const ContactConstraint& constraint, const PointRow
     // point is none of it.
     const double most = rows[i].mass * point.rebound;
     const double own = std::clamp((point.normal_impulse - point.normal_before_rebound) * part, -most, most);
-    const Vec3 moved = own * point.rebound_time * constraint.manifold.normal;
+    const Vec3 moved = own * point.rebound_time * constraint.normal;
     if (moved == Vec3::Zero()) continue;
     const auto move = [](SolverBody& body, const Vec3& by, const Vec3& arm) {
       body.center += body.inverse_mass * by;
@@ -109,20 +109,20 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<for
     energy.add(body, loads[entry.index], course);
   }
   // What moves by its own will does work on what it pushes.
-  for (const ContactConstraint* contact : contacts) {
-    const ContactConstraint& constraint = *contact;
+  for (const SolvedContact& contact : contacts) {
+    const SolvedContact& constraint = contact;
     const SolverBody& a = at(constraint.a);
     const SolverBody& b = at(constraint.b);
     // And so does a surface.
     if (a.conveys || b.conveys)
       for (int i = 0; i < constraint.count; ++i) {
-        const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+        const SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
         energy.limit -= point.friction_impulse.dot(drift_at(a.surface, point.arm_a, b.surface, point.arm_b));
       }
     if (a.movable == b.movable) continue;
     for (int i = 0; i < constraint.count; ++i) {
-      const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-      const Vec3 impulse = point.normal_impulse * constraint.manifold.normal + point.friction_impulse;
+      const SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
+      const Vec3 impulse = point.normal_impulse * constraint.normal + point.friction_impulse;
       energy.limit +=
           a.movable ? -impulse.dot(point_velocity(b, point.arm_b)) : impulse.dot(point_velocity(a, point.arm_a));
     }
@@ -135,9 +135,9 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<for
     entry.linear = starts_[i].linear_before_rebound + share * (entry.linear - starts_[i].linear_before_rebound);
     entry.angular = starts_[i].angular_before_rebound + share * (entry.angular - starts_[i].angular_before_rebound);
   }
-  for (ContactConstraint* contact : contacts)
-    for (int i = 0; i < contact->count; ++i) {
-      PointConstraint& point = contact->points[static_cast<std::size_t>(i)];
+  for (SolvedContact& contact : contacts)
+    for (int i = 0; i < contact.count; ++i) {
+      SolvedPoint& point = contact.points[static_cast<std::size_t>(i)];
       point.normal_impulse = point.normal_before_rebound + share * (point.normal_impulse - point.normal_before_rebound);
       point.friction_impulse =
           point.friction_before_rebound + share * (point.friction_impulse - point.friction_before_rebound);
@@ -147,22 +147,21 @@ void Solver::bound_energy(const std::vector<Body>& bodies, const std::vector<for
 void Solver::rebound(const std::vector<Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts,
                      int passes) {
   const bool any = std::any_of(contacts.begin(), contacts.end(), rebounds);
-  for (ContactConstraint* contact : contacts) contact->rebounds = any;
+  for (SolvedContact& contact : contacts) contact.rebounds = any;
   if (!any) return;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     bodies_[i].stirred = false;
     starts_[i].linear_before_rebound = bodies_[i].linear;
     starts_[i].angular_before_rebound = bodies_[i].angular;
   }
-  for (ContactConstraint* contact : contacts) {
-    SolverBody& a = at(contact->a);
-    SolverBody& b = at(contact->b);
-    for (int i = 0; i < contact->count; ++i) {
-      PointConstraint& point = contact->points[static_cast<std::size_t>(i)];
+  for (SolvedContact& contact : contacts) {
+    SolverBody& a = at(contact.a);
+    SolverBody& b = at(contact.b);
+    for (int i = 0; i < contact.count; ++i) {
+      SolvedPoint& point = contact.points[static_cast<std::size_t>(i)];
       point.normal_before_rebound = point.normal_impulse;
       point.friction_before_rebound = point.friction_impulse;
-      point.speed_before_rebound =
-          contact->manifold.normal.dot(point_velocity(b, point.arm_b) - point_velocity(a, point.arm_a));
+      point.speed_before_rebound = contact.normal.dot(point_velocity(b, point.arm_b) - point_velocity(a, point.arm_a));
       if (!(point.rebound > 0 && point.normal_impulse > 0)) continue;
       a.stirred = a.stirred || a.movable;
       b.stirred = b.stirred || b.movable;
@@ -170,7 +169,7 @@ void Solver::rebound(const std::vector<Body>& bodies, const std::vector<forces::
   }
   for (int k = 0; k < passes; ++k)
     if (rebound_pass(contacts, k % 2 == 1) < quiet) break;
-  for (std::size_t i = 0; i < contacts.size(); ++i) move_by_rebound(*contacts[i], &rows_[4 * i]);
+  for (std::size_t i = 0; i < contacts.size(); ++i) move_by_rebound(contacts[i], &rows_[4 * i]);
   bound_energy(bodies, loads, contacts);
 }
 

@@ -41,7 +41,8 @@ void Solver::begin(std::size_t bodies) {
   slots_.assign(bodies, nowhere);
 }
 
-void Solver::gather(const std::vector<Body>& bodies, Contacts contacts, Springs springs, double dt) {
+void Solver::gather(const std::vector<Body>& bodies, std::span<ContactConstraint* const> contacts, Springs springs,
+                    double dt) {
   for (const SolverBody& body : bodies_) slots_[body.index] = nowhere;
   bodies_.clear();
   const auto add = [&](std::uint32_t index) {
@@ -83,16 +84,16 @@ void Solver::gather(const std::vector<Body>& bodies, Contacts contacts, Springs 
   starts_.resize(bodies_.size());
 }
 
-void Solver::meet(const std::vector<Load>& loads, ContactConstraint& constraint, double h, double dt) const {
+void Solver::meet(const std::vector<Load>& loads, SolvedContact& constraint, double h, double dt) const {
   const SolverBody& a = at(constraint.a);
   const SolverBody& b = at(constraint.b);
-  const Vec3& normal = constraint.manifold.normal;
+  const Vec3& normal = constraint.normal;
   // Forces change the velocity of the center on the way, and a spin changes by itself: what is left of it counts.
   const Vec3 linear = starts_[slots_[constraint.a]].linear - starts_[slots_[constraint.b]].linear;
   const auto [pull, tremble] = closing_of(normal, loads[constraint.a], loads[constraint.b], dt);
   constraint.rebounds = false;
   for (int i = 0; i < constraint.count; ++i) {
-    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     point.rebound = point.rebound_time = 0;
     const double closing = normal.dot(linear + a.angular.cross(point.arm_a) - b.angular.cross(point.arm_b));
     const auto [time, speed] = meeting_of(point.gap, closing, pull, h);
@@ -107,13 +108,13 @@ void Solver::meet(const std::vector<Load>& loads, ContactConstraint& constraint,
   }
 }
 
-void Solver::refresh(ContactConstraint& constraint) const {
+void Solver::refresh(SolvedContact& constraint) const {
   const SolverBody& a = at(constraint.a);
   const SolverBody& b = at(constraint.b);
-  const Vec3& normal = constraint.manifold.normal;
+  const Vec3& normal = constraint.normal;
   const Vec3 drift = (b.center - b.start_center) - (a.center - a.start_center);
   for (int i = 0; i < constraint.count; ++i) {
-    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     point.arm_a = state::carried(a.turn, point.start_arm_a, point.skin_a * normal);
     point.arm_b = state::carried(b.turn, point.start_arm_b, -point.skin_b * normal);
     const Vec3 swing = (point.arm_b - point.start_arm_b) - (point.arm_a - point.start_arm_a);
@@ -161,14 +162,14 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
   }
 }
 
-void Solver::warm_start(ContactConstraint& constraint, PointRows* rows, double h) {
+void Solver::warm_start(SolvedContact& constraint, PointRows* rows, double h) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
-  const Vec3& normal = constraint.manifold.normal;
+  const Vec3& normal = constraint.normal;
   const double ratio = constraint.kept_step > h ? h / constraint.kept_step : 1;
   const Tangents along = constraint.friction > 0 ? tangents_of(normal) : Tangents{};
   for (int i = 0; i < constraint.count; ++i) {
-    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     rows[i].prepare(a, b, point, normal, constraint.friction > 0 ? &along : nullptr);
     point.normal_impulse = ratio * point.kept_normal;
     point.friction_impulse = ratio * (point.kept_friction - normal * normal.dot(point.kept_friction));
@@ -186,10 +187,10 @@ void Solver::warm_start(ContactConstraint& constraint, PointRows* rows, double h
   b.angular += b.inverse_inertia * (constraint.spin_impulse * normal);
 }
 
-double Solver::solve_contact(ContactConstraint& constraint, const PointRows* rows, const Softness& softness, double h) {
+double Solver::solve_contact(SolvedContact& constraint, const PointRows* rows, const Softness& softness, double h) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
-  const Vec3& normal = constraint.manifold.normal;
+  const Vec3& normal = constraint.normal;
   double change = 0;
   if (constraint.rolling_friction > 0 || constraint.spinning_friction > 0) {
     double sum = 0;
@@ -201,14 +202,14 @@ double Solver::solve_contact(ContactConstraint& constraint, const PointRows* row
   }
   if (constraint.friction > 0) {
     for (int i = 0; i < constraint.count; ++i) {
-      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
       if (point.normal_impulse == 0 && point.friction_impulse == Vec3::Zero()) continue;
       change = std::max(
           change, solve_friction(a, b, rows[i], point.friction_impulse, constraint.friction * point.normal_impulse));
     }
   }
   for (int i = 0; i < constraint.count; ++i) {
-    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+    SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     // A gap may close within the sub-step, but not further.
     const bool soft = point.gap <= 0 && !constraint.impact && !a.pulled && !b.pulled;
     const double wanted = point.gap > 0 ? -point.gap / h : std::min(-softness.rate * point.gap, softness.speed);
@@ -246,7 +247,7 @@ double Solver::pass(Contacts contacts, const Softness& softness, double h, bool 
   const std::size_t count = contacts.size();
   for (std::size_t n = 0; n < count; ++n) {
     const std::size_t i = backward ? count - 1 - n : n;
-    change = std::max(change, solve_contact(*contacts[i], &rows_[4 * i], softness, h));
+    change = std::max(change, solve_contact(contacts[i], &rows_[4 * i], softness, h));
   }
   return change;
 }
@@ -255,17 +256,17 @@ double Solver::pass(Contacts contacts, const Softness& softness, double h, bool 
 void Solver::find_lags(Contacts contacts) {
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     bodies_[i].lag = bodies_[i].movable ? Vec3(0.5 * (starts_[i].linear - bodies_[i].linear)) : Vec3(0, 0, 0);
-  for (const ContactConstraint* contact : contacts) {
-    const ContactConstraint& constraint = *contact;
+  for (const SolvedContact& contact : contacts) {
+    const SolvedContact& constraint = contact;
     for (int i = 0; i < constraint.count; ++i) {
-      const PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      const SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
       if (point.normal_impulse == 0) continue;
       const double grip = constraint.friction * point.normal_impulse;
       const bool slides = point.friction_impulse.squaredNorm() >= 0.999 * grip * grip;
       for (SolverBody* body : {&at(constraint.a), &at(constraint.b)}) {
         body->pressed = body->touched = true;
         if (slides || body->round)
-          body->lag -= constraint.manifold.normal * constraint.manifold.normal.dot(body->lag);
+          body->lag -= constraint.normal * constraint.normal.dot(body->lag);
         else
           body->lag = Vec3::Zero();
       }
@@ -276,11 +277,11 @@ void Solver::find_lags(Contacts contacts) {
 }
 
 void Solver::add_totals(Contacts contacts, double h) {
-  for (ContactConstraint* contact : contacts) {
-    ContactConstraint& constraint = *contact;
+  for (SolvedContact& contact : contacts) {
+    SolvedContact& constraint = contact;
     bool any = false;
     for (int i = 0; i < constraint.count; ++i) {
-      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
       point.total_normal += point.normal_impulse;
       point.total_friction += point.friction_impulse;
       any = any || point.normal_impulse != 0 || point.friction_impulse != Vec3::Zero();
@@ -295,7 +296,7 @@ void Solver::add_totals(Contacts contacts, double h) {
       if (constraint.passed_over < sub_steps * constraint.kept_step) continue;
     }
     for (int i = 0; i < constraint.count; ++i) {
-      PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+      SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
       point.kept_normal = point.normal_impulse;
       point.kept_friction = point.friction_impulse;
     }
@@ -342,19 +343,21 @@ void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
   }
 }
 
-void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Contacts contacts, Springs springs,
-                   const WorldSettings& settings, double dt, std::vector<char>& moved) {
-  gather(bodies, contacts, springs, dt);
-  rows_.resize(4 * contacts.size());
-  for (ContactConstraint* contact : contacts) {
+void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, std::span<ContactConstraint* const> found,
+                   Springs springs, const WorldSettings& settings, double dt, std::vector<char>& moved) {
+  gather(bodies, found, springs, dt);
+  contacts_.clear();
+  contacts_.reserve(found.size());
+  for (ContactConstraint* contact : found) {
     const SolverBody& a = at(contact->a);
     const SolverBody& b = at(contact->b);
     const Closing closing = closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
     foresee(*contact, {a.linear, a.angular}, {b.linear, b.angular}, closing, dt);
-    if (!contact->impact) continue;
-    at(contact->a).impact = true;
-    at(contact->b).impact = true;
+    if (contact->impact) at(contact->a).impact = at(contact->b).impact = true;
+    contacts_.emplace_back(*contact);
   }
+  const Contacts contacts = contacts_;
+  rows_.resize(4 * contacts.size());
   const double h = dt / sub_steps;
   const bool thorough = contacts.size() <= few;
   const int share = thorough ? settings.iterations : settings.iterations / sub_steps;
@@ -364,11 +367,11 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Co
   const Softness soft = soft_contacts(settings.push_out_speed, dt, sub_steps);
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
-    for (ContactConstraint* contact : contacts) {
-      if (sub_step > 0) refresh(*contact);
-      if (contact->restitution > 0) meet(loads, *contact, h, dt);
+    for (SolvedContact& contact : contacts) {
+      if (sub_step > 0) refresh(contact);
+      if (contact.restitution > 0) meet(loads, contact, h, dt);
     }
-    for (std::size_t i = 0; i < contacts.size(); ++i) warm_start(*contacts[i], &rows_[4 * i], h);
+    for (std::size_t i = 0; i < contacts.size(); ++i) warm_start(contacts[i], &rows_[4 * i], h);
     for (SpringRow* spring : springs) spring->begin(end_of(spring->a), end_of(spring->b), h);
     const double remaining = dt - (sub_step + 1) * h;
     for (SolverBody& body : bodies_) body.drive_impulse = body.drive_angular_impulse = Vec3::Zero();
@@ -391,6 +394,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, Co
     add_totals(contacts, h);
   }
 
+  for (const SolvedContact& contact : contacts) contact.store();
   for (SolverBody& entry : bodies_) {
     if (!entry.movable || !entry.touched) continue;
     Body& body = bodies[entry.index];

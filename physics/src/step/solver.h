@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "forces/free_flight.h"
-#include "step/contact_constraint.h"
 #include "step/contact_rows.h"
 #include "step/softness.h"
+#include "step/solved_contact.h"
 #include "step/solver_body.h"
 #include "step/spring_row.h"
 
@@ -26,7 +26,6 @@ struct SubStepStart {
 /// Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024 (soft contacts and relaxation).
 class Solver {
  public:
-  using Contacts = std::span<ContactConstraint* const>;
   using Springs = std::span<SpringRow* const>;
 
   /// Before the islands of a step.
@@ -34,18 +33,22 @@ class Solver {
   /// Moves all bodies of one island that `contacts` touch or `springs` hold by `dt`; fills in the contacts' impulses.
   /// @param springs  those too stiff to be part of the loads
   /// @param moved  by index: set for the bodies that were moved
-  void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts,
-             Springs springs, const WorldSettings& settings, double dt, std::vector<char>& moved);
+  void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+             std::span<ContactConstraint* const> contacts, Springs springs, const WorldSettings& settings, double dt,
+             std::vector<char>& moved);
 
  private:
-  void gather(const std::vector<state::Body>& bodies, Contacts contacts, Springs springs, double dt);
-  void meet(const std::vector<forces::Load>& loads, ContactConstraint& constraint, double h, double dt) const;
+  using Contacts = std::span<SolvedContact>;
+
+  void gather(const std::vector<state::Body>& bodies, std::span<ContactConstraint* const> contacts, Springs springs,
+              double dt);
+  void meet(const std::vector<forces::Load>& loads, SolvedContact& constraint, double h, double dt) const;
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
                       const WorldSettings& settings, double h, int sub_step);
-  void refresh(ContactConstraint& constraint) const;
-  void warm_start(ContactConstraint& constraint, PointRows* rows, double h);
+  void refresh(SolvedContact& constraint) const;
+  void warm_start(SolvedContact& constraint, PointRows* rows, double h);
   double pass(Contacts contacts, const Softness& softness, double h, bool backward);
-  double solve_contact(ContactConstraint& constraint, const PointRows* rows, const Softness& softness, double h);
+  double solve_contact(SolvedContact& constraint, const PointRows* rows, const Softness& softness, double h);
   double solve_drive(const std::vector<state::Body>& bodies, SolverBody& body, double h, double remaining);
   void find_lags(Contacts contacts);
   void add_totals(Contacts contacts, double h);
@@ -56,7 +59,7 @@ class Solver {
   void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts,
                int passes);
   double rebound_pass(Contacts contacts, bool backward);
-  void move_by_rebound(const ContactConstraint& constraint, const PointRows* rows);
+  void move_by_rebound(const SolvedContact& constraint, const PointRows* rows);
   void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts);
 
   SolverBody* end_of(std::uint32_t index) { return index == SpringRow::world ? nullptr : &at(index); }
@@ -64,9 +67,10 @@ class Solver {
   const SolverBody& at(std::uint32_t index) const { return bodies_[slots_[index]]; }
 
   std::vector<SolverBody> bodies_;
-  std::vector<std::uint32_t> slots_;  ///< from a body's index into bodies_
-  std::vector<SubStepStart> starts_;  ///< of bodies_
-  std::vector<PointRows> rows_;       ///< four per contact of the island
+  std::vector<std::uint32_t> slots_;     ///< from a body's index into bodies_
+  std::vector<SubStepStart> starts_;     ///< of bodies_
+  std::vector<SolvedContact> contacts_;  ///< of the island
+  std::vector<PointRows> rows_;          ///< four per contact of the island
 };
 
 }  // namespace tweenfall::step

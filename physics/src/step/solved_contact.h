@@ -1,0 +1,62 @@
+#pragma once
+
+#include "step/contact_constraint.h"
+
+namespace tweenfall::step {
+
+/// A point while its contact is being solved by itself.
+struct SolvedPoint : PointConstraint {
+  Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};  ///< in the current sub-step
+  double gap = 0;
+  double normal_impulse = 0;        ///< of one sub-step, N s
+  Vec3 friction_impulse{0, 0, 0};   ///< of one sub-step, world, N s
+  double rebound = 0;               ///< normal speed wanted at the end of the sub-step, m/s
+  double rebound_time = 0;          ///< how long the rebound moves the bodies in this sub-step, s
+  double speed_before_rebound = 0;  ///< m/s
+  double normal_before_rebound = 0;
+  Vec3 friction_before_rebound{0, 0, 0};
+};
+
+/// A contact while it is being solved by itself.
+struct SolvedContact : state::KeptImpulses {
+  explicit SolvedContact(ContactConstraint& contact)
+      : state::KeptImpulses(contact),
+        origin(&contact),
+        a(contact.a),
+        b(contact.b),
+        normal(contact.manifold.normal),
+        count(contact.count),
+        friction(contact.friction),
+        restitution(contact.restitution),
+        rolling_friction(contact.rolling_friction),
+        spinning_friction(contact.spinning_friction),
+        impact(contact.impact) {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      SolvedPoint& point = points[i];
+      static_cast<PointConstraint&>(point) = contact.points[i];
+      point.arm_a = point.start_arm_a;
+      point.arm_b = point.start_arm_b;
+      point.gap = point.start_gap;
+    }
+  }
+  /// Gives the impulses back.
+  void store() const {
+    static_cast<state::KeptImpulses&>(*origin) = *this;
+    origin->total_rolling = total_rolling;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) origin->points[i] = points[i];
+  }
+
+  ContactConstraint* origin;
+  std::uint32_t a, b;
+  Vec3 normal;
+  std::array<SolvedPoint, 4> points{};
+  int count;
+  double friction, restitution, rolling_friction, spinning_friction;
+  Vec3 rolling_impulse{0, 0, 0};
+  Vec3 total_rolling{0, 0, 0};
+  double spin_impulse = 0;
+  bool impact;
+  bool rebounds = false;  ///< in an island that does, in this sub-step
+};
+
+}  // namespace tweenfall::step
