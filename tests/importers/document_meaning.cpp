@@ -132,6 +132,18 @@ TEST_CASE("every field reaches the stage's description") {
     for (std::size_t i = 0; i < stage.nodes.size(); ++i)
       CHECK((stage.nodes[i].parent == no_node || stage.nodes[i].parent < i));
     CHECK(stage.nodes[node("late").parent].name == "base");
+    const BodyDescription &belt = *node("floor").body, &probe = *node("ball").body;
+    CHECK(belt.friction_combine == Combine::minimum);
+    CHECK(belt.restitution_combine == Combine::usual);
+    CHECK(near(belt.surface_velocity.linear, Vec3(1.5, 0, 0), 0));
+    CHECK(near(belt.surface_velocity.angular, Vec3(0, std::numbers::pi / 2, 0), 1e-15));
+    CHECK(belt.groups == 3);
+    CHECK(belt.collides_with == ~std::uint64_t{0});
+    CHECK(probe.groups == 1);
+    CHECK(probe.collides_with == 3);
+    CHECK(probe.restitution_combine == Combine::average);
+    CHECK(probe.spinning_friction == 0.02);
+    CHECK(probe.sensor);
     CHECK(near(node("late").rest.rotation, Quat(std::cos(15 * degree), 0, -std::sin(15 * degree), 0), 1e-14));
     CHECK(near(node("base").rest.rotation, Quat(c, 0, c, 0), 1e-14));
     CHECK(near(node("base").rest.scale, Vec3(1, 2, 3), 0));

@@ -30,6 +30,9 @@ struct Reading {
   // Each file is read once, however often it is imported; null where it has problems, which are told.
   std::map<std::filesystem::path, std::shared_ptr<const Brought>> brought{};
 
+  std::vector<std::string> groups{"default"};  // of bodies: the first has the lowest bit
+  std::uint64_t given_groups = 1;              // that some body belongs to; the default one always counts
+
   [[nodiscard]] bool is_outermost() const { return open.size() <= 1; }
 };
 
@@ -46,6 +49,7 @@ struct Building {
   std::map<std::string, std::size_t, std::less<>> clips{};
   std::set<std::string, std::less<>> imports{};         // their names here
   std::set<std::string, std::less<>> failed_imports{};  // their nodes and clips are not known to be missing
+  std::vector<json::Value> asked_groups{};              // names of groups that bodies collide with
   std::vector<std::string> clips_of_others{};  // clips of imports without nodes: their tracks name nodes of this file
 
   [[nodiscard]] std::vector<std::string> node_names() const;

@@ -27,10 +27,17 @@ BodySettings settings_of(const StageState& state, NodeId node, const BodyDescrip
                         .density = body.density,
                         .friction = body.friction,
                         .restitution = body.restitution,
+                        .friction_combine = body.friction_combine,
+                        .restitution_combine = body.restitution_combine,
                         .rolling_friction = body.rolling_friction,
+                        .spinning_friction = body.spinning_friction,
+                        .surface_velocity = body.surface_velocity,
+                        .sensor = body.sensor,
                         .linear_damping = body.linear_damping,
                         .angular_damping = body.angular_damping,
-                        .fixed = body.fixed};
+                        .fixed = body.fixed,
+                        .groups = body.groups,
+                        .collides_with = body.collides_with};
   settings.drive = body.drive ? *body.drive : state.animation->animates(node) ? Drive::keyed() : Drive::free();
   settings.motion = rigid(start.motion);
   if (!body.twist.linear.allFinite() || !body.twist.angular.allFinite())

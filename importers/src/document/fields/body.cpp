@@ -1,5 +1,9 @@
+#include <algorithm>
+#include <utility>
+
 #include "document/fields/table.h"
 #include "document/fields/things.h"
+#include "document/report/suggestion.h"
 #include "document/shapes/shapes.h"
 
 namespace tweenfall::document::fields {
@@ -18,12 +22,55 @@ std::string while_static(const Body& body) {
   return body.fixed ? "for a static body; leave it or \"static\" out" : "";
 }
 
+Row<Body> combine_rule(std::string name, std::string help, Combine Body::*member_of_body) {
+  return one_of<Body, Combine>(std::move(name), "a rule to combine",
+                               {{"geometric-mean", Combine::geometric_mean},
+                                {"average", Combine::average},
+                                {"minimum", Combine::minimum},
+                                {"multiply", Combine::multiply},
+                                {"maximum", Combine::maximum}},
+                               std::move(help), member_of_body);
+}
+
+const Form* groups_form(FormStore& store, const ValueForms& values) {
+  return store.add(list_of(values.name, "a list of names of groups", 0));
+}
+
+// The bits of groups by their names, which all files of one reading share.
+std::uint64_t bits_of(const json::Value& list, Building& building) {
+  constexpr std::size_t most = 64;
+  std::vector<std::string>& groups = building.reading.groups;
+  std::uint64_t bits = 0;
+  for (const json::Value& name : list.items()) {
+    const auto found = std::ranges::find(groups, name.text());
+    const auto bit = static_cast<std::size_t>(found - groups.begin());
+    if (bit == most) {
+      building.problems.add(name, "there can be 63 groups of bodies beside \"default\", and this is one more");
+      return bits;
+    }
+    if (found == groups.end()) groups.emplace_back(name.text());
+    bits |= std::uint64_t{1} << bit;
+  }
+  return bits;
+}
+
 const Table<Body>& body_table() {
   constexpr auto offset = [](Body& body) -> Pose& { return body.shape.offset; };
   constexpr auto velocity = [](Body& body) -> Vec3& { return body.twist.linear; };
   constexpr auto spin = [](Body& body) -> Vec3& { return body.twist.angular; };
   const Meaning<Body> shape = {[](const json::Value& value, Body& body, Building& building) {
     body.shape.solid = shapes::read(value, building);
+  }};
+  constexpr auto surface = [](Body& body) -> Vec3& { return body.surface_velocity.linear; };
+  constexpr auto surface_spin = [](Body& body) -> Vec3& { return body.surface_velocity.angular; };
+  const Meaning<Body> groups = {[](const json::Value& value, Body& body, Building& building) {
+                                  body.groups = bits_of(value, building);
+                                  building.reading.given_groups |= body.groups;
+                                },
+                                "[\"default\"]"};
+  const Meaning<Body> collides_with = {[](const json::Value& value, Body& body, Building& building) {
+    body.collides_with = bits_of(value, building);
+    for (const json::Value& name : value.items()) building.asked_groups.push_back(name);
   }};
   const Meaning<Body> drive = {
       [](const json::Value& value, Body& body, Building& building) { body.drive = read_owner(value, building); }};
@@ -42,7 +89,19 @@ const Table<Body>& body_table() {
         false,
         {},
         {"bounciness", "elasticity"}},
+       combine_rule("friction_combine", "of two bodies' rules the one later in this list holds",
+                    &Body::friction_combine),
+       combine_rule("restitution_combine", "likewise", &Body::restitution_combine),
        {"rolling_friction", &ValueForms::not_negative, "m", member<Body>(&Body::rolling_friction)},
+       {"spinning_friction", &ValueForms::not_negative, "m", member<Body>(&Body::spinning_friction)},
+       {"surface_velocity", &ValueForms::vector, "of a belt against its body, in the node's axes, m/s",
+        member<Body>(surface)},
+       {"surface_angular_velocity", &ValueForms::vector, "in the node's axes, degrees/s", turning<Body>(surface_spin)},
+       {"sensor", &ValueForms::boolean, "notices what overlaps it, and neither pushes nor is pushed",
+        member<Body>(&Body::sensor)},
+       {"groups", groups_form, "that it belongs to", groups},
+       {"collides_with", groups_form, "groups; absent: all. Two bodies meet when each names one of the other's",
+        collides_with},
        {"linear_damping", &ValueForms::not_negative, "1/s", member<Body>(&Body::linear_damping)},
        {"angular_damping", &ValueForms::not_negative, "1/s", member<Body>(&Body::angular_damping)},
        {"static",
@@ -67,6 +126,19 @@ const Form* body_form(FormStore& store, const ValueForms& values) {
   form.together = {at_most_one({"mass", "density"})};
   form.definition = "body";
   return store.add(std::move(form));
+}
+
+void check_groups(Building& building) {
+  // What an imported file asks for may be in the file that imports it.
+  if (!building.reading.is_outermost() || !building.failed_imports.empty()) return;
+  const std::vector<std::string>& groups = building.reading.groups;
+  std::vector<std::string> given;
+  for (std::size_t i = 0; i < groups.size(); ++i)
+    if ((building.reading.given_groups >> i & 1) != 0) given.push_back(groups[i]);
+  for (const json::Value& name : building.asked_groups)
+    if (std::ranges::find(given, name.text()) == given.end())
+      building.problems.add(
+          name, "no body belongs to a group " + json::in_quotes(name.text()) + suggestion(name.text(), given));
 }
 
 json::Value place_of_spin(const json::Value& body) {

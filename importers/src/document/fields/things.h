@@ -20,6 +20,7 @@ void read_look(const json::Value& value, NodeDescription& node, Building& buildi
 
 const Form* body_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] BodyDescription read_body(const json::Value& body, Building& building);
+void check_groups(Building& building);  // those that bodies collide with, when all bodies are known
 [[nodiscard]] json::Value place_of_spin(const json::Value& body);  // or the body, where it says none
 
 // Whose a body is: "free", "keyed", or a drive.

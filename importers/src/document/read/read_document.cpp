@@ -43,6 +43,7 @@ ReadDocument read_document(std::string text, const std::string& name, const std:
     building.names_are_free = !root.find("nodes") && !root.find("import");
     read_imports(building);
     read_nodes(building);
+    fields::check_groups(building);
     read_clips(building);
     read_plays(building);
     fields::read_world(usable(root, "world"), building);

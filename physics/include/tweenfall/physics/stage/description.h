@@ -19,9 +19,16 @@ struct BodyDescription {
   double density = 1000;         ///< kg/m^3
   double friction = 0.5;
   double restitution = 0;
-  double rolling_friction = 0;  ///< m
-  double linear_damping = 0;    ///< 1/s
-  double angular_damping = 0;   ///< 1/s
+  Combine friction_combine = Combine::usual;
+  Combine restitution_combine = Combine::usual;
+  double rolling_friction = 0;   ///< m
+  double spinning_friction = 0;  ///< m
+  Twist surface_velocity = {};   ///< of the surface against the body, at its center of mass, node axes
+  bool sensor = false;
+  std::uint64_t groups = 1;                         ///< one bit each
+  std::uint64_t collides_with = ~std::uint64_t{0};  ///< groups
+  double linear_damping = 0;                        ///< 1/s
+  double angular_damping = 0;                       ///< 1/s
   bool fixed = false;
   std::optional<Drive>
       drive{};    ///< absent: keyed when the node or an ancestor is animated by a playing clip, else free
