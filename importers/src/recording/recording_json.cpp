@@ -79,8 +79,13 @@ void append_event(std::string& out, const Recording& recording, const StageEvent
     out += ", \"nodes\": ";
     append_list(out, event.nodes.size(),
                 [&](std::size_t i) { json::append_string(out, recording.nodes[event.nodes[i]].name); });
-    out += ", \"impulse\": ";
-    append_number(out, event.impulse);
+    if (event.joint.empty()) {
+      out += ", \"impulse\": ";
+      append_number(out, event.impulse);
+    } else {
+      out += ", \"joint\": ";
+      json::append_string(out, event.joint);
+    }
   }
   out += "}";
 }

@@ -90,7 +90,13 @@ void World::Implementation::gather_links() {
     const std::uint32_t a = joint.settings.a.index;
     const std::uint32_t b = joint.settings.b.index;
     const bool to_world = joint.settings.a == BodyId{};
-    if (bodies[b].immovable() && (to_world || bodies[a].immovable())) continue;
+    if (bodies[b].immovable() && (to_world || bodies[a].immovable())) {
+      // It does nothing, and knows nothing of what it did once its ends are let go.
+      joint.force.setZero();
+      joint.torque.setZero();
+      joint.kept.fill(0);
+      continue;
+    }
     links.push_back({to_world ? joints::JointLink::world : a, b, &joint});
   }
 }

@@ -232,6 +232,7 @@ void step_told_world(StageState& state, double end, double step, std::vector<Hap
     if (contact.impulse > 0)
       for (const BodyId body : {contact.a, contact.b}) ++state.presses[body.index];
   follow_blows(state, before, dt, step, happenings);
+  report_broken_joints(state, happenings);
 }
 
 void step_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {

@@ -92,6 +92,7 @@ StageInspection inspect(const StageDescription& description) {
   if (!out.faults.empty()) return out;
   out.overlaps = staging::overlaps_in(state);
   out.stiff_springs = staging::stiff_springs_in(state, description);
+  staging::find_joint_starts(state, description, out);
   return out;
 }
 

@@ -44,6 +44,7 @@ void handle_instant(StageState& state, double step, std::span<const Command> com
   state.handled = state.time + sliver;
   report_events(state, from, state.handled, happenings);
   fire_rules(state, from, step, happenings);
+  end_joints(state, from, happenings);
   for (const Command& command : commands_after(commands, from)) {
     if (command.time > state.handled) break;
     if (!arrived) arrived = state;

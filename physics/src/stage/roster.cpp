@@ -220,6 +220,7 @@ StageState described_state(const StageDescription& description, std::vector<Stag
   if (!faults.empty()) return state;
   for (std::size_t i = 0; i < description.forces.size(); ++i)
     attempt(faults, Part::force, i, "", [&] { add_described_force(state, description.forces[i]); });
+  add_joints(state, description, faults);
   state.jumps = find_jumps(state);
   start_drive_tracks(state);
   for (std::size_t i = 0; i < description.rules.size(); ++i)

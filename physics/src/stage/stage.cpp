@@ -171,6 +171,10 @@ Path Stage::path(NodeId node) const {
   return Path(state.animation, node);
 }
 
+std::optional<JointReading> Stage::joint(std::string_view name) const {
+  return staging::joint_reading(inside().current(), name);
+}
+
 const StageDescription& Stage::description() const {
   return inside().description;
 }

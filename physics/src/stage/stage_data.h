@@ -98,6 +98,20 @@ struct DriveTrack {
   const Curve<double>* curve = nullptr;  ///< Hz; part of the animation's clips
 };
 
+/// One joint of the description in the world.
+struct StagedJoint {
+  std::string name;
+  JointId id = {};
+  NodeId a = no_node, b = no_node;
+  std::variant<std::monostate, when::At, when::Event> until;
+};
+struct StagedJoints {
+  std::vector<StagedJoint> list;      ///< in the order in which they were described
+  std::vector<std::size_t> by_name;   ///< those of the list, in order of their names
+  std::vector<std::size_t> ending;    ///< those of the list with an `until`
+  std::vector<std::size_t> by_index;  ///< those of the list, by index of the world's joint
+};
+
 /// What happened during a piece, to be told when the stage's time gets there.
 struct Happening {
   double time = 0;
@@ -115,6 +129,7 @@ struct StageState {
   std::shared_ptr<const Animation> animation;
   std::shared_ptr<const Jumps> jumps;
   std::shared_ptr<const std::vector<DriveTrack>> drive_tracks;  ///< in order of nodes
+  std::shared_ptr<const StagedJoints> joints;                   ///< gone ones included: the world knows which hold
   std::vector<char> present;                                    ///< by node
   std::vector<std::optional<Color>> colors;                     ///< by node, where none is animated
   std::vector<StagedBody> bodies;
@@ -184,6 +199,25 @@ void change_owner(StageState& state, std::size_t body, const Drive& to, Cause ca
 void fire_rules(StageState& state, double from, double step, std::vector<Happening>& happenings);
 /// Whether the rule waits for its trigger: its body is not yet where the rule would take it.
 [[nodiscard]] bool waits(const StageState& state, const ArmedRule& armed);
+
+/// First time in (from, to] at which a play that runs by `clock` fires an event of this name; infinity for none.
+/// @param node  when given, only plays that move the node count
+[[nodiscard]] double event_time(const Animation& animation, const ClockOverride& clock, const std::string& name,
+                                NodeId node, double from, double to);
+
+// staged_joints.cpp: what holds bodies to each other
+/// Adds the description's joints to the world. Those that make none are faults.
+void add_joints(StageState& state, const StageDescription& description, std::vector<StageFault>& faults);
+/// The first moment in (from, to] at which a joint ends; infinity when there is none.
+[[nodiscard]] double next_joint_end(const StageState& state, double from, double to);
+/// Takes away joints whose end is due in (from, state.handled].
+void end_joints(StageState& state, double from, std::vector<Happening>& happenings);
+/// Tells which joints broke in the world's last step.
+void report_broken_joints(const StageState& state, std::vector<Happening>& happenings);
+/// How the description's joints stand at the start where that is not as they hold.
+void find_joint_starts(const StageState& state, const StageDescription& description, StageInspection& out);
+/// @throws std::invalid_argument with the nearest name
+[[nodiscard]] std::optional<JointReading> joint_reading(const StageState& state, std::string_view name);
 
 // piece.cpp: from one instant to the next
 /// Takes `state` to the next instant, or to the end of its step when there is none before. What happens is added in

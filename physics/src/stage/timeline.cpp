@@ -67,7 +67,7 @@ void Timeline::tell(bool aloud, double until) {
     } else {
       const StageEvent& event = std::get<StageEvent>(happening.what);
       events.push_back(event);
-      const auto callback = event.nodes.empty() ? on_event : on_contact;
+      const auto callback = event.nodes.empty() || !event.joint.empty() ? on_event : on_contact;
       if (aloud && callback) callback(event);
     }
   }

@@ -7,19 +7,6 @@ namespace tweenfall::staging {
 
 namespace {
 
-/// First time in (from, to] at which a play that runs by `clock` fires an event of this name; infinity for none.
-/// @param node  when given, only plays that move the node count
-double event_time(const Animation& animation, const ClockOverride& clock, const std::string& name, NodeId node,
-                  double from, double to) {
-  double first = infinity;
-  animation.for_each_play(clock, node, [&](const Play& play) {
-    const Clip& clip = animation.clips()[play.clip];
-    if (const auto event = first_event(play, clip, std::max(from, 0.0), to, from < 0, name))
-      first = std::min(first, event->time);
-  });
-  return first;
-}
-
 /// End of the last play that moves the node; infinity while one has no end, or when none does.
 double path_end(const Path& path) {
   double last = -infinity;
@@ -90,6 +77,17 @@ std::optional<Cause> fires(const StageState& state, ArmedRule& armed, double fro
 
 }  // namespace
 
+double event_time(const Animation& animation, const ClockOverride& clock, const std::string& name, NodeId node,
+                  double from, double to) {
+  double first = infinity;
+  animation.for_each_play(clock, node, [&](const Play& play) {
+    const Clip& clip = animation.clips()[play.clip];
+    if (const auto event = first_event(play, clip, std::max(from, 0.0), to, from < 0, name))
+      first = std::min(first, event->time);
+  });
+  return first;
+}
+
 bool waits(const StageState& state, const ArmedRule& armed) {
   if (armed.done) return false;
   return state.world.drive(state.bodies[armed.body].id) != state.rules[armed.rule]->to;
@@ -100,7 +98,7 @@ double next_instant(const StageState& state, double to) {
   double next = first_jump(state, from, to);
   for (const ArmedRule& armed : state.armed)
     if (waits(state, armed)) next = std::min(next, first_instant(state, armed, from, std::min(next, to)));
-  return next;
+  return std::min(next, next_joint_end(state, from, std::min(next, to)));
 }
 
 void fire_rules(StageState& state, double from, double step, std::vector<Happening>& happenings) {

@@ -28,6 +28,8 @@ json::Value place_of_fault(const Building& building, const StageFault& fault) {
       return below(place_of_node(building, fault.index), {"body"});
     case StageFault::Part::force:
       return fields::place_of_force(world, fault.index);
+    case StageFault::Part::joint:
+      return world;
     case StageFault::Part::rule:
       return item_of(below(building.root, {"handoff"}), fault.index);
   }

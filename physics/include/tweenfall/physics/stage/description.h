@@ -7,8 +7,10 @@
 #include <tweenfall/physics/handoff/rule.h>
 #include <tweenfall/physics/world.h>
 
+#include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace tweenfall {
@@ -54,6 +56,21 @@ struct SpringDescription {
 };
 using ForceDescription = std::variant<DragDescription, SpringDescription>;
 
+/// What holds two bodies, or a body and the world, to each other, from time 0 and through every hand-off. Between ends
+/// that are both keyed or static it does nothing.
+struct JointDescription {
+  std::string name;
+  std::size_t a = no_node;  ///< node with a body; `no_node`: the world
+  std::size_t b = no_node;  ///< node with a body, which moves against a
+  Pose frame_a = {};        ///< on a's node, its scale left out; or in the world
+  Pose frame_b = {};        ///< on b's node
+  JointKind kind = BallJoint{};
+  double break_force = std::numeric_limits<double>::infinity();   ///< N
+  double break_torque = std::numeric_limits<double>::infinity();  ///< N m
+  bool collide = false;                                           ///< whether a and b may touch each other
+  std::variant<std::monostate, when::At, when::Event> until{};    ///< when it lets go, unless it breaks before
+};
+
 struct StageDescription {
   std::string name;
   std::vector<NodeDescription> nodes;
@@ -62,6 +79,7 @@ struct StageDescription {
   WorldSettings world = {};
   double step = 1.0 / 240;  ///< s
   std::vector<ForceDescription> forces;
+  std::vector<JointDescription> joints;
   std::vector<Rule> rules;
 
   // Only for drawing

@@ -11,9 +11,9 @@ namespace tweenfall {
 
 /// Something for which a description makes no stage.
 struct StageFault {
-  enum class Part { world, step, clips, node, force, rule };
+  enum class Part { world, step, clips, node, force, joint, rule };
   Part part = Part::world;
-  std::size_t index = 0;  ///< of the node, force or rule
+  std::size_t index = 0;  ///< of the node, force, joint or rule
   std::string message;
 };
 
@@ -29,10 +29,28 @@ struct StiffSpring {
   double longest_step = 0;  ///< that shows the swing, s
 };
 
+/// A joint whose ends do not stand at time 0 as it holds them: it brings them there.
+struct OpenJoint {
+  std::size_t joint = 0;
+  double gap = 0;   ///< m
+  double turn = 0;  ///< rad
+};
+
+/// A coordinate of a joint that begins beyond its limits: it is brought back.
+struct PassedLimit {
+  std::size_t joint = 0;
+  int coordinate = 0;        ///< as `JointReading` counts them
+  double position = 0;       ///< rad or m
+  double low = 0, high = 0;  ///< of a cone, as far as it reaches in the coordinate's direction
+  bool length = false;       ///< whether it is a length, m, and no angle
+};
+
 struct StageInspection {
   std::vector<StageFault> faults;      ///< none: `Stage` takes the description
   std::vector<StartOverlap> overlaps;  ///< deeper than a hundredth of the smaller body; the first 100
   std::vector<StiffSpring> stiff_springs;
+  std::vector<OpenJoint> open_joints;  ///< by more than a thousandth of the smaller body, or of a radian
+  std::vector<PassedLimit> passed_limits;
 };
 
 /// Holds a description against everything that `Stage` asks of it.

@@ -17,6 +17,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,13 +31,14 @@ class InsideStage;
 
 using NodeId = std::size_t;
 
-/// An event of a clip, or a contact that began, as `on_event` and recordings see it.
+/// An event of a clip, a contact that began, or the end of a joint, as `on_event` and recordings see it.
 struct StageEvent {
   double time = 0;            ///< stage time, s
-  std::string name;           ///< the clip event's name, or "contact"
+  std::string name;           ///< the clip event's name, "contact", "joint_broke", or "joint_ended" as its `until` says
   std::string data;           ///< JSON text given with a clip event
-  std::vector<NodeId> nodes;  ///< of a contact: the two
+  std::vector<NodeId> nodes;  ///< of a contact: the two; of a joint: its bodies
   double impulse = 0;         ///< of a contact: N s
+  std::string joint = {};     ///< of a joint: its name
 };
 
 /// A rule that waited for one of its bodies in vain.
@@ -82,7 +84,10 @@ class Stage {
   [[nodiscard]] Owner owner(NodeId node) const;  ///< a node without a body is keyed
   [[nodiscard]] NodeLook look(NodeId node) const;
   [[nodiscard]] Vec3 reaction(NodeId node) const;  ///< sum of contact impulses taken by a keyed or fixed body, N s
-  [[nodiscard]] Path path(NodeId node) const;      ///< where the animation wants the node
+  /// How a joint stood at the end of the last step before or at `time()`; nothing once it is gone: it broke, it ended,
+  /// or one of its bodies left. @throws std::invalid_argument with the nearest name
+  [[nodiscard]] std::optional<JointReading> joint(std::string_view name) const;
+  [[nodiscard]] Path path(NodeId node) const;  ///< where the animation wants the node
   [[nodiscard]] const StageDescription& description() const;
 
   // Hand-off by the caller, at exactly `time()`. @throws NodeNotFinite when what leads the body there is too fast
@@ -96,7 +101,8 @@ class Stage {
   void apply_impulse(NodeId node, const Vec3& impulse, const Vec3& point);
 
   // What happened
-  void on_event(std::function<void(const StageEvent&)> callback);  ///< in order of time; `time()` is the event's inside
+  /// Of clips and of joints, in order of time; inside, `time()` is the event's.
+  void on_event(std::function<void(const StageEvent&)> callback);
   void on_contact(std::function<void(const StageEvent&)> callback);
   void on_handoff(std::function<void(const HandOff&)> callback);
   [[nodiscard]] std::span<const HandOff> handoffs() const noexcept;   ///< up to `time()`
