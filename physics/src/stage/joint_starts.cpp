@@ -120,9 +120,10 @@ void find_joint_starts(const StageState& state, const StageDescription& descript
     // What a rope or a pulley is too long by is told as its limit.
     const bool has_length =
         std::holds_alternative<DistanceJoint>(described.kind) || std::holds_alternative<PulleyJoint>(described.kind);
-    const double gap = has_length ? 0 : start.reading.gap;
-    const double turn = turn_of(start);
-    if (gap > more_than_rounding * start.size || turn > more_than_rounding) out.open_joints.push_back({i, gap, turn});
+    const auto beyond = [](double value, double rounding) { return value > rounding ? value : 0; };
+    const double gap = has_length ? 0 : beyond(start.reading.gap, more_than_rounding * start.size);
+    const double turn = beyond(turn_of(start), more_than_rounding);
+    if (gap > 0 || turn > 0) out.open_joints.push_back({i, gap, turn});
   }
 }
 

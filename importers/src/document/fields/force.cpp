@@ -16,17 +16,6 @@ const Table<Drag>& drag_table() {
   return table;
 }
 
-std::size_t body_called(const json::Value& name, Building& building) {
-  const auto found = building.nodes.find(name.text());
-  if (found != building.nodes.end() && building.stage.nodes[found->second].body) return found->second;
-  if (building.excused(name.text())) return no_node;
-  building.problems.add(name,
-                        (found == building.nodes.end() ? "there is no node " + json::in_quotes(name.text())
-                                                       : "the node " + json::in_quotes(name.text()) + " has no body") +
-                            suggestion_or_import(name.text(), building.body_names()));
-  return no_node;
-}
-
 const Table<SpringDescription>& spring_table() {
   using Described = SpringDescription;
   const auto of_spring = [](auto Spring::*part) {
@@ -74,6 +63,17 @@ const Form* force_form(FormStore& store, const ValueForms& values) {
   Form form = force_table().choosing_form(store, values);
   form.definition = "force";
   return store.add(std::move(form));
+}
+
+std::size_t body_called(const json::Value& name, Building& building) {
+  const auto found = building.nodes.find(name.text());
+  if (found != building.nodes.end() && building.stage.nodes[found->second].body) return found->second;
+  if (building.excused(name.text())) return no_node;
+  building.problems.add(name,
+                        (found == building.nodes.end() ? "there is no node " + json::in_quotes(name.text())
+                                                       : "the node " + json::in_quotes(name.text()) + " has no body") +
+                            suggestion_or_import(name.text(), building.body_names()));
+  return no_node;
 }
 
 json::Value place_of_stiffness(const json::Value& force) {

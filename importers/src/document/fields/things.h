@@ -36,6 +36,10 @@ void read_world(const json::Value& world, Building& building);
 [[nodiscard]] json::Value place_of_gravity(const json::Value& world);  // or the world, where it says none; and so below
 [[nodiscard]] json::Value place_of_step(const json::Value& world);
 [[nodiscard]] json::Value place_of_force(const json::Value& world, std::size_t index);
+[[nodiscard]] json::Value place_of_joint(const json::Value& world, std::string_view name);
+
+// The node with a body of that name; `no_node` where there is none, which is told.
+[[nodiscard]] std::size_t body_called(const json::Value& name, Building& building);
 
 // The forces of a world
 const Form* force_form(FormStore& store, const ValueForms& values);

@@ -1,5 +1,6 @@
 #include "document/fields/table.h"
 #include "document/fields/things.h"
+#include "document/joints/joints.h"
 
 #include <charconv>
 #include <limits>
@@ -44,6 +45,10 @@ void read_forces(const json::Value& value, StageDescription& stage, Building& bu
   for (const json::Value& force : value.items()) read_force(force, stage.forces, building);
 }
 
+void read_joints(const json::Value& value, StageDescription&, Building& building) {
+  joints::read(value, building);
+}
+
 const Table<StageDescription>& world_table() {
   using Stage = StageDescription;
   const auto of_world = [](auto WorldSettings::*part) {
@@ -72,7 +77,8 @@ const Table<StageDescription>& world_table() {
         member<Stage>(of_world(&WorldSettings::push_out_speed))},
        {"threads", bounded("a whole number from 0 to 256", 0, false, 256, true),
         "that share a step; nothing that is recorded depends on it", member<Stage>(of_world(&WorldSettings::threads))},
-       {"forces", forces_form, "", {read_forces, "[]"}}});
+       {"forces", forces_form, "", {read_forces, "[]"}},
+       {"joints", joints::form, "what holds bodies together", {read_joints, "{}"}}});
   return table;
 }
 
@@ -95,6 +101,10 @@ json::Value place_of_step(const json::Value& world) {
 json::Value place_of_force(const json::Value& world, std::size_t index) {
   const json::Value forces = usable(world, "forces");
   return forces && index < forces.items().size() ? forces.items()[index] : world;
+}
+
+json::Value place_of_joint(const json::Value& world, std::string_view name) {
+  return below(world, {"joints", name});
 }
 
 void read_world(const json::Value& world, Building& building) {

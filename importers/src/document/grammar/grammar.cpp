@@ -35,14 +35,7 @@ struct Grammar {
 
   Grammar() {
     const ValueForms values(store);
-    const auto map_of = [&](const Form* form, const std::string& what) {
-      Form map = object_of(what, {});
-      map.others = form;
-      map.one_a_line = true;
-      map.name_pattern = "^[\\s\\S]+$";
-      map.name_fault = [](std::string_view name) { return std::string(name.empty() ? "a name is not empty" : ""); };
-      return store.add(std::move(map));
-    };
+    const auto named = [&](const Form* form, const std::string& what) { return store.add(map_of(form, what)); };
     const auto rows_of = [&](const Form* form, const std::string& what) {
       Form list = list_of(form, what, 0);
       list.one_a_line = true;
@@ -69,8 +62,8 @@ struct Grammar {
                    {"name", any_text, "", false, "\"\""},
                    {"fps", store.add(frames), "what \"12f\" counts"},
                    {"import", import_form(store, values), "files whose nodes and clips come in"},
-                   {"nodes", map_of(fields::node_form(store, values), "an object with nodes by name"), ""},
-                   {"clips", map_of(clip_form(store, values), "an object with clips by name"), "", false, "{}"},
+                   {"nodes", named(fields::node_form(store, values), "an object with nodes by name"), ""},
+                   {"clips", named(clip_form(store, values), "an object with clips by name"), "", false, "{}"},
                    {"play", rows_of(fields::play_form(store, values), "a list of plays"), "absent: the only clip"},
                    {"world", fields::world_form(store, values), "", false, "{}"},
                    {"handoff", rows_of(fields::rule_form(store, values), "a list of rules"), "", false, "[]"}});

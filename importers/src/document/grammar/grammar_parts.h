@@ -32,6 +32,8 @@ const Form* modifiers_form(FormStore& store, const ValueForms& values);
 Form bounded(std::string what, double low, bool above_low, double high = Form::infinite, bool whole = false);
 Form object_of(std::string what, std::vector<Field> fields);
 Form list_of(const Form* element, std::string what, std::size_t fewest = 1, std::size_t most = Form::no_limit);
+// An object whose members, all of one form, have names of the author's.
+Form map_of(const Form* element, std::string what);
 Form words_of(std::string what, std::vector<std::string> words);
 Form choice_of(std::string what, std::vector<const Form*> alternatives);
 

@@ -107,6 +107,15 @@ Form list_of(const Form* element, std::string what, std::size_t fewest, std::siz
   return form;
 }
 
+Form map_of(const Form* element, std::string what) {
+  Form map = object_of(std::move(what), {});
+  map.others = element;
+  map.one_a_line = true;
+  map.name_pattern = "^[\\s\\S]+$";
+  map.name_fault = [](std::string_view name) { return std::string(name.empty() ? "a name is not empty" : ""); };
+  return map;
+}
+
 Form words_of(std::string what, std::vector<std::string> words) {
   Form form;
   form.kind = Form::Kind::text;

@@ -29,7 +29,7 @@ json::Value place_of_fault(const Building& building, const StageFault& fault) {
     case StageFault::Part::force:
       return fields::place_of_force(world, fault.index);
     case StageFault::Part::joint:
-      return world;
+      return fields::place_of_joint(world, building.stage.joints[fault.index].name);
     case StageFault::Part::rule:
       return item_of(below(building.root, {"handoff"}), fault.index);
   }
@@ -40,6 +40,35 @@ json::Value place_of_fault(const Building& building, const StageFault& fault) {
 std::string step_text(double seconds) {
   const double parts = std::ceil(1 / seconds);
   return parts > 1 && parts < 1e6 ? "1/" + number_text(parts) : brief_text(seconds);
+}
+
+// "-120 to 0 degrees"
+std::string span_text(const PassedLimit& passed) {
+  const auto told = [&](double value) { return brief_text(passed.length ? value : degrees(value)); };
+  const char* const unit = passed.length ? " m" : " degrees";
+  if (passed.low == passed.high) return told(passed.low) + unit;
+  if (std::isinf(passed.high)) return "at least " + told(passed.low) + unit;
+  return told(passed.low) + " to " + told(passed.high) + unit;
+}
+
+void note_joint_starts(Building& building, const StageInspection& found) {
+  const json::Value world = place_of_world(building);
+  const auto place = [&](std::size_t joint) {
+    return fields::place_of_joint(world, building.stage.joints[joint].name);
+  };
+  for (const OpenJoint& open : found.open_joints) {
+    const std::string gap = open.gap > 0 ? brief_text(open.gap) + " m apart" : "";
+    const std::string turn = open.turn > 0 ? "turned by " + brief_text(degrees(open.turn)) + " degrees" : "";
+    building.problems.note(place(open.joint), "the ends of this joint start " + gap +
+                                                  (gap.empty() || turn.empty() ? "" : " and ") + turn +
+                                                  "; they are brought together at once");
+  }
+  for (const PassedLimit& passed : found.passed_limits) {
+    const double position = passed.length ? passed.position : degrees(passed.position);
+    building.problems.note(place(passed.joint), "starts at " + brief_text(position) +
+                                                    (passed.length ? " m" : " degrees") + ", beyond its limits, " +
+                                                    span_text(passed) + "; it is brought back at once");
+  }
 }
 
 }  // namespace
@@ -53,6 +82,7 @@ void judge_stage(Building& building) {
                            json::in_quotes(nodes[overlap.a].name) + " starts " + brief_text(overlap.depth) +
                                " m deep in " + json::in_quotes(nodes[overlap.b].name) + "; they are pushed apart, at " +
                                brief_text(building.stage.world.push_out_speed) + " m/s at most");
+  note_joint_starts(building, found);
   const json::Value world = place_of_world(building);
   for (const StiffSpring& stiff : found.stiff_springs)
     building.problems.note(fields::place_of_stiffness(fields::place_of_force(world, stiff.force)),

@@ -32,8 +32,8 @@ struct StiffSpring {
 /// A joint whose ends do not stand at time 0 as it holds them: it brings them there.
 struct OpenJoint {
   std::size_t joint = 0;
-  double gap = 0;   ///< m
-  double turn = 0;  ///< rad
+  double gap = 0;   ///< m; 0 for no more than rounding
+  double turn = 0;  ///< rad; the same
 };
 
 /// A coordinate of a joint that begins beyond its limits: it is brought back.

@@ -1,0 +1,42 @@
+#pragma once
+
+// A joint of a document: what its kind says, between whom, where, and until when.
+
+#include "document/fields/table.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tweenfall::document::joints {
+
+struct JointBeingRead {
+  JointDescription joint;
+  json::Value kind;  // where its kind is said
+  json::Value at;    // where its place is said, if it is
+  Vec3 axis{1, 0, 0}, second_axis{0, 0, 0};
+  std::vector<Vec3> points;  // one for both ends, or one for each; none where it says none
+  std::optional<Quat>
+      toward;  // of a swing-twist joint: how its second node is turned from rest, in the document's axes
+
+  template <class Kind>
+  [[nodiscard]] Kind& as() {
+    return std::get<Kind>(joint.kind);
+  }
+};
+
+// Limits and motors of angles and of lengths
+[[nodiscard]] fields::FormOf angle_limits_form(double lowest, double highest);
+[[nodiscard]] fields::FormOf length_limits_form(bool from_zero);
+// @param unit  what 1 in the document is to a program
+[[nodiscard]] std::optional<Limits> read_limits(const json::Value& value, double unit, Building& building);
+[[nodiscard]] fields::FormOf motor_form(bool of_angle);
+[[nodiscard]] Motor read_motor(const json::Value& value, bool of_angle, Building& building);
+
+// One field for each kind of joint
+[[nodiscard]] std::vector<fields::Row<JointBeingRead>> kinds();
+
+// Puts the joint's frames on its nodes as these rest. Faults are told. @param rests  of all nodes, in the world
+void place(JointBeingRead& read, std::span<const Pose> rests, Building& building);
+
+}  // namespace tweenfall::document::joints
