@@ -239,7 +239,7 @@ Rows kinds() {
           distance(),
           kind<UniversalJoint>("universal", universal_table(), "turns about two axes", {"cardan", "hooke"}),
           kind<SwingTwistJoint>("swing_twist", swing_twist_table(), "swings in a cone and twists",
-                                {"cone", "cone_twist", "conetwist", "shoulder"}),
+                                {"cone_twist", "conetwist", "shoulder"}),
           kind<WheelJoint>("wheel", wheel_table(), "turns about an axis and springs along another", {"suspension"}),
           kind<PulleyJoint>("pulley", pulley_table(), "a rope over two pulleys", {}),
           kind<GearJoint>("gear", gear_table(), "two that turn on hinges of their own", {"gears", "cogs"}),
