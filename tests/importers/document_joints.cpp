@@ -1,6 +1,9 @@
 #include "importers/document_files.h"
 
-#include <tweenfall/physics/stage/stage.h>
+#include <tweenfall/importers/recording_file.h>
+#include <tweenfall/physics/stage/recording.h>
+
+#include <nlohmann/json.hpp>
 
 namespace tweenfall::document_joints {
 
@@ -158,6 +161,33 @@ TEST_CASE("defaults of joints are not written, and what is written means the sam
   CHECK(first.frame_a.rotation.coeffs() == second.frame_a.rotation.coeffs());
   CHECK(first.frame_b.position == second.frame_b.position);
   CHECK(std::get<WheelJoint>(first.kind).hz == std::get<WheelJoint>(second.kind).hz);
+}
+
+TEST_CASE("a recording tells what each joint bears and how it stands, frame by frame, until it is gone") {
+  const Document document = parsed(R"({"tweenfall": 1, "nodes": {
+    "lamp": {"position": [0, 1, 0], "body": {"shape": {"sphere": {"radius": 0.1}}, "mass": 2}}},
+    "world": {"joints": {
+      "rope": {"distance": {"limits": [0, 1]}, "between": "lamp", "at": [[0, 2, 0], [0, 1, 0]], "until": {"at": 0.5}},
+      "guide": {"ball": {}, "between": "lamp", "until": {"at": 0}}}}})");
+  Stage stage(document.stage());
+  const Recording recording = record(stage, 1, 60);
+  const nlohmann::json told = nlohmann::json::parse(recording_json(recording));
+  const nlohmann::json& rope = told.at("joints").at("rope");
+  CHECK(rope.at("nodes") == nlohmann::json::parse(R"(["lamp"])"));
+  for (const char* list : {"force", "torque", "position", "rate"})
+    CHECK(rope.at(list).size() == recording.times.size());
+  CHECK(double(rope["force"][10][1]) == doctest::Approx(2 * 9.81).epsilon(1e-6));
+  CHECK(double(rope["position"][10][0]) == doctest::Approx(1).epsilon(1e-6));
+  CHECK(rope["force"].back().is_null());
+  CHECK(rope["rate"].back().is_null());
+  CHECK_FALSE(told["joints"]["guide"].contains("position"));
+  REQUIRE(told["events"].size() == 2);
+  CHECK(told["events"][1] ==
+        nlohmann::json::parse(R"({"time": 0.5, "name": "joint_ended", "nodes": ["lamp"], "joint": "rope"})"));
+  Recording cut = recording;
+  cut.joints[0].reading.pop_back();
+  CHECK_THROWS_WITH_AS(check_recording(cut), doctest::Contains("joint \"rope\" has 60 readings for 61 frames"),
+                       std::invalid_argument);
 }
 
 }  // namespace tweenfall::document_joints

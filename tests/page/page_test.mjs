@@ -7,6 +7,7 @@ import {findBrowser, Page} from "./browser.mjs";
 import {check, equal, near, summary} from "./checks.mjs";
 import {frameModels} from "./model_tests.mjs";
 import {showHostile} from "./hostile_tests.mjs";
+import {showsJoints} from "./joint_tests.mjs";
 import {fitsAllWidths} from "./layout_tests.mjs";
 import {readPng} from "./png.mjs";
 import {drivesTheTimeline} from "./timeline_tests.mjs";
@@ -249,6 +250,7 @@ await run("without WebGL", {flags: ["--disable-3d-apis"]}, async page => {
 await run("models and hostile recordings", {}, async page => {
   await frameModels(page, join(folder, "models"));
   await showHostile(page, join(folder, "hostile"));
+  await showsJoints(page, folder);
   await page.visit(address);
 });
 

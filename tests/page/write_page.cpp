@@ -66,6 +66,43 @@ void write_models(const fs::path& folder) {
   }
 }
 
+/// A door on a hinge that swings free, and a lamp whose rope breaks under it.
+void write_jointed(const fs::path& folder) {
+  BodyDescription door, lamp;
+  door.shape.solid = Box{Vec3(0.4, 0.9, 0.02)};
+  door.twist = {Vec3(0, 0, -0.8), Vec3(0, 2, 0)};
+  lamp.shape.solid = Sphere{0.1};
+  lamp.mass = 1;
+  StageDescription stage;
+  stage.name = "jointed";
+  stage.nodes = {
+      {.name = "door",
+       .parent = no_node,
+       .rest = {.position = Vec3(0.4, 1, 0)},
+       .body = door,
+       .group = {},
+       .color = {}},
+      {.name = "lamp", .parent = no_node, .rest = {.position = Vec3(2, 1, 0)}, .body = lamp, .group = {}, .color = {}}};
+  const auto add = [&](const std::string& name, std::size_t node, const Vec3& in_world, const Vec3& on_body,
+                       const JointKind& kind) {
+    const Pose& rest = stage.nodes[node].rest;
+    JointDescription joint;
+    joint.name = name;
+    joint.b = node;
+    joint.frame_a = joint_frames({}, rest, in_world, Vec3(0, 1, 0)).a;
+    joint.frame_b = joint_frames({}, rest, on_body, Vec3(0, 1, 0)).b;
+    joint.kind = kind;
+    stage.joints.push_back(joint);
+  };
+  add("pin", 0, Vec3(0, 1, 0), Vec3(0, 1, 0), HingeJoint{.limits = Limits{-1, 1}});
+  add("rope", 1, Vec3(2, 2, 0), Vec3(2, 1, 0), DistanceJoint{.limits = {0, 1}});
+  stage.joints[1].until = when::At{0.5};
+  Stage shown(stage);
+  const Recording recording = record(shown, 1, 30);
+  for (const char* ending : {".html", ".json"})
+    save_recording(recording, stage, folder / ("jointed" + std::string(ending)));
+}
+
 Recording still(const StageDescription& stage, const std::vector<double>& times) {
   Recording recording{.name = stage.name, .times = times, .nodes = {}, .handoffs = {}, .events = {}};
   for (const NodeDescription& node : stage.nodes) {
@@ -171,6 +208,7 @@ int main(int count, char** arguments) {
     const fs::path folder = arguments[1];
     fs::create_directories(folder);
     write_example(folder);
+    write_jointed(folder);
     write_models(folder / "models");
     write_hostile(folder / "hostile");
   } catch (const std::exception& problem) {

@@ -11,6 +11,7 @@
 #include "recording/words.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace tweenfall::page {
@@ -241,6 +242,53 @@ std::string event_json(const StageEvent& event) {
   return out + "],\"impulse\":" + short_text(event.impulse, 6) + "}";
 }
 
+void append_frame(std::string& out, const Pose& frame) {
+  for (int i = 0; i < 3; ++i) out += (i > 0 ? "," : "[") + number_text(frame.position[i]);
+  const Quat& turn = frame.rotation;
+  for (const double part : {turn.x(), turn.y(), turn.z(), turn.w()}) out += "," + number_text(part);
+  out += "]";
+}
+
+/// When a joint was gone; null where it held to the end.
+std::string gone_text(const Recording& recording, const std::string& joint) {
+  for (const StageEvent& event : recording.events)
+    if (event.joint == joint) return number_text(event.time);
+  return "null";
+}
+
+std::string joint_json(const Recording& recording, const JointDescription& joint) {
+  const auto index = [&](std::size_t node) {
+    return node < recording.nodes.size() ? std::to_string(node) : std::string("-1");
+  };
+  std::string out = "{\"name\":";
+  json::append_string(out, joint.name);
+  out += ",\"a\":" + index(joint.a) + ",\"b\":" + index(joint.b) + ",\"frames\":[";
+  append_frame(out, joint.frame_a);
+  out += ",";
+  append_frame(out, joint.frame_b);
+  out += "],\"gone\":" + gone_text(recording, joint.name);
+  const auto angles = [&](const std::optional<Limits>& limits) {
+    out += ",\"axis\":true,\"turns\":true";
+    if (limits && std::abs(limits->low) < 1e6 && std::abs(limits->high) < 1e6)
+      out += ",\"angles\":[" + number_text(limits->low) + "," + number_text(limits->high) + "]";
+  };
+  const auto axis = [&] { out += ",\"axis\":true"; };
+  std::visit(Overloaded{[&](const HingeJoint& hinge) { angles(hinge.limits); },
+                        [&](const UniversalJoint& universal) { angles(universal.first_limits); },
+                        [&](const SwingTwistJoint& limb) { angles(limb.twist); }, [&](const SliderJoint&) { axis(); },
+                        [&](const WheelJoint&) { axis(); }, [&](const GearJoint&) { axis(); },
+                        [&](const PulleyJoint& pulley) {
+                          out += ",\"over\":[";
+                          append_vector(out, pulley.pulley_a);
+                          out += ",";
+                          append_vector(out, pulley.pulley_b);
+                          out += "]";
+                        },
+                        [](const auto&) {}},
+             joint.kind);
+  return out + "}";
+}
+
 template <class List, class ToJson>
 void append_items(std::string& out, const char* name, const List& list, ToJson to_json) {
   ((out += ",\n\"") += name) += "\":[";
@@ -281,6 +329,9 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
     const auto found = node_of.find(lane.node);
     return found == node_of.end() ? std::string() : lane_json(lane, found->second);
   });
+  if (!stage.joints.empty())
+    append_items(out, "joints", stage.joints,
+                 [&](const JointDescription& joint) { return joint_json(recording, joint); });
   append_items(out, "handoffs", recording.handoffs, handoff_json);
   append_items(out, "events", recording.events, event_json);
   append_page_meshes(out, stage, node_of);

@@ -106,6 +106,20 @@ void check_recording(const Recording& recording) {
       recordings::fail(recording, "the hand-off of \"" + recording.nodes[handoff.node].name + "\" at " +
                                       number_text(handoff.time) + " s has no finite speed");
   }
+  for (const JointRecord& joint : recording.joints) {
+    for (const NodeId node : {joint.a, joint.b})
+      if (node != no_node && node >= recording.nodes.size())
+        recordings::fail(recording, "joint \"" + joint.name + "\" names node " + std::to_string(node) +
+                                        ", but there are " + std::to_string(recording.nodes.size()) + " nodes");
+    if (joint.reading.size() != recording.times.size())
+      recordings::fail(recording, "joint \"" + joint.name + "\" has " + std::to_string(joint.reading.size()) +
+                                      " readings for " + std::to_string(recording.times.size()) + " frames");
+    for (std::size_t frame = 0; frame < joint.reading.size(); ++frame)
+      if (const auto& reading = joint.reading[frame];
+          reading && (!reading->force.allFinite() || !reading->torque.allFinite()))
+        recordings::fail(recording, "joint \"" + joint.name + "\" has no finite load at " +
+                                        number_text(recording.times[frame]) + " s");
+  }
   for (const UnfiredRule& unfired : recording.unfired)
     if (unfired.node >= recording.nodes.size())
       recordings::fail(recording, "rule " + std::to_string(unfired.rule) + " waits for node " +

@@ -43,6 +43,41 @@ void append_node(std::string& out, const NodeRecord& node) {
   out += "}";
 }
 
+/// A list with one value for each frame, null where the joint is gone.
+template <class Append>
+void append_readings(std::string& out, const char* name, const JointRecord& joint, Append append) {
+  ((out += ",\n   \"") += name) += "\": ";
+  append_list(out, joint.reading.size(), [&](std::size_t i) {
+    if (joint.reading[i])
+      append(*joint.reading[i]);
+    else
+      out += "null";
+  });
+}
+
+void append_joint(std::string& out, const Recording& recording, const JointRecord& joint) {
+  json::append_string(out, joint.name);
+  out += ": {\n   \"nodes\": [";
+  if (joint.a != no_node) {
+    json::append_string(out, recording.nodes[joint.a].name);
+    out += ", ";
+  }
+  json::append_string(out, recording.nodes[joint.b].name);
+  out += "]";
+  append_readings(out, "force", joint, [&](const JointReading& reading) { append_vector(out, reading.force); });
+  append_readings(out, "torque", joint, [&](const JointReading& reading) { append_vector(out, reading.torque); });
+  if (!joint.reading.empty() && joint.reading.front() && joint.reading.front()->coordinates > 0) {
+    const auto append_coordinates = [&](const std::array<double, 3>& values, int count) {
+      append_list(out, static_cast<std::size_t>(count), [&](std::size_t i) { append_number(out, values[i]); });
+    };
+    append_readings(out, "position", joint,
+                    [&](const JointReading& reading) { append_coordinates(reading.position, reading.coordinates); });
+    append_readings(out, "rate", joint,
+                    [&](const JointReading& reading) { append_coordinates(reading.rate, reading.coordinates); });
+  }
+  out += "}";
+}
+
 void append_twist(std::string& out, const Twist& twist) {
   out += "{\"linear\": ";
   append_vector(out, twist.linear);
@@ -120,6 +155,11 @@ std::string recording_json(const Recording& recording) {
   out += ",\n \"nodes\": ";
   recordings::append_lines(out, '{', '}', recording.nodes.size(),
                            [&](std::size_t i) { recordings::append_node(out, recording.nodes[i]); });
+  if (!recording.joints.empty()) {
+    out += ",\n \"joints\": ";
+    recordings::append_lines(out, '{', '}', recording.joints.size(),
+                             [&](std::size_t i) { recordings::append_joint(out, recording, recording.joints[i]); });
+  }
   out += ",\n \"handoffs\": ";
   recordings::append_lines(out, '[', ']', recording.handoffs.size(),
                            [&](std::size_t i) { recordings::append_handoff(out, recording, recording.handoffs[i]); });

@@ -46,11 +46,17 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
   }
 }
 
+void take_joints(const Stage& stage, Recording& recording) {
+  for (JointRecord& joint : recording.joints) joint.reading.push_back(stage.joint(joint.name));
+}
+
 void require_affordable(const Stage& stage, double until, double fps, double most_bytes) {
   constexpr double most_steps = 2e7;
   const double length = std::max(0.0, until - stage.time()), frames = length * fps + 1, steps = length / stage.step();
-  constexpr double frame_bytes = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner);
-  const double bytes = frames * static_cast<double>(stage.nodes().size()) * frame_bytes;
+  constexpr double node_bytes = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner);
+  constexpr double joint_bytes = sizeof(std::optional<JointReading>);
+  const double bytes = frames * (static_cast<double>(stage.nodes().size()) * node_bytes +
+                                 static_cast<double>(stage.description().joints.size()) * joint_bytes);
   const auto whole = [](double value) { return std::to_string(std::llround(std::min(value, 1e18))); };
   if (steps > most_steps)
     throw std::invalid_argument("a recording of " + whole(length) + " s takes " + whole(steps) +
@@ -81,9 +87,12 @@ Recording record(Stage& stage, double until, double fps, double most_bytes) {
   Recording recording;
   recording.name = stage.description().name;
   std::vector<WorldMotion> world;
+  for (const JointDescription& joint : stage.description().joints)
+    recording.joints.push_back({.name = joint.name, .a = joint.a, .b = joint.b, .reading = {}});
   const double start = stage.time();
   stage.advance(0);
   staging::take_frame(stage, world, recording);
+  staging::take_joints(stage, recording);
   for (double frame = 1;; ++frame) {
     double time = start + frame / fps;
     // A last frame closer than this to the end is the end.
@@ -93,6 +102,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes) {
     stage.advance_to(time);
     staging::require_tellable(stage);
     staging::take_frame(stage, world, recording);
+    staging::take_joints(stage, recording);
     if (last) break;
   }
   for (NodeRecord& node : recording.nodes) {
@@ -123,6 +133,8 @@ double natural_length(const StageDescription& description) {
     for (const Trigger& trigger : rule.when.triggers)
       if (const auto* at = std::get_if<when::At>(&trigger)) length = std::max(length, at->time);
   }
+  for (const JointDescription& joint : description.joints)
+    if (const auto* at = std::get_if<when::At>(&joint.until)) length = std::max(length, at->time);
   for (const NodeDescription& node : description.nodes)
     if (node.body && !node.body->fixed) simulated = true;
   if (simulated) length += to_come_to_rest;

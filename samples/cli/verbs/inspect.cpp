@@ -158,12 +158,25 @@ std::string bodies_table(const StageDescription& stage, const std::string& file)
          " steps per second, " + counted(stage.rules.size(), "hand-off rule") + "\n" + table.text(styled_output());
 }
 
+std::string joints_table(const StageDescription& stage) {
+  constexpr const char* kinds[] = {"ball",        "hinge", "slider", "fixed", "distance", "universal",
+                                   "swing_twist", "wheel", "pulley", "gear",  "spring"};
+  static_assert(std::variant_size_v<JointKind> == std::size(kinds));
+  Table table(counted(stage.joints.size(), "joint"), {"name", "kind", "between", ">breaks at, N", ">or N m"});
+  const auto load = [](double most) { return std::isinf(most) ? std::string() : brief_text(most); };
+  for (const JointDescription& joint : stage.joints)
+    table.row({joint.name, kinds[joint.kind.index()],
+               (joint.a == no_node ? "the world" : stage.nodes[joint.a].name) + ", " + stage.nodes[joint.b].name,
+               load(joint.break_force), load(joint.break_torque)});
+  return table.empty() ? "" : table.text(styled_output());
+}
+
 int inspect_file(const std::string& file) {
   const StageFile read = read_stage_file(file);
   const StageDescription& stage = read.stage;
   std::string out = nodes_table(stage) + clips_table(stage);
   for (const Clip& clip : stage.clips) out += tracks_table(clip) + events_table(clip);
-  out += bodies_table(stage, file);
+  out += bodies_table(stage, file) + joints_table(stage);
   print(out);
   return 0;
 }

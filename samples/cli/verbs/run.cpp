@@ -71,6 +71,29 @@ std::string ends_table(const Recording& recording, const StageDescription& stage
   return table.empty() ? "" : table.text(styled_output());
 }
 
+std::string joints_table(const Recording& recording) {
+  constexpr std::size_t most = 40;
+  Table table("joints at " + brief_text(recording.times.back()) + " s",
+              {"joint", "between", ">force, N", ">torque, N m", "stands at, rad or m"});
+  for (std::size_t i = 0; i < recording.joints.size() && i < most; ++i) {
+    const JointRecord& joint = recording.joints[i];
+    const std::string between =
+        (joint.a == no_node ? "the world" : recording.nodes[joint.a].name) + ", " + recording.nodes[joint.b].name;
+    const std::optional<JointReading>& reading = joint.reading.back();
+    if (!reading) {
+      table.row({joint.name, between, "", "", "gone"});
+      continue;
+    }
+    std::string position;
+    for (int k = 0; k < reading->coordinates; ++k)
+      position += (k > 0 ? ", " : "") + brief_text(reading->position[static_cast<std::size_t>(k)]);
+    table.row({joint.name, between, brief_text(reading->force.norm()), brief_text(reading->torque.norm()), position});
+  }
+  if (recording.joints.size() > most)
+    table.note("and " + std::to_string(recording.joints.size() - most) + " more; --json has them all");
+  return table.empty() ? "" : table.text(styled_output());
+}
+
 int run_file(const RunFileOptions& options) {
   const std::vector<std::string> endings{".json", ".csv", ".svg", ".html", ".glb"};
   if (options.output) require_output(*options.output, options.file, endings);
@@ -91,7 +114,7 @@ int run_file(const RunFileOptions& options) {
     print(recording_json(recording));
   } else if (!options.output) {
     print(terminal_text(read.stage.name + ": " + summary_of(recording)) + "\n" + handoffs_table(recording) +
-          events_table(recording) + ends_table(recording, read.stage));
+          events_table(recording) + ends_table(recording, read.stage) + joints_table(recording));
   }
   return 0;
 }

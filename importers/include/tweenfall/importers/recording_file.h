@@ -20,7 +20,10 @@ void check_recording(const Recording& recording);
 void check_drawable(const Recording& recording, const StageDescription& stage);
 
 /// One object: "times", "nodes" (position, rotation x y z w, velocity and angular velocity at the center of mass,
-/// owner), "handoffs", "events", and "unfired": the rules that waited in vain, each with "rule" (its place in the list
+/// owner), "joints" of a stage that has some (by name: "nodes", one where the other end is the world; frame by frame
+/// "force" and "torque" of the joint on the last of them, N and N m, mean of the step before, world axes, and the
+/// "position" and "rate" of each of its coordinates, rad or m; null once it is gone), "handoffs", "events" (of the end
+/// of a joint with its "joint"), and "unfired": the rules that waited in vain, each with "rule" (its place in the list
 /// of rules, from 0), "body" and "reason" (in words). Numbers have the fewest digits that read back to the same bits;
 /// minus zero is -0.0.
 [[nodiscard]] std::string recording_json(const Recording& recording);
@@ -45,7 +48,8 @@ void check_drawable(const Recording& recording, const StageDescription& stage);
 /// How many of the recording's frames its page carries: all of them, unless they are so many that it thins them.
 [[nodiscard]] std::size_t page_frame_count(const Recording& recording);
 
-/// By the ending of `file`: .json, .csv, .svg, .html or .glb. Written whole or not at all.
+/// By the ending of `file`: .json, .csv, .svg, .html or .glb. A .glb has the motion alone, and nothing of physics: a
+/// viewer that simulated joints would work against the motion that they made. Written whole or not at all.
 /// @throws std::invalid_argument for another ending, std::runtime_error when it cannot be written.
 void save_recording(const Recording& recording, const StageDescription& stage, const std::filesystem::path& file);
 

@@ -24,6 +24,7 @@ const actionList = timeline => [
     [["t"], "path of the chosen node", () => toggle("trail")],
     [["b"], "lines between nodes", () => toggle("skeleton")],
     [["x"], "shapes that collide", () => toggle("colliders")],
+    [["j"], "joints: ends, axes and limits", () => toggle("joints")],
   ]],
   ["Nodes and timeline", [
     [["ArrowUp"], "choose the node above", () => chooseNext(timeline, -1), "\u2191"],

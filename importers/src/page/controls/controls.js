@@ -1,6 +1,6 @@
 // Buttons, boxes, the field to find a node, and choosing in the view.
 
-const switches = [["by-owner", "byOwner"], ["trail", "trail"], ["skeleton", "skeleton"], ["colliders", "colliders"],
+const switches = [["by-owner", "byOwner"], ["trail", "trail"], ["skeleton", "skeleton"], ["colliders", "colliders"], ["joints", "joints"],
   ["follow", "follow"], ["loop", "loop"], ["snap", "snap"], ["local", "local"]];
 
 function updateControls() {
@@ -47,6 +47,7 @@ function wireControls() {
   on("show-options", () => element("options").classList.toggle("open"));
   element("speed").addEventListener("change", event => change({speed: Number(event.target.value)}));
   for (const [id, name] of switches) element(id).addEventListener("change", event => change({[name]: event.target.checked}));
+  element("joints-option").hidden = recording.joints.length === 0;
   wireFind();
   wireView();
 }

@@ -135,6 +135,13 @@ window.tweenfall = {
     for (let i = 0; i < place.count; ++i) points.push(...point.fromBufferAttribute(place, i).applyMatrix4(back).toArray());
     return points;
   },
+  // The ends of joint `name` in the world, [x, y, z] each, and its axis; null once it is gone.
+  jointOf: name => {
+    const joint = recording.joints.find(each => each.name === name);
+    if (!joint || !holdsAt(joint, state.time)) return null;
+    const [a, b] = endsOf(joint, cursorNow());
+    return {a: a.origin, b: b.origin, axis: a.axes.slice(0, 3)};
+  },
   // What the curves show of all frames, panel by panel: position [x, y, z], velocity, rotation, angular velocity, ...
   curvesOf: name => gather(known(name)).panels.map(panel => panel.series.map(values => Array.from(values))),
   panelsOf: name => gather(known(name)).panels.map(({name: panel, unit, names}) => ({name: panel, unit, names})),

@@ -71,6 +71,7 @@ class Recording {
     this.lanes = raw.lanes.map(lane => ({node: this.nodes[lane.node], property: lane.property, times: doubles(lane.times),
       keyOf: integers(lane.keyOf), keys: lane.keys}));
     for (const lane of this.lanes) lane.node.lanes.push(lane);
+    this.joints = raw.joints || [];
     this.handoffs = raw.handoffs.filter(handoff => handoff.cause !== "start");
     this.events = raw.events;
     this.findBreaks();

@@ -75,7 +75,7 @@ function drawName(context, node) {
   context.fillText(name, x + 9, y + 11);
 }
 
-function drawJoints(context) {
+function drawBones(context) {
   for (const node of nodes) {
     if (node.hasBody || !node.shown) continue;
     const place = toView(placeAt(recording, node, cursorNow()).position);
@@ -90,7 +90,8 @@ function drawJoints(context) {
 function drawOverlay() {
   const context = prepared(overlay);
   if (!context || !renderer) return;
-  if (state.skeleton) drawJoints(context);
+  if (state.skeleton) drawBones(context);
+  if (state.joints) drawJointEnds(context);
   const node = state.chosen;
   if (!node || !node.shown) return;
   if (state.trail && node.moves) drawTrail(context, node);

@@ -4,6 +4,7 @@
 
 #include <tweenfall/physics/stage/stage.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,10 +21,18 @@ struct NodeRecord {
   std::vector<std::vector<double>> weights;  ///< morph weights, one list per frame, or empty
 };
 
+/// One joint through all frames.
+struct JointRecord {
+  std::string name;
+  NodeId a = no_node, b = no_node;                   ///< `no_node`: the world
+  std::vector<std::optional<JointReading>> reading;  ///< one per frame; nothing once it is gone
+};
+
 struct Recording {
   std::string name;
   std::vector<double> times;  ///< s
   std::vector<NodeRecord> nodes;
+  std::vector<JointRecord> joints;  ///< in the description's order
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
   std::vector<UnfiredRule> unfired;  ///< rules that waited to the end in vain
