@@ -5,7 +5,8 @@
 
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/importers/model.h>
-#include <tweenfall/physics/ragdoll/ragdoll.h>
+#include <tweenfall/physics/ragdoll/staged_ragdoll.h>
+#include <tweenfall/physics/stage/stage.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -173,6 +174,48 @@ TEST_CASE("the sample character collapses and keeps together") {
   CHECK(fall.widest < 0.01);
   CHECK(fall.highest - fall.floor < 0.6 * fall.size);
   CHECK(fall.world.kinetic_energy() < 1);
+}
+
+TEST_CASE("a figure on a stage walks, is let go with the velocities of its walk, and collapses") {
+  const Model model = load_model(std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/documents/character.glb");
+  StageDescription described;
+  for (const Node& node : model.nodes)
+    described.nodes.push_back({.name = node.name, .parent = node.parent, .rest = node.rest});
+  described.clips = model.clips;
+  described.plays.push_back({.clip = "WalkForward"});
+  described.meshes = model.meshes;
+  described.skins = model.skins;
+  described.mesh_instances = model.instances;
+  const std::vector<RagdollBone> bones = add_ragdoll(described);
+  NodeDescription floor;
+  floor.name = "floor";
+  floor.body.emplace();
+  floor.body->shape.solid = Plane{};
+  floor.body->fixed = true;
+  described.nodes.push_back(floor);
+  Rule let_go;
+  for (const RagdollBone& bone : bones) let_go.bodies.push_back(described.nodes[bone.node].name);
+  let_go.when = when::At{0.4};
+  let_go.to = Drive::free();
+  described.rules.push_back(let_go);
+  Stage stage(described);
+  stage.advance_to(0.4);
+  CHECK(stage.handoffs().size() == bones.size());
+  for (const HandOff& handoff : stage.handoffs()) {
+    CHECK((handoff.after.twist.linear - handoff.before.twist.linear).norm() < 1e-9);
+    CHECK((handoff.after.twist.angular - handoff.before.twist.angular).norm() < 1e-9);
+  }
+  double widest = 0;
+  for (int i = 0; i < 60 * 4; ++i) {
+    stage.advance_to(0.4 + (i + 1) / 60.0);
+    for (const JointDescription& joint : described.joints) {
+      const std::optional<JointReading> reading = stage.joint(joint.name);
+      REQUIRE(reading);
+      widest = std::max(widest, reading->gap);
+    }
+  }
+  CHECK(widest < 0.01);
+  for (const RagdollBone& bone : bones) CHECK(stage.motion(bone.node).pose.position.y() < 0.6);
 }
 
 TEST_CASE("every skinned model at hand becomes a ragdoll that falls without flying apart") {

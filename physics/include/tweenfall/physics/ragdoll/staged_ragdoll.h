@@ -1,0 +1,21 @@
+#pragma once
+
+/// The skinned figure of a stage as a ragdoll: its own nodes get bodies and joints, so that rules hand it over like
+/// anything else on the stage, joint by joint with the animation's own velocities, and take it back.
+
+#include <tweenfall/physics/ragdoll/ragdoll.h>
+#include <tweenfall/physics/stage/description.h>
+
+namespace tweenfall {
+
+/// Fits bones to all skinned meshes of a stage and gives their nodes bodies, and joints named as the nodes that move.
+/// Bodies are keyed where a playing clip moves them, else free. The bones of a figure pass through each other and meet
+/// all else: they get a group of their own, of which 64 bits hold no more than are free. A node that has a body keeps
+/// it.
+/// @param group  the name by which rules call all of its nodes; `drive` of `body` is not read
+/// @returns the bones
+/// @throws std::invalid_argument as `fit_ragdoll`, for a stage without a skinned mesh, or when no group is free
+std::vector<RagdollBone> add_ragdoll(StageDescription& stage, const RagdollSettings& settings = {},
+                                     const RagdollBody& body = {}, const std::string& group = "ragdoll");
+
+}  // namespace tweenfall
