@@ -444,6 +444,16 @@ TEST_CASE("cylinders, cones and tapered capsules are as long and as wide as they
   CHECK(std::get<TaperedCapsule>(solid(2)).half_height == 0.5);
 }
 
+TEST_CASE("the parts of a compound stand where they say") {
+  const Document document = good("compound");
+  const BodyDescription& body = *document.stage().nodes.at(0).body;
+  const std::span<const Shape> parts = std::get<Compound>(body.shape.solid).parts();
+  REQUIRE(parts.size() == 2);
+  CHECK(std::get<Sphere>(parts[0].solid).radius == 0.3);
+  CHECK(near(parts[1].offset.position, Vec3(0, 0.6, 0), 0));
+  CHECK(near(parts[1].offset.rotation * Vec3(0, 1, 0), Vec3(-1, 0, 0), 1e-15));
+}
+
 TEST_CASE("hulls, turned and swept profiles are the convex solids that they describe") {
   const Document document = good("hulls");
   const auto hull = [&](std::size_t node) {

@@ -215,7 +215,7 @@ TEST_CASE("a figure on a stage walks, is let go with the velocities of its walk,
     }
   }
   CHECK(widest < 0.01);
-  for (const RagdollBone& bone : bones) CHECK(stage.motion(bone.node).pose.position.y() < 0.6);
+  for (const RagdollBone& bone : bones) CHECK(stage.world(bone.node).motion.pose.position.y() < 0.6);
 }
 
 TEST_CASE("every skinned model at hand becomes a ragdoll that falls without flying apart") {

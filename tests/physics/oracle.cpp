@@ -46,6 +46,10 @@ double height_of(const TaperedCapsule& c, const Vec3& d) {
   return std::max(c.half_height * d.y() + c.top_radius * d.norm(), c.bottom_radius * d.norm() - c.half_height * d.y());
 }
 
+double height_of(const Compound&, const Vec3&) {
+  return 0;
+}
+
 class DirectionOracle {
  public:
   DirectionOracle(const PosedSolid& a, const PosedSolid& b)

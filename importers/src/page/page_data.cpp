@@ -7,6 +7,7 @@
 #include "page/page_meshes.h"
 #include "recording/base64.h"
 #include "recording/key_lanes.h"
+#include "recording/shape_mesh.h"
 #include "recording/turned_profile.h"
 #include "recording/words.h"
 
@@ -71,6 +72,16 @@ void append_turned(std::string& out, const std::vector<recordings::ProfilePoint>
   out += "]";
 }
 
+/// All corners one after the other.
+void append_triangles(std::string& out, const Mesh& mesh) {
+  out += "\"corners\":[";
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (i > 0) out += ',';
+    append_vector(out, mesh.positions[mesh.triangles[i]]);
+  }
+  out += "]";
+}
+
 std::string shape_json(const Shape& shape) {
   std::string out = "{";
   std::visit(Overloaded{[&](const Sphere& s) { out += "\"sphere\":" + number_text(s.radius); },
@@ -87,6 +98,7 @@ std::string shape_json(const Shape& shape) {
                           out += ",\"offset\":" + number_text(p.offset);
                         },
                         [&](const Hull& h) { append_hull(out, h.convex); },
+                        [&](const Compound& c) { append_triangles(out, recordings::shape_mesh({c})); },
                         [&](const auto&) { append_turned(out, recordings::turned_profile(shape.solid)); }},
              shape.solid);
   out += ",\"position\":";

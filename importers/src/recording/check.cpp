@@ -74,6 +74,11 @@ double largest_number(const Shape& shape) {
     double operator()(const TaperedCapsule& capsule) const {
       return std::max(capsule.bottom_radius, capsule.top_radius) + capsule.half_height;
     }
+    double operator()(const Compound& compound) const {
+      double size = 0;
+      for (const Shape& part : compound.parts()) size = std::max(size, largest_number(part));
+      return size;
+    }
     double operator()(const Plane& plane) const { return std::abs(plane.offset); }
     double operator()(const Hull& hull) const {
       double size = 0;

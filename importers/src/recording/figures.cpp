@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "recording/shape_mesh.h"
 #include "recording/turned_profile.h"
 
 namespace tweenfall::recordings {
@@ -85,6 +86,12 @@ std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
   } else if (const std::vector<ProfilePoint> profile = turned_profile(shape.solid); !profile.empty()) {
     figure.kind = Figure::Kind::hull;
     points = turned_points(profile);
+    figure.vertices = points.size() - 1;
+  } else if (std::holds_alternative<Compound>(shape.solid)) {
+    figure.kind = Figure::Kind::hull;
+    const Mesh mesh = shape_mesh({shape.solid});
+    points = {mass_properties(Shape{shape.solid}, 1).center};
+    points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
     figure.vertices = points.size() - 1;
   }
   for (Vec3& point : points)

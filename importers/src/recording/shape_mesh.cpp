@@ -84,6 +84,14 @@ void add_plane(Mesh& mesh, const Plane& plane) {
   add_rectangle(mesh, plane.normal * plane.offset, u * 10, plane.normal.cross(u) * 10);
 }
 
+void append(Mesh& mesh, const Mesh& more) {
+  const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
+  mesh.normals.insert(mesh.normals.end(), more.normals.begin(), more.normals.end());
+  mesh.triangles.reserve(mesh.triangles.size() + more.triangles.size());
+  for (const std::uint32_t corner : more.triangles) mesh.triangles.push_back(first + corner);
+}
+
 }  // namespace
 
 Mesh shape_mesh(const Shape& shape) {
@@ -98,6 +106,8 @@ Mesh shape_mesh(const Shape& shape) {
     add_plane(mesh, *plane);
   } else if (const std::vector<ProfilePoint> profile = turned_profile(shape.solid); !profile.empty()) {
     add_turned(mesh, profile);
+  } else if (const auto* compound = std::get_if<Compound>(&shape.solid)) {
+    for (const Shape& part : compound->parts()) append(mesh, shape_mesh(part));
   } else if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
     SurfaceMesh surface = hull->convex.surface();
     mesh.positions = std::move(surface.positions);

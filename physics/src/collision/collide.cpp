@@ -1,5 +1,6 @@
 #include <tweenfall/physics/contact.h>
 #include <cmath>
+#include <limits>
 
 #include "collision/collide_pairs.h"
 #include "convex/collide_convex.h"
@@ -62,6 +63,24 @@ Manifold collide_solids(const A& a, const Placed& at_a, const B& b, const Placed
   }
 }
 
+/// The deepest contact of a compound's parts, or the nearest.
+Manifold collide_parts(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b, double margin,
+                       double reach) {
+  Manifold best;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Shape& part : std::get<Compound>(a.solid).parts()) {
+    const Placed at{at_a.center + at_a.axes * part.offset.position, at_a.axes * part.offset.rotation.toRotationMatrix()};
+    const Manifold manifold = collide(part, at, b, at_b, margin, reach);
+    for (int i = 0; i < manifold.count; ++i) {
+      const double depth = manifold.points[static_cast<std::size_t>(i)].penetration;
+      if (!(depth > most)) continue;
+      most = depth;
+      best = manifold;
+    }
+  }
+  return best;
+}
+
 /// Whether the products that follow stay numbers.
 bool is_near(const Pose& pose) noexcept {
   bool near = true;
@@ -74,6 +93,12 @@ bool is_near(const Pose& pose) noexcept {
 
 Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b, double margin,
                  double reach) noexcept {
+  if (std::holds_alternative<Compound>(a.solid)) return collide_parts(a, at_a, b, at_b, margin, reach);
+  if (std::holds_alternative<Compound>(b.solid)) {
+    Manifold manifold = collide_parts(b, at_b, a, at_a, margin, reach);
+    manifold.normal = -manifold.normal;
+    return manifold;
+  }
   return std::visit(
       [&](const auto& solid_a, const auto& solid_b) -> Manifold {
         using A = std::decay_t<decltype(solid_a)>;

@@ -38,11 +38,11 @@ Prediction Course::at(double time) const {
 Course course_of(const Body& body, const forces::Load& load, double dt) {
   if (body.immovable() || body.asleep) {
     const step::KeyedCourse course = body.immovable() ? step::keyed_course(body, dt) : step::KeyedCourse{};
-    return {&body, course.mean.linear - 0.5 * course.gain.linear, course.mean.angular, course.gain.linear / dt};
+    return {&body, &body.shape, course.mean.linear - 0.5 * course.gain.linear, course.mean.angular, course.gain.linear / dt};
   }
   // A drive may be stiff enough to take the body anywhere within the step.
-  if (body.drive.owner() == Owner::driven) return {&body, load.pulled.linear, load.pulled.angular, Vec3::Zero()};
-  return {&body, body.twist.linear, body.twist.angular, load.acceleration};
+  if (body.drive.owner() == Owner::driven) return {&body, &body.shape, load.pulled.linear, load.pulled.angular, Vec3::Zero()};
+  return {&body, &body.shape, body.twist.linear, body.twist.angular, load.acceleration};
 }
 
 double swing_speed(const Course& course) {
@@ -58,7 +58,7 @@ std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
   const double swing = swing_speed(a) + swing_speed(b);
   double time = 0;
   for (int i = 0; i < most_advances; ++i) {
-    const Manifold manifold = collide(a.body->shape, a.at(time).node(*a.body), b.body->shape, b.at(time).node(*b.body),
+    const Manifold manifold = collide(*a.shape, a.at(time).node(*a.body), *b.shape, b.at(time).node(*b.body),
                                       std::numeric_limits<double>::infinity());
     double gap = std::numeric_limits<double>::infinity();
     for (int k = 0; k < manifold.count; ++k)

@@ -16,6 +16,7 @@ struct Prediction {
 /// A body's way through the step: keyed bodies along their displacement, free ones under their load.
 struct Course {
   const state::Body* body = nullptr;
+  const Shape* shape = nullptr;  ///< of the body, or a part of it
   Vec3 linear{0, 0, 0};
   Vec3 angular{0, 0, 0};
   Vec3 acceleration{0, 0, 0};

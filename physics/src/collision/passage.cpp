@@ -33,6 +33,10 @@ double support_along(const Hull& hull, const Mat3& axes, const Vec3& direction) 
   return most;
 }
 
+double support_along(const Compound&, const Mat3&, const Vec3&) {
+  return std::numeric_limits<double>::infinity();  // its parts are looked at one by one
+}
+
 template <class Turned>
 double support_along(const Turned& solid, const Mat3& axes, const Vec3& direction) {
   const Vec3 local = axes.transpose() * direction;
@@ -41,11 +45,11 @@ double support_along(const Turned& solid, const Mat3& axes, const Vec3& directio
 
 double support_along(const Passage& passage, const Vec3& direction) {
   return std::visit([&](const auto& solid) { return support_along(solid, passage.placed.axes, direction); },
-                    passage.body->shape.solid);
+                    passage.course.shape->solid);
 }
 
 bool is_polyhedron(const Passage& passage) {
-  const Solid& solid = passage.body->shape.solid;
+  const Solid& solid = passage.course.shape->solid;
   return std::holds_alternative<Box>(solid) || std::holds_alternative<Hull>(solid);
 }
 
@@ -53,7 +57,7 @@ bool is_polyhedron(const Passage& passage) {
 std::optional<Vec3> face_along(const Passage& passage, const Vec3& normal) {
   const Vec3 local = passage.placed.axes.transpose() * normal;
   const auto is = [&](const Vec3& face) { return (face - local).squaredNorm() < 1e-24; };
-  if (const auto* hull = std::get_if<Hull>(&passage.body->shape.solid)) {
+  if (const auto* hull = std::get_if<Hull>(&passage.course.shape->solid)) {
     for (const ConvexHull::Face& face : hull->convex.faces())
       if (is(face.normal)) return face.normal;
     return std::nullopt;
@@ -71,6 +75,13 @@ Passage passage_of(const state::Body& body, const forces::Load& load, double dt)
   Passage passage{&body, shapes::place(body.shape, body.motion.pose), course_of(body, load, dt)};
   passage.spin = passage.course.angular.norm();
   passage.swing = swing_speed(passage.course);
+  return passage;
+}
+
+Passage passage_of_part(const Passage& whole, const Shape& part) {
+  Passage passage = whole;
+  passage.course.shape = &part;
+  passage.placed = shapes::place(part, whole.body->motion.pose);
   return passage;
 }
 

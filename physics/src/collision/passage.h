@@ -16,6 +16,9 @@ struct Passage {
 
 [[nodiscard]] Passage passage_of(const state::Body& body, const forces::Load& load, double dt);
 
+/// The same, for a part of the body's compound.
+[[nodiscard]] Passage passage_of_part(const Passage& whole, const Shape& part);
+
 /// What told two bodies apart: a direction that turns with one of them. Of two polyhedra it is a face's normal, so that
 /// bodies which it tells apart are apart for `collide` too.
 struct Apart {

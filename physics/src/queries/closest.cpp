@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "queries/simplex.h"
+#include "shapes/compound.h"
 
 namespace tweenfall::queries {
 
@@ -33,6 +34,18 @@ Closest with_skins(Closest closest, double distance, double skin_a, double skin_
     closest.on_a = closest.on_b = closest.on_a + 0.5 * (from + to) * closest.normal;
   }
   return closest;
+}
+
+/// The closest of what `ask` says of each part on its node.
+template <class Ask>
+Closest closest_of_parts(const Compound& compound, const Pose& offset, const Ask& ask) {
+  Closest best;
+  best.gap = std::numeric_limits<double>::infinity();
+  for (const Shape& part : compound.parts()) {
+    const Closest closest = ask(shapes::on_node(part, offset));
+    if (closest.gap < best.gap) best = closest;
+  }
+  return best;
 }
 
 }  // namespace
@@ -103,6 +116,12 @@ Closest closest_to_plane(const Plane& plane, const shapes::Placed& at, const Cor
 }
 
 Closest closest_between(const Shape& a, const Pose& pose_a, const Shape& b, const Pose& pose_b) {
+  if (const auto* compound = std::get_if<Compound>(&a.solid))
+    return closest_of_parts(*compound, a.offset,
+                            [&](const Shape& part) { return closest_between(part, pose_a, b, pose_b); });
+  if (const auto* compound = std::get_if<Compound>(&b.solid))
+    return closest_of_parts(*compound, b.offset,
+                            [&](const Shape& part) { return closest_between(a, pose_a, part, pose_b); });
   if (const auto* plane = std::get_if<Plane>(&a.solid))
     return closest_to_plane(*plane, shapes::place(a, pose_a), core_of(b, pose_b));
   if (const auto* plane = std::get_if<Plane>(&b.solid))
@@ -111,6 +130,8 @@ Closest closest_between(const Shape& a, const Pose& pose_a, const Shape& b, cons
 }
 
 Closest nearest_to(const Shape& shape, const Pose& pose, const Vec3& point) {
+  if (const auto* compound = std::get_if<Compound>(&shape.solid))
+    return closest_of_parts(*compound, shape.offset, [&](const Shape& part) { return nearest_to(part, pose, point); });
   static const Solid dot = Sphere{0};
   const Core core{&dot, {point, Mat3::Identity()}, 0};
   Closest closest;

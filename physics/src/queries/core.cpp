@@ -36,6 +36,10 @@ Vec3 farthest_of(const Hull& hull, const Vec3& direction) {
   return vertices[best];
 }
 
+Vec3 farthest_of(const Compound&, const Vec3&) {
+  return {0, 0, 0};  // its parts are asked one by one
+}
+
 template <class Turned>
 Vec3 farthest_of(const Turned& solid, const Vec3& direction) {
   return shapes::farthest(solid, direction);

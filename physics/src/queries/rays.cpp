@@ -7,6 +7,7 @@
 
 #include "queries/checked.h"
 #include "queries/sweep.h"
+#include "shapes/compound.h"
 #include "shapes/placed.h"
 
 namespace tweenfall::queries {
@@ -127,6 +128,11 @@ MaybeEntry enters(const Turned&, const Vec3&, const Vec3&) {
   return std::nullopt;
 }
 
+/// Not asked for: its parts are.
+MaybeEntry enters(const Compound&, const Vec3&, const Vec3&) {
+  return std::nullopt;
+}
+
 /// Where a point that goes along the ray meets what is near.
 std::optional<RayHit> first_by_steps(const Shape& shape, const Pose& pose, const Ray& ray) {
   const Bounds box = bounds(shape, pose);
@@ -158,6 +164,14 @@ Ray checked_ray(const Vec3& from, const Vec3& direction, double length) {
 }
 
 std::optional<RayHit> first_on_ray(const Shape& shape, const Pose& pose, const Ray& ray) {
+  if (const auto* compound = std::get_if<Compound>(&shape.solid)) {
+    std::optional<RayHit> first;
+    for (const Shape& part : compound->parts()) {
+      const std::optional<RayHit> hit = first_on_ray(shapes::on_node(part, shape.offset), pose, ray);
+      if (hit && (!first || hit->distance < first->distance)) first = hit;
+    }
+    return first;
+  }
   const auto is_turned = [](const auto& solid) { return IsTurned<std::decay_t<decltype(solid)>>; };
   if (std::visit(is_turned, shape.solid)) return first_by_steps(shape, pose, ray);
   const shapes::Placed at = shapes::place(shape, pose);

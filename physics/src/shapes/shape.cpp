@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "shapes/compound.h"
 #include "shapes/placed.h"
 #include "shapes/turned.h"
 
@@ -104,6 +105,7 @@ double volume(const Solid& solid) noexcept {
   if (const auto* cylinder = std::get_if<Cylinder>(&solid)) return shapes::measures_of(*cylinder).volume;
   if (const auto* cone = std::get_if<Cone>(&solid)) return shapes::measures_of(*cone).volume;
   if (const auto* tapered = std::get_if<TaperedCapsule>(&solid)) return shapes::measures_of(*tapered).volume;
+  if (const auto* compound = std::get_if<Compound>(&solid)) return shapes::volume_of(*compound);
   return std::numeric_limits<double>::infinity();
 }
 
@@ -131,6 +133,10 @@ MassProperties mass_properties(const Shape& shape, double mass) {
     take(shapes::measures_of(*cone));
   } else if (const auto* tapered = std::get_if<TaperedCapsule>(&shape.solid)) {
     take(shapes::measures_of(*tapered));
+  } else if (const auto* compound = std::get_if<Compound>(&shape.solid)) {
+    const MassProperties whole = shapes::mass_of(*compound, mass);
+    center = whole.center;
+    inertia = whole.inertia;
   } else {
     throw std::invalid_argument("a plane has no mass: only fixed and keyed bodies can be planes");
   }
@@ -209,6 +215,7 @@ Bounds bounds(const Shape& shape, const Pose& node) noexcept {
   if (const auto* cylinder = std::get_if<Cylinder>(&shape.solid)) return shapes::turned_bounds(*cylinder, placed);
   if (const auto* cone = std::get_if<Cone>(&shape.solid)) return shapes::turned_bounds(*cone, placed);
   if (const auto* tapered = std::get_if<TaperedCapsule>(&shape.solid)) return shapes::turned_bounds(*tapered, placed);
+  if (const auto* compound = std::get_if<Compound>(&shape.solid)) return shapes::bounds_of(*compound, shape, node);
   return {placed.center - reach, placed.center + reach};
 }
 

@@ -147,6 +147,8 @@ double radius_of(const TaperedCapsule& capsule) noexcept {
 double rolling_radius(const Solid& solid, const Vec3& place, const Vec3& normal) noexcept {
   /// Sine of the angle to the side's normal within which it is the side that touches.
   constexpr double on_side = 0.05;
+  if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
+  if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius;
   const double out = std::sqrt(normal.x() * normal.x() + normal.z() * normal.z());
   const double from_axis = std::sqrt(place.x() * place.x() + place.z() * place.z());
   if (const auto* cylinder = std::get_if<Cylinder>(&solid)) {

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "shapes/compound.h"
 
 namespace tweenfall::staging {
 
@@ -109,6 +112,11 @@ Shape scaled(const Shape& shape, const Vec3& scale) {
     const Vec3 normal = plane->normal.cwiseQuotient(Vec3(own.diagonal()));
     plane->offset /= normal.norm();
     plane->normal = normal.normalized();
+  } else if (const auto* compound = std::get_if<Compound>(&shape.solid)) {
+    std::vector<Shape> parts;
+    parts.reserve(compound->parts().size());
+    for (const Shape& part : compound->parts()) parts.push_back(scaled(shapes::on_node(part, shape.offset), scale));
+    return {Compound(std::move(parts))};
   } else if (auto* hull = std::get_if<Hull>(&result.solid)) {
     std::vector<Vec3> points;
     for (const Vec3& point : hull->convex.vertices()) points.push_back(own * point);

@@ -15,7 +15,7 @@ struct Body {
   bool placed = true;       ///< added or moved by the caller since the last step: what sleeps beside it wakes
   bool has_target = false;  ///< a target was set since the last step
   bool led = false;         ///< driven, and its target moved
-  bool turned = false;      ///< what it rolls with depends on where it is touched
+  bool turned = false;      ///< what it rolls with depends on where it is touched; of a compound, too
   bool spherical = false;   ///< the same moment about every axis: spin feels no gyroscopic torque
   std::uint32_t generation = 0;
   Drive drive;

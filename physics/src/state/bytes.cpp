@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace tweenfall::state {
 
@@ -43,6 +44,15 @@ Hull ByteReader::read_hull() {
   std::vector<std::vector<std::uint32_t>> faces;
   list(faces);
   return Hull{hulls_.emplace_back(vertices, faces)};
+}
+
+Compound ByteReader::read_compound() {
+  require(!in_compound_, "a compound is a part of another one");
+  in_compound_ = true;
+  std::vector<Shape> parts;
+  list(parts);
+  in_compound_ = false;
+  return Compound(std::move(parts));
 }
 
 void ByteReader::field(Field&) {

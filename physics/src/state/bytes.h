@@ -48,6 +48,7 @@ class ByteWriter : public Teller<ByteWriter> {
 /// All functions throw std::invalid_argument when the bytes are too few or tell what cannot be.
 class ByteReader {
  public:
+  static constexpr bool skips_zeros = false;
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   template <class T>
@@ -107,14 +108,18 @@ class ByteReader {
   void read_as(Variant& value) {
     if constexpr (std::is_same_v<T, Hull>)
       value = read_hull();
+    else if constexpr (std::is_same_v<T, Compound>)
+      value = read_compound();
     else
       walk(*this, value.template emplace<T>());
   }
   [[nodiscard]] Hull read_hull();
+  [[nodiscard]] Compound read_compound();
 
   std::span<const std::byte> bytes_;
   std::size_t place_ = 0;
   std::vector<ConvexHull> hulls_;
+  bool in_compound_ = false;
 };
 
 }  // namespace tweenfall::state

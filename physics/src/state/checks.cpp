@@ -4,10 +4,12 @@
 #include <tweenfall/curves/rotation.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "shapes/compound.h"
 #include "shapes/turned.h"
 #include "state/countable.h"
 
@@ -24,6 +26,13 @@ double radius_of(const Solid& solid) {
   if (const auto* cylinder = std::get_if<Cylinder>(&solid)) return shapes::radius_of(*cylinder);
   if (const auto* cone = std::get_if<Cone>(&solid)) return shapes::radius_of(*cone);
   if (const auto* tapered = std::get_if<TaperedCapsule>(&solid)) return shapes::radius_of(*tapered);
+  if (const auto* compound = std::get_if<Compound>(&solid)) {
+    const Vec3 center = shapes::mass_of(*compound, 1).center;
+    double most = 0;
+    for (const Shape& part : compound->parts())
+      most = std::max(most, (mass_properties(part, 1).center - center).norm() + radius_of(part.solid));
+    return most;
+  }
   return std::numeric_limits<double>::infinity();
 }
 
@@ -114,6 +123,7 @@ void give_mass(Body& body, const std::optional<double>& given, double density) {
   require_finite(offset.position, "offset of a shape");
   require(std::isfinite(turn) && turn > 0, "rotation of a shape must be a quaternion that can be normalized");
   if (std::abs(turn - 1) > 1e-12) offset.rotation = normalized(offset.rotation);
+  body.shape = shapes::without_offset(body.shape);
   const Solid& solid = body.shape.solid;
   const bool endless = std::holds_alternative<Plane>(solid);
   if (endless) {
@@ -136,7 +146,7 @@ void give_mass(Body& body, const std::optional<double>& given, double density) {
   if (const auto* sphere = std::get_if<Sphere>(&solid)) body.roundness = sphere->radius;
   if (const auto* capsule = std::get_if<Capsule>(&solid)) body.roundness = capsule->radius;
   body.turned = std::holds_alternative<Cylinder>(solid) || std::holds_alternative<Cone>(solid) ||
-                std::holds_alternative<TaperedCapsule>(solid);
+                std::holds_alternative<TaperedCapsule>(solid) || std::holds_alternative<Compound>(solid);
   body.radius = radius_of(solid);
   require(body.radius >= smallest && (endless || body.radius <= largest),
           "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + number_text(body.radius) +

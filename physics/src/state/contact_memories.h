@@ -42,7 +42,8 @@ struct FoundManifold {
 
 /// What the next step needs of a pair in contact.
 struct ContactMemory {
-  std::uint32_t a = 0, b = 0;  ///< indices of the bodies, a < b
+  std::uint32_t a = 0, b = 0;            ///< indices of the bodies, a < b
+  std::uint32_t part_a = 0, part_b = 0;  ///< of compounds
   int count = 0;
   std::array<PointMemory, 4> points{};
   KeptImpulses kept;

@@ -177,7 +177,8 @@ void each_field(T& found, const Visit& visit) {
 
 template <Is<ContactMemory> T, class Visit>
 void each_field(T& memory, const Visit& visit) {
-  auto& [a, b, count, points, kept, found, touching, gone] = memory;
+  auto& [a, b, part_a, part_b, count, points, kept, found, touching, gone] = memory;
+  visit.rarely(part_a, part_b);
   visit(a, b, count, kept, found, touching);
   for (std::size_t i = 0; i < within_four(count); ++i) visit(points[i]);
   leads_to_nothing(gone);  // those that are gone are not told of
@@ -289,7 +290,8 @@ void each_field(T& manifold, const Visit& visit) {
 
 template <Is<Contact> T, class Visit>
 void each_field(T& contact, const Visit& visit) {
-  auto& [a, b, manifold, impulse, total_impulse, approach_speed, began] = contact;
+  auto& [a, b, manifold, impulse, total_impulse, approach_speed, began, part_a, part_b] = contact;
+  visit.rarely(part_a, part_b);
   visit(a, b, manifold, impulse, total_impulse, approach_speed, began);
 }
 

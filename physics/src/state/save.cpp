@@ -22,7 +22,7 @@ namespace {
 constexpr std::array<char, 16> signature = {'t', 'w', 'e', 'e', 'n', 'f', 'a', 'l',
                                             'l', ' ', 'w', 'o', 'r', 'l', 'd', '\n'};
 /// Raised whenever the fields change, so that older bytes are refused and not misread.
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 constexpr std::size_t header_size = signature.size() + 4 + 8 + 8;
 
 std::uint64_t checksum(std::span<const std::byte> bytes) {
@@ -141,8 +141,11 @@ void at(const std::string& place, const Check& check_it) {
   }
 }
 
-bool in_order(std::uint32_t a, std::uint32_t b, const std::pair<std::uint32_t, std::uint32_t>* before) {
-  return a < b && (!before || *before < std::pair(a, b));
+/// Bodies and their parts.
+using PartPair = std::array<std::uint32_t, 4>;
+
+bool in_order(const PartPair& pair, const PartPair* before) {
+  return pair[0] < pair[1] && (!before || *before < pair);
 }
 
 void check_bodies(WorldState& world) {
@@ -204,19 +207,23 @@ void check_joints(const WorldState& world) {
 
 void check_pairs(const WorldState& world) {
   const auto here = [&](std::uint32_t index) { return index < world.bodies.size() && world.bodies[index].alive; };
-  using IndexPair = std::pair<std::uint32_t, std::uint32_t>;
-  IndexPair before;
+  PartPair before{};
   bool first = true;
-  const auto require_pair = [&](std::uint32_t a, std::uint32_t b) {
-    require(here(a) && here(b), "there are no such bodies");
-    require(in_order(a, b, first ? nullptr : &before), "pairs must come in order");
-    before = {a, b};
+  const auto has_part = [&](std::uint32_t body, std::uint32_t part) {
+    const auto* compound = std::get_if<Compound>(&world.bodies[body].shape.solid);
+    return part < (compound ? compound->parts().size() : 1);
+  };
+  const auto require_pair = [&](const PartPair& pair) {
+    require(here(pair[0]) && here(pair[1]), "there are no such bodies");
+    require(has_part(pair[0], pair[2]) && has_part(pair[1], pair[3]), "there are no such parts");
+    require(in_order(pair, first ? nullptr : &before), "pairs must come in order");
+    before = pair;
     first = false;
   };
   for (std::size_t i = 0; i < world.contacts.size(); ++i)
     at("contact " + std::to_string(i), [&] {
       const Contact& contact = world.contacts[i];
-      require_pair(contact.a.index, contact.b.index);
+      require_pair({contact.a.index, contact.b.index, contact.part_a, contact.part_b});
       require(world.bodies[contact.a.index].generation == contact.a.generation &&
                   world.bodies[contact.b.index].generation == contact.b.generation,
               "there are no such bodies");
@@ -227,22 +234,24 @@ void check_pairs(const WorldState& world) {
   for (const std::uint32_t place : world.memories.sorted())
     at("memory of contact " + std::to_string(number++), [&] {
       const ContactMemory& memory = world.memories[place];
-      require_pair(memory.a, memory.b);
+      require_pair({memory.a, memory.b, memory.part_a, memory.part_b});
       check(memory);
       if (!memory.touching) return;
       const auto before_it = [&](const Contact& contact) {
-        return std::tie(contact.a.index, contact.b.index) < std::tie(memory.a, memory.b);
+        return std::tie(contact.a.index, contact.b.index, contact.part_a, contact.part_b) <
+               std::tie(memory.a, memory.b, memory.part_a, memory.part_b);
       };
       while (told < world.contacts.size() && before_it(world.contacts[told])) ++told;
       require(told < world.contacts.size() && world.contacts[told].a.index == memory.a &&
-                  world.contacts[told].b.index == memory.b,
+                  world.contacts[told].b.index == memory.b && world.contacts[told].part_a == memory.part_a &&
+                  world.contacts[told].part_b == memory.part_b,
               "a contact that touches is not among the contacts");
     });
   first = true;
   for (std::size_t i = 0; i < world.ignored.all().size(); ++i)
     at("ignored pair " + std::to_string(i), [&] {
       const IgnoredPairs::Entry& pair = world.ignored.all()[i];
-      require_pair(pair.a, pair.b);
+      require_pair({pair.a, pair.b, 0, 0});
       require(pair.asked || pair.holders > 0, "nothing ignores it");
     });
 }

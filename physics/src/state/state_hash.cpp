@@ -11,6 +11,7 @@ namespace {
 
 class StateHash : public Teller<StateHash> {
  public:
+  static constexpr bool skips_zeros = true;
   template <class T>
   void number(const T& value) {
     if constexpr (std::is_same_v<T, double>)

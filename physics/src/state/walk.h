@@ -41,6 +41,12 @@ class Walk {
   void operator()(T&... values) const {
     (one(values), ...);
   }
+  /// Numbers that are hardly ever other than 0: where all are, a hash leaves them out.
+  template <class... T>
+  void rarely(T&... numbers) const {
+    if (tool_.skips_zeros && ((numbers == 0) && ...)) return;
+    (one(numbers), ...);
+  }
 
  private:
   template <class T>
@@ -67,6 +73,8 @@ class Walk {
       if (has) one(*value);
     } else if constexpr (IsVariant<Value>::value) {
       tool_.choice(value);
+    } else if constexpr (std::is_same_v<Value, Compound>) {
+      tool_.compound(value);
     } else if constexpr (std::is_same_v<Value, ConvexHull>) {
       tool_.hull(value);
     } else if constexpr (std::is_same_v<Value, Field>) {
@@ -88,6 +96,7 @@ void walk(Tool& tool, T& value) {
 template <class Tool>
 class Teller {
  public:
+  static constexpr bool skips_zeros = false;
   template <class T>
   void list(const std::vector<T>& values) {
     tool().number(static_cast<std::uint64_t>(values.size()));
@@ -101,6 +110,10 @@ class Teller {
       if (!memories[place].gone) walk(tool(), memories[place]);
   }
   void list(const IgnoredPairs& pairs) { list(pairs.all()); }
+  void compound(const Compound& compound) {
+    tool().number(static_cast<std::uint64_t>(compound.parts().size()));
+    for (const Shape& part : compound.parts()) walk(tool(), part);
+  }
   template <class... T>
   void choice(const std::variant<T...>& value) {
     tool().number(static_cast<std::uint8_t>(value.index()));

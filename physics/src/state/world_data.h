@@ -48,12 +48,18 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// The manifold at the start of the step, or where the bodies meet in it. Returns false when they do not.
   bool find_manifold(step::ContactConstraint& constraint, const state::Body& a, const state::Body& b,
                      const collision::Passage& way_a, const collision::Passage& way_b, double dt,
-                     std::vector<step::KnownApart>& aparts) const;
+                     std::vector<step::KnownApart>* told_apart) const;
   /// Which memories the pairs of the broad phase have, and which of the others are kept; @return whether two bodies of
   /// a pair may each have as many contacts as a body can
   bool recall(std::span<const pairs::Pair> pairs);
-  void find_part(std::span<const pairs::Pair> pairs, std::span<const std::uint32_t> memories_of, bool crowded,
+  void find_part(std::span<const pairs::Pair> pairs, std::span<const step::PairMemories> memories_of, bool crowded,
                  double dt, step::FoundPart& part);
+  /// The contact of two bodies, or of two of their parts, if there is one.
+  void find_contact(const step::ContactConstraint& pair, const collision::Passage& way_a,
+                    const collision::Passage& way_b, double dt, bool alone, step::FoundPart& part) const;
+  /// Contacts of all parts of two bodies of which one is a compound.
+  void find_contacts_of_parts(const step::ContactConstraint& pair, step::PairMemories known, double dt,
+                              step::FoundPart& part) const;
   void gather_links();          ///< joints that hold something that can move
   void leave_sleeping_links();  ///< out of what is solved
   void end_links(double dt);    ///< reactions, and what breaks

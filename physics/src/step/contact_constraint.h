@@ -20,6 +20,7 @@ struct PointConstraint {
 /// A pair in contact through a step.
 struct ContactConstraint : state::KeptImpulses {
   std::uint32_t a = 0, b = 0;                              ///< indices of the bodies, a < b
+  std::uint32_t part_a = 0, part_b = 0;                    ///< of compounds
   std::uint32_t memory = state::ContactMemories::nowhere;  ///< where it is remembered, when it was there before
   Manifold manifold;
   std::array<PointConstraint, 4> points{};

@@ -22,18 +22,28 @@ constexpr std::uint32_t most_contacts = 32;
 /// Pairs, or bodies, that are worth a part of their own.
 constexpr std::size_t worth_a_part = 64;
 
+/// Of a compound; none of any other body, which is one itself.
+std::span<const Shape> parts_of(const state::Body& body) {
+  const auto* compound = std::get_if<Compound>(&body.shape.solid);
+  return compound ? compound->parts() : std::span<const Shape>();
+}
+
 /// How a body's surface rolls where something touches it, m.
-double rolling_radius(const state::Body& body, const collision::Prediction& at, const Vec3& position, const Vec3& out) {
+double rolling_radius(const collision::Passage& way, const collision::Prediction& at, const Vec3& position,
+                      const Vec3& out) {
+  const state::Body& body = *way.body;
   if (body.roundness > 0) return body.roundness;
   if (!body.turned) return 0;
-  const shapes::Placed placed = shapes::place(body.shape, at.node(body));
+  const shapes::Placed placed = shapes::place(*way.course.shape, at.node(body));
   const Mat3 into = placed.axes.transpose();
-  return shapes::rolling_radius(body.shape.solid, into * (position - placed.center), into * out);
+  return shapes::rolling_radius(way.course.shape->solid, into * (position - placed.center), into * out);
 }
 
 /// The points of a manifold as constraints, told about the bodies' places at the start of the step.
-void adopt(ContactConstraint& constraint, const state::Body& a, const collision::Prediction& at_a, const state::Body& b,
-           const collision::Prediction& at_b) {
+void adopt(ContactConstraint& constraint, const collision::Passage& way_a, const collision::Prediction& at_a,
+           const collision::Passage& way_b, const collision::Prediction& at_b) {
+  const state::Body& a = *way_a.body;
+  const state::Body& b = *way_b.body;
   const Quat back_a = a.motion.pose.rotation * at_a.rotation.conjugate();
   const Quat back_b = b.motion.pose.rotation * at_b.rotation.conjugate();
   const Manifold& manifold = constraint.manifold;
@@ -46,8 +56,8 @@ void adopt(ContactConstraint& constraint, const state::Body& a, const collision:
     point.start_arm_a = from.position - at_a.center;
     point.start_arm_b = from.position - at_b.center;
     point.start_gap = -from.penetration;
-    point.skin_a = rolling_radius(a, at_a, from.position, manifold.normal);
-    point.skin_b = rolling_radius(b, at_b, from.position, -manifold.normal);
+    point.skin_a = rolling_radius(way_a, at_a, from.position, manifold.normal);
+    point.skin_b = rolling_radius(way_b, at_b, from.position, -manifold.normal);
     if (constraint.impact_time == 0) continue;
     point.start_arm_a = state::carried(back_a, point.start_arm_a, point.skin_a * manifold.normal);
     point.start_arm_b = state::carried(back_b, point.start_arm_b, -point.skin_b * manifold.normal);
@@ -89,16 +99,18 @@ void inherit(ContactConstraint& constraint, const state::ContactMemory& old, dou
 bool World::Implementation::find_manifold(step::ContactConstraint& constraint, const state::Body& a,
                                           const state::Body& b, const collision::Passage& way_a,
                                           const collision::Passage& way_b, double dt,
-                                          std::vector<step::KnownApart>& told_apart) const {
+                                          std::vector<step::KnownApart>* told_apart) const {
   const double swing = way_a.swing + way_b.swing;
   const double reach = step::near_enough + (swing * dt > step::near_enough ? swing * dt : 0);
-  const Manifold manifold = collision::collide(a.shape, way_a.placed, b.shape, way_b.placed, step::near_enough, reach);
+  const Manifold manifold = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
+                                               step::near_enough, reach);
   if (manifold.count > 0) {
     constraint.manifold = manifold;
-    step::adopt(constraint, a, {a.center, a.motion.pose.rotation}, b, {b.center, b.motion.pose.rotation});
+    step::adopt(constraint, way_a, {a.center, a.motion.pose.rotation}, way_b, {b.center, b.motion.pose.rotation});
   } else {
     const collision::Apart apart = collision::apart_along(way_a, way_b, manifold.normal);
-    if (apart.frame != collision::Apart::Frame::none) told_apart.push_back({{constraint.a, constraint.b}, apart});
+    if (told_apart && apart.frame != collision::Apart::Frame::none)
+      told_apart->push_back({{constraint.a, constraint.b}, apart});
     const double gap = collision::gap_along(way_a, way_b, manifold.normal);
     if (collision::stay_apart(way_a, way_b, manifold.normal, gap, step::near_enough, dt)) return false;
     const std::optional<double> meeting = collision::impact_time(way_a.course, way_b.course, dt);
@@ -108,8 +120,9 @@ bool World::Implementation::find_manifold(step::ContactConstraint& constraint, c
     const collision::Prediction at_b = way_b.course.at(*meeting);
     // What a spin brings down in what is left of the step, too.
     const double rest = step::near_enough + swing * (dt - *meeting);
-    constraint.manifold = tweenfall::collide(a.shape, at_a.node(a), b.shape, at_b.node(b), rest);
-    step::adopt(constraint, a, at_a, b, at_b);
+    constraint.manifold =
+        tweenfall::collide(*way_a.course.shape, at_a.node(a), *way_b.course.shape, at_b.node(b), rest);
+    step::adopt(constraint, way_a, at_a, way_b, at_b);
   }
   return constraint.count > 0 && constraint.manifold.normal.allFinite();
 }
@@ -128,10 +141,17 @@ bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
       const state::ContactMemory& memory = memories[remembered_before[next]];
       const pairs::Pair its(memory.a, memory.b);
       if (its > pair) break;
-      if (its == pair) return remembered_before[next++];
+      if (its == pair) {
+        step::PairMemories its_own{static_cast<std::uint32_t>(next), 0};
+        for (; next < remembered_before.size() && memories[remembered_before[next]].a == pair.first &&
+               memories[remembered_before[next]].b == pair.second;
+             ++next)
+          ++its_own.count;
+        return its_own;
+      }
       if (!bodies[memory.a].stirs() && !bodies[memory.b].stirs()) retained.push_back(remembered_before[next]);
     }
-    return state::ContactMemories::nowhere;
+    return step::PairMemories{};
   };
   bool crowded = false;
   for (const pairs::Pair& pair : pairs) {
@@ -150,8 +170,77 @@ bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
   return crowded;
 }
 
-void World::Implementation::find_part(std::span<const pairs::Pair> pairs, std::span<const std::uint32_t> memories_of,
-                                      bool crowded, double dt, step::FoundPart& part) {
+void World::Implementation::find_contact(const step::ContactConstraint& pair, const collision::Passage& way_a,
+                                         const collision::Passage& way_b, double dt, bool alone,
+                                         step::FoundPart& part) const {
+  const state::Body& a = *way_a.body;
+  const state::Body& b = *way_b.body;
+  const state::ContactMemory* memory =
+      pair.memory != state::ContactMemories::nowhere ? &memories[pair.memory] : nullptr;
+  step::ContactConstraint& constraint = part.contacts.emplace_back(pair);
+  constraint.kept = memory && step::take_up(*memory, a, b, way_a.swing + way_b.swing, dt, constraint);
+  if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt, alone ? &part.aparts : nullptr)) {
+    part.contacts.pop_back();
+    return;
+  }
+  constraint.friction = step::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
+  constraint.restitution =
+      step::combined_restitution(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
+  constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
+  constraint.spinning_friction = std::max(a.spinning_friction, b.spinning_friction);
+  constraint.began = !(memory && memory->touching);
+  if (memory) step::inherit(constraint, *memory, 0.05 * std::min(a.radius, b.radius));
+}
+
+void World::Implementation::find_contacts_of_parts(const step::ContactConstraint& pair, step::PairMemories known,
+                                                   double dt, step::FoundPart& part) const {
+  const collision::Passage& way_a = passages[pair.a];
+  const collision::Passage& way_b = passages[pair.b];
+  const std::span<const Shape> parts_a = step::parts_of(*way_a.body), parts_b = step::parts_of(*way_b.body);
+  const auto way_of = [](const collision::Passage& way, std::span<const Shape> parts, std::size_t index) {
+    return parts.empty() ? way : collision::passage_of_part(way, parts[index]);
+  };
+  const auto box_of = [](const collision::Passage& way) { return bounds(*way.course.shape, way.body->motion.pose); };
+  // No part comes farther in the step than this.
+  const Vec3 closing = way_a.course.linear - way_b.course.linear;
+  const Vec3 pull = way_a.course.acceleration - way_b.course.acceleration;
+  const double room = step::near_enough + (closing.norm() + pull.norm() * dt + way_a.swing + way_b.swing) * dt;
+  struct PartWay {
+    collision::Passage way;
+    Bounds box;
+  };
+  std::vector<PartWay> ways_b;
+  const std::size_t count_a = std::max<std::size_t>(1, parts_a.size()),
+                    count_b = std::max<std::size_t>(1, parts_b.size());
+  ways_b.reserve(count_b);
+  for (std::size_t k = 0; k < count_b; ++k) {
+    const collision::Passage way = way_of(way_b, parts_b, k);
+    ways_b.push_back({way, box_of(way)});
+  }
+  std::uint32_t next = known.first;
+  const std::uint32_t end = known.first + known.count;
+  const std::span<const std::uint32_t> sorted = memories.sorted();
+  for (std::uint32_t i = 0; i < count_a; ++i) {
+    const collision::Passage its_a = way_of(way_a, parts_a, i);
+    const Bounds box_a = box_of(its_a);
+    for (std::uint32_t k = 0; k < count_b; ++k) {
+      const Bounds& box_b = ways_b[k].box;
+      if (((box_a.low - box_b.high).array() > room).any() || ((box_b.low - box_a.high).array() > room).any()) continue;
+      step::ContactConstraint one = pair;
+      one.part_a = i;
+      one.part_b = k;
+      while (next < end && std::pair(memories[sorted[next]].part_a, memories[sorted[next]].part_b) < std::pair(i, k))
+        ++next;
+      if (next < end && memories[sorted[next]].part_a == i && memories[sorted[next]].part_b == k)
+        one.memory = sorted[next];
+      find_contact(one, its_a, ways_b[k].way, dt, false, part);
+    }
+  }
+}
+
+void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
+                                      std::span<const step::PairMemories> memories_of, bool crowded, double dt,
+                                      step::FoundPart& part) {
   part.contacts.clear();
   part.aparts.clear();
   auto next_apart =
@@ -166,36 +255,28 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs, std::s
     if (crowded && contact_counts[index_a] >= step::most_contacts && contact_counts[index_b] >= step::most_contacts &&
         !a.immovable() && !b.immovable())
       continue;
-    const collision::Passage& way_a = passages[index_a];
-    const collision::Passage& way_b = passages[index_b];
-    while (next_apart != aparts.cend() && next_apart->pair < pairs[i]) ++next_apart;
-    if (next_apart != aparts.cend() && next_apart->pair == pairs[i]) {
-      const Vec3 direction = next_apart->apart.in_world(way_a, way_b);
-      if (collision::stay_apart(way_a, way_b, direction, collision::gap_along(way_a, way_b, direction),
-                                step::near_enough, dt)) {
-        part.aparts.push_back(*next_apart);
-        continue;
+    step::ContactConstraint pair;
+    pair.a = index_a;
+    pair.b = index_b;
+    const std::size_t before = part.contacts.size();
+    if (step::parts_of(a).empty() && step::parts_of(b).empty()) {
+      const collision::Passage& way_a = passages[index_a];
+      const collision::Passage& way_b = passages[index_b];
+      while (next_apart != aparts.cend() && next_apart->pair < pairs[i]) ++next_apart;
+      if (next_apart != aparts.cend() && next_apart->pair == pairs[i]) {
+        const Vec3 direction = next_apart->apart.in_world(way_a, way_b);
+        if (collision::stay_apart(way_a, way_b, direction, collision::gap_along(way_a, way_b, direction),
+                                  step::near_enough, dt)) {
+          part.aparts.push_back(*next_apart);
+          continue;
+        }
       }
+      if (memories_of[i].count > 0) pair.memory = memories.sorted()[memories_of[i].first];
+      find_contact(pair, way_a, way_b, dt, true, part);
+    } else {
+      find_contacts_of_parts(pair, memories_of[i], dt, part);
     }
-    const bool known = memories_of[i] != state::ContactMemories::nowhere;
-    const state::ContactMemory* memory = known ? &std::as_const(memories)[memories_of[i]] : nullptr;
-    step::ContactConstraint& constraint = part.contacts.emplace_back();
-    constraint.a = index_a;
-    constraint.b = index_b;
-    constraint.memory = memories_of[i];
-    constraint.kept = memory && step::take_up(*memory, a, b, way_a.swing + way_b.swing, dt, constraint);
-    if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt, part.aparts)) {
-      part.contacts.pop_back();
-      continue;
-    }
-    constraint.friction = step::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
-    constraint.restitution =
-        step::combined_restitution(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
-    constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
-    constraint.spinning_friction = std::max(a.spinning_friction, b.spinning_friction);
-    constraint.began = !(memory && memory->touching);
-    if (memory) step::inherit(constraint, *memory, 0.05 * std::min(a.radius, b.radius));
-    if (!crowded) continue;
+    if (!crowded || part.contacts.size() == before) continue;
     ++contact_counts[index_a];
     ++contact_counts[index_b];
   }
@@ -215,7 +296,7 @@ void World::Implementation::find_constraints(double dt) {
       passages[looked_for[i]] = collision::passage_of(bodies[looked_for[i]], loads[looked_for[i]], dt);
   });
   const std::span<const pairs::Pair> all = pairs;
-  const std::span<const std::uint32_t> known = pair_memories;
+  const std::span<const step::PairMemories> known = pair_memories;
   const auto find = [&](std::size_t part, std::size_t begin, std::size_t end) {
     find_part(all.subspan(begin, end - begin), known.subspan(begin, end - begin), crowded, dt, found[part]);
   };

@@ -29,6 +29,11 @@ struct KnownApart {
   collision::Apart apart;
 };
 
+/// The memories of a pair of bodies: one, or one for each pair of parts that touched; places in the sorted list.
+struct PairMemories {
+  std::uint32_t first = 0, count = 0;
+};
+
 /// What a part of the pairs comes to, in their order.
 struct FoundPart {
   std::vector<ContactConstraint> contacts;
@@ -82,9 +87,9 @@ struct Workspace {
   std::vector<collision::Passage> passages;  ///< by body
   std::vector<std::uint64_t> looked_at;      ///< by body: the look that its passage is of
   std::uint64_t look = 0;
-  std::vector<std::uint32_t> looked_for;     ///< bodies of which this look needs a passage
-  std::vector<std::uint32_t> pair_memories;  ///< by pair of the broad phase
-  std::vector<KnownApart> aparts;            ///< of pairs that do not touch, sorted
+  std::vector<std::uint32_t> looked_for;    ///< bodies of which this look needs a passage
+  std::vector<PairMemories> pair_memories;  ///< by pair of the broad phase
+  std::vector<KnownApart> aparts;           ///< of pairs that do not touch, sorted
   std::vector<char> flags;
   std::vector<char> carried;  ///< by island: something keyed moves it
   std::vector<std::uint32_t> contact_counts;

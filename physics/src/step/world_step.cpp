@@ -2,6 +2,8 @@
 #include <atomic>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <tuple>
 
 #include "collision/impact_time.h"
 #include "forces/drive_law.h"
@@ -22,6 +24,8 @@ constexpr std::size_t worth_dividing = 256;
 void remember(const ContactConstraint& constraint, bool touching, state::ContactMemory& memory) {
   memory.a = constraint.a;
   memory.b = constraint.b;
+  memory.part_a = constraint.part_a;
+  memory.part_b = constraint.part_b;
   memory.count = constraint.count;
   for (std::size_t i = 0; i < static_cast<std::size_t>(constraint.count); ++i) {
     const PointConstraint& point = constraint.points[i];
@@ -33,7 +37,7 @@ void remember(const ContactConstraint& constraint, bool touching, state::Contact
 
 template <class A, class B>
 bool before(const A& left, const B& right) {
-  return left.a != right.a ? left.a < right.a : left.b < right.b;
+  return std::tie(left.a, left.b, left.part_a, left.part_b) < std::tie(right.a, right.b, right.part_a, right.part_b);
 }
 
 }  // namespace
@@ -198,7 +202,11 @@ void World::Implementation::report() {
       const state::ContactMemory& memory = memories[retained[next_retained]];
       remembered.push_back(retained[next_retained]);
       if (!memory.touching) continue;
-      while (contacts[next_contact].a.index != memory.a || contacts[next_contact].b.index != memory.b) ++next_contact;
+      const auto is_its = [&memory](const Contact& contact) {
+        return contact.a.index == memory.a && contact.b.index == memory.b && contact.part_a == memory.part_a &&
+               contact.part_b == memory.part_b;
+      };
+      while (!is_its(contacts[next_contact])) ++next_contact;
       told.push_back({next_contact, false});
     }
   };
@@ -234,7 +242,9 @@ void World::Implementation::report() {
                  outcome.normal,
                  outcome.total,
                  outcome.approach,
-                 constraint.began};
+                 constraint.began,
+                 constraint.part_a,
+                 constraint.part_b};
     }
   });
   std::swap(contacts, next_contacts);
@@ -242,10 +252,15 @@ void World::Implementation::report() {
   ended.clear();
   std::swap(ended, gone_contacts);
   auto still = contacts.cbegin();
+  std::optional<pairs::Pair> told_ended;
   const auto pair_of = [](const Contact& contact) { return pairs::Pair(contact.a.index, contact.b.index); };
   for (const Contact& before : next_contacts) {
     while (still != contacts.cend() && pair_of(*still) < pair_of(before)) ++still;
-    if (still == contacts.cend() || pair_of(*still) != pair_of(before)) ended.push_back({before.a, before.b});
+    if (still != contacts.cend() && pair_of(*still) == pair_of(before)) continue;
+    // Of several parts that touched, all have let go.
+    if (told_ended == pair_of(before)) continue;
+    ended.push_back({before.a, before.b});
+    told_ended = pair_of(before);
   }
 }
 

@@ -48,6 +48,9 @@ std::string shape_text(const Shape& shape) {
       return "tapered capsule, radii " + brief_text(capsule.bottom_radius) + " and " + brief_text(capsule.top_radius) +
              ", half height " + brief_text(capsule.half_height);
     }
+    std::string operator()(const Compound& compound) const {
+      return "compound, " + std::to_string(compound.parts().size()) + " parts";
+    }
     std::string operator()(const Plane& plane) const { return "plane, normal " + brief_text(plane.normal); }
     std::string operator()(const Hull& hull) const {
       return "hull, " + std::to_string(hull.convex.vertices().size()) + " vertices, " +

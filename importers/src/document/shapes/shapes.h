@@ -33,6 +33,10 @@ template <class Thing>
   return shape_of(std::move(word), "", table, [](const json::Value&, const Thing& thing, Building&) { return thing; });
 }
 
+// A shape that is no compound
+const Form* single_form(FormStore& store, const ValueForms& values);
+[[nodiscard]] Solid read_single(const json::Value& shape, Building& building);
+
 // A body's "shape"
 const Form* form(FormStore& store, const ValueForms& values);
 [[nodiscard]] Solid read(const json::Value& shape, Building& building);

@@ -31,7 +31,7 @@ const allFinite = values => {
 // Whether graphics can calculate with the numbers of a shape.
 function fitsShape(shape) {
   if (!shape) return true;
-  const numbers = [shape.sphere, shape.offset, shape.box, shape.capsule, shape.position, shape.turned, shape.hull && shape.hull.vertices];
+  const numbers = [shape.sphere, shape.offset, shape.box, shape.capsule, shape.position, shape.turned, shape.corners, shape.hull && shape.hull.vertices];
   return numbers.flat(2).every(value => value === undefined || Math.abs(value) < 1e30);
 }
 

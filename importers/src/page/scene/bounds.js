@@ -78,6 +78,7 @@ function solidOf(shape) {
     return {balls: [[place([0, half, 0]), radius], [place([0, -half, 0]), radius]]};
   }
   const corners = shape.hull ? shape.hull.vertices
+    : shape.corners ? shape.corners
     : shape.turned ? shape.turned.flatMap(([radius, height]) => [0, 1, 2, 3, 4, 5, 6, 7].map(i =>
       [radius * Math.cos(i * Math.PI / 4), height, radius * Math.sin(i * Math.PI / 4)]))
     : [0, 1, 2, 3, 4, 5, 6, 7].map(i => shape.box.map((half, axis) => (i >> axis & 1 ? half : -half)));

@@ -68,7 +68,7 @@ class Cast {
     mesh.receiveShadow = true;
     mesh.userData.node = node;
     this.groupOf(node).add(mesh);
-    if (shape.box || shape.hull || shape.turned) mesh.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 20),
+    if (shape.box || shape.hull || shape.turned || shape.corners) mesh.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 20),
       new THREE.LineBasicMaterial({color: 0x000000, transparent: true, opacity: 0.3})));
     if (shape.plane && node.fixed) this.grounds.push({node, mesh, material});
     else this.solids.push({node, material});

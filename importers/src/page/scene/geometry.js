@@ -48,10 +48,16 @@ function boxGeometry(half) {
 
 // Faces of a polyhedron, flat, as fans of triangles.
 function hullGeometry(hull) {
-  const positions = [];
+  const corners = [];
   for (const face of hull.faces)
     for (let i = 2; i < face.length; ++i)
-      for (const corner of [face[0], face[i - 1], face[i]]) positions.push(...hull.vertices[corner]);
+      for (const corner of [face[0], face[i - 1], face[i]]) corners.push(hull.vertices[corner]);
+  return cornersGeometry(corners);
+}
+
+// Flat triangles, three corners each.
+function cornersGeometry(corners) {
+  const positions = corners.flat();
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.Float32BufferAttribute(positions, 3));
   geometry.setAttribute("color", new THREE.Float32BufferAttribute(new Float32Array(positions.length).fill(1), 3));
@@ -76,6 +82,7 @@ function shapeGeometry(shape, planeSize) {
   if (shape.capsule) return capsuleGeometry(shape.capsule[0], shape.capsule[1]);
   if (shape.hull) return hullGeometry(shape.hull);
   if (shape.turned) return revolved(shape.turned, 32);
+  if (shape.corners) return cornersGeometry(shape.corners);
   return planeGeometry(shape.plane, shape.offset, planeSize);
 }
 
@@ -94,6 +101,7 @@ function gridGeometry(step, cells) {
 function wireGeometry(shape) {
   if (shape.box) return new THREE.EdgesGeometry(boxGeometry(shape.box));
   if (shape.hull) return new THREE.EdgesGeometry(hullGeometry(shape.hull), 1);
+  if (shape.corners) return new THREE.EdgesGeometry(cornersGeometry(shape.corners), 20);
   const [radius, half] = shape.capsule || [shape.sphere || 0, 0], points = [];
   const arc = (from, to, place, size = radius) => {
     const count = Math.ceil((to - from) / (Math.PI / 24));

@@ -6,7 +6,10 @@
 #include <tweenfall/curves/surface_mesh.h>
 #include <tweenfall/physics/convex_hull.h>
 
+#include <memory>
+#include <span>
 #include <variant>
+#include <vector>
 
 namespace tweenfall {
 
@@ -48,7 +51,28 @@ struct Hull {
   ConvexHull convex;
 };
 
-using Solid = std::variant<Sphere, Box, Capsule, Plane, Hull, Cylinder, Cone, TaperedCapsule>;
+struct Shape;
+
+/// Several solids that move as one, each with its own contacts. An immutable value, cheap to copy. Where parts overlap,
+/// what is there counts twice.
+class Compound {
+ public:
+  static constexpr std::size_t most_parts = 4096;
+
+  /// @param parts  solids and their places in the compound's space
+  /// @throws std::invalid_argument for no parts or too many, planes, compounds in it, and sizes that cannot be
+  explicit Compound(std::vector<Shape> parts);
+  // Moving copies, so that no compound is ever without its parts.
+  Compound(const Compound&) noexcept = default;
+  Compound& operator=(const Compound&) noexcept = default;
+
+  [[nodiscard]] std::span<const Shape> parts() const noexcept;
+
+ private:
+  std::shared_ptr<const std::vector<Shape>> parts_;
+};
+
+using Solid = std::variant<Sphere, Box, Capsule, Plane, Hull, Cylinder, Cone, TaperedCapsule, Compound>;
 
 /// A solid and its place on the node that carries it.
 struct Shape {

@@ -80,14 +80,15 @@ struct BodySettings {
   Motion motion = {};  ///< of the node's origin, world axes
 };
 
-/// A touching pair after a step.
+/// A touching pair after a step; of compounds, a touching pair of parts.
 struct Contact {
   BodyId a, b;
   Manifold manifold;
-  double impulse = 0;           ///< sum of normal impulses of the step, N s; >= 0
-  Vec3 total_impulse{0, 0, 0};  ///< on b, friction included, N s
-  double approach_speed = 0;    ///< normal speed at which they met, before the step's impulses, m/s
-  bool began = false;           ///< the pair did not touch in the step before
+  double impulse = 0;                    ///< sum of normal impulses of the step, N s; >= 0
+  Vec3 total_impulse{0, 0, 0};           ///< on b, friction included, N s
+  double approach_speed = 0;             ///< normal speed at which they met, before the step's impulses, m/s
+  bool began = false;                    ///< the pair did not touch in the step before
+  std::uint32_t part_a = 0, part_b = 0;  ///< which parts touch, of bodies that are compounds
 };
 
 /// Two bodies that touched and do not any more.
