@@ -69,7 +69,8 @@ Manifold collide_parts(const Shape& a, const Placed& at_a, const Shape& b, const
   Manifold best;
   double most = -std::numeric_limits<double>::infinity();
   for (const Shape& part : std::get<Compound>(a.solid).parts()) {
-    const Placed at{at_a.center + at_a.axes * part.offset.position, at_a.axes * part.offset.rotation.toRotationMatrix()};
+    const Placed at{at_a.center + at_a.axes * part.offset.position,
+                    at_a.axes * part.offset.rotation.toRotationMatrix()};
     const Manifold manifold = collide(part, at, b, at_b, margin, reach);
     for (int i = 0; i < manifold.count; ++i) {
       const double depth = manifold.points[static_cast<std::size_t>(i)].penetration;
