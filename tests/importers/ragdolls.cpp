@@ -182,7 +182,10 @@ TEST_CASE("a figure on a stage walks, is let go with the velocities of its walk,
   for (const Node& node : model.nodes)
     described.nodes.push_back({.name = node.name, .parent = node.parent, .rest = node.rest});
   described.clips = model.clips;
-  described.plays.push_back({.clip = "WalkForward"});
+  const auto named = [](const Clip& clip) { return clip.name == "WalkForward"; };
+  const auto walk = std::find_if(model.clips.begin(), model.clips.end(), named);
+  REQUIRE(walk != model.clips.end());
+  described.plays = {{.clip = static_cast<std::size_t>(walk - model.clips.begin())}};
   described.meshes = model.meshes;
   described.skins = model.skins;
   described.mesh_instances = model.instances;
@@ -195,7 +198,7 @@ TEST_CASE("a figure on a stage walks, is let go with the velocities of its walk,
   described.nodes.push_back(floor);
   Rule let_go;
   for (const RagdollBone& bone : bones) let_go.bodies.push_back(described.nodes[bone.node].name);
-  let_go.when = when::At{0.4};
+  let_go.when = {{when::At{0.4}}};
   let_go.to = Drive::free();
   described.rules.push_back(let_go);
   Stage stage(described);

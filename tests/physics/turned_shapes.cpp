@@ -77,7 +77,7 @@ BodySettings standing(const Solid& solid, const Vec3& position, const Quat& rota
   return body;
 }
 
-double energy_of(const World& world, BodyId id, double gravity) {
+double energy_of(const World& world, BodyId id, double pull) {
   const Twist twist = world.twist(id);
   const MassProperties& mass = world.mass(id);
   const Motion motion = world.motion(id);
@@ -85,7 +85,7 @@ double energy_of(const World& world, BodyId id, double gravity) {
   const Vec3 center = motion.pose.position + axes * mass.center;
   return 0.5 * mass.mass * twist.linear.squaredNorm() +
          0.5 * twist.angular.dot(axes * mass.inertia * axes.transpose() * twist.angular) +
-         mass.mass * gravity * center.y();
+         mass.mass * pull * center.y();
 }
 
 }  // namespace
