@@ -294,4 +294,28 @@ TEST_CASE("joints that contradict each other, and motors against each other, sta
   CHECK(world.motion(b).pose.position.norm() < 2e6);
 }
 
+TEST_CASE("a dozen joints that cannot all hold stay finite") {
+  World world(awake);
+  world.add({.shape = {Plane{}}, .fixed = true});
+  const BodyId large = add_box(world, Vec3(0, 2, 0), Vec3(0.5, 1, 2), 4000);
+  const BodyId small = add_box(world, Vec3(0.5, 2.5, 0), Vec3(0.2, 0.5, 0.2), 3);
+  const BodyId ball = add_ball(world, Vec3(1, 1, 1), 0.3, 0.1);
+  const Vec3 point(0.3, 2, 0.1);
+  join(world, large, ball, point, HingeJoint{.motor = Motor{.position = 1.0}}, Vec3(0, 1, 1));
+  join(world, large, small, point, HingeJoint{.limits = Limits{-2, 0}, .motor = Motor{.speed = 2}}, Vec3(1, 0, 0));
+  join(world, large, small, point, UniversalJoint{.second_motor = Motor{.speed = 1}}, Vec3(1, 0, 0), Vec3(0, 0, 1));
+  join(world, large, ball, point, WheelJoint{.motor = Motor{.speed = 6}});
+  join(world, large, small, point, SwingTwistJoint{.swing_y = 0.5, .swing_z = 1, .twist = {-0.3, 0.3}});
+  world.add_joint({.a = ball, .b = small, .frame_b = {.position = Vec3(0, 0.5, 0)}, .kind = FixedJoint{}});
+  world.add_joint({.a = large, .b = ball, .kind = GearJoint{-2}});
+  world.add_joint({.a = large, .b = ball, .kind = DistanceJoint{{2, 2}}});
+  world.add_joint({.b = large, .kind = SliderJoint{.motor = Motor{.position = 0.5, .max_force = 10}}});
+  world.add_joint({.b = ball, .frame_a = {.position = Vec3(0, 5, 0)}, .kind = SpringJoint{1, 1e6, 3}});
+  for (int i = 0; i < 1000; ++i) world.step(0.01);
+  for (const BodyId& body : {large, small, ball}) {
+    CHECK(world.motion(body).pose.position.norm() < 1e9);
+    CHECK(world.twist(body).linear.norm() < 1e9);
+  }
+}
+
 }  // namespace tweenfall::jointed

@@ -276,6 +276,27 @@ void BlockSolver::find_lags_of_jointed() {
   }
 }
 
+/// Joints and motors that contradict each other may ask for any speed. What would turn or go further in a sub-step than
+/// can be followed keeps the velocity that it had, and the joints forget what they asked for.
+void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
+  constexpr double farthest_turn = 2;  // rad
+  constexpr double farthest = 100;     // of the body's size
+  bool wild = false;
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    if (!bodies_[i].jointed || !bodies_[i].movable) continue;
+    BodyLanes& velocity = velocities_[i];
+    const double gained = (linear_of(velocity) - linear_of(starts_[i])).norm();
+    if (gained * h <= farthest * bodies[bodies_[i].index].radius && angular_of(velocity).norm() * h <= farthest_turn)
+      continue;
+    wild = true;
+    velocity = starts_[i];
+    Vec3 angular = angular_of(velocity);
+    const double turn = angular.norm() * h;
+    if (turn > farthest_turn) set(velocity.angular, angular * (0.5 * farthest_turn / turn));
+  }
+  if (wild) joints_.forget();
+}
+
 void BlockSolver::end_sub_step(double h) {
   stale_.assign(work_.range_count(bodies_.size() - 1, worth_a_part), 0);
   work_.numbered_ranges(bodies_.size() - 1, worth_a_part, [&](std::size_t part, std::size_t begin, std::size_t end) {
@@ -394,6 +415,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       by_color([&](const Rows& some) { kernels.solve(some, soft); });
     }
     find_lags();
+    if (!joints_.empty()) tame_jointed(bodies, h);
     joints_.move(velocities_);
     end_sub_step(h);
     for (int k = 0; k < relaxing; ++k) {
@@ -406,6 +428,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       rebound(bodies, loads, std::max(1, settings.iterations / 4));
       joints_.solve(velocities_, false, true);
     }
+    if (!joints_.empty()) tame_jointed(bodies, h);
     joints_.add_up();
     holds_.add_up(contacts_);
     bound_spins(bodies, h);

@@ -53,6 +53,7 @@ class BlockSolver {
   void prepare_again(const std::vector<state::Body>& bodies);
   void find_lags();
   void find_lags_of_jointed();
+  void tame_jointed(const std::vector<state::Body>& bodies, double h);
   void end_sub_step(double h);
   void bound_spins(const std::vector<state::Body>& bodies, double h);
   [[nodiscard]] Rows rows();

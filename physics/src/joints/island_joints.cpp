@@ -165,11 +165,12 @@ void IslandJoints::solve_together(std::vector<BodyLanes>& velocities, bool movin
     const Entry& entry = joints_[n];
     for (std::size_t i = 0; i < entry.rows.together; ++i) {
       const Row& row = entry.rows.rows[i];
-      impulses_[n][i] =
-          (moving ? row.wanted : row.wanted_after) - speed_of(row.direction, velocities[entry.a], velocities[entry.b]);
+      const double lost = row.mass > 0 ? give * row.impulse / row.mass : 0;
+      impulses_[n][i] = (moving ? row.wanted : row.wanted_after) - lost -
+                        speed_of(row.direction, velocities[entry.a], velocities[entry.b]);
     }
   };
-  const auto give = [&](std::size_t n) {
+  const auto hand_out = [&](std::size_t n) {
     Entry& entry = joints_[n];
     for (std::size_t i = 0; i < entry.rows.together; ++i) {
       if (impulses_[n][i] == 0) continue;
@@ -180,14 +181,14 @@ void IslandJoints::solve_together(std::vector<BodyLanes>& velocities, bool movin
   if (system_.whole()) {
     for (std::size_t n = 0; n < joints_.size(); ++n) find(n);
     system_.solve(impulses_);
-    for (std::size_t n = 0; n < joints_.size(); ++n) give(n);
+    for (std::size_t n = 0; n < joints_.size(); ++n) hand_out(n);
     return;
   }
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const std::size_t n = backward ? joints_.size() - 1 - k : k;
     find(n);
     system_.solve_alone(n, impulses_[n]);
-    give(n);
+    hand_out(n);
   }
 }
 
@@ -237,6 +238,11 @@ void IslandJoints::add_up() {
       entry.push += push;
       entry.turn += row.impulse * row.direction.turn_b - entry.arm_b.cross(push);
     }
+}
+
+void IslandJoints::forget() {
+  for (Entry& entry : joints_)
+    for (Row& row : entry.rows.rows) row.impulse = 0;
 }
 
 void IslandJoints::store() {

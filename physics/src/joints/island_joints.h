@@ -35,6 +35,8 @@ class IslandJoints {
   void move(const std::vector<blocks::BodyLanes>& velocities);
   /// Adds up what the sub-step did.
   void add_up();
+  /// Begins the next sub-step without impulses.
+  void forget();
   /// Gives impulses, forces and torques back to the joints, and velocities that fit the places where the step ends.
   void end_step(const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
                 std::vector<blocks::BodyLanes>& velocities);

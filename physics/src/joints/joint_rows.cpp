@@ -8,6 +8,20 @@
 
 namespace tweenfall::joints {
 
+namespace {
+
+/// What starts far from where its joint wants it is drawn there no faster than so, m/s and rad/s: it may push others on
+/// its way.
+constexpr double fastest_approach = 4;
+constexpr double fastest_turn = 10;
+
+double correction(const Direction& direction, double rate, double error) {
+  const double most = direction.linear_b == Vec3::Zero() ? fastest_turn : fastest_approach;
+  return std::clamp(-rate * error, -most, most);
+}
+
+}  // namespace
+
 Direction operator-(const Direction& direction) {
   return {-direction.linear_a, -direction.turn_a, -direction.linear_b, -direction.turn_b};
 }
@@ -55,7 +69,7 @@ void JointRows::idle(std::size_t many) {
 void JointRows::hold(const Direction& direction, double error, double bend) {
   Row& row = add(direction);
   row.wanted_after = -0.5 * h_ * bend;
-  row.wanted = row.wanted_after - rate_ * error;
+  row.wanted = row.wanted_after + correction(direction, rate_, error);
   ++together;
 }
 
@@ -105,7 +119,7 @@ void JointRows::bound(const Direction& direction, double position, const Limits*
       draw(low ? direction : -direction, gap, 0, limits->hz, limits->zeta, std::numeric_limits<double>::infinity());
     } else {
       Row& row = add(low ? direction : -direction);
-      row.wanted = gap > 0 ? -gap / h_ : -rate_ * gap;
+      row.wanted = gap > 0 ? -gap / h_ : correction(direction, rate_, gap);
       row.wanted_after = gap > 0 ? row.wanted : 0;
     }
     Row& row = rows[count - 1];

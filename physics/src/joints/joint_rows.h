@@ -25,6 +25,9 @@ struct Direction {
 constexpr std::size_t most_together = 6;
 /// Parts of a row's inverse mass: what is left of one that says nothing new is rounding.
 constexpr double new_enough = 1e-10;
+/// What holds gives way by this part of its impulse, so that rows which contradict each other cannot throw bodies
+/// about.
+constexpr double give = 1e-8;
 
 struct Row {
   Direction direction;

@@ -149,6 +149,8 @@ void JointSystem::factor(std::span<const Masses> masses) {
         diagonal_[place].at[i][k] = coupling(own.rows[i], false, own.rows[k], false, mass.inverse_mass_a) +
                                     coupling(own.rows[i], true, own.rows[k], true, mass.inverse_mass_b);
   }
+  for (std::size_t place = 0; place < order_.size(); ++place)
+    for (std::size_t i = 0; i < rows_at(place); ++i) diagonal_[place].at[i][i] *= 1 + give;
   if (whole_) fill(masses);
   for (std::size_t place = 0; place < order_.size(); ++place) {
     factor_diagonal(place);
