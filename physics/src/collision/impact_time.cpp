@@ -38,10 +38,12 @@ Prediction Course::at(double time) const {
 Course course_of(const Body& body, const forces::Load& load, double dt) {
   if (body.immovable() || body.asleep) {
     const step::KeyedCourse course = body.immovable() ? step::keyed_course(body, dt) : step::KeyedCourse{};
-    return {&body, &body.shape, course.mean.linear - 0.5 * course.gain.linear, course.mean.angular, course.gain.linear / dt};
+    return {&body, &body.shape, course.mean.linear - 0.5 * course.gain.linear, course.mean.angular,
+            course.gain.linear / dt};
   }
   // A drive may be stiff enough to take the body anywhere within the step.
-  if (body.drive.owner() == Owner::driven) return {&body, &body.shape, load.pulled.linear, load.pulled.angular, Vec3::Zero()};
+  if (body.drive.owner() == Owner::driven)
+    return {&body, &body.shape, load.pulled.linear, load.pulled.angular, Vec3::Zero()};
   return {&body, &body.shape, body.twist.linear, body.twist.angular, load.acceleration};
 }
 

@@ -21,7 +21,8 @@ void require_part(const Shape& part, std::size_t index) {
     throw std::invalid_argument(which + "it is a compound itself; put its parts here, at their places");
   const double turn = part.offset.rotation.norm();
   if (!part.offset.position.allFinite() || !(turn > 0) || !std::isfinite(turn))
-    throw std::invalid_argument(which + "its place must be finite, and its rotation a quaternion that can be normalized");
+    throw std::invalid_argument(which +
+                                "its place must be finite, and its rotation a quaternion that can be normalized");
   try {
     validate(part.solid);
   } catch (const std::invalid_argument& fault) {
@@ -40,7 +41,8 @@ Shape on_node(const Shape& part, const Pose& offset) noexcept {
 
 Shape without_offset(const Shape& shape) {
   const auto* compound = std::get_if<Compound>(&shape.solid);
-  if (!compound || (shape.offset.position == Vec3(0, 0, 0) && shape.offset.rotation.coeffs() == Quat(1, 0, 0, 0).coeffs()))
+  if (!compound ||
+      (shape.offset.position == Vec3(0, 0, 0) && shape.offset.rotation.coeffs() == Quat(1, 0, 0, 0).coeffs()))
     return shape;
   std::vector<Shape> parts;
   parts.reserve(compound->parts().size());

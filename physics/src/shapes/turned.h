@@ -33,8 +33,8 @@ struct Taper {
 [[nodiscard]] double radius_of(const Cone& cone) noexcept;
 [[nodiscard]] double radius_of(const TaperedCapsule& capsule) noexcept;
 
-/// The radius with which a solid's surface rolls around a place of it: how far the middle or the axis is behind it along
-/// the normal, where the surface is round there; 0 on flat faces, edges and tips, and for other solids.
+/// The radius with which a solid's surface rolls around a place of it: how far the middle or the axis is behind it
+/// along the normal, where the surface is round there; 0 on flat faces, edges and tips, and for other solids.
 [[nodiscard]] double rolling_radius(const Solid& solid, const Vec3& place, const Vec3& normal) noexcept;
 
 }  // namespace tweenfall::shapes
