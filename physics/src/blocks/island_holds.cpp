@@ -118,7 +118,7 @@ void IslandHolds::solve_drive(HeldByDrive& held, const std::vector<Body>& bodies
   const Body& body = bodies[entry.index];
   BodyLanes& velocity = velocities[held.place];
   const forces::DriveLaw law = forces::drive_law(body, entry.sub_step_center, entry.sub_step_rotation, h_, ahead_);
-  const auto within = [](Vec3 impulse, double most) {
+  const auto within = [](const Vec3& impulse, double most) -> Vec3 {
     const double size = impulse.norm();
     return size > most ? Vec3(impulse * (most / size)) : impulse;
   };

@@ -21,7 +21,7 @@ constexpr double followable = 0.3;
 /// Impulses of sub-steps much shorter than the last one kept hold mostly rounding, which would grow with the ratio.
 constexpr double long_enough = 0.15;
 /// After so many times the last one's length what it told is old.
-constexpr double many = 24;
+constexpr double old_after = 24;
 
 double speed_of(const Direction& direction, const BodyLanes& a, const BodyLanes& b) {
   double sum = 0;
@@ -250,7 +250,7 @@ void IslandJoints::store() {
     state::Joint& joint = *entry.joint;
     if (h_ < long_enough * joint.kept_step) {
       joint.passed_over += dt_;
-      if (joint.passed_over < many * joint.kept_step) continue;
+      if (joint.passed_over < old_after * joint.kept_step) continue;
     }
     joint.kept = {};
     for (std::size_t i = 0; i < entry.rows.count; ++i) joint.kept[i] = entry.rows.rows[i].impulse;

@@ -66,10 +66,11 @@ const MotorTables& motor_tables() {
 
 fields::FormOf angle_limits_form(double lowest, double highest) {
   return fields::FormOf::Make([lowest, highest](FormStore& store, const ValueForms& values) {
-    const bool any = lowest == -Form::infinite;
-    return limits_form(store, values, "an angle",
-                       bounded(any ? "degrees" : "degrees from " + number_text(lowest) + " to " + number_text(highest),
-                               lowest, false, highest));
+    const bool unbounded = lowest == -Form::infinite;
+    return limits_form(
+        store, values, "an angle",
+        bounded(unbounded ? "degrees" : "degrees from " + number_text(lowest) + " to " + number_text(highest), lowest,
+                false, highest));
   });
 }
 
