@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 namespace tweenfall::fbx {
 
@@ -208,12 +209,17 @@ Channel<Quat> rotation_channel(const Objects& objects, std::size_t object, const
     const Vec3 angles(rest[order.axes[0]], rest[order.axes[1]], rest[order.axes[2]]);
     return {Curve<Quat>(from_euler(Vec3(angles * degree), order)), false};
   }
-  const Curve<Vec3> base = lowest(*drivers, rest, axes, degree);
-  const std::vector<Overlay<Vec3>> above = overlays(
-      *drivers, *stack, [](const Layer& layer) { return layer.whole_rotations; }, axes, degree);
-  for (const Overlay<Vec3>& each : above)
-    if (each.whole && each.blend != Layer::Blend::replace) return {layered_rotations(base, above, order), true};
-  return {euler_curve(layered(base, above), order), true};
+  try {
+    const Curve<Vec3> base = lowest(*drivers, rest, axes, degree);
+    const std::vector<Overlay<Vec3>> above = overlays(
+        *drivers, *stack, [](const Layer& layer) { return layer.whole_rotations; }, axes, degree);
+    for (const Overlay<Vec3>& each : above)
+      if (each.whole && each.blend != Layer::Blend::replace) return {layered_rotations(base, above, order), true};
+    return {euler_curve(layered(base, above), order), true};
+  } catch (const std::invalid_argument& error) {
+    // Each curve is one that there can be, and their sum may not be.
+    objects.source().fail(objects[object].record->at, std::string("an animated rotation: ") + error.what());
+  }
 }
 
 }  // namespace tweenfall::fbx
