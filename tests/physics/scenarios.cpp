@@ -1,4 +1,4 @@
-#include "scenarios.h"
+#include "physics/scenarios.h"
 
 #include <cmath>
 

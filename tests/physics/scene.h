@@ -1,6 +1,6 @@
 #pragma once
 
-#include "scene_file.h"
+#include "physics/scene_file.h"
 #include "support.h"
 
 namespace tweenfall::test {

@@ -1,0 +1,222 @@
+#include "importers/document/document_files.h"
+
+#include <chrono>
+#include <fstream>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// The notes of a valid document, as printed, each on one line without its excerpt.
+std::string notes_of(const std::string& text) {
+  std::string out;
+  const Document document = Document::parse(text, "n.json", data_folder() / "documents/good");
+  for (const Problem& note : document.notes()) {
+    CHECK(note.severity == Severity::note);
+    const std::string shown = note.text();
+    CHECK(shown.find(": note: ") != std::string::npos);
+    CHECK(note.line > 0);
+    out += shown.substr(0, shown.find('\n')) + "\n";
+  }
+  return out;
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+std::string two_balls(const std::string& second, const std::string& rest) {
+  const std::string body = "\"body\": {\"shape\": {\"sphere\": {\"radius\": 0.5}}, \"mass\": 1}";
+  return "{\"tweenfall\": 1, \"nodes\": {\"a\": {" + body + "}, \"b\": {\"position\": " + second + ", " + body + "}}" +
+         rest + "}";
+}
+
+}  // namespace
+
+TEST_CASE("a property that nothing reads is noted with the one of ours that it stands for") {
+  const auto noted = [](const std::string& property) {
+    return notes_of("{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {\"lamp." + property + "\": [[0, 1]]}}}}");
+  };
+  CHECK(has(noted("translation"), "did you mean \"lamp.position\"?"));
+  CHECK(has(noted("rotate"), "did you mean \"lamp.rotation\"?"));
+  CHECK(has(noted("rot"), "did you mean \"lamp.rotation\"?"));
+  CHECK(has(noted("colour"), "did you mean \"lamp.color\"?"));
+  CHECK(has(noted("Scale"), "did you mean \"lamp.scale\"?"));
+  CHECK(noted("brightness").empty());
+  CHECK(noted("angle").empty());
+}
+
+TEST_CASE("a step that is a rate is noted, and so is one too long for bodies") {
+  const auto noted = [](const std::string& step) {
+    return notes_of("{\"tweenfall\": 1, \"world\": {\"step\": " + step + "}}");
+  };
+  CHECK(has(noted("240"), "did you mean \"1/240\"?"));
+  CHECK(has(noted("240"), "(at /world/step)"));
+  CHECK(has(noted("0.11"), "1/240 is usual"));
+  // What turns too fast for such steps follows from them.
+  const std::string spinning = notes_of(
+      "{\"tweenfall\": 1, \"world\": {\"step\": 240}, \"nodes\": {\"top\": {\"body\": {\"shape\": {\"sphere\": "
+      "{\"radius\": "
+      "1}}, \"angular_velocity\": [0, 90, 0]}}}}");
+  CHECK(std::count(spinning.begin(), spinning.end(), '\n') == 1);
+  CHECK(noted("0.1").empty());
+  CHECK(noted("\"1/1000\"").empty());
+}
+
+TEST_CASE("bodies that start in each other are noted, those side by side are not") {
+  const std::string still = ", \"world\": {\"gravity\": [0, 0, 0]}";
+  const std::string deep = notes_of(two_balls("[0, 0.4, 0]", still));
+  CHECK(has(deep, "starts 0.6 m deep in"));
+  CHECK(has(deep, "at 0.5 m/s at most"));
+  CHECK(notes_of(two_balls("[0, 1, 0]", still)).empty());
+}
+
+TEST_CASE("springs that the step cannot show and turns of more than half a turn in a step are noted") {
+  const auto spring = [](const std::string& stiffness) {
+    return notes_of(two_balls(
+        "[3, 0, 0]", ", \"world\": {\"forces\": [{\"spring\": {\"a\": \"a\", \"stiffness\": " + stiffness + "}}]}"));
+  };
+  CHECK(has(spring("1e6"), "(at /world/forces/0/spring/stiffness)"));
+  CHECK(has(spring("1e6"), "Steps of 1/1000 s or less show it"));
+  CHECK(spring("50000").empty());
+  const auto turn = [](const std::string& degrees) {
+    return notes_of(
+        "{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {\"a.rotation\": {\"axis\": \"z\", \"keys\": [[0, 0, "
+        "\"linear\"], [1, " +
+        degrees + "]]}}}}}");
+  };
+  CHECK(has(turn("1e7"), "turns by 1e+07 degrees per second"));
+  CHECK(has(turn("1e7"), "(at /clips/c/tracks/a.rotation)"));
+  CHECK(turn("43000").empty());
+  CHECK(has(turn("43300"), "half a turn"));
+}
+
+TEST_CASE("a clip of ages is noted, and what a pattern leaves out") {
+  CHECK(has(notes_of("{\"tweenfall\": 1, \"clips\": {\"c\": {\"duration\": 1e300}}}"), "(at /clips/c/duration)"));
+  const std::string rule = notes_of(
+      "{\"tweenfall\": 1, \"nodes\": {\"floor\": {\"body\": {\"shape\": {\"plane\": {}}, \"static\": true}}, \"ball\": "
+      "{\"position\": [0, 1, 0], \"body\": {\"shape\": {\"sphere\": {\"radius\": 0.2}}}}}, \"handoff\": [{\"body\": "
+      "\"*\", "
+      "\"when\": {\"at\": 0.5}, \"to\": {\"hz\": 2}}]}");
+  CHECK(has(rule, "\"*\" leaves out \"floor\""));
+  CHECK(has(rule, "(at /handoff/0/body)"));
+}
+
+TEST_CASE("of a group, too, what is static is left out with a note") {
+  const std::string body = "\"body\": {\"shape\": {\"sphere\": {\"radius\": 0.2}}";
+  const std::string rule =
+      notes_of("{\"tweenfall\": 1, \"nodes\": {\"post\": {\"group\": \"fence\", " + body +
+               ", \"static\": true}}, \"rail\": {\"position\": [0, 1, 0], \"group\": \"fence\", " + body +
+               "}}}, \"handoff\": [{\"group\": \"fence\", \"when\": {\"at\": 0.5}, \"to\": {\"hz\": 2}}]}");
+  CHECK(has(rule, "\"fence\" leaves out \"post\""));
+  CHECK(has(rule, "(at /handoff/0/group)"));
+}
+
+TEST_CASE("words of other programs for fields are answered with ours") {
+  const std::string said = faults_of(
+      "{\"tweenfall\": 1, \"world\": {\"dt\": 0.01}, \"nodes\": {\"a\": {\"translation\": [0, 0, 0], \"body\": "
+      "{\"shape\": "
+      "{\"sphere\": {\"radius\": 1}}, \"fixed\": true, \"Bounciness\": 1}}}}",
+      "n.json", {});
+  CHECK(has(said, "unknown field \"dt\"; did you mean \"step\"?"));
+  CHECK(has(said, "unknown field \"translation\"; did you mean \"position\"?"));
+  CHECK(has(said, "unknown field \"fixed\"; did you mean \"static\"?"));
+  CHECK(has(said, "unknown field \"Bounciness\"; did you mean \"restitution\"?"));
+}
+
+TEST_CASE("what the stage would refuse is told with its place, all at once") {
+  const std::string said = faults_of(
+      "{\"tweenfall\": 1, \"world\": {\"gravity\": [0, 1e300, 0]}, \"nodes\": {\n"
+      "  \"far\": {\"position\": [1e39, 0, 0],\n    \"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}}},\n"
+      "  \"light\": {\n    \"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}, \"mass\": 1e-40}}}}",
+      "n.json", {});
+  CHECK(has(said, "n.json:1:39: error: gravity must be finite and at most 1e30"));
+  CHECK(has(said, "n.json:3:13: error: the body of \"far\": position must be"));
+  CHECK(has(said, "n.json:5:13: error: the body of \"light\": mass must lie"));
+  CHECK(has(
+      faults_of(two_balls("[3, 0, 0]",
+                          ", \"world\": {\"forces\": [{\"drag\": {}}, {\"spring\": {\"a\": \"a\", \"stiffness\": 1, "
+                          "\"rest_length\": 1e200}}]}"),
+                "n.json", {}),
+      "(at /world/forces/1)"));
+}
+
+TEST_CASE("errors say what to write where other words are used") {
+  const auto said = [](const std::string& rest) { return faults_of("{\"tweenfall\": 1, " + rest + "}", "n.json", {}); };
+  CHECK(has(said("\"import\": \"Fox.glb\""), "say {\"model\": \"Fox.glb\"}, and its nodes are \"model/...\""));
+  CHECK(has(said("\"nodes\": {\"a\": {\"parent\": \"fox/Head\"}}"),
+            "names that begin with \"fox/\" come in with \"import\": {\"fox\": \"FILE\"}"));
+  CHECK(has(said("\"clips\": {\"c\": {}}, \"play\": [{\"clip\": \"fox/walk\"}]"), "come in with \"import\": {\"fox\""));
+  CHECK(has(said("\"clips\": {\"c\": {\"tracks\": {\"hinge.rot\": {\"axis\": \"z\", \"keys\": [[0, 0], [1, 90]]}}}}"),
+            "did you mean \"hinge.rotation\"?"));
+  const std::string keys = said("\"clips\": {\"c\": {\"tracks\": {\"a.b\": [{\"time\": 0, \"value\": 1}]}}}");
+  CHECK(has(keys, "unknown field \"time\"; did you mean \"t\"?"));
+  CHECK(has(keys, "unknown field \"value\"; did you mean \"v\"?"));
+  CHECK_FALSE(has(keys, "is missing"));
+  const std::string nodes =
+      "\"nodes\": {\"a\": {\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}}}}, \"handoff\": [{\"body\": "
+      "\"a\", \"to\": \"free\", \"when\": ";
+  CHECK(has(said(nodes + "\"let go\"}]"), "say {\"marker\": \"let go\"} for"));
+  CHECK(has(said(nodes + "\"let go\"}]"), "or {\"event\": \"let go\"}"));
+  CHECK(has(said(nodes + "0.5}]"), "say {\"at\": 0.5}"));
+  CHECK(has(said("\"nodes\": {\"a\": {"), "1:"));
+}
+
+TEST_CASE(
+    "an import of this folder that is not there is missing, not outside, and nodes of imports have their whole name") {
+  const auto said = [](const std::string& rest) { return faults_of("{\"tweenfall\": 1, " + rest + "}", "n.json", {}); };
+  const std::string missing = said("\"import\": {\"fox\": \"Fox.glb\"}");
+  CHECK(has(missing, "there is no file \"Fox.glb\""));
+  CHECK_FALSE(has(missing, "outside"));
+  CHECK(has(said("\"import\": {\"fox\": \"../Fox.glb\"}"), "lies outside the document's folder"));
+  CHECK(has(said("\"import\": {\"fox\": {\"file\": \"Fox.glb\"}}"), "expected the path of a file"));
+
+  const std::filesystem::path folder = data_folder() / "documents/good";
+  const auto beside = [&](const std::string& rest) {
+    return faults_of("{\"tweenfall\": 1, \"import\": {\"start\": \"pendulum.json\"}, " + rest + "}", "n.json", folder);
+  };
+  const StageDescription all = Document::read(folder / "pendulum.json").stage();
+  REQUIRE(!all.nodes.empty());
+  const std::string& node = all.nodes.front().name;
+  CHECK(has(beside("\"nodes\": {\"a\": {\"parent\": \"" + node + "\"}}"), "did you mean \"start/" + node + "\"?"));
+}
+
+TEST_CASE("eases by the names of other programs are answered with ours, and those of CSS are taken") {
+  const auto ease = [](const std::string& word) {
+    return faults_of(
+        "{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {\"a.b\": [[0, 0, \"" + word + "\"], [1, 1]]}}}}", "n.json",
+        {});
+  };
+  CHECK(ease("ease-in-out").empty());
+  CHECK(has(ease("easeInOutQuad"), "quad-in-out"));
+  CHECK(has(ease("easeOutBounce"), "bounce-out"));
+  CHECK(has(ease("cubic-in-out(3)"), "\"cubic-in-out\" takes no values"));
+}
+
+TEST_CASE("files that import each other twice are read once each, and what they bring is bounded") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "tweenfall-doubling-imports";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const auto write = [&](int level, const std::string& text) {
+    std::ofstream(folder / ("level" + std::to_string(level) + ".json")) << "{\"tweenfall\": 1, " << text << "}";
+  };
+  constexpr int levels = 30;
+  write(levels, "\"nodes\": {\"leaf\": {}}");
+  for (int i = 0; i < levels; ++i) {
+    const std::string next = "\"level" + std::to_string(i + 1) + ".json\"";
+    write(i, "\"import\": {\"a\": " + next + ", \"b\": " + next + "}");
+  }
+  CHECK(Document::read(folder / "level20.json").stage().nodes.size() == 1024);
+  const auto start = std::chrono::steady_clock::now();
+  try {
+    (void)Document::read(folder / "level0.json");
+    FAIL("a thousand million nodes were read");
+  } catch (const DocumentError& error) {
+    CHECK(error.problems().size() < 100);
+    CHECK(has(error.what(), "more than 100000 nodes and tracks would be imported"));
+    CHECK(has(error.what(), "(at /import/b)"));
+  }
+  CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(5));
+  std::filesystem::remove_all(folder);
+}

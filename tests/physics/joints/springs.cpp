@@ -1,0 +1,98 @@
+#include "physics/scene.h"
+
+using namespace tweenfall;
+using test::near;
+
+TEST_CASE("a spring of any stiffness, damped or not, in steps of any length never swings wider than at the start") {
+  for (const double stiffness : {0.0, 1.0, 1e3, 1e6, 1e9, 1e12})
+    for (const double damping : {0.0, 1.0, 1e6, 1e12})
+      for (const double rest : {0.0, 0.5, 2.0})
+        for (const double dt : {1e-6, 1.0 / 240, 1.0 / 60, 0.5, 10.0}) {
+          World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
+          BodySettings ball;
+          ball.shape.solid = Sphere{0.1};
+          ball.mass = 1;
+          ball.motion.pose.position = Vec3(1, 0, 0);
+          const BodyId body = world.add(ball);
+          world.add_force(Spring{.a = body, .rest_length = rest, .stiffness = stiffness, .damping = damping});
+          CAPTURE(stiffness);
+          CAPTURE(damping);
+          CAPTURE(rest);
+          CAPTURE(dt);
+          double most = 0;
+          for (int i = 0; i < 200; ++i) {
+            world.step(dt);
+            most = std::max(most, std::abs(world.motion(body).pose.position.norm() - rest));
+          }
+          CHECK(most <= std::abs(1 - rest) * 1.01 + 1e-9);
+        }
+}
+
+TEST_CASE("a weight hangs from a stiff spring by m g / k below its rest length") {
+  for (const double stiffness : {1e5, 1e6, 1e8}) {
+    World world;
+    BodySettings ball;
+    ball.shape.solid = Sphere{0.1};
+    ball.mass = 2;
+    ball.motion.pose.position = Vec3(0, -1, 0);
+    const BodyId body = world.add(ball);
+    world.add_force(Spring{.a = body, .rest_length = 1, .stiffness = stiffness});
+    for (int i = 0; i < 480; ++i) world.step(1.0 / 60);
+    CHECK(near(world.motion(body).pose.position, Vec3(0, -1 - 2 * 9.81 / stiffness, 0), 1e-9));
+  }
+}
+
+TEST_CASE("a pendulum on a stiff spring swings as on a rod, and a chain of springs hangs") {
+  World world;
+  BodySettings ball;
+  ball.shape.solid = Sphere{0.05};
+  ball.mass = 1;
+  ball.motion.pose.position = Vec3(1, 0, 0);
+  const BodyId body = world.add(ball);
+  world.add_force(Spring{.a = body, .rest_length = 1, .stiffness = 1e7});
+  double lowest = 0;
+  for (int i = 0; i < 240 * 3; ++i) {
+    world.step(1.0 / 240);
+    lowest = std::min(lowest, world.motion(body).pose.position.y());
+    CHECK(std::abs(world.motion(body).pose.position.norm() - 1) < 1e-3);
+  }
+  CHECK(lowest < -0.999);
+
+  World chain;
+  std::vector<BodyId> links;
+  for (int i = 0; i < 10; ++i) {
+    ball.motion.pose.position = Vec3(0, -0.5 * (i + 1), 0);
+    links.push_back(chain.add(ball));
+    Spring spring{.a = links.back(), .rest_length = 0.5, .stiffness = 1e6};
+    if (i > 0) spring.b = links[static_cast<std::size_t>(i) - 1];
+    chain.add_force(spring);
+  }
+  for (int i = 0; i < 600; ++i) chain.step(1.0 / 60);
+  CHECK(near(chain.motion(links.back()).pose.position, Vec3(0, -5 - 55 * 9.81 / 1e6, 0), 5e-3));
+}
+
+TEST_CASE("a stiff spring on a corner keeps momentum between two bodies that it joins") {
+  World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
+  BodySettings box;
+  box.shape.solid = Box{Vec3(0.2, 0.1, 0.1)};
+  box.mass = 1;
+  const BodyId a = world.add(box);
+  box.mass = 3;
+  box.motion.pose.position = Vec3(2, 0, 0);
+  box.motion.twist = {Vec3(0, 1, 0), Vec3(1, 2, 3)};
+  const BodyId b = world.add(box);
+  world.add_force(Spring{.a = a,
+                         .b = b,
+                         .anchor_a = Vec3(0.2, 0.1, 0.1),
+                         .anchor_b = Vec3(-0.2, 0.1, 0),
+                         .rest_length = 1,
+                         .stiffness = 1e9,
+                         .damping = 10});
+  const double energy = world.kinetic_energy() + 0.5 * 1e9 * 0.65 * 0.65;
+  for (int i = 0; i < 600; ++i) {
+    world.step(1.0 / 60);
+    CHECK(near(Vec3(world.twist(a).linear + 3 * world.twist(b).linear), Vec3(0, 3, 0), 1e-6));
+    CHECK(world.kinetic_energy() <= energy);
+  }
+  CHECK(world.kinetic_energy() < 100);
+}

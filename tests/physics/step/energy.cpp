@@ -1,0 +1,159 @@
+#include "physics/scene.h"
+
+using namespace tweenfall;
+
+namespace {
+
+/// Kinetic energy and that of height, J.
+double energy_of(const World& world) {
+  double sum = world.kinetic_energy();
+  for (const BodyId body : world.bodies())
+    if (!world.is_fixed(body)) sum += 9.81 * world.mass(body).mass * world.motion(body).pose.position.y();
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a box or a capsule that tumbles and bounces at restitution 1 never has more energy than at the start") {
+  constexpr double degree = 3.14159265358979323846 / 180;
+  const Solid solids[] = {Box{Vec3(0.15, 0.1, 0.25)}, Capsule{0.1, 0.2}, Box{Vec3(0.3, 0.05, 0.1)}};
+  for (const Solid& solid : solids)
+    for (const double rate : {60.0, 240.0, 100.0})
+      for (const Vec3& spin : {Vec3(120, 40, 250), Vec3(-300, 500, 20), Vec3(0, 0, 90), Vec3(900, 100, -700)})
+        for (const double friction : {0.0, 0.5}) {
+          World world({.sleep_after = std::numeric_limits<double>::infinity()});
+          world.add({.shape = {Plane{}}, .friction = friction, .fixed = true});
+          BodySettings body;
+          body.shape.solid = solid;
+          body.mass = 1;
+          body.friction = friction;
+          body.restitution = 1;
+          body.motion.pose.position = Vec3(0, 1, 0);
+          body.motion.twist.angular = degree * spin;
+          const BodyId tumbling = world.add(body);
+          CAPTURE(solid.index());
+          CAPTURE(rate);
+          CAPTURE(spin);
+          CAPTURE(friction);
+          const double start = energy_of(world);
+          double most = 0, deepest = 1;
+          for (int i = 0; i < static_cast<int>(4 * rate); ++i) {
+            world.step(1 / rate);
+            most = std::max(most, energy_of(world));
+            deepest = std::min(deepest, bounds(world.shape(tumbling), world.motion(tumbling).pose).low.y());
+          }
+          CHECK(most / start - 1 <= 1e-9);
+          CHECK(deepest > (rate < 200 ? -0.1 : -0.025));
+          if (friction == 0) CHECK(energy_of(world) > 0.5 * start);
+        }
+}
+
+TEST_CASE("a gas of 27 boxes or capsules at restitution 1 keeps its energy within a percent and never gains any") {
+  for (const Solid& solid : {Solid(Box{Vec3(0.25, 0.2, 0.3)}), Solid(Capsule{0.2, 0.2})}) {
+    World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
+    for (int wall = 0; wall < 6; ++wall) {
+      Vec3 inward = Vec3::Zero();
+      inward[wall % 3] = wall < 3 ? 1 : -1;
+      BodySettings plane;
+      plane.shape.solid = Plane{};
+      plane.fixed = true;
+      plane.friction = 0;
+      plane.motion.pose = {.position = -3 * inward, .rotation = Quat::FromTwoVectors(Vec3(0, 1, 0), inward)};
+      world.add(plane);
+    }
+    test::Random random(1);
+    const auto any = [&] { return Vec3(random.between(-3, 3), random.between(-3, 3), random.between(-3, 3)); };
+    for (int i = 0; i < 27; ++i) {
+      BodySettings body;
+      body.shape.solid = solid;
+      body.mass = 1;
+      body.friction = 0;
+      body.restitution = 1;
+      body.motion.pose.position = 1.5 * Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+      body.motion.twist = {any(), any()};
+      world.add(body);
+    }
+    const double start = world.kinetic_energy();
+    double most = 0, farthest = 0;
+    for (int i = 0; i < 10 * 240; ++i) {
+      world.step(1.0 / 240);
+      most = std::max(most, world.kinetic_energy());
+    }
+    for (const BodyId body : world.bodies())
+      if (!world.is_fixed(body)) farthest = std::max(farthest, world.motion(body).pose.position.cwiseAbs().maxCoeff());
+    CAPTURE(solid.index());
+    CHECK(most <= start * (1 + 1e-9));
+    CHECK(world.kinetic_energy() > 0.99 * start);
+    CHECK(farthest < 3);
+  }
+}
+
+TEST_CASE("momentum is kept when the last pass is the first to reach a body") {
+  // A row of balls that a blow runs along: each passes it on late.
+  for (const int count : {3, 6, 12, 30})
+    for (const double restitution : {0.0, 0.5, 1.0})
+      for (const double gap : {0.0, 1e-4, 1e-3, 0.01}) {
+        World world({.gravity = Vec3::Zero(), .sleep_after = std::numeric_limits<double>::infinity()});
+        std::vector<BodyId> balls;
+        for (int i = 0; i < count; ++i) {
+          BodySettings ball;
+          ball.shape.solid = i % 2 == 0 ? Solid(Sphere{0.5}) : Solid(Box{Vec3(0.5, 0.5, 0.5)});
+          ball.mass = 1 + i % 3;
+          ball.restitution = restitution;
+          ball.motion.pose.position = Vec3((1 + gap) * i, 0, 0);
+          if (i == 0) ball.motion.twist.linear = Vec3(5, 0, 0);
+          balls.push_back(world.add(ball));
+        }
+        CAPTURE(count);
+        CAPTURE(restitution);
+        CAPTURE(gap);
+        double worst = 0, most = 0;
+        const double energy = world.kinetic_energy();
+        for (int i = 0; i < 120; ++i) {
+          world.step(1.0 / 120);
+          Vec3 sum = Vec3::Zero();
+          for (const BodyId ball : balls) sum += world.mass(ball).mass * world.twist(ball).linear;
+          worst = std::max(worst, (sum - Vec3(5, 0, 0)).norm());
+          most = std::max(most, world.kinetic_energy());
+        }
+        CHECK(worst < 1e-12);
+        CHECK(most <= energy * (1 + 1e-9));
+      }
+}
+
+TEST_CASE("a floor that brakes at nearly g presses on what rides on it with g less its own braking") {
+  for (const double most : {3.0, 4.9348, 7.0, 9.0})
+    for (const double rate : {240.0, 60.0}) {
+      World world({.sleep_after = std::numeric_limits<double>::infinity()});
+      const double w = 3.14159265358979323846, amplitude = most / (w * w);
+      BodySettings lift;
+      lift.shape.solid = Box{Vec3(0.5, 0.1, 0.5)};
+      lift.drive = Drive::keyed();
+      const auto motion = [&](double time) {
+        Motion result;
+        result.pose.position.y() = -amplitude * std::cos(w * time);
+        result.twist.linear.y() = amplitude * w * std::sin(w * time);
+        return result;
+      };
+      lift.motion = motion(0);
+      const BodyId floor = world.add(lift);
+      BodySettings rider;
+      rider.shape.solid = Box{Vec3(0.15, 0.15, 0.15)};
+      rider.mass = 1.2;
+      rider.motion.pose.position.y() = -amplitude + 0.25;
+      world.add(rider);
+      double worst = 0;
+      Vec3 before = Vec3::Zero();
+      for (int i = 1; i <= static_cast<int>(4 * rate); ++i) {
+        world.set_target(floor, motion(i / rate));
+        world.step(1 / rate);
+        const double force = -(world.reaction(floor) - before).y() * rate / 1.2;
+        before = world.reaction(floor);
+        const double right = 9.81 + most * std::cos(w * (i - 0.5) / rate);
+        if (i > 0.5 * rate) worst = std::max(worst, std::abs(force / right - 1));
+      }
+      CAPTURE(most);
+      CAPTURE(rate);
+      CHECK(worst < (rate == 240 ? 0.01 : 0.05));
+    }
+}

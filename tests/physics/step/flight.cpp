@@ -1,0 +1,111 @@
+#include <tweenfall/curves/rotation.h>
+
+#include "physics/scene.h"
+
+using namespace tweenfall;
+using test::near;
+
+TEST_CASE("an untouched body follows the parabola for any split of the time") {
+  for (const int pieces : {1, 7, 64, 480}) {
+    World world;
+    BodySettings settings;
+    settings.motion.twist.linear = Vec3(3, 4, 0);
+    const BodyId body = world.add(settings);
+    test::Random random(static_cast<std::uint64_t>(pieces));
+    double time = 0;
+    for (int i = 0; i < pieces; ++i) {
+      const double dt = random.between(0.5, 1.5) * 2 / pieces;
+      world.step(dt);
+      time += dt;
+    }
+    CHECK(near(world.motion(body).pose.position, Vec3(3 * time, 4 * time - 0.5 * 9.81 * time * time, 0), 1e-12));
+    CHECK(near(world.twist(body).linear, Vec3(3, 4 - 9.81 * time, 0), 1e-12));
+  }
+}
+
+TEST_CASE("the lecture's projectile is where its table says, second after second") {
+  WorldSettings settings;
+  settings.gravity = Vec3(0, -1, 0);
+  World world(settings);
+  BodySettings ball;
+  ball.motion.twist.linear = Vec3(3, 4, 0);
+  const BodyId body = world.add(ball);
+  const double heights[] = {3.5, 6, 7.5, 8, 7.5, 6, 3.5, 0};
+  for (int second = 1; second <= 8; ++second) {
+    world.step(1);
+    CHECK(near(world.motion(body).pose.position, Vec3(3.0 * second, heights[second - 1], 0), 1e-13));
+  }
+}
+
+TEST_CASE("semi-implicit Euler ends g dt^2 n (n + 1) / 2 below, as its series says") {
+  WorldSettings settings;
+  settings.integrator = Integrator::semi_implicit_euler;
+  World world(settings);
+  const BodyId body = world.add({});
+  for (int i = 0; i < 60; ++i) world.step(1.0 / 60);
+  CHECK(near(world.motion(body).pose.position.y(), -9.81 / 3600 * 60 * 61 / 2, 1e-12));
+}
+
+TEST_CASE("a tumbling box keeps its energy and its angular momentum, and flips") {
+  for (test::Scene& scene : test::scenes("dzhanibekov")) {
+    CAPTURE(scene.file["name"].get<std::string>());
+    const BodyId body = scene.bodies.back();
+    const auto momentum = [&] {
+      const Motion motion = scene.world.motion(body);
+      const Mat3 axes = motion.pose.rotation.toRotationMatrix();
+      return Vec3(axes * scene.world.mass(body).inertia * axes.transpose() * motion.twist.angular);
+    };
+    const double turning = scene.world.motion(body).twist.angular.z();
+    const double energy = scene.world.kinetic_energy();
+    const Vec3 start = momentum();
+    double worst = 0, lowest = 1e9;
+    for (int i = 0; i < scene.steps; ++i) {
+      scene.step();
+      worst = std::max(worst, std::abs(scene.world.kinetic_energy() / energy - 1));
+      const Motion motion = scene.world.motion(body);
+      lowest = std::min(lowest, (motion.pose.rotation.conjugate() * motion.twist.angular).z());
+    }
+    CHECK(worst < 1e-4);
+    CHECK((momentum() - start).norm() < 1e-9 * start.norm());
+    CHECK(lowest < -0.98 * turning);
+  }
+}
+
+TEST_CASE("a mass on a spring swings with period 2 pi sqrt(m / k) and keeps its energy") {
+  WorldSettings settings;
+  settings.gravity = Vec3::Zero();
+  World world(settings);
+  BodySettings ball;
+  ball.mass = 2;
+  ball.motion.pose.position = Vec3(1.5, 0, 0);
+  const BodyId body = world.add(ball);
+  world.add_force(Spring{.a = body, .anchor_b = Vec3(0, 0, 0), .rest_length = 1, .stiffness = 50});
+  const double w = 5, dt = 1.0 / 240;
+  for (int i = 0; i < 2400; ++i) world.step(dt);
+  CHECK(near(world.motion(body).pose.position.x(), 1 + 0.5 * std::cos(w * 10), 1e-3));
+  const double stretch = world.motion(body).pose.position.x() - 1;
+  CHECK(near(world.kinetic_energy() + 25 * stretch * stretch, 25 * 0.25, 1e-3));
+}
+
+TEST_CASE("drag brings a falling body to m g / c and no faster") {
+  World world;
+  BodySettings ball;
+  ball.mass = 2;
+  const BodyId body = world.add(ball);
+  world.add_force(Drag{.linear = 4});
+  for (int i = 0; i < 2400; ++i) world.step(1.0 / 240);
+  CHECK(near(world.twist(body).linear.y(), -2 * 9.81 / 4, 1e-6));
+}
+
+TEST_CASE("a damped body comes to rest after speed over damping, exactly") {
+  WorldSettings settings;
+  settings.gravity = Vec3::Zero();
+  settings.sleep_after = std::numeric_limits<double>::infinity();
+  World world(settings);
+  BodySettings ball;
+  ball.linear_damping = 4;
+  ball.motion.twist.linear = Vec3(2, 0, 0);
+  const BodyId body = world.add(ball);
+  for (int i = 0; i < 2880; ++i) world.step(1.0 / 240);
+  CHECK(near(world.motion(body).pose.position.x(), 0.5, 1e-10));
+}
