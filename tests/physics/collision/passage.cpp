@@ -10,7 +10,7 @@ using namespace tweenfall;
 namespace {
 
 constexpr double near_enough = 2e-3;
-constexpr double dt = 1.0 / 60;
+constexpr double frame = 1.0 / 60;
 
 Hull random_hull(test::Random& random) {
   std::vector<Vec3> points;
@@ -50,24 +50,24 @@ TEST_CASE("what a direction tells apart neither touches nor meets within the ste
     load.acceleration = random.vector(random.unit() < 0.5 ? 0 : 200);
     collision::Apart kept;
     for (int step = 0; step < 8; ++step) {
-      const collision::Passage at_a = collision::passage_of(a, a.fixed ? forces::Load{} : load, dt),
-                               at_b = collision::passage_of(b, {}, dt);
+      const collision::Passage at_a = collision::passage_of(a, a.fixed ? forces::Load{} : load, frame),
+                               at_b = collision::passage_of(b, {}, frame);
       const Manifold manifold = collide(a.shape, a.motion.pose, b.shape, b.motion.pose, near_enough);
-      const bool meets = manifold.count > 0 || collision::impact_time(at_a.course, at_b.course, dt);
+      const bool meets = manifold.count > 0 || collision::impact_time(at_a.course, at_b.course, frame);
       if (meets) ++met;
       CAPTURE(i);
       CAPTURE(step);
       if (kept.frame != collision::Apart::Frame::none) {
         const Vec3 direction = kept.in_world(at_a, at_b);
         if (collision::stay_apart(at_a, at_b, direction, collision::gap_along(at_a, at_b, direction), near_enough,
-                                  dt)) {
+                                  frame)) {
           CHECK(!meets);
           ++told_again;
         }
       }
       if (manifold.count == 0) {
         const double gap = collision::gap_along(at_a, at_b, manifold.normal);
-        if (collision::stay_apart(at_a, at_b, manifold.normal, gap, near_enough, dt)) {
+        if (collision::stay_apart(at_a, at_b, manifold.normal, gap, near_enough, frame)) {
           CHECK(!meets);
           ++told;
         }
@@ -75,7 +75,7 @@ TEST_CASE("what a direction tells apart neither touches nor meets within the ste
       }
       for (state::Body* body : {&a, &b}) {
         if (body->fixed) continue;
-        const collision::Prediction next = (body == &a ? at_a : at_b).course.at(dt);
+        const collision::Prediction next = (body == &a ? at_a : at_b).course.at(frame);
         body->center = next.center;
         body->follow_center(next.rotation);
       }

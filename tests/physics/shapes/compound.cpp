@@ -28,7 +28,7 @@ Compound cross() {
       {{Box{{0.2, 0.05, 0.05}}, {}}, {Capsule{0.06, 0.15}, {}}, {Box{{0.05, 0.05, 0.2}}, at({0.02, 0, 0})}});
 }
 
-WorldSettings wakeful(const Vec3& gravity = {0, -9.81, 0}) {
+WorldSettings always_awake(const Vec3& gravity = {0, -9.81, 0}) {
   WorldSettings settings;
   settings.gravity = gravity;
   settings.sleep_after = std::numeric_limits<double>::infinity();
@@ -71,7 +71,7 @@ TEST_CASE("compounds that cannot be are refused with the part and words") {
 }
 
 TEST_CASE("a table stands on its four legs for ten seconds, and each leg has contacts of its own") {
-  World world(wakeful());
+  World world(always_awake());
   world.add({.shape = {Plane{}}, .fixed = true});
   BodySettings settings{.shape = {table()}};
   const BodyId body = world.add(settings);
@@ -97,7 +97,7 @@ TEST_CASE("a ball dropped into a cup of walls stays in it") {
     walls.push_back({Box{{0.5, 0.4, 0.05}}, at({0, 0.5, side})});
   }
   for (const bool fixed : {true, false}) {
-    World world(wakeful());
+    World world(always_awake());
     world.add({.shape = {Plane{}}, .fixed = true});
     world.add({.shape = {Compound(walls)}, .fixed = fixed});
     BodySettings ball{.shape = {Sphere{0.1}}};
@@ -114,7 +114,7 @@ TEST_CASE("a ball dropped into a cup of walls stays in it") {
 }
 
 TEST_CASE("a gas of crosses in a box never gains energy at restitution 1, and none leaves") {
-  World world(wakeful({0, 0, 0}));
+  World world(always_awake({0, 0, 0}));
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-1.0, 1.0})
       world.add({.shape = {Plane{-side * Vec3::Unit(axis), -1.2}}, .friction = 0, .restitution = 1, .fixed = true});
