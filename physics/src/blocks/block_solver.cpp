@@ -85,6 +85,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   velocities_.assign(1, {});
   uneven_.clear();
   bouncy_ = driven_ = conveyed_ = any_stale_ = false;
+  rebounds_.clear();  // of the island before
   const auto add = [&](std::uint32_t index) {
     if (places_[index] != 0) return;
     places_[index] = static_cast<std::uint32_t>(bodies_.size());

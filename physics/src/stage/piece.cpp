@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage/drive_tracks.h"
+#include "stage/rules/drive_tracks.h"
 #include "stage/stage_data.h"
 #include "stage/whole_pose.h"
 #include "state/countable.h"
@@ -48,7 +48,7 @@ void handle_instant(StageState& state, double step, std::span<const Command> com
   for (const Command& command : commands_after(commands, from)) {
     if (command.time > state.handled) break;
     if (!arrived) arrived = state;
-    command.run(state, command.time, happenings);
+    make_change(state, command, step, happenings);
   }
   follow_drive_tracks(state, step, happenings);
   state.jumped = true;

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "stage/drive_tracks.h"
+#include "stage/rules/drive_tracks.h"
 #include "stage/scaled_shape.h"
 #include "stage/stage_data.h"
 #include "stage/whole_pose.h"
@@ -221,6 +221,11 @@ StageState described_state(const StageDescription& description, std::vector<Stag
   for (std::size_t i = 0; i < description.forces.size(); ++i)
     attempt(faults, Part::force, i, "", [&] { add_described_force(state, description.forces[i]); });
   add_joints(state, description, faults);
+  for (std::size_t i = 0; i < description.ignored.size(); ++i)
+    attempt(faults, Part::ignored, i, "", [&] {
+      const auto body = [&](std::size_t node) { return state.bodies[body_index(state, node)].id; };
+      state.world.ignore(body(description.ignored[i].first), body(description.ignored[i].second));
+    });
   state.jumps = find_jumps(state);
   start_drive_tracks(state);
   for (std::size_t i = 0; i < description.rules.size(); ++i)

@@ -22,18 +22,6 @@ void require_reachable(double from, double to, double step) {
                               " s; one call takes 20 million at most");
 }
 
-void require_node(const StageState& shown, NodeId node) {
-  if (node >= shown.present.size() || !shown.present[node])
-    throw std::invalid_argument("node number " + std::to_string(node) + " is not on the stage");
-}
-
-std::size_t body_index(const StageState& shown, NodeId node) {
-  require_node(shown, node);
-  const std::size_t body = shown.body_of[node];
-  if (body == no_body) throw std::invalid_argument("\"" + (*shown.nodes)[node].name + "\" has no body");
-  return body;
-}
-
 }  // namespace staging
 
 NodeNotFinite::NodeNotFinite(NodeId which, const std::string& name, const NotFinite& fault)
@@ -180,48 +168,50 @@ const StageDescription& Stage::description() const {
 }
 
 void Stage::release(NodeId node, const TakeOver& settings) {
-  const std::shared_ptr<Implementation> held = implementation_;
-  const std::size_t body = staging::body_index(inside().current(), node);
-  const double step = inside().description.step;
-  inside().command([=](staging::StageState& state, double instant, std::vector<staging::Happening>& happenings) {
-    staging::change_owner(state, body, Drive::free(), Cause::caller, instant, settings, {}, step, happenings);
-  });
+  inside().command(staging::change::Release{node, settings});
 }
 
 void Stage::recover(NodeId node, const HandBack& settings) {
-  const std::shared_ptr<Implementation> held = implementation_;
-  const std::size_t body = staging::body_index(inside().current(), node);
-  const double step = inside().description.step;
-  inside().command([=](staging::StageState& state, double instant, std::vector<staging::Happening>& happenings) {
-    staging::change_owner(state, body, Drive::keyed(), Cause::caller, instant, {}, settings, step, happenings);
-  });
+  inside().command(staging::change::Recover{node, settings});
 }
 
 void Stage::arm(Rule rule) {
-  inside().command([rule = std::move(rule)](staging::StageState& state, double, std::vector<staging::Happening>&) {
-    staging::arm_rule(state, rule);
-  });
+  inside().command(staging::change::Arm{std::move(rule)});
 }
 
 NodeId Stage::add(const NodeDescription& node) {
-  inside().command([node](staging::StageState& state, double, std::vector<staging::Happening>&) {
-    (void)staging::add_node(state, node);
-  });
+  inside().command(staging::change::Add{node});
   return this->node(node.name);
 }
 
 void Stage::remove(NodeId node) {
-  staging::require_node(inside().current(), node);
-  inside().command([node](staging::StageState& state, double, std::vector<staging::Happening>&) {
-    staging::remove_node(state, node);
-  });
+  inside().command(staging::change::Remove{node});
 }
 
 void Stage::apply_impulse(NodeId node, const Vec3& impulse, const Vec3& point) {
-  const std::size_t body = staging::body_index(inside().current(), node);
-  inside().command([=](staging::StageState& state, double, std::vector<staging::Happening>&) {
-    state.world.apply_impulse(state.bodies[body].id, impulse, point);
-  });
+  inside().command(staging::change::Push{node, impulse, point});
+}
+
+void Stage::add_joint(const JointDescription& joint) {
+  inside().command(staging::change::Join{joint});
+}
+
+void Stage::remove_joint(std::string_view name) {
+  inside().command(staging::change::Part{std::string(name)});
+}
+
+void Stage::ignore(NodeId a, NodeId b) {
+  inside().command(staging::change::Ignore{a, b, true});
+}
+
+void Stage::collide(NodeId a, NodeId b) {
+  inside().command(staging::change::Ignore{a, b, false});
+}
+
+bool Stage::collides(NodeId a, NodeId b) const {
+  const staging::StageState& state = inside().current();
+  return state.world.collides(state.bodies[staging::body_index(state, a)].id,
+                              state.bodies[staging::body_index(state, b)].id);
 }
 
 void Stage::on_event(std::function<void(const StageEvent&)> callback) {
@@ -245,6 +235,14 @@ std::span<const StageEvent> Stage::events() const noexcept {
 
 std::vector<UnfiredRule> Stage::unfired_rules() const {
   return staging::unfired_rules(inside().current());
+}
+
+std::vector<std::byte> Stage::save() const {
+  return inside().save();
+}
+
+void Stage::load(std::span<const std::byte> saved) {
+  inside().load(saved);
 }
 
 std::uint64_t Stage::state_hash() const noexcept {

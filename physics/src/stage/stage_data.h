@@ -13,6 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "stage/changes.h"
+
 namespace tweenfall::staging {
 
 inline constexpr std::size_t no_body = static_cast<std::size_t>(-1);
@@ -98,7 +100,7 @@ struct DriveTrack {
   const Curve<double>* curve = nullptr;  ///< Hz; part of the animation's clips
 };
 
-/// One joint of the description in the world.
+/// One joint that the description or the caller put into the world.
 struct StagedJoint {
   std::string name;
   JointId id = {};
@@ -106,7 +108,7 @@ struct StagedJoint {
   std::variant<std::monostate, when::At, when::Event> until;
 };
 struct StagedJoints {
-  std::vector<StagedJoint> list;      ///< in the order in which they were described
+  std::vector<StagedJoint> list;      ///< in the order in which they were described, or added
   std::vector<std::size_t> by_name;   ///< those of the list, in order of their names
   std::vector<std::size_t> ending;    ///< those of the list with an `until`
   std::vector<std::size_t> by_index;  ///< those of the list, by index of the world's joint
@@ -167,13 +169,13 @@ struct StageState {
   [[nodiscard]] std::string_view name_of(BodyId body) const { return (*nodes)[node_of[body.index]].name; }
 };
 
-/// A change made by the caller, at an exact time. When it throws, it has changed nothing.
-struct Command {
-  double time = 0;
-  std::function<void(StageState&, double instant, std::vector<Happening>&)> run;
-};
+// changes.cpp: what the caller does
+/// @throws std::invalid_argument for a node that is not on the stage
+void require_node(const StageState& state, NodeId node);
+/// @throws std::invalid_argument for a node that has no body, too
+[[nodiscard]] std::size_t body_index(const StageState& state, NodeId node);
 
-// unfired.cpp: what was waited for in vain
+// rules/unfired.cpp: what was waited for in vain
 [[nodiscard]] std::vector<UnfiredRule> unfired_rules(const StageState& state);
 
 // roster.cpp: who is on the stage
@@ -185,13 +187,13 @@ NodeId add_node(StageState& state, const NodeDescription& node);
 void remove_node(StageState& state, NodeId node);
 void arm_rule(StageState& state, const Rule& rule);
 
-// ownership.cpp: who moves a body
+// rules/ownership.cpp: who moves a body
 /// @param instant  when it happens; the state's time is at most a sliver away, or later when splits were capped
 void change_owner(StageState& state, std::size_t body, const Drive& to, Cause cause, double instant,
                   const TakeOver& take_over, const HandBack& hand_back, double step,
                   std::vector<Happening>& happenings);
 
-// triggers.cpp: when that changes
+// rules/triggers.cpp: when that changes
 /// The first moment in (state.handled, to] at which something may trigger or jump; infinity when there is none.
 [[nodiscard]] double next_instant(const StageState& state, double to);
 /// Fires the rules that are due in (from, state.handled], in order of time; contact triggers are pulled by latching
@@ -208,6 +210,13 @@ void fire_rules(StageState& state, double from, double step, std::vector<Happeni
 // staged_joints.cpp: what holds bodies to each other
 /// Adds the description's joints to the world. Those that make none are faults.
 void add_joints(StageState& state, const StageDescription& description, std::vector<StageFault>& faults);
+void enter_joint(StagedJoints& joints, StagedJoint joint);  ///< in place of one of its name that is gone
+/// Those of the state, shared with no other: they may be changed.
+[[nodiscard]] std::shared_ptr<StagedJoints> own_joints(StageState& state);
+/// @throws std::invalid_argument, also for a name that a joint has which holds
+void add_joint(StageState& state, const JointDescription& joint);
+/// @throws std::invalid_argument with the nearest name; nothing for one that is gone
+void remove_joint(StageState& state, const std::string& name);
 /// The first moment in (from, to] at which a joint ends; infinity when there is none.
 [[nodiscard]] double next_joint_end(const StageState& state, double from, double to);
 /// Takes away joints whose end is due in (from, state.handled].
@@ -234,11 +243,11 @@ void set_targets(StageState& state, double end);
 [[nodiscard]] const Motion& bearable(const StageState& state, const StagedBody& body, const Motion& motion,
                                      const char* leader);
 
-// blows.cpp: what contacts trigger
+// rules/blows.cpp: what contacts trigger
 /// Moves the world to `end`, or to the first impact before it that pulls a trigger.
 void move_world(StageState& state, double end, double step, std::vector<Happening>& happenings);
 
-// jumps.cpp: where paths are not continuous
+// rules/jumps.cpp: where paths are not continuous
 [[nodiscard]] std::shared_ptr<const Jumps> find_jumps(const StageState& state);
 /// Whether a body that has come to this node is moved by tracks that moved none before.
 [[nodiscard]] bool carries_more(const StageState& state, NodeId node);

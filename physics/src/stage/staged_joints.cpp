@@ -20,7 +20,7 @@ BodyId end_of(const StageState& state, const JointDescription& described, std::s
   return body->id;
 }
 
-JointId add_joint(StageState& state, const JointDescription& described) {
+JointId held(StageState& state, const JointDescription& described) {
   if (described.b == no_node)
     throw std::invalid_argument("its second end needs a body: only the first may be the world");
   if (const auto* at = std::get_if<when::At>(&described.until); at && std::isnan(at->time))
@@ -33,6 +33,32 @@ JointId add_joint(StageState& state, const JointDescription& described) {
                                 .break_force = described.break_force,
                                 .break_torque = described.break_torque,
                                 .collide = described.collide});
+}
+
+auto by_name_in(const StagedJoints& joints) {
+  return [&joints](std::size_t i) { return std::string_view(joints.list[i].name); };
+}
+
+/// Where the name is in `by_name`, or would be.
+std::size_t place_of(const StagedJoints& joints, std::string_view name) {
+  return static_cast<std::size_t>(std::ranges::lower_bound(joints.by_name, name, {}, by_name_in(joints)) -
+                                  joints.by_name.begin());
+}
+
+bool has(const StagedJoints& joints, std::string_view name, std::size_t place) {
+  return place < joints.by_name.size() && joints.list[joints.by_name[place]].name == name;
+}
+
+const StagedJoint& joint_called(const StageState& state, std::string_view name) {
+  const StagedJoints& joints = *state.joints;
+  if (const std::size_t place = place_of(joints, name); has(joints, name, place))
+    return joints.list[joints.by_name[place]];
+  std::vector<std::string> names;
+  names.reserve(joints.list.size());
+  for (const StagedJoint& joint : joints.list) names.push_back(joint.name);
+  const std::string nearest = nearest_name(name, names);
+  throw std::invalid_argument("there is no joint \"" + std::string(name) + "\"" +
+                              (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
 }
 
 /// When a joint ends, in (from, to]; infinity when it does not.
@@ -59,34 +85,66 @@ void report_end(const StagedJoint& joint, const char* name, double time, std::ve
 
 }  // namespace
 
+void enter_joint(StagedJoints& joints, StagedJoint joint) {
+  const std::size_t place = place_of(joints, joint.name);
+  const bool again = has(joints, joint.name, place);
+  const std::size_t i = again ? joints.by_name[place] : joints.list.size();
+  if (again) {
+    std::erase(joints.ending, i);
+  } else {
+    joints.by_name.insert(joints.by_name.begin() + static_cast<std::ptrdiff_t>(place), i);
+    joints.list.emplace_back();
+  }
+  if (joint.until.index() != 0) joints.ending.push_back(i);
+  if (joint.id != JointId{}) {
+    if (joints.by_index.size() <= joint.id.index) joints.by_index.resize(joint.id.index + 1);
+    joints.by_index[joint.id.index] = i;
+  }
+  joints.list[i] = std::move(joint);
+}
+
 void add_joints(StageState& state, const StageDescription& description, std::vector<StageFault>& faults) {
   auto joints = std::make_shared<StagedJoints>();
-  const auto refuse = [&](std::size_t index, const std::string& why) {
-    faults.push_back({StageFault::Part::joint, index, "the joint \"" + description.joints[index].name + "\": " + why});
-  };
   joints->list.reserve(description.joints.size());
   for (std::size_t i = 0; i < description.joints.size(); ++i) {
     const JointDescription& described = description.joints[i];
+    const auto refuse = [&](const std::string& why) {
+      faults.push_back({StageFault::Part::joint, i, "the joint \"" + described.name + "\": " + why});
+    };
     StagedJoint joint{.name = described.name, .a = described.a, .b = described.b, .until = described.until};
+    if (has(*joints, joint.name, place_of(*joints, joint.name))) refuse("another joint has this name");
     try {
-      joint.id = add_joint(state, described);
+      joint.id = held(state, described);
     } catch (const std::invalid_argument& fault) {
-      refuse(i, fault.what());
+      refuse(fault.what());
     }
-    if (described.until.index() != 0) joints->ending.push_back(i);
-    joints->by_name.push_back(i);
-    if (joint.id != JointId{}) {
-      if (joints->by_index.size() <= joint.id.index) joints->by_index.resize(joint.id.index + 1);
-      joints->by_index[joint.id.index] = i;
-    }
-    joints->list.push_back(std::move(joint));
+    enter_joint(*joints, std::move(joint));
   }
-  const auto name_of = [&](std::size_t i) -> const std::string& { return joints->list[i].name; };
-  std::ranges::stable_sort(joints->by_name, {}, name_of);
-  for (std::size_t i = 1; i < joints->by_name.size(); ++i)
-    if (name_of(joints->by_name[i]) == name_of(joints->by_name[i - 1]))
-      refuse(joints->by_name[i], "another joint has this name");
   state.joints = std::move(joints);
+}
+
+std::shared_ptr<StagedJoints> own_joints(StageState& state) {
+  if (state.joints.use_count() > 1) state.joints = std::make_shared<StagedJoints>(*state.joints);
+  return std::const_pointer_cast<StagedJoints>(state.joints);
+}
+
+void add_joint(StageState& state, const JointDescription& described) {
+  const std::size_t place = place_of(*state.joints, described.name);
+  if (has(*state.joints, described.name, place) &&
+      state.world.contains(state.joints->list[state.joints->by_name[place]].id))
+    throw std::invalid_argument("the joint \"" + described.name + "\": another joint has this name");
+  StagedJoint joint{.name = described.name, .a = described.a, .b = described.b, .until = described.until};
+  try {
+    joint.id = held(state, described);
+  } catch (const std::invalid_argument& fault) {
+    throw std::invalid_argument("the joint \"" + described.name + "\": " + fault.what());
+  }
+  enter_joint(*own_joints(state), std::move(joint));
+}
+
+void remove_joint(StageState& state, const std::string& name) {
+  const StagedJoint& joint = joint_called(state, name);
+  if (state.world.contains(joint.id)) state.world.remove_joint(joint.id);
 }
 
 double next_joint_end(const StageState& state, double from, double to) {
@@ -112,18 +170,7 @@ void report_broken_joints(const StageState& state, std::vector<Happening>& happe
 }
 
 std::optional<JointReading> joint_reading(const StageState& state, std::string_view name) {
-  const std::vector<StagedJoint>& list = state.joints->list;
-  const auto name_of = [&](std::size_t i) { return std::string_view(list[i].name); };
-  const auto found = std::ranges::lower_bound(state.joints->by_name, name, {}, name_of);
-  if (found == state.joints->by_name.end() || name_of(*found) != name) {
-    std::vector<std::string> names;
-    names.reserve(list.size());
-    for (const StagedJoint& joint : list) names.push_back(joint.name);
-    const std::string nearest = nearest_name(name, names);
-    throw std::invalid_argument("there is no joint \"" + std::string(name) + "\"" +
-                                (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
-  }
-  const StagedJoint& joint = list[*found];
+  const StagedJoint& joint = joint_called(state, name);
   if (!state.world.contains(joint.id)) return std::nullopt;
   return state.world.reading(joint.id);
 }

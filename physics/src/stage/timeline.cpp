@@ -95,7 +95,7 @@ void Timeline::reach_now() {
   }
   StageState piece = from_;
   std::vector<Happening> again;
-  const std::vector<Command> stop{{now_, [](StageState&, double, std::vector<Happening>&) {}}};
+  const std::vector<Command> stop{{now_, change::None{}}};
   std::optional<StageState> unchanged;
   while (piece.time < now_) take(piece, stop, again, unchanged);
   // What the piece has told stays told and is not told again.
@@ -112,7 +112,7 @@ void Timeline::reach_now() {
   to_ = std::move(piece);
 }
 
-void Timeline::command(std::function<void(StageState&, double, std::vector<Happening>&)> run) {
+void Timeline::command(Change change) {
   scene.forget();
   // What is not there yet when the change turns out to be impossible comes as it would have.
   const auto untold = happenings_.begin() + static_cast<std::ptrdiff_t>(told_);
@@ -121,9 +121,10 @@ void Timeline::command(std::function<void(StageState&, double, std::vector<Happe
   const std::shared_ptr<const StageState> aside = ahead ? std::make_shared<const StageState>(to_) : nullptr;
   const double began = from_.time;
   reach_now();
+  Command command{now_, std::move(change)};
   std::vector<Happening> caused;
   try {
-    run(to_, now_, caused);
+    make_change(to_, command, description.step, caused);
   } catch (...) {
     if (ahead) {
       if (from_.time != began) std::swap(from_, to_);
@@ -135,7 +136,7 @@ void Timeline::command(std::function<void(StageState&, double, std::vector<Happe
   }
   // A change made in the past begins another future.
   while (!commands_.empty() && commands_.back().time > to_.handled) commands_.pop_back();
-  commands_.insert(std::ranges::upper_bound(commands_, now_, {}, &Command::time), {now_, std::move(run)});
+  commands_.insert(std::ranges::upper_bound(commands_, now_, {}, &Command::time), std::move(command));
   to_.jumped = true;
   for (Happening& happening : caused) {
     const auto place = std::ranges::upper_bound(happenings_.begin() + static_cast<std::ptrdiff_t>(told_),

@@ -17,7 +17,11 @@ class Timeline {
   void run_to(double target, bool aloud);
   void restart();
   /// Makes a change at exactly `now`. When it throws, nothing has changed.
-  void command(std::function<void(StageState&, double instant, std::vector<Happening>&)> run);
+  void command(Change change);
+
+  [[nodiscard]] std::vector<std::byte> save() const;
+  /// @throws std::invalid_argument; nothing has changed then
+  void load(std::span<const std::byte> saved);
 
   [[nodiscard]] double now() const noexcept { return now_; }
   /// The two states between which `now` lies; twice the same where it lies at one.

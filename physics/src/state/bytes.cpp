@@ -69,7 +69,7 @@ std::uint64_t ByteReader::count() {
 
 void ByteReader::require(bool holds, const char* what) const {
   if (!holds)
-    throw std::invalid_argument("a saved world is wrong at byte " + std::to_string(place_) +
+    throw std::invalid_argument(std::string("a saved ") + kind_ + " is wrong at byte " + std::to_string(place_) +
                                 " of its contents: " + what);
 }
 

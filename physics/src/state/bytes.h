@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -27,12 +28,20 @@ template <class T>
     return static_cast<Word<T>>(value);
 }
 
+/// The number of an enumeration's last word, where bytes are held against it; -1: whoever reads does that.
+template <class Enumeration>
+inline constexpr int last_of = -1;
+
 class ByteWriter : public Teller<ByteWriter> {
  public:
   template <class T>
   void number(const T& value) {
     const Word<T> word = word_of(value);
     for (std::size_t i = 0; i < sizeof(word); ++i) bytes.push_back(static_cast<std::byte>(word >> (8 * i) & 0xff));
+  }
+  void text(const std::string& text) {
+    number(static_cast<std::uint64_t>(text.size()));
+    for (const char c : text) number(c);
   }
   /// Of hulls that are shared only the first is written; then its number.
   void hull(const ConvexHull& hull);
@@ -49,7 +58,8 @@ class ByteWriter : public Teller<ByteWriter> {
 class ByteReader {
  public:
   static constexpr bool skips_zeros = false;
-  explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+  /// @param kind  of what was saved, for messages
+  ByteReader(std::span<const std::byte> bytes, const char* kind) : bytes_(bytes), kind_(kind) {}
 
   template <class T>
   void number(T& value) {
@@ -58,6 +68,8 @@ class ByteReader {
     for (std::size_t i = 0; i < sizeof(word); ++i)
       word = static_cast<Word<T>>(word | static_cast<Word<T>>(bytes_[place_ + i]) << (8 * i));
     if constexpr (std::is_same_v<T, bool>) require(word <= 1, "this should be 0 or 1");
+    if constexpr (std::is_enum_v<T>)
+      if constexpr (last_of<T> >= 0) require(word <= static_cast<Word<T>>(last_of<T>), "there is no such word");
     place_ += sizeof(word);
     if constexpr (std::is_floating_point_v<T>)
       value = std::bit_cast<T>(word);
@@ -79,6 +91,10 @@ class ByteReader {
     std::vector<IgnoredPairs::Entry> all;
     list(all);
     pairs = IgnoredPairs(std::move(all));
+  }
+  void text(std::string& text) {
+    text.clear();
+    for (std::uint64_t left = count(); left > 0; --left) number((text += char{}).back());
   }
   template <class... T>
   void choice(std::variant<T...>& value) {
@@ -117,6 +133,7 @@ class ByteReader {
   [[nodiscard]] Compound read_compound();
 
   std::span<const std::byte> bytes_;
+  const char* kind_;
   std::size_t place_ = 0;
   std::vector<ConvexHull> hulls_;
   bool in_compound_ = false;

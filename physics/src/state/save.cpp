@@ -10,7 +10,7 @@
 #include "state/bytes.h"
 #include "state/checks.h"
 #include "state/countable.h"
-#include "state/word_hash.h"
+#include "state/envelope.h"
 #include "state/world_data.h"
 
 namespace tweenfall {
@@ -18,47 +18,7 @@ namespace tweenfall {
 namespace state {
 namespace {
 
-/// Before the contents: what it is, in which version, how long, and a checksum.
-constexpr std::array<char, 16> signature = {'t', 'w', 'e', 'e', 'n', 'f', 'a', 'l',
-                                            'l', ' ', 'w', 'o', 'r', 'l', 'd', '\n'};
-/// Raised whenever the fields change, so that older bytes are refused and not misread.
-constexpr std::uint32_t version = 3;
-constexpr std::size_t header_size = signature.size() + 4 + 8 + 8;
-
-std::uint64_t checksum(std::span<const std::byte> bytes) {
-  WordHash hash;
-  for (std::size_t i = 0; i < bytes.size(); i += 8) {
-    std::uint64_t word = 0;
-    for (std::size_t k = 0; k < std::min<std::size_t>(8, bytes.size() - i); ++k)
-      word |= static_cast<std::uint64_t>(bytes[i + k]) << (8 * k);
-    hash.add(word);
-  }
-  return hash.value();
-}
-
-/// The contents of saved bytes, when what stands before them is right.
-std::span<const std::byte> contents_of(std::span<const std::byte> saved) {
-  require(saved.size() >= header_size,
-          "these " + std::to_string(saved.size()) + " bytes are too few for a saved world");
-  ByteReader header(saved);
-  for (const char expected : signature) {
-    char found = 0;
-    header.number(found);
-    require(found == expected, "these bytes are no saved world: they do not begin with \"tweenfall world\"");
-  }
-  std::uint32_t its_version = 0;
-  std::uint64_t size = 0, sum = 0;
-  header.number(its_version);
-  header.number(size);
-  header.number(sum);
-  require(its_version == version, "this saved world is of version " + std::to_string(its_version) + "; only version " +
-                                      std::to_string(version) + " can be read");
-  const std::span<const std::byte> contents = saved.subspan(header_size);
-  require(contents.size() == size, "a saved world should have " + std::to_string(size) +
-                                       " bytes after its header, but has " + std::to_string(contents.size()));
-  require(checksum(contents) == sum, "a saved world was damaged: its checksum is not that of its contents");
-  return contents;
-}
+constexpr Envelope world_envelope{"world", 3};
 
 bool unit(const Quat& rotation) {
   return std::abs(rotation.norm() - 1) <= 1e-9;
@@ -287,18 +247,12 @@ std::vector<std::byte> World::save() const {
                    "a world whose body " + std::to_string(i) + " is not finite cannot be saved");
   state::ByteWriter contents;
   walk(contents, world);
-  state::ByteWriter saved;
-  for (const char c : state::signature) saved.number(c);
-  saved.number(state::version);
-  saved.number(static_cast<std::uint64_t>(contents.bytes.size()));
-  saved.number(state::checksum(contents.bytes));
-  saved.bytes.insert(saved.bytes.end(), contents.bytes.begin(), contents.bytes.end());
-  return std::move(saved.bytes);
+  return state::sealed(state::world_envelope, contents.bytes);
 }
 
 void World::load(std::span<const std::byte> saved) {
   const Implementation& before = changing();
-  state::ByteReader reader(state::contents_of(saved));
+  state::ByteReader reader(state::opened(state::world_envelope, saved), "world");
   state::WorldState loaded;
   walk(reader, loaded);
   reader.require(reader.at_end(), "there is more than a world");

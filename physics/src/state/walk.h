@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <type_traits>
 #include <variant>
 #include <vector>
@@ -41,6 +42,11 @@ class Walk {
   void operator()(T&... values) const {
     (one(values), ...);
   }
+  /// Places in lists, of which the greatest number is none: the same bytes wherever they are written.
+  template <class... T>
+  void places(T&... values) const {
+    (place(values), ...);
+  }
   /// Numbers that are hardly ever other than 0: where all are, a hash leaves them out.
   template <class... T>
   void rarely(T&... numbers) const {
@@ -49,6 +55,13 @@ class Walk {
   }
 
  private:
+  template <class T>
+  void place(T& value) const {
+    constexpr auto none = static_cast<std::size_t>(-1);
+    std::uint64_t word = value == none ? ~std::uint64_t{0} : std::uint64_t{value};
+    tool_.number(word);
+    if constexpr (!std::is_const_v<T>) value = word >= std::uint64_t{none} ? none : static_cast<std::size_t>(word);
+  }
   template <class T>
   void one(T& value) const {
     using Value = std::remove_const_t<T>;
@@ -73,6 +86,11 @@ class Walk {
       if (has) one(*value);
     } else if constexpr (IsVariant<Value>::value) {
       tool_.choice(value);
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+      tool_.text(value);
+    } else if constexpr (std::is_same_v<Value, Color>) {
+      for (int i = 0; i < 4; ++i) tool_.number(value.rgba.data()[i]);
+    } else if constexpr (std::is_same_v<Value, std::monostate>) {
     } else if constexpr (std::is_same_v<Value, Compound>) {
       tool_.compound(value);
     } else if constexpr (std::is_same_v<Value, ConvexHull>) {

@@ -171,3 +171,25 @@ TEST_CASE("a row of balls never gains energy and keeps its momentum") {
     CHECK(scene.world.twist(scene.bodies.back()).linear.x() > 0.2 * coming.x());
   }
 }
+
+TEST_CASE("an island that rebounds leaves nothing to one solved after it that has no contacts") {
+  const auto add_pair = [](World& world) {
+    const BodyId a = world.add({.shape = {Box{{0.1, 0.1, 0.1}}}, .motion = {.pose = {.position = {20, 5, 0}}}});
+    const BodyId b = world.add({.shape = {Box{{0.1, 0.1, 0.1}}},
+                                .motion = {.pose = {.position = {21, 5, 0}}, .twist = {.linear = {0, 1, 0}}}});
+    world.add_joint({.a = a, .b = b, .frame_a = {.position = {1, 0, 0}}});
+    return b;
+  };
+  World world, alone;
+  world.add({.shape = {Plane{}}, .fixed = true});
+  for (int i = 0; i < 40; ++i)
+    world.add({.shape = {Box{{0.2, 0.2, 0.2}}},
+               .restitution = 0.9,
+               .motion = {.pose = {.position = {0.1 * (i % 3), 0.3 + 0.42 * i, 0.05 * (i % 2)}}}});
+  const BodyId swings = add_pair(world), same = add_pair(alone);
+  for (int n = 0; n < 100; ++n) {
+    world.step(1.0 / 120);
+    alone.step(1.0 / 120);
+    REQUIRE(world.motion(swings).pose.position == alone.motion(same).pose.position);
+  }
+}

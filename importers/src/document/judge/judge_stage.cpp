@@ -30,6 +30,8 @@ json::Value place_of_fault(const Building& building, const StageFault& fault) {
       return fields::place_of_force(world, fault.index);
     case StageFault::Part::joint:
       return fields::place_of_joint(world, building.stage.joints[fault.index].name);
+    case StageFault::Part::ignored:
+      return below(world, {"ignore"});
     case StageFault::Part::rule:
       return item_of(below(building.root, {"handoff"}), fault.index);
   }

@@ -14,6 +14,10 @@
 
 namespace tweenfall {
 
+namespace state {
+struct PathFields;
+}
+
 /// `world`, carried by the rigid movement that takes its pose and twist to those of `to`; its scale and shear stay.
 [[nodiscard]] WorldMotion carried(const WorldMotion& world, const Motion& to) noexcept;
 
@@ -55,6 +59,7 @@ class Path {
   [[nodiscard]] Path rebound(std::shared_ptr<const Animation> animation) const;
 
  private:
+  friend struct state::PathFields;
   [[nodiscard]] WorldMotion authored(double stage_time, Side side) const noexcept;
   [[nodiscard]] WorldMotion anchored(const WorldMotion& authored) const noexcept;
 

@@ -14,6 +14,10 @@
 
 namespace tweenfall {
 
+namespace state {
+struct PathFields;
+}
+
 class SettleOffset {
  public:
   SettleOffset() = default;  ///< no offset
@@ -25,6 +29,7 @@ class SettleOffset {
   [[nodiscard]] Motion apply(double time, const Motion& path) const noexcept;
 
  private:
+  friend struct state::PathFields;
   Settle settle_ = {};
   double start_ = 0;
   bool any_ = false;

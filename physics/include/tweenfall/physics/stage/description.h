@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -80,6 +81,7 @@ struct StageDescription {
   double step = 1.0 / 240;  ///< s
   std::vector<ForceDescription> forces;
   std::vector<JointDescription> joints;
+  std::vector<std::pair<std::size_t, std::size_t>> ignored;  ///< nodes whose bodies pass through each other
   std::vector<Rule> rules;
 
   // Only for drawing

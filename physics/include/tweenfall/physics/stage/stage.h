@@ -15,6 +15,7 @@
 #include <tweenfall/physics/handoff/rule.h>
 #include <tweenfall/physics/stage/description.h>
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -31,12 +32,14 @@ class InsideStage;
 
 using NodeId = std::size_t;
 
-/// An event of a clip, a contact that began, or the end of a joint, as `on_event` and recordings see it.
+/// An event of a clip, a contact that began, what came into a sensor or left it, or the end of a joint, as `on_event`
+/// and recordings see it.
 struct StageEvent {
-  double time = 0;            ///< stage time, s
-  std::string name;           ///< the clip event's name, "contact", "joint_broke", or "joint_ended" as its `until` says
-  std::string data;           ///< JSON text given with a clip event
-  std::vector<NodeId> nodes;  ///< of a contact: the two; of a joint: its bodies
+  double time = 0;   ///< stage time, s
+  std::string name;  ///< the clip event's name, "contact", "entered", "left", "joint_broke", or "joint_ended" as its
+                     ///< `until` says
+  std::string data;  ///< JSON text given with a clip event
+  std::vector<NodeId> nodes;  ///< of a contact: the two; of a sensor: it and the body; of a joint: its bodies
   double impulse = 0;         ///< of a contact: N s
   std::string joint = {};     ///< of a joint: its name
 };
@@ -97,11 +100,18 @@ class Stage {
 
   // Changing the cast while it runs
   NodeId add(const NodeDescription& node);
-  void remove(NodeId node);  ///< with its descendants
+  void remove(NodeId node);  ///< with its descendants, and the joints of their bodies
   void apply_impulse(NodeId node, const Vec3& impulse, const Vec3& point);
+  /// @throws std::invalid_argument naming what is wrong, also for the name of a joint that holds
+  void add_joint(const JointDescription& joint);
+  void remove_joint(std::string_view name);  ///< none for one that is gone already
+  void ignore(NodeId a, NodeId b);           ///< their bodies pass through each other
+  void collide(NodeId a, NodeId b);          ///< takes back `ignore`
+  /// Whether their bodies may meet: by their groups, and because nobody and no joint says otherwise.
+  [[nodiscard]] bool collides(NodeId a, NodeId b) const;
 
   // What happened
-  /// Of clips and of joints, in order of time; inside, `time()` is the event's.
+  /// Of clips, sensors and joints, in order of time; inside, `time()` is the event's.
   void on_event(std::function<void(const StageEvent&)> callback);
   void on_contact(std::function<void(const StageEvent&)> callback);
   void on_handoff(std::function<void(const HandOff&)> callback);
@@ -114,6 +124,16 @@ class Stage {
 
   /// A number that changes when any bit of any body does, at the next instant or step after `time()`.
   [[nodiscard]] std::uint64_t state_hash() const noexcept;
+
+  // Keeping it
+  /// The stage as bytes, from which `load` makes it again: at its time, with all that happened and was changed until
+  /// then. It then steps to the same bits, and goes back to the same, too.
+  /// @throws std::invalid_argument when a body is not finite
+  [[nodiscard]] std::vector<std::byte> save() const;
+  /// Becomes the stage that was saved; callbacks stay as they are.
+  /// @throws std::invalid_argument telling what is wrong with the bytes, or when they are of a stage that another
+  /// description was given for; nothing has changed then
+  void load(std::span<const std::byte> saved);
 
  private:
   friend class queries::InsideStage;

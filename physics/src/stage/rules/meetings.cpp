@@ -1,4 +1,4 @@
-#include "stage/meetings.h"
+#include "stage/rules/meetings.h"
 
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/physics/contact.h>

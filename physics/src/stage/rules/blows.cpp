@@ -2,7 +2,7 @@
 #include <cmath>
 #include <optional>
 
-#include "stage/meetings.h"
+#include "stage/rules/meetings.h"
 
 namespace tweenfall::staging {
 

@@ -1,4 +1,4 @@
-#include "stage/drive_tracks.h"
+#include "stage/rules/drive_tracks.h"
 
 #include <tweenfall/curves/elementary.h>
 

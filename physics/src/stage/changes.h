@@ -1,0 +1,69 @@
+#pragma once
+
+// What a caller may change on a stage, as values: so that going back finds the changes again, and saving keeps them.
+
+#include <tweenfall/physics/stage/description.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tweenfall::staging {
+
+struct StageState;
+struct Happening;
+
+namespace change {
+struct None {};  ///< only an instant
+struct Release {
+  std::size_t node = no_node;
+  TakeOver settings = {};
+};
+struct Recover {
+  std::size_t node = no_node;
+  HandBack settings = {};
+};
+struct Arm {
+  Rule rule;
+};
+struct Add {
+  NodeDescription node;
+};
+struct Remove {
+  std::size_t node = no_node;
+};
+struct Push {
+  std::size_t node = no_node;
+  Vec3 impulse{0, 0, 0};  ///< N s
+  Vec3 point{0, 0, 0};    ///< world
+};
+struct Join {
+  JointDescription joint;
+};
+struct Part {
+  std::string joint;
+};
+struct Ignore {
+  std::size_t a = no_node, b = no_node;
+  bool ignored = true;  ///< false: they meet again
+};
+}  // namespace change
+
+using Change = std::variant<change::None, change::Release, change::Recover, change::Arm, change::Add, change::Remove,
+                            change::Push, change::Join, change::Part, change::Ignore>;
+
+/// A change at an exact time. When it throws, it has changed nothing.
+struct Command {
+  double time = 0;
+  Change change;
+};
+
+/// @param step  of the stage, s
+/// @throws std::invalid_argument for what cannot be
+void make_change(StageState& state, const Command& command, double step, std::vector<Happening>& happenings);
+
+/// Whether the change is one of who is on the stage and what waits for whom, which follows from changes alone and not
+/// from how anything moves.
+[[nodiscard]] bool is_of_cast(const Change& change);
+
+}  // namespace tweenfall::staging

@@ -1,0 +1,85 @@
+#include "stage/saving/fingerprint.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stage/saving/stage_fields.h"
+#include "state/envelope.h"
+
+namespace tweenfall::staging {
+
+namespace {
+
+/// Writes what is a function as values at many times.
+class Sampling {
+ public:
+  explicit Sampling(state::ByteWriter& out) : visit_(out) {}
+
+  template <class T>
+  void operator()(const Curve<T>& curve) const {
+    const double from = std::isfinite(curve.start()) ? curve.start() : 0;
+    const double to = std::isfinite(curve.end()) ? curve.end() : from + 10;
+    constexpr int between = 16;
+    for (int i = -1; i <= between + 1; ++i) tell(curve, from + (to - from) * i / between, Side::out);
+    for (const double knot : curve.knots())
+      for (const Side side : {Side::in, Side::out}) tell(curve, knot, side);
+  }
+  void operator()(const WeightCurves& curves) const {
+    for (const Curve<double>& curve : curves) (*this)(curve);
+  }
+  template <class T>
+  void operator()(const StepCurve<T>& curve) const {
+    for (const auto& [time, value] : curve.steps()) visit_(time, value);
+  }
+
+ private:
+  template <class T>
+  void tell(const Curve<T>& curve, double time, Side side) const {
+    const auto sample = curve.sample(time, side);
+    visit_(time);
+    each_number(sample.value);
+    each_number(sample.rate);
+  }
+  void each_number(const double& value) const { visit_(value); }
+  void each_number(const Color& value) const { visit_(value); }
+  void each_number(const Quat& value) const { visit_(value); }
+  template <class Vector>
+  void each_number(const Vector& value) const {
+    for (int i = 0; i < static_cast<int>(value.size()); ++i) visit_(value.data()[i]);
+  }
+
+  state::Walk<state::ByteWriter> visit_;
+};
+
+}  // namespace
+
+std::uint64_t fingerprint(const StageDescription& description) {
+  state::ByteWriter out;
+  const state::Walk<state::ByteWriter> visit(out);
+  const Sampling sampling(out);
+  visit(description.step, description.world, description.nodes, description.joints, description.rules);
+  for (const Clip& clip : description.clips) {
+    visit(clip.name, clip.duration, clip.loop.mode, clip.loop.count);
+    for (const Track& track : clip.tracks) {
+      visit(track.node, track.property, track.relative);
+      std::visit(sampling, track.curve);
+    }
+    for (const ClipEvent& event : clip.events) visit(event.from, event.to, event.name, event.data);
+  }
+  for (const Play& play : description.plays) {
+    visit.places(play.clip);
+    visit(play.at, play.speed, play.mask);
+    sampling(play.weight);
+  }
+  for (const ForceDescription& force : description.forces) {
+    if (const auto* drag = std::get_if<DragDescription>(&force)) visit(drag->drag);
+    if (const auto* spring = std::get_if<SpringDescription>(&force)) {
+      visit(spring->spring);
+      visit.places(spring->a, spring->b);
+    }
+  }
+  for (const auto& [a, b] : description.ignored) visit.places(a, b);
+  return state::checksum(out.bytes);
+}
+
+}  // namespace tweenfall::staging

@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "stage/saving/fingerprint.h"
+#include "stage/saving/stage_fields.h"
+#include "stage/timeline.h"
+#include "state/envelope.h"
+
+namespace tweenfall::staging {
+
+namespace {
+
+constexpr state::Envelope stage_envelope{"stage", 1};
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument("a saved stage has a bad " + what);
+}
+
+/// What of a state does not follow from who is on the stage.
+/// @param visit  of what writes, or of what reads into a state with the same cast
+template <class State, class Visit>
+void each_moving_field(State& state, const Visit& visit) {
+  visit(state.time, state.steps, state.splits, state.jumped);
+  for (auto& body : state.bodies) visit(body);
+  for (auto& armed : state.armed) visit(armed);
+  visit(state.blows, state.presses);
+}
+
+/// Throws where a number is none.
+class Numbers : public state::Teller<Numbers> {
+ public:
+  template <class T>
+  void number(const T& value) {
+    if constexpr (std::is_floating_point_v<T>) require(!std::isnan(value), "number: it is none");
+  }
+  void text(const std::string&) {}
+  void hull(const ConvexHull&) {}
+  void field(const Field&) {}
+};
+
+void require_unit(const Quat& rotation) {
+  require(std::abs(rotation.norm() - 1) <= 1e-9, "rotation: it must be a unit quaternion");
+}
+
+/// @param now  the stage's time
+void check_time(const StageState& state, double now, bool between, double step) {
+  constexpr std::int64_t most_steps = 1'000'000'000'000;
+  require(state.steps >= 0 && state.steps <= most_steps, "number of steps");
+  const double start = static_cast<double>(state.steps) * step, end = static_cast<double>(state.steps + 1) * step;
+  require(state.time >= start - sliver && state.time <= end && end > start, "time: it is not that of its steps");
+  require(now <= (between ? end : state.time + sliver) && now >= state.time - sliver,
+          "time: it is not near that of its state");
+  require(state.splits >= 0 && state.splits <= 1024, "number of splits");
+}
+
+void check_bodies(const StageState& state) {
+  const std::size_t nodes = state.nodes->size(), clips = state.animation->clips().size();
+  std::size_t here = 0;
+  for (const StagedBody& body : state.bodies) {
+    if (!body.present) continue;
+    ++here;
+    require(state.world.contains(body.id), "world: a body is not in it");
+    require_unit(body.shown.motion.pose.rotation);
+    const ClockOverride& clock = body.path.clock();
+    require(clock.clip == ClockOverride::every_clip || clock.clip < clips, "clock: there is no such clip");
+    if (!body.below) continue;
+    for (const SettlingNode& settling : *body.below) require(settling.node < nodes, "settling node");
+    require(std::ranges::is_sorted(*body.below, {}, &SettlingNode::node), "list of settling nodes");
+  }
+  require(state.world.bodies().size() == here, "world: it has more bodies than the stage");
+}
+
+void check_blows(const StageState& state) {
+  const auto pair = [](const Blow& blow) { return std::pair(blow.a.index, blow.b.index); };
+  require(std::ranges::is_sorted(state.blows, {}, pair), "list of blows");
+  for (const Blow& blow : state.blows)
+    require(blow.a.index < state.node_of.size() && blow.b.index < state.node_of.size(), "blow: there is no such body");
+  require(state.presses.size() <= state.node_of.size(), "list of what presses");
+}
+
+void check_happenings(const std::vector<StageEvent>& events, const std::vector<HandOff>& handoffs, std::size_t nodes) {
+  for (const StageEvent& event : events)
+    for (const NodeId node : event.nodes) require(node < nodes, "event: there is no such node");
+  for (const HandOff& handoff : handoffs) require(handoff.node < nodes, "hand-off: there is no such node");
+}
+
+/// Joints as they were saved; which of the world's each is.
+std::shared_ptr<const StagedJoints> joints_of(const std::vector<StagedJoint>& list, const StageState& state) {
+  auto joints = std::make_shared<StagedJoints>();
+  for (const StagedJoint& joint : list) {
+    require(joint.b < state.nodes->size() && (joint.a == no_node || joint.a < state.nodes->size()),
+            "joint: there is no such node");
+    StagedJoint entered = joint;
+    if (!state.world.contains(joint.id)) entered.id = {};
+    enter_joint(*joints, std::move(entered));
+  }
+  require(joints->list.size() == list.size(), "list of joints: two have one name");
+  std::size_t held = 0;
+  for (const StagedJoint& joint : joints->list)
+    if (joint.id != JointId{}) ++held;
+  for (const JointId& id : state.world.joints()) {
+    require(id.index < joints->by_index.size() && joints->list[joints->by_index[id.index]].id == id,
+            "world: one of its joints is none of the stage's");
+  }
+  require(state.world.joints().size() == held, "list of joints: two are one of the world's");
+  return joints;
+}
+
+/// The state at the start, with all changes of its cast up to `handled`.
+StageState cast_at(const StageState& initial, const std::vector<Command>& commands, double handled, double step) {
+  StageState state = initial;
+  std::vector<Happening> unheard;
+  for (const Command& command : commands) {
+    if (command.time > handled) break;
+    if (!is_of_cast(command.change)) continue;
+    state.time = std::max(0.0, command.time);
+    make_change(state, command, step, unheard);
+  }
+  return state;
+}
+
+}  // namespace
+
+std::vector<std::byte> Timeline::save() const {
+  const auto [from, to] = around();
+  const bool between = from != to;
+  // What lies ahead of a state is found again from it.
+  const StageState& state = between ? from_ : to_;
+  state::ByteWriter out;
+  const state::Walk<state::ByteWriter> visit(out);
+  const std::uint64_t described = fingerprint(description);
+  visit(described, now_, between, commands_, happenings_);
+  visit.places(told_, of_piece_);
+  visit(events, handoffs, state.time);
+  each_moving_field(state, visit);
+  const std::vector<std::byte> world = state.world.save();
+  std::vector<StagedJoint> joints = state.joints->list;
+  for (StagedJoint& joint : joints)
+    if (!state.world.contains(joint.id)) joint.id = {};
+  visit(joints, world);
+  return state::sealed(stage_envelope, out.bytes);
+}
+
+void Timeline::load(std::span<const std::byte> saved) {
+  require_not_telling("load");
+  state::ByteReader in(state::opened(stage_envelope, saved), "stage");
+  const state::Walk<state::ByteReader> visit(in);
+  std::uint64_t described = 0;
+  double now = 0, time = 0;
+  bool between = false;
+  std::vector<Command> commands;
+  std::vector<Happening> happenings;
+  std::size_t told = 0, of_piece = 0;
+  std::vector<StageEvent> past_events;
+  std::vector<HandOff> past_handoffs;
+  visit(described);
+  if (described != fingerprint(description))
+    throw std::invalid_argument("this saved stage is of another description than the one that it would go on with");
+  visit(now, between, commands, happenings);
+  visit.places(told, of_piece);
+  visit(past_events, past_handoffs, time);
+  require(std::isfinite(now) && std::isfinite(time) && now >= 0 && time >= 0, "time");
+  require(told <= happenings.size() && of_piece <= happenings.size(), "list of what happened");
+  require(std::ranges::is_sorted(commands, {}, &Command::time), "list of changes");
+  for (const Command& command : commands) require(std::isfinite(command.time), "time of a change");
+
+  StageState state = cast_at(initial_, commands, time + sliver, description.step);
+  each_moving_field(state, visit);
+  state.handled = state.time + sliver;
+  std::vector<StagedJoint> joints;
+  std::vector<std::byte> world;
+  visit(joints, world);
+  in.require(in.at_end(), "there is more than a stage");
+  state.world.load(world);
+  Numbers numbers;
+  each_moving_field(std::as_const(state), state::Walk<Numbers>(numbers));
+  check_time(state, now, between, description.step);
+  check_bodies(state);
+  check_blows(state);
+  state.joints = joints_of(joints, state);
+  const std::size_t nodes = state.nodes->size();
+  check_happenings(past_events, past_handoffs, nodes);
+  for (const Happening& happening : happenings) {
+    if (const auto* event = std::get_if<StageEvent>(&happening.what)) check_happenings({*event}, {}, nodes);
+    if (const auto* handoff = std::get_if<HandOff>(&happening.what)) check_happenings({}, {*handoff}, nodes);
+  }
+
+  StageState ahead = state;
+  std::optional<StageState> arrived;
+  if (between) {
+    std::vector<Happening> told_again;
+    try {
+      take(ahead, commands, told_again, arrived);
+    } catch (const std::exception& fault) {
+      throw std::invalid_argument(std::string("a saved stage cannot go on: ") + fault.what());
+    }
+    require(now < ahead.time, "time: it is not near that of its state");
+  }
+  scene.forget();
+  from_ = std::move(state);
+  to_ = std::move(ahead);
+  arrived_ = std::move(arrived);
+  commands_ = std::move(commands);
+  happenings_ = std::move(happenings);
+  told_ = told;
+  of_piece_ = of_piece;
+  events = std::move(past_events);
+  handoffs = std::move(past_handoffs);
+  now_ = now;
+}
+
+}  // namespace tweenfall::staging

@@ -1,0 +1,281 @@
+#pragma once
+
+// The fields of what a stage is made of, each listed once, as those of a world in `state/fields.h`.
+
+#include "stage/stage_data.h"
+#include "state/bytes.h"
+
+namespace tweenfall::state {
+
+template <>
+inline constexpr int last_of<Cause> = static_cast<int>(Cause::caller);
+template <>
+inline constexpr int last_of<Owner> = static_cast<int>(Owner::free);
+template <>
+inline constexpr int last_of<TakeOver::Velocity> = static_cast<int>(TakeOver::Velocity::average);
+template <>
+inline constexpr int last_of<Settle::Kind> = static_cast<int>(Settle::Kind::dead_blend);
+template <>
+inline constexpr int last_of<HandBack::Clock> = static_cast<int>(HandBack::Clock::restart);
+template <>
+inline constexpr int last_of<HandBack::Anchor> = static_cast<int>(HandBack::Anchor::ground);
+template <>
+inline constexpr int last_of<Combine> = static_cast<int>(Combine::maximum);
+
+// Rules
+
+template <Is<when::At> T, class Visit>
+void each_field(T& at, const Visit& visit) {
+  auto& [time] = at;
+  visit(time);
+}
+
+template <class T, class Visit>
+requires Is<T, when::Marker> || Is<T, when::Event>
+void each_field(T& named, const Visit& visit) {
+  auto& [name] = named;
+  visit(name);
+}
+
+template <Is<when::ClipEnd> T, class Visit>
+void each_field(T&, const Visit&) {}
+
+template <Is<when::ContactHit> T, class Visit>
+void each_field(T& hit, const Visit& visit) {
+  auto& [impulse, speed, with] = hit;
+  visit(impulse, speed, with);
+}
+
+template <Is<when::Asleep> T, class Visit>
+void each_field(T& asleep, const Visit& visit) {
+  auto& [seconds] = asleep;
+  visit(seconds);
+}
+
+template <Is<When> T, class Visit>
+void each_field(T& when, const Visit& visit) {
+  auto& [triggers, all] = when;
+  visit(triggers, all);
+}
+
+template <Is<TakeOver> T, class Visit>
+void each_field(T& take_over, const Visit& visit) {
+  auto& [velocity, average_over, scale, add] = take_over;
+  visit(velocity, average_over, scale, add);
+}
+
+template <Is<Settle> T, class Visit>
+void each_field(T& settle, const Visit& visit) {
+  auto& [kind, seconds] = settle;
+  visit(kind, seconds);
+}
+
+template <Is<HandBack> T, class Visit>
+void each_field(T& hand_back, const Visit& visit) {
+  auto& [clip, clock, anchor, settle] = hand_back;
+  visit(clip, clock, anchor, settle);
+}
+
+template <Is<Rule> T, class Visit>
+void each_field(T& rule, const Visit& visit) {
+  auto& [bodies, when, to, take_over, hand_back, once] = rule;
+  visit(bodies, when, to, take_over, hand_back, once);
+}
+
+// What a stage is described by
+
+template <Is<BodyDescription> T, class Visit>
+void each_field(T& body, const Visit& visit) {
+  auto& [shape, mass, density, friction, restitution, friction_combine, restitution_combine, rolling_friction,
+         spinning_friction, surface_velocity, sensor, groups, collides_with, linear_damping, angular_damping, fixed,
+         drive, twist] = body;
+  visit(shape, mass, density, friction, restitution, friction_combine, restitution_combine, rolling_friction,
+        spinning_friction, surface_velocity, sensor, groups, collides_with, linear_damping, angular_damping, fixed,
+        drive, twist);
+}
+
+template <Is<NodeDescription> T, class Visit>
+void each_field(T& node, const Visit& visit) {
+  auto& [name, parent, rest, body, group, color] = node;
+  visit(name);
+  visit.places(parent);
+  visit(rest, body, group, color);
+}
+
+template <Is<JointDescription> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [name, a, b, frame_a, frame_b, kind, break_force, break_torque, collide, until] = joint;
+  visit(name);
+  visit.places(a, b);
+  visit(frame_a, frame_b, kind, break_force, break_torque, collide, until);
+}
+
+// Changes
+
+template <Is<staging::change::None> T, class Visit>
+void each_field(T&, const Visit&) {}
+
+template <class T, class Visit>
+requires Is<T, staging::change::Release> || Is<T, staging::change::Recover>
+void each_field(T& change, const Visit& visit) {
+  auto& [node, settings] = change;
+  visit.places(node);
+  visit(settings);
+}
+
+template <class T, class Visit>
+requires Is<T, staging::change::Arm> || Is<T, staging::change::Add> || Is<T, staging::change::Join> ||
+    Is<T, staging::change::Part>
+void each_field(T& change, const Visit& visit) {
+  auto& [what] = change;
+  visit(what);
+}
+
+template <Is<staging::change::Remove> T, class Visit>
+void each_field(T& change, const Visit& visit) {
+  auto& [node] = change;
+  visit.places(node);
+}
+
+template <Is<staging::change::Push> T, class Visit>
+void each_field(T& change, const Visit& visit) {
+  auto& [node, impulse, point] = change;
+  visit.places(node);
+  visit(impulse, point);
+}
+
+template <Is<staging::change::Ignore> T, class Visit>
+void each_field(T& change, const Visit& visit) {
+  auto& [a, b, ignored] = change;
+  visit.places(a, b);
+  visit(ignored);
+}
+
+template <Is<staging::Command> T, class Visit>
+void each_field(T& command, const Visit& visit) {
+  auto& [time, change] = command;
+  visit(time, change);
+}
+
+// What happened
+
+template <Is<StageEvent> T, class Visit>
+void each_field(T& event, const Visit& visit) {
+  auto& [time, name, data, nodes, impulse, joint] = event;
+  visit(time, name, data, impulse, joint);
+  constexpr std::size_t most = 2;
+  auto count = static_cast<std::uint8_t>(nodes.size());
+  visit(count);
+  if constexpr (!std::is_const_v<T>) nodes.resize(std::min<std::size_t>(count, most));
+  for (auto& node : nodes) visit.places(node);
+}
+
+template <Is<HandOff> T, class Visit>
+void each_field(T& handoff, const Visit& visit) {
+  auto& [node, from, to, time, cause, before, after] = handoff;
+  visit.places(node);
+  visit(from, to, time, cause, before, after);
+}
+
+template <Is<staging::Happening> T, class Visit>
+void each_field(T& happening, const Visit& visit) {
+  auto& [time, what] = happening;
+  visit(time, what);
+}
+
+// What changes while it runs
+
+template <Is<QuinticDecay> T, class Visit>
+void each_field(T& decay, const Visit& visit) {
+  auto& [coefficients, duration] = decay;
+  for (auto& coefficient : coefficients) visit(coefficient);
+  visit(duration);
+}
+
+template <Is<SpringDecay> T, class Visit>
+void each_field(T& decay, const Visit& visit) {
+  auto& [offset, rate, half_life] = decay;
+  visit(offset, rate, half_life);
+}
+
+template <Is<ClockOverride> T, class Visit>
+void each_field(T& clock, const Visit& visit) {
+  auto& [stage, timeline, clip, starts_by] = clock;
+  visit(stage, timeline, starts_by);
+  visit.places(clip);
+}
+
+/// What paths keep to themselves.
+struct PathFields {
+  template <class T, class Visit>
+  static void of_offset(T& offset, const Visit& visit) {
+    visit(offset.settle_, offset.start_, offset.any_, offset.body_, offset.quintic_, offset.spring_);
+    for (auto& [value, rate] : offset.extrapolated_) visit(value, rate);
+  }
+  template <class T, class Visit>
+  static void of_path(T& path, const Visit& visit) {
+    visit(path.since_, path.clock_, path.anchor_);
+    of_offset(path.settle_, visit);
+  }
+};
+
+template <Is<SettleOffset> T, class Visit>
+void each_field(T& offset, const Visit& visit) {
+  PathFields::of_offset(offset, visit);
+}
+
+template <Is<staging::SettlingNode> T, class Visit>
+void each_field(T& settling, const Visit& visit) {
+  auto& [node, offset] = settling;
+  visit.places(node);
+  visit(offset);
+}
+
+template <Is<WorldMotion> T, class Visit>
+void each_field(T& world, const Visit& visit) {
+  auto& [linear, linear_rate, motion] = world;
+  visit(linear, linear_rate, motion);
+}
+
+template <Is<staging::StagedBody> T, class Visit>
+void each_field(T& body, const Visit& visit) {
+  auto& [node, id, path, released_at, shown, present, below, drive, by_track] = body;
+  follows_from_others(node, id, present, drive);
+  PathFields::of_path(path, visit);
+  visit(released_at, shown, by_track);
+  auto settling = below ? *below : std::vector<staging::SettlingNode>{};
+  visit(settling);
+  if constexpr (!std::is_const_v<T>)
+    below =
+        settling.empty() ? nullptr : std::make_shared<const std::vector<staging::SettlingNode>>(std::move(settling));
+}
+
+template <Is<staging::Attempt> T, class Visit>
+void each_field(T& attempt, const Visit& visit) {
+  auto& [fired, waited, touched, impulse, speed, still] = attempt;
+  visit(fired, waited, touched, impulse, speed, still);
+}
+
+template <Is<staging::ArmedRule> T, class Visit>
+void each_field(T& armed, const Visit& visit) {
+  auto& [body, rule, latched, done, was_true, gone, attempt] = armed;
+  follows_from_others(body, rule, gone);
+  for (auto& one : latched) visit(one);
+  visit(done, was_true, attempt);
+}
+
+template <Is<staging::Blow> T, class Visit>
+void each_field(T& blow, const Visit& visit) {
+  auto& [a, b, began, impulse, speed] = blow;
+  visit(a, b, began, impulse, speed);
+}
+
+template <Is<staging::StagedJoint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [name, id, a, b, until] = joint;
+  visit(name, id);
+  visit.places(a, b);
+  visit(until);
+}
+
+}  // namespace tweenfall::state
