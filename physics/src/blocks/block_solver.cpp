@@ -84,6 +84,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   paces_.assign(1, {});
   velocities_.assign(1, {});
   uneven_.clear();
+  rebounds_.clear();
   bouncy_ = driven_ = conveyed_ = any_stale_ = false;
   rebounds_.clear();  // of the island before
   const auto add = [&](std::uint32_t index) {
