@@ -122,14 +122,15 @@ double BlockSolver::work_of_driven() const {
   return sum;
 }
 
-/// Takes back as much of the rebound as would leave the island more energy than it had and than was put into it.
+/// Takes back as much of the rebound as would leave an island more energy than it had and than was put into it.
 void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads) {
   // The work of a surface is not known: the island is left as it is.
   if (conveyed_) return;
-  islands::IslandEnergy energy;
+  energies_.assign(island_of_.back() + std::size_t{1}, {});
   for (std::uint32_t i = 1; i < bodies_.size(); ++i) {
     const BodyPace& pace = paces_[i];
     if (!pace.movable) continue;
+    islands::IslandEnergy& energy = energies_[island_of_[i]];
     const BodyLanes* reached = reach_.before(i);
     const BodyLanes& before = reached ? *reached : velocities_[i];
     if (pace.even) {
@@ -158,7 +159,9 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
     course.rotation = entry.rotation;
     energy.add(bodies[entry.index], loads[entry.index], course);
   }
+  // What moves by its own will is in islands that are solved alone.
   if (driven_) {
+    islands::IslandEnergy& energy = energies_.front();
     energy.limit += work_of_driven();
     for (const ReboundContact& contact : reach_.contacts()) {
       const bool a_moves = bodies_[contact.a()].movable;
@@ -166,18 +169,23 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
       if (!bodies_[driven].movable) energy.limit += contact.work(velocities_[driven], a_moves);
     }
   }
-  const double share = energy.share_within();
-  if (share == 1) return;
+  shares_.clear();
+  shares_.reserve(energies_.size());
+  for (const islands::IslandEnergy& energy : energies_) shares_.push_back(energy.share_within());
   for (std::uint32_t i = 1; i < bodies_.size(); ++i) {
     const BodyLanes* before = reach_.before(i);
-    if (!bodies_[i].movable || !before) continue;
+    const double share = shares_[island_of_[i]];
+    if (share == 1 || !bodies_[i].movable || !before) continue;
     const auto back = [share](double(&lanes)[4], const double(&start)[4]) {
       for (int k = 0; k < 3; ++k) lanes[k] = start[k] + share * (lanes[k] - start[k]);
     };
     back(velocities_[i].linear, before->linear);
     back(velocities_[i].angular, before->angular);
   }
-  for (ReboundContact& contact : reach_.contacts()) contact.take_back(share);
+  for (ReboundContact& contact : reach_.contacts()) {
+    const double share = shares_[island_of_[bodies_[contact.a()].movable ? contact.a() : contact.b()]];
+    if (share != 1) contact.take_back(share);
+  }
 }
 
 void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes) {

@@ -21,6 +21,8 @@ namespace {
 constexpr std::size_t few = 128;
 constexpr int sub_steps_of_few = 24;
 constexpr int sub_steps_of_many = 10;
+/// Small islands that are solved all at once get as many as those that are solved one by one, and all passes in each.
+constexpr int sub_steps_of_small = 8;
 /// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s.
 constexpr int fewest_of_jointed = 4;
 constexpr double longest_of_jointed = 1.0 / 720;
@@ -36,6 +38,7 @@ int sub_steps_for(const islands::IslandContents& island, double dt) {
 
 /// Rows are prepared again when a body has turned by this since, rad.
 constexpr double turned_enough = 0.02;
+constexpr double turned_enough_of_small = 0.002;
 /// Rows cannot follow what turns by more than this in a sub-step, rad.
 constexpr double followable = 0.5;
 /// Up to this turn in a sub-step a pressed body's spin changes by itself as two evaluations of Euler's equations say.
@@ -75,14 +78,37 @@ bool BlockSolver::takes(const islands::IslandContents& island, const std::vector
   return true;
 }
 
+bool BlockSolver::takes_beside_others(const islands::IslandContents& island, const std::vector<Body>& bodies,
+                                      const std::vector<Load>& loads, double dt) {
+  /// Rows follow what turns by no more than this in a sub-step, rad.
+  constexpr double slow = 0.05;
+  if (island.contacts.size() >= many || !island.springs.empty() || !island.joints.empty()) return false;
+  const double h = dt / sub_steps_of_small;
+  for (ContactConstraint* contact : island.contacts) {
+    if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return false;
+    const Body &a = bodies[contact->a], &b = bodies[contact->b];
+    for (const Body* body : {&a, &b}) {
+      if (body->conveys || body->displaces()) return false;
+      if (body->immovable()) continue;
+      if (body->drive.owner() == Owner::driven || body->turned || body->twist.angular.norm() * h > slow) return false;
+    }
+    const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+    step::foresee(*contact, a.twist, b.twist, closing, dt);
+    if (contact->impact) return false;
+  }
+  return true;
+}
+
 void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
-                         const islands::IslandContents& island, Integrator integrator, double dt) {
+                         std::span<const islands::IslandContents> islands, Integrator integrator, double dt) {
   for (const IslandBody& body : bodies_)
     if (body.index < places_.size()) places_[body.index] = 0;
   bodies_.assign(1, {});
   bodies_[0].index = 0xffffffffu;
   paces_.assign(1, {});
   velocities_.assign(1, {});
+  island_of_.assign(1, 0);
+  std::uint32_t number = 0;
   uneven_.clear();
   rebounds_.clear();
   bouncy_ = driven_ = conveyed_ = any_stale_ = false;
@@ -94,6 +120,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
     IslandBody& entry = bodies_.emplace_back();
     BodyPace& pace = paces_.emplace_back();
     BodyLanes& velocity = velocities_.emplace_back();
+    island_of_.push_back(number);
     entry.index = index;
     entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
     entry.movable = pace.movable = !body.immovable() && !body.asleep;
@@ -131,39 +158,43 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
       set(velocity.angular, mean.angular - 0.5 * gain.angular);
     }
   };
-  for (const ContactConstraint* contact : island.contacts) {
-    add(contact->a);
-    add(contact->b);
-    bouncy_ = bouncy_ || contact->restitution > 0;
-  }
-  for (const joints::JointLink* link : island.joints)
-    for (const std::uint32_t end : {link->a, link->b}) {
-      if (end == joints::JointLink::world) continue;
-      add(end);
-      bodies_[places_[end]].jointed = true;
+  for (const islands::IslandContents& island : islands) {
+    for (const ContactConstraint* contact : island.contacts) {
+      add(contact->a);
+      add(contact->b);
+      bouncy_ = bouncy_ || contact->restitution > 0;
     }
-  for (const step::SpringRow* spring : island.springs)
-    for (const std::uint32_t end : {spring->a, spring->b})
-      if (end != step::SpringRow::world) add(end);
+    for (const joints::JointLink* link : island.joints)
+      for (const std::uint32_t end : {link->a, link->b}) {
+        if (end == joints::JointLink::world) continue;
+        add(end);
+        bodies_[places_[end]].jointed = true;
+      }
+    for (const step::SpringRow* spring : island.springs)
+      for (const std::uint32_t end : {spring->a, spring->b})
+        if (end != step::SpringRow::world) add(end);
+    ++number;
+  }
   starts_.resize(bodies_.size());
   lags_.assign(bodies_.size(), {});
   sub_starts_.resize(bodies_.size());
   displacements_.assign(bodies_.size(), {});
 }
 
-void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads, double h,
-                          double dt) {
-  // In a heap what presses down passes on to all sides: what it makes of a sub-step is a tremble in any direction.
-  const double share = contacts.size() > few ? 2 * h : 0;
+/// @param trembling  in a heap what presses down passes on to all sides: what it makes of so much time is a tremble in
+/// any direction, s
+void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads,
+                          double trembling, double dt) {
   closings_.resize(contacts.size());
   work_.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       ContactConstraint& contact = *contacts[i];
       const std::uint32_t a = places_[contact.a], b = places_[contact.b];
       closings_[i] = step::closing_of(contact.manifold.normal, loads[contact.a], loads[contact.b], dt);
-      if (share > 0)
-        closings_[i].tremble = std::max(closings_[i].tremble, share * std::max(loads[contact.a].acceleration.norm(),
-                                                                               loads[contact.b].acceleration.norm()));
+      if (trembling > 0)
+        closings_[i].tremble =
+            std::max(closings_[i].tremble,
+                     trembling * std::max(loads[contact.a].acceleration.norm(), loads[contact.b].acceleration.norm()));
       step::foresee(contact, {linear_of(velocities_[a]), angular_of(velocities_[a])},
                     {linear_of(velocities_[b]), angular_of(velocities_[b])}, closings_[i], dt);
     }
@@ -223,7 +254,7 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
   if (!any_stale_ && joints_.empty()) return;
   any_stale_ = false;
   for (IslandBody& entry : bodies_) {
-    entry.stale = !entry.round && entry.turned > turned_enough;
+    entry.stale = !entry.round && entry.turned > turned_enough_;
     if (!joints_.empty() && entry.movable && !bodies[entry.index].spherical)
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
     if (!entry.stale) continue;
@@ -331,7 +362,7 @@ void BlockSolver::end_sub_step(double h) {
       for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
       if (!entry.round) {
         entry.turned += turning.norm();
-        stale = stale || entry.turned > turned_enough;
+        stale = stale || entry.turned > turned_enough_;
       }
       if (entry.followed && !pace.pressed) {
         // The spin of free flight keeps its energy only with the rotation that belongs to it.
@@ -384,12 +415,40 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
                         const islands::IslandContents& island, const WorldSettings& settings, double dt,
                         std::vector<char>& moved, const threads::Workers& workers) {
   work_ = workers;
+  const int passes = std::max(2, settings.iterations / sub_steps_of_many);
+  const Effort effort = {
+      sub_steps_for(island, dt),   passes - passes / 2, passes / 2, std::max(1, settings.iterations / 4), turned_enough,
+      island.contacts.size() > few};
+  solve(bodies, loads, std::span(&island, 1), effort, settings, dt, moved);
+}
+
+void BlockSolver::solve_all(std::vector<Body>& bodies, const std::vector<Load>& loads,
+                            std::span<const islands::IslandContents> islands, const WorldSettings& settings, double dt,
+                            std::vector<char>& moved) {
+  work_ = {};
+  const int softening = std::max(1, settings.iterations / 5);
+  const int relaxing = std::max(1, 2 * settings.iterations / 5);
+  const Effort effort = {sub_steps_of_small, softening, relaxing, settings.iterations, turned_enough_of_small, false};
+  solve(bodies, loads, islands, effort, settings, dt, moved);
+}
+
+void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
+                        std::span<const islands::IslandContents> islands, const Effort& effort,
+                        const WorldSettings& settings, double dt, std::vector<char>& moved) {
   const Kernels& kernels = fastest_kernels();
+  islands::IslandContents island = islands.front();
+  if (islands.size() > 1) {
+    listed_.clear();
+    for (const islands::IslandContents& one : islands)
+      listed_.insert(listed_.end(), one.contacts.begin(), one.contacts.end());
+    island = {listed_, {}, {}};
+  }
   const std::span<ContactConstraint* const> contacts = island.contacts;
-  const int sub_steps = sub_steps_for(island, dt);
+  const int sub_steps = effort.sub_steps;
   const double h = dt / sub_steps;
-  gather(bodies, loads, island, settings.integrator, dt);
-  foresee(contacts, loads, h, dt);
+  turned_enough_ = effort.turned_enough;
+  gather(bodies, loads, islands, settings.integrator, dt);
+  foresee(contacts, loads, effort.heap ? 2 * h : 0, dt);
   holds_.gather(island, bodies, places_, bodies_, h);
   for (std::size_t i = 1; i < bodies_.size(); ++i)
     if (bodies_[i].held || bodies_[i].jointed) paces_[i].steady = paces_[i].unturned = false;
@@ -399,19 +458,17 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   holds_.gather(contacts_, h);
   reach_.forget();
   joints_.build(island.joints, places_, bodies_, h, dt);
-  const int share = std::max(2, settings.iterations / sub_steps_of_many);
-  const int relaxing = share / 2;
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
   PassRule soft{softness.rate, softness.speed, softness.firm, 1 - softness.giving, 1 / h};
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
     by_color([&](const Rows& some) { kernels.warm_start(some); });
-    holds_.begin_sub_step(bodies, bodies_, contacts_, velocities_, dt - (sub_step + 1) * h);
+    holds_.begin_sub_step(bodies, bodies_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
     if (bouncy_) find_rebounds(h);
-    for (int k = 0; k < share - relaxing; ++k) {
-      soft.note = k + 1 == share - relaxing;
+    for (int k = 0; k < effort.softening; ++k) {
+      soft.note = k + 1 == effort.softening;
       holds_.solve(bodies, bodies_, contacts_, velocities_);
       joints_.solve(velocities_, true, k % 2 != 0);
       by_color([&](const Rows& some) { kernels.solve(some, soft); });
@@ -420,23 +477,23 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     if (!joints_.empty()) tame_jointed(bodies, h);
     joints_.move(velocities_);
     end_sub_step(h);
-    for (int k = 0; k < relaxing; ++k) {
+    for (int k = 0; k < effort.relaxing; ++k) {
       holds_.solve(bodies, bodies_, contacts_, velocities_);
       joints_.solve(velocities_, false, k % 2 == 0);
-      const PassRule hard{.inverse_h = 1 / h, .sum_up = k + 1 == relaxing};
+      const PassRule hard{.inverse_h = 1 / h, .sum_up = k + 1 == effort.relaxing};
       by_color([&](const Rows& some) { kernels.solve(some, hard); });
     }
     if (!rebounds_.empty()) {
-      rebound(bodies, loads, std::max(1, settings.iterations / 4));
+      rebound(bodies, loads, effort.rebound_passes);
       joints_.solve(velocities_, false, true);
     }
     if (!joints_.empty()) tame_jointed(bodies, h);
     joints_.add_up();
-    holds_.add_up(contacts_);
+    holds_.add_up();
     bound_spins(bodies, h);
   }
   contacts_.store(h, work_);
-  holds_.store(contacts_);
+  holds_.store();
   joints_.end_step(bodies, bodies_, velocities_);
   // Also a body that only the last pass reached has momentum from it.
   for (const ContactConstraint* contact : contacts)

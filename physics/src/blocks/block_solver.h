@@ -9,6 +9,7 @@
 #include "blocks/rebound_reach.h"
 #include "forces/free_flight.h"
 #include "islands/island_contents.h"
+#include "islands/island_energy.h"
 #include "joints/island_joints.h"
 
 namespace tweenfall::blocks {
@@ -27,6 +28,12 @@ class BlockSolver {
   [[nodiscard]] static bool takes(const islands::IslandContents& island, const std::vector<state::Body>& bodies,
                                   double dt);
 
+  /// Whether it can solve an island of fewer contacts beside others: nothing in it meets fast, spins, rolls on what is
+  /// not a ball's or a capsule's surface, or is moved by its own will.
+  [[nodiscard]] static bool takes_beside_others(const islands::IslandContents& island,
+                                                const std::vector<state::Body>& bodies,
+                                                const std::vector<forces::Load>& loads, double dt);
+
   /// Before the islands of a step.
   void begin(std::size_t bodies) { places_.assign(bodies, 0); }
   /// Moves the bodies of an island by `dt`; fills in the impulses of its contacts and joints.
@@ -34,8 +41,20 @@ class BlockSolver {
   void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
              const islands::IslandContents& island, const WorldSettings& settings, double dt, std::vector<char>& moved,
              const threads::Workers& workers = {});
+  /// The same for small islands all at once, with more passes; what one does depends on none of the others.
+  void solve_all(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+                 std::span<const islands::IslandContents> islands, const WorldSettings& settings, double dt,
+                 std::vector<char>& moved);
 
  private:
+  /// How thoroughly islands are solved.
+  struct Effort {
+    int sub_steps;
+    int softening, relaxing;  ///< passes in each, that take overlaps apart and that take the speed of that away again
+    int rebound_passes;
+    double turned_enough;  ///< rows are prepared again when a body has turned by so much, rad
+    bool heap;             ///< many press on each other
+  };
   /// A point that would rebound in this sub-step.
   struct Rebound {
     std::uint32_t lane, point;  ///< 4 * block + lane, and which of the contact's points
@@ -44,10 +63,13 @@ class BlockSolver {
     double speed_before = 0;    ///< m/s
   };
 
+  void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+             std::span<const islands::IslandContents> islands, const Effort& effort, const WorldSettings& settings,
+             double dt, std::vector<char>& moved);
   void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-              const islands::IslandContents& island, Integrator integrator, double dt);
-  void foresee(std::span<step::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads, double h,
-               double dt);
+              std::span<const islands::IslandContents> islands, Integrator integrator, double dt);
+  void foresee(std::span<step::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads,
+               double trembling, double dt);
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
                       int sub_steps, int sub_step);
   void prepare_again(const std::vector<state::Body>& bodies);
@@ -96,16 +118,21 @@ class BlockSolver {
   std::vector<BodyPace> paces_;
   std::vector<BodyLanes> velocities_, starts_, displacements_;
   std::vector<BodyLag> lags_;
-  std::vector<BodyLag> sub_starts_;      ///< linear displacements at the start of the sub-step
-  std::vector<std::uint32_t> uneven_;    ///< places of movable bodies with different moments about their axes
-  std::vector<step::Closing> closings_;  ///< of the contacts
+  std::vector<BodyLag> sub_starts_;               ///< linear displacements at the start of the sub-step
+  std::vector<std::uint32_t> island_of_;          ///< of bodies_: which of those that are solved now
+  std::vector<islands::IslandEnergy> energies_;   ///< of them
+  std::vector<double> shares_;                    ///< of the rebound, that they let through
+  std::vector<step::ContactConstraint*> listed_;  ///< contacts of all of them
+  std::vector<std::uint32_t> uneven_;             ///< places of movable bodies with different moments about their axes
+  std::vector<step::Closing> closings_;           ///< of the contacts
   ContactBlocks contacts_;
   joints::IslandJoints joints_;
   IslandHolds holds_;
-  bool bouncy_ = false;                  ///< some contact has restitution
-  bool driven_ = false;                  ///< something moves by its own will
-  bool conveyed_ = false;                ///< some surface moves
-  std::vector<char> stale_;              ///< by part of the bodies: one of them has
+  bool bouncy_ = false;      ///< some contact has restitution
+  bool driven_ = false;      ///< something moves by its own will
+  bool conveyed_ = false;    ///< some surface moves
+  std::vector<char> stale_;  ///< by part of the bodies: one of them has
+  double turned_enough_ = 0;
   bool any_stale_ = false;               ///< a body has turned since its rows were prepared
   std::vector<std::uint32_t> meetings_;  ///< lanes
   std::vector<Rebound> rebounds_;

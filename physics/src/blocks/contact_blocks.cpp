@@ -58,8 +58,7 @@ Grip grip_of(const ContactConstraint& contact) {
 
 std::uint32_t kind_of(const ContactConstraint& contact, const IslandBody& a, const IslandBody& b) {
   const auto smooth = [](const IslandBody& body) { return body.movable ? body.round : body.still; };
-  const bool plain = !(contact.rolling_friction > 0) && !(contact.spinning_friction > 0) && !a.conveys && !b.conveys;
-  if (contact.count == 1 && plain && smooth(a) && smooth(b)) return ball_kind;
+  if (contact.count == 1 && !a.conveys && !b.conveys && smooth(a) && smooth(b)) return ball_kind;
   return 2 * (3 * static_cast<std::uint32_t>(contact.count - 1) + static_cast<std::uint32_t>(grip_of(contact))) +
          (a.isotropic && b.isotropic ? 1 : 0);
 }

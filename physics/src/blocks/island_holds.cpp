@@ -75,11 +75,15 @@ void IslandHolds::gather(const islands::IslandContents& island, const std::vecto
 
 void IslandHolds::gather(const ContactBlocks& contacts, double h) {
   rolls_.clear();
-  for (std::uint32_t i = 0; i < contacts.blocks.size(); ++i)
+  for (std::uint32_t i = 0; i < contacts.size(); ++i)
     for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
-      ContactConstraint* contact = contacts.origins[i][lane];
+      ContactConstraint* contact = contacts.origin(i)[lane];
       if (!contact || !(contact->rolling_friction > 0 || contact->spinning_friction > 0)) continue;
-      rolls_.push_back({i, lane});
+      const bool ball = i >= contacts.blocks.size();
+      const std::size_t number = ball ? i - contacts.blocks.size() : i;
+      rolls_.push_back({contact, static_cast<std::uint32_t>(lane_count) * i + lane,
+                        ball ? contacts.balls[number].a[lane] : contacts.blocks[number].a[lane],
+                        ball ? contacts.balls[number].b[lane] : contacts.blocks[number].b[lane]});
       const double ratio = contact->kept_step > h ? h / contact->kept_step : 1;
       contact->rolling_impulse = ratio * contact->kept_rolling;
       contact->spin_impulse = ratio * contact->kept_spin;
@@ -87,7 +91,7 @@ void IslandHolds::gather(const ContactBlocks& contacts, double h) {
 }
 
 void IslandHolds::begin_sub_step(const std::vector<Body>& bodies, const std::vector<IslandBody>& entries,
-                                 const ContactBlocks& contacts, std::vector<BodyLanes>& velocities, double ahead) {
+                                 std::vector<BodyLanes>& velocities, double ahead) {
   ahead_ = ahead;
   for (HeldByDrive& held : drives_) {
     held.impulse = held.angular_impulse = Vec3::Zero();
@@ -102,10 +106,9 @@ void IslandHolds::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     between(held.a, held.b, entries, velocities,
             [&](SolverBody& a, SolverBody& b) { held.row->begin(&a, held.b == 0 ? nullptr : &b, h_); });
   for (const Rolling& rolling : rolls_) {
-    const ContactBlock& block = contacts.blocks[rolling.block];
-    const ContactConstraint& contact = *contacts.origins[rolling.block][rolling.lane];
+    const ContactConstraint& contact = *rolling.contact;
     const Vec3 impulse = contact.rolling_impulse + contact.spin_impulse * contact.manifold.normal;
-    between(block.a[rolling.lane], block.b[rolling.lane], entries, velocities, [&](SolverBody& a, SolverBody& b) {
+    between(rolling.a, rolling.b, entries, velocities, [&](SolverBody& a, SolverBody& b) {
       a.angular -= a.inverse_inertia * impulse;
       b.angular += b.inverse_inertia * impulse;
     });
@@ -142,12 +145,11 @@ void IslandHolds::solve(const std::vector<Body>& bodies, const std::vector<Islan
   for (HeldByDrive& held : drives_)
     if (!held.without_limit) solve_drive(held, bodies, entries, velocities);
   for (const Rolling& rolling : rolls_) {
-    const ContactBlock& block = contacts.blocks[rolling.block];
-    ContactConstraint& contact = *contacts.origins[rolling.block][rolling.lane];
+    ContactConstraint& contact = *rolling.contact;
     double pressing = 0;
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(contact.count); ++i)
-      pressing += contacts.points[block.point + i].impulse[rolling.lane];
-    between(block.a[rolling.lane], block.b[rolling.lane], entries, velocities, [&](SolverBody& a, SolverBody& b) {
+      pressing += contacts.impulse(rolling.lane, i);
+    between(rolling.a, rolling.b, entries, velocities, [&](SolverBody& a, SolverBody& b) {
       if (contact.rolling_friction > 0)
         step::solve_rolling(a, b, contact.rolling_impulse, contact.rolling_friction * pressing);
       if (contact.spinning_friction > 0)
@@ -156,16 +158,13 @@ void IslandHolds::solve(const std::vector<Body>& bodies, const std::vector<Islan
   }
 }
 
-void IslandHolds::add_up(const ContactBlocks& contacts) const {
-  for (const Rolling& rolling : rolls_) {
-    ContactConstraint& contact = *contacts.origins[rolling.block][rolling.lane];
-    contact.total_rolling += contact.rolling_impulse;
-  }
+void IslandHolds::add_up() const {
+  for (const Rolling& rolling : rolls_) rolling.contact->total_rolling += rolling.contact->rolling_impulse;
 }
 
-void IslandHolds::store(const ContactBlocks& contacts) const {
+void IslandHolds::store() const {
   for (const Rolling& rolling : rolls_) {
-    ContactConstraint& contact = *contacts.origins[rolling.block][rolling.lane];
+    ContactConstraint& contact = *rolling.contact;
     contact.kept_rolling = contact.rolling_impulse;
     contact.kept_spin = contact.spin_impulse;
   }

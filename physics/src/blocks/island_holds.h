@@ -21,13 +21,13 @@ class IslandHolds {
 
   /// @param ahead  time from the end of the sub-step to that of the step, s
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& entries,
-                      const ContactBlocks& contacts, std::vector<BodyLanes>& velocities, double ahead);
+                      std::vector<BodyLanes>& velocities, double ahead);
   void solve(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& entries,
              const ContactBlocks& contacts, std::vector<BodyLanes>& velocities);
   /// Adds up what the sub-step did.
-  void add_up(const ContactBlocks& contacts) const;
+  void add_up() const;
   /// Gives the rolling impulses back to the contacts.
-  void store(const ContactBlocks& contacts) const;
+  void store() const;
 
  private:
   struct HeldByDrive {
@@ -40,7 +40,9 @@ class IslandHolds {
     std::uint32_t a = 0, b = 0;  ///< places
   };
   struct Rolling {
-    std::uint32_t block = 0, lane = 0;
+    step::ContactConstraint* contact = nullptr;
+    std::uint32_t lane = 0;      ///< 4 * block + lane; balls come after all blocks
+    std::uint32_t a = 0, b = 0;  ///< places
   };
   void solve_drive(HeldByDrive& held, const std::vector<state::Body>& bodies, const std::vector<IslandBody>& entries,
                    std::vector<BodyLanes>& velocities) const;

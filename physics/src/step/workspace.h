@@ -58,6 +58,10 @@ struct Told {
 struct Solvers {
   Solver few;
   blocks::BlockSolver many;
+  std::vector<islands::IslandContents> beside;  ///< small islands that `many` shall solve all at once
+
+  void solve_beside(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+                    const WorldSettings& settings, double dt, std::vector<char>& moved);
 };
 
 /// Room for a step to work in, and what makes the next one quick. Whether it is that of the steps before or begins

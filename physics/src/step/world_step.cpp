@@ -18,6 +18,8 @@ namespace {
 
 /// Bodies, or contacts, that are worth more than one thread.
 constexpr std::size_t worth_sharing = 128;
+/// Small islands that are solved all at once: more of them would not stay in a processor's nearest memory.
+constexpr std::size_t worth_a_batch = 128;
 /// Contacts of an island that are worth dividing it.
 constexpr std::size_t worth_dividing = 256;
 
@@ -92,6 +94,12 @@ void World::Implementation::end_watch() {
   for (const std::uint32_t i : lingering) note(i);
 }
 
+void step::Solvers::solve_beside(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+                                 const WorldSettings& settings, double dt, std::vector<char>& moved) {
+  if (!beside.empty()) many.solve_all(bodies, loads, beside, settings, dt, moved);
+  beside.clear();
+}
+
 void World::Implementation::solve_islands(double dt) {
   moved.assign(bodies.size(), 0);
   leave_sleeping_links();
@@ -119,8 +127,11 @@ void World::Implementation::solve_islands(double dt) {
     const islands::IslandContents& contents = all[islands_by_size[island]];
     if (blocks::BlockSolver::takes(contents, bodies, dt))
       by.many.solve(bodies, loads, contents, settings, dt, moved, within);
+    else if (blocks::BlockSolver::takes_beside_others(contents, bodies, loads, dt))
+      by.beside.push_back(contents);
     else
       by.few.solve(bodies, loads, contents.contacts, contents.springs, settings, dt, moved);
+    if (by.beside.size() >= step::worth_a_batch) by.solve_beside(bodies, loads, settings, dt, moved);
   };
   std::size_t divided = 0;
   if (work.threads() > 1)
@@ -129,6 +140,7 @@ void World::Implementation::solve_islands(double dt) {
   std::atomic<std::size_t> next{divided};
   work.parts(shares, [&](std::size_t share) {
     for (std::size_t i = next.fetch_add(1); i < all.size(); i = next.fetch_add(1)) solve(i, solvers[share], {});
+    solvers[share].solve_beside(bodies, loads, settings, dt, moved);
   });
 }
 
