@@ -111,6 +111,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes) {
   }
   recording.handoffs.assign(stage.handoffs().begin(), stage.handoffs().end());
   recording.events.assign(stage.events().begin(), stage.events().end());
+  std::ranges::stable_sort(recording.events, {}, &StageEvent::time);  // contacts are told a little later
   recording.unfired = stage.unfired_rules();
   return recording;
 }

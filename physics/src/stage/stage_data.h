@@ -81,6 +81,7 @@ struct ArmedRule {
 /// A contact that began and is not over: what it has taken so far is not yet the whole blow.
 struct Blow {
   BodyId a, b;
+  double met = 0;      ///< when the bodies did, s
   double began = 0;    ///< end of the piece in which it did, s
   double impulse = 0;  ///< N s
   double speed = 0;    ///< m/s

@@ -1,3 +1,5 @@
+#include <tweenfall/physics/stage/recording.h>
+
 #include "physics/handoff/scenes.h"
 
 using namespace tweenfall;
@@ -194,6 +196,48 @@ TEST_CASE("two keyed bodies that touch are told of, though neither is freed") {
   REQUIRE(run.events().size() == 1);
   CHECK(run.events()[0].name == "contact");
   CHECK(run.events()[0].impulse == doctest::Approx(0.8).epsilon(0.02));
+}
+
+TEST_CASE("a contact is told with the time at which the two met, wherever in a step that is") {
+  for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 240})
+    for (const double restitution : {0.0, 0.7})
+      for (int i = 0; i < 20; ++i) {
+        CAPTURE(step);
+        CAPTURE(restitution);
+        CAPTURE(i);
+        const double height = 0.5 + 0.0137 * i, speed = 0.3 * i;
+        StageDescription stage;
+        stage.step = step;
+        stage.nodes = {{.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}},
+                       {.name = "ball",
+                        .rest = {.position = {0, 0.1 + height, 0}},
+                        .body = BodyDescription{.shape = {Sphere{0.1}},
+                                                .mass = 0.4,
+                                                .restitution = restitution,
+                                                .twist = {{0, -speed, 0}, {0, 0, 0}}}}};
+        Stage run(stage);
+        run.advance_to(0.6);
+        REQUIRE(!run.events().empty());
+        const double impact = (std::sqrt(speed * speed + 2 * standard_gravity * height) - speed) / standard_gravity;
+        CHECK(std::abs(run.events()[0].time - impact) < 1e-6);
+      }
+}
+
+TEST_CASE("what a recording tells of is in order of time") {
+  StageDescription stage;
+  stage.nodes = {{.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}}};
+  for (int i = 0; i < 10; ++i)
+    stage.nodes.push_back({.name = "ball" + std::to_string(i),
+                           .rest = {.position = {static_cast<double>(i), 0.2 + 0.003 * (i * 7 % 10), 0}},
+                           .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 0.4, .restitution = 0.5}});
+  Clip clip{.name = "ticks", .duration = 1};
+  for (int i = 0; i < 900; ++i) clip.events.push_back({i / 900.0, i / 900.0, "tick", {}});
+  stage.clips = {clip};
+  stage.plays = {{.clip = 0}};
+  Stage run(stage);
+  const Recording recording = record(run, 1, 60);
+  CHECK(std::ranges::count(recording.events, "contact", &StageEvent::name) >= 20);
+  CHECK(std::ranges::is_sorted(recording.events, {}, &StageEvent::time));
 }
 
 TEST_CASE("a blow by what swings in fast is told once, however far it turns in a step") {

@@ -123,13 +123,21 @@ void fire(StageState& state, std::size_t armed, double step, std::vector<Happeni
                step, happenings);
 }
 
-/// Twists at the centers of mass, by index of the world's body.
-std::vector<Twist> twists(const StageState& state) {
-  std::vector<Twist> found(state.node_of.size());
-  for (const StagedBody& body : state.bodies)
-    if (body.present) found[body.id.index] = state.world.twist(body.id);
-  return found;
-}
+/// Bodies as they were at the start of a piece, by index of the world's body.
+struct PieceStart {
+  double time;
+  std::vector<Pose> poses;
+  std::vector<Twist> twists;  // at the centers of mass
+
+  explicit PieceStart(const StageState& state)
+      : time(state.time), poses(state.node_of.size()), twists(state.node_of.size()) {
+    for (const StagedBody& body : state.bodies) {
+      if (!body.present) continue;
+      poses[body.id.index] = state.world.motion(body.id).pose;
+      twists[body.id.index] = state.world.twist(body.id);
+    }
+  }
+};
 
 /// How fast a contact closes where it is, its bodies moving so, m/s. @param twist_of  at the center of mass
 template <class TwistOf>
@@ -174,17 +182,41 @@ double part_of_blow(const StageState& state, const Contact& contact, const std::
   return unhindered > contact.approach_speed ? contact.approach_speed / unhindered : 1;
 }
 
+/// When in the piece two bodies met that touch at its end: their gap at the start closed at speeds between those then
+/// and at the impact, as under a constant force.
+double time_of_impact(const StageState& state, const Contact& contact, const PieceStart& before) {
+  const World& world = state.world;
+  const auto pose = [&](BodyId body) -> const Pose& { return before.poses[body.index]; };
+  const Manifold apart =
+      collide(world.shape(contact.a), pose(contact.a), world.shape(contact.b), pose(contact.b), infinity);
+  double time = state.time;
+  for (int i = 0; i < apart.count; ++i) {
+    const ContactPoint& point = apart.points[static_cast<std::size_t>(i)];
+    const auto velocity = [&](BodyId body) {
+      const Pose& at = pose(body);
+      return velocity_at(before.twists[body.index],
+                         point.position - (at.position + at.rotation * world.mass(body).center));
+    };
+    const double closing =
+        contact.approach_speed - contact.manifold.normal.dot(velocity(contact.b) - velocity(contact.a));
+    const double gap = std::max(0.0, -point.penetration);
+    if (gap == 0) return before.time;
+    if (closing > 0) time = std::min(time, before.time + 2 * gap / closing);
+  }
+  return time;
+}
+
 /// Adds what the contacts of the last piece took to the blows that they belong to, and tells those that are over. A
 /// blow that falls on the end of a piece goes on in the next: it is over when the bodies no longer close.
 ///
-/// @param before  twists at the start of the piece, which was `dt` long
-void follow_blows(StageState& state, const std::vector<Twist>& before, double dt, double step,
-                  std::vector<Happening>& happenings) {
+/// Each has the time at which the bodies met, which may lie in a piece before the one at whose end it is told.
+void follow_blows(StageState& state, const PieceStart& before, double step, std::vector<Happening>& happenings) {
+  const double dt = state.time - before.time;
   constexpr double closes = 1e-3;  // of the speed at which they met
   std::vector<Blow> going_on;
   const auto tell = [&](const Blow& blow) {
     StageEvent event;
-    event.time = state.time;
+    event.time = blow.met;
     event.name = "contact";
     event.nodes = {state.node_of[blow.a.index], state.node_of[blow.b.index]};
     event.impulse = blow.impulse;
@@ -199,8 +231,10 @@ void follow_blows(StageState& state, const std::vector<Twist>& before, double dt
     const bool goes_on = known != nullptr;
     if (goes_on) met[static_cast<std::size_t>(known - state.blows.data())] = 1;
     if (!goes_on && !contact.began) continue;
-    Blow blow = goes_on ? *known : Blow{contact.a, contact.b, state.time, 0, 0};
-    if (contact.impulse > 0) blow.impulse += contact.impulse * part_of_blow(state, contact, before, dt);
+    if (!goes_on && !(contact.impulse > 0)) continue;
+    Blow blow = goes_on ? *known : Blow{.a = contact.a, .b = contact.b, .began = state.time};
+    if (!goes_on) blow.met = time_of_impact(state, contact, before);
+    if (contact.impulse > 0) blow.impulse += contact.impulse * part_of_blow(state, contact, before.twists, dt);
     blow.speed = std::max(blow.speed, contact.approach_speed);
     const double closing = closing_speed(state.world, contact, now);
     if (blow.impulse > 0) {
@@ -223,15 +257,14 @@ void follow_blows(StageState& state, const std::vector<Twist>& before, double dt
 
 /// Moves the world to `end`, where it has been told what its bodies shall do.
 void step_told_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
-  const std::vector<Twist> before = twists(state);
-  const double dt = end - state.time;
-  state.world.step(dt);
+  const PieceStart before(state);
+  state.world.step(end - state.time);
   state.time = end;
   state.presses.assign(state.node_of.size(), 0);
   for (const Contact& contact : state.world.contacts())
     if (contact.impulse > 0)
       for (const BodyId body : {contact.a, contact.b}) ++state.presses[body.index];
-  follow_blows(state, before, dt, step, happenings);
+  follow_blows(state, before, step, happenings);
   report_broken_joints(state, happenings);
 }
 

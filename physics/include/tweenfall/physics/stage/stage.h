@@ -35,7 +35,7 @@ using NodeId = std::size_t;
 /// An event of a clip, a contact that began, what came into a sensor or left it, or the end of a joint, as `on_event`
 /// and recordings see it.
 struct StageEvent {
-  double time = 0;   ///< stage time, s
+  double time = 0;   ///< stage time, s; of a contact when the two met: told once it is known what it took
   std::string name;  ///< the clip event's name, "contact", "entered", "left", "joint_broke", or "joint_ended" as its
                      ///< `until` says
   std::string data;  ///< JSON text given with a clip event
