@@ -266,8 +266,8 @@ void each_field(T& armed, const Visit& visit) {
 
 template <Is<staging::Blow> T, class Visit>
 void each_field(T& blow, const Visit& visit) {
-  auto& [a, b, began, impulse, speed] = blow;
-  visit(a, b, began, impulse, speed);
+  auto& [a, b, met, began, impulse, speed] = blow;
+  visit(a, b, met, began, impulse, speed);
 }
 
 template <Is<staging::StagedJoint> T, class Visit>
