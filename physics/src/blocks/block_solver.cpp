@@ -25,7 +25,7 @@ constexpr int sub_steps_of_many = 10;
 constexpr int sub_steps_of_small = 8;
 /// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s.
 constexpr int fewest_of_jointed = 4;
-constexpr double longest_of_jointed = 1.0 / 720;
+constexpr double longest_of_jointed = 1.0 / 360;
 /// Impulses of much longer sub-steps would bring their rounding along.
 constexpr double long_enough = 0.15;
 
@@ -467,11 +467,12 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     holds_.begin_sub_step(bodies, bodies_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
     if (bouncy_) find_rebounds(h);
+    // Joints have the last word: what a contact then lacks, the next sub-step gives.
     for (int k = 0; k < effort.softening; ++k) {
       soft.note = k + 1 == effort.softening;
       holds_.solve(bodies, bodies_, contacts_, velocities_);
-      joints_.solve(velocities_, true, k % 2 != 0);
       by_color([&](const Rows& some) { kernels.solve(some, soft); });
+      joints_.solve(velocities_, true, k % 2 != 0);
     }
     find_lags();
     if (!joints_.empty()) tame_jointed(bodies, h);
@@ -479,9 +480,9 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     end_sub_step(h);
     for (int k = 0; k < effort.relaxing; ++k) {
       holds_.solve(bodies, bodies_, contacts_, velocities_);
-      joints_.solve(velocities_, false, k % 2 == 0);
       const PassRule hard{.inverse_h = 1 / h, .sum_up = k + 1 == effort.relaxing};
       by_color([&](const Rows& some) { kernels.solve(some, hard); });
+      joints_.solve(velocities_, false, k % 2 == 0);
     }
     if (!rebounds_.empty()) {
       rebound(bodies, loads, effort.rebound_passes);

@@ -22,6 +22,10 @@ constexpr double followable = 0.3;
 constexpr double long_enough = 0.15;
 /// After so many times the last one's length what it told is old.
 constexpr double old_after = 24;
+/// So often rows change places between those in and those beside, before those that bound stay where they are.
+constexpr int most_rounds = 4;
+/// What is passed by less than this is not, m/s or rad/s.
+constexpr double passable = 1e-10;
 
 double speed_of(const Direction& direction, const BodyLanes& a, const BodyLanes& b) {
   double sum = 0;
@@ -54,8 +58,6 @@ void IslandJoints::build(std::span<JointLink* const> links, const std::vector<st
   rate_ = hurry * hurry * taken_apart / h;
   joints_.resize(links.size());
   members_.resize(links.size());
-  masses_.resize(links.size());
-  impulses_.resize(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
     Entry& entry = joints_[i];
     state::Joint& joint = *links[i]->joint;
@@ -64,10 +66,52 @@ void IslandJoints::build(std::span<JointLink* const> links, const std::vector<st
     entry.b = places[links[i]->b];
     entry.push = entry.turn = Vec3::Zero();
     const double ratio = joint.kept_step > h ? h / joint.kept_step : 1;
-    for (std::size_t k = 0; k < joint.kept.size(); ++k) entry.rows.rows[k].impulse = ratio * joint.kept[k];
-    members_[i] = {entry.a, entry.b, entry.a != 0 && island[entry.a].movable, island[entry.b].movable, &entry.rows};
+    for (std::size_t k = 0; k < joint.kept.size(); ++k) entry.rows.impulses[k] = ratio * joint.kept[k];
+    members_[i] = {entry.a,
+                   entry.b,
+                   entry.a != 0 && island[entry.a].movable,
+                   island[entry.b].movable,
+                   static_cast<std::uint32_t>(i),
+                   &entry.rows};
   }
-  if (!links.empty()) system_.plan(members_, island.size());
+  find_figures(island);
+}
+
+void IslandJoints::find_figures(const std::vector<IslandBody>& island) {
+  figure_count_ = 0;
+  if (members_.empty()) return;
+  plans_.fit(island.size());
+  roots_.resize(island.size());
+  for (std::uint32_t i = 0; i < roots_.size(); ++i) roots_[i] = i;
+  const auto root_of = [&](std::uint32_t place) {
+    while (roots_[place] != place) place = roots_[place] = roots_[roots_[place]];
+    return place;
+  };
+  for (const JointSystem::Member& member : members_) {
+    if (!member.a_moves || !member.b_moves) continue;
+    const std::uint32_t a = root_of(member.a), b = root_of(member.b);
+    roots_[std::max(a, b)] = std::min(a, b);
+  }
+  // Sorted by root, and in their order otherwise.
+  const auto root_of_member = [&](const JointSystem::Member& member) {
+    return root_of(member.a_moves ? member.a : member.b);
+  };
+  std::stable_sort(members_.begin(), members_.end(),
+                   [&](const JointSystem::Member& left, const JointSystem::Member& right) {
+                     return root_of_member(left) < root_of_member(right);
+                   });
+  const auto add = [&](std::span<const JointSystem::Member> some) {
+    if (figure_count_ == figures_.size()) figures_.emplace_back();
+    if (!figures_[figure_count_].system.plan(some, plans_)) return false;
+    ++figure_count_;
+    return true;
+  };
+  for (std::size_t begin = 0, end = 0; begin < members_.size(); begin = end) {
+    while (end < members_.size() && root_of_member(members_[end]) == root_of_member(members_[begin])) ++end;
+    const std::span<const JointSystem::Member> some = std::span(members_).subspan(begin, end - begin);
+    if (!add(some))
+      for (std::size_t i = 0; i < some.size(); ++i) static_cast<void>(add(some.subspan(i, 1)));
+  }
 }
 
 void IslandJoints::write(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
@@ -92,13 +136,11 @@ void IslandJoints::write(const std::vector<state::Body>& bodies, const std::vect
     entry.arm_b = at.arm_b;
     entry.axis_a = at.x_a();
     entry.axis_b = at.x_b();
-    masses_[i] = {a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia};
-    entry.rows.begin(masses_[i], h_, rate_);
+    entry.rows.begin({a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia}, h_, rate_);
     std::visit([&](const auto& kind) { write_rows(kind, *entry.joint, at, entry.rows); }, entry.joint->settings.kind);
-    entry.rows.finish();
     keep_turns(*entry.joint, at);
   }
-  system_.factor(masses_);
+  for (std::size_t i = 0; i < figure_count_; ++i) figures_[i].stale = true;
 }
 
 void IslandJoints::begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
@@ -106,10 +148,8 @@ void IslandJoints::begin_sub_step(const std::vector<state::Body>& bodies, const 
   if (joints_.empty()) return;
   write(bodies, island, starts);
   for (const Entry& entry : joints_)
-    for (std::size_t i = 0; i < entry.rows.count; ++i) {
-      const Row& row = entry.rows.rows[i];
-      if (row.impulse != 0) apply(entry, row, row.impulse, velocities);
-    }
+    for (std::size_t i = 0; i < entry.rows.count; ++i)
+      if (entry.rows.impulses[i] != 0) apply(entry, entry.rows.rows[i], entry.rows.impulses[i], velocities);
 }
 
 void IslandJoints::end_step(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
@@ -117,9 +157,11 @@ void IslandJoints::end_step(const std::vector<state::Body>& bodies, const std::v
   if (joints_.empty()) return;
   store();
   write(bodies, island, velocities);
-  for (Entry& entry : joints_)
-    for (Row& row : entry.rows.rows) row.impulse = row.wanted_after = 0;
-  solve_together(velocities, false, false);
+  for (Entry& entry : joints_) {
+    entry.rows.hold_only();
+    for (std::size_t i = 0; i < entry.rows.together; ++i) entry.rows.rows[i].wanted_after = 0;
+  }
+  solve(velocities, false, false);
   add_up();
   for (const Entry& entry : joints_) {
     entry.joint->force = entry.push / dt_;
@@ -127,7 +169,7 @@ void IslandJoints::end_step(const std::vector<state::Body>& bodies, const std::v
   }
 }
 
-void IslandJoints::apply(const Entry& entry, const Row& row, double impulse, std::vector<BodyLanes>& velocities) const {
+void IslandJoints::apply(const Entry& entry, const Row& row, double impulse, std::vector<BodyLanes>& velocities) {
   BodyLanes& a = velocities[entry.a];
   BodyLanes& b = velocities[entry.b];
   const double push_a = entry.inverse_mass_a * impulse;
@@ -140,73 +182,116 @@ void IslandJoints::apply(const Entry& entry, const Row& row, double impulse, std
   }
 }
 
-void IslandJoints::solve_bounds(Entry& entry, std::vector<BodyLanes>& velocities, bool moving) {
-  for (std::size_t i = entry.rows.together; i < entry.rows.count; ++i) {
-    Row& row = entry.rows.rows[i];
-    if (row.mass == 0) continue;
-    const double wanted = moving ? row.wanted : row.wanted_after;
-    const double speed = speed_of(row.direction, velocities[entry.a], velocities[entry.b]);
-    const double next = row.impulse + row.firm * row.mass * (wanted - speed) - row.giving * row.impulse;
-    const double bounded = std::clamp(next, row.low, row.high);
-    const double change = bounded - row.impulse;
-    if (change == 0) continue;
-    apply(entry, row, change, velocities);
-    row.impulse = bounded;
-    for (std::size_t k = 0; k < entry.rows.together; ++k) {
-      if (row.along[k] == 0) continue;
-      apply(entry, entry.rows.rows[k], -change * row.along[k], velocities);
-      entry.rows.rows[k].impulse -= change * row.along[k];
+double IslandJoints::lack(const Entry& entry, std::size_t slot, bool moving, const std::vector<BodyLanes>& velocities) {
+  const Row& row = entry.rows.rows[slot];
+  return (moving ? row.wanted : row.wanted_after) - row.compliance * entry.rows.impulses[slot] -
+         speed_of(row.direction, velocities[entry.a], velocities[entry.b]);
+}
+
+/// Solves all rows that are in for the speeds that they want.
+void IslandJoints::solve_in(Figure& figure, std::vector<BodyLanes>& velocities, bool moving) {
+  JointSystem& system = figure.system;
+  if (figure.stale) system.factor();
+  figure.stale = false;
+  figure.bounded = false;
+  for (std::size_t place = 0; place < system.size(); ++place) {
+    Entry& entry = joints_[system.member(place).joint];
+    const std::span<const std::uint8_t> slots = system.slots(place);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      double& impulse = entry.rows.impulses[slots[i]];
+      if (impulse == 0 || system.says_something(place, i)) continue;
+      apply(entry, entry.rows.rows[slots[i]], -impulse, velocities);
+      impulse = 0;
+    }
+  }
+  for (std::size_t place = 0; place < system.size(); ++place) {
+    const Entry& entry = joints_[system.member(place).joint];
+    const std::span<const std::uint8_t> slots = system.slots(place);
+    figure.bounded = figure.bounded || (!slots.empty() && slots.back() >= entry.rows.together);
+    double* values = system.values(place);
+    const double* inverses = system.inverses(place);
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      values[i] = lack(entry, slots[i], moving, velocities) - give * inverses[i] * entry.rows.impulses[slots[i]];
+  }
+  system.solve();
+  for (std::size_t place = 0; place < system.size(); ++place) {
+    Entry& entry = joints_[system.member(place).joint];
+    const std::span<const std::uint8_t> slots = system.slots(place);
+    const double* values = system.values(place);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      if (values[i] == 0) continue;
+      apply(entry, entry.rows.rows[slots[i]], values[i], velocities);
+      entry.rows.impulses[slots[i]] += values[i];
     }
   }
 }
 
-void IslandJoints::solve_together(std::vector<BodyLanes>& velocities, bool moving, bool backward) {
-  const auto find = [&](std::size_t n) {
-    const Entry& entry = joints_[n];
-    for (std::size_t i = 0; i < entry.rows.together; ++i) {
+/// Lets in what is beside and would be passed. @return whether anything came in
+bool IslandJoints::admit(Figure& figure, const std::vector<BodyLanes>& velocities, bool moving) {
+  bool changed = false;
+  for (std::size_t place = 0; place < figure.system.size(); ++place) {
+    Entry& entry = joints_[figure.system.member(place).joint];
+    for (std::size_t i = entry.rows.together; i < entry.rows.count; ++i) {
+      if (entry.rows.parts[i] != Part::beside) continue;
       const Row& row = entry.rows.rows[i];
-      const double lost = row.mass > 0 ? give * row.impulse / row.mass : 0;
-      impulses_[n][i] = (moving ? row.wanted : row.wanted_after) - lost -
-                        speed_of(row.direction, velocities[entry.a], velocities[entry.b]);
+      const double impulse = entry.rows.impulses[i];
+      const double rest = lack(entry, i, moving, velocities);
+      if (!(rest > passable && impulse < row.high) && !(rest < -passable && impulse > row.low)) continue;
+      entry.rows.parts[i] = Part::in;
+      changed = true;
     }
-  };
-  const auto hand_out = [&](std::size_t n) {
-    Entry& entry = joints_[n];
-    for (std::size_t i = 0; i < entry.rows.together; ++i) {
-      if (impulses_[n][i] == 0) continue;
-      apply(entry, entry.rows.rows[i], impulses_[n][i], velocities);
-      entry.rows.rows[i].impulse += impulses_[n][i];
+  }
+  figure.stale = figure.stale || changed;
+  return changed;
+}
+
+/// Takes out what came to lie beyond its bound, or at it. @param all  also what did not
+bool IslandJoints::dismiss(Figure& figure, std::vector<BodyLanes>& velocities, bool all) {
+  bool changed = false;
+  for (std::size_t place = 0; place < figure.system.size(); ++place) {
+    Entry& entry = joints_[figure.system.member(place).joint];
+    for (std::size_t i = entry.rows.together; i < entry.rows.count; ++i) {
+      if (entry.rows.parts[i] != Part::in) continue;
+      const Row& row = entry.rows.rows[i];
+      double& impulse = entry.rows.impulses[i];
+      if (!all && impulse >= row.low && impulse <= row.high) continue;
+      const double bounded = std::clamp(impulse, row.low, row.high);
+      if (bounded != impulse) apply(entry, row, bounded - impulse, velocities);
+      impulse = bounded;
+      entry.rows.parts[i] = Part::beside;
+      changed = true;
     }
-  };
-  if (system_.whole()) {
-    for (std::size_t n = 0; n < joints_.size(); ++n) find(n);
-    system_.solve(impulses_);
-    for (std::size_t n = 0; n < joints_.size(); ++n) hand_out(n);
-    return;
   }
-  for (std::size_t k = 0; k < joints_.size(); ++k) {
-    const std::size_t n = backward ? joints_.size() - 1 - k : k;
-    find(n);
-    system_.solve_alone(n, impulses_[n]);
-    hand_out(n);
+  figure.stale = figure.stale || changed;
+  return changed;
+}
+
+void IslandJoints::solve(Figure& figure, std::vector<BodyLanes>& velocities, bool moving) {
+  admit(figure, velocities, moving);
+  solve_in(figure, velocities, moving);
+  for (int round = 0; round < most_rounds; ++round) {
+    const bool out = dismiss(figure, velocities, false);
+    const bool in = admit(figure, velocities, moving);
+    if (!out && !in) {
+      if (figure.bounded) solve_in(figure, velocities, moving);
+      return;
+    }
+    solve_in(figure, velocities, moving);
   }
+  // What holds has the last word.
+  if (dismiss(figure, velocities, true)) solve_in(figure, velocities, moving);
 }
 
 void IslandJoints::solve(std::vector<BodyLanes>& velocities, bool moving, bool backward) {
-  if (joints_.empty()) return;
-  // Bounds first: what must hold has the last word.
-  for (std::size_t n = 0; n < joints_.size(); ++n)
-    solve_bounds(joints_[backward ? joints_.size() - 1 - n : n], velocities, moving);
-  solve_together(velocities, moving, backward);
+  for (std::size_t i = 0; i < figure_count_; ++i)
+    solve(figures_[backward ? figure_count_ - 1 - i : i], velocities, moving);
 }
 
 bool IslandJoints::find_held(std::vector<IslandBody>& island) const {
   bool anchored = false;
   for (const Entry& entry : joints_) {
-    const auto acts = [](const Row& row) { return row.impulse != 0; };
-    if (std::none_of(entry.rows.rows.begin(), entry.rows.rows.begin() + static_cast<std::ptrdiff_t>(entry.rows.count),
-                     acts))
-      continue;
+    const auto end = entry.rows.impulses.begin() + static_cast<std::ptrdiff_t>(entry.rows.count);
+    if (std::all_of(entry.rows.impulses.begin(), end, [](double impulse) { return impulse == 0; })) continue;
     island[entry.a].jointed = island[entry.b].jointed = true;
     anchored = anchored || entry.a == 0;
   }
@@ -217,8 +302,9 @@ void IslandJoints::move(const std::vector<BodyLanes>& velocities) {
   for (Entry& entry : joints_) {
     // What pressed against a bound is there now.
     for (std::size_t i = entry.rows.together; i < entry.rows.count; ++i) {
+      if (entry.rows.parts[i] == Part::idle) continue;
       Row& row = entry.rows.rows[i];
-      if (row.low == 0 && row.impulse > 0 && row.wanted < 0 && row.giving == 0) row.wanted_after = 0;
+      if (row.low == 0 && entry.rows.impulses[i] > 0 && row.wanted < 0 && row.compliance == 0) row.wanted_after = 0;
     }
     if (!std::holds_alternative<GearJoint>(entry.joint->settings.kind)) continue;
     const BodyLanes& a = velocities[entry.a];
@@ -233,16 +319,16 @@ void IslandJoints::move(const std::vector<BodyLanes>& velocities) {
 void IslandJoints::add_up() {
   for (Entry& entry : joints_)
     for (std::size_t i = 0; i < entry.rows.count; ++i) {
-      const Row& row = entry.rows.rows[i];
-      const Vec3 push = row.impulse * row.direction.linear_b;
+      const double impulse = entry.rows.impulses[i];
+      if (impulse == 0) continue;
+      const Vec3 push = impulse * entry.rows.rows[i].direction.linear_b;
       entry.push += push;
-      entry.turn += row.impulse * row.direction.turn_b - entry.arm_b.cross(push);
+      entry.turn += impulse * entry.rows.rows[i].direction.turn_b - entry.arm_b.cross(push);
     }
 }
 
 void IslandJoints::forget() {
-  for (Entry& entry : joints_)
-    for (Row& row : entry.rows.rows) row.impulse = 0;
+  for (Entry& entry : joints_) entry.rows.impulses.fill(0);
 }
 
 void IslandJoints::store() {
@@ -253,7 +339,7 @@ void IslandJoints::store() {
       if (joint.passed_over < old_after * joint.kept_step) continue;
     }
     joint.kept = {};
-    for (std::size_t i = 0; i < entry.rows.count; ++i) joint.kept[i] = entry.rows.rows[i].impulse;
+    for (std::size_t i = 0; i < entry.rows.count; ++i) joint.kept[i] = entry.rows.impulses[i];
     joint.kept_step = h_;
     joint.passed_over = 0;
   }

@@ -12,8 +12,10 @@
 namespace tweenfall::joints {
 
 /// The joints of an island in sub-steps: errors are taken apart while bodies move, and the speed of that is taken away
-/// again. What all of them hold is solved together; bounds and motors one by one.
-/// Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024 (relaxation).
+/// again. What hangs together by joints is solved at once: what holds, and of what bounds or drives all that is not at
+/// its bound.
+/// Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024 (relaxation);
+/// Cottle, Pang and Stone, The Linear Complementarity Problem, 1992 (rows change places by the signs that come out).
 class IslandJoints {
  public:
   /// Begins with the impulses that the joints kept.
@@ -51,18 +53,31 @@ class IslandJoints {
     Vec3 push{0, 0, 0}, turn{0, 0, 0};      ///< on b in the step so far, N s and N m s
     JointRows rows;
   };
+  /// Joints that hang together.
+  struct Figure {
+    JointSystem system;
+    bool stale = true;     ///< its factors are of other rows
+    bool bounded = false;  ///< some row that is in has bounds
+  };
+  /// What is left of a row's speed, m/s or rad/s.
+  static double lack(const Entry& entry, std::size_t slot, bool moving,
+                     const std::vector<blocks::BodyLanes>& velocities);
+  void find_figures(const std::vector<blocks::IslandBody>& island);
   void write(const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
              const std::vector<blocks::BodyLanes>& velocities);
   void store();
-  void solve_bounds(Entry& entry, std::vector<blocks::BodyLanes>& velocities, bool moving);
-  void solve_together(std::vector<blocks::BodyLanes>& velocities, bool moving, bool backward);
-  void apply(const Entry& entry, const Row& row, double impulse, std::vector<blocks::BodyLanes>& velocities) const;
+  void solve(Figure& figure, std::vector<blocks::BodyLanes>& velocities, bool moving);
+  void solve_in(Figure& figure, std::vector<blocks::BodyLanes>& velocities, bool moving);
+  bool admit(Figure& figure, const std::vector<blocks::BodyLanes>& velocities, bool moving);
+  bool dismiss(Figure& figure, std::vector<blocks::BodyLanes>& velocities, bool all);
+  static void apply(const Entry& entry, const Row& row, double impulse, std::vector<blocks::BodyLanes>& velocities);
 
   std::vector<Entry> joints_;
-  JointSystem system_;
-  std::vector<JointSystem::Member> members_;
-  std::vector<Masses> masses_;
-  std::vector<JointSystem::Values> impulses_;
+  std::vector<Figure> figures_;
+  std::size_t figure_count_ = 0;
+  JointSystem::Plans plans_;
+  std::vector<JointSystem::Member> members_, together_;
+  std::vector<std::uint32_t> roots_, figure_of_, firsts_;
   double h_ = 0, dt_ = 0, rate_ = 0;
 };
 

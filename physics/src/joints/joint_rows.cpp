@@ -47,20 +47,33 @@ void JointRows::begin(const Masses& masses, double h, double rate) {
 
 Row& JointRows::add(const Direction& direction) {
   Row& row = rows[count++];
-  const double kept = row.impulse;
-  row = {};
-  row.impulse = kept;
   row.direction = direction;
   row.spin_a = masses_.inverse_inertia_a * direction.turn_a;
   row.spin_b = masses_.inverse_inertia_b * direction.turn_b;
-  const double inverse = masses_.inverse_mass_a * direction.linear_a.squaredNorm() + direction.turn_a.dot(row.spin_a) +
-                         masses_.inverse_mass_b * direction.linear_b.squaredNorm() + direction.turn_b.dot(row.spin_b);
-  row.mass = inverse > 0 ? 1 / inverse : 0;
+  row.compliance = 0;
+  row.low = -std::numeric_limits<double>::infinity();
+  row.high = std::numeric_limits<double>::infinity();
+  parts[count - 1] = Part::in;
   return row;
 }
 
+void JointRows::place_last() {
+  const Row& row = rows[count - 1];
+  double& impulse = impulses[count - 1];
+  impulse = std::clamp(impulse, row.low, row.high);
+  parts[count - 1] = row.low < impulse && impulse < row.high ? Part::in : Part::beside;
+}
+
 void JointRows::idle(std::size_t many) {
-  for (; many > 0; --many) rows[count++] = {};
+  for (; many > 0; --many, ++count) {
+    parts[count] = Part::idle;
+    impulses[count] = 0;
+  }
+}
+
+void JointRows::hold_only() {
+  impulses.fill(0);
+  for (std::size_t i = together; i < count; ++i) parts[i] = Part::idle;
 }
 
 /// What moves straight for a sub-step leaves its arc: half of the bend brings it back onto it, and the other half is
@@ -117,15 +130,14 @@ void JointRows::bound(const Direction& direction, double position, const Limits*
     }
     if (soft) {
       draw(low ? direction : -direction, gap, 0, limits->hz, limits->zeta, std::numeric_limits<double>::infinity());
+      if (parts[count - 1] == Part::idle) continue;
     } else {
       Row& row = add(low ? direction : -direction);
       row.wanted = gap > 0 ? -gap / h_ : correction(direction, rate_, gap);
       row.wanted_after = gap > 0 ? row.wanted : 0;
     }
-    Row& row = rows[count - 1];
-    row.low = 0;
-    row.high = std::numeric_limits<double>::infinity();
-    row.impulse = std::max(row.impulse, 0.0);
+    rows[count - 1].low = 0;
+    place_last();
   }
 }
 
@@ -139,28 +151,32 @@ void JointRows::drive(const Direction& direction, double position, const Motor* 
     row.wanted = row.wanted_after = motor->speed;
     row.high = motor->max_force * h_;
     row.low = -row.high;
+    place_last();
   }
 }
 
 void JointRows::draw(const Direction& direction, double error, double speed, double hz, double zeta, double most) {
   Row& row = add(direction);
-  // Source: Catto, Soft Constraints, GDC 2011: an implicit spring on the mass that the row sees.
+  // Source: Catto, Soft Constraints, GDC 2011: an implicit spring on the mass that the row moves.
   const double turn = 2 * std::numbers::pi * hz * h_;
   const double pull = turn * (2 * zeta + turn);
-  row.firm = pull / (1 + pull);
-  row.giving = 1 / (1 + pull);
-  row.wanted = row.wanted_after = speed - (pull > 0 ? turn / (h_ * (2 * zeta + turn)) * error : 0);
+  const double inverse_mass = held_inverse_mass();
+  if (!(pull > 0 && inverse_mass > 0)) {
+    --count;
+    return idle();
+  }
+  row.compliance = inverse_mass / pull;
+  row.wanted = row.wanted_after = speed - turn / (h_ * (2 * zeta + turn)) * error;
   row.high = most * h_;
   row.low = -row.high;
+  place_last();
 }
 
 void JointRows::spring(const Direction& direction, double error, double stiffness, double damping) {
   const double firmness = h_ * (damping + h_ * stiffness);
   if (!(firmness > 0)) return idle();
   Row& row = add(direction);
-  const double softness = row.mass / firmness;
-  row.firm = 1 / (1 + softness);
-  row.giving = softness / (1 + softness);
+  row.compliance = 1 / firmness;
   row.wanted = row.wanted_after = -stiffness / (damping + h_ * stiffness) * error;
 }
 
@@ -171,39 +187,29 @@ double JointRows::coupling(const Row& first, const Row& second) const {
          first.direction.turn_b.dot(second.spin_b);
 }
 
-void JointRows::finish() {
-  const auto acts = [](const Row& row) { return row.mass > 0; };
-  const auto first = rows.begin() + static_cast<std::ptrdiff_t>(together);
-  if (together == 0 || std::none_of(first, rows.begin() + static_cast<std::ptrdiff_t>(count), acts)) return;
-  std::array<std::array<double, most_together>, most_together> factor{};
-  for (std::size_t i = 0; i < together; ++i)
+double JointRows::held_inverse_mass() const {
+  const Row& row = rows[count - 1];
+  const double whole = coupling(row, row);
+  std::array<std::array<double, most_rows>, most_rows> factor{};
+  std::array<double, most_rows> along{};
+  double left = whole;
+  for (std::size_t i = 0; i < together; ++i) {
+    double sum = coupling(rows[i], row);
     for (std::size_t k = 0; k <= i; ++k) {
-      double sum = coupling(rows[i], rows[k]);
-      for (std::size_t n = 0; n < k; ++n) sum -= factor[i][n] * factor[k][n];
-      if (k < i)
-        factor[i][k] = factor[k][k] > 0 ? sum / factor[k][k] : 0;
-      else
-        factor[i][i] = sum * rows[i].mass > new_enough ? std::sqrt(sum) : 0;
+      double entry = coupling(rows[i], rows[k]);
+      const double own = entry;
+      for (std::size_t n = 0; n < k; ++n) entry -= factor[i][n] * factor[k][n];
+      if (k < i) {
+        factor[i][k] = factor[k][k] > 0 ? entry / factor[k][k] : 0;
+        sum -= factor[i][k] * along[k];
+      } else {
+        factor[i][i] = entry > new_enough * own ? std::sqrt(entry) : 0;
+      }
     }
-  for (std::size_t r = together; r < count; ++r) {
-    Row& row = rows[r];
-    if (!acts(row)) continue;
-    // factor y = J M^-1 r; what is left of the row's inverse mass is 1 / mass - |y|^2.
-    double left = 1 / row.mass;
-    for (std::size_t i = 0; i < together; ++i) {
-      double sum = coupling(rows[i], row);
-      for (std::size_t k = 0; k < i; ++k) sum -= factor[i][k] * row.along[k];
-      row.along[i] = factor[i][i] > 0 ? sum / factor[i][i] : 0;
-      left -= row.along[i] * row.along[i];
-    }
-    // Where the joint holds all that the row could move, it has nothing to do.
-    row.mass = left * row.mass > new_enough ? 1 / left : 0;
-    for (std::size_t i = together; i-- > 0;) {
-      for (std::size_t k = i + 1; k < together; ++k) row.along[i] -= factor[k][i] * row.along[k];
-      row.along[i] = factor[i][i] > 0 ? row.along[i] / factor[i][i] : 0;
-    }
-    if (row.mass == 0) row.impulse = 0;
+    along[i] = factor[i][i] > 0 ? sum / factor[i][i] : 0;
+    left -= along[i] * along[i];
   }
+  return left > new_enough * whole ? left : 0;
 }
 
 }  // namespace tweenfall::joints

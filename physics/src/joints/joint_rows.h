@@ -22,7 +22,7 @@ struct Direction {
 /// The frames' origins move apart along a direction that is fixed to neither.
 [[nodiscard]] Direction apart(const Placement& at, const Vec3& direction);
 
-constexpr std::size_t most_together = 6;
+constexpr std::size_t most_rows = state::Joint::most_rows;
 /// Parts of a row's inverse mass: what is left of one that says nothing new is rounding.
 constexpr double new_enough = 1e-10;
 /// What holds gives way by this part of its impulse, so that rows which contradict each other cannot throw bodies
@@ -32,16 +32,16 @@ constexpr double give = 1e-8;
 struct Row {
   Direction direction;
   Vec3 spin_a{0, 0, 0}, spin_b{0, 0, 0};  ///< angular velocity by a unit of impulse
-  double mass = 0;                        ///< what a unit of speed takes, kg or kg m^2; 0: the row is idle
   double wanted = 0;                      ///< speed while errors are taken apart
   double wanted_after = 0;                ///< and once the bodies have moved
-  double firm = 1;                        ///< share of the speed error met
-  double giving = 0;                      ///< share of the impulse let go
-  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();  ///< N s
-  /// By a unit of impulse along a row with bounds: what those that hold have to give along, so that it does not pull
-  /// the joint apart.
-  std::array<double, most_together> along{};
-  double impulse = 0;  ///< of the sub-step, N s or N m s
+  double compliance = 0;                  ///< speed that a soft row lets go for a unit of impulse; 0 for a hard one
+  double low = 0, high = 0;               ///< of the impulse, N s or N m s
+};
+
+enum class Part : char {
+  idle,    ///< does nothing, and is not written
+  beside,  ///< its impulse stays where it is: at a bound
+  in,      ///< solved together with all others that are
 };
 
 /// How the rows of a joint see its two bodies.
@@ -50,7 +50,7 @@ struct Masses {
   Mat3 inverse_inertia_a = Mat3::Zero(), inverse_inertia_b = Mat3::Zero();  ///< world axes
 };
 
-/// Rows of one joint in a sub-step: first those that are solved together, exactly, then one by one those with bounds.
+/// Rows of one joint in a sub-step: first those that hold, then those with bounds.
 class JointRows {
  public:
   /// @param h     length of the sub-step, s
@@ -75,17 +75,23 @@ class JointRows {
   void idle(std::size_t rows = 1);
 
   /// Lets the impulse of a coming row begin with a share of what it was.
-  void keep_of_next(std::size_t ahead, double share) { rows[count + ahead].impulse *= share; }
+  void keep_of_next(std::size_t ahead, double share) { impulses[count + ahead] *= share; }
+  /// Leaves out all that bounds or drives.
+  void hold_only();
+  [[nodiscard]] const Masses& masses() const { return masses_; }
 
-  /// Once all are written: lets the rows with bounds see the mass that they move while the joint holds.
-  void finish();
-
-  std::array<Row, state::Joint::most_rows> rows;
+  std::array<double, most_rows> impulses{};  ///< of the sub-step, N s or N m s
+  std::array<Part, most_rows> parts{};
+  std::array<Row, most_rows> rows;  ///< those that are idle hold nothing
   std::size_t together = 0, count = 0;
 
  private:
   Row& add(const Direction& direction);
+  /// Says whether the row that was added last takes part, by the impulse that it has.
+  void place_last();
   [[nodiscard]] double coupling(const Row& first, const Row& second) const;
+  /// What the last row added moves while the joint holds: speed by a unit of impulse; 0 for nothing.
+  [[nodiscard]] double held_inverse_mass() const;
 
   Masses masses_;
   double h_ = 0, rate_ = 0;

@@ -7,10 +7,9 @@
 
 namespace tweenfall::joints {
 
-/// All rows of an island's joints that hold, solved together: J M^-1 J^T by Cholesky's factors, block by block. Joints
-/// are eliminated from the leaves of the tree that they make to its root, where nothing is filled in, so that a chain
-/// or a figure takes time in proportion to its joints. What has so many loops that much is filled in is solved joint by
-/// joint.
+/// All rows that are in, of joints that hang together, solved at once: J M^-1 J^T by Cholesky's factors, block by
+/// block. Joints are eliminated from the leaves of the tree that they make to its root, where nothing is filled in, so
+/// that a chain or a figure takes time in proportion to its joints.
 /// Sources: Baraff, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH 1996 (the order); George and Liu,
 /// Computer Solution of Large Sparse Positive Definite Systems, 1981 (the factors' structure).
 class JointSystem {
@@ -19,40 +18,63 @@ class JointSystem {
   struct Member {
     std::uint32_t a = 0, b = 0;
     bool a_moves = false, b_moves = false;
+    std::uint32_t joint = 0;  ///< which one it is, for those who ask
     JointRows* rows = nullptr;
   };
+  /// What plans need for a while. Sized for all places of an island; between plans all is as it was.
+  struct Plans {
+    explicit Plans(std::size_t places = 0) { fit(places); }
+    void fit(std::size_t places);
+    std::vector<std::vector<std::uint32_t>> at_body;  ///< members by place of a body
+    std::vector<std::vector<std::uint32_t>> later;    ///< as in the system
+    std::vector<std::uint32_t> depth, queue, place_of;
+  };
 
-  /// Finds order and structure. @param places  how many there are
-  void plan(std::span<const Member> members, std::size_t places);
-  /// Finds the factors for the rows as they are. Rows that say nothing new are left out: their impulse becomes 0.
-  void factor(std::span<const Masses> masses);
-  /// Whether all are solved at once.
-  [[nodiscard]] bool whole() const { return whole_; }
+  /// Finds order and structure.
+  /// @return false if there are so many loops that joint by joint would be less work; it is no system then
+  [[nodiscard]] bool plan(std::span<const Member> members, Plans& plans);
+  /// Finds the factors for the rows that are in.
+  void factor();
 
-  using Values = std::array<double, most_together>;
-  /// From speeds to impulses of all members' rows, in place.
-  void solve(std::vector<Values>& values) const;
-  /// The same for one member as if it were alone.
-  void solve_alone(std::size_t member, Values& values) const;
+  [[nodiscard]] std::size_t size() const { return members_.size(); }
+  [[nodiscard]] const Member& member(std::size_t place) const { return members_[place]; }
+  /// Which of a member's rows are in.
+  [[nodiscard]] std::span<const std::uint8_t> slots(std::size_t place) const {
+    return {slots_[place].data(), counts_[place]};
+  }
+  /// One for each of them: speeds before `solve`, and impulses after it. Those of rows that say nothing new are 0.
+  [[nodiscard]] double* values(std::size_t place) { return values_.data() + first_value_[place]; }
+  /// Speed that the row alone gains by a unit of impulse.
+  [[nodiscard]] const double* inverses(std::size_t place) const { return inverses_.data() + first_value_[place]; }
+  /// Whether what is in adds something to those before it.
+  [[nodiscard]] bool says_something(std::size_t place, std::size_t row) const {
+    return diagonal(place)[row * counts_[place] + row] > 0;
+  }
+  void solve();
 
  private:
-  struct Block {
-    std::array<std::array<double, most_together>, most_together> at{};
-  };
-  void order(std::size_t places);
-  void find_structure(std::size_t places);
-  void fill(std::span<const Masses> masses);
+  void order(Plans& plans);
+  [[nodiscard]] bool find_structure(Plans& plans);
+  void lay_out();
+  void fill(std::size_t place);
   void factor_diagonal(std::size_t place);
-  [[nodiscard]] std::size_t rows_at(std::size_t place) const { return members_[order_[place]].rows->together; }
+  void eliminate(std::size_t place);
+  [[nodiscard]] std::span<const std::uint32_t> later(std::size_t place) const {
+    return {later_.data() + first_[place], first_[place + 1] - first_[place]};
+  }
+  [[nodiscard]] double* diagonal(std::size_t place) { return blocks_.data() + diagonal_[place]; }
+  [[nodiscard]] const double* diagonal(std::size_t place) const { return blocks_.data() + diagonal_[place]; }
 
+  // By place in the order of elimination
   std::vector<Member> members_;
-  bool whole_ = false;
-  std::vector<std::uint32_t> order_, place_of_;    ///< members by elimination, and back
-  std::vector<std::vector<std::uint32_t>> later_;  ///< by place in the order: those eliminated later that it acts on
-  std::vector<std::size_t> first_;                 ///< by place: its first block
-  std::vector<Block> diagonal_, below_;
-  std::vector<std::vector<std::uint32_t>> at_body_;  ///< members by place of a body
-  std::vector<std::uint32_t> depth_, queue_;
+  std::vector<std::uint32_t> first_;  ///< into later_
+  std::vector<std::uint32_t> later_;  ///< places eliminated later that each acts on, in order
+
+  // For the rows that are in
+  std::vector<std::uint8_t> counts_;
+  std::vector<std::array<std::uint8_t, most_rows>> slots_;
+  std::vector<std::uint32_t> first_value_, diagonal_, below_;  ///< below_: beside later_
+  std::vector<double> blocks_, values_, inverses_;             ///< blocks row by row
 };
 
 }  // namespace tweenfall::joints

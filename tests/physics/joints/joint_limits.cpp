@@ -318,4 +318,42 @@ TEST_CASE("a dozen joints that cannot all hold stay finite") {
   }
 }
 
+TEST_CASE("a forearm whose cone is nearly a line keeps both its widths however it falls, and its joint holds") {
+  constexpr double wide = 0.8, narrow = 0.06;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  double widest = 0, narrowest = 0, gap = 0;
+  for (int fall = 0; fall < 40; ++fall) {
+    World world(awake);
+    world.add({.shape = {Plane{Vec3(0, 1, 0), 0}}, .fixed = true});
+    const auto limb = [&](double x, double mass) {
+      return world.add({.shape = {Capsule{0.05, 0.1}},
+                        .mass = mass,
+                        .motion = {.pose = {.position = Vec3(x, 1, 0), .rotation = exp_map(Vec3(0, 0, pi / 2))}}});
+    };
+    const BodyId upper = limb(0, 3), lower = limb(0.3, 1.5);
+    const JointId elbow =
+        join(world, upper, lower, Vec3(0.15, 1, 0),
+             SwingTwistJoint{.swing_y = wide, .swing_z = narrow, .twist = {-0.5, 0.5}}, Vec3(1, 0, 0));
+    const Quat turn = exp_map(Vec3(any(random), any(random), any(random)) * pi);
+    const Vec3 spin = Vec3(any(random), any(random), any(random)) * 10;
+    for (const BodyId body : {upper, lower}) {
+      const Motion motion = world.motion(body);
+      const Vec3 arm = turn * Vec3(motion.pose.position - Vec3(0.15, 1, 0));
+      world.set_motion(body, {.pose = {Vec3(0, 1, 0) + arm, turn * motion.pose.rotation, Vec3(1, 1, 1)},
+                              .twist = {Vec3(0, -15, 0) + spin.cross(arm), spin}});
+    }
+    for (int i = 0; i < 90; ++i) {
+      world.step(1.0 / 60);
+      const JointReading reading = world.reading(elbow);
+      widest = std::max(widest, std::abs(reading.position[1]));
+      narrowest = std::max(narrowest, std::abs(reading.position[2]));
+      gap = std::max(gap, reading.gap);
+    }
+  }
+  CHECK(widest <= wide + 0.1);
+  CHECK(narrowest <= narrow + 0.25);
+  CHECK(gap <= 0.005);
+}
+
 }  // namespace tweenfall::jointed

@@ -13,6 +13,8 @@ namespace {
 
 /// A cone narrower than this is a hinge's business, rad.
 constexpr double narrowest = 1e-3;
+/// Shares of the longer axis of an ellipse: with less, its ends are sharp.
+constexpr double narrow = 0.5;
 
 /// A rotation as a swing after a twist about x: rotation = exp(swing) * twist, with swing.x = 0.
 struct Swing {
@@ -87,6 +89,15 @@ void write_rows(const SwingTwistJoint& kind, state::Joint& joint, const Placemen
     joint.side = side;
     const Limits cone{-std::numeric_limits<double>::infinity(), 1 / steepness, kind.twist.hz, kind.twist.zeta};
     rows.bound(about(at.axes_a * axis_of(swing, side)), share / steepness, &cone);
+  } else {
+    rows.idle(2);
+  }
+  // At the ends of a narrow ellipse one row turns from side to side and lets the limb slip past: they are blunted.
+  const double most = std::max(y, z);
+  if (std::min(y, z) < narrow * most) {
+    const Vec3 longer = Vec3::Unit(y > z ? 1 : 2);
+    const Limits ends{-most, most, kind.twist.hz, kind.twist.zeta};
+    rows.bound(about(at.axes_a * axis_of(swing, longer)), swing.vector.dot(longer), &ends);
   } else {
     rows.idle(2);
   }
