@@ -136,7 +136,8 @@ void IslandJoints::write(const std::vector<state::Body>& bodies, const std::vect
     entry.arm_b = at.arm_b;
     entry.axis_a = at.x_a();
     entry.axis_b = at.x_b();
-    entry.rows.begin({a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia}, h_, rate_);
+    entry.rows.begin({a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia}, h_, rate_,
+                     h_ * (at.twist_b.angular - at.twist_a.angular).norm());
     std::visit([&](const auto& kind) { write_rows(kind, *entry.joint, at, entry.rows); }, entry.joint->settings.kind);
     keep_turns(*entry.joint, at);
   }
@@ -273,7 +274,7 @@ void IslandJoints::solve(Figure& figure, std::vector<BodyLanes>& velocities, boo
     const bool out = dismiss(figure, velocities, false);
     const bool in = admit(figure, velocities, moving);
     if (!out && !in) {
-      if (figure.bounded) solve_in(figure, velocities, moving);
+      if (figure.bounded && !moving) solve_in(figure, velocities, moving);
       return;
     }
     solve_in(figure, velocities, moving);

@@ -14,6 +14,8 @@ namespace {
 /// its way.
 constexpr double fastest_approach = 4;
 constexpr double fastest_turn = 10;
+/// How far a blow may turn what stood still within a sub-step, rad: bounds that are nearer are minded.
+constexpr double reach_of_blow = 0.1;
 
 double correction(const Direction& direction, double rate, double error) {
   const double most = direction.linear_b == Vec3::Zero() ? fastest_turn : fastest_approach;
@@ -38,10 +40,11 @@ Direction apart(const Placement& at, const Vec3& direction) {
   return {direction, at.arm_a.cross(direction), direction, at.arm_b.cross(direction)};
 }
 
-void JointRows::begin(const Masses& masses, double h, double rate) {
+void JointRows::begin(const Masses& masses, double h, double rate, double turn) {
   masses_ = masses;
   h_ = h;
   rate_ = rate;
+  far_ = reach_of_blow + 2 * turn;
   together = count = 0;
 }
 
@@ -120,11 +123,9 @@ void JointRows::bound(const Direction& direction, double position, const Limits*
       idle();
       continue;
     }
-    // Nothing that can be followed turns by so much within a sub-step, rad.
-    constexpr double far = 0.5;
     const bool angular = direction.linear_b == Vec3::Zero();
     const bool soft = limits->hz > 0;
-    if ((angular && gap > far) || (soft && gap > 0)) {
+    if ((angular && gap > far_) || (soft && gap > 0)) {
       idle();
       continue;
     }

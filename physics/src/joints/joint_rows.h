@@ -55,7 +55,8 @@ class JointRows {
  public:
   /// @param h     length of the sub-step, s
   /// @param rate  share of an error that is taken apart, 1/s
-  void begin(const Masses& masses, double h, double rate);
+  /// @param turn  how far the bodies turn against each other in the sub-step as they move, rad
+  void begin(const Masses& masses, double h, double rate, double turn);
 
   // What holds; all of them before any that bounds
   /// @param bend  how the error accelerates when both bodies go on as they move
@@ -73,6 +74,8 @@ class JointRows {
   void draw(const Direction& direction, double error, double speed, double hz, double zeta, double most);
   void spring(const Direction& direction, double error, double stiffness, double damping);
   void idle(std::size_t rows = 1);
+  /// An angle farther than this from a bound is not concerned with it, rad.
+  [[nodiscard]] double far() const { return far_; }
 
   /// Lets the impulse of a coming row begin with a share of what it was.
   void keep_of_next(std::size_t ahead, double share) { impulses[count + ahead] *= share; }
@@ -94,7 +97,7 @@ class JointRows {
   [[nodiscard]] double held_inverse_mass() const;
 
   Masses masses_;
-  double h_ = 0, rate_ = 0;
+  double h_ = 0, rate_ = 0, far_ = 0;
 };
 
 }  // namespace tweenfall::joints

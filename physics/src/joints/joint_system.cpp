@@ -12,15 +12,22 @@ constexpr std::size_t most_blocks = 16;
 constexpr std::uint32_t unseen = 0xffffffffu;
 /// Rows with bounds may nearly say what others say already; with so much more of their own inverse mass they do not ask
 /// for any impulse, and are met all the same when solved once more.
-constexpr double caution = 0.01;
+constexpr double caution = 0.003;
 
-/// Three rows are what most joints have: known to the compiler, their loops are unrolled.
+/// Three rows are what most joints have, and some more at their bounds: known to the compiler, their loops are
+/// unrolled.
 template <class Call>
 void sized(std::size_t rows, const Call& call) {
-  if (rows == 3)
-    call(std::integral_constant<std::size_t, 3>());
-  else
-    call(rows);
+  switch (rows) {
+    case 3:
+      return call(std::integral_constant<std::size_t, 3>());
+    case 4:
+      return call(std::integral_constant<std::size_t, 4>());
+    case 5:
+      return call(std::integral_constant<std::size_t, 5>());
+    default:
+      return call(rows);
+  }
 }
 
 /// How an impulse along one row changes the speed that another sees through a body that both hold.

@@ -1,4 +1,3 @@
-#include <tweenfall/curves/elementary.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
@@ -40,10 +39,11 @@ Swing swing_of(const Quat& rotation) {
 Vec3 axis_of(const Swing& swing, const Vec3& gradient) {
   const double angle = swing.vector.norm();
   const Vec3 carried = swing.rotation * Vec3(1, 0, 0);
-  const double half = 0.5 * angle;
-  const auto [sin, cos] = elementary::sin_cos(half);
+  // The swing's quaternion has the sine and the cosine of half of its angle.
+  const double sin = swing.rotation.vec().norm();
+  const double cos = std::abs(swing.rotation.w());
   // half cot(half), and what it leaves
-  const double cotangent = sin > 0 ? half * cos / sin : 1;
+  const double cotangent = sin > 0 ? 0.5 * angle * cos / sin : 1;
   const double rest = angle > 1e-4 ? (1 - cotangent) / (angle * angle) : 1.0 / 12;
   // Transpose of the inverse of the left derivative: 1 + [s]/2 + rest [s]^2.
   const auto undone = [&](const Vec3& value) -> Vec3 {
@@ -56,27 +56,25 @@ Vec3 axis_of(const Swing& swing, const Vec3& gradient) {
   return std::abs(carry) > 1e-9 ? Vec3(first - first.dot(carried) / carry * free) : first;
 }
 
-}  // namespace
-
-Coordinates coordinates_of(const SwingTwistJoint&, const state::Joint&, const Placement& at) {
-  Coordinates coordinates;
-  const Quat relative = at.relative();
-  const Swing swing = swing_of(relative);
+/// About which b twists: halfway between both x axes, as long as the twist is fast.
+Direction twist_direction(const Placement& at) {
   const Vec3 x_a = at.x_a();
   const Vec3 both = x_a + at.x_b();
   const double sum = 1 + x_a.dot(at.x_b());
-  coordinates.add(twist_of(relative), about(sum > 1e-9 ? Vec3(both / sum) : x_a));
-  coordinates.add(swing.vector.y(), about(at.axes_a * axis_of(swing, Vec3(0, 1, 0))));
-  coordinates.add(swing.vector.z(), about(at.axes_a * axis_of(swing, Vec3(0, 0, 1))));
-  return coordinates;
+  return about(sum > 1e-9 ? Vec3(both / sum) : x_a);
 }
 
-void write_rows(const SwingTwistJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
-  rows.hold_point(at);
-  const Quat relative = at.relative();
-  const Swing swing = swing_of(relative);
+/// Rows of the cone: four.
+void bound_swing(const SwingTwistJoint& kind, state::Joint& joint, const Placement& at, const Quat& relative,
+                 JointRows& rows) {
   const double y = std::max(kind.swing_y, narrowest);
   const double z = std::max(kind.swing_z, narrowest);
+  // Half an angle is at most its tangent: most limbs need no angle to be seen well inside.
+  const double inside = std::min(y, z) - rows.far();
+  const double twist_part = relative.w() * relative.w() + relative.x() * relative.x();
+  const double swing_part = relative.y() * relative.y() + relative.z() * relative.z();
+  if (inside > 0 && 4 * swing_part < inside * inside * twist_part) return rows.idle(4);
+  const Swing swing = swing_of(relative);
   // The ellipse (s_y / y)^2 + (s_z / z)^2 = 1, and the distance to it to first order.
   const Vec3 scaled(0, swing.vector.y() / y, swing.vector.z() / z);
   const double share = scaled.norm();
@@ -101,10 +99,32 @@ void write_rows(const SwingTwistJoint& kind, state::Joint& joint, const Placemen
   } else {
     rows.idle(2);
   }
-  const Vec3 x_a = at.x_a();
-  const Vec3 both = x_a + at.x_b();
-  const double sum = 1 + x_a.dot(at.x_b());
-  rows.bound(about(sum > 1e-9 ? Vec3(both / sum) : x_a), twist_of(relative), &kind.twist);
+}
+
+/// Rows of the twist: two.
+void bound_twist(const SwingTwistJoint& kind, const Placement& at, const Quat& relative, JointRows& rows) {
+  const double inside = std::min(kind.twist.high, -kind.twist.low) - rows.far();
+  if (inside > 0 && 2 * std::abs(relative.x()) < inside * std::abs(relative.w())) return rows.idle(2);
+  rows.bound(twist_direction(at), twist_of(relative), &kind.twist);
+}
+
+}  // namespace
+
+Coordinates coordinates_of(const SwingTwistJoint&, const state::Joint&, const Placement& at) {
+  Coordinates coordinates;
+  const Quat relative = at.relative();
+  const Swing swing = swing_of(relative);
+  coordinates.add(twist_of(relative), twist_direction(at));
+  coordinates.add(swing.vector.y(), about(at.axes_a * axis_of(swing, Vec3(0, 1, 0))));
+  coordinates.add(swing.vector.z(), about(at.axes_a * axis_of(swing, Vec3(0, 0, 1))));
+  return coordinates;
+}
+
+void write_rows(const SwingTwistJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
+  rows.hold_point(at);
+  const Quat relative = at.relative();
+  bound_swing(kind, joint, at, relative, rows);
+  bound_twist(kind, at, relative, rows);
   if (kind.toward) {
     // Along b's own axes, which for a limb are nearly those of its inertia: the springs hardly act on each other.
     const Vec3 off = log_map(kind.toward->conjugate() * relative);
