@@ -34,22 +34,23 @@ Quat near_unit(const Quat& q) noexcept {
   return Quat(q.coeffs() * (1 - 0.5 * excess));
 }
 
+void place(const WorldMotion& parent, const Motion& local, WorldMotion& world) noexcept {
+  const Motion& above = parent.motion;
+  Motion& motion = world.motion;
+  write(child_frame(read(parent.linear, parent.linear_rate, above.pose.position, above.twist.linear), local),
+        world.linear, world.linear_rate, motion.pose.position, motion.twist.linear);
+  motion.pose.rotation = near_unit(above.pose.rotation * local.pose.rotation);
+  motion.pose.scale = above.pose.scale.cwiseProduct(local.pose.scale);
+  motion.twist.angular = above.twist.angular + above.pose.rotation * local.twist.angular;
+  motion.scale_rate = above.scale_rate.cwiseProduct(local.pose.scale) + above.pose.scale.cwiseProduct(local.scale_rate);
+}
+
 }  // namespace
 }  // namespace pose
 
 WorldMotion child_of(const WorldMotion& parent, const Motion& local) noexcept {
-  const Pose& above = parent.motion.pose;
   WorldMotion world;
-  Motion& motion = world.motion;
-  const pose::MovingFrame frame =
-      pose::read(parent.linear, parent.linear_rate, above.position, parent.motion.twist.linear);
-  pose::write(pose::child_frame(frame, local), world.linear, world.linear_rate, motion.pose.position,
-              motion.twist.linear);
-  motion.pose.rotation = pose::near_unit(above.rotation * local.pose.rotation);
-  motion.pose.scale = above.scale.cwiseProduct(local.pose.scale);
-  motion.twist.angular = parent.motion.twist.angular + above.rotation * local.twist.angular;
-  motion.scale_rate =
-      parent.motion.scale_rate.cwiseProduct(local.pose.scale) + above.scale.cwiseProduct(local.scale_rate);
+  pose::place(parent, local, world);
   return world;
 }
 
@@ -146,8 +147,9 @@ std::optional<std::size_t> Hierarchy::find(std::string_view name) const {
 }
 
 void Hierarchy::world_motions(std::span<const Motion> local, std::span<WorldMotion> world) const noexcept {
+  static const WorldMotion outside;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    world[i] = child_of(nodes_[i].parent == no_node ? WorldMotion{} : world[nodes_[i].parent], local[i]);
+    pose::place(nodes_[i].parent == no_node ? outside : world[nodes_[i].parent], local[i], world[i]);
 }
 
 void Hierarchy::world_frames(std::span<const Motion> local, std::span<WorldFrame> world) const noexcept {

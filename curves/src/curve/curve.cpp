@@ -139,7 +139,9 @@ Sample<T> sample_segment(const Data& d, std::size_t i, const Segment& s, double 
   if constexpr (std::is_same_v<T, Quat>) {
     return sample_rotation(d, i, s, w);
   } else {
-    math::Polynomial<typename Stored<T>::type> p = math::evaluate_polynomial(&d.pool[s.first], s.degree, w.s);
+    std::array<typename Stored<T>::type, 4> room;
+    math::Polynomial<typename Stored<T>::type> p =
+        math::evaluate_polynomial(d.coefficients(i, s.first, room), s.degree, w.s);
     if (s.warped) through(w, p);
     if constexpr (std::is_same_v<T, Color>) {
       const Sample<Vec4> v = with_rates(p.value, p.first, p.second, s.inverse);
@@ -198,6 +200,30 @@ bool are_joined(std::span<const SpanType> spans) {
   return true;
 }
 
+// The values of spans at their knots with these rates, where the cubics through them are the spans to the bit; else
+// nothing.
+template <class T>
+std::vector<T> passed_by(std::span<const Span<T>> spans, std::span<const Rate<T>> rates, const SpanTimes& times) {
+  std::vector<T> passed;
+  if (rates.size() != spans.size() + 1) return passed;
+  passed.reserve(2 * rates.size());
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    passed.push_back(spans[i].coefficients[0]);
+    passed.push_back(rates[i]);
+  }
+  passed.push_back(spans.back().end);
+  passed.push_back(rates.back());
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    std::array<T, 4> c;
+    cubic_through(&passed[2 * i], times.duration(i), c.data());
+    const Span<T>& s = spans[i];
+    if (s.degree != 3 || s.warp.function || !(s.end == passed[2 * i + 2]) ||
+        !std::equal(c.begin(), c.end(), s.coefficients.begin()))
+      return {};
+  }
+  return passed;
+}
+
 // What arrives at the first knot, or leaves the last.
 template <class T, class Data>
 T end_value(const Data& d, bool early) noexcept {
@@ -224,7 +250,8 @@ namespace tweenfall {
 
 template <class T>
 Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end,
-                                 const spans::CurveEnd<T>& before, const spans::CurveEnd<T>& after) {
+                                 const spans::CurveEnd<T>& before, const spans::CurveEnd<T>& after,
+                                 [[maybe_unused]] std::span<const Rate<T>> rates) {
   spans::check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
@@ -265,9 +292,11 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   std::size_t rows = 0;
   for (const auto& s : spans) rows += static_cast<std::size_t>(spans::rows_of(s)) - unread;
   d.rows = static_cast<std::uint32_t>(spans::rows_of(spans[0])) - static_cast<std::uint32_t>(unread);
+  if constexpr (std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3> || std::is_same_v<T, Vec4>)
+    d.passed = spans::passed_by<T>(spans, rates, *d.times);
   if (unread)
     d.turns.reserve(rows);
-  else
+  else if (d.passed.empty())
     d.pool.reserve(rows);
   const bool alike = spans::are_alike(spans);
   d.kinds.reserve(alike ? 1 : count);
@@ -280,7 +309,7 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
       if constexpr (std::is_same_v<T, Quat>) kind.form = s.form;
       d.kinds.push_back(kind);
     }
-    for (std::size_t k = unread; k < static_cast<std::size_t>(spans::rows_of(s)); ++k) {
+    for (std::size_t k = unread; d.passed.empty() && k < static_cast<std::size_t>(spans::rows_of(s)); ++k) {
       const auto& c = s.coefficients[k];
       if constexpr (std::is_same_v<T, Color>)
         d.pool.push_back(c.rgba);
@@ -452,17 +481,18 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
       span.from = d.starts[i];
       if (!d.spins.empty()) span.spin = d.spins[i];
     }
-    for (std::size_t k = 0; k < static_cast<std::size_t>(spans::rows_of(span)); ++k) {
-      if constexpr (std::is_same_v<T, Color>) {
-        span.coefficients[k].rgba = d.pool[s.first + k];
-      } else if constexpr (std::is_same_v<T, Quat>) {
-        if (!d.plain_turns)
-          span.coefficients[k] = d.pool[s.first + k];
-        else if (k > 0)
+    const auto rows = static_cast<std::size_t>(spans::rows_of(span));
+    if constexpr (std::is_same_v<T, Quat>) {
+      for (std::size_t k = d.plain_turns ? 1 : 0; k < rows; ++k) {
+        if (d.plain_turns)
           span.coefficients[k].template head<3>() = d.turns[s.first + k - 1];
-      } else {
-        span.coefficients[k] = d.pool[s.first + k];
+        else
+          span.coefficients[k] = d.pool[s.first + k];
       }
+    } else {
+      std::array<typename Data::Row, 4> room;
+      const typename Data::Row* c = d.coefficients(i, s.first, room);
+      for (std::size_t k = 0; k < rows; ++k) span.coefficients[k] = T{c[k]};
     }
     span.end = d.arrival(i);
     if (s.warped) span.warp = d.warps[i];
@@ -475,10 +505,11 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
   return result;
 }
 
-#define TWEENFALL_CURVE(T)                                                                            \
-  template class Curve<T>;                                                                            \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double,     \
-                                               const spans::CurveEnd<T>&, const spans::CurveEnd<T>&); \
+#define TWEENFALL_CURVE(T)                                                                           \
+  template class Curve<T>;                                                                           \
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double,    \
+                                               const spans::CurveEnd<T>&, const spans::CurveEnd<T>&, \
+                                               std::span<const Rate<T>>);                            \
   template T CurveAccess::end_value<T>(const Curve<T>&, bool) noexcept;
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)

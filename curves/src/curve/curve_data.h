@@ -5,9 +5,11 @@
 #include <tweenfall/curves/curve.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 
 #include "curve/components.h"
+#include "curve/hermite_coefficients.h"
 #include "curve/span_times.h"
 
 namespace tweenfall::spans {
@@ -60,6 +62,7 @@ namespace tweenfall {
 
 template <class T>
 struct Curve<T>::Data {
+  using Row = typename spans::Stored<T>::type;
   // What spans are like: one for each of them, or a single one where all are alike.
   struct Kind {
     std::uint32_t first;  // row of coefficients; where all are alike they follow each other
@@ -74,7 +77,10 @@ struct Curve<T>::Data {
   std::shared_ptr<const SpanTimes> times;  // null where there is a formula
   std::vector<Kind> kinds;
   std::uint32_t rows = 0;  // for each span, where all are alike
-  std::vector<typename spans::Stored<T>::type> pool;
+  std::vector<Row> pool;
+  // The value and the rate at each knot, where all spans are the cubics through them. They stand in place of the pool
+  // and take half of its room; numbers, of which most is asked most often, always have a pool.
+  std::vector<Row> passed;
   // Values on arrival, one for each span; only the last where each arrives at what leaves.
   std::vector<T> ends;
   std::vector<Warp> warps;  // empty, or one for each span
@@ -102,6 +108,16 @@ struct Curve<T>::Data {
     return {times->knots()[i], times->duration(i), times->inverse(i), alike ? i * rows : kind.first,
             kind.degree,       kind.warped,        kind.form};
   }
+  // The coefficients of span i.
+  [[nodiscard]] const Row* coefficients(std::size_t i, std::size_t first, std::array<Row, 4>& room) const noexcept {
+    if constexpr (!std::is_same_v<T, double>) {
+      if (!passed.empty()) {
+        spans::cubic_through(&passed[2 * i], times->duration(i), room.data());
+        return room.data();
+      }
+    }
+    return &pool[first];
+  }
   [[nodiscard]] T arrival(std::size_t i) const noexcept {
     if (ends.size() == span_count()) return ends[i];
     if (i + 1 == span_count()) return ends[0];
@@ -113,7 +129,7 @@ struct Curve<T>::Data {
     if constexpr (std::is_same_v<T, Quat>)
       return starts[i];
     else
-      return T{pool[segment(i).first]};
+      return T{passed.empty() ? pool[segment(i).first] : passed[2 * i]};
   }
 };
 
@@ -145,9 +161,11 @@ struct CurveAccess {
   }
 
   /// A curve of checked spans with its last knot given to the bit, and what lies beyond its ends.
+  /// @param rates  at each knot, where the spans may be the cubics with these slopes: so they are stored then
   template <class T>
   static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end,
-                             const spans::CurveEnd<T>& before = {}, const spans::CurveEnd<T>& after = {});
+                             const spans::CurveEnd<T>& before = {}, const spans::CurveEnd<T>& after = {},
+                             std::span<const Rate<T>> rates = {});
 
   /// The same curve with something else beyond its ends.
   template <class T>

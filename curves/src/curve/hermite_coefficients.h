@@ -13,7 +13,14 @@ void cubic_coefficients(const V& from, const V& change, const V& d0, const V& d1
   c[3] = d0 + d1 - 2 * change;
 }
 
-/// The same of degree 5, with the second derivatives e0 and e1 too.
+/// The same over `duration` seconds, from and to values that each have their rate behind them.
+template <class V>
+void cubic_through(const V* ends, double duration, V* c) {
+  const V change = ends[2] - ends[0], d0 = duration * ends[1], d1 = duration * ends[3];
+  cubic_coefficients(ends[0], change, d0, d1, c);
+}
+
+/// From values and slopes as above, of degree 5, with the second derivatives e0 and e1 too.
 template <class V>
 void quintic_coefficients(const V& from, const V& change, const V& d0, const V& d1, const V& e0, const V& e1, V* c) {
   // What the polynomial of degree 2 from the start leaves to be made up at the end, for value, slope and bend.

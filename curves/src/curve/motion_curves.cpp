@@ -31,12 +31,12 @@ class MotionCurves::Sampler {
     if (!channel.times || channel.times != times_) return;
     const Vec3* row = channel.rows + span_ * row_count(channel);
     __builtin_prefetch(row);
-    __builtin_prefetch(reinterpret_cast<const char*>(row + row_count(channel)) - 1);
+    __builtin_prefetch(reinterpret_cast<const char*>(row + (channel.passed ? 4 : row_count(channel))) - 1);
   }
 
-  // The first row of a rotation, which is zero, is not stored.
+  // Of a span's own rows. The first row of a rotation, which is zero, is not stored.
   static std::size_t row_count(const Channel& channel) noexcept {
-    return static_cast<std::size_t>(channel.degree) + (channel.starts ? 0 : 1);
+    return channel.passed ? 2 : static_cast<std::size_t>(channel.degree) + (channel.starts ? 0 : 1);
   }
 
   // Whether the time lies inside of one of the curve's spans; at knots that are arrived at and beyond the ends the
@@ -64,6 +64,11 @@ class MotionCurves::Sampler {
       return;
     }
     const Vec3* c = channel.rows + span_ * row_count(channel);
+    Vec3 through[4];
+    if (channel.passed) {
+      spans::cubic_through(c, times_->duration(span_), through);
+      c = through;
+    }
     if (channel.degree == 1) {
       value = c[1] * position_ + c[0];
       rate = c[1] * inverse_ * rate_;
@@ -115,7 +120,8 @@ MotionCurves::Channel MotionCurves::channel_of(const Curve<Vec3>* curve) {
   const auto& data = CurveAccess::data(*curve);
   if (!data.times || data.kinds.size() > 1 || data.kinds[0].warped || data.rebuilt) return channel;
   channel.times = data.times.get();
-  channel.rows = data.pool.data();
+  channel.passed = !data.passed.empty();
+  channel.rows = channel.passed ? data.passed.data() : data.pool.data();
   channel.degree = data.kinds[0].degree;
   return channel;
 }

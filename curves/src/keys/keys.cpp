@@ -81,9 +81,12 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
   const KeyTangents<T> tangents(keys, request, slopes);
   std::vector<Span<T>> spans;
   spans.reserve(keys.size() - 1);
+  std::vector<T> rates;  // at the keys, while they are the same on both sides and all spans are cubics
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
     const Key<T>&a = keys[i], &b = keys[i + 1];
     const SpanKind kind = plan_span(a.ease, a.out || b.in).kind;
+    if (kind == SpanKind::cubic && rates.size() == i && (i == 0 || tangents.leaving(i) == tangents.arriving(i - 1)))
+      rates.push_back(tangents.leaving(i));
     if (kind == SpanKind::shape) {
       append_shape(spans, a, b.time, arrival(b));
     } else if (kind == SpanKind::cubic) {
@@ -101,8 +104,9 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
       spans.push_back(span);
     }
   }
+  if (rates.size() + 1 == keys.size()) rates.push_back(tangents.arriving(keys.size() - 2));
   return CurveAccess::from_spans<T>(spans, keys.back().time, {{}, keys.front().value, tangents.before()},
-                                    {{}, keys.back().value, tangents.after()});
+                                    {{}, keys.back().value, tangents.after()}, rates);
 }
 
 }  // namespace

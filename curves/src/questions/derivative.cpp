@@ -64,7 +64,8 @@ template <class T, class Data>
 T segment_derivative(const Data& d, std::size_t i, double u, int order) noexcept {
   const spans::Segment segment = d.segment(i);
   T result = zero<T>();
-  const T* c = &d.pool[segment.first];
+  std::array<T, 4> room;
+  const T* c = d.coefficients(i, segment.first, room);
   if (!segment.warped) {
     for (int k = segment.degree; k >= order; --k) {
       double factor = 1;

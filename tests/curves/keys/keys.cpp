@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "curves/stated.h"
+#include "random.h"
 
 using namespace tweenfall;
 using namespace tweenfall::test;
@@ -330,6 +331,39 @@ TEST_CASE("the long way around turns the other way by the rest of a turn") {
       keyed_curve<Quat>({{0, exp_map({0, 0, 0}), Ease::linear()}, {1, exp_map({0, 0, 1})}}, {.long_way = true});
   CHECK(test::near(c.rate(0.5), Vec3(0, 0, 1 - 2 * std::acos(-1.0)), 1e-14));
   CHECK(test::near(c.value(1), exp_map({0, 0, 1}), 1e-15));
+}
+
+TEST_CASE("a curve is to the bit its own spans, however it keeps them") {
+  test::Random random(11);
+  for (int n = 0; n < 60; ++n) {
+    CAPTURE(n);
+    std::vector<Key<Vec3>> keys;
+    double time = -3;
+    for (int i = 0; i < 12; ++i, time += 0.01 + random.unit())
+      keys.push_back({.time = time, .value = random.vector(4)});
+    for (Key<Vec3>& key : keys)
+      key.ease = n % 3 == 0 ? Ease::smooth() : n % 3 == 1 ? Ease::natural() : Ease::tcb(0.2, 0, 0.1);
+    // With all of them the curve goes on smoothly at every key; these do not.
+    if (n % 4 == 1) keys[5].ease = Ease::linear();
+    if (n % 4 == 2) keys[5].ease = Key<Vec3>{}.ease;
+    if (n % 4 == 2) keys[5].out = Tangent<Vec3>{Tangent<Vec3>::Kind::given, {1, 2, 3}, 1.0 / 3};
+    if (n % 4 == 3) keys[5].value_in = Vec3(1, 2, 3);
+    const Curve<Vec3> curve = keyed_curve<Vec3>(keys);
+    const std::vector<Span<Vec3>> spans = curve.spans();
+    const Curve<Vec3> of_spans{std::span<const Span<Vec3>>(spans)};
+    for (int i = 0; i <= 400; ++i) {
+      const double at =
+          i < 12 ? keys[static_cast<std::size_t>(i)].time : curve.start() + curve.duration() * random.unit();
+      for (const Side side : {Side::in, Side::out}) {
+        const Sample<Vec3> one = curve.sample(at, side), two = of_spans.sample(at, side);
+        REQUIRE(one.value == two.value);
+        REQUIRE(one.rate == two.rate);
+        REQUIRE(one.acceleration == two.acceleration);
+        for (const int order : {1, 2, 3})
+          REQUIRE(derivative_at(curve, order, at, side) == derivative_at(of_spans, order, at, side));
+      }
+    }
+  }
 }
 
 TEST_CASE("keys that cannot be a curve are refused with index, time and value") {

@@ -44,6 +44,7 @@ class MotionCurves {
     const Quat* starts = nullptr;  // rotations only
     std::int32_t curve = -1;       // -1: there is none
     std::int32_t degree = 0;
+    bool passed = false;  // rows are values and rates at knots instead of coefficients
   };
   struct Thing {
     std::size_t target;
