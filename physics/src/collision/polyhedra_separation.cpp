@@ -17,13 +17,16 @@ struct FaceGap {
   std::uint32_t face = 0, vertex = 0;
 };
 
-/// The face of one polyhedron above which all of the other lies highest, and the other's nearest vertex.
-FaceGap widest_face(const Polyhedron& one, const Polyhedron& other, double tie, double margin) {
+/// The face of one polyhedron above which all of the other lies highest, and the other's nearest vertex; of faces with
+/// no more than `level` none need be told.
+FaceGap widest_face(const Polyhedron& one, const Polyhedron& other, double tie, double level, double margin) {
   FaceGap best;
-  std::uint32_t vertex = 0;
   for (std::uint32_t i = 0; i < one.faces.size(); ++i) {
     const ConvexHull::Face& face = one.faces[i];
-    vertex = other.farthest(-face.normal, vertex);
+    // No vertex lies lower than the lowest: most faces are passed by with one that is known.
+    const double at_most = face.normal.dot(other.vertices[best.vertex]) - face.offset;
+    if (at_most <= level || (i > 0 && at_most <= best.gap + tie)) continue;
+    const std::uint32_t vertex = other.farthest(-face.normal, best.vertex);
     const double gap = face.normal.dot(other.vertices[vertex]) - face.offset;
     if (gap > best.gap + (i == 0 ? 0 : tie)) best = {gap, i, vertex};
     if (gap > margin) return {gap, i, vertex};
@@ -36,13 +39,13 @@ using EdgeList = std::array<std::uint16_t, 3 * ConvexHull::most_vertices>;
 /// Edges that reach farther than `level` along a direction.
 std::span<const std::uint16_t> edges_beyond(const Polyhedron& polyhedron, const Vec3& direction, double level,
                                             EdgeList& list) {
+  std::array<bool, ConvexHull::most_vertices> beyond;
+  for (std::size_t i = 0; i < polyhedron.vertices.size(); ++i)
+    beyond[i] = direction.dot(polyhedron.vertices[i]) >= level;
   std::size_t count = 0;
   const std::span<const ConvexHull::Edge> edges = polyhedron.hull->edges();
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const double from = direction.dot(polyhedron.vertices[edges[i].from]);
-    const double to = direction.dot(polyhedron.vertices[edges[i].to]);
-    if (std::max(from, to) >= level) list[count++] = static_cast<std::uint16_t>(i);
-  }
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    if (beyond[edges[i].from] || beyond[edges[i].to]) list[count++] = static_cast<std::uint16_t>(i);
   return std::span(list).first(count);
 }
 
@@ -52,13 +55,14 @@ void try_edges(PolyhedraSeparation& best, const Polyhedron& a, const Polyhedron&
                std::span<const std::uint16_t> edges_a, std::span<const std::uint16_t> edges_b, double preference) {
   bool any = false;
   const double needed = best.gap + 2 * preference;
+  const std::span<const ConvexHull::Edge> all_a = a.hull->edges(), all_b = b.hull->edges();
   for (const std::uint16_t index_a : edges_a) {
-    const ConvexHull::Edge& edge_a = a.hull->edges()[index_a];
+    const ConvexHull::Edge& edge_a = all_a[index_a];
     const Vec3& left_a = a.faces[edge_a.left].normal;
     const Vec3& right_a = a.faces[edge_a.right].normal;
     const Vec3 along_a = a.vertices[edge_a.to] - a.vertices[edge_a.from];
     for (const std::uint16_t index_b : edges_b) {
-      const ConvexHull::Edge& edge_b = b.hull->edges()[index_b];
+      const ConvexHull::Edge& edge_b = all_b[index_b];
       const double left_b = b.faces[edge_b.left].normal.dot(along_a);
       const double right_b = b.faces[edge_b.right].normal.dot(along_a);
       if (!(left_b * right_b < 0)) continue;
@@ -82,21 +86,19 @@ void try_edges(PolyhedraSeparation& best, const Polyhedron& a, const Polyhedron&
 PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, double margin, double reach) {
   const double size = std::min(a.size, b.size);
   const double preference = kind_preference * size;
-  const FaceGap face_a = widest_face(a, b, 0.1 * preference, margin);
+  constexpr double any_gap = -1e300;
+  const FaceGap face_a = widest_face(a, b, 0.1 * preference, any_gap, margin);
   PolyhedraSeparation best{PolyhedraSeparation::Kind::face_a, face_a.gap, a.faces[face_a.face].normal, face_a.face,
                            face_a.vertex};
   if (best.gap > margin) return best;
-  const FaceGap face_b = widest_face(b, a, 0.1 * preference, margin);
+  const FaceGap face_b = widest_face(b, a, 0.1 * preference, std::min(best.gap + preference, margin), margin);
   if (face_b.gap > best.gap + preference || face_b.gap > margin)
     best = {PolyhedraSeparation::Kind::face_b, face_b.gap, -b.faces[face_b.face].normal, face_b.face, face_b.vertex};
   if (best.gap > margin) return best;
 
   // Far apart, a face tells well enough by how much; near, only edges that come near each other can do better.
-  double room = 1e300;
-  if (std::isfinite(reach))
-    room = 2 * std::max(0.0, -best.gap) + reach + preference;
-  else if (best.gap > 0.1 * size)
-    return best;
+  if (std::isinf(reach) && best.gap > 0.1 * size) return best;
+  const double room = 2 * std::max(0.0, -best.gap) + preference + (std::isinf(reach) ? size : reach);
   const bool of_a = best.kind == PolyhedraSeparation::Kind::face_a;
   const double top_a = of_a ? a.faces[best.first].offset : -b.faces[best.first].offset - best.gap;
   EdgeList list_a, list_b;

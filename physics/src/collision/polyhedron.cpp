@@ -4,7 +4,7 @@ namespace tweenfall::collision {
 
 namespace {
 
-/// From -1 to 1 along each axis.
+/// From -1 to 1 along each axis; bit i of a vertex's number tells its side along axis i.
 const ConvexHull& cube() {
   static const ConvexHull hull = [] {
     std::array<Vec3, 8> corners;
@@ -23,12 +23,19 @@ Polyhedron stretched(const ConvexHull& hull, const Vec3& scale, const Mat3& turn
     room.faces[i].normal = turn * hull.faces()[i].normal;
     room.faces[i].offset += room.faces[i].normal.dot(shift);
   }
-  return {&hull, std::span(room.vertices).first(vertices), std::span(room.faces).first(faces), hull.inner_radius()};
+  return {&hull, std::span(room.vertices).first(vertices), std::span(room.faces).first(faces), hull.inner_radius(),
+          nullptr};
 }
 
 }  // namespace
 
 std::uint32_t Polyhedron::farthest(const Vec3& direction, std::uint32_t from) const {
+  if (axes) {
+    std::uint32_t corner = 0;
+    for (int i = 0; i < 3; ++i)
+      if (axes->col(i).dot(direction) > 0) corner |= 1u << i;
+    return corner;
+  }
   double most = direction.dot(vertices[from]);
   for (;;) {
     const std::uint32_t here = from;
@@ -54,11 +61,13 @@ Polyhedron polyhedron(const Box& box, const Mat3& turn, const Vec3& shift, Polyh
     face.offset = face.normal.dot(shift) + cube().faces()[i].normal.cwiseAbs().dot(box.half_extents);
   }
   result.size = box.half_extents.minCoeff();
+  room.axes = turn;
+  result.axes = &room.axes;
   return result;
 }
 
 Polyhedron polyhedron(const Hull& hull) {
-  return {&hull.convex, hull.convex.vertices(), hull.convex.faces(), hull.convex.inner_radius()};
+  return {&hull.convex, hull.convex.vertices(), hull.convex.faces(), hull.convex.inner_radius(), nullptr};
 }
 
 }  // namespace tweenfall::collision

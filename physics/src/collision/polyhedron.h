@@ -14,11 +14,12 @@ struct Polyhedron {
   const ConvexHull* hull = nullptr;  ///< which vertices are joined to what
   std::span<const Vec3> vertices{};
   std::span<const ConvexHull::Face> faces{};
-  double size = 0;  ///< from the middle to the nearest face, m
+  double size = 0;             ///< from the middle to the nearest face, m
+  const Mat3* axes = nullptr;  ///< of a box
 
   [[nodiscard]] std::span<const std::uint32_t> corners(std::size_t face) const { return hull->corners(faces[face]); }
 
-  /// The vertex farthest along a direction, found by climbing from another one.
+  /// The vertex farthest along a direction: of a box by its axes, else found by climbing from another one.
   [[nodiscard]] std::uint32_t farthest(const Vec3& direction, std::uint32_t from) const;
 };
 
@@ -26,6 +27,7 @@ struct Polyhedron {
 struct PolyhedronRoom {
   std::array<Vec3, ConvexHull::most_vertices> vertices;
   std::array<ConvexHull::Face, 2 * ConvexHull::most_vertices> faces;
+  Mat3 axes;
 };
 
 /// The polyhedron turned, then shifted, in `room`.
