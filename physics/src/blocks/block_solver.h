@@ -9,6 +9,7 @@
 #include "blocks/rebound_reach.h"
 #include "forces/free_flight.h"
 #include "islands/island_contents.h"
+#include "islands/island_depth.h"
 #include "islands/island_energy.h"
 #include "joints/island_joints.h"
 
@@ -49,11 +50,11 @@ class BlockSolver {
  private:
   /// How thoroughly islands are solved.
   struct Effort {
-    int sub_steps;
-    int softening, relaxing;  ///< passes in each, that take overlaps apart and that take the speed of that away again
-    int rebound_passes;
-    double turned_enough;  ///< rows are prepared again when a body has turned by so much, rad
-    bool heap;             ///< many press on each other
+    int sub_steps = 1;
+    int softening = 1, relaxing = 1;  ///< passes in each that take overlaps apart, and the speed of that away again
+    int rebound_passes = 1;
+    double turned_enough = 0;  ///< rows are prepared again when a body has turned by so much, rad
+    bool heap = false;         ///< many press on each other
   };
   /// A point that would rebound in this sub-step.
   struct Rebound {
@@ -64,8 +65,8 @@ class BlockSolver {
   };
 
   void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-             std::span<const islands::IslandContents> islands, const Effort& effort, const WorldSettings& settings,
-             double dt, std::vector<char>& moved);
+             const islands::IslandContents& island, const Effort& effort, const WorldSettings& settings, double dt,
+             std::vector<char>& moved);
   void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
               std::span<const islands::IslandContents> islands, Integrator integrator, double dt);
   void foresee(std::span<step::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads,
@@ -118,7 +119,8 @@ class BlockSolver {
   std::vector<BodyPace> paces_;
   std::vector<BodyLanes> velocities_, starts_, displacements_;
   std::vector<BodyLag> lags_;
-  std::vector<BodyLag> sub_starts_;               ///< linear displacements at the start of the sub-step
+  std::vector<BodyLag> sub_starts_;  ///< linear displacements at the start of the sub-step
+  islands::IslandDepth depth_;
   std::vector<std::uint32_t> island_of_;          ///< of bodies_: which of those that are solved now
   std::vector<islands::IslandEnergy> energies_;   ///< of them
   std::vector<double> shares_;                    ///< of the rebound, that they let through
