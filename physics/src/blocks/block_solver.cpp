@@ -16,41 +16,6 @@ using step::ContactConstraint;
 
 namespace {
 
-/// Sub-steps in a step. Tall stacks need many, and few contacts can afford them: a stack of forty falls with sixteen
-/// and stands with 24 to a fifth of a millimeter; a pyramid of fifty rows leans and falls with eight. What carries
-/// itself over fewer contacts needs fewer.
-constexpr std::size_t few = 128;
-constexpr std::uint32_t deep_of_few = 20, deep_of_many = 50;
-constexpr int sub_steps_of_few = 24, fewest_of_few = 14;
-constexpr int sub_steps_of_many = 10, fewest_of_many = 5;
-/// Small islands that are solved all at once get as many as those that are solved one by one, and all passes in each.
-constexpr int sub_steps_of_small = 8;
-/// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s.
-constexpr int fewest_of_jointed = 4;
-constexpr double longest_of_jointed = 1.0 / 360;
-/// Impulses of much longer sub-steps would bring their rounding along.
-constexpr double long_enough = 0.15;
-
-int sub_steps_of_jointed(double dt) {
-  return static_cast<int>(
-      std::clamp(std::ceil(dt / longest_of_jointed - 1e-6), double{fewest_of_jointed}, double{sub_steps_of_few}));
-}
-
-int sub_steps_for(std::size_t contacts, std::uint32_t depth) {
-  const bool is_few = contacts <= few;
-  const std::uint32_t deep = is_few ? deep_of_few : deep_of_many;
-  const int most = is_few ? sub_steps_of_few : sub_steps_of_many, least = is_few ? fewest_of_few : fewest_of_many;
-  // Rounded up.
-  const auto share =
-      static_cast<int>((std::min(depth, deep) * static_cast<std::uint32_t>(most - least) + deep - 1) / deep);
-  return least + share;
-}
-
-/// Rows are prepared again when a body has turned by this since, rad.
-constexpr double turned_enough = 0.02;
-constexpr double turned_enough_of_small = 0.002;
-/// Rows cannot follow what turns by more than this in a sub-step, rad.
-constexpr double followable = 0.5;
 /// Up to this turn in a sub-step a pressed body's spin changes by itself as two evaluations of Euler's equations say.
 constexpr double slow_turn = 0.05;
 
@@ -71,45 +36,6 @@ Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec
 }
 
 }  // namespace
-
-bool BlockSolver::takes(const islands::IslandContents& island, const std::vector<Body>& bodies, double dt) {
-  if (!island.joints.empty()) return true;
-  if (island.contacts.size() < many || !island.springs.empty()) return false;
-  const bool is_few = island.contacts.size() <= few;
-  const double longest = dt / (is_few ? fewest_of_few : fewest_of_many);
-  const double shortest = dt / (is_few ? sub_steps_of_few : sub_steps_of_many);
-  for (const ContactConstraint* contact : island.contacts) {
-    if (contact->rolling_friction > 0 || contact->spinning_friction > 0 || shortest < long_enough * contact->kept_step)
-      return false;
-    for (const std::uint32_t index : {contact->a, contact->b}) {
-      const Body& body = bodies[index];
-      if (body.immovable()) continue;
-      if (body.drive.owner() == Owner::driven || body.twist.angular.norm() * longest > followable) return false;
-    }
-  }
-  return true;
-}
-
-bool BlockSolver::takes_beside_others(const islands::IslandContents& island, const std::vector<Body>& bodies,
-                                      const std::vector<Load>& loads, double dt) {
-  /// Rows follow what turns by no more than this in a sub-step, rad.
-  constexpr double slow = 0.05;
-  if (island.contacts.size() >= many || !island.springs.empty() || !island.joints.empty()) return false;
-  const double h = dt / sub_steps_of_small;
-  for (ContactConstraint* contact : island.contacts) {
-    if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return false;
-    const Body &a = bodies[contact->a], &b = bodies[contact->b];
-    for (const Body* body : {&a, &b}) {
-      if (body->conveys || body->displaces()) return false;
-      if (body->immovable()) continue;
-      if (body->drive.owner() == Owner::driven || body->turned || body->twist.angular.norm() * h > slow) return false;
-    }
-    const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
-    step::foresee(*contact, a.twist, b.twist, closing, dt);
-    if (contact->impact) return false;
-  }
-  return true;
-}
 
 void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
                          std::span<const islands::IslandContents> islands, Integrator integrator, double dt) {
@@ -424,49 +350,23 @@ Rows BlockSolver::rows() {
 }
 
 void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
-                        const islands::IslandContents& island, const WorldSettings& settings, double dt,
-                        std::vector<char>& moved, const threads::Workers& workers) {
+                        std::span<const islands::IslandContents> islands, const Effort& effort,
+                        const WorldSettings& settings, double dt, std::vector<char>& moved,
+                        const threads::Workers& workers) {
   work_ = workers;
-  gather(bodies, loads, std::span(&island, 1), settings.integrator, dt);
-  const int passes = std::max(2, settings.iterations / sub_steps_of_many);
-  Effort effort;
-  effort.sub_steps = island.joints.empty() ? sub_steps_for(island.contacts.size(),
-                                                           depth_.of(island.contacts, bodies, places_, bodies_.size()))
-                                           : sub_steps_of_jointed(dt);
-  effort.softening = passes - passes / 2;
-  effort.relaxing = passes / 2;
-  effort.rebound_passes = std::max(1, settings.iterations / 4);
-  effort.turned_enough = turned_enough;
-  effort.heap = island.contacts.size() > few;
-  solve(bodies, loads, island, effort, settings, dt, moved);
-}
-
-void BlockSolver::solve_all(std::vector<Body>& bodies, const std::vector<Load>& loads,
-                            std::span<const islands::IslandContents> islands, const WorldSettings& settings, double dt,
-                            std::vector<char>& moved) {
-  work_ = {};
-  listed_.clear();
-  for (const islands::IslandContents& island : islands)
-    listed_.insert(listed_.end(), island.contacts.begin(), island.contacts.end());
-  gather(bodies, loads, islands, settings.integrator, dt);
-  Effort effort;
-  effort.sub_steps = sub_steps_of_small;
-  effort.softening = std::max(1, settings.iterations / 5);
-  effort.relaxing = std::max(1, 2 * settings.iterations / 5);
-  effort.rebound_passes = settings.iterations;
-  effort.turned_enough = turned_enough_of_small;
-  solve(bodies, loads, {listed_, {}, {}}, effort, settings, dt, moved);
-}
-
-/// Of bodies that are gathered.
-void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
-                        const islands::IslandContents& island, const Effort& effort, const WorldSettings& settings,
-                        double dt, std::vector<char>& moved) {
   const Kernels& kernels = fastest_kernels();
+  islands::IslandContents island = islands.front();
+  if (islands.size() > 1) {
+    listed_.clear();
+    for (const islands::IslandContents& one : islands)
+      listed_.insert(listed_.end(), one.contacts.begin(), one.contacts.end());
+    island = {listed_, {}, {}};
+  }
   const std::span<ContactConstraint* const> contacts = island.contacts;
   const int sub_steps = effort.sub_steps;
   const double h = dt / sub_steps;
   turned_enough_ = effort.turned_enough;
+  gather(bodies, loads, islands, settings.integrator, dt);
   foresee(contacts, loads, effort.heap ? 2 * h : 0, dt);
   holds_.gather(island, bodies, places_, bodies_, h);
   for (std::size_t i = 1; i < bodies_.size(); ++i)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,47 +16,41 @@
 
 namespace tweenfall::blocks {
 
-/// Contacts of a large island in sub-steps, four at a time: what `Solver` does, with rows prepared once for a step (and
+/// Contacts of islands in sub-steps, four at a time: what `Solver` does, with rows prepared once for a step (and
 /// again when a body has turned), few passes, and friction at the middle of what does not slide.
 /// Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024, and SIMD Matters,
 /// 2024.
 class BlockSolver {
  public:
-  /// From how many contacts on an island is solved here.
-  static constexpr std::size_t many = 9;
-
-  /// Whether it can solve an island: bodies that drives, stiff springs or rolling friction hold are for `Solver`, and
-  /// so are steps far shorter than those before them.
-  [[nodiscard]] static bool takes(const islands::IslandContents& island, const std::vector<state::Body>& bodies,
-                                  double dt);
-
-  /// Whether it can solve an island of fewer contacts beside others: nothing in it meets fast, spins, rolls on what is
-  /// not a ball's or a capsule's surface, or is moved by its own will.
-  [[nodiscard]] static bool takes_beside_others(const islands::IslandContents& island,
-                                                const std::vector<state::Body>& bodies,
-                                                const std::vector<forces::Load>& loads, double dt);
-
-  /// Before the islands of a step.
-  void begin(std::size_t bodies) { places_.assign(bodies, 0); }
-  /// Moves the bodies of an island by `dt`; fills in the impulses of its contacts and joints.
-  /// @param moved  by index: set for the bodies that were moved
-  void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-             const islands::IslandContents& island, const WorldSettings& settings, double dt, std::vector<char>& moved,
-             const threads::Workers& workers = {});
-  /// The same for small islands all at once, with more passes; what one does depends on none of the others.
-  void solve_all(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-                 std::span<const islands::IslandContents> islands, const WorldSettings& settings, double dt,
-                 std::vector<char>& moved);
-
- private:
-  /// How thoroughly islands are solved.
+  /// How thoroughly an island is solved.
   struct Effort {
     int sub_steps = 1;
     int softening = 1, relaxing = 1;  ///< passes in each that take overlaps apart, and the speed of that away again
     int rebound_passes = 1;
     double turned_enough = 0;  ///< rows are prepared again when a body has turned by so much, rad
     bool heap = false;         ///< many press on each other
+    bool alone = false;        ///< not together with others
+
+    bool operator==(const Effort&) const = default;
   };
+
+  /// Nothing for an island that is for `Solver`: bodies that drives, stiff springs or rolling friction hold, steps far
+  /// shorter than those before them; of few contacts also what meets fast, spins, or is moved by its own will.
+  [[nodiscard]] std::optional<Effort> effort_for(const islands::IslandContents& island,
+                                                 const std::vector<state::Body>& bodies,
+                                                 const std::vector<forces::Load>& loads, const WorldSettings& settings,
+                                                 double dt);
+
+  /// Before the islands of a step.
+  void begin(std::size_t bodies) { places_.assign(bodies, 0); }
+  /// Moves the bodies of islands by `dt`; fills in the impulses of their contacts and joints. What one island does
+  /// depends on none of the others.
+  /// @param moved  by index: set for the bodies that were moved
+  void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+             std::span<const islands::IslandContents> islands, const Effort& effort, const WorldSettings& settings,
+             double dt, std::vector<char>& moved, const threads::Workers& workers = {});
+
+ private:
   /// A point that would rebound in this sub-step.
   struct Rebound {
     std::uint32_t lane, point;  ///< 4 * block + lane, and which of the contact's points
@@ -64,9 +59,13 @@ class BlockSolver {
     double speed_before = 0;    ///< m/s
   };
 
-  void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-             const islands::IslandContents& island, const Effort& effort, const WorldSettings& settings, double dt,
-             std::vector<char>& moved);
+  [[nodiscard]] std::optional<Effort> effort_of_small(const islands::IslandContents& island,
+                                                      const std::vector<state::Body>& bodies,
+                                                      const std::vector<forces::Load>& loads,
+                                                      const WorldSettings& settings, double dt) const;
+  [[nodiscard]] std::optional<Effort> effort_of_large(const islands::IslandContents& island,
+                                                      const std::vector<state::Body>& bodies,
+                                                      const WorldSettings& settings, double dt);
   void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
               std::span<const islands::IslandContents> islands, Integrator integrator, double dt);
   void foresee(std::span<step::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads,

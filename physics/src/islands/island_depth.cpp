@@ -5,18 +5,17 @@
 namespace tweenfall::islands {
 
 std::uint32_t IslandDepth::of(std::span<step::ContactConstraint* const> contacts,
-                              const std::vector<state::Body>& bodies, const std::vector<std::uint32_t>& places,
-                              std::size_t count) {
+                              const std::vector<state::Body>& bodies) {
   // Contacts are sorted by their bodies, which mostly were added from the bottom to the top or the other way around.
   constexpr int most_passes = 12;
   constexpr std::uint32_t nobody = 0xfffffffe;  // one more is bottomless, and no more than that
-  levels_.assign(count, nobody);
+  levels_.resize(bodies.size());
   for (const step::ContactConstraint* contact : contacts)
     for (const std::uint32_t end : {contact->a, contact->b}) {
       const state::Body& body = bodies[end];
       // What is pushed or taken along is so from the side, however near the floor is.
       if (body.displaces() || body.conveys) return bottomless;
-      if (body.immovable() || body.asleep) levels_[places[end]] = 0;
+      levels_[end] = body.immovable() || body.asleep ? 0 : nobody;
     }
   const auto lower = [this](std::uint32_t& level, std::uint32_t other) {
     if (level <= other + 1) return false;
@@ -28,7 +27,7 @@ std::uint32_t IslandDepth::of(std::span<step::ContactConstraint* const> contacts
     changed = false;
     for (std::size_t n = 0; n < contacts.size(); ++n) {
       const step::ContactConstraint& contact = *contacts[pass % 2 == 0 ? n : contacts.size() - 1 - n];
-      std::uint32_t &a = levels_[places[contact.a]], &b = levels_[places[contact.b]];
+      std::uint32_t &a = levels_[contact.a], &b = levels_[contact.b];
       const bool lowered_a = lower(a, b), lowered_b = lower(b, a);
       changed = changed || lowered_a || lowered_b;
     }
@@ -36,7 +35,7 @@ std::uint32_t IslandDepth::of(std::span<step::ContactConstraint* const> contacts
   if (changed) return bottomless;
   std::uint32_t deepest = 0;
   for (const step::ContactConstraint* contact : contacts)
-    for (const std::uint32_t end : {contact->a, contact->b}) deepest = std::max(deepest, levels_[places[end]]);
+    for (const std::uint32_t end : {contact->a, contact->b}) deepest = std::max(deepest, levels_[end]);
   return deepest == nobody ? bottomless : deepest;
 }
 

@@ -55,13 +55,21 @@ struct Told {
   bool active = false;
 };
 
+/// Islands that are solved together.
+struct Batch {
+  blocks::BlockSolver::Effort effort;
+  std::vector<islands::IslandContents> islands;
+  std::size_t contacts = 0;  ///< of all of them
+};
+
 struct Solvers {
   Solver few;
   blocks::BlockSolver many;
-  std::vector<islands::IslandContents> beside;  ///< small islands that `many` shall solve all at once
+  std::vector<Batch> batches;  ///< for `many`, by effort
 
-  void solve_beside(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-                    const WorldSettings& settings, double dt, std::vector<char>& moved);
+  Batch& put_by(const islands::IslandContents& island, const blocks::BlockSolver::Effort& effort);
+  void solve(Batch& batch, std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+             const WorldSettings& settings, double dt, std::vector<char>& moved);
 };
 
 /// Room for a step to work in, and what makes the next one quick. Whether it is that of the steps before or begins

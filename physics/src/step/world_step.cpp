@@ -18,8 +18,8 @@ namespace {
 
 /// Bodies, or contacts, that are worth more than one thread.
 constexpr std::size_t worth_sharing = 128;
-/// Small islands that are solved all at once: more of them would not stay in a processor's nearest memory.
-constexpr std::size_t worth_a_batch = 128;
+/// Contacts of islands that are solved together: more of them would not stay in a processor's nearest memory.
+constexpr std::size_t worth_a_batch = 256;
 /// Contacts of an island that are worth dividing it.
 constexpr std::size_t worth_dividing = 256;
 
@@ -94,10 +94,22 @@ void World::Implementation::end_watch() {
   for (const std::uint32_t i : lingering) note(i);
 }
 
-void step::Solvers::solve_beside(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-                                 const WorldSettings& settings, double dt, std::vector<char>& moved) {
-  if (!beside.empty()) many.solve_all(bodies, loads, beside, settings, dt, moved);
-  beside.clear();
+step::Batch& step::Solvers::put_by(const islands::IslandContents& island, const blocks::BlockSolver::Effort& effort) {
+  auto batch = std::find_if(batches.begin(), batches.end(), [&](const Batch& one) { return one.effort == effort; });
+  if (batch == batches.end()) {
+    batches.emplace_back().effort = effort;
+    batch = batches.end() - 1;
+  }
+  batch->islands.push_back(island);
+  batch->contacts += island.contacts.size();
+  return *batch;
+}
+
+void step::Solvers::solve(Batch& batch, std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+                          const WorldSettings& settings, double dt, std::vector<char>& moved) {
+  if (!batch.islands.empty()) many.solve(bodies, loads, batch.islands, batch.effort, settings, dt, moved);
+  batch.islands.clear();
+  batch.contacts = 0;
 }
 
 void World::Implementation::solve_islands(double dt) {
@@ -125,13 +137,13 @@ void World::Implementation::solve_islands(double dt) {
                      [&](std::uint32_t a, std::uint32_t b) { return size_of(a) > size_of(b); });
   const auto solve = [&](std::size_t island, step::Solvers& by, const threads::Workers& within) {
     const islands::IslandContents& contents = all[islands_by_size[island]];
-    if (blocks::BlockSolver::takes(contents, bodies, dt))
-      by.many.solve(bodies, loads, contents, settings, dt, moved, within);
-    else if (blocks::BlockSolver::takes_beside_others(contents, bodies, loads, dt))
-      by.beside.push_back(contents);
-    else
+    const std::optional<blocks::BlockSolver::Effort> effort = by.many.effort_for(contents, bodies, loads, settings, dt);
+    if (!effort)
       by.few.solve(bodies, loads, contents.contacts, contents.springs, settings, dt, moved);
-    if (by.beside.size() >= step::worth_a_batch) by.solve_beside(bodies, loads, settings, dt, moved);
+    else if (effort->alone)
+      by.many.solve(bodies, loads, std::span(&contents, 1), *effort, settings, dt, moved, within);
+    else if (step::Batch& batch = by.put_by(contents, *effort); batch.contacts >= step::worth_a_batch)
+      by.solve(batch, bodies, loads, settings, dt, moved);
   };
   std::size_t divided = 0;
   if (work.threads() > 1)
@@ -140,7 +152,7 @@ void World::Implementation::solve_islands(double dt) {
   std::atomic<std::size_t> next{divided};
   work.parts(shares, [&](std::size_t share) {
     for (std::size_t i = next.fetch_add(1); i < all.size(); i = next.fetch_add(1)) solve(i, solvers[share], {});
-    solvers[share].solve_beside(bodies, loads, settings, dt, moved);
+    for (step::Batch& batch : solvers[share].batches) solvers[share].solve(batch, bodies, loads, settings, dt, moved);
   });
 }
 

@@ -1,0 +1,122 @@
+#include <algorithm>
+#include <cmath>
+
+#include "blocks/block_solver.h"
+
+/// Which islands are solved in blocks, and how thoroughly.
+
+namespace tweenfall::blocks {
+
+using state::Body;
+using step::ContactConstraint;
+
+namespace {
+
+/// Sub-steps in a step. Tall stacks need many, and few contacts can afford them: a stack of forty falls with sixteen
+/// and stands with 24 to a fifth of a millimeter; a pyramid of fifty rows leans and falls with eight. What carries
+/// itself over fewer contacts needs fewer.
+constexpr std::size_t few = 128;
+constexpr std::uint32_t deep_of_few = 20, deep_of_many = 50;
+constexpr int sub_steps_of_few = 24, fewest_of_few = 14;
+constexpr int sub_steps_of_many = 10, fewest_of_many = 5;
+/// Of so few contacts they are those of `Solver`, with many passes in each.
+constexpr std::size_t small = 8;
+constexpr int sub_steps_of_small = 8;
+/// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s.
+constexpr int fewest_of_jointed = 4;
+constexpr double longest_of_jointed = 1.0 / 360;
+/// Impulses of much longer sub-steps would bring their rounding along.
+constexpr double long_enough = 0.15;
+/// Rows are prepared again when a body has turned by this since, rad.
+constexpr double turned_enough = 0.02, turned_enough_of_small = 0.002;
+/// Rows cannot follow what turns by more than this in a sub-step, rad.
+constexpr double followable = 0.5, followable_of_small = 0.05;
+
+/// Even numbers: islands with the same are solved together.
+int sub_steps_of_depth(std::uint32_t depth) {
+  const std::uint32_t steps = (std::min(depth, deep_of_few) * (sub_steps_of_few - fewest_of_few)) / deep_of_few;
+  return fewest_of_few + static_cast<int>((steps + 1) / 2 * 2);
+}
+
+int sub_steps_of_deep_heap(std::uint32_t depth) {
+  const std::uint32_t steps = std::min(depth, deep_of_many) * (sub_steps_of_many - fewest_of_many);
+  return fewest_of_many + static_cast<int>((steps + deep_of_many - 1) / deep_of_many);
+}
+
+/// Whether it is moved by its own will, or its surface is.
+bool drives(const Body& body) {
+  return body.displaces() || body.conveys;
+}
+
+}  // namespace
+
+std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::IslandContents& island,
+                                                           const std::vector<Body>& bodies,
+                                                           const std::vector<forces::Load>& loads,
+                                                           const WorldSettings& settings, double dt) {
+  if (island.joints.empty() && !island.springs.empty()) return std::nullopt;
+  if (island.joints.empty() && island.contacts.size() <= small)
+    return effort_of_small(island, bodies, loads, settings, dt);
+  return effort_of_large(island, bodies, settings, dt);
+}
+
+std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::IslandContents& island,
+                                                                const std::vector<Body>& bodies,
+                                                                const WorldSettings& settings, double dt) {
+  const int passes = std::max(2, settings.iterations / sub_steps_of_many);
+  Effort effort;
+  effort.softening = passes - passes / 2;
+  effort.relaxing = passes / 2;
+  effort.rebound_passes = std::max(1, settings.iterations / 4);
+  effort.turned_enough = turned_enough;
+  effort.heap = island.contacts.size() > few;
+  effort.alone = effort.heap || !island.joints.empty();
+  if (!island.joints.empty()) {
+    effort.sub_steps = static_cast<int>(
+        std::clamp(std::ceil(dt / longest_of_jointed - 1e-6), double{fewest_of_jointed}, double{sub_steps_of_few}));
+    return effort;
+  }
+  const std::uint32_t depth = depth_.of(island.contacts, bodies);
+  effort.sub_steps = effort.heap ? sub_steps_of_deep_heap(depth) : sub_steps_of_depth(depth);
+  const double h = dt / effort.sub_steps;
+  for (const ContactConstraint* contact : island.contacts) {
+    if (contact->rolling_friction > 0 || contact->spinning_friction > 0 || h < long_enough * contact->kept_step)
+      return std::nullopt;
+    for (const std::uint32_t index : {contact->a, contact->b}) {
+      const Body& body = bodies[index];
+      effort.alone = effort.alone || drives(body);
+      if (body.immovable()) continue;
+      if (body.drive.owner() == Owner::driven || body.twist.angular.norm() * h > followable) return std::nullopt;
+    }
+  }
+  return effort;
+}
+
+std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::IslandContents& island,
+                                                                const std::vector<Body>& bodies,
+                                                                const std::vector<forces::Load>& loads,
+                                                                const WorldSettings& settings, double dt) const {
+  Effort effort;
+  effort.sub_steps = sub_steps_of_small;
+  effort.softening = std::max(1, settings.iterations / 5);
+  effort.relaxing = std::max(1, 2 * settings.iterations / 5);
+  effort.rebound_passes = settings.iterations;
+  effort.turned_enough = turned_enough_of_small;
+  const double h = dt / sub_steps_of_small;
+  for (ContactConstraint* contact : island.contacts) {
+    if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return std::nullopt;
+    const Body &a = bodies[contact->a], &b = bodies[contact->b];
+    for (const Body* body : {&a, &b}) {
+      if (drives(*body)) return std::nullopt;
+      if (body->immovable()) continue;
+      if (body->drive.owner() == Owner::driven || body->turned || body->twist.angular.norm() * h > followable_of_small)
+        return std::nullopt;
+    }
+    const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+    step::foresee(*contact, a.twist, b.twist, closing, dt);
+    if (contact->impact) return std::nullopt;
+  }
+  return effort;
+}
+
+}  // namespace tweenfall::blocks
