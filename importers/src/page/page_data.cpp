@@ -99,6 +99,8 @@ std::string shape_json(const Shape& shape) {
                         },
                         [&](const Hull& h) { append_hull(out, h.convex); },
                         [&](const Compound& c) { append_triangles(out, recordings::shape_mesh({c})); },
+                        [&](const TriangleMesh& m) { append_triangles(out, recordings::shape_mesh({m})); },
+                        [&](const HeightField& f) { append_triangles(out, recordings::shape_mesh({f})); },
                         [&](const auto&) { append_turned(out, recordings::turned_profile(shape.solid)); }},
              shape.solid);
   out += ",\"position\":";
@@ -202,7 +204,7 @@ std::string node_json(const NodeRecord& node, const NodeDescription* description
   if (description && description->body) {
     out += ",\"shape\":" + shape_json(description->body->shape);
     if (description->body->fixed) out += ",\"fixed\":true";
-    if (!std::holds_alternative<Plane>(description->body->shape.solid)) {
+    if (!is_scenery(description->body->shape.solid)) {
       out += ",\"center\":";
       append_vector(out, mass_properties(description->body->shape, 1).center);
     }

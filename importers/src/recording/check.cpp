@@ -80,6 +80,17 @@ double largest_number(const Shape& shape) {
       return size;
     }
     double operator()(const Plane& plane) const { return std::abs(plane.offset); }
+    double operator()(const TriangleMesh& mesh) const {
+      double size = 0;
+      for (const Vec3& vertex : mesh.vertices()) size = std::max(size, vertex.cwiseAbs().maxCoeff());
+      return size;
+    }
+    double operator()(const HeightField& field) const {
+      double size = std::max(field.spacing_x() * static_cast<double>(field.columns()),
+                             field.spacing_z() * static_cast<double>(field.rows()));
+      for (const double height : field.heights()) size = std::max(size, std::abs(height));
+      return size;
+    }
     double operator()(const Hull& hull) const {
       double size = 0;
       for (const Vec3& vertex : hull.convex.vertices()) size = std::max(size, vertex.cwiseAbs().maxCoeff());

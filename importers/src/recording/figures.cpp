@@ -87,10 +87,10 @@ std::vector<Vec3> outline(const Shape& shape, Figure& figure, double scale) {
     figure.kind = Figure::Kind::hull;
     points = turned_points(profile);
     figure.vertices = points.size() - 1;
-  } else if (std::holds_alternative<Compound>(shape.solid)) {
+  } else if (std::holds_alternative<Compound>(shape.solid) || is_scenery(shape.solid)) {
     figure.kind = Figure::Kind::hull;
     const Mesh mesh = shape_mesh({shape.solid});
-    points = {mass_properties(Shape{shape.solid}, 1).center};
+    points = {is_scenery(shape.solid) ? Vec3(0, 0, 0) : mass_properties(Shape{shape.solid}, 1).center};
     points.insert(points.end(), mesh.positions.begin(), mesh.positions.end());
     figure.vertices = points.size() - 1;
   }

@@ -84,6 +84,20 @@ void add_plane(Mesh& mesh, const Plane& plane) {
   add_rectangle(mesh, plane.normal * plane.offset, u * 10, plane.normal.cross(u) * 10);
 }
 
+/// Each triangle with corners of its own.
+void add_flat(Mesh& mesh, const SurfaceMesh& surface) {
+  for (std::size_t i = 0; i + 2 < surface.triangles.size(); i += 3) {
+    const Vec3 &a = surface.positions[surface.triangles[i]], &b = surface.positions[surface.triangles[i + 1]],
+               &c = surface.positions[surface.triangles[i + 2]];
+    const Vec3 normal = (b - a).cross(c - a).normalized();
+    for (const Vec3& corner : {a, b, c}) {
+      mesh.triangles.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+      mesh.positions.push_back(corner);
+      mesh.normals.push_back(normal);
+    }
+  }
+}
+
 void append(Mesh& mesh, const Mesh& more) {
   const auto first = static_cast<std::uint32_t>(mesh.positions.size());
   mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
@@ -108,6 +122,10 @@ Mesh shape_mesh(const Shape& shape) {
     add_turned(mesh, profile);
   } else if (const auto* compound = std::get_if<Compound>(&shape.solid)) {
     for (const Shape& part : compound->parts()) append(mesh, shape_mesh(part));
+  } else if (const auto* triangles = std::get_if<TriangleMesh>(&shape.solid)) {
+    add_flat(mesh, triangles->surface());
+  } else if (const auto* field = std::get_if<HeightField>(&shape.solid)) {
+    add_flat(mesh, field->surface());
   } else if (const auto* hull = std::get_if<Hull>(&shape.solid)) {
     SurfaceMesh surface = hull->convex.surface();
     mesh.positions = std::move(surface.positions);

@@ -4,6 +4,7 @@
 
 #include "collision/collide_pairs.h"
 #include "convex/collide_convex.h"
+#include "surfaces/touch.h"
 
 namespace tweenfall {
 
@@ -97,6 +98,13 @@ Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Place
   if (std::holds_alternative<Compound>(a.solid)) return collide_parts(a, at_a, b, at_b, margin, reach);
   if (std::holds_alternative<Compound>(b.solid)) {
     Manifold manifold = collide_parts(b, at_b, a, at_a, margin, reach);
+    manifold.normal = -manifold.normal;
+    return manifold;
+  }
+  if (const surfaces::Surface* surface = surfaces::surface_of(a.solid))
+    return surfaces::deepest_touch(*surface, at_a, b.solid, at_b, margin, reach);
+  if (const surfaces::Surface* surface = surfaces::surface_of(b.solid)) {
+    Manifold manifold = surfaces::deepest_touch(*surface, at_b, a.solid, at_a, margin, reach);
     manifold.normal = -manifold.normal;
     return manifold;
   }

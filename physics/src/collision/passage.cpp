@@ -37,6 +37,13 @@ double support_along(const Compound&, const Mat3&, const Vec3&) {
   return std::numeric_limits<double>::infinity();  // its parts are looked at one by one
 }
 
+double support_along(const TriangleMesh&, const Mat3&, const Vec3&) {
+  return std::numeric_limits<double>::infinity();  // its triangles are looked at one by one
+}
+double support_along(const HeightField&, const Mat3&, const Vec3&) {
+  return std::numeric_limits<double>::infinity();
+}
+
 template <class Turned>
 double support_along(const Turned& solid, const Mat3& axes, const Vec3& direction) {
   const Vec3 local = axes.transpose() * direction;

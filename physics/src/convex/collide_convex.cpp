@@ -20,30 +20,6 @@ constexpr double face_preference = 1e-7;
 /// Sine of the angle within which two lines lie along each other.
 constexpr double lying_along = 0.05;
 
-/// The best direction of two solids, and the places that meet along it.
-struct Meeting {
-  double gap = 0;        ///< m; negative for an overlap
-  Vec3 normal{0, 0, 0};  ///< from a toward b; zero where there is no number for it
-  Vec3 middle{0, 0, 0};  ///< between the two surfaces
-};
-
-Meeting meeting_of(Core& a, Core& b, double margin) {
-  Meeting meeting;
-  const double around = a.radius + b.radius;
-  const Nearness nearness = nearness_of(a, b, margin + around);
-  if (nearness.distance > 0) {
-    meeting.gap = nearness.distance - around;
-    meeting.normal = nearness.normal;
-    meeting.middle = 0.5 * (nearness.on_a + nearness.on_b + (a.radius - b.radius) * nearness.normal);
-    return meeting;
-  }
-  const Depth depth = depth_of(a, b);
-  meeting.gap = -depth.depth - around;
-  meeting.normal = depth.normal;
-  meeting.middle = 0.5 * (depth.on_a + depth.on_b + (a.radius - b.radius) * depth.normal);
-  return meeting;
-}
-
 /// A flat face of one of them whose normal is as good as the best direction.
 struct FaceChoice {
   FlatFace face;
@@ -141,6 +117,39 @@ void lie_along(Manifold& manifold, Core& a, Core& b, double reach) {
 
 }  // namespace
 
+Meeting meeting_of(Core& a, Core& b, double margin) {
+  Meeting meeting;
+  const double around = a.radius + b.radius;
+  const Nearness nearness = nearness_of(a, b, margin + around);
+  if (nearness.distance > 0) {
+    meeting.gap = nearness.distance - around;
+    meeting.normal = nearness.normal;
+    meeting.middle = 0.5 * (nearness.on_a + nearness.on_b + (a.radius - b.radius) * nearness.normal);
+    return meeting;
+  }
+  const Depth depth = depth_of(a, b);
+  meeting.gap = -depth.depth - around;
+  meeting.normal = depth.normal;
+  meeting.middle = 0.5 * (depth.on_a + depth.on_b + (a.radius - b.radius) * depth.normal);
+  return meeting;
+}
+
+Manifold contact_along(Core& a, Core& b, const Meeting& meeting, double reach) {
+  Manifold manifold;
+  manifold.normal = meeting.normal;
+  double gap = meeting.gap;
+  const FaceChoice choice = face_along(a, b, meeting);
+  if (choice.face.index != FlatFace::none) {
+    manifold.normal = choice.of_a ? choice.face.normal : Vec3(-choice.face.normal);
+    gap = choice.gap;
+    clip_onto_face(manifold, choice.of_a ? a : b, choice.face, choice.of_a ? b : a, choice.of_a ? 0 : 1, reach);
+  } else {
+    lie_along(manifold, a, b, reach);
+  }
+  if (manifold.count == 0) add_point(manifold, meeting.middle, -gap, 0x3000000u, reach);
+  return manifold;
+}
+
 Manifold collide_convex(Core& a, Core& b, double margin, double reach) {
   Manifold manifold;
   const Meeting meeting = meeting_of(a, b, margin);
@@ -148,18 +157,8 @@ Manifold collide_convex(Core& a, Core& b, double margin, double reach) {
   manifold.normal = meeting.normal;
   if (!(meeting.gap <= margin)) return manifold;
   const bool only_distance = meeting.gap > 0 && std::isinf(margin);
-  double gap = meeting.gap;
-  if (!only_distance) {
-    const FaceChoice choice = face_along(a, b, meeting);
-    if (choice.face.index != FlatFace::none) {
-      manifold.normal = choice.of_a ? choice.face.normal : Vec3(-choice.face.normal);
-      gap = choice.gap;
-      clip_onto_face(manifold, choice.of_a ? a : b, choice.face, choice.of_a ? b : a, choice.of_a ? 0 : 1, reach);
-    } else {
-      lie_along(manifold, a, b, reach);
-    }
-  }
-  if (manifold.count == 0) add_point(manifold, meeting.middle, -gap, 0x3000000u, reach);
+  if (!only_distance) return contact_along(a, b, meeting, reach);
+  add_point(manifold, meeting.middle, -meeting.gap, 0x3000000u, reach);
   return manifold;
 }
 

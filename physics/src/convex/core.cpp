@@ -37,6 +37,21 @@ std::uint32_t climbed(const ConvexHull& hull, const Vec3& direction, std::uint32
   }
 }
 
+/// A triangle or, where it reaches behind itself, a prism. Its normal is its second axis.
+Vec3 farthest_of_triangle(const Core& core, const Vec3& direction) {
+  const std::array<Vec3, 3>& corners = *core.corners;
+  std::size_t best = 0;
+  double most = direction.dot(corners[0]);
+  for (std::size_t i = 1; i < 3; ++i) {
+    const double along = direction.dot(corners[i]);
+    if (!(along > most)) continue;
+    most = along;
+    best = i;
+  }
+  const Vec3 normal = core.turn.col(1);
+  return core.back > 0 && direction.dot(normal) < 0 ? Vec3(corners[best] - core.back * normal) : corners[best];
+}
+
 /// A ball at one end and a point at the other.
 Vec3 farthest_of_drop(const Vec3& half, const Vec3& direction) {
   const double length = direction.norm();
@@ -66,6 +81,8 @@ Vec3 Core::support(const Vec3& direction) {
       return place(shapes::farthest(Cone{half.x(), half.y()}, local));
     case Kind::drop:
       return place(farthest_of_drop(half, local));
+    case Kind::triangle:
+      return farthest_of_triangle(*this, direction);
   }
   return shift;
 }
@@ -122,6 +139,17 @@ Core core_of(const TaperedCapsule& capsule, const Placed& at) {
   Core core = placed_core(Core::Kind::drop, half, thin, at);
   core.size = thin;
   core.reach = capsule.half_height + half.x();
+  return core;
+}
+
+Core core_of(const std::array<Vec3, 3>& triangle, const Vec3& normal) {
+  Core core;
+  core.kind = Core::Kind::triangle;
+  core.corners = &triangle;
+  core.turn.col(1) = normal;
+  core.shift = (triangle[0] + triangle[1] + triangle[2]) / 3;
+  for (const Vec3& corner : triangle) core.reach = std::max(core.reach, (corner - core.shift).norm());
+  core.size = core.reach;
   return core;
 }
 

@@ -4,21 +4,25 @@
 
 #include <tweenfall/physics/shape.h>
 
+#include <array>
+
 #include "shapes/placed.h"
 
 namespace tweenfall::convex {
 
 /// A convex solid in some space: all that is nearer than a radius to its core.
 struct Core {
-  enum class Kind : std::uint8_t { point, segment, box, hull, cylinder, cone, drop };
+  enum class Kind : std::uint8_t { point, segment, box, hull, cylinder, cone, drop, triangle };
   Kind kind = Kind::point;
   /// Of a box, half extents; of what is turned about y, its radius and half its height. A drop is a ball of that radius
   /// and the point across from it: the ball above where y is positive.
   Vec3 half{0, 0, 0};
   const ConvexHull* hull = nullptr;
-  double radius = 0;  ///< around the core, m
-  double size = 0;    ///< about from its middle to the nearest place of its surface, m
-  double reach = 0;   ///< no place of the core is farther from its origin, m
+  const std::array<Vec3, 3>* corners = nullptr;  ///< of a triangle, counter-clockwise seen from the front
+  double back = 0;                               ///< how far a triangle reaches behind itself, m
+  double radius = 0;                             ///< around the core, m
+  double size = 0;                               ///< about from its middle to the nearest place of its surface, m
+  double reach = 0;                              ///< no place of the core is farther from its origin, m
   Mat3 turn = Mat3::Identity();
   Vec3 shift{0, 0, 0};
   std::uint32_t vertex = 0;  ///< of the hull, where the last search ended
@@ -37,5 +41,6 @@ struct Core {
 [[nodiscard]] Core core_of(const Cylinder& cylinder, const shapes::Placed& at);
 [[nodiscard]] Core core_of(const Cone& cone, const shapes::Placed& at);
 [[nodiscard]] Core core_of(const TaperedCapsule& capsule, const shapes::Placed& at);
+[[nodiscard]] Core core_of(const std::array<Vec3, 3>& triangle, const Vec3& normal);
 
 }  // namespace tweenfall::convex

@@ -61,6 +61,10 @@ void add_box_face(const Core& core, std::uint32_t index, ClipPolygon& corners) {
   corners.add(core.place(out - u + v), 8 * index + 3, 3);
 }
 
+void add_triangle(const Core& core, ClipPolygon& corners) {
+  for (std::uint32_t i = 0; i < 3; ++i) corners.add((*core.corners)[i], i, i);
+}
+
 /// The face around the farthest vertex that looks most along a direction.
 std::uint32_t hull_face_along(const ConvexHull& hull, std::uint32_t vertex, const Vec3& local) {
   std::uint32_t best = 0;
@@ -100,6 +104,8 @@ void corners_of(const Core& core, const FlatFace& face, const Vec3& direction, C
     add_box_face(core, face.index, corners);
   else if (core.kind == Core::Kind::hull)
     add_hull_face(core, face.index, corners);
+  else if (core.kind == Core::Kind::triangle)
+    add_triangle(core, corners);
   else if (core.kind == Core::Kind::cylinder || core.kind == Core::Kind::cone)
     add_rim(core, face.index == 1 ? core.half.y() : -core.half.y(), face.index == 1, local, corners);
 }
@@ -148,6 +154,9 @@ void foremost(Core& core, const Vec3& direction, ClipPolygon& corners) {
         corners.add(core.place(line.rim), 16, 0);
         corners.add(core.place(line.tip), 17, 1);
       }
+      break;
+    case Core::Kind::triangle:
+      add_triangle(core, corners);
       break;
   }
 }
@@ -203,6 +212,17 @@ SurfaceLine foremost_line(Core& core, const Vec3& direction) {
         if (lean >= least - 1e-6) continue;
         least = lean;
         set(from, from + along);
+      }
+      break;
+    }
+    case Core::Kind::triangle: {
+      double highest = -1e300;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 &from = (*core.corners)[i], &to = (*core.corners)[(i + 1) % 3];
+        const double height = direction.dot(from + to);
+        if (!(height > highest) || !(std::abs((to - from).dot(direction)) <= leaning * (to - from).norm())) continue;
+        highest = height;
+        line = {true, from, to};
       }
       break;
     }

@@ -34,6 +34,9 @@ void visit_faces(const Core& core, const Vec3& direction, const Visit& visit) {
       visit(FlatFace{local.y() > 0 ? 1u : 0u, core.turn.col(1) * (local.y() > 0 ? 1.0 : -1.0)});
   } else if (core.kind == Core::Kind::cone) {
     if (local.y() <= -roughly) visit(FlatFace{0, -core.turn.col(1)});
+  } else if (core.kind == Core::Kind::triangle) {
+    const Vec3 normal = core.turn.col(1);
+    if (normal.dot(direction) >= roughly) visit(FlatFace{0, normal});
   }
 }
 

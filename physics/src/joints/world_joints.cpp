@@ -134,8 +134,9 @@ JointId World::add_joint(const JointSettings& settings) {
     if (settings.a == settings.b) throw std::invalid_argument("a joint needs two bodies, but both are the same");
   }
   for (const BodyId& end : {settings.a, settings.b})
-    if (end != BodyId{} && std::holds_alternative<Plane>(world.at(end).shape.solid))
-      throw std::invalid_argument("a body with a plane takes no joint: join to the world instead");
+    if (end != BodyId{} && is_scenery(world.at(end).shape.solid))
+      throw std::invalid_argument(std::string("a body with ") + kind_name(world.at(end).shape.solid) +
+                                  " takes no joint: join to the world instead");
   if (auto* pulley = std::get_if<PulleyJoint>(&joint.settings.kind); pulley && !pulley->length) {
     pulley->length = 0;
     pulley->length = joints::coordinates_of(joint, joints::place(joint, world.bodies)).position[0];

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "queries/on_surface.h"
 #include "queries/simplex.h"
 #include "shapes/compound.h"
 
@@ -122,6 +123,10 @@ Closest closest_between(const Shape& a, const Pose& pose_a, const Shape& b, cons
   if (const auto* compound = std::get_if<Compound>(&b.solid))
     return closest_of_parts(*compound, b.offset,
                             [&](const Shape& part) { return closest_between(a, pose_a, part, pose_b); });
+  if (const surfaces::Surface* surface = surfaces::surface_of(a.solid))
+    return closest_on_surface(*surface, shapes::place(a, pose_a), b, pose_b);
+  if (const surfaces::Surface* surface = surfaces::surface_of(b.solid))
+    return swapped(closest_on_surface(*surface, shapes::place(b, pose_b), a, pose_a));
   if (const auto* plane = std::get_if<Plane>(&a.solid))
     return closest_to_plane(*plane, shapes::place(a, pose_a), core_of(b, pose_b));
   if (const auto* plane = std::get_if<Plane>(&b.solid))
@@ -137,6 +142,8 @@ Closest nearest_to(const Shape& shape, const Pose& pose, const Vec3& point) {
   Closest closest;
   if (const auto* plane = std::get_if<Plane>(&shape.solid))
     closest = swapped(closest_to_plane(*plane, shapes::place(shape, pose), core));
+  else if (const surfaces::Surface* surface = surfaces::surface_of(shape.solid))
+    closest = swapped(closest_on_surface(*surface, shapes::place(shape, pose), core));
   else
     closest = closest_between(core, core_of(shape, pose));
   // Inside, the point itself and not one that rounding has moved.

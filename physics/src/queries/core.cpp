@@ -36,8 +36,20 @@ Vec3 farthest_of(const Hull& hull, const Vec3& direction) {
   return vertices[best];
 }
 
+// Their parts and triangles are asked one by one.
 Vec3 farthest_of(const Compound&, const Vec3&) {
-  return {0, 0, 0};  // its parts are asked one by one
+  return {0, 0, 0};
+}
+Vec3 farthest_of(const TriangleMesh&, const Vec3&) {
+  return {0, 0, 0};
+}
+Vec3 farthest_of(const HeightField&, const Vec3&) {
+  return {0, 0, 0};
+}
+
+Vec3 farthest_of(const std::array<Vec3, 3>& triangle, const Vec3& direction) {
+  const Vec3& first = direction.dot(triangle[1]) > direction.dot(triangle[0]) ? triangle[1] : triangle[0];
+  return direction.dot(triangle[2]) > direction.dot(first) ? triangle[2] : first;
 }
 
 template <class Turned>
@@ -59,6 +71,7 @@ double skin_of(const Solid& solid) {
 
 Vec3 Core::farthest(const Vec3& direction) const {
   const Vec3 local = at.axes.transpose() * direction;
+  if (triangle) return at.center + at.axes * farthest_of(*triangle, local);
   return at.center + at.axes * std::visit([&local](const auto& kind) { return farthest_of(kind, local); }, *solid);
 }
 

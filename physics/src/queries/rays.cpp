@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "queries/checked.h"
+#include "queries/on_surface.h"
 #include "queries/sweep.h"
 #include "shapes/compound.h"
 #include "shapes/placed.h"
@@ -128,8 +129,12 @@ MaybeEntry enters(const Turned&, const Vec3&, const Vec3&) {
   return std::nullopt;
 }
 
-/// Not asked for: its parts are.
-MaybeEntry enters(const Compound&, const Vec3&, const Vec3&) {
+template <class T>
+concept IsMany = std::same_as<T, Compound> || std::same_as<T, TriangleMesh> || std::same_as<T, HeightField>;
+
+/// Not asked for: its parts or triangles are.
+template <IsMany Many>
+MaybeEntry enters(const Many&, const Vec3&, const Vec3&) {
   return std::nullopt;
 }
 
@@ -172,6 +177,8 @@ std::optional<RayHit> first_on_ray(const Shape& shape, const Pose& pose, const R
     }
     return first;
   }
+  if (const surfaces::Surface* surface = surfaces::surface_of(shape.solid))
+    return first_on_surface(*surface, shapes::place(shape, pose), ray);
   const auto is_turned = [](const auto& solid) { return IsTurned<std::decay_t<decltype(solid)>>; };
   if (std::visit(is_turned, shape.solid)) return first_by_steps(shape, pose, ray);
   const shapes::Placed at = shapes::place(shape, pose);

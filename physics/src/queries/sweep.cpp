@@ -2,7 +2,8 @@
 
 #include <tweenfall/physics/contact.h>
 
-#include "queries/closest.h"
+#include "queries/on_surface.h"
+#include "shapes/compound.h"
 
 namespace tweenfall::queries {
 
@@ -28,20 +29,15 @@ ShapeHit stuck(const Shape& moving, const Pose& start, const Vec3& displacement,
   return hit;
 }
 
-}  // namespace
-
-std::optional<ShapeHit> first_on_way(const Shape& moving, const Pose& start, const Vec3& displacement,
-                                     const Shape& shape, const Pose& pose) {
-  const bool endless = std::holds_alternative<Plane>(moving.solid);
-  const Bounds box = endless ? bounds(shape, pose) : bounds(moving, start);
-  const double size = (box.high - box.low).norm();
-  const double none = met * size + coordinate_rounding * (start.position.norm() + pose.position.norm());
-  Pose at = start;
+/// The way until two convex shapes meet. `closest_after(gone, first, inside)` tells how they lie to each other when one
+/// has gone so far, the one that stands still as a; where they overlap at first, it may fill in what that means.
+template <class ClosestAfter>
+std::optional<ShapeHit> advance(const Vec3& displacement, double size, double none, const ClosestAfter& closest_after) {
   double fraction = 0;
-  ShapeHit hit;
+  ShapeHit hit, inside;
   for (int i = 0; i < most_advances; ++i) {
-    const Closest closest = closest_between(shape, pose, moving, at);
-    if (i == 0 && !(closest.gap > 0)) return stuck(moving, start, displacement, shape, pose, closest.on_a);
+    const Closest closest = closest_after(Vec3(fraction * displacement), i == 0, inside);
+    if (inside.inside) return inside;
     if (i == 0 || closest.core_distance > tells * size) hit.normal = closest.normal;
     hit.fraction = fraction;
     hit.point = closest.on_a;
@@ -50,11 +46,78 @@ std::optional<ShapeHit> first_on_way(const Shape& moving, const Pose& start, con
     if (!(closing > 0)) return std::nullopt;
     fraction += closest.gap / closing;
     if (!(fraction <= 1)) return std::nullopt;
-    at.position = start.position + fraction * displacement;
   }
   // What only touches and leaves, or slides along, is not met.
   if (!(displacement.dot(hit.normal) < 0)) return std::nullopt;
   return hit;
+}
+
+/// What of a compound's parts, on its node, is met first.
+template <class Meet>
+std::optional<ShapeHit> first_of_parts(const Compound& compound, const Pose& offset, const Meet& meet) {
+  std::optional<ShapeHit> best;
+  for (const Shape& part : compound.parts()) {
+    const std::optional<ShapeHit> hit = meet(shapes::on_node(part, offset));
+    if (hit && (!best || hit->fraction < best->fraction)) best = hit;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<ShapeHit> first_on_way(const Shape& moving, const Pose& start, const Vec3& displacement,
+                                     const Shape& shape, const Pose& pose) {
+  if (const auto* compound = std::get_if<Compound>(&shape.solid))
+    return first_of_parts(*compound, shape.offset,
+                          [&](const Shape& part) { return first_on_way(moving, start, displacement, part, pose); });
+  if (const auto* compound = std::get_if<Compound>(&moving.solid))
+    return first_of_parts(*compound, moving.offset,
+                          [&](const Shape& part) { return first_on_way(part, start, displacement, shape, pose); });
+  const bool endless = std::holds_alternative<Plane>(moving.solid);
+  const Bounds box = endless ? bounds(shape, pose) : bounds(moving, start);
+  const double size = (box.high - box.low).norm();
+  const double none = met * size + coordinate_rounding * (start.position.norm() + pose.position.norm());
+  const surfaces::Surface* still = surfaces::surface_of(shape.solid);
+  const surfaces::Surface* surface = still ? still : surfaces::surface_of(moving.solid);
+  if (!surface || endless || std::holds_alternative<Plane>(shape.solid))
+    return advance(displacement, size, none, [&](const Vec3& gone, bool first, ShapeHit& inside) {
+      Pose at = start;
+      at.position += gone;
+      const Closest closest = closest_between(shape, pose, moving, at);
+      if (first && !(closest.gap > 0)) inside = stuck(moving, start, displacement, shape, pose, closest.on_a);
+      return closest;
+    });
+  const Closest first = closest_between(shape, pose, moving, start);
+  if (!(first.gap > 0)) return stuck(moving, start, displacement, shape, pose, first.on_a);
+  if (!still) {
+    // As if it stood still, and the other came the other way.
+    std::optional<ShapeHit> hit = first_on_way(shape, pose, -displacement, moving, start);
+    if (!hit) return hit;
+    hit->normal = -hit->normal;
+    hit->point += hit->fraction * displacement;
+    return hit;
+  }
+  std::optional<ShapeHit> best;
+  const auto meet_all = [&](const Core& core) {
+    visit_on_way(*surface, shapes::place(shape, pose), core, displacement, [&](const Core& triangle) {
+      const std::optional<ShapeHit> hit = advance(displacement, size, none, [&](const Vec3& gone, bool, ShapeHit&) {
+        Core at = core;
+        at.at.center += gone;
+        return closest_between(triangle, at);
+      });
+      if (hit && (!best || hit->fraction < best->fraction)) best = hit;
+      return best ? best->fraction : 1;
+    });
+  };
+  if (const surfaces::Surface* other = surfaces::surface_of(moving.solid))
+    other->walk([](const Bounds&) { return true; },
+                [&](std::uint32_t index) {
+                  const surfaces::SurfaceTriangle triangle = other->triangle(index);
+                  meet_all(triangle_core(triangle, shapes::place(moving, start)));
+                });
+  else
+    meet_all(core_of(moving, start));
+  return best;
 }
 
 }  // namespace tweenfall::queries

@@ -10,6 +10,7 @@
 #include "shapes/compound.h"
 #include "shapes/placed.h"
 #include "shapes/turned.h"
+#include "surfaces/surface.h"
 
 namespace tweenfall {
 
@@ -93,6 +94,27 @@ void validate(const Solid& solid) {
   }
 }
 
+bool is_scenery(const Solid& solid) noexcept {
+  return std::holds_alternative<Plane>(solid) || surfaces::surface_of(solid) != nullptr;
+}
+
+const char* kind_name(const Solid& solid) noexcept {
+  struct Names {
+    const char* operator()(const Sphere&) const { return "a sphere"; }
+    const char* operator()(const Box&) const { return "a box"; }
+    const char* operator()(const Capsule&) const { return "a capsule"; }
+    const char* operator()(const Plane&) const { return "a plane"; }
+    const char* operator()(const Hull&) const { return "a hull"; }
+    const char* operator()(const Cylinder&) const { return "a cylinder"; }
+    const char* operator()(const Cone&) const { return "a cone"; }
+    const char* operator()(const TaperedCapsule&) const { return "a tapered capsule"; }
+    const char* operator()(const Compound&) const { return "a compound"; }
+    const char* operator()(const TriangleMesh&) const { return "a triangle mesh"; }
+    const char* operator()(const HeightField&) const { return "a height field"; }
+  };
+  return std::visit(Names{}, solid);
+}
+
 double volume(const Solid& solid) noexcept {
   if (const auto* sphere = std::get_if<Sphere>(&solid)) {
     return 4 * shapes::pi / 3 * sphere->radius * sphere->radius * sphere->radius;
@@ -138,7 +160,8 @@ MassProperties mass_properties(const Shape& shape, double mass) {
     center = whole.center;
     inertia = whole.inertia;
   } else {
-    throw std::invalid_argument("a plane has no mass: only fixed and keyed bodies can be planes");
+    throw std::invalid_argument(std::string(kind_name(shape.solid)) +
+                                " has no mass: only fixed and keyed bodies can be of this shape");
   }
   const Mat3 axes = shape.offset.rotation.toRotationMatrix();
   MassProperties properties;
@@ -212,6 +235,8 @@ Bounds bounds(const Shape& shape, const Pose& node) noexcept {
     }
     return result;
   }
+  if (const surfaces::Surface* surface = surfaces::surface_of(shape.solid))
+    return surface->bounds(placed.center, placed.axes);
   if (const auto* cylinder = std::get_if<Cylinder>(&shape.solid)) return shapes::turned_bounds(*cylinder, placed);
   if (const auto* cone = std::get_if<Cone>(&shape.solid)) return shapes::turned_bounds(*cone, placed);
   if (const auto* tapered = std::get_if<TaperedCapsule>(&shape.solid)) return shapes::turned_bounds(*tapered, placed);

@@ -283,7 +283,8 @@ void arm_rule(StageState& state, const Rule& rule) {
     const std::string name = "\"" + (*state.nodes)[body.node].name + "\"";
     if (state.world.is_fixed(body.id)) throw std::invalid_argument(name + " is static: nothing can take it over");
     if (rule.to.owner() != Owner::keyed && !(state.world.mass(body.id).mass > 0))
-      throw std::invalid_argument(name + " is a plane, which has no mass: it stays keyed");
+      throw std::invalid_argument(name + " is " + kind_name(state.world.shape(body.id).solid) +
+                                  ", which has no mass: it stays keyed");
   }
   std::ranges::sort(meant);
   meant.erase(std::unique(meant.begin(), meant.end()), meant.end());

@@ -1,5 +1,6 @@
 #include "stage/scaled_shape.h"
 
+#include <Eigen/LU>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "shapes/compound.h"
+#include "surfaces/surface.h"
 
 namespace tweenfall::staging {
 
@@ -44,6 +46,22 @@ void mirror(Shape& shape, const Vec3& scale) {
   const Vec3 mirrored = axis.cwiseProduct(scale.cwiseQuotient(scale.cwiseAbs()));
   if (mirrored == axis) return;
   shape.offset.rotation = (Quat::FromTwoVectors(axis, mirrored) * shape.offset.rotation).normalized();
+}
+
+/// A height field stays one where its grid does.
+Solid scaled_surface(const Solid& solid, const Mat3& own) {
+  const auto* field = std::get_if<HeightField>(&solid);
+  if (field && is_diagonal(own) && own.diagonal().minCoeff() > 0) {
+    std::vector<double> heights(field->heights().begin(), field->heights().end());
+    for (double& height : heights) height *= own(1, 1);
+    return HeightField(field->columns(), heights, field->spacing_x() * own(0, 0), field->spacing_z() * own(2, 2));
+  }
+  SurfaceMesh mesh = field ? field->surface() : std::get<TriangleMesh>(solid).surface();
+  for (Vec3& position : mesh.positions) position = own * position;
+  // A mirror image runs the other way around.
+  if (own.determinant() < 0)
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) std::swap(mesh.triangles[i], mesh.triangles[i + 1]);
+  return TriangleMesh(mesh);
 }
 
 }  // namespace
@@ -117,6 +135,8 @@ Shape scaled(const Shape& shape, const Vec3& scale) {
     parts.reserve(compound->parts().size());
     for (const Shape& part : compound->parts()) parts.push_back(scaled(shapes::on_node(part, shape.offset), scale));
     return {Compound(std::move(parts))};
+  } else if (surfaces::surface_of(shape.solid)) {
+    return {scaled_surface(shape.solid, own), result.offset};
   } else if (auto* hull = std::get_if<Hull>(&result.solid)) {
     std::vector<Vec3> points;
     for (const Vec3& point : hull->convex.vertices()) points.push_back(own * point);

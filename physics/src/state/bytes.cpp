@@ -8,15 +8,36 @@ namespace tweenfall::state {
 
 namespace {
 
-/// Before a hull that has not been written yet.
-constexpr std::uint32_t new_hull = 0xffffffff;
+/// Before a hull, a mesh or a height field that has not been written yet.
+constexpr std::uint32_t first_time = 0xffffffff;
 
 }  // namespace
 
+bool ByteWriter::known(std::unordered_map<const void*, std::uint32_t>& all, const void* data) {
+  const auto [found, added] = all.try_emplace(data, static_cast<std::uint32_t>(all.size()));
+  number(added ? first_time : found->second);
+  return !added;
+}
+
+void ByteWriter::mesh(const TriangleMesh& mesh) {
+  if (known(meshes_, mesh.vertices().data())) return;
+  number(static_cast<std::uint64_t>(mesh.vertices().size()));
+  for (const Vec3& vertex : mesh.vertices()) walk(*this, vertex);
+  number(static_cast<std::uint64_t>(mesh.triangles().size()));
+  for (const std::uint32_t corner : mesh.triangles()) number(corner);
+}
+
+void ByteWriter::heights(const HeightField& field) {
+  if (known(fields_, field.heights().data())) return;
+  number(static_cast<std::uint64_t>(field.columns()));
+  number(field.spacing_x());
+  number(field.spacing_z());
+  number(static_cast<std::uint64_t>(field.heights().size()));
+  for (const double height : field.heights()) number(height);
+}
+
 void ByteWriter::hull(const ConvexHull& hull) {
-  const auto [known, added] = hulls_.try_emplace(hull.vertices().data(), static_cast<std::uint32_t>(hulls_.size()));
-  number(added ? new_hull : known->second);
-  if (!added) return;
+  if (known(hulls_, hull.vertices().data())) return;
   number(static_cast<std::uint64_t>(hull.vertices().size()));
   for (const Vec3& vertex : hull.vertices()) walk(*this, vertex);
   number(static_cast<std::uint64_t>(hull.faces().size()));
@@ -35,7 +56,7 @@ void ByteWriter::field(const Field&) {
 Hull ByteReader::read_hull() {
   std::uint32_t index = 0;
   number(index);
-  if (index != new_hull) {
+  if (index != first_time) {
     require(index < hulls_.size(), "there is no such hull");
     return Hull{hulls_[index]};
   }
@@ -44,6 +65,40 @@ Hull ByteReader::read_hull() {
   std::vector<std::vector<std::uint32_t>> faces;
   list(faces);
   return Hull{hulls_.emplace_back(vertices, faces)};
+}
+
+TriangleMesh ByteReader::read_mesh() {
+  std::uint32_t index = 0;
+  number(index);
+  if (index != first_time) {
+    require(index < meshes_.size(), "there is no such mesh");
+    return meshes_[index];
+  }
+  SurfaceMesh mesh;
+  list(mesh.positions);
+  list(mesh.triangles);
+  TriangleMesh read(mesh);
+  require(read.vertices().size() == mesh.positions.size() && read.triangles().size() == mesh.triangles.size(),
+          "a mesh has vertices or triangles that it cannot have");
+  return meshes_.emplace_back(read);
+}
+
+HeightField ByteReader::read_heights() {
+  std::uint32_t index = 0;
+  number(index);
+  if (index != first_time) {
+    require(index < fields_.size(), "there is no such height field");
+    return fields_[index];
+  }
+  std::uint64_t columns = 0;
+  double spacing_x = 0, spacing_z = 0;
+  number(columns);
+  number(spacing_x);
+  number(spacing_z);
+  std::vector<double> heights;
+  list(heights);
+  require(columns <= heights.size(), "a height field has more columns than heights");
+  return fields_.emplace_back(static_cast<std::size_t>(columns), heights, spacing_x, spacing_z);
 }
 
 Compound ByteReader::read_compound() {

@@ -43,15 +43,20 @@ class ByteWriter : public Teller<ByteWriter> {
     number(static_cast<std::uint64_t>(text.size()));
     for (const char c : text) number(c);
   }
-  /// Of hulls that are shared only the first is written; then its number.
+  /// Of hulls that are shared only the first is written; then its number. So it is with meshes and height fields.
   void hull(const ConvexHull& hull);
+  void mesh(const TriangleMesh& mesh);
+  void heights(const HeightField& field);
   /// @throws std::invalid_argument
   [[noreturn]] void field(const Field&);
 
   std::vector<std::byte> bytes;
 
  private:
-  std::unordered_map<const Vec3*, std::uint32_t> hulls_;
+  /// Whether it has been written before, and then its number.
+  bool known(std::unordered_map<const void*, std::uint32_t>& all, const void* data);
+
+  std::unordered_map<const void*, std::uint32_t> hulls_, meshes_, fields_;
 };
 
 /// All functions throw std::invalid_argument when the bytes are too few or tell what cannot be.
@@ -126,16 +131,24 @@ class ByteReader {
       value = read_hull();
     else if constexpr (std::is_same_v<T, Compound>)
       value = read_compound();
+    else if constexpr (std::is_same_v<T, TriangleMesh>)
+      value = read_mesh();
+    else if constexpr (std::is_same_v<T, HeightField>)
+      value = read_heights();
     else
       walk(*this, value.template emplace<T>());
   }
   [[nodiscard]] Hull read_hull();
   [[nodiscard]] Compound read_compound();
+  [[nodiscard]] TriangleMesh read_mesh();
+  [[nodiscard]] HeightField read_heights();
 
   std::span<const std::byte> bytes_;
   const char* kind_;
   std::size_t place_ = 0;
   std::vector<ConvexHull> hulls_;
+  std::vector<TriangleMesh> meshes_;
+  std::vector<HeightField> fields_;
   bool in_compound_ = false;
 };
 

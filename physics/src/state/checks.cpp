@@ -12,6 +12,7 @@
 #include "shapes/compound.h"
 #include "shapes/turned.h"
 #include "state/countable.h"
+#include "surfaces/surface.h"
 
 namespace tweenfall::state {
 
@@ -33,6 +34,7 @@ double radius_of(const Solid& solid) {
       most = std::max(most, (mass_properties(part, 1).center - center).norm() + radius_of(part.solid));
     return most;
   }
+  if (const surfaces::Surface* surface = surfaces::surface_of(solid)) return surface->reach();
   return std::numeric_limits<double>::infinity();
 }
 
@@ -126,8 +128,9 @@ void give_mass(Body& body, const std::optional<double>& given, double density) {
   body.shape = shapes::without_offset(body.shape);
   const Solid& solid = body.shape.solid;
   const bool endless = std::holds_alternative<Plane>(solid);
-  if (endless) {
-    require(body.immovable(), "a body with a plane must be fixed or keyed: it has no mass");
+  if (is_scenery(solid)) {
+    require(body.immovable(),
+            std::string("a body with ") + kind_name(solid) + " must be fixed or keyed: it has no mass");
     body.mass.center = offset.position;
   } else {
     const double mass = given ? *given : density * volume(solid);

@@ -12,13 +12,14 @@
 #include "state/countable.h"
 #include "state/envelope.h"
 #include "state/world_data.h"
+#include "surfaces/surface.h"
 
 namespace tweenfall {
 
 namespace state {
 namespace {
 
-constexpr Envelope world_envelope{"world", 3};
+constexpr Envelope world_envelope{"world", 4};
 
 bool unit(const Quat& rotation) {
   return std::abs(rotation.norm() - 1) <= 1e-9;
@@ -170,8 +171,9 @@ void check_pairs(const WorldState& world) {
   PartPair before{};
   bool first = true;
   const auto has_part = [&](std::uint32_t body, std::uint32_t part) {
-    const auto* compound = std::get_if<Compound>(&world.bodies[body].shape.solid);
-    return part < (compound ? compound->parts().size() : 1);
+    const Solid& solid = world.bodies[body].shape.solid;
+    const auto* compound = std::get_if<Compound>(&solid);
+    return surfaces::surface_of(solid) ? part < 64 : part < (compound ? compound->parts().size() : 1);
   };
   const auto require_pair = [&](const PartPair& pair) {
     require(here(pair[0]) && here(pair[1]), "there are no such bodies");

@@ -24,6 +24,16 @@ class StateHash : public Teller<StateHash> {
     for (const ConvexHull::Face& face : hull.faces())
       for (const std::uint32_t corner : hull.corners(face)) number(corner);
   }
+  void mesh(const TriangleMesh& mesh) {
+    for (const Vec3& vertex : mesh.vertices()) walk(*this, vertex);
+    for (const std::uint32_t corner : mesh.triangles()) number(corner);
+  }
+  void heights(const HeightField& field) {
+    number(static_cast<std::uint64_t>(field.columns()));
+    number(field.spacing_x());
+    number(field.spacing_z());
+    for (const double height : field.heights()) number(height);
+  }
   void field(const Field&) {}
   [[nodiscard]] std::uint64_t value() const { return hash_.value(); }
 

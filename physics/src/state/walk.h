@@ -31,8 +31,8 @@ struct IsArray : std::false_type {};
 template <class T, std::size_t count>
 struct IsArray<std::array<T, count>> : std::true_type {};
 
-/// Hands every number to `tool.number(...)`, and what is not made of fields to `tool.list`, `tool.choice` and
-/// `tool.hull`, in a fixed order.
+/// Hands every number to `tool.number(...)`, and what is not made of fields to `tool.list`, `tool.choice`,
+/// `tool.hull` and the like, in a fixed order.
 template <class Tool>
 class Walk {
  public:
@@ -95,6 +95,10 @@ class Walk {
       tool_.compound(value);
     } else if constexpr (std::is_same_v<Value, ConvexHull>) {
       tool_.hull(value);
+    } else if constexpr (std::is_same_v<Value, TriangleMesh>) {
+      tool_.mesh(value);
+    } else if constexpr (std::is_same_v<Value, HeightField>) {
+      tool_.heights(value);
     } else if constexpr (std::is_same_v<Value, Field>) {
       tool_.field(value);
     } else {

@@ -272,8 +272,9 @@ void World::set_drive(BodyId id, const Drive& drive) {
   state::Body& body = world.at(id);
   state::validate(drive);
   if (body.drive == drive) return;
-  state::require(drive.owner() == Owner::keyed || body.fixed || body.mass.mass > 0,
-                 "a body with a plane must stay fixed or keyed: it has no mass");
+  state::require(
+      drive.owner() == Owner::keyed || body.fixed || body.mass.mass > 0,
+      std::string("a body with ") + kind_name(body.shape.solid) + " must stay fixed or keyed: it has no mass");
   const Owner before = body.drive.owner();
   body.drive = drive;
   if (before == drive.owner() && before != Owner::driven) return;  // only numbers that this owner does not read

@@ -5,18 +5,17 @@
 
 #include "collision/collide_pairs.h"
 #include "collision/passage.h"
-#include "shapes/turned.h"
 #include "state/world_data.h"
+#include "step/adopt.h"
 #include "step/combine.h"
 #include "step/found_manifold.h"
+#include "surfaces/surface.h"
 
 namespace tweenfall {
 
 namespace step {
 namespace {
 
-/// Gaps up to this are contacts from the start of the step, m; wider ones only when the bodies meet within it.
-constexpr double near_enough = 2e-3;
 /// Two bodies that both have so many contacts already get none with each other.
 constexpr std::uint32_t most_contacts = 32;
 /// Pairs, or bodies, that are worth a part of their own.
@@ -26,43 +25,6 @@ constexpr std::size_t worth_a_part = 64;
 std::span<const Shape> parts_of(const state::Body& body) {
   const auto* compound = std::get_if<Compound>(&body.shape.solid);
   return compound ? compound->parts() : std::span<const Shape>();
-}
-
-/// How a body's surface rolls where something touches it, m.
-double rolling_radius(const collision::Passage& way, const collision::Prediction& at, const Vec3& position,
-                      const Vec3& out) {
-  const state::Body& body = *way.body;
-  if (body.roundness > 0) return body.roundness;
-  if (!body.turned) return 0;
-  const shapes::Placed placed = shapes::place(*way.course.shape, at.node(body));
-  const Mat3 into = placed.axes.transpose();
-  return shapes::rolling_radius(way.course.shape->solid, into * (position - placed.center), into * out);
-}
-
-/// The points of a manifold as constraints, told about the bodies' places at the start of the step.
-void adopt(ContactConstraint& constraint, const collision::Passage& way_a, const collision::Prediction& at_a,
-           const collision::Passage& way_b, const collision::Prediction& at_b) {
-  const state::Body& a = *way_a.body;
-  const state::Body& b = *way_b.body;
-  const Quat back_a = a.motion.pose.rotation * at_a.rotation.conjugate();
-  const Quat back_b = b.motion.pose.rotation * at_b.rotation.conjugate();
-  const Manifold& manifold = constraint.manifold;
-  constraint.count = manifold.count;
-  for (int i = 0; i < manifold.count; ++i) {
-    const ContactPoint& from = manifold.points[static_cast<std::size_t>(i)];
-    PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
-    point = {};
-    point.feature = from.feature;
-    point.start_arm_a = from.position - at_a.center;
-    point.start_arm_b = from.position - at_b.center;
-    point.start_gap = -from.penetration;
-    point.skin_a = rolling_radius(way_a, at_a, from.position, manifold.normal);
-    point.skin_b = rolling_radius(way_b, at_b, from.position, -manifold.normal);
-    if (constraint.impact_time == 0) continue;
-    point.start_arm_a = state::carried(back_a, point.start_arm_a, point.skin_a * manifold.normal);
-    point.start_arm_b = state::carried(back_b, point.start_arm_b, -point.skin_b * manifold.normal);
-    point.start_gap += manifold.normal.dot((b.center + point.start_arm_b) - (a.center + point.start_arm_a));
-  }
 }
 
 /// Hands the impulses of the step before on: to points of the same features, then to what is left nearby.
@@ -183,6 +145,13 @@ void World::Implementation::find_contact(const step::ContactConstraint& pair, co
     part.contacts.pop_back();
     return;
   }
+  finish_contact(constraint, memory);
+}
+
+void World::Implementation::finish_contact(step::ContactConstraint& constraint,
+                                           const state::ContactMemory* memory) const {
+  const state::Body& a = bodies[constraint.a];
+  const state::Body& b = bodies[constraint.b];
   constraint.friction = step::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
   constraint.restitution =
       step::combined_restitution(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
@@ -259,7 +228,9 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
     pair.a = index_a;
     pair.b = index_b;
     const std::size_t before = part.contacts.size();
-    if (step::parts_of(a).empty() && step::parts_of(b).empty()) {
+    if (surfaces::surface_of(a.shape.solid) || surfaces::surface_of(b.shape.solid)) {
+      find_contacts_with_surface(pair, memories_of[i], dt, part);
+    } else if (step::parts_of(a).empty() && step::parts_of(b).empty()) {
       const collision::Passage& way_a = passages[index_a];
       const collision::Passage& way_b = passages[index_b];
       while (next_apart != aparts.cend() && next_apart->pair < pairs[i]) ++next_apart;

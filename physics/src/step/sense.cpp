@@ -28,11 +28,11 @@ void World::Implementation::sense() {
   for (const std::uint32_t index : sensors) {
     const state::Body& sensor = bodies[index];
     if (!here[index].shape) continue;
-    const bool endless = std::holds_alternative<Plane>(sensor.shape.solid);
+    const bool endless = is_scenery(sensor.shape.solid);
     const auto counts = [&](std::uint32_t other) {
       const state::Body& body = bodies[other];
       if (other == index || body.sensor || (sensor.fixed && body.fixed)) return false;
-      if (endless && std::holds_alternative<Plane>(body.shape.solid)) return false;
+      if (endless && is_scenery(body.shape.solid)) return false;
       return (sensor.groups & body.collides_with) != 0 && (body.groups & sensor.collides_with) != 0 &&
              !ignored.contains(index, other);
     };

@@ -309,6 +309,7 @@ void World::Implementation::step(double dt) {
   } while (wake_islands());
   failed = true;
   advance_bodies(dt);
+  hold_before_surfaces();
   let_sleep(dt);
   report();
   sense();

@@ -51,6 +51,12 @@ std::string shape_text(const Shape& shape) {
     std::string operator()(const Compound& compound) const {
       return "compound, " + std::to_string(compound.parts().size()) + " parts";
     }
+    std::string operator()(const TriangleMesh& mesh) const {
+      return "mesh, " + std::to_string(mesh.triangles().size() / 3) + " triangles";
+    }
+    std::string operator()(const HeightField& field) const {
+      return "height field, " + std::to_string(field.columns()) + " by " + std::to_string(field.rows());
+    }
     std::string operator()(const Plane& plane) const { return "plane, normal " + brief_text(plane.normal); }
     std::string operator()(const Hull& hull) const {
       return "hull, " + std::to_string(hull.convex.vertices().size()) + " vertices, " +

@@ -49,6 +49,12 @@ double height_of(const TaperedCapsule& c, const Vec3& d) {
 double height_of(const Compound&, const Vec3&) {
   return 0;
 }
+double height_of(const TriangleMesh&, const Vec3&) {
+  return 0;
+}
+double height_of(const HeightField&, const Vec3&) {
+  return 0;
+}
 
 class DirectionOracle {
  public:

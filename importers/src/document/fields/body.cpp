@@ -149,8 +149,10 @@ BodyDescription read_body(const json::Value& value, Building& building) {
   Body body;
   body_table().read(value, body, building);
   const json::Value shape = usable(value, "shape");
-  if (shape && std::holds_alternative<Plane>(body.shape.solid) && !body.fixed)
-    building.problems.add(shape, "a plane has no mass, so it cannot move; say \"static\": true");
+  const bool led = body.drive ? body.drive->owner() == Owner::keyed : !std::holds_alternative<Plane>(body.shape.solid);
+  if (shape && is_scenery(body.shape.solid) && !body.fixed && !led)
+    building.problems.add(
+        shape, std::string(kind_name(body.shape.solid)) + " has no mass, so it cannot move; say \"static\": true");
   return body;
 }
 

@@ -4,7 +4,9 @@
 ///
 /// Nothing here changes a world, and what was added, moved or removed since its last step counts at once: bodies are
 /// where `World::motion` tells. Several threads may ask the same world at a time. A solid is closed: its surface
-/// belongs to it. A plane is the half space behind it. What a surface's normal is told of points out of the solid that
+/// belongs to it. A plane is the half space behind it. A
+/// triangle mesh or height field is a surface: rays and moving shapes meet its front alone, distances and overlaps are
+/// those of the surface, from either side. What a surface's normal is told of points out of the solid that
 /// was hit.
 
 #include <tweenfall/physics/world.h>

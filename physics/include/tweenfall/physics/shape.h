@@ -1,10 +1,12 @@
 #pragma once
 
-/// Solid shapes, and what follows from them: volume, mass, center of mass, inertia.
+/// Shapes of bodies, and what follows from them: volume, mass, center of mass, inertia.
 
 #include <tweenfall/curves/pose.h>
 #include <tweenfall/curves/surface_mesh.h>
 #include <tweenfall/physics/convex_hull.h>
+#include <tweenfall/physics/height_field.h>
+#include <tweenfall/physics/triangle_mesh.h>
 
 #include <memory>
 #include <span>
@@ -60,7 +62,8 @@ class Compound {
   static constexpr std::size_t most_parts = 4096;
 
   /// @param parts  solids and their places in the compound's space
-  /// @throws std::invalid_argument for no parts or too many, planes, compounds in it, and sizes that cannot be
+  /// @throws std::invalid_argument for no parts or too many, planes, meshes, fields and compounds in it, and sizes that
+  /// cannot be
   explicit Compound(std::vector<Shape> parts);
   // Moving copies, so that no compound is ever without its parts.
   Compound(const Compound&) noexcept = default;
@@ -72,7 +75,14 @@ class Compound {
   std::shared_ptr<const std::vector<Shape>> parts_;
 };
 
-using Solid = std::variant<Sphere, Box, Capsule, Plane, Hull, Cylinder, Cone, TaperedCapsule, Compound>;
+using Solid = std::variant<Sphere, Box, Capsule, Plane, Hull, Cylinder, Cone, TaperedCapsule, Compound, TriangleMesh,
+                           HeightField>;
+
+/// What has no end or no volume, and so no mass: a plane, a triangle mesh or a height field. Only bodies that never
+/// move by themselves can be of such a shape.
+[[nodiscard]] bool is_scenery(const Solid& solid) noexcept;
+/// In words: "a plane", "a box", ...
+[[nodiscard]] const char* kind_name(const Solid& solid) noexcept;
 
 /// A solid and its place on the node that carries it.
 struct Shape {
@@ -89,10 +99,10 @@ struct MassProperties {
 /// @throws std::invalid_argument naming the size that is not positive or not finite.
 void validate(const Solid& solid);
 
-[[nodiscard]] double volume(const Solid& solid) noexcept;  ///< m^3; infinity for a plane
+[[nodiscard]] double volume(const Solid& solid) noexcept;  ///< m^3; infinity for what is scenery
 
 /// Mass properties of a uniform solid of the given mass. Sources: closed forms, e.g. Goldstein, Classical Mechanics.
-/// @throws std::invalid_argument for a plane, or mass not > 0.
+/// @throws std::invalid_argument for what is scenery, or mass not > 0.
 [[nodiscard]] MassProperties mass_properties(const Shape& shape, double mass);
 
 /// Mass properties of what a closed mesh encloses, filled evenly, in the mesh's own space.

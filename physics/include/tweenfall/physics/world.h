@@ -84,11 +84,12 @@ struct BodySettings {
 struct Contact {
   BodyId a, b;
   Manifold manifold;
-  double impulse = 0;                    ///< sum of normal impulses of the step, N s; >= 0
-  Vec3 total_impulse{0, 0, 0};           ///< on b, friction included, N s
-  double approach_speed = 0;             ///< normal speed at which they met, before the step's impulses, m/s
-  bool began = false;                    ///< the pair did not touch in the step before
-  std::uint32_t part_a = 0, part_b = 0;  ///< which parts touch, of bodies that are compounds
+  double impulse = 0;           ///< sum of normal impulses of the step, N s; >= 0
+  Vec3 total_impulse{0, 0, 0};  ///< on b, friction included, N s
+  double approach_speed = 0;    ///< normal speed at which they met, before the step's impulses, m/s
+  bool began = false;           ///< the pair did not touch in the step before
+  std::uint32_t part_a = 0,
+                part_b = 0;  ///< which part of a compound touches; at which place a mesh or field does, counted
 };
 
 /// Two bodies that touched and do not any more.

@@ -20,8 +20,10 @@ struct StandingBody {
   Bounds room;
   bool moves;  ///< by itself
 
-  /// Of its bounds the shortest edge, m; infinity for a plane.
-  [[nodiscard]] double size() const { return (room.high - room.low).minCoeff(); }
+  /// Of its bounds the shortest edge, m; infinity for a plane, a mesh or a height field.
+  [[nodiscard]] double size() const {
+    return is_scenery(shape.solid) ? std::numeric_limits<double>::infinity() : (room.high - room.low).minCoeff();
+  }
 };
 
 /// How deep two bodies lie in each other where that is more than touching; else 0.

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "collision/passage.h"
+#include "step/contact_constraint.h"
+
+namespace tweenfall::step {
+
+/// Gaps up to this are contacts from the start of the step, m; wider ones only when the bodies meet within it.
+constexpr double near_enough = 2e-3;
+
+/// The points of a contact's manifold, found where the bodies are at its time of impact, as constraints that are told
+/// about their places at the start of the step.
+void adopt(ContactConstraint& constraint, const collision::Passage& way_a, const collision::Prediction& at_a,
+           const collision::Passage& way_b, const collision::Prediction& at_b);
+
+}  // namespace tweenfall::step
