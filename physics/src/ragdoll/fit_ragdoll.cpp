@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "ragdoll/fitted_capsule.h"
+#include "shapes/fitted_capsule.h"
 
 namespace tweenfall {
 
@@ -177,7 +177,7 @@ class Fitting {
 
   [[nodiscard]] RagdollBone bone(const Part& part, std::size_t parent, const std::vector<RagdollBone>& bones) const {
     const std::optional<Vec3> way = way_of(part);
-    std::optional<FittedCapsule> fitted = fitted_capsule(part.points, way);
+    std::optional<shapes::FittedCapsule> fitted = shapes::fitted_capsule(part.points, way);
     require(fitted.has_value(),
             "what the node " + hierarchy_[part.node].name + " carries has no extent that a capsule could have");
     RagdollBone bone;

@@ -2,11 +2,11 @@
 
 #include <utility>
 
-// Every shape there is: the functions in the files of these names.
+// Every shape there is: the functions in the files of these names. A mesh or a height field is no part of a compound.
 #define TWEENFALL_SINGLE_SHAPES(one)                                                                             \
   one(sphere) one(box) one(capsule) one(tapered_capsule) one(cylinder) one(cone) one(plane) one(hull) one(lathe) \
       one(sweep)
-#define TWEENFALL_SHAPES(one) TWEENFALL_SINGLE_SHAPES(one) one(compound)
+#define TWEENFALL_SHAPES(one) TWEENFALL_SINGLE_SHAPES(one) one(compound) one(mesh) one(height_field)
 
 namespace tweenfall::document::shapes {
 

@@ -33,7 +33,7 @@ template <class Thing>
   return shape_of(std::move(word), "", table, [](const json::Value&, const Thing& thing, Building&) { return thing; });
 }
 
-// A shape that is no compound
+// A shape that can be a part of a compound
 const Form* single_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] Solid read_single(const json::Value& shape, Building& building);
 

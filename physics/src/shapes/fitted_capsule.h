@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace tweenfall::ragdoll {
+namespace tweenfall::shapes {
 
 struct FittedCapsule {
   Capsule capsule;
@@ -18,4 +18,4 @@ struct FittedCapsule {
 [[nodiscard]] std::optional<FittedCapsule> fitted_capsule(std::span<const Vec3> points,
                                                           const std::optional<Vec3>& along);
 
-}  // namespace tweenfall::ragdoll
+}  // namespace tweenfall::shapes

@@ -1,11 +1,11 @@
-#include "ragdoll/fitted_capsule.h"
+#include "shapes/fitted_capsule.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace tweenfall::ragdoll {
+namespace tweenfall::shapes {
 
 namespace {
 
@@ -66,4 +66,4 @@ std::optional<FittedCapsule> fitted_capsule(std::span<const Vec3> points, const 
   return best;
 }
 
-}  // namespace tweenfall::ragdoll
+}  // namespace tweenfall::shapes

@@ -1,0 +1,17 @@
+#pragma once
+
+// Meshes that a document's imports brought, by name.
+
+#include <tweenfall/curves/surface_mesh.h>
+
+#include "document/content.h"
+
+#include <optional>
+
+namespace tweenfall::document::shapes {
+
+// The mesh of the imported node of that name, in the node's own space; or all of the import of that name, at rest in
+// its file's space. Empty where there is none, which is told.
+[[nodiscard]] std::optional<SurfaceMesh> mesh_named(const json::Value& name, Building& building);
+
+}  // namespace tweenfall::document::shapes

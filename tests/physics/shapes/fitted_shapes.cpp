@@ -1,0 +1,118 @@
+#include <tweenfall/curves/rotation.h>
+#include <tweenfall/physics/fitted_shapes.h>
+
+#include "support.h"
+
+namespace tweenfall::test::fitting {
+
+std::vector<Vec3> on_ball(int count, const Vec3& stretch, std::uint64_t number) {
+  Random random(number);
+  std::vector<Vec3> points;
+  points.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) points.push_back(random.vector(1).normalized().cwiseProduct(stretch));
+  return points;
+}
+
+TEST_CASE("the hull around a mesh of many points has no more vertices than it may, and leaves little outside") {
+  for (const int count : {200, 5000, 50'000}) {
+    const std::vector<Vec3> points = on_ball(count, {1, 0.6, 0.8}, 7);
+    const ConvexHull hull = hull_around(points);
+    CAPTURE(count);
+    CHECK(hull.vertices().size() <= ConvexHull::most_vertices);
+    CHECK(hull.vertices().size() >= 190);
+    double out = 0;
+    for (const Vec3& point : points)
+      for (const ConvexHull::Face& face : hull.faces()) out = std::max(out, face.normal.dot(point) - face.offset);
+    // Of a ball, what 256 points leave out: about 2 / 256 of its radius.
+    CHECK(out < 0.025);
+    CHECK(near(hull.measures().volume, 4 * pi / 3 * 0.48, 0.15));
+  }
+}
+
+TEST_CASE("the hull around a finely divided box is the box, and that of few vertices is near") {
+  std::vector<Vec3> points;
+  for (int i = 0; i <= 20; ++i)
+    for (int k = 0; k <= 20; ++k)
+      for (const double side : {-1.0, 1.0}) {
+        points.emplace_back(side, 0.1 * i - 1, 0.1 * k - 1);
+        points.emplace_back(0.1 * i - 1, side, 0.1 * k - 1);
+        points.emplace_back(0.1 * i - 1, 0.1 * k - 1, side);
+      }
+  const ConvexHull hull = hull_around(points);
+  CHECK(hull.vertices().size() == 8);
+  CHECK(near(hull.measures().volume, 8, 1e-12));
+  CHECK(hull_around(on_ball(3000, {1, 1, 1}, 2), 24).vertices().size() <= 24);
+  CHECK_THROWS_WITH((void)hull_around(points, 3), "a hull can have 4 to 256 vertices, but is asked for 3");
+  points[5].y() = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS((void)hull_around(points), std::invalid_argument);
+}
+
+TEST_CASE("the box around the points of a turned box is that box, wherever it stands") {
+  Random random(12);
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 half(random.between(0.1, 1), random.between(0.1, 1), random.between(0.1, 1)), place = random.vector(5);
+    const Quat turn = random.rotation();
+    std::vector<Vec3> points;
+    for (int k = 0; k < 8; ++k)
+      points.push_back(
+          place + turn * Vec3((k & 1 ? 1 : -1) * half.x(), (k & 2 ? 1 : -1) * half.y(), (k & 4 ? 1 : -1) * half.z()));
+    for (int k = 0; k < 50; ++k) points.push_back(place + turn * random.vector(1).cwiseProduct(half));
+    const Shape box = box_around(points);
+    CHECK(near(volume(box.solid), 8 * half.prod(), 1e-9));
+    CHECK(near(box.offset.position, place, 1e-9));
+  }
+}
+
+TEST_CASE("the box around any points holds them all, and is no larger than boxes turned at random") {
+  Random random(3);
+  for (int i = 0; i < 10; ++i) {
+    std::vector<Vec3> points;
+    const Vec3 stretch(random.between(0.2, 1), random.between(0.2, 1), random.between(0.2, 1));
+    const Quat turn = random.rotation();
+    for (int k = 0; k < 60; ++k) points.push_back(turn * random.vector(1).cwiseProduct(stretch));
+    const Shape shape = box_around(points);
+    const Vec3 half = std::get<Box>(shape.solid).half_extents;
+    for (const Vec3& point : points) {
+      const Vec3 local = shape.offset.rotation.conjugate() * Vec3(point - shape.offset.position);
+      CHECK((local.cwiseAbs() - half).maxCoeff() < 1e-12);
+    }
+    for (int k = 0; k < 300; ++k) {
+      const Mat3 axes = random.rotation().toRotationMatrix();
+      Vec3 low = Vec3::Constant(1e9), high = -low;
+      for (const Vec3& point : points) {
+        const Vec3 local = axes * point;
+        low = low.cwiseMin(local);
+        high = high.cwiseMax(local);
+      }
+      CHECK((high - low).prod() > 0.999 * volume(shape.solid));
+    }
+  }
+}
+
+TEST_CASE("the capsule around the points of a capsule is nearly that capsule") {
+  Random random(4);
+  const Quat turn = random.rotation();
+  const Vec3 place(1, -2, 3), axis = turn * Vec3(0, 1, 0);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 4000; ++i) {
+    // Evenly over the surface: of the sides as much as their share is, of the ends the rest.
+    const Vec3 out = random.vector(1).normalized();
+    const bool side = random.between(0, 1) < 0.6;
+    const Vec3 flat = Vec3(out.x(), 0, out.z()).normalized();
+    points.push_back(place + turn * (side ? Vec3(0.2 * flat + Vec3(0, random.between(-0.6, 0.6), 0))
+                                          : Vec3(0.2 * out + Vec3(0, out.y() < 0 ? -0.6 : 0.6, 0))));
+  }
+  for (const std::optional<Vec3>& along : {std::optional<Vec3>(), std::optional<Vec3>(7 * axis)}) {
+    const Shape shape = capsule_around(points, along);
+    const auto& capsule = std::get<Capsule>(shape.solid);
+    CHECK(near(capsule.radius, 0.2, 0.005));
+    CHECK(near(capsule.half_height, 0.6, 0.08));
+    CHECK(near(shape.offset.position, place, 0.02));
+    CHECK(std::abs((shape.offset.rotation * Vec3(0, 1, 0)).dot(axis)) > 0.999);
+  }
+  CHECK_THROWS_WITH((void)capsule_around({}), "a capsule around points needs some that span a volume");
+  CHECK_THROWS_AS((void)box_around({}), std::invalid_argument);
+  CHECK_THROWS_WITH((void)capsule_around(points, Vec3(0, 0, 0)), "the axis of a capsule must be finite and not zero");
+}
+
+}  // namespace tweenfall::test::fitting
