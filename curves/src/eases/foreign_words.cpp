@@ -12,7 +12,7 @@ struct ForeignWord {
 };
 
 // Names of whole eases. Source: the manuals of Blender 4 (F-curves and their handles), Maya 2024 (tangents), After
-// Effects, glTF 2.0 and jQuery.
+// Effects, glTF 2.0, jQuery, d3, and R. Penner's classes, in which even the straight way has directions.
 constexpr ForeignWord words[] = {{"constant", "hold"},
                                  {"stepped", "hold"},
                                  {"step", "hold"},
@@ -20,6 +20,13 @@ constexpr ForeignWord words[] = {{"constant", "hold"},
                                  {"stepnext", "step-next"},
                                  {"lerp", "linear"},
                                  {"none", "linear"},
+                                 {"easenone", "linear"},
+                                 {"easelinear", "linear"},
+                                 {"lineareasenone", "linear"},
+                                 {"lineareasein", "linear"},
+                                 {"lineareaseout", "linear"},
+                                 {"lineareaseinout", "linear"},
+                                 {"noneeasenone", "linear"},
                                  {"vector", "linear"},
                                  {"easyease", "ease-in-out"},
                                  {"auto", "smooth-clamped"},
@@ -39,9 +46,10 @@ constexpr ForeignWord words[] = {{"constant", "hold"},
 
 // Other names of families, and ours where a name without a direction means the way out (Blender: "dynamic effects").
 constexpr ForeignWord families_elsewhere[] = {
-    {"quadratic", "quad"},  {"cube", "cubic"},       {"quartic", "quart"}, {"quintic", "quint"}, {"sin", "sine"},
-    {"sinusoidal", "sine"}, {"exponential", "expo"}, {"exp", "expo"},      {"circle", "circ"},   {"circular", "circ"},
-    {"power1", "quad"},     {"power2", "cubic"},     {"power3", "quart"},  {"power4", "quint"}};
+    {"quadratic", "quad"}, {"cube", "cubic"},      {"quartic", "quart"},    {"quintic", "quint"},
+    {"sin", "sine"},       {"sinusoidal", "sine"}, {"exponential", "expo"}, {"exp", "expo"},
+    {"circle", "circ"},    {"circular", "circ"},   {"power1", "quad"},      {"power2", "cubic"},
+    {"power3", "quart"},   {"power4", "quint"},    {"regular", "quad"},     {"strong", "quint"}};
 constexpr std::string_view outward[] = {"back", "bounce", "elastic"};
 
 std::string plain(std::string_view text) {

@@ -87,6 +87,9 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
     const SpanKind kind = plan_span(a.ease, a.out || b.in).kind;
     if (kind == SpanKind::cubic && rates.size() == i && (i == 0 || tangents.leaving(i) == tangents.arriving(i - 1)))
       rates.push_back(tangents.leaving(i));
+    if (kind != SpanKind::hold && !spans::all_finite(T(arrival(b) - a.value)))
+      refuse_key(keys, i + 1,
+                 "is further from the key before it, at " + spans::text_of(a.value) + ", than numbers hold");
     if (kind == SpanKind::shape) {
       append_shape(spans, a, b.time, arrival(b));
     } else if (kind == SpanKind::cubic) {

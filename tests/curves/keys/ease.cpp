@@ -191,6 +191,11 @@ TEST_CASE("the names that CSS has for eases are read") {
 
 TEST_CASE("a name that other programs have for an ease is answered with ours") {
   constexpr const char* cases[][2] = {{"easeInQuad", "quad-in"},
+                                      {"Linear.easeNone", "linear"},
+                                      {"Linear.easeInOut", "linear"},
+                                      {"easeLinear", "linear"},
+                                      {"Strong.easeOut", "quint-out"},
+                                      {"Regular.easeIn", "quad-in"},
                                       {"easeOutBounce", "bounce-out"},
                                       {"InOutCubic", "cubic-in-out"},
                                       {"quadIn", "quad-in"},

@@ -374,6 +374,9 @@ TEST_CASE("keys that cannot be a curve are refused with index, time and value") 
   refused({{0, 1}, {0, 2}}, "key 1 (time 0 s, value 2) must come after the key before it, at 0 s");
   refused({{0, 1}, {-1, 2}}, "key 1 (time -1 s");
   refused({{0, not_a_number}}, "key 0");
+  refused({{0, -1e308, Ease::linear()}, {1, 1e308}},
+          "key 1 (time 1 s, value 1e+308) is further from the key before it, at -1e+308, than numbers hold");
+  CHECK_NOTHROW(static_cast<void>(keyed_curve<double>({{0, -1e308, Ease::hold()}, {1, 1e308}})));
   refused({{not_a_number, 1}}, "finite time");
   refused({{0, 1, Ease::linear(), {}, given(1)}, {1, 2}}, "one of them decides");
   refused({{0, 1, Ease::smooth_clamped(), {}, given(1, -0.5)}, {1, 2}}, "weight -0.5");

@@ -30,7 +30,7 @@ bool holds(const TaperedCapsule& c, const Vec3& p) {
 /// Sums over a fine grid, by symmetry over a quarter turn's plane of radius and height.
 template <class Turned>
 MassProperties counted(const Turned& solid, double reach) {
-  constexpr int parts = 700;
+  constexpr int parts = 300;
   const double cell = reach / parts;
   double volume = 0, first = 0, along = 0, across = 0;
   for (int i = 0; i < parts; ++i)

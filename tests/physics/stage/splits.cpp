@@ -1,3 +1,4 @@
+#include <tweenfall/physics/stage/recording.h>
 #include "physics/handoff/scenes.h"
 
 #include <cmath>
@@ -173,6 +174,43 @@ TEST_CASE("a body that leaves its path a moment beside a step's end leaves from 
                             Vec3(0, standard_gravity * fall * fall / 2, 0);
       CHECK(near(stage.world(stage.node("bob")).motion.pose.position, expected, 1e-9));
     }
+  }
+}
+
+TEST_CASE("a path that begins anew a moment after a step's end is shown there with its own rate") {
+  const double step = 1.0 / 240;
+  for (const double beside : {-0.9e-9, -1e-12, 0.0, 1e-12, 0.9e-9}) {
+    CAPTURE(beside);
+    StageDescription stage;
+    stage.step = step;
+    stage.world.gravity = {0, 0, 0};
+    stage.nodes = {{.name = "ball", .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 1.0}}};
+    Clip clip{.name = "move", .duration = 4};
+    clip.tracks = {{"ball", "position",
+                    keyed_curve<Vec3>(
+                        {{.time = 0, .value = {0, 0, 0}, .ease = Ease::linear()}, {.time = 4, .value = {8, 0, 0}}})}};
+    stage.clips = {clip};
+    stage.plays = {{.clip = 0}};
+    Rule back;
+    back.bodies = {"ball"};
+    back.when.triggers = {when::At{120 * step + beside}};
+    back.to = Drive::keyed();
+    back.hand_back.clip = "move";
+    back.hand_back.clock = HandBack::Clock::restart;
+    back.hand_back.anchor = HandBack::Anchor::here;
+    Rule away = back;
+    away.when.triggers = {when::At{0.25}};
+    away.to = Drive::free();
+    stage.rules = {away, back};
+    Stage run(stage);
+    // The body flies as fast as the path begins, so that nothing is left to settle.
+    for (int n = 0; n <= 140; ++n) {
+      CAPTURE(n);
+      run.advance_to(n * step);
+      CHECK(run.twist(0).linear.x() == doctest::Approx(2).epsilon(1e-9));
+      CHECK(std::abs(run.world(0).motion.pose.position.x() - 2 * run.time()) < 1e-8);
+    }
+    REQUIRE(run.handoffs().size() == 2);
   }
 }
 

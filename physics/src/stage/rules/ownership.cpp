@@ -1,5 +1,6 @@
 #include <tweenfall/curves/rotation.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "stage/stage_data.h"
@@ -103,8 +104,11 @@ void change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
     // Taken back, or from free to a drive, it follows a path again.
     const bool follows = handoff.to == Owner::keyed ||
                          (handoff.to == Owner::driven && (handoff.from == Owner::free || !hand_back.clip.empty()));
-    const auto below = [&](const Path& next) { return settling_below(state, body, next, hand_back.settle, instant); };
-    const Path path = follows ? body.path.recovered(instant, hand_back, motion, body.released_at) : body.path;
+    // What is due a moment after a step is done at the step: the path begins there, or it would not yet have begun.
+    const double begins = std::min(instant, state.time);
+    const Motion beginning = moved_on(world.motion(body.id), center, begins - state.time);
+    const auto below = [&](const Path& next) { return settling_below(state, body, next, hand_back.settle, begins); };
+    const Path path = follows ? body.path.recovered(begins, hand_back, beginning, body.released_at) : body.path;
     world.set_drive(body.id, to);
     body.below = below(path);
     body.path = path;
