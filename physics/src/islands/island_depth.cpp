@@ -17,7 +17,7 @@ std::uint32_t IslandDepth::of(std::span<step::ContactConstraint* const> contacts
       if (body.displaces() || body.conveys) return bottomless;
       levels_[end] = body.immovable() || body.asleep ? 0 : nobody;
     }
-  const auto lower = [this](std::uint32_t& level, std::uint32_t other) {
+  const auto lower = [](std::uint32_t& level, std::uint32_t other) {
     if (level <= other + 1) return false;
     level = other + 1;
     return true;
