@@ -19,18 +19,15 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
   const int lane = static_cast<int>(index % lane_count);
   ball_ = i >= contacts.blocks.size();
   const step::ContactConstraint& contact = *contacts.origin(i)[static_cast<std::size_t>(lane)];
-  coefficient_ = contact.friction;
-  grips_ = contact.impact;
   const auto ends = [&](const auto& block) {
     a_ = block.a[lane];
     b_ = block.b[lane];
-    body_a_ = &bodies[a_];
-    body_b_ = &bodies[b_];
-    inverse_mass_a_ = body_a_->inverse_mass;
-    inverse_mass_b_ = body_b_->inverse_mass;
-    inverse_moment_a_ = body_a_->inverse_moment;
-    inverse_moment_b_ = body_b_->inverse_moment;
+    inverse_mass_a_ = block.inverse_mass_a[lane];
+    inverse_mass_b_ = block.inverse_mass_b[lane];
     normal_ = lane_of(block.normal, lane);
+    coefficient_ = block.coefficient[lane];
+    // Of most contacts nothing but their lane is looked at.
+    grips_ = block.hard[lane] != 0 && contact.impact;
   };
   const auto point = [&](std::size_t k, double mass, double gap, double impulse, const Vec3& turn_a,
                          const Vec3& turn_b) { points_[k] = {mass, gap, impulse, impulse, 0, turn_a, turn_b}; };
@@ -40,9 +37,10 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
     tremble_ = contacts.ball_meetings[i - contacts.blocks.size()].tremble[lane];
     count_ = 1;
     frictions_ = 0;
-    isotropic_ = true;
     arm_a_ = block.arm_a[lane];
     arm_b_ = block.arm_b[lane];
+    spin_a_ = block.spin_a[lane];
+    spin_b_ = block.spin_b[lane];
     slip_mass_ = block.slip_mass[lane];
     friction_ = friction_before_ = lane_of(block.friction, lane);
     point(0, block.mass[lane], block.gap[lane], block.impulse[lane], Vec3::Zero(), Vec3::Zero());
@@ -50,6 +48,10 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
   }
   const ContactBlock& block = contacts.blocks[i];
   ends(block);
+  body_a_ = &bodies[a_];
+  body_b_ = &bodies[b_];
+  inverse_moment_a_ = body_a_->inverse_moment;
+  inverse_moment_b_ = body_b_->inverse_moment;
   tremble_ = contacts.meetings[i].tremble[lane];
   count_ = static_cast<std::size_t>(contact.count);
   central_ = block.central();
@@ -132,7 +134,8 @@ double ReboundContact::solve_ball_friction(BodyLanes& a, BodyLanes& b) {
   friction_ = next;
   push(a, b, change);
   const Vec3 turning = normal_.cross(change);
-  turn(a, b, arm_a_ * turning, -arm_b_ * turning);
+  add(a.angular, -spin_a_ * turning);
+  add(b.angular, -spin_b_ * turning);
   return change.norm() / slip_mass_;
 }
 

@@ -60,8 +60,9 @@ class ReboundContact {
   double inverse_mass_a_ = 0, inverse_mass_b_ = 0, inverse_moment_a_ = 0, inverse_moment_b_ = 0;
   const IslandBody *body_a_ = nullptr, *body_b_ = nullptr;
   Vec3 normal_;
-  double arm_a_ = 0, arm_b_ = 0, slip_mass_ = 0;
-  Vec3 friction_, friction_before_;  ///< of a ball
+  // Of a ball
+  double arm_a_ = 0, arm_b_ = 0, spin_a_ = 0, spin_b_ = 0, slip_mass_ = 0;
+  Vec3 friction_, friction_before_;
   std::array<Point, 4> points_;
   Vec3 tangent1_, tangent2_;
   std::array<Friction, 4> rows_;

@@ -36,7 +36,7 @@ std::uint32_t IslandDepth::of(std::span<step::ContactConstraint* const> contacts
   std::uint32_t deepest = 0;
   for (const step::ContactConstraint* contact : contacts)
     for (const std::uint32_t end : {contact->a, contact->b}) deepest = std::max(deepest, levels_[end]);
-  return deepest == nobody ? bottomless : deepest;
+  return deepest == nobody ? 0 : deepest;
 }
 
 }  // namespace tweenfall::islands

@@ -9,10 +9,10 @@
 
 namespace tweenfall::islands {
 
-/// Over how many contacts, one upon the other, what lies highest on an island is carried.
+/// Over how many contacts, one upon the other, what lies highest on an island is carried; 0 when nothing carries it.
 class IslandDepth {
  public:
-  /// Nothing carries some of it, something pushes it, or it is not worth finding out: as deep as any.
+  /// Something pushes it, or it is not worth finding out: as deep as any.
   static constexpr std::uint32_t bottomless = 0xffffffff;
 
   [[nodiscard]] std::uint32_t of(std::span<step::ContactConstraint* const> contacts,

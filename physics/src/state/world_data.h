@@ -55,15 +55,15 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void find_part(std::span<const pairs::Pair> pairs, std::span<const step::PairMemories> memories_of, bool crowded,
                  double dt, step::FoundPart& part);
   /// The contact of two bodies, or of two of their parts, if there is one.
-  void find_contact(const step::ContactConstraint& pair, const collision::Passage& way_a,
-                    const collision::Passage& way_b, double dt, bool alone, step::FoundPart& part) const;
+  void find_contact(const step::PairInContact& pair, const collision::Passage& way_a, const collision::Passage& way_b,
+                    double dt, bool alone, step::FoundPart& part) const;
   /// What a contact takes from its bodies and from the step before.
   void finish_contact(step::ContactConstraint& constraint, const state::ContactMemory* memory) const;
   /// Contacts of a body, or of all its parts, with a body that is a mesh or a height field.
-  void find_contacts_with_surface(const step::ContactConstraint& pair, step::PairMemories known, double dt,
+  void find_contacts_with_surface(const step::PairInContact& pair, step::PairMemories known, double dt,
                                   step::FoundPart& part) const;
   /// Contacts of all parts of two bodies of which one is a compound.
-  void find_contacts_of_parts(const step::ContactConstraint& pair, step::PairMemories known, double dt,
+  void find_contacts_of_parts(const step::PairInContact& pair, step::PairMemories known, double dt,
                               step::FoundPart& part) const;
   /// Keeps what a step has deflected or driven fast from ending behind a mesh or a height field that it was before.
   void hold_before_surfaces();

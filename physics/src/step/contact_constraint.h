@@ -17,11 +17,15 @@ struct PointConstraint {
   double approach = 0;  ///< closing speed where they meet, m/s
 };
 
-/// A pair in contact through a step.
-struct ContactConstraint : state::KeptImpulses {
+/// Two bodies, or parts of them, that may be in contact.
+struct PairInContact {
   std::uint32_t a = 0, b = 0;                              ///< indices of the bodies, a < b
   std::uint32_t part_a = 0, part_b = 0;                    ///< of compounds
   std::uint32_t memory = state::ContactMemories::nowhere;  ///< where it is remembered, when it was there before
+};
+
+/// A pair in contact through a step.
+struct ContactConstraint : PairInContact, state::KeptImpulses {
   Manifold manifold;
   std::array<PointConstraint, 4> points{};
   int count = 0;

@@ -132,14 +132,15 @@ bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
   return crowded;
 }
 
-void World::Implementation::find_contact(const step::ContactConstraint& pair, const collision::Passage& way_a,
+void World::Implementation::find_contact(const step::PairInContact& pair, const collision::Passage& way_a,
                                          const collision::Passage& way_b, double dt, bool alone,
                                          step::FoundPart& part) const {
   const state::Body& a = *way_a.body;
   const state::Body& b = *way_b.body;
   const state::ContactMemory* memory =
       pair.memory != state::ContactMemories::nowhere ? &memories[pair.memory] : nullptr;
-  step::ContactConstraint& constraint = part.contacts.emplace_back(pair);
+  step::ContactConstraint& constraint = part.contacts.emplace_back();
+  static_cast<step::PairInContact&>(constraint) = pair;
   constraint.kept = memory && step::take_up(*memory, a, b, way_a.swing + way_b.swing, dt, constraint);
   if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt, alone ? &part.aparts : nullptr)) {
     part.contacts.pop_back();
@@ -161,8 +162,8 @@ void World::Implementation::finish_contact(step::ContactConstraint& constraint,
   if (memory) step::inherit(constraint, *memory, 0.05 * std::min(a.radius, b.radius));
 }
 
-void World::Implementation::find_contacts_of_parts(const step::ContactConstraint& pair, step::PairMemories known,
-                                                   double dt, step::FoundPart& part) const {
+void World::Implementation::find_contacts_of_parts(const step::PairInContact& pair, step::PairMemories known, double dt,
+                                                   step::FoundPart& part) const {
   const collision::Passage& way_a = passages[pair.a];
   const collision::Passage& way_b = passages[pair.b];
   const std::span<const Shape> parts_a = step::parts_of(*way_a.body), parts_b = step::parts_of(*way_b.body);
@@ -195,7 +196,7 @@ void World::Implementation::find_contacts_of_parts(const step::ContactConstraint
     for (std::uint32_t k = 0; k < count_b; ++k) {
       const Bounds& box_b = ways_b[k].box;
       if (((box_a.low - box_b.high).array() > room).any() || ((box_b.low - box_a.high).array() > room).any()) continue;
-      step::ContactConstraint one = pair;
+      step::PairInContact one = pair;
       one.part_a = i;
       one.part_b = k;
       while (next < end && std::pair(memories[sorted[next]].part_a, memories[sorted[next]].part_b) < std::pair(i, k))
@@ -224,7 +225,7 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
     if (crowded && contact_counts[index_a] >= step::most_contacts && contact_counts[index_b] >= step::most_contacts &&
         !a.immovable() && !b.immovable())
       continue;
-    step::ContactConstraint pair;
+    step::PairInContact pair;
     pair.a = index_a;
     pair.b = index_b;
     const std::size_t before = part.contacts.size();

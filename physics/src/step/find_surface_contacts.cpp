@@ -29,7 +29,7 @@ class SurfaceContacts {
   static constexpr std::size_t most = 12;
 
   /// @param pair  bodies, and the part of the solid's body
-  SurfaceContacts(const ContactConstraint& pair, const Surface& surface, const Passage& way_surface, const Passage& way,
+  SurfaceContacts(const PairInContact& pair, const Surface& surface, const Passage& way_surface, const Passage& way,
                   bool surface_is_a, double dt)
       : pair_(pair),
         surface_(surface),
@@ -135,7 +135,8 @@ class SurfaceContacts {
  private:
   ContactConstraint& add() {
     ContactConstraint& constraint = contacts_[count_++];
-    constraint = pair_;
+    constraint = {};
+    static_cast<PairInContact&>(constraint) = pair_;
     return constraint;
   }
 
@@ -185,7 +186,7 @@ class SurfaceContacts {
     return sum + (way_b_.body->center - way_a_.body->center) - (way_b_.course.linear - way_a_.course.linear) * dt_;
   }
 
-  const ContactConstraint& pair_;
+  const PairInContact& pair_;
   const Surface& surface_;
   const Passage& way_surface_;
   const Passage& way_;
@@ -202,7 +203,7 @@ class SurfaceContacts {
 }  // namespace
 }  // namespace step
 
-void World::Implementation::find_contacts_with_surface(const step::ContactConstraint& pair, step::PairMemories known,
+void World::Implementation::find_contacts_with_surface(const step::PairInContact& pair, step::PairMemories known,
                                                        double dt, step::FoundPart& part) const {
   const bool surface_is_a = surfaces::surface_of(bodies[pair.a].shape.solid) != nullptr;
   const collision::Passage& way_surface = passages[surface_is_a ? pair.a : pair.b];
@@ -217,7 +218,7 @@ void World::Implementation::find_contacts_with_surface(const step::ContactConstr
       if ((surface_is_a ? memories[place].part_b : memories[place].part_a) == number && count < its.size())
         its[count++] = place;
     const std::span<const std::uint32_t> known_places = std::span(its).first(count);
-    step::ContactConstraint its_pair = pair;
+    step::PairInContact its_pair = pair;
     (surface_is_a ? its_pair.part_b : its_pair.part_a) = number;
     step::SurfaceContacts its_contacts(its_pair, surface, way_surface, way, surface_is_a, dt);
     if (!its_contacts.take_up_all(memories, known_places)) {

@@ -208,9 +208,11 @@ void World::Implementation::remember_contacts() {
       outcome.touching = normal > 0 || overlap;
       step::remember(constraint, outcome.touching, memories[outcome.place]);
       if (constraint.memory == state::ContactMemories::nowhere || constraint.kept) continue;
-      memories[outcome.place].found = constraint.impact_time == 0 && step::keeps_manifold(constraint)
-                                          ? step::found_manifold(constraint, starts[constraint.a], starts[constraint.b])
-                                          : state::FoundManifold{};
+      state::FoundManifold& manifold = memories[outcome.place].found;
+      if (constraint.impact_time == 0 && step::keeps_manifold(constraint))
+        manifold = step::found_manifold(constraint, starts[constraint.a], starts[constraint.b]);
+      else if (manifold.holds)
+        manifold = {};
     }
   });
 }
