@@ -14,9 +14,14 @@ endif()
 # Sources are compiled several as one, in about half the time. The names that a room keeps to itself, those of anonymous
 # namespaces too, therefore stand in the room's own namespace (tweenfall::slopes, tweenfall::staging) and are used once
 # per room; those that stand in tweenfall itself, once per module. -DCMAKE_UNITY_BUILD=OFF compiles each alone.
+# Few as one where sources change, many where all is compiled anyway.
 if(NOT DEFINED CMAKE_UNITY_BUILD)
   set(CMAKE_UNITY_BUILD ON)
 endif()
 if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 5)
+  set(batch 5)
+  if("$ENV{CI}" STREQUAL "true")
+    set(batch 16)
+  endif()
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE ${batch} CACHE STRING "how many sources are compiled as one")
 endif()
