@@ -26,9 +26,10 @@ void clear_work(Body& body) {
 }  // namespace state
 
 state::Body& World::Implementation::at(BodyId id) {
-  state::require(id.index < bodies.size() && bodies[id.index].alive && bodies[id.index].generation == id.generation,
-                 "there is no body with index " + std::to_string(id.index) + " and generation " +
-                     std::to_string(id.generation) + ": it was removed, or belongs to another world");
+  // The words are put together when they are needed: this is asked for every body in every step.
+  if (!(id.index < bodies.size() && bodies[id.index].alive && bodies[id.index].generation == id.generation))
+    throw std::invalid_argument("there is no body with index " + std::to_string(id.index) + " and generation " +
+                                std::to_string(id.generation) + ": it was removed, or belongs to another world");
   return bodies[id.index];
 }
 const state::Body& World::Implementation::at(BodyId id) const {
@@ -445,7 +446,8 @@ void World::set_executor(std::shared_ptr<Executor> executor) {
 }
 
 void World::step(double dt) {
-  state::require(dt > 0 && std::isfinite(dt), "a step must be positive and finite, but is " + number_text(dt) + " s");
+  if (!(dt > 0 && std::isfinite(dt)))
+    throw std::invalid_argument("a step must be positive and finite, but is " + number_text(dt) + " s");
   changing().step(dt);
 }
 
