@@ -51,6 +51,8 @@ Manifold collide_core_with_plane(const A& a, const Placed& at_a, const Plane& pl
 template <class A, class B>
 Manifold collide_solids(const A& a, const Placed& at_a, const B& b, const Placed& at_b, double margin, double reach) {
   if constexpr (CollidesWithin<A, B>) {
+    // Their own way tells whether they touch; how far apart they are only roughly.
+    if (std::isinf(margin)) return collide_cores(a, at_a, b, at_b, margin, reach);
     return collide(a, at_a, b, at_b, margin, reach);
   } else if constexpr (Collides<A, B>) {
     const Manifold manifold = collide(a, at_a, b, at_b, margin);

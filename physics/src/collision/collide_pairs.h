@@ -1,6 +1,6 @@
 #pragma once
 
-/// One function a pair of solids; each reports the normal from its first argument toward its second.
+/// One function a pair of solids that has a way of its own; each reports the normal from its first argument toward its second.
 
 #include <tweenfall/physics/contact.h>
 
@@ -16,8 +16,6 @@ namespace tweenfall::collision {
                                const shapes::Placed& at_b, double margin);
 [[nodiscard]] Manifold collide(const Sphere& a, const shapes::Placed& at_a, const Plane& b, const shapes::Placed& at_b,
                                double margin);
-[[nodiscard]] Manifold collide(const Box& a, const shapes::Placed& at_a, const Capsule& b, const shapes::Placed& at_b,
-                               double margin);
 [[nodiscard]] Manifold collide(const Box& a, const shapes::Placed& at_a, const Plane& b, const shapes::Placed& at_b,
                                double margin);
 [[nodiscard]] Manifold collide(const Capsule& a, const shapes::Placed& at_a, const Capsule& b,
@@ -25,8 +23,6 @@ namespace tweenfall::collision {
 [[nodiscard]] Manifold collide(const Capsule& a, const shapes::Placed& at_a, const Plane& b, const shapes::Placed& at_b,
                                double margin);
 [[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Sphere& b, const shapes::Placed& at_b,
-                               double margin);
-[[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Capsule& b, const shapes::Placed& at_b,
                                double margin);
 [[nodiscard]] Manifold collide(const Hull& a, const shapes::Placed& at_a, const Plane& b, const shapes::Placed& at_b,
                                double margin);

@@ -172,13 +172,23 @@ Solid random_solid(std::size_t kind, test::Random& random) {
 
 /// In parts of the greatest of the sizes, 0.6 m.
 struct Disagreement {
-  double apart = 0, overlapping = 0;
+  double apart = 0;        ///< of the distance with the best of all directions
+  double overlapping = 0;  ///< of the depth along the normal with the best of all directions
+  double along = 0;        ///< of the deepest point with the depth along the normal
   int overlaps = 0, gaps = 0;
 };
+
+double deepest_gap(const Manifold& manifold) {
+  double gap = 1e300;
+  for (int k = 0; k < manifold.count; ++k)
+    gap = std::min(gap, -manifold.points[static_cast<std::size_t>(k)].penetration);
+  return gap;
+}
 
 Disagreement disagreement_of(std::size_t first, std::size_t second, int poses, std::uint64_t seed) {
   test::Random random(seed);
   Disagreement worst;
+  const auto note = [](double& most, double value) { most = std::max(most, std::abs(value) / 0.6); };
   for (int i = 0; i < poses; ++i) {
     PosedSolid a{{random_solid(first, random)}, {}}, b{{random_solid(second, random)}, {}};
     a.pose.position = random.vector(1);
@@ -186,37 +196,40 @@ Disagreement disagreement_of(std::size_t first, std::size_t second, int poses, s
     b.pose.rotation = random.rotation();
     b.pose.position = a.pose.position + random.vector(0.8);
     const DirectionOracle oracle(a, b);
-    const Manifold manifold = collide(a.shape, a.pose, b.shape, b.pose, std::numeric_limits<double>::infinity());
-    double told = 1e300;
-    for (int k = 0; k < manifold.count; ++k)
-      told = std::min(told, -manifold.points[static_cast<std::size_t>(k)].penetration);
-    // What is told must be so along the normal, and no direction may be better.
-    const double along = std::abs(oracle.gap_along(manifold.normal) - told);
-    const double missed = oracle.widest(manifold.normal) - told;
-    double& most = told > 0 ? worst.apart : worst.overlapping;
-    ++(told > 0 ? worst.gaps : worst.overlaps);
-    most = std::max(most, std::max(along, missed) / 0.6);
+    const Manifold near = collide(a.shape, a.pose, b.shape, b.pose, 1e-9);
+    if (near.count > 0) {
+      ++worst.overlaps;
+      const double along = oracle.gap_along(near.normal);
+      note(worst.along, along - deepest_gap(near));
+      note(worst.overlapping, oracle.widest(near.normal) - along);
+    } else {
+      ++worst.gaps;
+      const Manifold far = collide(a.shape, a.pose, b.shape, b.pose, std::numeric_limits<double>::infinity());
+      note(worst.apart, oracle.widest(far.normal) - deepest_gap(far));
+    }
   }
   return worst;
 }
 
 }  // namespace
 
-// Over 1,000 random poses of each pair the worst disagreement was 2.5e-8 of the size apart and 8e-9 deep (of two
-// cylinders and of two tapered capsules); where one is a ball, 2e-13.
-TEST_CASE("every pair of round solids is as far apart or as deep as the best of all directions says") {
+// POSES
+TEST_CASE("every pair of solids is as far apart or as deep as the best of all directions says") {
   const char* many = std::getenv("TWEENFALL_ORACLE_POSES");
-  const int poses = many ? std::atoi(many) : 40;
+  const int poses = many ? std::atoi(many) : 30;
+  const auto flat = [](std::size_t kind) { return kind == 1 || kind == 3; };
   for (std::size_t first = 0; first < kinds.size(); ++first)
     for (std::size_t second = first; second < kinds.size(); ++second) {
-      if (first != 0 && second < 4) continue;
       const Disagreement worst = disagreement_of(first, second, poses, 100 * first + second);
       const std::string pair = std::string(kinds[first]) + " - " + kinds[second];
       if (many)
         MESSAGE(pair << ": " << worst.gaps << " apart " << worst.apart << ", " << worst.overlaps << " deep "
-                     << worst.overlapping);
+                     << worst.overlapping << ", deepest point " << worst.along);
       CAPTURE(pair);
       CHECK(worst.apart < 1e-7);
-      CHECK(worst.overlapping < 1e-7);
+      // Of two polyhedra a face is preferred to edges that are hardly better, so that contacts keep still, and the
+      // deepest corner may lie beside the face that it is told against.
+      CHECK(worst.overlapping < (flat(first) && flat(second) ? 4e-3 : 1e-7));
+      CHECK(worst.along < (flat(first) && flat(second) ? 0.05 : 1e-7));
     }
 }
