@@ -1,6 +1,7 @@
 #pragma once
 
-/// One function a pair of solids that has a way of its own; each reports the normal from its first argument toward its second.
+/// One function for each pair of solids that has a way of its own; it tells the normal from its first argument toward
+/// its second.
 
 #include <tweenfall/physics/contact.h>
 
