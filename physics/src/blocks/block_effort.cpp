@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "blocks/block_solver.h"
+#include "step/solver.h"
 
 /// Which islands are solved in blocks, and how thoroughly.
 
@@ -32,6 +34,9 @@ constexpr double turned_enough = 0.02, turned_enough_of_small = 0.002;
 /// Rows cannot follow what turns by more than this in a sub-step, rad.
 constexpr double followable = 0.5, followable_of_small = 0.05;
 
+/// What moves by less than this is about to rest, m/s.
+constexpr double lazy = 0.1;
+
 /// Even numbers: islands with the same are solved together.
 int sub_steps_of_depth(std::uint32_t depth) {
   const std::uint32_t steps = (std::min(depth, deep_of_few) * (sub_steps_of_few - fewest_of_few)) / deep_of_few;
@@ -48,6 +53,19 @@ bool drives(const Body& body) {
   return body.displaces() || body.conveys;
 }
 
+/// Whether the heaviest is more than so many times the lightest: few passes do not come near what that one bears.
+bool unlike(const islands::IslandContents& island, const std::vector<Body>& bodies, double most) {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const ContactConstraint* contact : island.contacts)
+    for (const std::uint32_t index : {contact->a, contact->b}) {
+      const Body& body = bodies[index];
+      if (body.immovable()) continue;
+      least = std::min(least, body.mass.mass);
+      greatest = std::max(greatest, body.mass.mass);
+    }
+  return greatest > most * least;
+}
+
 }  // namespace
 
 std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::IslandContents& island,
@@ -55,6 +73,9 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::Island
                                                            const std::vector<forces::Load>& loads,
                                                            const WorldSettings& settings, double dt) {
   if (island.joints.empty() && !island.springs.empty()) return std::nullopt;
+  if (island.joints.empty() && island.contacts.size() <= step::Solver::to_the_end &&
+      unlike(island, bodies, island.contacts.size() <= small ? 10 : 30))
+    return std::nullopt;
   if (island.joints.empty() && island.contacts.size() <= small)
     return effort_of_small(island, bodies, loads, settings, dt);
   return effort_of_large(island, bodies, settings, dt);
@@ -111,6 +132,8 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
       if (body->immovable()) continue;
       if (body->drive.owner() == Owner::driven || body->turned || body->twist.angular.norm() * h > followable_of_small)
         return std::nullopt;
+      // What flies, slides, rolls or turns over is solved to the end.
+      if (body->twist.linear.norm() + body->twist.angular.norm() * body->radius > lazy) return std::nullopt;
     }
     const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
     step::foresee(*contact, a.twist, b.twist, closing, dt);

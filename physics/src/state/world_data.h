@@ -73,6 +73,9 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void wake_by_fields();
   bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
   void solve_islands(double dt);
+  /// How many pieces an island goes through a step in; nearly always one.
+  [[nodiscard]] int pieces_of(const islands::IslandContents& island, double dt) const;
+  void solve_in_pieces(const islands::IslandContents& island, int pieces, double dt, step::Solver& solver);
   void advance_bodies(double dt);
   void let_sleep(double dt);
   void remember_contacts();

@@ -24,6 +24,7 @@ void PointRows::prepare(const SolverBody& a, const SolverBody& b, const SolvedPo
   spin_b = b.inverse_inertia * turn_b;
   const double inverse = inverse_mass + turn_a.dot(spin_a) + turn_b.dot(spin_b);
   mass = inverse > 0 ? 1 / inverse : 0;
+  scale = inverse > 0 ? std::sqrt(inverse) : 1;
   stiffest = 0;
   if (!tangents) return;
   along = *tangents;
@@ -110,9 +111,9 @@ void solve_spinning(SolverBody& a, SolverBody& b, const Vec3& normal, double& im
 }
 
 double solve_normal(SolverBody& a, SolverBody& b, const PointRows& rows, double& impulse, double wanted,
-                    const Vec3& normal, double firm, double giving) {
+                    const Vec3& normal, double firm) {
   const double speed = normal.dot(b.linear - a.linear) + rows.turn_b.dot(b.angular) - rows.turn_a.dot(a.angular);
-  const double next = std::max(0.0, (1 - giving) * impulse - firm * rows.mass * (speed - wanted));
+  const double next = std::max(0.0, firm * impulse - firm * rows.mass * (speed - wanted));
   const double change = next - impulse;
   impulse = next;
   if (change != 0) {

@@ -27,6 +27,8 @@ struct PointRows {
   Vec3 turn_a, turn_b;  ///< arm x normal
   Vec3 spin_a, spin_b;  ///< angular velocity by a unit of impulse along the normal
   double mass = 0;      ///< what a unit of speed along the normal takes, kg
+  double scale = 1;     ///< makes impulses of unlike masses alike: a root of the speed that a unit of impulse makes
+  double firm = 1;      ///< share of the speed error along the normal met by a pass while the contact is soft
 
   // Across; only where there is friction
   Tangents along;
@@ -57,8 +59,9 @@ void solve_spinning(SolverBody& a, SolverBody& b, const Vec3& normal, double& im
 }
 
 /// Step of one normal row toward relative speed `wanted`, total impulse not negative.
+/// @param firm  share of the speed error that is met, and of the impulse that is kept
 /// @return the change of velocity, m/s
 double solve_normal(SolverBody& a, SolverBody& b, const PointRows& rows, double& impulse, double wanted,
-                    const Vec3& normal, double firm = 1, double giving = 0);
+                    const Vec3& normal, double firm = 1);
 
 }  // namespace tweenfall::step

@@ -75,13 +75,7 @@ void Solver::move_by_rebound(const SolvedContact& constraint, const PointRows* r
     if (moved == Vec3::Zero()) continue;
     const auto move = [](SolverBody& body, const Vec3& by, const Vec3& arm) {
       body.center += body.inverse_mass * by;
-      const Vec3 turning = body.inverse_inertia * arm.cross(by);
-      if (turning == Vec3::Zero()) return;
-      const Quat turn = exp_map(turning);
-      body.rotation = turn * body.rotation;
-      body.rotation.normalize();
-      body.turn = turn * body.turn;
-      body.turn.normalize();
+      body.rebound_turn += body.inverse_inertia * arm.cross(by);
     };
     move(a, -moved, point.arm_a);
     move(b, moved, point.arm_b);
@@ -167,9 +161,18 @@ void Solver::rebound(const std::vector<Body>& bodies, const std::vector<forces::
       b.stirred = b.stirred || b.movable;
     }
   }
-  for (int k = 0; k < passes; ++k)
-    if (rebound_pass(contacts, k % 2 == 1) < quiet) break;
+  settle(passes, [&](bool backward) { return rebound_pass(contacts, backward); });
+  for (SolverBody& body : bodies_) body.rebound_turn = Vec3::Zero();
   for (std::size_t i = 0; i < contacts.size(); ++i) move_by_rebound(contacts[i], &rows_[4 * i]);
+  // All at once: one turn after the other would leave a plane in which they all lie together.
+  for (SolverBody& body : bodies_) {
+    if (body.rebound_turn == Vec3::Zero()) continue;
+    const Quat turn = exp_map(body.rebound_turn);
+    body.rotation = turn * body.rotation;
+    body.rotation.normalize();
+    body.turn = turn * body.turn;
+    body.turn.normalize();
+  }
   bound_energy(bodies, loads, contacts);
 }
 

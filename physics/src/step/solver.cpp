@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "forces/drive_law.h"
 #include "step/contact_rows.h"
@@ -17,12 +18,8 @@ using state::Body;
 
 namespace {
 
-/// Sub-steps in a step; the passes are shared out among them.
-constexpr int sub_steps = 8;
-/// In islands of up to this many contacts every sub-step may take all passes: few contacts are solved to the end.
-constexpr std::size_t few = 24;
-/// A change of velocity that no longer matters, m/s.
-constexpr double settled = 1e-14;
+/// Points whose gaps differ by less than this meet together, m.
+constexpr double beside = 1e-3;
 /// Impulses are kept from sub-steps of at least this part of the length of the last one kept: what shorter ones hold is
 /// mostly rounding, which would grow with the ratio of lengths.
 constexpr double long_enough = 0.5;
@@ -45,6 +42,7 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<ContactConstraint
                     double dt) {
   for (const SolverBody& body : bodies_) slots_[body.index] = nowhere;
   bodies_.clear();
+  heaviest_ = 0;
   const auto add = [&](std::uint32_t index) {
     if (slots_[index] != nowhere) return;
     slots_[index] = static_cast<std::uint32_t>(bodies_.size());
@@ -60,6 +58,7 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<ContactConstraint
     entry.turn = Quat::Identity();
     entry.drive_impulse = entry.drive_angular_impulse = Vec3::Zero();
     if (entry.movable) {
+      heaviest_ = std::max(heaviest_, body.mass.mass);
       entry.inverse_mass = 1 / body.mass.mass;
       entry.inverse_inertia = body.world_inverse_inertia(body.motion.pose.rotation);
       entry.linear = body.twist.linear;
@@ -124,7 +123,7 @@ void Solver::refresh(SolvedContact& constraint) const {
 
 void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads,
                             const WorldSettings& settings, double h, int sub_step) {
-  const double share = static_cast<double>(sub_step) / sub_steps;
+  const double share = static_cast<double>(sub_step) / sub_steps_;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     SolverBody& entry = bodies_[i];
     entry.pressed = false;
@@ -135,7 +134,7 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
       const auto& [mean, gain] = entry.course;
       start.linear = mean.linear + (share - 0.5) * gain.linear;
       start.angular = mean.angular + (share - 0.5) * gain.angular;
-      const double middle = share + 0.5 / sub_steps - 0.5;
+      const double middle = share + 0.5 / sub_steps_ - 0.5;
       entry.linear = mean.linear + middle * gain.linear;
       entry.angular = mean.angular + middle * gain.angular;
       continue;
@@ -152,7 +151,7 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
     if (!pulls_without_limit(body)) continue;
     // Implicit in the pull: contacts, too, have to move what it holds.
     const forces::DriveLaw law =
-        forces::drive_law(body, entry.center, entry.rotation, h, (sub_steps - sub_step - 1) * h);
+        forces::drive_law(body, entry.center, entry.rotation, h, (sub_steps_ - sub_step - 1) * h);
     entry.pulled = true;
     const double given = 1 / (1 + law.stiffness);
     entry.linear = given * (entry.linear + law.linear);
@@ -162,15 +161,42 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
   }
 }
 
-void Solver::warm_start(SolvedContact& constraint, PointRows* rows, double h) {
+/// Points that press, or are about to, get one height: at different ones, however little, friction that lets none of
+/// them slip would hold the body's tilt too, against the normals.
+void Solver::level(SolvedContact& constraint) {
+  const std::span<SolvedPoint> points(constraint.points.data(), static_cast<std::size_t>(constraint.count));
+  double pressing = 0, least_gap = std::numeric_limits<double>::infinity();
+  for (const SolvedPoint& point : points) {
+    pressing += point.kept_normal;
+    least_gap = std::min(least_gap, point.gap);
+  }
+  double sum = 0, height_a = 0, height_b = 0;
+  for (const SolvedPoint& point : points) {
+    const double weight = pressing > 0 ? point.kept_normal : point.gap < least_gap + beside ? 1 : 0;
+    sum += weight;
+    height_a += weight * constraint.normal.dot(point.arm_a);
+    height_b += weight * constraint.normal.dot(point.arm_b);
+  }
+  for (SolvedPoint& point : points) {
+    if (pressing == 0 && !(point.gap < least_gap + beside)) continue;
+    point.arm_a += (height_a / sum - constraint.normal.dot(point.arm_a)) * constraint.normal;
+    point.arm_b += (height_b / sum - constraint.normal.dot(point.arm_b)) * constraint.normal;
+  }
+}
+
+void Solver::warm_start(SolvedContact& constraint, PointRows* rows, const Softness& softness, double h) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
   const Vec3& normal = constraint.normal;
   const double ratio = constraint.kept_step > h ? h / constraint.kept_step : 1;
   const Tangents along = constraint.friction > 0 ? tangents_of(normal) : Tangents{};
+  if (constraint.friction > 0 && constraint.count > 1) level(constraint);
   for (int i = 0; i < constraint.count; ++i) {
     SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     rows[i].prepare(a, b, point, normal, constraint.friction > 0 ? &along : nullptr);
+    // What a contact bears may be far more than the masses that meet in it.
+    const double stiffness = softness.firm / softness.giving * std::max(1.0, heaviest_ * rows[i].scale * rows[i].scale);
+    rows[i].firm = stiffness / (1 + stiffness);
     point.normal_impulse = ratio * point.kept_normal;
     point.friction_impulse = ratio * (point.kept_friction - normal * normal.dot(point.kept_friction));
     const Vec3 impulse = point.normal_impulse * normal + point.friction_impulse;
@@ -211,10 +237,10 @@ double Solver::solve_contact(SolvedContact& constraint, const PointRows* rows, c
   for (int i = 0; i < constraint.count; ++i) {
     SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     // A gap may close within the sub-step, but not further.
-    const bool soft = point.gap <= 0 && !constraint.impact && !a.pulled && !b.pulled;
+    const bool soft = softness.giving > 0 && point.gap <= 0 && !constraint.impact && !a.pulled && !b.pulled;
     const double wanted = point.gap > 0 ? -point.gap / h : std::min(-softness.rate * point.gap, softness.speed);
-    change = std::max(change, solve_normal(a, b, rows[i], point.normal_impulse, wanted, normal,
-                                           soft ? softness.firm : 1, soft ? softness.giving : 0));
+    change =
+        std::max(change, solve_normal(a, b, rows[i], point.normal_impulse, wanted, normal, soft ? rows[i].firm : 1));
   }
   return change;
 }
@@ -293,7 +319,7 @@ void Solver::add_totals(Contacts contacts, double h) {
     if (constraint.rebounds) continue;
     if (h < long_enough * constraint.kept_step) {
       constraint.passed_over += h;
-      if (constraint.passed_over < sub_steps * constraint.kept_step) continue;
+      if (constraint.passed_over < sub_steps_ * constraint.kept_step) continue;
     }
     for (int i = 0; i < constraint.count; ++i) {
       SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
@@ -344,7 +370,8 @@ void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
 }
 
 void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, std::span<ContactConstraint* const> found,
-                   Springs springs, const WorldSettings& settings, double dt, std::vector<char>& moved) {
+                   Springs springs, const WorldSettings& settings, double dt, std::vector<char>& moved, int sub_steps) {
+  sub_steps_ = sub_steps;
   gather(bodies, found, springs, dt);
   contacts_.clear();
   contacts_.reserve(found.size());
@@ -358,37 +385,34 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, st
   }
   const Contacts contacts = contacts_;
   rows_.resize(4 * contacts.size());
-  const double h = dt / sub_steps;
-  const bool thorough = contacts.size() <= few;
-  const int share = thorough ? settings.iterations : settings.iterations / sub_steps;
+  extrapolating_ = extrapolates(bodies, springs);
+  const double h = dt / sub_steps_;
+  const bool thorough = contacts.size() <= to_the_end;
+  const int share = thorough ? settings.iterations : settings.iterations / sub_steps_;
   const int relaxing = std::max(1, share / 2);
   const int passes = std::max(1, share - relaxing);
   const Softness hard;
-  const Softness soft = soft_contacts(settings.push_out_speed, dt, sub_steps);
-  for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
+  const Softness soft = soft_contacts(settings.push_out_speed, dt, sub_steps_);
+  for (int sub_step = 0; sub_step < sub_steps_; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
     for (SolvedContact& contact : contacts) {
       if (sub_step > 0) refresh(contact);
       if (contact.restitution > 0) meet(loads, contact, h, dt);
     }
-    for (std::size_t i = 0; i < contacts.size(); ++i) warm_start(contacts[i], &rows_[4 * i], h);
+    for (std::size_t i = 0; i < contacts.size(); ++i) warm_start(contacts[i], &rows_[4 * i], soft, h);
     for (SpringRow* spring : springs) spring->begin(end_of(spring->a), end_of(spring->b), h);
     const double remaining = dt - (sub_step + 1) * h;
     for (SolverBody& body : bodies_) body.drive_impulse = body.drive_angular_impulse = Vec3::Zero();
-    const auto run = [&](const Softness& softness, int count) {
-      for (int k = 0; k < count; ++k) {
-        double change = 0;
-        for (SpringRow* spring : springs)
-          change = std::max(change, spring->solve(end_of(spring->a), end_of(spring->b)));
-        for (SolverBody& body : bodies_) change = std::max(change, solve_drive(bodies, body, h, remaining));
-        change = std::max(change, pass(contacts, softness, h, k % 2 == 1));
-        if (change < settled) break;
-      }
+    const auto all = [&](const Softness& softness, bool backward) {
+      double change = 0;
+      for (SpringRow* spring : springs) change = std::max(change, spring->solve(end_of(spring->a), end_of(spring->b)));
+      for (SolverBody& body : bodies_) change = std::max(change, solve_drive(bodies, body, h, remaining));
+      return std::max(change, pass(contacts, softness, h, backward));
     };
-    run(soft, passes);
+    settle(passes, [&](bool backward) { return all(soft, backward); });
     find_lags(contacts);
     end_sub_step(h);
-    run(hard, relaxing);
+    settle(relaxing, [&](bool backward) { return all(hard, backward); });
     rebound(bodies, loads, contacts, thorough ? settings.iterations : std::max(1, settings.iterations / 4));
     bound_spins(bodies, h);
     add_totals(contacts, h);

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "forces/free_flight.h"
+#include "small/extrapolation.h"
 #include "step/contact_rows.h"
 #include "step/softness.h"
 #include "step/solved_contact.h"
@@ -27,6 +29,10 @@ struct SubStepStart {
 class Solver {
  public:
   using Springs = std::span<SpringRow* const>;
+  /// In a step; the passes are shared out among them.
+  static constexpr int usual_sub_steps = 8;
+  /// Up to so many contacts an island is solved to the end.
+  static constexpr std::size_t to_the_end = 24;
 
   /// Before the islands of a step.
   void begin(std::size_t bodies);
@@ -35,7 +41,7 @@ class Solver {
   /// @param moved  by index: set for the bodies that were moved
   void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
              std::span<ContactConstraint* const> contacts, Springs springs, const WorldSettings& settings, double dt,
-             std::vector<char>& moved);
+             std::vector<char>& moved, int sub_steps = usual_sub_steps);
 
  private:
   using Contacts = std::span<SolvedContact>;
@@ -45,10 +51,17 @@ class Solver {
   void meet(const std::vector<forces::Load>& loads, SolvedContact& constraint, double h, double dt) const;
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
                       const WorldSettings& settings, double h, int sub_step);
+  static void level(SolvedContact& constraint);
   void refresh(SolvedContact& constraint) const;
-  void warm_start(SolvedContact& constraint, PointRows* rows, double h);
+  void warm_start(SolvedContact& constraint, PointRows* rows, const Softness& softness, double h);
   double pass(Contacts contacts, const Softness& softness, double h, bool backward);
   double solve_contact(SolvedContact& constraint, const PointRows* rows, const Softness& softness, double h);
+  /// Passes until one changes nothing: so many, or where the island is small as many as it takes.
+  void settle(int passes, const std::function<double(bool backward)>& pass);
+  [[nodiscard]] bool extrapolates(const std::vector<state::Body>& bodies, Springs springs) const;
+  void read_impulses(std::vector<double>& impulses) const;
+  void read_holds(std::vector<char>& holds) const;
+  void set_impulses(const std::vector<double>& impulses);
   double solve_drive(const std::vector<state::Body>& bodies, SolverBody& body, double h, double remaining);
   void find_lags(Contacts contacts);
   void add_totals(Contacts contacts, double h);
@@ -71,6 +84,12 @@ class Solver {
   std::vector<SubStepStart> starts_;     ///< of bodies_
   std::vector<SolvedContact> contacts_;  ///< of the island
   std::vector<PointRows> rows_;          ///< four per contact of the island
+  int sub_steps_ = usual_sub_steps;
+  double heaviest_ = 0;  ///< of the island, kg
+  bool extrapolating_ = false;
+  small::Extrapolation extrapolation_;
+  std::vector<double> from_, to_, best_;  ///< impulses before and after a pass, and those that a pass changed least
+  std::vector<char> holds_, held_;        ///< after a pass and after the one before it
 };
 
 }  // namespace tweenfall::step

@@ -137,6 +137,10 @@ void World::Implementation::solve_islands(double dt) {
                      [&](std::uint32_t a, std::uint32_t b) { return size_of(a) > size_of(b); });
   const auto solve = [&](std::size_t island, step::Solvers& by, const threads::Workers& within) {
     const islands::IslandContents& contents = all[islands_by_size[island]];
+    if (const int pieces = pieces_of(contents, dt); pieces > 1) {
+      solve_in_pieces(contents, pieces, dt, by.few);
+      return;
+    }
     const std::optional<blocks::BlockSolver::Effort> effort = by.many.effort_for(contents, bodies, loads, settings, dt);
     if (!effort)
       by.few.solve(bodies, loads, contents.contacts, contents.springs, settings, dt, moved);

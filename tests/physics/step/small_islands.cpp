@@ -1,0 +1,118 @@
+#include <tweenfall/physics/world.h>
+
+#include "support.h"
+
+using namespace tweenfall;
+
+namespace {
+
+constexpr double forever = std::numeric_limits<double>::infinity();
+
+BodySettings solid_at(const Solid& solid, const Vec3& place, double mass) {
+  BodySettings body;
+  body.shape.solid = solid;
+  body.motion.pose.position = place;
+  body.mass = mass;
+  return body;
+}
+
+}  // namespace
+
+TEST_CASE("a thousand kilograms and a million rest on one, and sink in by less than a millimeter") {
+  const Solid box = Box{Vec3(0.5, 0.5, 0.5)}, ball = Sphere{0.5};
+  for (const double rate : {60.0, 240.0})
+    for (const double mass : {30.0, 1e3, 1e6})
+      for (const auto& [below, above] : {std::pair(box, box), std::pair(ball, box), std::pair(box, ball)}) {
+        World world({.sleep_after = forever});
+        world.add({.shape = {Plane{}}, .fixed = true});
+        const BodyId light = world.add(solid_at(below, Vec3(0, 0.5, 0), 1));
+        const BodyId heavy = world.add(solid_at(above, Vec3(0, 1.5, 0), mass));
+        double deepest = 0;
+        for (int i = 0; i < static_cast<int>(3 * rate); ++i) {
+          world.step(1 / rate);
+          const double low = world.motion(light).pose.position.y(), high = world.motion(heavy).pose.position.y();
+          deepest = std::max({deepest, 0.5 - low, low + 1 - high});
+        }
+        CAPTURE(rate);
+        CAPTURE(mass);
+        CHECK(deepest < 1e-3);
+        CHECK(world.twist(heavy).linear.norm() < 1e-6);
+      }
+}
+
+TEST_CASE("a hundred kilograms rest on ten boxes of one, and a thousand that fall on one crush it by millimeters") {
+  World tower({.sleep_after = forever});
+  tower.add({.shape = {Plane{}}, .fixed = true});
+  BodyId top;
+  for (int i = 0; i < 11; ++i)
+    top = tower.add(solid_at(Box{Vec3(0.5, 0.5, 0.5)}, Vec3(0, 0.5 + i, 0), i == 10 ? 100 : 1));
+  for (int i = 0; i < 600; ++i) tower.step(1.0 / 60);
+  CHECK(tower.motion(top).pose.position.y() > 10.499);
+
+  World press({.sleep_after = forever});
+  press.add({.shape = {Plane{}}, .fixed = true});
+  const BodyId below = press.add(solid_at(Box{Vec3(0.5, 0.5, 0.5)}, Vec3(0, 0.5, 0), 1));
+  const BodyId falling = press.add(solid_at(Box{Vec3(0.5, 0.5, 0.5)}, Vec3(0, 2.5, 0), 1000));
+  double deepest = 0;
+  for (int i = 0; i < 300; ++i) {
+    press.step(1.0 / 60);
+    const double low = press.motion(below).pose.position.y(), high = press.motion(falling).pose.position.y();
+    deepest = std::max({deepest, 0.5 - low, low + 1 - high});
+  }
+  CHECK(deepest < 0.02);
+  CHECK(press.motion(falling).pose.position.y() > 1.499);
+}
+
+TEST_CASE("boxes, capsules and balls that meet in a plane stay in it to a billionth of a meter") {
+  test::Random random(11);
+  const Solid solids[] = {Box{Vec3(0.3, 0.2, 0.35)}, Capsule{0.15, 0.3}, Sphere{0.3}, Box{Vec3(0.15, 0.25, 0.4)}};
+  for (int run = 0; run < 160; ++run) {
+    World world({.gravity = Vec3::Zero(), .sleep_after = forever});
+    std::vector<BodyId> bodies;
+    for (int i = 0; i < 2; ++i) {
+      BodySettings body = solid_at(solids[(i == 0 ? run : run / 4) % 4], Vec3(1.2 * i, 0.2 * random.unit(), 0), 1 + i);
+      body.friction = run / 16 % 2 == 0 ? 0 : 0.5;
+      body.restitution = 0.25 * (run % 5);
+      body.motion.pose.rotation = Quat(Eigen::AngleAxisd(3 * random.unit(), Vec3(0, 0, 1)));
+      body.motion.twist = {Vec3(i == 0 ? 4 : random.unit(), random.unit(), 0), Vec3(0, 0, 5 * random.unit())};
+      bodies.push_back(world.add(body));
+    }
+    for (int i = 0; i < 3 * 240; ++i) world.step(1.0 / 240);
+    CAPTURE(run);
+    for (const BodyId body : bodies) CHECK(std::abs(world.motion(body).pose.position.z()) < 1e-9);
+  }
+}
+
+TEST_CASE("bullets of 100, 300 and 1,000 m/s do not pass a wall of a centimeter, also askew and spinning") {
+  test::Random random(5);
+  const ConvexHull wedge(
+      std::vector<Vec3>{{0.05, 0.05, 0.05}, {-0.05, -0.05, 0.05}, {-0.05, 0.05, -0.05}, {0.05, -0.05, -0.05}});
+  const Solid solids[] = {Sphere{0.01}, Box{Vec3(0.05, 0.02, 0.1)}, Capsule{0.02, 0.05},
+                          Hull{wedge},  Cylinder{0.03, 0.06},       Box{Vec3(0.01, 0.01, 0.01)}};
+  for (const double rate : {60.0, 240.0})
+    for (const double speed : {100.0, 300.0, 1000.0})
+      for (const Solid& solid : solids)
+        for (int run = 0; run < 8; ++run) {
+          World world({.sleep_after = forever});
+          world.add({.shape = {Box{Vec3(0.005, 1000, 1000)}}, .fixed = true});
+          BodySettings bullet = solid_at(solid, Vec3(-3 - random.unit(), random.unit(), random.unit()), 0.1);
+          bullet.restitution = run % 3 == 0 ? 0.5 : 0;
+          bullet.motion.pose.rotation = random.rotation();
+          bullet.motion.twist.linear = speed * (Vec3(1, 0, 0) + (run < 2 ? 0 : 0.5) * random.vector(1)).normalized();
+          bullet.motion.twist.angular = random.vector(run % 4 == 0 ? 0 : run % 4 == 1 ? 10 : run % 4 == 2 ? 100 : 600);
+          const BodyId body = world.add(bullet);
+          const double start = world.kinetic_energy();
+          double most = 0, farthest = -1;
+          for (int i = 0; i < static_cast<int>(0.1 * rate) + 2; ++i) {
+            world.step(1 / rate);
+            most = std::max(most, world.kinetic_energy());
+            farthest = std::max(farthest, world.motion(body).pose.position.x());
+          }
+          CAPTURE(rate);
+          CAPTURE(speed);
+          CAPTURE(solid.index());
+          CAPTURE(run);
+          CHECK(farthest < 0);
+          CHECK(most < 1.02 * start + 5);
+        }
+}
