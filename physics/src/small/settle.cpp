@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "step/solver.h"
+#include "surfaces/surface.h"
 
 /// Small islands are solved to the end, however unlike their masses.
 
@@ -89,6 +90,13 @@ bool Solver::extrapolates(const std::vector<state::Body>& bodies, Springs spring
   if (contacts_.size() > to_the_end || !springs.empty()) return false;
   for (const SolvedContact& contact : contacts_)
     if (contact.rolling_friction > 0 || contact.spinning_friction > 0) return false;
+  // What touches several triangles has contacts that come and go.
+  for (std::size_t i = 1; i < contacts_.size(); ++i) {
+    const SolvedContact &one = contacts_[i - 1], &other = contacts_[i];
+    if (one.a == other.a && one.b == other.b &&
+        (surfaces::surface_of(bodies[one.a].shape.solid) || surfaces::surface_of(bodies[one.b].shape.solid)))
+      return false;
+  }
   // Between two that go their own ways no impulse is enough.
   const auto wills =
       std::count_if(bodies_.begin(), bodies_.end(), [](const SolverBody& body) { return !body.movable; });

@@ -190,12 +190,13 @@ void Solver::warm_start(SolvedContact& constraint, PointRows* rows, const Softne
   const Vec3& normal = constraint.normal;
   const double ratio = constraint.kept_step > h ? h / constraint.kept_step : 1;
   const Tangents along = constraint.friction > 0 ? tangents_of(normal) : Tangents{};
-  if (constraint.friction > 0 && constraint.count > 1) level(constraint);
+  if (extrapolating_ && constraint.friction > 0 && constraint.count > 1) level(constraint);
   for (int i = 0; i < constraint.count; ++i) {
     SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     rows[i].prepare(a, b, point, normal, constraint.friction > 0 ? &along : nullptr);
     // What a contact bears may be far more than the masses that meet in it.
-    const double stiffness = softness.firm / softness.giving * std::max(1.0, heaviest_ * rows[i].scale * rows[i].scale);
+    const double stiffness = softness.firm / softness.giving *
+                             (extrapolating_ ? std::max(1.0, heaviest_ * rows[i].scale * rows[i].scale) : 1.0);
     rows[i].firm = stiffness / (1 + stiffness);
     point.normal_impulse = ratio * point.kept_normal;
     point.friction_impulse = ratio * (point.kept_friction - normal * normal.dot(point.kept_friction));
