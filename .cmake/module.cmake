@@ -42,6 +42,10 @@ endfunction()
 # How everything of ours is compiled: the same bits everywhere, so no contraction of a*b+c and no fast-math.
 function(tweenfall_flags target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  # Eigen adds in another order where it vectorizes, and what is not inlined is one weak symbol for the whole program:
+  # a consumer's own, compiled with other flags, would take the place of ours. So ours is scalar, and inlined always.
+  target_compile_definitions(${target} PRIVATE
+    EIGEN_DONT_VECTORIZE "EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
   # Settings are aggregates with defaults, so leaving members out is the manner, not a slip.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers
     -ffp-contract=off
