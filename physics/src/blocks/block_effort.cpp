@@ -132,8 +132,9 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
       if (body->immovable()) continue;
       if (body->drive.owner() == Owner::driven || body->turned || body->twist.angular.norm() * h > followable_of_small)
         return std::nullopt;
-      // What flies, slides, rolls or turns over is solved to the end.
-      if (body->twist.linear.norm() + body->twist.angular.norm() * body->radius > lazy) return std::nullopt;
+      // What flies, slides, rolls or turns over by itself is solved to the end.
+      if (island.contacts.size() == 1 && body->twist.linear.norm() + body->twist.angular.norm() * body->radius > lazy)
+        return std::nullopt;
     }
     const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
     step::foresee(*contact, a.twist, b.twist, closing, dt);

@@ -19,7 +19,7 @@ using step::ContactConstraint;
 /// Contacts of an island that is taken to pieces, at most.
 constexpr std::size_t most_contacts = 32;
 /// What may turn in a step by more than this is taken to pieces in which it turns by less, rad.
-constexpr double much = 0.5;
+constexpr double much = 1.5;
 constexpr double little = 0.15;
 constexpr int most_pieces = 600;
 constexpr int least_sub_steps = 8;

@@ -24,6 +24,8 @@ constexpr double wild = 100;
 
 /// What is extrapolated to so many times the greatest impulse is not worth trying.
 constexpr double far = 1e4;
+/// Bodies of which one is so many times as heavy as another.
+constexpr double unlike = 10;
 
 double greatest(const std::vector<double>& impulses) {
   double most = 0;
@@ -88,6 +90,8 @@ void Solver::set_impulses(const std::vector<double>& impulses) {
 /// Whether all that acts in the island are contacts that push and rub.
 bool Solver::extrapolates(const std::vector<state::Body>& bodies, Springs springs) const {
   if (contacts_.size() > to_the_end || !springs.empty()) return false;
+  // Of several alike bodies the passes that all get come near enough.
+  if (contacts_.size() > 1 && heaviest_ < unlike * lightest_) return false;
   for (const SolvedContact& contact : contacts_)
     if (contact.rolling_friction > 0 || contact.spinning_friction > 0) return false;
   // What touches several triangles has contacts that come and go.

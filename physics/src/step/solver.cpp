@@ -43,6 +43,7 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<ContactConstraint
   for (const SolverBody& body : bodies_) slots_[body.index] = nowhere;
   bodies_.clear();
   heaviest_ = 0;
+  lightest_ = std::numeric_limits<double>::infinity();
   const auto add = [&](std::uint32_t index) {
     if (slots_[index] != nowhere) return;
     slots_[index] = static_cast<std::uint32_t>(bodies_.size());
@@ -59,6 +60,7 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<ContactConstraint
     entry.drive_impulse = entry.drive_angular_impulse = Vec3::Zero();
     if (entry.movable) {
       heaviest_ = std::max(heaviest_, body.mass.mass);
+      lightest_ = std::min(lightest_, body.mass.mass);
       entry.inverse_mass = 1 / body.mass.mass;
       entry.inverse_inertia = body.world_inverse_inertia(body.motion.pose.rotation);
       entry.linear = body.twist.linear;

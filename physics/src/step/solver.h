@@ -85,7 +85,7 @@ class Solver {
   std::vector<SolvedContact> contacts_;  ///< of the island
   std::vector<PointRows> rows_;          ///< four per contact of the island
   int sub_steps_ = usual_sub_steps;
-  double heaviest_ = 0;  ///< of the island, kg
+  double heaviest_ = 0, lightest_ = 0;  ///< of the island, kg
   bool extrapolating_ = false;
   small::Extrapolation extrapolation_;
   std::vector<double> from_, to_, best_;  ///< impulses before and after a pass, and those that a pass changed least
