@@ -10,6 +10,7 @@ import {showHostile} from "./hostile_tests.mjs";
 import {showsJoints} from "./joint_tests.mjs";
 import {fitsAllWidths} from "./layout_tests.mjs";
 import {readPng} from "./png.mjs";
+import {showsSteps} from "./step_tests.mjs";
 import {drivesTheTimeline} from "./timeline_tests.mjs";
 
 const browser = findBrowser();
@@ -251,6 +252,7 @@ await run("models and hostile recordings", {}, async page => {
   await frameModels(page, join(folder, "models"));
   await showHostile(page, join(folder, "hostile"));
   await showsJoints(page, folder);
+  await showsSteps(page, folder);
   await page.visit(address);
 });
 

@@ -66,6 +66,26 @@ void write_models(const fs::path& folder) {
   }
 }
 
+/// Two boxes on each other and one beside them, which fall asleep.
+void write_stacked(const fs::path& folder) {
+  StageDescription stage;
+  stage.name = "stacked";
+  stage.nodes = {{.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}}};
+  const auto lay = [&](const char* name, double x, double y) {
+    NodeDescription box;
+    box.name = name;
+    box.rest.position = Vec3(x, y, 0);
+    box.body = BodyDescription{.shape = {Box{{0.2, 0.2, 0.2}}}};
+    stage.nodes.push_back(box);
+  };
+  lay("lower", 0, 0.2);
+  lay("upper", 0, 0.6);
+  lay("alone", 1.5, 0.2);
+  Stage run(stage);
+  const Recording recording = record(run, 2, 30, 1e9, true);
+  save_recording(recording, stage, folder / "stacked.html");
+}
+
 /// A door on a hinge that swings free, and a lamp whose rope breaks under it.
 void write_jointed(const fs::path& folder) {
   BodyDescription door, lamp;
@@ -209,6 +229,7 @@ int main(int count, char** arguments) {
     fs::create_directories(folder);
     write_example(folder);
     write_jointed(folder);
+    write_stacked(folder);
     write_models(folder / "models");
     write_hostile(folder / "hostile");
   } catch (const std::exception& problem) {

@@ -3,6 +3,7 @@
 #include <tweenfall/curves/number_text.h>
 
 #include "json/json_string.h"
+#include "page/page_details.h"
 #include "page/page_frames.h"
 #include "page/page_meshes.h"
 #include "recording/base64.h"
@@ -346,6 +347,7 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
   if (!stage.joints.empty())
     append_items(out, "joints", stage.joints,
                  [&](const JointDescription& joint) { return joint_json(recording, joint); });
+  append_details(out, recording, frames);
   append_items(out, "handoffs", recording.handoffs, handoff_json);
   append_items(out, "events", recording.events, event_json);
   append_page_meshes(out, stage, node_of);

@@ -30,6 +30,14 @@ const char* cause_word(Cause cause) noexcept {
       return "contact";
     case Cause::asleep:
       return "asleep";
+    case Cause::enter:
+      return "enter";
+    case Cause::leave:
+      return "leave";
+    case Cause::saturated:
+      return "saturated";
+    case Cause::error:
+      return "error";
     case Cause::caller:
       break;
   }

@@ -431,6 +431,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     Body& body = bodies[entry.index];
     body.center = entry.center;
     body.twist = {linear_of(velocities_[i]), angular_of(velocities_[i])};
+    body.saturated = entry.saturated;
     body.follow_center(entry.rotation);
     moved[entry.index] = 1;
   });

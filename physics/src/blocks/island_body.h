@@ -37,19 +37,20 @@ struct alignas(64) BodyPace {
 struct alignas(64) IslandBody {
   std::uint32_t index = 0;
   bool movable = false;
-  bool still = false;     ///< nothing moves it through the step
-  bool isotropic = true;  ///< the same moment about every axis, or none
-  bool followed = false;  ///< nothing pressed it in the sub-step before: its spin is followed exactly
-  bool round = false;     ///< a ball: no contact can rock it, and none sees it turn
-  bool stale = false;     ///< has turned since its rows were prepared
-  bool jointed = false;   ///< a joint holds it
-  bool held = false;      ///< a drive or a stiff spring holds it
-  bool pulled = false;    ///< by a drive without a limit: a soft contact would not hold against it
-  bool conveys = false;   ///< its surface moves against it
-  Twist surface;          ///< so, at the center of mass, world axes
-  double given = 1;       ///< share of an impulse that such a drive lets through
-  double turned = 0;      ///< since its rows were prepared, rad
-  double drag = 0;        ///< 1/s, taken implicitly
+  bool still = false;      ///< nothing moves it through the step
+  bool isotropic = true;   ///< the same moment about every axis, or none
+  bool followed = false;   ///< nothing pressed it in the sub-step before: its spin is followed exactly
+  bool round = false;      ///< a ball: no contact can rock it, and none sees it turn
+  bool stale = false;      ///< has turned since its rows were prepared
+  bool jointed = false;    ///< a joint holds it
+  bool held = false;       ///< a drive or a stiff spring holds it
+  bool pulled = false;     ///< by a drive without a limit: a soft contact would not hold against it
+  bool saturated = false;  ///< its drive is at its limit
+  bool conveys = false;    ///< its surface moves against it
+  Twist surface;           ///< so, at the center of mass, world axes
+  double given = 1;        ///< share of an impulse that such a drive lets through
+  double turned = 0;       ///< since its rows were prepared, rad
+  double drag = 0;         ///< 1/s, taken implicitly
   double inverse_mass = 0;
   double inverse_moment = 0;            ///< of an isotropic body
   Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared

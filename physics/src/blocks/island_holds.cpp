@@ -115,14 +115,16 @@ void IslandHolds::begin_sub_step(const std::vector<Body>& bodies, const std::vec
   }
 }
 
-void IslandHolds::solve_drive(HeldByDrive& held, const std::vector<Body>& bodies,
-                              const std::vector<IslandBody>& entries, std::vector<BodyLanes>& velocities) const {
-  const IslandBody& entry = entries[held.place];
+void IslandHolds::solve_drive(HeldByDrive& held, const std::vector<Body>& bodies, std::vector<IslandBody>& entries,
+                              std::vector<BodyLanes>& velocities) const {
+  IslandBody& entry = entries[held.place];
   const Body& body = bodies[entry.index];
   BodyLanes& velocity = velocities[held.place];
   const forces::DriveLaw law = forces::drive_law(body, entry.sub_step_center, entry.sub_step_rotation, h_, ahead_);
-  const auto within = [](const Vec3& impulse, double most) -> Vec3 {
+  entry.saturated = false;
+  const auto within = [&entry](const Vec3& impulse, double most) -> Vec3 {
     const double size = impulse.norm();
+    entry.saturated = entry.saturated || size > most;
     return size > most ? Vec3(impulse * (most / size)) : impulse;
   };
   // Velocity as it would be without the pull: all else included, the drive's own impulse taken out.
@@ -137,7 +139,7 @@ void IslandHolds::solve_drive(HeldByDrive& held, const std::vector<Body>& bodies
   set(velocity.angular, angular + entry.inverse_inertia * held.angular_impulse);
 }
 
-void IslandHolds::solve(const std::vector<Body>& bodies, const std::vector<IslandBody>& entries,
+void IslandHolds::solve(const std::vector<Body>& bodies, std::vector<IslandBody>& entries,
                         const ContactBlocks& contacts, std::vector<BodyLanes>& velocities) {
   for (const HeldBySpring& held : springs_)
     between(held.a, held.b, entries, velocities,

@@ -22,8 +22,8 @@ class IslandHolds {
   /// @param ahead  time from the end of the sub-step to that of the step, s
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& entries,
                       std::vector<BodyLanes>& velocities, double ahead);
-  void solve(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& entries,
-             const ContactBlocks& contacts, std::vector<BodyLanes>& velocities);
+  void solve(const std::vector<state::Body>& bodies, std::vector<IslandBody>& entries, const ContactBlocks& contacts,
+             std::vector<BodyLanes>& velocities);
   /// Adds up what the sub-step did.
   void add_up() const;
   /// Gives the rolling impulses back to the contacts.
@@ -44,7 +44,7 @@ class IslandHolds {
     std::uint32_t lane = 0;      ///< 4 * block + lane; balls come after all blocks
     std::uint32_t a = 0, b = 0;  ///< places
   };
-  void solve_drive(HeldByDrive& held, const std::vector<state::Body>& bodies, const std::vector<IslandBody>& entries,
+  void solve_drive(HeldByDrive& held, const std::vector<state::Body>& bodies, std::vector<IslandBody>& entries,
                    std::vector<BodyLanes>& velocities) const;
 
   std::vector<HeldByDrive> drives_;

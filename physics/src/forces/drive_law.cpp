@@ -28,24 +28,29 @@ DriveLaw drive_law(const Body& body, const Vec3& center, const Quat& rotation, d
   return law;
 }
 
-Twist pulled(const Body& body, const Load& load, Integrator integrator, double dt) {
+Twist pulled(const Body& body, const Load& load, Integrator integrator, double dt, bool& saturated) {
   const DriveLaw law = drive_law(body, body.center, body.motion.pose.rotation, dt, 0);
   const Vec3 unpulled = accelerated(body.twist.linear, load, integrator, dt);
   Vec3 impulse = body.mass.mass * ((unpulled + law.linear) / (1 + law.stiffness) - unpulled);
   const double most = body.drive.max_force * dt;
-  if (impulse.norm() > most) impulse *= most / impulse.norm();
+  saturated = impulse.norm() > most;
+  if (saturated) impulse *= most / impulse.norm();
 
   const Quat start = body.motion.pose.rotation;
   const Vec3 spun = turned(body, {start, body.twist.angular}, load, dt).angular;
   Vec3 change = (spun + law.angular) / (1 + law.stiffness) - spun;
   const double turning = (body.world_inertia(start) * change).norm();
   const double most_turning = body.drive.max_torque * dt;
-  if (turning > most_turning) change *= most_turning / turning;
+  if (turning > most_turning) {
+    saturated = true;
+    change *= most_turning / turning;
+  }
   return {unpulled + impulse / body.mass.mass, spun + change};
 }
 
 void pull(Body& body, const Load& load, double dt) {
   body.twist = load.pulled;
+  body.saturated = load.saturated;
   body.center += body.twist.linear * dt;
   Quat rotation = exp_map(body.twist.angular * dt) * body.motion.pose.rotation;
   rotation.normalize();

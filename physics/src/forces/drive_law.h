@@ -18,7 +18,9 @@ struct DriveLaw {
                                  double target_ahead);
 
 /// Velocity of a driven body at the end of a step in which nothing touches it, and with which it gets there.
-[[nodiscard]] Twist pulled(const state::Body& body, const Load& load, Integrator integrator, double dt);
+/// @param saturated  written: whether its greatest force or torque is too little
+[[nodiscard]] Twist pulled(const state::Body& body, const Load& load, Integrator integrator, double dt,
+                           bool& saturated);
 
 /// Moves a driven body that nothing touches.
 void pull(state::Body& body, const Load& load, double dt);

@@ -180,7 +180,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
   }
   each_watched([&](std::uint32_t i) {
     if (moves(bodies[i]) && bodies[i].drive.owner() == Owner::driven)
-      loads[i].pulled = pulled(bodies[i], loads[i], settings.integrator, dt);
+      loads[i].pulled = pulled(bodies[i], loads[i], settings.integrator, dt, loads[i].saturated);
   });
 }
 

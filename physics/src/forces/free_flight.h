@@ -13,6 +13,7 @@ struct Load {
   double angular_drag = 0;         ///< kg m^2/s, taken implicitly
   double angular_damping = 0;      ///< 1/s, taken implicitly
   double springiness = 0;          ///< of the springs on it: k h^2 + c h over the mass that their ends feel
+  bool saturated = false;          ///< so that the drive is at its limit
   Twist pulled;                    ///< of a driven body: with which it gets through the step if nothing touches it
 };
 

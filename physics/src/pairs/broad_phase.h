@@ -31,6 +31,10 @@ class BroadPhase {
                                 const std::vector<forces::Load>& loads, const PairFilter& filter, double margin,
                                 double dt, const threads::Workers& work = {});
   void remove(std::uint32_t body);
+  /// The box of a body, with room to spare; null for one that has none yet, or a plane.
+  [[nodiscard]] const Bounds* box(std::uint32_t body) const {
+    return movable_.has(body) ? &movable_.of(body) : immovable_.has(body) ? &immovable_.of(body) : nullptr;
+  }
   /// Looks for all pairs of the body anew: whom it may meet has changed.
   void look_again(std::uint32_t body);
 

@@ -1,5 +1,7 @@
+#include <tweenfall/physics/detail.h>
 #include <tweenfall/physics/query.h>
 
+#include "islands/islands.h"
 #include "queries/answers.h"
 #include "queries/body_scene.h"
 #include "queries/closest.h"
@@ -15,6 +17,8 @@ class Inside {
   explicit Inside(const World& asked)
       : world_(asked.inside()),
         scene_(world_.scene.get([this](Scene& scene) { arrange_bodies(scene, world_.bodies); })) {}
+
+  [[nodiscard]] static const World::Implementation& of(const World& asked) { return asked.inside(); }
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] BodyId id(std::uint32_t index) const { return {index, world_.bodies[index].generation}; }
@@ -50,6 +54,39 @@ std::vector<BodyId> overlapping(const World& world, const Shape& shape, const Po
 std::optional<NearestBody> nearest_body(const World& world, const Vec3& point, double within,
                                         const QueryFilter& filter) {
   return queries::nearest<NearestBody>(queries::Inside(world), point, within, filter);
+}
+
+std::vector<BodyDetail> body_details(const World& asked) {
+  const auto& world = queries::Inside::of(asked);
+  const std::vector<state::Body>& bodies = world.bodies;
+  islands::Islands islands;
+  islands.reset(bodies.size());
+  const auto moves = [&](const BodyId& id) {
+    const state::Body* body = forces::find_body(bodies, id);
+    return body && !body->immovable() && !body->sensor;
+  };
+  const auto tie = [&](const BodyId& a, const BodyId& b) {
+    if (moves(a) && moves(b)) islands.join(a.index, b.index);
+  };
+  for (const Contact& contact : world.contacts) tie(contact.a, contact.b);
+  for (const state::Joint& joint : world.joints)
+    if (joint.alive) tie(joint.settings.a, joint.settings.b);
+  for (const forces::NumberedForce& entry : world.forces)
+    if (const auto* spring = std::get_if<Spring>(&entry.force)) tie(spring->a, spring->b);
+  std::vector<BodyDetail> details;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    const state::Body& body = bodies[i];
+    if (!body.alive) continue;
+    BodyDetail detail{.body = {i, body.generation}, .island = {}, .asleep = body.asleep};
+    if (moves(detail.body)) {
+      const std::uint32_t first = islands.of(i);
+      detail.island = {first, bodies[first].generation};
+    }
+    const Bounds* const box = world.broad_phase.box(i);
+    detail.box = box ? *box : bounds(body.shape, body.motion.pose);
+    details.push_back(detail);
+  }
+  return details;
 }
 
 Vec3 closest_point(const World& world, BodyId body, const Vec3& point) {

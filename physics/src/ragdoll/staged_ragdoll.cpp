@@ -1,5 +1,7 @@
 #include <tweenfall/physics/ragdoll/staged_ragdoll.h>
 
+#include <tweenfall/anim/animation.h>
+
 #include <stdexcept>
 
 namespace tweenfall {
@@ -28,7 +30,7 @@ Shape unscaled(const Shape& shape, double scale) {
 }  // namespace ragdoll
 
 std::vector<RagdollBone> add_ragdoll(StageDescription& stage, const RagdollSettings& settings, const RagdollBody& body,
-                                     const std::string& group) {
+                                     const std::string& group, const std::string& figure) {
   std::vector<Node> nodes;
   std::vector<Motion> rest;
   nodes.reserve(stage.nodes.size());
@@ -43,11 +45,12 @@ std::vector<RagdollBone> add_ragdoll(StageDescription& stage, const RagdollSetti
   std::vector<SkinnedMesh> meshes;
   for (const MeshInstance& instance : stage.mesh_instances)
     if (instance.skin != no_node && instance.mesh < stage.meshes.size() && instance.skin < stage.skins.size() &&
-        !stage.meshes[instance.mesh].influences.empty())
+        !stage.meshes[instance.mesh].influences.empty() && instance.node < stage.nodes.size() &&
+        matches(figure, stage.nodes[instance.node].name))
       meshes.push_back({&stage.meshes[instance.mesh], &stage.skins[instance.skin]});
   std::vector<RagdollBone> bones = fit_ragdoll(hierarchy, meshes, world, settings);
 
-  const std::uint64_t own = ragdoll::free_group(stage);
+  const std::uint64_t own = body.groups != 0 ? body.groups : ragdoll::free_group(stage);
   for (const RagdollBone& bone : bones) {
     NodeDescription& node = stage.nodes[bone.node];
     if (!node.body) {

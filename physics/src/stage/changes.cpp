@@ -16,12 +16,12 @@ struct Maker {
 
   void operator()(const change::None&) const {}
   void operator()(const change::Release& release) const {
-    change_owner(state, body_index(state, release.node), Drive::free(), Cause::caller, instant, release.settings, {},
-                 step, happenings);
+    static_cast<void>(change_owner(state, body_index(state, release.node), Drive::free(), Cause::caller, instant,
+                                   release.settings, {}, step, happenings));
   }
   void operator()(const change::Recover& recover) const {
-    change_owner(state, body_index(state, recover.node), Drive::keyed(), Cause::caller, instant, {}, recover.settings,
-                 step, happenings);
+    static_cast<void>(change_owner(state, body_index(state, recover.node), Drive::keyed(), Cause::caller, instant, {},
+                                   recover.settings, step, happenings));
   }
   void operator()(const change::Arm& arm) const { arm_rule(state, arm.rule); }
   void operator()(const change::Add& add) const { static_cast<void>(add_node(state, add.node)); }

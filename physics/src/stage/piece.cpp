@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage/rules/drive_tracks.h"
+#include "stage/rules/played_tracks.h"
 #include "stage/stage_data.h"
 #include "stage/whole_pose.h"
 #include "state/countable.h"
@@ -50,7 +50,7 @@ void handle_instant(StageState& state, double step, std::span<const Command> com
     if (!arrived) arrived = state;
     make_change(state, command, step, happenings);
   }
-  follow_drive_tracks(state, step, happenings);
+  follow_played_tracks(state, step, happenings);
   state.jumped = true;
 }
 

@@ -50,6 +50,15 @@ void take_joints(const Stage& stage, Recording& recording) {
   for (JointRecord& joint : recording.joints) joint.reading.push_back(stage.joint(joint.name));
 }
 
+/// @return whether there was room
+bool take_details(const Stage& stage, Recording& recording, double& room) {
+  const StageDetail& taken = recording.details.emplace_back(detail_of(stage));
+  room -= static_cast<double>(taken.nodes.size() * sizeof(NodeDetail) + taken.contacts.size() * sizeof(ContactDetail));
+  if (room >= 0) return true;
+  recording.details = {};
+  return false;
+}
+
 void require_affordable(const Stage& stage, double until, double fps, double most_bytes) {
   constexpr double most_steps = 2e7;
   const double length = std::max(0.0, until - stage.time()), frames = length * fps + 1, steps = length / stage.step();
@@ -79,7 +88,7 @@ void require_tellable(const Stage& stage) {
 }  // namespace
 }  // namespace staging
 
-Recording record(Stage& stage, double until, double fps, double most_bytes) {
+Recording record(Stage& stage, double until, double fps, double most_bytes, bool details) {
   if (!(fps > 0) || !std::isfinite(fps))
     throw std::invalid_argument("frames per second must be above 0, not " + number_text(fps));
   if (!std::isfinite(until)) throw std::invalid_argument("a recording needs an end");
@@ -90,9 +99,14 @@ Recording record(Stage& stage, double until, double fps, double most_bytes) {
   for (const JointDescription& joint : stage.description().joints)
     recording.joints.push_back({.name = joint.name, .a = joint.a, .b = joint.b, .reading = {}});
   const double start = stage.time();
+  double room = std::min(most_bytes, 256.0 * 1024 * 1024);
+  const auto take = [&] {
+    staging::take_frame(stage, world, recording);
+    staging::take_joints(stage, recording);
+    if (details) details = staging::take_details(stage, recording, room);
+  };
   stage.advance(0);
-  staging::take_frame(stage, world, recording);
-  staging::take_joints(stage, recording);
+  take();
   for (double frame = 1;; ++frame) {
     double time = start + frame / fps;
     // A last frame closer than this to the end is the end.
@@ -101,8 +115,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes) {
     if (last && time <= stage.time()) break;
     stage.advance_to(time);
     staging::require_tellable(stage);
-    staging::take_frame(stage, world, recording);
-    staging::take_joints(stage, recording);
+    take();
     if (last) break;
   }
   for (NodeRecord& node : recording.nodes) {

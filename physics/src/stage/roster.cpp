@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "stage/rules/drive_tracks.h"
+#include "stage/rules/played_tracks.h"
 #include "stage/scaled_shape.h"
 #include "stage/stage_data.h"
 #include "stage/whole_pose.h"
@@ -64,6 +64,7 @@ void add_body(StageState& state, NodeId node, const BodyDescription& body, const
   StagedBody staged{.node = node, .id = id, .path = std::move(path), .shown = start};
   staged.released_at = state.time;
   staged.drive = settings.drive;
+  staged.surface = settings.surface_velocity.linear;
   if (state.node_of.size() <= id.index) state.node_of.resize(id.index + 1, no_node);
   state.node_of[id.index] = node;
   if (state.unused.empty()) {
@@ -106,14 +107,18 @@ void validate(const Rule& rule) {
     const auto* at = std::get_if<when::At>(&trigger);
     const auto* hit = std::get_if<when::ContactHit>(&trigger);
     const auto* asleep = std::get_if<when::Asleep>(&trigger);
+    const auto* saturated = std::get_if<when::Saturated>(&trigger);
+    const auto* error = std::get_if<when::Error>(&trigger);
     if ((at && std::isnan(at->time)) || (hit && (std::isnan(hit->impulse) || std::isnan(hit->speed))) ||
-        (asleep && std::isnan(asleep->seconds)))
-      throw std::invalid_argument("a trigger's time, impulse, speed and stillness must be numbers");
+        (asleep && std::isnan(asleep->seconds)) || (saturated && std::isnan(saturated->seconds)) ||
+        (error && std::isnan(error->distance)))
+      throw std::invalid_argument("a trigger's time, impulse, speed, stillness and distance must be numbers");
   }
   if (!(rule.hand_back.settle.seconds > 0) || !std::isfinite(rule.hand_back.settle.seconds))
     throw std::invalid_argument("a settle needs a time above 0 s");
   if (!(rule.take_over.average_over > 0) || !std::isfinite(rule.take_over.average_over))
     throw std::invalid_argument("a velocity is averaged over a time above 0 s");
+  if (!(rule.take_over.rewind_within >= 0)) throw std::invalid_argument("a rewind needs a time of 0 s or more");
 }
 
 /// @throws std::invalid_argument for a rest pose that is none
@@ -227,7 +232,7 @@ StageState described_state(const StageDescription& description, std::vector<Stag
       state.world.ignore(body(description.ignored[i].first), body(description.ignored[i].second));
     });
   state.jumps = find_jumps(state);
-  start_drive_tracks(state);
+  start_played_tracks(state);
   for (std::size_t i = 0; i < description.rules.size(); ++i)
     attempt(faults, Part::rule, i, "", [&] { arm_rule(state, description.rules[i]); });
   return state;

@@ -53,8 +53,10 @@ struct StagedBody {
   WorldMotion shown = {};  ///< the path at that time; its scale and shear stay on the free body
   bool present = true;
   std::shared_ptr<const std::vector<SettlingNode>> below = {};  ///< in order of nodes; null for none
-  Drive drive = {};      ///< that it came with: what a track of drives is mixed over
-  bool by_track = true;  ///< no rule and no caller has handed it over: a track may set its drive
+  Drive drive = {};          ///< that it came with: what a track of drives is mixed over
+  Vec3 surface{0, 0, 0};     ///< the same of its surface, m/s
+  double saturated_for = 0;  ///< how long its drive has been at its limit, s
+  bool by_track = true;      ///< no rule and no caller has handed it over: a track may set its drive
 };
 
 /// What became of a rule so far, for `Stage::unfired_rules`.
@@ -65,6 +67,8 @@ struct Attempt {
   double impulse = 0;    ///< greatest of those, N s
   double speed = 0;      ///< greatest of those, m/s
   double still = 0;      ///< longest, s
+  double saturated = 0;  ///< longest, s
+  double error = 0;      ///< greatest, m
 };
 
 /// One rule waiting on one body.
@@ -73,9 +77,10 @@ struct ArmedRule {
   std::size_t rule = 0;
   std::vector<char> latched;  ///< for `all`: by trigger, whether its instant has come
   bool done = false;
-  bool was_true = false;  ///< for a rule that fires again: it must have been false in between
-  bool gone = false;      ///< its body has left
-  Attempt attempt = {};   ///< what came of it so far
+  bool was_true = false;             ///< for a rule that fires again: it must have been false in between
+  bool gone = false;                 ///< its body has left
+  std::optional<Cause> vetoed = {};  ///< it fired and its body could not leave its path: tried again
+  Attempt attempt = {};              ///< what came of it so far
 };
 
 /// A contact that began and is not over: what it has taken so far is not yet the whole blow.
@@ -87,6 +92,19 @@ struct Blow {
   double speed = 0;    ///< m/s
 };
 
+/// Two bodies that lie deep in each other.
+struct Strain {
+  BodyId a, b;
+  double since = 0;   ///< s
+  bool told = false;  ///< it has lasted: no blow
+};
+/// A joint that is open wide.
+struct Tear {
+  std::size_t joint = 0;  ///< of the stage's list
+  double since = 0;       ///< s
+  bool told = false;
+};
+
 /// Where the plays make bodies jump.
 struct Jumps {
   std::vector<char> carriers;  ///< by node, of those there were: whether it or one below it has a body that can move
@@ -94,11 +112,17 @@ struct Jumps {
   std::vector<char> carries_body;  ///< by clip: whether it moves a body at all
 };
 
-/// A track that animates a body's drive.
-struct DriveTrack {
+/// A track that animates something of a body's physics.
+template <class T>
+struct PlayedTrack {
   NodeId node = no_node;
   std::size_t clip = 0;
-  const Curve<double>* curve = nullptr;  ///< Hz; part of the animation's clips
+  const Curve<T>* curve = nullptr;  ///< part of the animation's clips
+};
+/// Each in order of nodes.
+struct PlayedTracks {
+  std::vector<PlayedTrack<double>> drives;  ///< Hz
+  std::vector<PlayedTrack<Vec3>> surfaces;  ///< m/s
 };
 
 /// One joint that the description or the caller put into the world.
@@ -131,10 +155,10 @@ struct StageState {
   std::shared_ptr<const Hierarchy> nodes;
   std::shared_ptr<const Animation> animation;
   std::shared_ptr<const Jumps> jumps;
-  std::shared_ptr<const std::vector<DriveTrack>> drive_tracks;  ///< in order of nodes
-  std::shared_ptr<const StagedJoints> joints;                   ///< gone ones included: the world knows which hold
-  std::vector<char> present;                                    ///< by node
-  std::vector<std::optional<Color>> colors;                     ///< by node, where none is animated
+  std::shared_ptr<const PlayedTracks> tracks;
+  std::shared_ptr<const StagedJoints> joints;  ///< gone ones included: the world knows which hold
+  std::vector<char> present;                   ///< by node
+  std::vector<std::optional<Color>> colors;    ///< by node, where none is animated
   std::vector<StagedBody> bodies;
   std::vector<std::size_t> unused;                ///< places in `bodies` of those that have left
   std::vector<std::size_t> body_of;               ///< by node; `no_body` for none
@@ -142,10 +166,13 @@ struct StageState {
   std::vector<NodeId> first_child, next_sibling;  ///< by node; `no_node` for none
   std::vector<std::uint32_t> presses;  ///< by index of the world's body: contacts with an impulse, last piece
   std::vector<std::shared_ptr<const Rule>> rules;
-  std::vector<ArmedRule> armed;  ///< by body, then by rule
-  std::size_t gone_rules = 0;    ///< of `armed`
-  std::vector<Blow> blows;       ///< by pair
-  bool jumped = true;            ///< some path may have jumped at `time`: keyed bodies are put on it before going on
+  std::vector<ArmedRule> armed;                    ///< by body, then by rule
+  std::size_t gone_rules = 0;                      ///< of `armed`
+  std::vector<Blow> blows;                         ///< by pair
+  std::vector<std::pair<BodyId, BodyId>> passing;  ///< pass through each other until they are apart
+  std::vector<Strain> strained;                    ///< by pair
+  std::vector<Tear> torn;                          ///< by joint
+  bool jumped = true;  ///< some path may have jumped at `time`: keyed bodies are put on it before going on
 
   [[nodiscard]] StagedBody* body(NodeId node) {
     return node < body_of.size() && body_of[node] != no_body ? &bodies[body_of[node]] : nullptr;
@@ -190,9 +217,10 @@ void arm_rule(StageState& state, const Rule& rule);
 
 // rules/ownership.cpp: who moves a body
 /// @param instant  when it happens; the state's time is at most a sliver away, or later when splits were capped
-void change_owner(StageState& state, std::size_t body, const Drive& to, Cause cause, double instant,
-                  const TakeOver& take_over, const HandBack& hand_back, double step,
-                  std::vector<Happening>& happenings);
+/// @return whether the body is where it shall be: not when its overlap vetoes it, which is told
+[[nodiscard]] bool change_owner(StageState& state, std::size_t body, const Drive& to, Cause cause, double instant,
+                                const TakeOver& take_over, const HandBack& hand_back, double step,
+                                std::vector<Happening>& happenings);
 
 // rules/triggers.cpp: when that changes
 /// The first moment in (state.handled, to] at which something may trigger or jump; infinity when there is none.

@@ -1,5 +1,7 @@
+#include <tweenfall/physics/stage/detail.h>
 #include <tweenfall/physics/stage/query.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "queries/answers.h"
@@ -14,6 +16,8 @@ class InsideStage {
  public:
   explicit InsideStage(const Stage& stage)
       : timeline_(stage.inside()), scene_(timeline_.scene.get([this](Scene& scene) { arrange(scene); })) {}
+
+  [[nodiscard]] static const staging::StageState& shown(const Stage& stage) { return stage.inside().current(); }
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] NodeId id(std::uint32_t item) const { return timeline_.current().bodies[item].node; }
@@ -71,6 +75,30 @@ Separation distance(const Stage& stage, NodeId a, NodeId b) {
   const queries::InsideStage inside(stage);
   const queries::Item &first = inside.body_of(a), &second = inside.body_of(b);
   return distance(*first.shape, first.pose, *second.shape, second.pose);
+}
+
+StageDetail detail_of(const Stage& stage) {
+  const staging::StageState& state = queries::InsideStage::shown(stage);
+  StageDetail detail;
+  const auto node_of = [&](const BodyId& body) { return state.node_of[body.index]; };
+  // Of each island, by its first body, the first node.
+  std::vector<NodeId> first(state.node_of.size(), no_node);
+  const std::vector<BodyDetail> bodies = body_details(state.world);
+  for (const BodyDetail& body : bodies) {
+    detail.nodes.push_back({.node = node_of(body.body), .asleep = body.asleep, .box = body.box});
+    if (body.island != BodyId{}) first[body.island.index] = std::min(first[body.island.index], node_of(body.body));
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].island != BodyId{}) detail.nodes[i].island = first[bodies[i].island.index];
+  std::ranges::sort(detail.nodes, {}, &NodeDetail::node);
+  for (const Contact& contact : state.world.contacts())
+    for (int i = 0; i < contact.manifold.count; ++i)
+      detail.contacts.push_back({.a = node_of(contact.a),
+                                 .b = node_of(contact.b),
+                                 .point = contact.manifold.points[static_cast<std::size_t>(i)].position,
+                                 .normal = contact.manifold.normal,
+                                 .impulse = contact.impulse});
+  return detail;
 }
 
 }  // namespace tweenfall

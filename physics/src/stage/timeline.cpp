@@ -67,7 +67,7 @@ void Timeline::tell(bool aloud, double until) {
     } else {
       const StageEvent& event = std::get<StageEvent>(happening.what);
       events.push_back(event);
-      const auto callback = event.nodes.empty() || !event.joint.empty() ? on_event : on_contact;
+      const auto callback = event.name == "contact" && !event.nodes.empty() ? on_contact : on_event;
       if (aloud && callback) callback(event);
     }
   }

@@ -16,6 +16,7 @@ struct Body {
   bool has_target = false;  ///< a target was set since the last step
   bool led = false;         ///< driven, and its target moved
   bool turned = false;      ///< what it rolls with depends on where it is touched; of a compound, too
+  bool saturated = false;   ///< its drive was at its limit in the last step
   bool spherical = false;   ///< the same moment about every axis: spin feels no gyroscopic torque
   std::uint32_t generation = 0;
   Drive drive;

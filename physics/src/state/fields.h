@@ -113,15 +113,16 @@ void each_field(T& properties, const Visit& visit) {
 
 template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [alive, fixed, asleep, placed, has_target, led, turned, spherical, generation, drive, still_for, center, twist,
-         motion, force, torque, radius, roundness, linear_damping, angular_damping, mass, inverse_inertia, friction,
-         restitution, rolling_friction, spinning_friction, friction_combine, restitution_combine, sensor, conveys,
-         surface_velocity, groups, collides_with, shape, target, reaction] = body;
+  auto& [alive, fixed, asleep, placed, has_target, led, turned, saturated, spherical, generation, drive, still_for,
+         center, twist, motion, force, torque, radius, roundness, linear_damping, angular_damping, mass,
+         inverse_inertia, friction, restitution, rolling_friction, spinning_friction, friction_combine,
+         restitution_combine, sensor, conveys, surface_velocity, groups, collides_with, shape, target, reaction] = body;
   visit(alive, generation);
   if (!alive) return;  // its place and number alone matter
   visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion, force, torque, linear_damping,
         angular_damping, mass, friction, restitution, rolling_friction, spinning_friction, friction_combine,
         restitution_combine, sensor, surface_velocity, groups, collides_with, shape, target, reaction);
+  visit.rarely(saturated);
   follows_from_others(conveys, turned, spherical, radius, roundness, inverse_inertia);
 }
 

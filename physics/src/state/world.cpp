@@ -230,6 +230,10 @@ double World::still_for(BodyId id) const {
 bool World::asleep(BodyId id) const {
   return inside().at(id).asleep;
 }
+
+bool World::saturated(BodyId body) const {
+  return inside().at(body).saturated;
+}
 Vec3 World::reaction(BodyId id) const {
   return inside().at(id).reaction;
 }
@@ -283,6 +287,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
     world.wake(id.index);
     return;
   }
+  body.saturated = false;
   state::clear_work(body);
   world.note(id.index);
   body.target = body.motion;

@@ -256,7 +256,8 @@ double Solver::solve_drive(const std::vector<Body>& bodies, SolverBody& entry, d
   const Vec3 linear = entry.linear - entry.inverse_mass * entry.drive_impulse;
   Vec3 impulse = ((linear + law.linear) / (1 + law.stiffness) - linear) / entry.inverse_mass;
   const double most = body.drive.max_force * h;
-  if (impulse.norm() > most) impulse *= most / impulse.norm();
+  entry.saturated = impulse.norm() > most;
+  if (entry.saturated) impulse *= most / impulse.norm();
   const double change = entry.inverse_mass * (impulse - entry.drive_impulse).norm();
   entry.drive_impulse = impulse;
   entry.linear = linear + entry.inverse_mass * impulse;
@@ -265,7 +266,10 @@ double Solver::solve_drive(const std::vector<Body>& bodies, SolverBody& entry, d
   const Mat3 inertia = body.world_inertia(entry.start_rotation);
   Vec3 turning = inertia * ((angular + law.angular) / (1 + law.stiffness) - angular);
   const double most_turning = body.drive.max_torque * h;
-  if (turning.norm() > most_turning) turning *= most_turning / turning.norm();
+  if (turning.norm() > most_turning) {
+    entry.saturated = true;
+    turning *= most_turning / turning.norm();
+  }
   entry.drive_angular_impulse = turning;
   entry.angular = angular + entry.inverse_inertia * turning;
   return change;
@@ -427,6 +431,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, st
     Body& body = bodies[entry.index];
     body.center = entry.center;
     body.twist = {entry.linear, entry.angular};
+    body.saturated = entry.saturated;
     body.follow_center(entry.rotation);
     moved[entry.index] = 1;
   }

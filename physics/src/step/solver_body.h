@@ -8,14 +8,15 @@ namespace tweenfall::step {
 struct SolverBody {
   std::uint32_t index = 0;
   bool movable = false;
-  bool impact = false;   ///< meets something in this step: its velocity jumps
-  bool touched = false;  ///< an impulse reached it in this step
-  bool pressed = false;  ///< an impulse reached it in this sub-step
-  bool round = false;    ///< a ball: no contact can rock it
-  bool sprung = false;   ///< held by a stiff spring
-  bool pulled = false;   ///< by a drive: a soft contact would not hold against it
-  bool stirred = false;  ///< by the rebound of this sub-step
-  Vec3 lag{0, 0, 0};     ///< from the velocity at the end of the sub-step to its mean, m/s
+  bool impact = false;     ///< meets something in this step: its velocity jumps
+  bool touched = false;    ///< an impulse reached it in this step
+  bool pressed = false;    ///< an impulse reached it in this sub-step
+  bool round = false;      ///< a ball: no contact can rock it
+  bool sprung = false;     ///< held by a stiff spring
+  bool pulled = false;     ///< by a drive: a soft contact would not hold against it
+  bool saturated = false;  ///< its drive is at its limit
+  bool stirred = false;    ///< by the rebound of this sub-step
+  Vec3 lag{0, 0, 0};       ///< from the velocity at the end of the sub-step to its mean, m/s
   double inverse_mass = 0;
   Mat3 inverse_inertia = Mat3::Zero();
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};

@@ -87,7 +87,7 @@ Recording run_stage(const StageDescription& description, const RunOptions& optio
   const Progress progress("running " + options.file + " to " + brief_text(until) + " s");
   Stage stage = make_stage(description, options.file);
   try {
-    Recording recording = record(stage, until, fps, std::numeric_limits<double>::infinity());
+    Recording recording = record(stage, until, fps, std::numeric_limits<double>::infinity(), options.details);
     check_recording(recording);
     say_unfired(recording, options.file);
     return recording;

@@ -21,6 +21,7 @@ struct RunOptions {
   double usual_fps = 60;
   std::optional<double> limit;  ///< megabytes of recording
   double usual_limit = 512;
+  bool details = false;  ///< whether what the steps worked with is recorded, too
 };
 
 /// The options that say how much is recorded.

@@ -28,7 +28,8 @@ const char* word(Owner owner) {
 }
 
 const char* word(Cause cause) {
-  constexpr const char* words[] = {"start", "time", "marker", "event", "clip end", "contact", "asleep", "caller"};
+  constexpr const char* words[] = {"start",  "time",  "marker", "event",     "clip end", "contact",
+                                   "asleep", "enter", "leave",  "saturated", "error",    "caller"};
   return words[static_cast<int>(cause)];
 }
 
@@ -104,7 +105,9 @@ int run_file(const RunFileOptions& options) {
   StageFile read = read_stage_file(options.file);
   choose_play(read, options.clip, options.file);
   if (options.threads) read.stage.world.threads = static_cast<int>(*options.threads);
-  const Recording recording = run_stage(read.stage, options);
+  RunOptions run = options;
+  run.details = options.output && options.output->size() > 5 && options.output->ends_with(".html");
+  const Recording recording = run_stage(read.stage, run);
   const bool to_stdout = options.json || options.output == "-";
   if (options.output && *options.output != "-") {
     save_recording(recording, read.stage, *options.output);

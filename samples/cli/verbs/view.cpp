@@ -34,6 +34,7 @@ int view_file(ViewOptions options) {
 
 Run declare_view(Arguments& arguments) {
   auto options = std::make_shared<ViewOptions>();
+  options->details = true;
   options->usual_limit = 128;  // browsers hold the page twice
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
   arguments.output(options->output, "OUT.html", "where to write; FILE's name with .html in this folder without it");

@@ -216,7 +216,7 @@ TEST_CASE("every field reaches the stage's description") {
     CHECK(std::get<SpringDescription>(stage.forces[2]).b == no_node);
   }
   SUBCASE("hand-off") {
-    REQUIRE(stage.rules.size() == 5);
+    REQUIRE(stage.rules.size() == 6);
     CHECK(std::get<when::At>(stage.rules[0].when.triggers.at(0)).time == 1.5);
     CHECK(stage.rules[0].take_over.velocity == TakeOver::Velocity::average);
     CHECK(stage.rules[0].take_over.average_over == 0.2);
@@ -239,6 +239,20 @@ TEST_CASE("every field reaches the stage's description") {
     CHECK(stage.rules[4].hand_back.anchor == HandBack::Anchor::ground);
     CHECK(stage.rules[4].hand_back.settle.kind == Settle::Kind::half_life);
     CHECK(stage.rules[4].hand_back.settle.seconds == 0.2);
+    const std::vector<Trigger>& last = stage.rules[5].when.triggers;
+    REQUIRE(last.size() == 4);
+    CHECK(std::get<when::Enter>(last[0]).region == "ball");
+    CHECK(std::get<when::Enter>(last[0]).who.empty());
+    CHECK(std::get<when::Leave>(last[1]).who == "tower/2");
+    CHECK(std::get<when::Saturated>(last[2]).seconds == 0.1);
+    CHECK(std::get<when::Error>(last[3]).distance == 0.3);
+    CHECK(stage.rules[5].take_over.overlap == TakeOver::Overlap::veto);
+  }
+  SUBCASE("pairs that ignore each other") {
+    std::vector<std::pair<std::string, std::string>> pairs;
+    for (const auto& [a, b] : stage.ignored) pairs.emplace_back(stage.nodes[a].name, stage.nodes[b].name);
+    CHECK(pairs == std::vector<std::pair<std::string, std::string>>{
+                       {"tower/1", "tower/2"}, {"ball", "tower/1"}, {"ball", "tower/2"}});
   }
 }
 

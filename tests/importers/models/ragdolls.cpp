@@ -4,6 +4,7 @@
 #include "support.h"
 
 #include <tweenfall/curves/rotation.h>
+#include <tweenfall/importers/document.h>
 #include <tweenfall/importers/model.h>
 #include <tweenfall/physics/ragdoll/staged_ragdoll.h>
 #include <tweenfall/physics/stage/stage.h>
@@ -255,4 +256,44 @@ TEST_CASE("every skinned model at hand becomes a ragdoll that falls without flyi
     }
   }
   CHECK(figures >= 3);
+}
+
+TEST_CASE("a word of a document gives an imported figure bodies and joints, and each figure a group of its own") {
+  const std::filesystem::path folder = std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/documents";
+  const Document document = Document::parse(R"({
+    "tweenfall": 1,
+    "import": {"one": "character.glb", "two": "character.glb"},
+    "nodes": {"floor": {"body": {"shape": {"plane": {"normal": [0, 1, 0]}}, "static": true}}},
+    "play": [{"clip": "one/WalkForward"}],
+    "world": {"ragdolls": {"one": {"mass": 60, "friction": 0.3, "limits": {"one/Head": {"swing": 20, "twist": 5}}}, "two": {"mass": 20}}},
+    "handoff": [{"group": "one", "when": {"at": 0.5}, "to": "free"}]
+  })",
+                                            "figures.json", folder);
+  const StageDescription& described = document.stage();
+  std::uint64_t groups[2] = {};
+  double mass[2] = {};
+  int bodies[2] = {};
+  for (const NodeDescription& node : described.nodes) {
+    if (!node.body || node.name == "floor") continue;
+    const int figure = node.name.starts_with("one/") ? 0 : 1;
+    CHECK(node.group == (figure == 0 ? "one" : "two"));
+    CHECK(node.body->friction == (figure == 0 ? 0.3 : RagdollBody{}.friction));
+    groups[figure] |= node.body->groups;
+    CHECK(node.body->collides_with == ~node.body->groups);
+    mass[figure] += *node.body->mass;
+    ++bodies[figure];
+  }
+  CHECK(groups[0] != groups[1]);
+  CHECK((groups[0] & 1) == 0);
+  CHECK(mass[0] == doctest::Approx(60));
+  CHECK(mass[1] == doctest::Approx(20));
+  CHECK(bodies[0] > 8);
+  CHECK(bodies[0] == bodies[1]);
+  CHECK(described.joints.size() == static_cast<std::size_t>(bodies[0] + bodies[1] - 2));
+  Stage stage(described);
+  stage.advance_to(2);
+  CHECK(stage.handoffs().size() == static_cast<std::size_t>(bodies[0]));
+  for (const NodeDescription& node : described.nodes)
+    if (node.body && node.name.starts_with("one/"))
+      CHECK(stage.world(stage.node(node.name)).motion.pose.position.y() < 1);
 }

@@ -45,6 +45,11 @@ StageDescription busy(double step = 1.0 / 240) {
   stage.nodes.push_back(solid("hanging", {Sphere{0.2}}, {-2, 2, 0}));
   stage.nodes.push_back(solid("lower", {Capsule{0.1, 0.2}}, {-2, 1.4, 0}));
   stage.nodes.push_back(solid("ghost", {Box{{0.3, 0.1, 0.3}}}, {2.1, 4, 0.1}));
+  stage.nodes.push_back(solid("zone", {Box{{0.4, 0.4, 0.4}}}, {2, 2.5, 0}));
+  stage.nodes.back().body->sensor = stage.nodes.back().body->fixed = true;
+  stage.nodes.push_back(solid("sunk", {Box{{0.3, 0.3, 0.3}}}, {5, 0.1, 0}));
+  stage.nodes.push_back(solid("weak", {Sphere{0.3}}, {-5, 2, 0}));
+  for (const std::size_t keyed : {1, 2}) stage.nodes[stage.nodes.size() - keyed].body->drive = Drive::keyed();
   const auto named = [&](const std::string& name) {
     return static_cast<std::size_t>(std::ranges::find(stage.nodes, name, &NodeDescription::name) - stage.nodes.begin());
   };
@@ -84,6 +89,13 @@ StageDescription busy(double step = 1.0 / 240) {
   stage.rules.push_back(
       {.bodies = {"body"}, .when = {{when::At{1.5}, when::ContactHit{.impulse = 1e-3}}, true}, .to = {.hz = 3}});
   stage.rules.push_back({.bodies = {"box3"}, .when = {{when::Asleep{0.2}}}, .to = Drive::keyed()});
+  stage.rules.push_back(
+      {.bodies = {"weak"}, .when = {{when::Enter{"zone", "ghost"}}}, .to = {.hz = 3, .max_force = 50}});
+  stage.rules.push_back({.bodies = {"weak"}, .when = {{when::Saturated{0.2}}}, .to = Drive::keyed()});
+  stage.rules.push_back({.bodies = {"sunk"},
+                         .when = {{when::At{0.9}}},
+                         .to = Drive::free(),
+                         .take_over = {.overlap = TakeOver::Overlap::ignore}});
   return stage;
 }
 
@@ -166,7 +178,7 @@ TEST_CASE("a stage that was saved and loaded at every frame goes on in the same 
   const auto happened = [&](const std::string& name) {
     return std::ranges::count(original.events(), name, &StageEvent::name) > 0;
   };
-  for (const char* const name : {"beat", "contact", "joint_broke", "joint_ended"}) {
+  for (const char* const name : {"beat", "contact", "entered", "left", "joint_broke", "joint_ended"}) {
     CAPTURE(std::string(name));
     CHECK(happened(name));
   }

@@ -149,6 +149,14 @@ const Table<Read>& rule_table() {
   Row<Read> path = part<Read>("path", path_table(), "of a body that is taken back",
                               [](Read& rule) -> HandBack& { return rule.rule.hand_back; });
   path.useless = useless_to(Owner::free, "for a body that is let go; it follows none");
+  using Overlap = TakeOver::Overlap;
+  Row<Read> overlap = one_of<Read, Overlap>(
+      "overlap", "what becomes of overlap: \"push\", \"ignore\", \"rewind\" or \"veto\"",
+      {{"push", Overlap::push}, {"ignore", Overlap::ignore}, {"rewind", Overlap::rewind}, {"veto", Overlap::veto}},
+      "of a body that leaves its path in others: they are pushed apart, pass "
+      "through each other, it leaves from where it was clear, or stays",
+      [](Read& rule) -> Overlap& { return rule.rule.take_over.overlap; });
+  overlap.useless = useless_to(Owner::keyed, "for a keyed body; it has its path's place");
   static const Table<Read> table("a rule of the hand-off",
                                  {{"body", rule_bodies_form, "whom it is about", {read_rule_bodies}},
                                   {"group", &ValueForms::name, "all nodes of a group", {read_rule_group}},
@@ -156,6 +164,7 @@ const Table<Read>& rule_table() {
                                   {"to", owner_form, "the new owner", to, true},
                                   {"velocity", take_over_form, "of a released body", velocity, false,
                                    useless_to(Owner::keyed, "for a keyed body; it has its path's")},
+                                  overlap,
                                   path,
                                   {"settle", settle_form, "how the difference dies away", settle, false,
                                    useless_to(Owner::free, "for a body that is let go; nothing settles")},

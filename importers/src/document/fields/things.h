@@ -38,6 +38,8 @@ void read_world(const json::Value& world, Building& building);
 [[nodiscard]] json::Value place_of_force(const json::Value& world, std::size_t index);
 [[nodiscard]] json::Value place_of_joint(const json::Value& world, std::string_view name);
 
+[[nodiscard]] json::Value place_of_ignored(const json::Value& world);
+
 // The node with a body of that name; `no_node` where there is none, which is told.
 [[nodiscard]] std::size_t body_called(const json::Value& name, Building& building);
 

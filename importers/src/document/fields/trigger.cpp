@@ -67,6 +67,49 @@ void read_instant(const json::Value& value, RuleBeingRead& rule, Building& build
   rule.instants.push_back({value, *seconds});
 }
 
+// A name or pattern of nodes, of which one must be as `fits` says.
+template <class Thing, class Fits>
+Meaning<Thing> name_of_nodes(std::string Thing::*member_of, std::string lacks, Fits fits) {
+  Meaning<Thing> meaning = member<Thing>(member_of);
+  meaning.read = [member_of, lacks, fits](const json::Value& value, Thing& thing, Building& building) {
+    take(value, thing.*member_of, building);
+    const std::vector<std::size_t> named = building.nodes_named(thing.*member_of);
+    const auto right = [&](std::size_t i) { return fits(building.stage.nodes[i]); };
+    if (building.excused(thing.*member_of) || std::any_of(named.begin(), named.end(), right)) return;
+    std::vector<std::string> names;
+    for (const NodeDescription& node : building.stage.nodes)
+      if (fits(node)) names.push_back(node.name);
+    building.problems.add(value,
+                          lacks + json::in_quotes(thing.*member_of) + suggestion_or_import(thing.*member_of, names));
+  };
+  return meaning;
+}
+
+bool has_body(const NodeDescription& node) {
+  return node.body.has_value();
+}
+bool is_sensor(const NodeDescription& node) {
+  return node.body && node.body->sensor;
+}
+
+template <class Passage>
+const Table<Passage>& passage_table() {
+  static const Table<Passage> table(
+      "a way in or out",
+      {{"region", &ValueForms::name, "name or pattern of a node whose body is a sensor",
+        name_of_nodes(&Passage::region, "no node whose body is a \"sensor\" is called ", is_sensor), true},
+       {"who", &ValueForms::name, "name or pattern; absent: the rule's own body",
+        name_of_nodes(&Passage::who, "no node with a body is called ", has_body)}});
+  return table;
+}
+
+template <class Passage>
+Passage read_passage(const json::Value& value, Building& building) {
+  Passage passage;
+  passage_table<Passage>().read(value, passage, building);
+  return passage;
+}
+
 const Table<RuleBeingRead>& trigger_table() {
   using Rule = RuleBeingRead;
   const auto marker = adds([](const json::Value& value, Rule& rule, Building& building) {
@@ -82,13 +125,25 @@ const Table<RuleBeingRead>& trigger_table() {
     contact_table().read(value, hit, building);
     return hit;
   });
+  const auto enter = adds(
+      [](const json::Value& value, Rule&, Building& building) { return read_passage<when::Enter>(value, building); });
+  const auto leave = adds(
+      [](const json::Value& value, Rule&, Building& building) { return read_passage<when::Leave>(value, building); });
+  const auto saturated =
+      adds([](const json::Value& value, Rule&, Building&) { return when::Saturated{value.number()}; });
+  const auto error = adds([](const json::Value& value, Rule&, Building&) { return when::Error{value.number()}; });
   static const Table<Rule> table("a trigger",
                                  {{"at", &ValueForms::stage_time, "stage time", {read_instant}},
                                   {"marker", &ValueForms::name, "an event of a clip that animates the body", marker},
                                   {"event", &ValueForms::name, "an event of any playing clip", event},
                                   {"clip_end", only_yes(), "the last play that animates the body is over", end},
                                   {"contact", form_of(contact_table()), "", contact},
-                                  {"asleep", &ValueForms::positive, "seconds of stillness", asleep}});
+                                  {"asleep", &ValueForms::positive, "seconds of stillness", asleep},
+                                  {"enter", form_of(passage_table<when::Enter>()), "into a sensor", enter},
+                                  {"leave", form_of(passage_table<when::Leave>()), "out of a sensor", leave},
+                                  {"saturated", &ValueForms::positive,
+                                   "seconds for which a drive has been at its greatest force or torque", saturated},
+                                  {"error", &ValueForms::positive, "m from the path, of a driven body", error}});
   return table;
 }
 

@@ -1,7 +1,9 @@
 #include "document/fields/table.h"
 #include "document/fields/things.h"
 #include "document/joints/joints.h"
+#include "document/ragdolls/ragdolls.h"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 
@@ -49,6 +51,47 @@ void read_joints(const json::Value& value, StageDescription&, Building& building
   joints::read(value, building);
 }
 
+void read_ragdolls(const json::Value& value, StageDescription&, Building& building) {
+  ragdolls::read(value, building);
+}
+
+const Form* ignore_form(FormStore& store, const ValueForms& values) {
+  const Form* const pair =
+      store.add(list_of(values.name, "a list of two names or patterns of nodes with bodies", 2, 2));
+  return store.add(list_of(pair, "a list of pairs of names or patterns", 0));
+}
+
+// Nodes with bodies of a name or pattern; none are told.
+std::vector<std::size_t> bodies_named(const json::Value& name, Building& building) {
+  if (!name.is(Kind::text)) return {};
+  if (name.text().find('*') == std::string::npos) {
+    const std::size_t node = body_called(name, building);
+    return node == no_node ? std::vector<std::size_t>{} : std::vector{node};
+  }
+  std::vector<std::size_t> named = building.nodes_named(name.text());
+  std::erase_if(named, [&](std::size_t node) { return !building.stage.nodes[node].body; });
+  if (named.empty() && !building.excused(name.text()))
+    building.problems.add(name, "no node with a body matches " + json::in_quotes(name.text()));
+  return named;
+}
+
+void read_ignored(const json::Value& value, StageDescription& stage, Building& building) {
+  constexpr std::size_t most = 1'000'000;
+  for (const json::Value& pair : value.items()) {
+    if (!pair.is(Kind::list) || pair.items().size() != 2) continue;
+    const std::vector<std::size_t> first = bodies_named(pair.items()[0], building);
+    const std::vector<std::size_t> second = bodies_named(pair.items()[1], building);
+    if (first.size() == 1 && first == second) building.problems.add(pair.items()[1], "a body cannot ignore itself");
+    if (stage.ignored.size() + first.size() * second.size() > most) {
+      building.problems.add(pair, "more than a million pairs would ignore each other; give the bodies \"groups\"");
+      return;
+    }
+    for (const std::size_t a : first)
+      for (const std::size_t b : second)
+        if (a != b) stage.ignored.emplace_back(a, b);
+  }
+}
+
 const Table<StageDescription>& world_table() {
   using Stage = StageDescription;
   const auto of_world = [](auto WorldSettings::*part) {
@@ -78,7 +121,9 @@ const Table<StageDescription>& world_table() {
        {"threads", bounded("a whole number from 0 to 256", 0, false, 256, true),
         "that share a step; nothing that is recorded depends on it", member<Stage>(of_world(&WorldSettings::threads))},
        {"forces", forces_form, "", {read_forces, "[]"}},
-       {"joints", joints::form, "what holds bodies together", {read_joints, "{}"}}});
+       {"ragdolls", ragdolls::form, "fitted to imported figures, by the names of imports", {read_ragdolls, "{}"}},
+       {"joints", joints::form, "what holds bodies together", {read_joints, "{}"}},
+       {"ignore", ignore_form, "pairs of bodies that pass through each other", {read_ignored, "[]"}}});
   return table;
 }
 
@@ -105,6 +150,10 @@ json::Value place_of_force(const json::Value& world, std::size_t index) {
 
 json::Value place_of_joint(const json::Value& world, std::string_view name) {
   return below(world, {"joints", name});
+}
+
+json::Value place_of_ignored(const json::Value& world) {
+  return below(world, {"ignore"});
 }
 
 void read_world(const json::Value& world, Building& building) {

@@ -31,7 +31,7 @@ json::Value place_of_fault(const Building& building, const StageFault& fault) {
     case StageFault::Part::joint:
       return fields::place_of_joint(world, building.stage.joints[fault.index].name);
     case StageFault::Part::ignored:
-      return below(world, {"ignore"});
+      return fields::place_of_ignored(world);
     case StageFault::Part::rule:
       return item_of(below(building.root, {"handoff"}), fault.index);
   }

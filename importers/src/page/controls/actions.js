@@ -25,6 +25,10 @@ const actionList = timeline => [
     [["b"], "lines between nodes", () => toggle("skeleton")],
     [["x"], "shapes that collide", () => toggle("colliders")],
     [["j"], "joints: ends, axes and limits", () => toggle("joints")],
+    [["k"], "contacts: points and normals", () => toggle("contacts")],
+    [["i"], "islands: one color for bodies solved together", () => toggle("islands")],
+    [["w"], "boxes in which pairs are looked for", () => toggle("boxes")],
+    [["z"], "sleeping bodies faded", () => toggle("sleepers")],
   ]],
   ["Nodes and timeline", [
     [["ArrowUp"], "choose the node above", () => chooseNext(timeline, -1), "\u2191"],

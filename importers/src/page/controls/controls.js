@@ -1,6 +1,7 @@
 // Buttons, boxes, the field to find a node, and choosing in the view.
 
 const switches = [["by-owner", "byOwner"], ["trail", "trail"], ["skeleton", "skeleton"], ["colliders", "colliders"], ["joints", "joints"],
+  ["contacts", "contacts"], ["islands", "islands"], ["boxes", "boxes"], ["sleepers", "sleepers"],
   ["follow", "follow"], ["loop", "loop"], ["snap", "snap"], ["local", "local"]];
 
 function updateControls() {
@@ -48,6 +49,7 @@ function wireControls() {
   element("speed").addEventListener("change", event => change({speed: Number(event.target.value)}));
   for (const [id, name] of switches) element(id).addEventListener("change", event => change({[name]: event.target.checked}));
   element("joints-option").hidden = recording.joints.length === 0;
+  element("steps-options").hidden = !recording.details;
   wireFind();
   wireView();
 }

@@ -142,6 +142,13 @@ window.tweenfall = {
     const [a, b] = endsOf(joint, cursorNow());
     return {a: a.origin, b: b.origin, axis: a.axes.slice(0, 3)};
   },
+  // What the last step worked with; null where the page does not have it. A box is [low x, y, z, high x, y, z].
+  contacts: () => recording.details && contactsNow(),
+  islandOf: name => { const detail = detailOf(known(name)), island = detail ? runAt(detail.island, detailFrame()) : -1;
+    return island < 0 ? null : nodes[island].name; },
+  asleep: name => isAsleep(known(name)),
+  boxOf: name => { const detail = detailOf(known(name)); return detail && boxAt(detail, detailFrame()); },
+  drawnColorOf: name => colorAt(known(name)),
   // What the curves show of all frames, panel by panel: position [x, y, z], velocity, rotation, angular velocity, ...
   curvesOf: name => gather(known(name)).panels.map(panel => panel.series.map(values => Array.from(values))),
   panelsOf: name => gather(known(name)).panels.map(({name: panel, unit, names}) => ({name: panel, unit, names})),

@@ -72,6 +72,8 @@ class Recording {
       keyOf: integers(lane.keyOf), keys: lane.keys}));
     for (const lane of this.lanes) lane.node.lanes.push(lane);
     this.joints = raw.joints || [];
+    this.details = raw.details ? {starts: integers(raw.details.starts), contacts: floats(raw.details.contacts),
+      nodes: new Map(raw.details.nodes.map(({node, island, asleep, boxes}) => [node, {island, asleep, boxes: floats(boxes)}]))} : null;
     this.handoffs = raw.handoffs.filter(handoff => handoff.cause !== "start");
     this.events = raw.events;
     this.findBreaks();

@@ -92,6 +92,7 @@ function drawOverlay() {
   if (!context || !renderer) return;
   if (state.skeleton) drawBones(context);
   if (state.joints) drawJointEnds(context);
+  if (state.contacts && recording.details) drawContacts(context);
   const node = state.chosen;
   if (!node || !node.shown) return;
   if (state.trail && node.moves) drawTrail(context, node);

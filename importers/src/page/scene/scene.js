@@ -63,8 +63,12 @@ function ownColor(node) {
   }
   return null;
 }
-const colorAt = (node, material) =>
+const usualColor = (node, material) =>
   (state.byOwner ? ownerColors[recording.shownOwner(node, state.time)] : ownColor(node) || material || neutral);
+function colorAt(node, material) {
+  const color = state.islands ? islandColor(node) : usualColor(node, material);
+  return state.sleepers && isAsleep(node) ? faded(color) : color;
+}
 
 function applyColors() {
   for (const word of ["keyed", "driven", "free", "fixed"]) ownerColors[word] = linear(colors[word]).toArray();
@@ -79,6 +83,7 @@ function applyColors() {
 
 function updateScene() {
   cast.update(cursorNow(), colorAt);
+  updateBoxes();
   scene.updateMatrixWorld();
 }
 

@@ -145,6 +145,8 @@ class World {
   [[nodiscard]] bool is_sensor(BodyId body) const;
   [[nodiscard]] double still_for(BodyId body) const;  ///< s of stillness so far
   [[nodiscard]] bool asleep(BodyId body) const;
+  /// Whether the drive of a driven body pulled with its greatest force or torque in the last step, and not enough.
+  [[nodiscard]] bool saturated(BodyId body) const;
   [[nodiscard]] Vec3 reaction(
       BodyId body) const;  ///< sum of contact impulses on a keyed or fixed body since it was added, N s
   [[nodiscard]] double kinetic_energy() const;  ///< of all free bodies, J

@@ -3,6 +3,8 @@
 #include <optional>
 
 #include "stage/rules/meetings.h"
+#include "stage/rules/overlaps.h"
+#include "stage/rules/sensed.h"
 
 namespace tweenfall::staging {
 
@@ -106,8 +108,8 @@ StageState tried(const StageState& state, std::size_t armed, double end, double 
   const Rule& rule = *state.rules[state.armed[armed].rule];
   StageState trial = state;
   std::vector<Happening> unheard;
-  change_owner(trial, state.armed[armed].body, rule.to, Cause::contact, state.time, rule.take_over, rule.hand_back,
-               step, unheard);
+  static_cast<void>(change_owner(trial, state.armed[armed].body, rule.to, Cause::contact, state.time, rule.take_over,
+                                 rule.hand_back, step, unheard));
   set_targets(trial, end);
   trial.blows.clear();
   trial.world.step(end - trial.time);
@@ -116,11 +118,12 @@ StageState tried(const StageState& state, std::size_t armed, double end, double 
 
 void fire(StageState& state, std::size_t armed, double step, std::vector<Happening>& happenings) {
   const std::shared_ptr<const Rule> rule = state.rules[state.armed[armed].rule];
-  state.armed[armed].done = rule->once;
-  state.armed[armed].attempt.fired = true;
   std::ranges::fill(state.armed[armed].latched, 0);
-  change_owner(state, state.armed[armed].body, rule->to, Cause::contact, state.time, rule->take_over, rule->hand_back,
-               step, happenings);
+  const bool done = change_owner(state, state.armed[armed].body, rule->to, Cause::contact, state.time, rule->take_over,
+                                 rule->hand_back, step, happenings);
+  state.armed[armed].done = rule->once && done;
+  state.armed[armed].attempt.fired = true;
+  state.armed[armed].vetoed = done ? std::nullopt : std::optional(Cause::contact);
 }
 
 /// Bodies as they were at the start of a piece, by index of the world's body.
@@ -264,8 +267,14 @@ void step_told_world(StageState& state, double end, double step, std::vector<Hap
   for (const Contact& contact : state.world.contacts())
     if (contact.impulse > 0)
       for (const BodyId body : {contact.a, contact.b}) ++state.presses[body.index];
+  for (StagedBody& body : state.bodies)
+    if (body.present)
+      body.saturated_for = state.world.saturated(body.id) ? body.saturated_for + (end - before.time) : 0;
   follow_blows(state, before, step, happenings);
   report_broken_joints(state, happenings);
+  report_sensed(state, happenings);
+  report_strains(state, happenings);
+  end_passing(state);
 }
 
 void step_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "stage/rules/overlaps.h"
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
@@ -61,16 +62,44 @@ std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState
   return below;
 }
 
+/// Whether the body may not leave its path, because it lies in others: that is told.
+bool is_vetoed(const StageState& state, const StagedBody& body, double instant, const TakeOver& take_over,
+               std::vector<Happening>& happenings) {
+  if (take_over.overlap != TakeOver::Overlap::veto) return false;
+  const std::vector<BodyId> others = bodies_in(state, body, rigid(body.path.at(instant, Side::in)).pose);
+  if (others.empty()) return false;
+  happenings.push_back(
+      {instant,
+       StageEvent{
+           .time = instant, .name = "vetoed", .data = {}, .nodes = {body.node, state.node_of[others.front().index]}}});
+  return true;
+}
+
+/// The body no longer meets what it lies in, until they are apart.
+void pass_through(StageState& state, const StagedBody& body, double instant) {
+  for (const BodyId& other : bodies_in(state, body, rigid(body.path.at(instant, Side::in)).pose)) {
+    state.world.ignore(body.id, other);
+    state.passing.emplace_back(body.id, other);
+  }
+}
+
+/// When the path of a body that shall be rewound was last clear; nothing when it is, or was not for long.
+std::optional<double> clear_time(const StageState& state, const StagedBody& body, const Pose& pose, double instant,
+                                 const TakeOver& take_over, double step) {
+  if (take_over.overlap != TakeOver::Overlap::rewind || bodies_in(state, body, pose).empty()) return {};
+  return last_clear(state, body, instant, take_over.rewind_within, step);
+}
+
 }  // namespace
 
-void change_owner(StageState& state, std::size_t index, const Drive& to, Cause cause, double instant,
+bool change_owner(StageState& state, std::size_t index, const Drive& to, Cause cause, double instant,
                   const TakeOver& take_over, const HandBack& hand_back, double step,
                   std::vector<Happening>& happenings) {
   StagedBody& body = state.bodies[index];
   World& world = state.world;
   if (world.is_fixed(body.id))
     throw std::invalid_argument("\"" + (*state.nodes)[body.node].name + "\" is static: nothing can take it over");
-  if (world.drive(body.id) == to) return;
+  if (world.drive(body.id) == to) return true;
   const Vec3 center = world.mass(body.id).center;
   const double onward = state.time - instant;
   HandOff handoff{.node = body.node,
@@ -81,13 +110,22 @@ void change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
                   .before = {},
                   .after = {}};
 
+  if (handoff.from == Owner::keyed && is_vetoed(state, body, instant, take_over, happenings)) return false;
   if (handoff.from == Owner::keyed) {
+    if (take_over.overlap == TakeOver::Overlap::ignore) pass_through(state, body, instant);
     // The motion shown up to now is the one that arrives.
     body.shown = body.path.world(instant, Side::in);
     body.released_at = instant;
     Motion motion = rigid(body.shown.motion);
-    handoff.before = about_center(motion, center);
-    const Twist twist = take_over_twist(body, motion, take_over, instant, step, center);
+    handoff.before = handoff.after = about_center(motion, center);
+    double leaves_at = instant;
+    if (const std::optional<double> clear = clear_time(state, body, motion.pose, instant, take_over, step)) {
+      leaves_at = *clear;
+      body.shown = body.path.world(leaves_at, Side::in);
+      motion = rigid(body.shown.motion);
+      handoff.after = about_center(motion, center);
+    }
+    const Twist twist = take_over_twist(body, motion, take_over, leaves_at, step, center);
     motion.twist = shifted(twist, -(motion.pose.rotation * center));
     Motion released = moved_on(motion, center, onward);
     // A velocity that is late by a sliver of fall would be wrong for as long as it falls.
@@ -95,7 +133,6 @@ void change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
     static_cast<void>(bearable(state, body, released, "the hand-off"));
     world.set_drive(body.id, to);
     world.set_motion(body.id, released);
-    handoff.after = handoff.before;
     handoff.after.twist = twist;
   } else {
     const Motion motion = moved_on(world.motion(body.id), center, -onward);
@@ -118,7 +155,9 @@ void change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
     }
   }
   body.by_track = false;
+  body.saturated_for = 0;
   happenings.push_back({instant, handoff});
+  return true;
 }
 
 }  // namespace tweenfall::staging

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stage/rules/sensed.h"
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
@@ -33,7 +34,8 @@ double instant_of(const Trigger& trigger, const StageState& state, const StagedB
 }
 
 Cause cause_of(const Trigger& trigger) {
-  constexpr Cause causes[] = {Cause::at, Cause::marker, Cause::event, Cause::clip_end, Cause::contact, Cause::asleep};
+  constexpr Cause causes[] = {Cause::at,     Cause::marker, Cause::event, Cause::clip_end,  Cause::contact,
+                              Cause::asleep, Cause::enter,  Cause::leave, Cause::saturated, Cause::error};
   static_assert(std::variant_size_v<Trigger> == std::size(causes));
   return causes[trigger.index()];
 }
@@ -44,6 +46,11 @@ double first_instant(const StageState& state, const ArmedRule& armed, double fro
   for (const Trigger& trigger : state.rules[armed.rule]->when.triggers)
     first = std::min(first, instant_of(trigger, state, state.bodies[armed.body], from, to));
   return first;
+}
+
+/// How far the body's node is from its path, m.
+double path_error(const StageState& state, const StagedBody& body) {
+  return (state.world.motion(body.id).pose.position - body.path.at(state.time).pose.position).norm();
 }
 
 /// Whether the rule fires now, and through which trigger.
@@ -64,6 +71,21 @@ std::optional<Cause> fires(const StageState& state, ArmedRule& armed, double fro
       const double still = state.world.owner(body.id) == Owner::free ? state.world.still_for(body.id) : 0;
       armed.attempt.still = std::max(armed.attempt.still, still);
       holds = state.world.owner(body.id) == Owner::free && still >= asleep->seconds;
+    }
+    const auto* enter = std::get_if<when::Enter>(&trigger);
+    const auto* leave = std::get_if<when::Leave>(&trigger);
+    if ((enter && has_entered(state, *enter, body.id)) || (leave && has_left(state, *leave, body.id))) {
+      holds = true;
+      if (rule.when.all) armed.latched[i] = 1;
+    }
+    if (const auto* saturated = std::get_if<when::Saturated>(&trigger)) {
+      armed.attempt.saturated = std::max(armed.attempt.saturated, body.saturated_for);
+      holds = body.saturated_for > 0 && body.saturated_for >= saturated->seconds - sliver;
+    }
+    if (const auto* error = std::get_if<when::Error>(&trigger)) {
+      const double apart = state.world.owner(body.id) == Owner::driven ? path_error(state, body) : 0;
+      armed.attempt.error = std::max(armed.attempt.error, apart);
+      holds = apart > 0 && apart >= error->distance;
     }
     if (holds || armed.latched[i]) ++holding;
     if (holds) cause = cause_of(trigger);
@@ -119,16 +141,20 @@ void fire_rules(StageState& state, double from, double step, std::vector<Happeni
     ArmedRule& armed = state.armed[due.armed];
     if (!waits(state, armed)) {
       std::ranges::fill(armed.latched, 0);
+      armed.vetoed.reset();
       continue;
     }
     armed.attempt.waited = true;
-    const std::optional<Cause> cause = fires(state, armed, from);
+    const std::optional<Cause> fired = fires(state, armed, from);
+    const std::optional<Cause> cause = fired ? fired : armed.vetoed;
     if (!cause) continue;
     const std::shared_ptr<const Rule> rule = state.rules[armed.rule];
-    if (rule->once) armed.done = true;
     armed.attempt.fired = true;
     std::ranges::fill(armed.latched, 0);
-    change_owner(state, armed.body, rule->to, *cause, due.instant, rule->take_over, rule->hand_back, step, happenings);
+    const bool done = change_owner(state, armed.body, rule->to, *cause, due.instant, rule->take_over, rule->hand_back,
+                                   step, happenings);
+    armed.vetoed = done ? std::nullopt : cause;
+    if (rule->once && done) armed.done = true;
   }
 }
 

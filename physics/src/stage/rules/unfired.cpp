@@ -56,6 +56,23 @@ struct Reason {
     return "it was free and still for " + five_digits(attempt.still) + " s at most; the rule waits for " +
            five_digits(asleep.seconds) + " s";
   }
+  std::string operator()(const when::Enter& enter) const {
+    return (enter.who.empty() ? "the body" : "nothing named \"" + enter.who + "\"") +
+           std::string(enter.who.empty() ? " did not come" : " came") + " into \"" + enter.region +
+           "\" while it waited";
+  }
+  std::string operator()(const when::Leave& leave) const {
+    return (leave.who.empty() ? "the body" : "nothing named \"" + leave.who + "\"") +
+           std::string(leave.who.empty() ? " did not leave" : " left") + " \"" + leave.region + "\" while it waited";
+  }
+  std::string operator()(const when::Saturated& saturated) const {
+    return "its drive was at its limit for " + five_digits(attempt.saturated) + " s at most; the rule waits for " +
+           five_digits(saturated.seconds) + " s";
+  }
+  std::string operator()(const when::Error& error) const {
+    return "it was " + five_digits(attempt.error) + " m from its path at most; the rule waits for " +
+           five_digits(error.distance) + " m";
+  }
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ void each_moving_field(State& state, const Visit& visit) {
   visit(state.time, state.steps, state.splits, state.jumped);
   for (auto& body : state.bodies) visit(body);
   for (auto& armed : state.armed) visit(armed);
-  visit(state.blows, state.presses);
+  visit(state.blows, state.presses, state.passing, state.strained, state.torn);
 }
 
 /// Throws where a number is none.
@@ -78,6 +78,9 @@ void check_blows(const StageState& state) {
   for (const Blow& blow : state.blows)
     require(blow.a.index < state.node_of.size() && blow.b.index < state.node_of.size(), "blow: there is no such body");
   require(state.presses.size() <= state.node_of.size(), "list of what presses");
+  const auto by_index = [](const Strain& strain) { return std::pair(strain.a.index, strain.b.index); };
+  require(std::ranges::is_sorted(state.strained, {}, by_index), "list of overlaps");
+  require(std::ranges::is_sorted(state.torn, {}, &Tear::joint), "list of torn joints");
 }
 
 void check_happenings(const std::vector<StageEvent>& events, const std::vector<HandOff>& handoffs, std::size_t nodes) {

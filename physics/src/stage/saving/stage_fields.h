@@ -14,6 +14,8 @@ inline constexpr int last_of<Owner> = static_cast<int>(Owner::free);
 template <>
 inline constexpr int last_of<TakeOver::Velocity> = static_cast<int>(TakeOver::Velocity::average);
 template <>
+inline constexpr int last_of<TakeOver::Overlap> = static_cast<int>(TakeOver::Overlap::veto);
+template <>
 inline constexpr int last_of<Settle::Kind> = static_cast<int>(Settle::Kind::dead_blend);
 template <>
 inline constexpr int last_of<HandBack::Clock> = static_cast<int>(HandBack::Clock::restart);
@@ -52,6 +54,20 @@ void each_field(T& asleep, const Visit& visit) {
   visit(seconds);
 }
 
+template <class T, class Visit>
+requires Is<T, when::Enter> || Is<T, when::Leave>
+void each_field(T& trigger, const Visit& visit) {
+  auto& [region, who] = trigger;
+  visit(region, who);
+}
+
+template <class T, class Visit>
+requires Is<T, when::Saturated> || Is<T, when::Error>
+void each_field(T& trigger, const Visit& visit) {
+  auto& [amount] = trigger;
+  visit(amount);
+}
+
 template <Is<When> T, class Visit>
 void each_field(T& when, const Visit& visit) {
   auto& [triggers, all] = when;
@@ -60,8 +76,8 @@ void each_field(T& when, const Visit& visit) {
 
 template <Is<TakeOver> T, class Visit>
 void each_field(T& take_over, const Visit& visit) {
-  auto& [velocity, average_over, scale, add] = take_over;
-  visit(velocity, average_over, scale, add);
+  auto& [velocity, average_over, scale, add, overlap, rewind_within] = take_over;
+  visit(velocity, average_over, scale, add, overlap, rewind_within);
 }
 
 template <Is<Settle> T, class Visit>
@@ -239,10 +255,10 @@ void each_field(T& world, const Visit& visit) {
 
 template <Is<staging::StagedBody> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [node, id, path, released_at, shown, present, below, drive, by_track] = body;
-  follows_from_others(node, id, present, drive);
+  auto& [node, id, path, released_at, shown, present, below, drive, surface, saturated_for, by_track] = body;
+  follows_from_others(node, id, present, drive, surface);
   PathFields::of_path(path, visit);
-  visit(released_at, shown, by_track);
+  visit(released_at, shown, saturated_for, by_track);
   auto settling = below ? *below : std::vector<staging::SettlingNode>{};
   visit(settling);
   if constexpr (!std::is_const_v<T>)
@@ -252,22 +268,40 @@ void each_field(T& body, const Visit& visit) {
 
 template <Is<staging::Attempt> T, class Visit>
 void each_field(T& attempt, const Visit& visit) {
-  auto& [fired, waited, touched, impulse, speed, still] = attempt;
-  visit(fired, waited, touched, impulse, speed, still);
+  auto& [fired, waited, touched, impulse, speed, still, saturated, error] = attempt;
+  visit(fired, waited, touched, impulse, speed, still, saturated, error);
 }
 
 template <Is<staging::ArmedRule> T, class Visit>
 void each_field(T& armed, const Visit& visit) {
-  auto& [body, rule, latched, done, was_true, gone, attempt] = armed;
+  auto& [body, rule, latched, done, was_true, gone, vetoed, attempt] = armed;
   follows_from_others(body, rule, gone);
   for (auto& one : latched) visit(one);
-  visit(done, was_true, attempt);
+  visit(done, was_true, vetoed, attempt);
 }
 
 template <Is<staging::Blow> T, class Visit>
 void each_field(T& blow, const Visit& visit) {
   auto& [a, b, met, began, impulse, speed] = blow;
   visit(a, b, met, began, impulse, speed);
+}
+
+template <Is<std::pair<BodyId, BodyId>> T, class Visit>
+void each_field(T& pair, const Visit& visit) {
+  visit(pair.first, pair.second);
+}
+
+template <Is<staging::Strain> T, class Visit>
+void each_field(T& strain, const Visit& visit) {
+  auto& [a, b, since, told] = strain;
+  visit(a, b, since, told);
+}
+
+template <Is<staging::Tear> T, class Visit>
+void each_field(T& tear, const Visit& visit) {
+  auto& [joint, since, told] = tear;
+  visit.places(joint);
+  visit(since, told);
 }
 
 template <Is<staging::StagedJoint> T, class Visit>

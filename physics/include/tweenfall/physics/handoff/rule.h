@@ -37,12 +37,28 @@ struct ContactHit {
 struct Asleep {
   double seconds = 0;  ///< continuous stillness of a free body, s
 };
+struct Enter {
+  std::string region;  ///< name or pattern of a node whose body is a sensor
+  std::string who;     ///< name or pattern of what comes in; empty: the rule's own body
+};
+struct Leave {
+  std::string region;  ///< the same, for what goes out
+  std::string who;
+};
+struct Saturated {
+  double seconds = 0;  ///< for which the drive of a driven body has been at its greatest force or torque, s
+};
+struct Error {
+  double distance = 0;  ///< of a driven body's node from its path, m
+};
 }  // namespace when
 
 struct When;
-using Trigger = std::variant<when::At, when::Marker, when::Event, when::ClipEnd, when::ContactHit, when::Asleep>;
+using Trigger = std::variant<when::At, when::Marker, when::Event, when::ClipEnd, when::ContactHit, when::Asleep,
+                             when::Enter, when::Leave, when::Saturated, when::Error>;
 
-/// Any of the triggers, or, with `all`, every one: instants latch, conditions must hold.
+/// Any of the triggers, or, with `all`, every one: instants latch, conditions must hold. What is known only when a step
+/// is over (sensors, saturation, the error) acts at its end.
 struct When {
   std::vector<Trigger> triggers;
   bool all = false;
@@ -55,6 +71,15 @@ struct TakeOver {
   double average_over = 0.1;            ///< s, for `average`
   double scale = 1;                     ///< multiplies it
   Twist add = {};                       ///< added after
+  /// What becomes of a body that lies in others when it leaves its path.
+  enum class Overlap {
+    push,    ///< it is taken out of them, at no more than the world's `push_out_speed`, and gains no energy by it
+    ignore,  ///< it passes through those until they are apart
+    rewind,  ///< it leaves from where its path was last clear of them as they stand, with the velocity there
+    veto,    ///< it stays, and an event "vetoed" tells so; a rule tries again after each step
+  };
+  Overlap overlap = Overlap::push;
+  double rewind_within = 1;  ///< s; where its path was not clear for so long, it is pushed
 };
 
 /// How the difference to the path dies away after a hand-back.
@@ -85,7 +110,7 @@ struct Rule {
   bool once = true;
 };
 
-enum class Cause { start, at, marker, event, clip_end, contact, asleep, caller };
+enum class Cause { start, at, marker, event, clip_end, contact, asleep, enter, leave, saturated, error, caller };
 
 /// What happened: one change of owner.
 struct HandOff {

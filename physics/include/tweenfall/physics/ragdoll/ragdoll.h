@@ -58,6 +58,7 @@ struct RagdollBody {
   double linear_damping = 0.05;  ///< 1/s
   double angular_damping = 0.2;  ///< 1/s
   Drive drive = Drive::free();
+  std::uint64_t groups = 0;  ///< for the bones of a stage: that they belong to, and do not meet; 0: one that is free
 };
 
 /// The bodies and joints of a figure in a world, by bone. Bones that lie in each other at rest pass through each other.

@@ -2,6 +2,7 @@
 
 /// What a stage showed, frame by frame: the one thing that all pictures and files are made from.
 
+#include <tweenfall/physics/stage/detail.h>
 #include <tweenfall/physics/stage/stage.h>
 
 #include <optional>
@@ -36,13 +37,17 @@ struct Recording {
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
   std::vector<UnfiredRule> unfired;  ///< rules that waited to the end in vain
+  std::vector<StageDetail> details;  ///< one per frame where they were asked for and there is room, or empty
 };
 
 /// Runs `stage` from its current time to `until`, taking a frame at the start and every 1/fps after, and at `until`.
+/// @param details  whether contacts, islands, boxes and sleep are recorded too; what they take beyond `most_bytes`,
+/// or 256 MiB, leaves them all out
 /// @throws std::invalid_argument, saying how much it would be, for more than 20 million steps or `most_bytes` of
 /// frames,
 ///         and once it has a million events; NodeNotFinite, as the stage
-[[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes = 1024.0 * 1024 * 1024);
+[[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes = 1024.0 * 1024 * 1024,
+                               bool details = false);
 
 /// A time at which the stage has shown what it has: the end of its plays or its last timed hand-off, and a while for
 /// bodies to come to rest; 4 s of what has no end or

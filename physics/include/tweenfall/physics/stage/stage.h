@@ -111,7 +111,7 @@ class Stage {
   [[nodiscard]] bool collides(NodeId a, NodeId b) const;
 
   // What happened
-  /// Of clips, sensors and joints, in order of time; inside, `time()` is the event's.
+  /// Of all but contacts, in order of time; inside, `time()` is the event's.
   void on_event(std::function<void(const StageEvent&)> callback);
   void on_contact(std::function<void(const StageEvent&)> callback);
   void on_handoff(std::function<void(const HandOff&)> callback);

@@ -1,0 +1,17 @@
+#pragma once
+
+// What of a body's physics clips animate: tracks named "drive_hz" and "surface_velocity".
+
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
+
+/// Finds the tracks, and has each body begin with the drive that it is given: that is no hand-off.
+/// @throws std::invalid_argument naming a track whose values are of another kind, or whose node has no body for it
+void start_played_tracks(StageState& state);
+
+/// Gives each body the drive that its tracks have now, until a rule or the caller has handed the body over, and its
+/// surface the velocity.
+void follow_played_tracks(StageState& state, double step, std::vector<Happening>& happenings);
+
+}  // namespace tweenfall::staging
