@@ -113,7 +113,7 @@ TEST_CASE("scenario 5: a track drives a belt, on which a box slips for 0.3823 s 
       R"("belt": {"position": [0, -0.5, 0], "body": {"shape": {"box": {"size": [20, 1, 2]}}, "static": true, "friction": 0.4}},
          "box": {"position": [0, 0.1, 0], "body": {"shape": {"box": {"size": [0.4, 0.2, 0.4]}}, "friction": 0.4}})",
       R"("drive": {"tracks": {"belt.surface_velocity": [[0, [0, 0, 0], "hold"], [1, [1.5, 0, 0], "hold"], [2, [0, 0, 0], "hold"],
-                                                       [3, [-1.5, 0, 0]]]}})",
+                                                       [3, [-1.5, 0, 0], "hold"], [9, [-1.5, 0, 0]]]}})",
       ""));
   const auto slip = [&](double from, double belt) {
     stage.advance_to(from);
