@@ -11,7 +11,7 @@ namespace {
 
 /// Parts of the points that a capsule is wide enough for, and that may stay beyond each end.
 constexpr double within = 0.9;
-constexpr double beyond = 0.02;
+constexpr double left_out = 0.02;
 
 double at_share(std::vector<double>& values, double share) {
   const auto place = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -30,8 +30,8 @@ FittedCapsule along_axis(std::span<const Vec3> points, const Vec3& middle, const
     distances.push_back((from - height * axis).norm());
   }
   const double radius = at_share(distances, within);
-  const double low = at_share(heights, beyond);
-  const double high = at_share(heights, 1 - beyond);
+  const double low = at_share(heights, left_out);
+  const double high = at_share(heights, 1 - left_out);
   FittedCapsule fitted;
   fitted.axis = axis;
   fitted.center = middle + 0.5 * (low + high) * axis;

@@ -1,5 +1,5 @@
 #include "physics/handoff/scenes.h"
-#include "state/word_hash.h"
+#include "physics/saved_bytes.h"
 
 #include <algorithm>
 #include <cstring>
@@ -9,23 +9,6 @@ using namespace tweenfall;
 using namespace tweenfall::test;
 
 namespace {
-
-constexpr std::size_t header = 36;  // signature, version, size, checksum
-
-/// Makes size and checksum right, so that what was changed in the contents is read.
-void seal(std::vector<std::byte>& bytes) {
-  state::WordHash hash;
-  for (std::size_t i = header; i < bytes.size(); i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, &bytes[i], std::min<std::size_t>(8, bytes.size() - i));
-    hash.add(word);
-  }
-  const auto put = [&](std::size_t at, std::uint64_t value) {
-    for (std::size_t i = 0; i < 8; ++i) bytes[at + i] = static_cast<std::byte>(value >> (8 * i) & 0xff);
-  };
-  put(20, bytes.size() - header);
-  put(28, hash.value());
-}
 
 NodeDescription solid(const std::string& name, const Shape& shape, const Vec3& place, std::size_t parent = no_node) {
   return {.name = name,
