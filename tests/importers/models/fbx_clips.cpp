@@ -32,7 +32,7 @@ Affine3 moved(const Vec3& v) {
   return Affine3(Eigen::Translation3d(v));
 }
 
-WorldMotion world_of(const Affine3& matrix) {
+WorldMotion motion_of(const Affine3& matrix) {
   WorldMotion world;
   world.linear = matrix.linear();
   world.motion.pose.position = matrix.translation();
@@ -153,7 +153,7 @@ TEST_CASE("FBX rotations in all orders, within pre- and post-rotation, about piv
       scale.linear() = s.asDiagonal();
       const Affine3 wanted = moved(t) * moved(off) * moved(pivot) * turn_pre * turn_own * turn_post.inverse() *
                              moved(-pivot) * moved(s_off) * moved(s_pivot) * scale * moved(-s_pivot);
-      CHECK(world_error(posed.world(0), world_of(wanted)) < 1e-12);
+      CHECK(world_error(posed.world(0), motion_of(wanted)) < 1e-12);
     }
     // The rates are the values' own.
     const Curve<Vec3>& position = position_of(model, "n");
@@ -226,10 +226,10 @@ TEST_CASE("FBX children take over their parent's scale as their kind says, movin
     if (kind == 0) wanted.linear() = a * b * s.cwiseProduct(c).asDiagonal();
     if (kind == 1) wanted.linear() = a * s.asDiagonal() * b * c.asDiagonal();
     if (kind == 2) wanted.linear() = a * b * c.asDiagonal();
-    CHECK(world_error(posed.world(posed.find("child")), world_of(wanted)) < 1e-12);
+    CHECK(world_error(posed.world(posed.find("child")), motion_of(wanted)) < 1e-12);
     wanted.translation() = Vec3(0, 0, 0);
     wanted.linear() = a * s.asDiagonal();
-    CHECK(world_error(posed.world(posed.find("parent")), world_of(wanted)) < 1e-12);
+    CHECK(world_error(posed.world(posed.find("parent")), motion_of(wanted)) < 1e-12);
   }
 }
 
