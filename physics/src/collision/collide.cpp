@@ -1,9 +1,11 @@
 #include <tweenfall/physics/contact.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "collision/collide_pairs.h"
 #include "convex/collide_convex.h"
+#include "convex/distance.h"
 #include "surfaces/touch.h"
 
 namespace tweenfall {
@@ -85,6 +87,17 @@ Manifold collide_parts(const Shape& a, const Placed& at_a, const Shape& b, const
   return best;
 }
 
+/// Of solids that the general way tells best.
+template <class A, class B>
+Gap gap_between_cores(const A& a, const Placed& at_a, const B& b, const Placed& at_b, double enough) {
+  const Mat3 into = at_a.axes.transpose();
+  convex::Core core_a = convex::core_of(a, {Vec3(0, 0, 0), Mat3::Identity()});
+  convex::Core core_b = convex::core_of(b, {into * (at_b.center - at_a.center), into * at_b.axes});
+  const double around = core_a.radius + core_b.radius;
+  const convex::Nearness nearness = convex::nearness_of(core_a, core_b, enough + around);
+  return {nearness.distance - around, at_a.axes * nearness.normal};
+}
+
 /// Whether the products that follow stay numbers.
 bool is_near(const Pose& pose) noexcept {
   bool near = true;
@@ -124,6 +137,27 @@ Manifold collide(const Shape& a, const Placed& at_a, const Shape& b, const Place
           manifold.normal = -manifold.normal;
           return manifold;
         }
+      },
+      a.solid, b.solid);
+}
+
+Gap gap_between(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b, double enough) noexcept {
+  const auto by_points = [&]() -> Gap {
+    constexpr double anywhere = std::numeric_limits<double>::infinity();
+    const Manifold manifold = collide(a, at_a, b, at_b, anywhere, anywhere);
+    Gap gap{anywhere, manifold.normal};
+    for (int i = 0; i < manifold.count; ++i)
+      gap.width = std::min(gap.width, -manifold.points[static_cast<std::size_t>(i)].penetration);
+    return gap;
+  };
+  return std::visit(
+      [&](const auto& solid_a, const auto& solid_b) -> Gap {
+        using A = std::decay_t<decltype(solid_a)>;
+        using B = std::decay_t<decltype(solid_b)>;
+        if constexpr (HasCore<A> && HasCore<B> && !Collides<A, B> && !Collides<B, A>)
+          return gap_between_cores(solid_a, at_a, solid_b, at_b, enough);
+        else
+          return by_points();
       },
       a.solid, b.solid);
 }

@@ -41,6 +41,15 @@ namespace tweenfall::collision {
 [[nodiscard]] Manifold collide(const Shape& a, const shapes::Placed& at_a, const Shape& b, const shapes::Placed& at_b,
                                double margin, double reach) noexcept;
 
+/// How far apart shapes are.
+struct Gap {
+  double width = 0;      ///< m; not positive where they touch or overlap
+  Vec3 normal{0, 0, 0};  ///< unit, from a toward b, where they are apart
+};
+/// Of shapes that are wider apart than `enough`: that they are by so much along a direction.
+[[nodiscard]] Gap gap_between(const Shape& a, const shapes::Placed& at_a, const Shape& b, const shapes::Placed& at_b,
+                              double enough) noexcept;
+
 /// Adds a point between the two surfaces, unless the gap is beyond the margin or four are there.
 inline void add_point(Manifold& manifold, const Vec3& position, double penetration, std::uint32_t feature,
                       double margin) {

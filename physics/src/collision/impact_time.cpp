@@ -1,12 +1,11 @@
 #include "collision/impact_time.h"
 
 #include <tweenfall/curves/rotation.h>
-#include <tweenfall/physics/contact.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "collision/collide_pairs.h"
 #include "step/keyed_step.h"
 
 namespace tweenfall::collision {
@@ -59,17 +58,15 @@ double swing_speed(const Course& course) {
 std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
   const double swing = swing_speed(a) + swing_speed(b);
   double time = 0;
+  const Vec3 last = a.linear - b.linear + (a.acceleration - b.acceleration) * dt;
   for (int i = 0; i < most_advances; ++i) {
-    const Manifold manifold = collide(*a.shape, a.at(time).node(*a.body), *b.shape, b.at(time).node(*b.body),
-                                      std::numeric_limits<double>::infinity());
-    double gap = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < manifold.count; ++k)
-      gap = std::min(gap, -manifold.points[static_cast<std::size_t>(k)].penetration);
+    const Vec3 now = a.linear - b.linear + (a.acceleration - b.acceleration) * time;
+    // What is wider apart than this along any direction does not meet in the time that is left.
+    const double reachable = (std::max(now.norm(), last.norm()) + swing) * (dt - time) + hair;
+    const auto [gap, normal] = gap_between(*a.shape, shapes::place(*a.shape, a.at(time).node(*a.body)), *b.shape,
+                                           shapes::place(*b.shape, b.at(time).node(*b.body)), reachable);
     if (gap <= hair) return time;
-    const Vec3 normal = manifold.normal;
-    const double now = normal.dot(a.linear - b.linear + (a.acceleration - b.acceleration) * time);
-    const double end = normal.dot(a.linear - b.linear + (a.acceleration - b.acceleration) * dt);
-    const double closing = std::max(now, end) + swing;
+    const double closing = std::max(normal.dot(now), normal.dot(last)) + swing;
     if (!(closing > 0)) return std::nullopt;
     // Half a hair past the gap, so that the end comes after finitely many advances.
     time += (gap - 0.5 * hair) / closing;

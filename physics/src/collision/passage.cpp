@@ -106,20 +106,11 @@ double gap_along(const Passage& a, const Passage& b, const Vec3& direction) {
 bool stay_apart(const Passage& a, const Passage& b, const Vec3& direction, double gap, double near_enough, double dt) {
   const double rounding = 1e-14 * (a.placed.center.norm() + b.placed.center.norm());
   if (!(gap > 1.000001 * near_enough + rounding)) return false;
+  if ((std::isinf(a.body->radius) && a.spin > 0) || (std::isinf(b.body->radius) && b.spin > 0)) return false;
   const Vec3 before = a.course.linear - b.course.linear;
   const Vec3 after = before + (a.course.acceleration - b.course.acceleration) * dt;
-  double closing = std::max(direction.dot(before), direction.dot(after));
-  if (is_polyhedron(a) && is_polyhedron(b)) {
-    // A face's normal turns, and with it the heights of all that lies far beside the face.
-    const double speed = std::max(before.norm(), after.norm());
-    const double across = (b.body->center - a.body->center).norm() + speed * dt + a.body->radius + b.body->radius;
-    closing += (a.spin + b.spin) * (across + speed * dt);
-  } else if ((std::isinf(a.body->radius) && a.spin > 0) || (std::isinf(b.body->radius) && b.spin > 0)) {
-    return false;
-  } else {
-    closing += a.swing + b.swing;
-  }
-  return gap > 2 * hair + rounding + std::max(0.0, closing) * dt;
+  const double closing = std::max(direction.dot(before), direction.dot(after));
+  return gap > 2 * hair + rounding + std::max(0.0, closing + a.swing + b.swing) * dt;
 }
 
 }  // namespace tweenfall::collision
