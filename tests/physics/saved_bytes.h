@@ -9,7 +9,7 @@
 #include <cstring>
 #include <vector>
 
-#include "state/word_hash.h"
+#include "saving/word_hash.h"
 
 namespace tweenfall::test {
 
@@ -21,7 +21,7 @@ inline void put(std::vector<std::byte>& bytes, std::size_t at, std::uint64_t val
 
 /// Makes size and checksum right, so that what was changed in the contents is read.
 inline void seal(std::vector<std::byte>& bytes) {
-  state::WordHash hash;
+  saving::WordHash hash;
   for (std::size_t i = header; i < bytes.size(); i += 8) {
     std::uint64_t word = 0;
     std::memcpy(&word, &bytes[i], std::min<std::size_t>(8, bytes.size() - i));

@@ -2,14 +2,14 @@
 
 #include <tweenfall/curves/number_text.h>
 
+#include "figures/shape_mesh.h"
+#include "figures/turned_profile.h"
 #include "json/json_string.h"
 #include "page/page_details.h"
 #include "page/page_frames.h"
 #include "page/page_meshes.h"
 #include "recording/base64.h"
 #include "recording/key_lanes.h"
-#include "recording/shape_mesh.h"
-#include "recording/turned_profile.h"
 #include "recording/words.h"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ void append_hull(std::string& out, const ConvexHull& hull) {
 }
 
 /// An outline about y, from the top down: [radius, height, normal's radius, normal's height].
-void append_turned(std::string& out, const std::vector<recordings::ProfilePoint>& profile) {
+void append_turned(std::string& out, const std::vector<figures::ProfilePoint>& profile) {
   out += "\"turned\":[";
   for (std::size_t i = 0; i < profile.size(); ++i) {
     out += i > 0 ? ",[" : "[";
@@ -99,10 +99,10 @@ std::string shape_json(const Shape& shape) {
                           out += ",\"offset\":" + number_text(p.offset);
                         },
                         [&](const Hull& h) { append_hull(out, h.convex); },
-                        [&](const Compound& c) { append_triangles(out, recordings::shape_mesh({c})); },
-                        [&](const TriangleMesh& m) { append_triangles(out, recordings::shape_mesh({m})); },
-                        [&](const HeightField& f) { append_triangles(out, recordings::shape_mesh({f})); },
-                        [&](const auto&) { append_turned(out, recordings::turned_profile(shape.solid)); }},
+                        [&](const Compound& c) { append_triangles(out, figures::shape_mesh({c})); },
+                        [&](const TriangleMesh& m) { append_triangles(out, figures::shape_mesh({m})); },
+                        [&](const HeightField& f) { append_triangles(out, figures::shape_mesh({f})); },
+                        [&](const auto&) { append_turned(out, figures::turned_profile(shape.solid)); }},
              shape.solid);
   out += ",\"position\":";
   append_vector(out, shape.offset.position);

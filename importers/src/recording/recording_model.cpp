@@ -1,7 +1,7 @@
 #include "recording/recording_model.h"
 
-#include "recording/figures.h"
-#include "recording/shape_mesh.h"
+#include "figures/figures.h"
+#include "figures/shape_mesh.h"
 
 #include <tweenfall/curves/keys.h>
 #include <tweenfall/importers/recording_file.h>
@@ -110,10 +110,10 @@ Model recording_model(const Recording& recording, const StageDescription& stage)
 
   std::vector<bool> dressed(recording.nodes.size(), false);
   add_meshes(model, stage, dressed);
-  const auto described = descriptions(recording, stage);
+  const auto described = figures::descriptions(recording, stage);
   for (std::size_t i = 0; i < recording.nodes.size(); ++i) {
     if (!described[i] || !described[i]->body || dressed[i]) continue;
-    Mesh mesh = shape_mesh(described[i]->body->shape);
+    Mesh mesh = figures::shape_mesh(described[i]->body->shape);
     mesh.name = recording.nodes[i].name;
     mesh.base_color = described[i]->color ? *described[i]->color
                                           : owner_color(recording.nodes[i].owner.front(), described[i]->body->fixed);

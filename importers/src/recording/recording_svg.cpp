@@ -2,8 +2,8 @@
 
 #include <tweenfall/curves/number_text.h>
 
+#include "figures/figures.h"
 #include "plot/svg_writer.h"
-#include "recording/figures.h"
 #include "recording/keyframes.h"
 #include "recording/words.h"
 
@@ -15,6 +15,9 @@ namespace tweenfall {
 
 namespace recordings {
 namespace {
+
+using figures::Figure;
+using figures::SideView;
 
 constexpr double picture_width = 760, margin = 12, picture_head = 34, most_height = 400;
 constexpr double lane_height = 18, lane_left = 110;
@@ -61,7 +64,7 @@ std::string path_text(const Drawing& drawing, const Figure& figure, const std::v
   }
   std::size_t first = 0;
   if (figure.kind == Figure::Kind::hull) {
-    first = 1 + hull_outline;
+    first = 1 + figures::hull_outline;
     for (std::size_t i = 1; i < first; ++i) text += (i == 1 ? "M" : "L") + drawing.place(points[i]);
     text += "Z";
   }
@@ -114,7 +117,7 @@ std::vector<std::size_t> changes_of_owner(const NodeRecord& node) {
 
 void draw_ground(Drawing& drawing, const StageDescription& stage) {
   const SideView& view = drawing.view;
-  const auto described = descriptions(drawing.recording, stage);
+  const auto described = figures::descriptions(drawing.recording, stage);
   for (std::size_t i = 0; i < described.size(); ++i) {
     if (!described[i] || !described[i]->body) continue;
     const auto* plane = std::get_if<Plane>(&described[i]->body->shape.solid);
@@ -296,7 +299,8 @@ void draw_head(Drawing& drawing, const std::string& name) {
   }
 }
 
-std::string draw(const Recording& recording, const StageDescription& stage, const SideScene& scene, double tolerance) {
+std::string draw(const Recording& recording, const StageDescription& stage, const figures::SideScene& scene,
+                 double tolerance) {
   const std::vector<std::size_t> lanes = lane_nodes(recording);
   const auto& [view, list] = scene;
   const double bar = picture_head + view.height + 10;
@@ -335,9 +339,9 @@ std::string recording_svg(const Recording& recording, const StageDescription& st
   check_recording(recording);
   if (recording.times.empty())
     throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to show");
-  const recordings::SideScene scene =
-      recordings::side_scene(recording, stage, recordings::margin, recordings::picture_head,
-                             recordings::picture_width - 2 * recordings::margin, recordings::most_height);
+  const figures::SideScene scene =
+      figures::side_scene(recording, stage, recordings::margin, recordings::picture_head,
+                          recordings::picture_width - 2 * recordings::margin, recordings::most_height);
   // As exact as the size allows.
   for (double tolerance = 0.4;; tolerance *= 2) {
     std::string text = recordings::draw(recording, stage, scene, tolerance);

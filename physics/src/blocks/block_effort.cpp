@@ -9,8 +9,8 @@
 
 namespace tweenfall::blocks {
 
+using contacts::ContactConstraint;
 using state::Body;
-using step::ContactConstraint;
 
 namespace {
 
@@ -136,8 +136,9 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
       if (island.contacts.size() == 1 && body->twist.linear.norm() + body->twist.angular.norm() * body->radius > lazy)
         return std::nullopt;
     }
-    const step::Closing closing = step::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
-    step::foresee(*contact, a.twist, b.twist, closing, dt);
+    const contacts::Closing closing =
+        contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+    contacts::foresee(*contact, a.twist, b.twist, closing, dt);
     if (contact->impact) return std::nullopt;
   }
   return effort;

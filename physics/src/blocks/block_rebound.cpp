@@ -33,14 +33,14 @@ void BlockSolver::find_rebounds(double h) {
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t index = meetings_[i] / lane_count;
     const int lane = static_cast<int>(meetings_[i] % lane_count);
-    step::ContactConstraint& contact = *contacts_.origin(index)[static_cast<std::size_t>(lane)];
+    contacts::ContactConstraint& contact = *contacts_.origin(index)[static_cast<std::size_t>(lane)];
     const bool ball = index >= contacts_.blocks.size();
     const std::size_t ball_index = index - contacts_.blocks.size();
     const MeetingRow& meeting = ball ? contacts_.ball_meetings[ball_index] : contacts_.meetings[index];
     const auto meet = [&](std::uint32_t k, double closing, double gap) {
-      const auto [time, speed] = step::meeting_of(gap, closing, meeting.pull[lane], h);
+      const auto [time, speed] = contacts::meeting_of(gap, closing, meeting.pull[lane], h);
       if (!(speed > meeting.tremble[lane])) return;
-      step::PointConstraint& point = contact.points[k];
+      contacts::PointConstraint& point = contact.points[k];
       point.approach = std::max(point.approach, speed);
       const double left = h - time;
       const double back = contact.restitution * speed;

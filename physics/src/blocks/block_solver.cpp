@@ -10,9 +10,9 @@
 
 namespace tweenfall::blocks {
 
+using contacts::ContactConstraint;
 using forces::Load;
 using state::Body;
-using step::ContactConstraint;
 
 namespace {
 
@@ -128,13 +128,13 @@ void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const st
     for (std::size_t i = begin; i < end; ++i) {
       ContactConstraint& contact = *contacts[i];
       const std::uint32_t a = places_[contact.a], b = places_[contact.b];
-      closings_[i] = step::closing_of(contact.manifold.normal, loads[contact.a], loads[contact.b], dt);
+      closings_[i] = contacts::closing_of(contact.manifold.normal, loads[contact.a], loads[contact.b], dt);
       if (trembling > 0)
         closings_[i].tremble =
             std::max(closings_[i].tremble,
                      trembling * std::max(loads[contact.a].acceleration.norm(), loads[contact.b].acceleration.norm()));
-      step::foresee(contact, {linear_of(velocities_[a]), angular_of(velocities_[a])},
-                    {linear_of(velocities_[b]), angular_of(velocities_[b])}, closings_[i], dt);
+      contacts::foresee(contact, {linear_of(velocities_[a]), angular_of(velocities_[a])},
+                        {linear_of(velocities_[b]), angular_of(velocities_[b])}, closings_[i], dt);
     }
   });
   for (const ContactConstraint* contact : contacts)

@@ -68,7 +68,7 @@ class BlockSolver {
                                                       const WorldSettings& settings, double dt);
   void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
               std::span<const islands::IslandContents> islands, Integrator integrator, double dt);
-  void foresee(std::span<step::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads,
+  void foresee(std::span<contacts::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads,
                double trembling, double dt);
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
                       int sub_steps, int sub_step);
@@ -120,12 +120,12 @@ class BlockSolver {
   std::vector<BodyLag> lags_;
   std::vector<BodyLag> sub_starts_;  ///< linear displacements at the start of the sub-step
   islands::IslandDepth depth_;
-  std::vector<std::uint32_t> island_of_;          ///< of bodies_: which of those that are solved now
-  std::vector<islands::IslandEnergy> energies_;   ///< of them
-  std::vector<double> shares_;                    ///< of the rebound, that they let through
-  std::vector<step::ContactConstraint*> listed_;  ///< contacts of all of them
-  std::vector<std::uint32_t> uneven_;             ///< places of movable bodies with different moments about their axes
-  std::vector<step::Closing> closings_;           ///< of the contacts
+  std::vector<std::uint32_t> island_of_;              ///< of bodies_: which of those that are solved now
+  std::vector<islands::IslandEnergy> energies_;       ///< of them
+  std::vector<double> shares_;                        ///< of the rebound, that they let through
+  std::vector<contacts::ContactConstraint*> listed_;  ///< contacts of all of them
+  std::vector<std::uint32_t> uneven_;        ///< places of movable bodies with different moments about their axes
+  std::vector<contacts::Closing> closings_;  ///< of the contacts
   ContactBlocks contacts_;
   joints::IslandJoints joints_;
   IslandHolds holds_;

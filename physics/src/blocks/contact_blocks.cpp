@@ -7,8 +7,8 @@
 
 namespace tweenfall::blocks {
 
-using step::ContactConstraint;
-using step::PointConstraint;
+using contacts::ContactConstraint;
+using contacts::PointConstraint;
 
 namespace {
 
@@ -27,7 +27,7 @@ void put(LanesSymmetric& lanes, int lane, const Mat3& value) {
   lanes.yz[lane] = value(1, 2);
 }
 
-void put(MeetingRow& row, int lane, const step::Closing& closing, double restitution) {
+void put(MeetingRow& row, int lane, const contacts::Closing& closing, double restitution) {
   row.pull[lane] = closing.pull;
   row.tremble[lane] = closing.tremble;
   row.restitution[lane] = restitution;
@@ -97,7 +97,8 @@ void each_lane(const std::vector<ContactBlocks::Origin>& origins, const threads:
 }  // namespace
 
 void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
-                          const std::vector<IslandBody>& bodies, std::span<const step::Closing> closings, double h) {
+                          const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings,
+                          double h) {
   coloring_.reset(bodies.size());
   keys_.clear();
   counts_.assign((Coloring::none + 1) * kinds + 1, 0);
@@ -145,7 +146,7 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
       const std::size_t end = std::min<std::size_t>(counts_[key], next + width);
       for (int lane = 0; next < end; ++next, ++lane) {
         ContactConstraint& contact = *contacts[sorted_[next]];
-        const step::Closing& closing = closings[sorted_[next]];
+        const contacts::Closing& closing = closings[sorted_[next]];
         if (kind == ball_kind)
           fill_ball(lane, contact, places, bodies, closing, h);
         else
@@ -213,7 +214,7 @@ void ContactBlocks::open(std::uint32_t kind) {
 }
 
 void ContactBlocks::fill_ball(int lane, ContactConstraint& contact, const std::vector<std::uint32_t>& places,
-                              const std::vector<IslandBody>& bodies, const step::Closing& closing, double h) {
+                              const std::vector<IslandBody>& bodies, const contacts::Closing& closing, double h) {
   BallBlock& block = balls.back();
   const IslandBody& a = bodies[block.a[lane] = places[contact.a]];
   const IslandBody& b = bodies[block.b[lane] = places[contact.b]];
@@ -244,7 +245,7 @@ void ContactBlocks::fill_ball(int lane, ContactConstraint& contact, const std::v
 }
 
 void ContactBlocks::fill(int lane, ContactConstraint& contact, const std::vector<std::uint32_t>& places,
-                         const std::vector<IslandBody>& bodies, const step::Closing& closing, double h) {
+                         const std::vector<IslandBody>& bodies, const contacts::Closing& closing, double h) {
   ContactBlock& block = blocks.back();
   const IslandBody& a = bodies[block.a[lane] = places[contact.a]];
   const IslandBody& b = bodies[block.b[lane] = places[contact.b]];

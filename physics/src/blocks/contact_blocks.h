@@ -7,8 +7,8 @@
 #include "blocks/coloring.h"
 #include "blocks/contact_block.h"
 #include "blocks/island_body.h"
-#include "step/contact_constraint.h"
-#include "step/meeting.h"
+#include "contacts/contact_constraint.h"
+#include "contacts/meeting.h"
 #include "threads/workers.h"
 
 namespace tweenfall::blocks {
@@ -17,13 +17,13 @@ namespace tweenfall::blocks {
 class ContactBlocks {
  public:
   /// Which contacts a block holds; null for an empty lane.
-  using Origin = std::array<step::ContactConstraint*, lane_count>;
+  using Origin = std::array<contacts::ContactConstraint*, lane_count>;
 
   /// Sorts the contacts and begins with the impulses that they kept.
   /// @param places    from a body's index to its place in `bodies`
   /// @param closings  of the contacts
-  void build(std::span<step::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
-             const std::vector<IslandBody>& bodies, std::span<const step::Closing> closings, double h);
+  void build(std::span<contacts::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
+             const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h);
   /// Tells the rows of one contact how its bodies lie now.
   void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
   /// Gives the impulses back to the contacts.
@@ -67,10 +67,10 @@ class ContactBlocks {
   template <class Block>
   void close(Block& block);
   void find_phases();
-  void fill(int lane, step::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
-            const std::vector<IslandBody>& bodies, const step::Closing& closing, double h);
-  void fill_ball(int lane, step::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
-                 const std::vector<IslandBody>& bodies, const step::Closing& closing, double h);
+  void fill(int lane, contacts::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
+            const std::vector<IslandBody>& bodies, const contacts::Closing& closing, double h);
+  void fill_ball(int lane, contacts::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
+                 const std::vector<IslandBody>& bodies, const contacts::Closing& closing, double h);
 
   void prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a, const IslandBody& b,
                      const Vec3& arm_a, const Vec3& arm_b);

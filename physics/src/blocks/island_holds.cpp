@@ -7,8 +7,8 @@
 
 namespace tweenfall::blocks {
 
+using contacts::ContactConstraint;
 using state::Body;
-using step::ContactConstraint;
 using step::SolverBody;
 
 namespace {

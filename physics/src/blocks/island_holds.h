@@ -40,7 +40,7 @@ class IslandHolds {
     std::uint32_t a = 0, b = 0;  ///< places
   };
   struct Rolling {
-    step::ContactConstraint* contact = nullptr;
+    contacts::ContactConstraint* contact = nullptr;
     std::uint32_t lane = 0;      ///< 4 * block + lane; balls come after all blocks
     std::uint32_t a = 0, b = 0;  ///< places
   };

@@ -18,7 +18,7 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
   const std::size_t i = index / lane_count;
   const int lane = static_cast<int>(index % lane_count);
   ball_ = i >= contacts.blocks.size();
-  const step::ContactConstraint& contact = *contacts.origin(i)[static_cast<std::size_t>(lane)];
+  const contacts::ContactConstraint& contact = *contacts.origin(i)[static_cast<std::size_t>(lane)];
   const auto ends = [&](const auto& block) {
     a_ = block.a[lane];
     b_ = block.b[lane];

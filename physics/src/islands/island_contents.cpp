@@ -5,7 +5,7 @@
 namespace tweenfall::islands {
 
 const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::Body>& bodies, Islands& islands,
-                                                      std::span<step::ContactConstraint* const> contacts,
+                                                      std::span<contacts::ContactConstraint* const> contacts,
                                                       std::vector<step::SpringRow>& springs,
                                                       std::vector<joints::JointLink>& links) {
   static_assert(step::SpringRow::world == joints::JointLink::world);

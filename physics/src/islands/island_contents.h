@@ -3,10 +3,10 @@
 #include <span>
 #include <vector>
 
+#include "contacts/contact_constraint.h"
 #include "islands/islands.h"
 #include "joints/joint_link.h"
 #include "state/body.h"
-#include "step/contact_constraint.h"
 #include "step/spring_row.h"
 
 namespace tweenfall::islands {
@@ -14,7 +14,7 @@ namespace tweenfall::islands {
 /// What holds the bodies of one island together. Islands share only bodies that nothing moves, so that what one does
 /// depends on no other.
 struct IslandContents {
-  std::span<step::ContactConstraint* const> contacts;  ///< by pair
+  std::span<contacts::ContactConstraint* const> contacts;  ///< by pair
   std::span<step::SpringRow* const> springs;
   std::span<joints::JointLink* const> joints;
 };
@@ -24,7 +24,7 @@ class IslandSorter {
  public:
   /// By the smallest index of a movable body; what is returned refers to the arguments and to this.
   const std::vector<IslandContents>& sort(const std::vector<state::Body>& bodies, Islands& islands,
-                                          std::span<step::ContactConstraint* const> contacts,
+                                          std::span<contacts::ContactConstraint* const> contacts,
                                           std::vector<step::SpringRow>& springs, std::vector<joints::JointLink>& links);
 
  private:
@@ -32,7 +32,7 @@ class IslandSorter {
     std::uint32_t island, number;
   };
   std::vector<Entry> contact_entries_, spring_entries_, link_entries_;
-  std::vector<step::ContactConstraint*> contacts_;
+  std::vector<contacts::ContactConstraint*> contacts_;
   std::vector<step::SpringRow*> springs_, listed_springs_;
   std::vector<joints::JointLink*> links_, listed_links_;
   std::vector<IslandContents> islands_;

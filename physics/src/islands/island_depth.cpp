@@ -4,13 +4,13 @@
 
 namespace tweenfall::islands {
 
-std::uint32_t IslandDepth::of(std::span<step::ContactConstraint* const> contacts,
+std::uint32_t IslandDepth::of(std::span<contacts::ContactConstraint* const> contacts,
                               const std::vector<state::Body>& bodies) {
   // Contacts are sorted by their bodies, which mostly were added from the bottom to the top or the other way around.
   constexpr int most_passes = 12;
   constexpr std::uint32_t nobody = 0xfffffffe;  // one more is bottomless, and no more than that
   levels_.resize(bodies.size());
-  for (const step::ContactConstraint* contact : contacts)
+  for (const contacts::ContactConstraint* contact : contacts)
     for (const std::uint32_t end : {contact->a, contact->b}) {
       const state::Body& body = bodies[end];
       // What is pushed or taken along is so from the side, however near the floor is.
@@ -26,7 +26,7 @@ std::uint32_t IslandDepth::of(std::span<step::ContactConstraint* const> contacts
   for (int pass = 0; pass < most_passes && changed; ++pass) {
     changed = false;
     for (std::size_t n = 0; n < contacts.size(); ++n) {
-      const step::ContactConstraint& contact = *contacts[pass % 2 == 0 ? n : contacts.size() - 1 - n];
+      const contacts::ContactConstraint& contact = *contacts[pass % 2 == 0 ? n : contacts.size() - 1 - n];
       std::uint32_t &a = levels_[contact.a], &b = levels_[contact.b];
       const bool lowered_a = lower(a, b), lowered_b = lower(b, a);
       changed = changed || lowered_a || lowered_b;
@@ -34,7 +34,7 @@ std::uint32_t IslandDepth::of(std::span<step::ContactConstraint* const> contacts
   }
   if (changed) return bottomless;
   std::uint32_t deepest = 0;
-  for (const step::ContactConstraint* contact : contacts)
+  for (const contacts::ContactConstraint* contact : contacts)
     for (const std::uint32_t end : {contact->a, contact->b}) deepest = std::max(deepest, levels_[end]);
   return deepest == nobody ? 0 : deepest;
 }

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "contacts/contact_constraint.h"
 #include "state/body.h"
-#include "step/contact_constraint.h"
 
 namespace tweenfall::islands {
 
@@ -15,7 +15,7 @@ class IslandDepth {
   /// Something pushes it, or it is not worth finding out: as deep as any.
   static constexpr std::uint32_t bottomless = 0xffffffff;
 
-  [[nodiscard]] std::uint32_t of(std::span<step::ContactConstraint* const> contacts,
+  [[nodiscard]] std::uint32_t of(std::span<contacts::ContactConstraint* const> contacts,
                                  const std::vector<state::Body>& bodies);
 
  private:

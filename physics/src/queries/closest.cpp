@@ -5,13 +5,15 @@
 #include <limits>
 #include <utility>
 
+#include "convex/simplex.h"
 #include "queries/on_surface.h"
-#include "queries/simplex.h"
 #include "shapes/compound.h"
 
 namespace tweenfall::queries {
 
 namespace {
+
+using convex::Simplex;
 
 constexpr int most_corners = 200;
 /// Parts of the distance, and of the cores' size, by which it may still be too long.

@@ -13,8 +13,8 @@ namespace tweenfall {
 namespace small {
 namespace {
 
+using contacts::ContactConstraint;
 using state::Body;
-using step::ContactConstraint;
 
 /// Contacts of an island that is taken to pieces, at most.
 constexpr std::size_t most_contacts = 32;
@@ -54,7 +54,7 @@ struct Sum {
 
 void add(const ContactConstraint& contact, Sum& sum) {
   for (int i = 0; i < contact.count; ++i) {
-    const step::PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
+    const contacts::PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
     sum.normal += point.total_normal;
     sum.impulse += point.total_normal * contact.manifold.normal + point.total_friction;
     sum.approach = std::max(sum.approach, point.approach);
@@ -70,15 +70,15 @@ ContactConstraint looked_for_again(const ContactConstraint& before) {
   next.manifold.count = 0;
   next.impact_time = 0;
   next.kept = false;
-  for (step::PointConstraint& point : next.points) point = {};
+  for (contacts::PointConstraint& point : next.points) point = {};
   return next;
 }
 
 void inherit(const ContactConstraint& before, ContactConstraint& next) {
   for (int i = 0; i < next.count; ++i)
     for (int k = 0; k < before.count; ++k) {
-      step::PointConstraint& to = next.points[static_cast<std::size_t>(i)];
-      const step::PointConstraint& from = before.points[static_cast<std::size_t>(k)];
+      contacts::PointConstraint& to = next.points[static_cast<std::size_t>(i)];
+      const contacts::PointConstraint& from = before.points[static_cast<std::size_t>(k)];
       if (to.feature != from.feature) continue;
       to.kept_normal = from.kept_normal;
       to.kept_friction = from.kept_friction;
@@ -97,7 +97,7 @@ collision::Passage way_of(const Body& body, std::uint32_t part, const forces::Lo
 int World::Implementation::pieces_of(const islands::IslandContents& island, double dt) const {
   if (island.contacts.size() > small::most_contacts || !island.springs.empty() || !island.joints.empty()) return 1;
   double turn = 0;
-  for (const step::ContactConstraint* contact : island.contacts) {
+  for (const contacts::ContactConstraint* contact : island.contacts) {
     turn = std::max(turn, small::turn_of(*contact, bodies, dt));
     for (const std::uint32_t index : {contact->a, contact->b})
       if (bodies[index].displaces() || bodies[index].drive.owner() == Owner::driven ||
@@ -110,7 +110,7 @@ int World::Implementation::pieces_of(const islands::IslandContents& island, doub
 
 void World::Implementation::solve_in_pieces(const islands::IslandContents& island, int pieces, double dt,
                                             step::Solver& solver) {
-  using step::ContactConstraint;
+  using contacts::ContactConstraint;
   const double h = dt / pieces;
   const int sub_steps = std::max(1, (small::least_sub_steps + pieces - 1) / pieces);
   std::vector<std::uint32_t> movable;
@@ -146,12 +146,12 @@ void World::Implementation::solve_in_pieces(const islands::IslandContents& islan
   for (const std::uint32_t index : movable) moved[index] = 1;
   for (std::size_t i = 0; i < sums.size(); ++i) {
     ContactConstraint& contact = *island.contacts[i];
-    for (step::PointConstraint& point : contact.points) {
+    for (contacts::PointConstraint& point : contact.points) {
       point.total_normal = point.approach = 0;
       point.total_friction = Vec3::Zero();
       point.start_gap = sums[i].overlap ? std::min(point.start_gap, 0.0) : std::max(point.start_gap, 1e-300);
     }
-    step::PointConstraint& first = contact.points[0];
+    contacts::PointConstraint& first = contact.points[0];
     first.total_normal = sums[i].normal;
     first.total_friction = sums[i].impulse - sums[i].normal * contact.manifold.normal;
     first.approach = sums[i].approach;

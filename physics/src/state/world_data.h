@@ -46,25 +46,25 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void end_watch();
   void find_constraints(double dt);
   /// The manifold at the start of the step, or where the bodies meet in it. Returns false when they do not.
-  bool find_manifold(step::ContactConstraint& constraint, const state::Body& a, const state::Body& b,
+  bool find_manifold(contacts::ContactConstraint& constraint, const state::Body& a, const state::Body& b,
                      const collision::Passage& way_a, const collision::Passage& way_b, double dt,
-                     std::vector<step::KnownApart>* told_apart) const;
+                     std::vector<contacts::KnownApart>* told_apart) const;
   /// Which memories the pairs of the broad phase have, and which of the others are kept; @return whether two bodies of
   /// a pair may each have as many contacts as a body can
   bool recall(std::span<const pairs::Pair> pairs);
-  void find_part(std::span<const pairs::Pair> pairs, std::span<const step::PairMemories> memories_of, bool crowded,
-                 double dt, step::FoundPart& part);
+  void find_part(std::span<const pairs::Pair> pairs, std::span<const contacts::PairMemories> memories_of, bool crowded,
+                 double dt, contacts::FoundPart& part);
   /// The contact of two bodies, or of two of their parts, if there is one.
-  void find_contact(const step::PairInContact& pair, const collision::Passage& way_a, const collision::Passage& way_b,
-                    double dt, bool alone, step::FoundPart& part) const;
+  void find_contact(const contacts::PairInContact& pair, const collision::Passage& way_a,
+                    const collision::Passage& way_b, double dt, bool alone, contacts::FoundPart& part) const;
   /// What a contact takes from its bodies and from the step before.
-  void finish_contact(step::ContactConstraint& constraint, const state::ContactMemory* memory) const;
+  void finish_contact(contacts::ContactConstraint& constraint, const state::ContactMemory* memory) const;
   /// Contacts of a body, or of all its parts, with a body that is a mesh or a height field.
-  void find_contacts_with_surface(const step::PairInContact& pair, step::PairMemories known, double dt,
-                                  step::FoundPart& part) const;
+  void find_contacts_with_surface(const contacts::PairInContact& pair, contacts::PairMemories known, double dt,
+                                  contacts::FoundPart& part) const;
   /// Contacts of all parts of two bodies of which one is a compound.
-  void find_contacts_of_parts(const step::PairInContact& pair, step::PairMemories known, double dt,
-                              step::FoundPart& part) const;
+  void find_contacts_of_parts(const contacts::PairInContact& pair, contacts::PairMemories known, double dt,
+                              contacts::FoundPart& part) const;
   /// Keeps what a step has deflected or driven fast from ending behind a mesh or a height field that it was before.
   void hold_before_surfaces();
   void gather_links();          ///< joints that hold something that can move

@@ -13,7 +13,7 @@
 namespace tweenfall::state {
 
 /// Everything that leads on from step to step, as plain values: what is copied, hashed, saved and loaded. Its
-/// fields are told of in `state/fields.h`.
+/// fields are told of in `saving/fields.h`.
 struct WorldState {
   WorldSettings settings;
   std::vector<Body> bodies;

@@ -30,7 +30,7 @@ Pose pose_then(const Start& start, const collision::Course& course, const Vec3& 
 }  // namespace step
 
 void World::Implementation::hold_before_surfaces() {
-  for (const step::ContactConstraint* contact : active) {
+  for (const contacts::ContactConstraint* contact : active) {
     const bool surface_is_a = surfaces::surface_of(bodies[contact->a].shape.solid) != nullptr;
     const state::Body& ground = bodies[surface_is_a ? contact->a : contact->b];
     const surfaces::Surface* surface = surfaces::surface_of(ground.shape.solid);

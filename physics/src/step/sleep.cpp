@@ -40,7 +40,7 @@ bool World::Implementation::wake_islands() {
   flags.assign(bodies.size(), 0);
   carried.assign(bodies.size(), 0);
   const auto each_link = [&](const auto& visit) {
-    for (const step::ContactConstraint* constraint : active) visit(constraint->a, constraint->b);
+    for (const contacts::ContactConstraint* constraint : active) visit(constraint->a, constraint->b);
     for (const std::uint32_t place : retained) visit(memories[place].a, memories[place].b);
     for (const forces::NumberedForce& entry : forces) {
       const auto* spring = std::get_if<Spring>(&entry.force);

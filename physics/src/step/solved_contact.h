@@ -1,11 +1,11 @@
 #pragma once
 
-#include "step/contact_constraint.h"
+#include "contacts/contact_constraint.h"
 
 namespace tweenfall::step {
 
 /// A point while its contact is being solved by itself.
-struct SolvedPoint : PointConstraint {
+struct SolvedPoint : contacts::PointConstraint {
   Vec3 arm_a{0, 0, 0}, arm_b{0, 0, 0};  ///< in the current sub-step
   double gap = 0;
   double normal_impulse = 0;        ///< of one sub-step, N s
@@ -19,7 +19,7 @@ struct SolvedPoint : PointConstraint {
 
 /// A contact while it is being solved by itself.
 struct SolvedContact : state::KeptImpulses {
-  explicit SolvedContact(ContactConstraint& contact)
+  explicit SolvedContact(contacts::ContactConstraint& contact)
       : state::KeptImpulses(contact),
         origin(&contact),
         a(contact.a),
@@ -33,7 +33,7 @@ struct SolvedContact : state::KeptImpulses {
         impact(contact.impact) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       SolvedPoint& point = points[i];
-      static_cast<PointConstraint&>(point) = contact.points[i];
+      static_cast<contacts::PointConstraint&>(point) = contact.points[i];
       point.arm_a = point.start_arm_a;
       point.arm_b = point.start_arm_b;
       point.gap = point.start_gap;
@@ -46,7 +46,7 @@ struct SolvedContact : state::KeptImpulses {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) origin->points[i] = points[i];
   }
 
-  ContactConstraint* origin;
+  contacts::ContactConstraint* origin;
   std::uint32_t a, b;
   Vec3 normal;
   std::array<SolvedPoint, 4> points{};

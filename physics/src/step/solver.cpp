@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "contacts/meeting.h"
 #include "forces/drive_law.h"
 #include "step/contact_rows.h"
-#include "step/meeting.h"
 
 namespace tweenfall::step {
 
@@ -38,8 +38,8 @@ void Solver::begin(std::size_t bodies) {
   slots_.assign(bodies, nowhere);
 }
 
-void Solver::gather(const std::vector<Body>& bodies, std::span<ContactConstraint* const> contacts, Springs springs,
-                    double dt) {
+void Solver::gather(const std::vector<Body>& bodies, std::span<contacts::ContactConstraint* const> contacts,
+                    Springs springs, double dt) {
   for (const SolverBody& body : bodies_) slots_[body.index] = nowhere;
   bodies_.clear();
   heaviest_ = 0;
@@ -72,7 +72,7 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<ContactConstraint
     }
     bodies_.push_back(entry);
   };
-  for (const ContactConstraint* contact : contacts) {
+  for (const contacts::ContactConstraint* contact : contacts) {
     add(contact->a);
     add(contact->b);
   }
@@ -91,13 +91,13 @@ void Solver::meet(const std::vector<Load>& loads, SolvedContact& constraint, dou
   const Vec3& normal = constraint.normal;
   // Forces change the velocity of the center on the way, and a spin changes by itself: what is left of it counts.
   const Vec3 linear = starts_[slots_[constraint.a]].linear - starts_[slots_[constraint.b]].linear;
-  const auto [pull, tremble] = closing_of(normal, loads[constraint.a], loads[constraint.b], dt);
+  const auto [pull, tremble] = contacts::closing_of(normal, loads[constraint.a], loads[constraint.b], dt);
   constraint.rebounds = false;
   for (int i = 0; i < constraint.count; ++i) {
     SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     point.rebound = point.rebound_time = 0;
     const double closing = normal.dot(linear + a.angular.cross(point.arm_a) - b.angular.cross(point.arm_b));
-    const auto [time, speed] = meeting_of(point.gap, closing, pull, h);
+    const auto [time, speed] = contacts::meeting_of(point.gap, closing, pull, h);
     if (!(speed > tremble)) continue;
     point.approach = std::max(point.approach, speed);
     const double left = h - time;
@@ -376,17 +376,19 @@ void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
   }
 }
 
-void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads, std::span<ContactConstraint* const> found,
-                   Springs springs, const WorldSettings& settings, double dt, std::vector<char>& moved, int sub_steps) {
+void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
+                   std::span<contacts::ContactConstraint* const> found, Springs springs, const WorldSettings& settings,
+                   double dt, std::vector<char>& moved, int sub_steps) {
   sub_steps_ = sub_steps;
   gather(bodies, found, springs, dt);
   contacts_.clear();
   contacts_.reserve(found.size());
-  for (ContactConstraint* contact : found) {
+  for (contacts::ContactConstraint* contact : found) {
     const SolverBody& a = at(contact->a);
     const SolverBody& b = at(contact->b);
-    const Closing closing = closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
-    foresee(*contact, {a.linear, a.angular}, {b.linear, b.angular}, closing, dt);
+    const contacts::Closing closing =
+        contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+    contacts::foresee(*contact, {a.linear, a.angular}, {b.linear, b.angular}, closing, dt);
     if (contact->impact) at(contact->a).impact = at(contact->b).impact = true;
     contacts_.emplace_back(*contact);
   }

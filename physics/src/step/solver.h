@@ -40,14 +40,14 @@ class Solver {
   /// @param springs  those too stiff to be part of the loads
   /// @param moved  by index: set for the bodies that were moved
   void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
-             std::span<ContactConstraint* const> contacts, Springs springs, const WorldSettings& settings, double dt,
-             std::vector<char>& moved, int sub_steps = usual_sub_steps);
+             std::span<contacts::ContactConstraint* const> contacts, Springs springs, const WorldSettings& settings,
+             double dt, std::vector<char>& moved, int sub_steps = usual_sub_steps);
 
  private:
   using Contacts = std::span<SolvedContact>;
 
-  void gather(const std::vector<state::Body>& bodies, std::span<ContactConstraint* const> contacts, Springs springs,
-              double dt);
+  void gather(const std::vector<state::Body>& bodies, std::span<contacts::ContactConstraint* const> contacts,
+              Springs springs, double dt);
   void meet(const std::vector<forces::Load>& loads, SolvedContact& constraint, double h, double dt) const;
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
                       const WorldSettings& settings, double h, int sub_step);

@@ -4,12 +4,12 @@
 
 #include "blocks/block_solver.h"
 #include "collision/passage.h"
+#include "contacts/found.h"
 #include "forces/forces.h"
 #include "islands/island_contents.h"
 #include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
 #include "queries/lazy_scene.h"
-#include "step/contact_constraint.h"
 #include "step/solver.h"
 #include "threads/workers.h"
 
@@ -21,23 +21,6 @@ struct Start {
   Quat rotation;
   Twist twist;
   bool led = false;  ///< by a drive whose target moves
-};
-
-/// A pair that was told apart in the step before.
-struct KnownApart {
-  pairs::Pair pair;
-  collision::Apart apart;
-};
-
-/// The memories of a pair of bodies: one, or one for each pair of parts that touched; places in the sorted list.
-struct PairMemories {
-  std::uint32_t first = 0, count = 0;
-};
-
-/// What a part of the pairs comes to, in their order.
-struct FoundPart {
-  std::vector<ContactConstraint> contacts;
-  std::vector<KnownApart> aparts;
 };
 
 /// What came of a contact.
@@ -88,9 +71,9 @@ struct Workspace {
   std::vector<joints::JointLink> links;
   std::vector<Start> starts;
   pairs::BroadPhase broad_phase;
-  std::vector<FoundPart> found;            ///< of all pairs, in their order
-  std::vector<ContactConstraint*> active;  ///< in `found`: contacts near something that stirs
-  std::vector<std::uint32_t> retained;     ///< memories of contacts between bodies at rest, by pair
+  std::vector<contacts::FoundPart> found;            ///< of all pairs, in their order
+  std::vector<contacts::ContactConstraint*> active;  ///< in `found`: contacts near something that stirs
+  std::vector<std::uint32_t> retained;               ///< memories of contacts between bodies at rest, by pair
   std::vector<std::uint32_t> remembered;
   std::vector<Outcome> outcomes;  ///< of `active`
   std::vector<Told> told;
@@ -99,9 +82,9 @@ struct Workspace {
   std::vector<collision::Passage> passages;  ///< by body
   std::vector<std::uint64_t> looked_at;      ///< by body: the look that its passage is of
   std::uint64_t look = 0;
-  std::vector<std::uint32_t> looked_for;    ///< bodies of which this look needs a passage
-  std::vector<PairMemories> pair_memories;  ///< by pair of the broad phase
-  std::vector<KnownApart> aparts;           ///< of pairs that do not touch, sorted
+  std::vector<std::uint32_t> looked_for;              ///< bodies of which this look needs a passage
+  std::vector<contacts::PairMemories> pair_memories;  ///< by pair of the broad phase
+  std::vector<contacts::KnownApart> aparts;           ///< of pairs that do not touch, sorted
   std::vector<char> flags;
   std::vector<char> carried;  ///< by island: something keyed moves it
   std::vector<std::uint32_t> contact_counts;

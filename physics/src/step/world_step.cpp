@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "collision/impact_time.h"
+#include "contacts/found_manifold.h"
 #include "forces/drive_law.h"
 #include "state/world_data.h"
-#include "step/found_manifold.h"
 #include "step/keyed_step.h"
 
 namespace tweenfall {
@@ -23,14 +23,14 @@ constexpr std::size_t worth_a_batch = 256;
 /// Contacts of an island that are worth dividing it.
 constexpr std::size_t worth_dividing = 256;
 
-void remember(const ContactConstraint& constraint, bool touching, state::ContactMemory& memory) {
+void remember(const contacts::ContactConstraint& constraint, bool touching, state::ContactMemory& memory) {
   memory.a = constraint.a;
   memory.b = constraint.b;
   memory.part_a = constraint.part_a;
   memory.part_b = constraint.part_b;
   memory.count = constraint.count;
   for (std::size_t i = 0; i < static_cast<std::size_t>(constraint.count); ++i) {
-    const PointConstraint& point = constraint.points[i];
+    const contacts::PointConstraint& point = constraint.points[i];
     memory.points[i] = {point.feature, point.start_arm_b, point.kept_normal, point.kept_friction};
   }
   memory.kept = constraint;
@@ -193,14 +193,14 @@ void World::Implementation::remember_contacts() {
   }
   workers().ranges(active.size(), step::worth_sharing, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
-      const step::ContactConstraint& constraint = *active[k];
+      const contacts::ContactConstraint& constraint = *active[k];
       step::Outcome& outcome = outcomes[k];
       double normal = 0;
       Vec3 total = Vec3::Zero();
       double approach = 0;
       bool overlap = false;
       for (int i = 0; i < constraint.count; ++i) {
-        const step::PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
+        const contacts::PointConstraint& point = constraint.points[static_cast<std::size_t>(i)];
         normal += point.total_normal;
         total += point.total_normal * constraint.manifold.normal + point.total_friction;
         approach = std::max(approach, point.approach);
@@ -213,8 +213,8 @@ void World::Implementation::remember_contacts() {
       step::remember(constraint, outcome.touching, memories[outcome.place]);
       if (constraint.memory == state::ContactMemories::nowhere || constraint.kept) continue;
       state::FoundManifold& manifold = memories[outcome.place].found;
-      if (constraint.impact_time == 0 && step::keeps_manifold(constraint))
-        manifold = step::found_manifold(constraint, starts[constraint.a], starts[constraint.b]);
+      if (constraint.impact_time == 0 && contacts::keeps_manifold(constraint))
+        manifold = contacts::found_manifold(constraint, starts[constraint.a], starts[constraint.b]);
       else if (manifold.holds)
         manifold = {};
     }
@@ -241,7 +241,7 @@ void World::Implementation::report() {
     }
   };
   for (std::uint32_t i = 0; i < active.size(); ++i) {
-    const step::ContactConstraint& constraint = *active[i];
+    const contacts::ContactConstraint& constraint = *active[i];
     const step::Outcome& outcome = outcomes[i];
     if (bodies[constraint.a].immovable()) bodies[constraint.a].reaction -= outcome.total;
     if (bodies[constraint.b].immovable()) bodies[constraint.b].reaction += outcome.total;
@@ -264,7 +264,7 @@ void World::Implementation::report() {
         contact.began = false;
         continue;
       }
-      const step::ContactConstraint& constraint = *active[told[i].number];
+      const contacts::ContactConstraint& constraint = *active[told[i].number];
       const step::Outcome& outcome = outcomes[told[i].number];
       contact = {{constraint.a, bodies[constraint.a].generation},
                  {constraint.b, bodies[constraint.b].generation},

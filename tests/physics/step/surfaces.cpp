@@ -1,4 +1,4 @@
-#include "step/combine.h"
+#include "contacts/combine.h"
 
 #include <tweenfall/physics/world.h>
 
@@ -199,8 +199,8 @@ TEST_CASE("of two bodies' rules to combine the stronger holds, in the stated ord
   const std::vector<double> frictions = {0.4, 0.4, 0.5, 0.2, 0.16, 0.8}, restitutions = {0.8, 0.4, 0.5, 0.2, 0.16, 0.8};
   for (std::size_t i = 0; i < rules.size(); ++i)
     for (std::size_t k = 0; k < rules.size(); ++k) {
-      CHECK(step::combined_friction(a, rules[i], b, rules[k]) == doctest::Approx(frictions[std::max(i, k)]));
-      CHECK(step::combined_restitution(a, rules[i], b, rules[k]) == doctest::Approx(restitutions[std::max(i, k)]));
+      CHECK(contacts::combined_friction(a, rules[i], b, rules[k]) == doctest::Approx(frictions[std::max(i, k)]));
+      CHECK(contacts::combined_restitution(a, rules[i], b, rules[k]) == doctest::Approx(restitutions[std::max(i, k)]));
     }
   // As a box feels it that slides, and a ball that bounces.
   for (std::size_t i = 0; i < rules.size(); ++i) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "saving/envelope.h"
 #include "stage/saving/stage_fields.h"
-#include "state/envelope.h"
 
 namespace tweenfall::staging {
 
@@ -13,7 +13,7 @@ namespace {
 /// Writes what is a function as values at many times.
 class Sampling {
  public:
-  explicit Sampling(state::ByteWriter& out) : visit_(out) {}
+  explicit Sampling(saving::ByteWriter& out) : visit_(out) {}
 
   template <class T>
   void operator()(const Curve<T>& curve) const {
@@ -48,14 +48,14 @@ class Sampling {
     for (int i = 0; i < static_cast<int>(value.size()); ++i) visit_(value.data()[i]);
   }
 
-  state::Walk<state::ByteWriter> visit_;
+  saving::Walk<saving::ByteWriter> visit_;
 };
 
 }  // namespace
 
 std::uint64_t fingerprint(const StageDescription& description) {
-  state::ByteWriter out;
-  const state::Walk<state::ByteWriter> visit(out);
+  saving::ByteWriter out;
+  const saving::Walk<saving::ByteWriter> visit(out);
   const Sampling sampling(out);
   visit(description.step, description.world, description.nodes, description.joints, description.rules);
   for (const Clip& clip : description.clips) {
@@ -79,7 +79,7 @@ std::uint64_t fingerprint(const StageDescription& description) {
     }
   }
   for (const auto& [a, b] : description.ignored) visit.places(a, b);
-  return state::checksum(out.bytes);
+  return saving::checksum(out.bytes);
 }
 
 }  // namespace tweenfall::staging

@@ -3,16 +3,16 @@
 #include <stdexcept>
 #include <string>
 
+#include "saving/envelope.h"
 #include "stage/saving/fingerprint.h"
 #include "stage/saving/stage_fields.h"
 #include "stage/timeline.h"
-#include "state/envelope.h"
 
 namespace tweenfall::staging {
 
 namespace {
 
-constexpr state::Envelope stage_envelope{"stage", 1};
+constexpr saving::Envelope stage_envelope{"stage", 1};
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("a saved stage has a bad " + what);
@@ -29,7 +29,7 @@ void each_moving_field(State& state, const Visit& visit) {
 }
 
 /// Throws where a number is none.
-class Numbers : public state::Teller<Numbers> {
+class Numbers : public saving::Teller<Numbers> {
  public:
   template <class T>
   void number(const T& value) {
@@ -131,8 +131,8 @@ std::vector<std::byte> Timeline::save() const {
   const bool between = from != to;
   // What lies ahead of a state is found again from it.
   const StageState& state = between ? from_ : to_;
-  state::ByteWriter out;
-  const state::Walk<state::ByteWriter> visit(out);
+  saving::ByteWriter out;
+  const saving::Walk<saving::ByteWriter> visit(out);
   const std::uint64_t described = fingerprint(description);
   visit(described, now_, between, commands_, happenings_);
   visit.places(told_, of_piece_);
@@ -143,13 +143,13 @@ std::vector<std::byte> Timeline::save() const {
   for (StagedJoint& joint : joints)
     if (!state.world.contains(joint.id)) joint.id = {};
   visit(joints, world);
-  return state::sealed(stage_envelope, out.bytes);
+  return saving::sealed(stage_envelope, out.bytes);
 }
 
 void Timeline::load(std::span<const std::byte> saved) {
   require_not_telling("load");
-  state::ByteReader in(state::opened(stage_envelope, saved), "stage");
-  const state::Walk<state::ByteReader> visit(in);
+  saving::ByteReader in(saving::opened(stage_envelope, saved), "stage");
+  const saving::Walk<saving::ByteReader> visit(in);
   std::uint64_t described = 0;
   double now = 0, time = 0;
   bool between = false;
@@ -178,7 +178,7 @@ void Timeline::load(std::span<const std::byte> saved) {
   in.require(in.at_end(), "there is more than a stage");
   state.world.load(world);
   Numbers numbers;
-  each_moving_field(std::as_const(state), state::Walk<Numbers>(numbers));
+  each_moving_field(std::as_const(state), saving::Walk<Numbers>(numbers));
   check_time(state, now, between, description.step);
   check_bodies(state);
   check_blows(state);

@@ -1,11 +1,11 @@
 #pragma once
 
-// The fields of what a stage is made of, each listed once, as those of a world in `state/fields.h`.
+// The fields of what a stage is made of, each listed once, as those of a world in `saving/fields.h`.
 
+#include "saving/bytes.h"
 #include "stage/stage_data.h"
-#include "state/bytes.h"
 
-namespace tweenfall::state {
+namespace tweenfall::saving {
 
 template <>
 inline constexpr int last_of<Cause> = static_cast<int>(Cause::caller);
@@ -312,4 +312,4 @@ void each_field(T& joint, const Visit& visit) {
   visit(until);
 }
 
-}  // namespace tweenfall::state
+}  // namespace tweenfall::saving

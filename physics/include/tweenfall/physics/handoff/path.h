@@ -14,7 +14,7 @@
 
 namespace tweenfall {
 
-namespace state {
+namespace saving {
 struct PathFields;
 }
 
@@ -59,7 +59,7 @@ class Path {
   [[nodiscard]] Path rebound(std::shared_ptr<const Animation> animation) const;
 
  private:
-  friend struct state::PathFields;
+  friend struct saving::PathFields;
   [[nodiscard]] WorldMotion authored(double stage_time, Side side) const noexcept;
   [[nodiscard]] WorldMotion anchored(const WorldMotion& authored) const noexcept;
 

@@ -14,7 +14,7 @@
 
 namespace tweenfall {
 
-namespace state {
+namespace saving {
 struct PathFields;
 }
 
@@ -29,7 +29,7 @@ class SettleOffset {
   [[nodiscard]] Motion apply(double time, const Motion& path) const noexcept;
 
  private:
-  friend struct state::PathFields;
+  friend struct saving::PathFields;
   Settle settle_ = {};
   double start_ = 0;
   bool any_ = false;

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "collision/passage.h"
-#include "step/contact_constraint.h"
+#include "contacts/contact_constraint.h"
 
-namespace tweenfall::step {
+namespace tweenfall::contacts {
 
 /// Gaps up to this are contacts from the start of the step, m; wider ones only when the bodies meet within it.
 constexpr double near_enough = 2e-3;
@@ -13,4 +13,4 @@ constexpr double near_enough = 2e-3;
 void adopt(ContactConstraint& constraint, const collision::Passage& way_a, const collision::Prediction& at_a,
            const collision::Passage& way_b, const collision::Prediction& at_b);
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::contacts

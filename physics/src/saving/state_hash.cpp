@@ -1,12 +1,12 @@
 #include <bit>
 
-#include "state/walk.h"
-#include "state/word_hash.h"
+#include "saving/walk.h"
+#include "saving/word_hash.h"
 #include "state/world_data.h"
 
 namespace tweenfall {
 
-namespace state {
+namespace saving {
 namespace {
 
 class StateHash : public Teller<StateHash> {
@@ -42,11 +42,11 @@ class StateHash : public Teller<StateHash> {
 };
 
 }  // namespace
-}  // namespace state
+}  // namespace saving
 
 std::uint64_t World::state_hash() const noexcept {
   if (!implementation_) return 0;
-  state::StateHash hash;
+  saving::StateHash hash;
   walk(hash, static_cast<const state::WorldState&>(*implementation_));
   return hash.value();
 }

@@ -1,4 +1,4 @@
-#include "recording/figures.h"
+#include "figures/figures.h"
 
 #include <tweenfall/curves/elementary.h>
 
@@ -8,10 +8,10 @@
 #include <map>
 #include <numbers>
 
-#include "recording/shape_mesh.h"
-#include "recording/turned_profile.h"
+#include "figures/shape_mesh.h"
+#include "figures/turned_profile.h"
 
-namespace tweenfall::recordings {
+namespace tweenfall::figures {
 
 namespace {
 
@@ -362,4 +362,4 @@ SideScene side_scene(const Recording& recording, const StageDescription& stage, 
   return scene;
 }
 
-}  // namespace tweenfall::recordings
+}  // namespace tweenfall::figures

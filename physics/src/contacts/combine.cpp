@@ -1,9 +1,9 @@
-#include "step/combine.h"
+#include "contacts/combine.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace tweenfall::step {
+namespace tweenfall::contacts {
 
 namespace {
 
@@ -35,4 +35,4 @@ double combined_restitution(double a, Combine rule_a, double b, Combine rule_b) 
   return combined(a, b, rule == Combine::usual ? Combine::maximum : rule);
 }
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::contacts

@@ -1,8 +1,8 @@
-#include "step/adopt.h"
+#include "contacts/adopt.h"
 
 #include "shapes/turned.h"
 
-namespace tweenfall::step {
+namespace tweenfall::contacts {
 
 namespace {
 
@@ -44,4 +44,4 @@ void adopt(ContactConstraint& constraint, const collision::Passage& way_a, const
   }
 }
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::contacts

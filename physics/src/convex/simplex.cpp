@@ -1,9 +1,9 @@
-#include "queries/simplex.h"
+#include "convex/simplex.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace tweenfall::queries {
+namespace tweenfall::convex {
 
 namespace {
 
@@ -129,4 +129,4 @@ Vec3 Simplex::on_b() const {
   return sum;
 }
 
-}  // namespace tweenfall::queries
+}  // namespace tweenfall::convex

@@ -1,13 +1,13 @@
-#include "state/envelope.h"
+#include "saving/envelope.h"
 
 #include <algorithm>
 #include <string>
 
-#include "state/bytes.h"
+#include "saving/bytes.h"
+#include "saving/word_hash.h"
 #include "state/checks.h"
-#include "state/word_hash.h"
 
-namespace tweenfall::state {
+namespace tweenfall::saving {
 
 namespace {
 
@@ -41,27 +41,29 @@ std::vector<std::byte> sealed(const Envelope& envelope, std::span<const std::byt
 std::span<const std::byte> opened(const Envelope& envelope, std::span<const std::byte> saved) {
   const std::string signature = signature_of(envelope), kind = envelope.kind;
   const std::size_t header_size = signature.size() + 4 + 8 + 8;
-  require(saved.size() >= header_size,
-          "these " + std::to_string(saved.size()) + " bytes are too few for a saved " + kind);
+  state::require(saved.size() >= header_size,
+                 "these " + std::to_string(saved.size()) + " bytes are too few for a saved " + kind);
   ByteReader header(saved, envelope.kind);
   for (const char expected : signature) {
     char found = 0;
     header.number(found);
-    require(found == expected,
-            "these bytes are no saved " + kind + ": they do not begin with \"tweenfall " + kind + "\"");
+    state::require(found == expected,
+                   "these bytes are no saved " + kind + ": they do not begin with \"tweenfall " + kind + "\"");
   }
   std::uint32_t its_version = 0;
   std::uint64_t size = 0, sum = 0;
   header.number(its_version);
   header.number(size);
   header.number(sum);
-  require(its_version == envelope.version, "this saved " + kind + " is of version " + std::to_string(its_version) +
-                                               "; only version " + std::to_string(envelope.version) + " can be read");
+  state::require(its_version == envelope.version, "this saved " + kind + " is of version " +
+                                                      std::to_string(its_version) + "; only version " +
+                                                      std::to_string(envelope.version) + " can be read");
   const std::span<const std::byte> contents = saved.subspan(header_size);
-  require(contents.size() == size, "a saved " + kind + " should have " + std::to_string(size) +
-                                       " bytes after its header, but has " + std::to_string(contents.size()));
-  require(checksum(contents) == sum, "a saved " + kind + " was damaged: its checksum is not that of its contents");
+  state::require(contents.size() == size, "a saved " + kind + " should have " + std::to_string(size) +
+                                              " bytes after its header, but has " + std::to_string(contents.size()));
+  state::require(checksum(contents) == sum,
+                 "a saved " + kind + " was damaged: its checksum is not that of its contents");
   return contents;
 }
 
-}  // namespace tweenfall::state
+}  // namespace tweenfall::saving

@@ -1,10 +1,10 @@
-#include "state/bytes.h"
+#include "saving/bytes.h"
 
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-namespace tweenfall::state {
+namespace tweenfall::saving {
 
 namespace {
 
@@ -128,4 +128,4 @@ void ByteReader::require(bool holds, const char* what) const {
                                 " of its contents: " + what);
 }
 
-}  // namespace tweenfall::state
+}  // namespace tweenfall::saving

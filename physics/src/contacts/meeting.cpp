@@ -1,8 +1,8 @@
-#include "step/meeting.h"
+#include "contacts/meeting.h"
 
 #include <algorithm>
 
-namespace tweenfall::step {
+namespace tweenfall::contacts {
 
 Meeting meeting_of(double gap, double closing, double pull, double span) {
   if (!(gap > 0)) return {0, closing};
@@ -34,4 +34,4 @@ void foresee(ContactConstraint& contact, const Twist& a, const Twist& b, const C
   contact.total_rolling = Vec3::Zero();
 }
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::contacts

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall::recordings {
+namespace tweenfall::figures {
 
 /// From the world to the picture.
 struct SideView {
@@ -56,4 +56,4 @@ struct SideScene {
 [[nodiscard]] std::vector<const NodeDescription*> descriptions(const Recording& recording,
                                                                const StageDescription& stage);
 
-}  // namespace tweenfall::recordings
+}  // namespace tweenfall::figures

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace tweenfall::recordings {
+namespace tweenfall::figures {
 
 struct ProfilePoint {
   double radius, height;                // m
@@ -16,4 +16,4 @@ struct ProfilePoint {
 // From the top down; places where the surface has an edge are there twice. Empty for other solids.
 [[nodiscard]] std::vector<ProfilePoint> turned_profile(const Solid& solid);
 
-}  // namespace tweenfall::recordings
+}  // namespace tweenfall::figures

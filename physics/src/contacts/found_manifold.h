@@ -1,17 +1,20 @@
 #pragma once
 
+#include "contacts/contact_constraint.h"
 #include "state/body.h"
-#include "step/contact_constraint.h"
 
 namespace tweenfall::step {
+struct Start;
+}
+
+namespace tweenfall::contacts {
 
 /// Whether a manifold is worth keeping: between flat faces it costs most, and there its points would wander.
 [[nodiscard]] bool keeps_manifold(const ContactConstraint& contact);
 
-struct Start;
-
 /// Notes a manifold that was found at the start of a step.
-[[nodiscard]] state::FoundManifold found_manifold(const ContactConstraint& contact, const Start& a, const Start& b);
+[[nodiscard]] state::FoundManifold found_manifold(const ContactConstraint& contact, const step::Start& a,
+                                                  const step::Start& b);
 
 /// Takes the remembered manifold up again, told about where the bodies are now.
 /// @param swing  how fast points of the surfaces move because the bodies spin, m/s
@@ -19,4 +22,4 @@ struct Start;
 [[nodiscard]] bool take_up(const state::ContactMemory& memory, const state::Body& a, const state::Body& b, double swing,
                            double dt, ContactConstraint& contact);
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::contacts

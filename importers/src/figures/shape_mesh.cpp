@@ -1,12 +1,12 @@
-#include "recording/shape_mesh.h"
+#include "figures/shape_mesh.h"
 
 #include <tweenfall/curves/elementary.h>
 
 #include <numbers>
 
-#include "recording/turned_profile.h"
+#include "figures/turned_profile.h"
 
-namespace tweenfall::recordings {
+namespace tweenfall::figures {
 
 namespace {
 
@@ -137,4 +137,4 @@ Mesh shape_mesh(const Shape& shape) {
   return mesh;
 }
 
-}  // namespace tweenfall::recordings
+}  // namespace tweenfall::figures

@@ -5,15 +5,15 @@
 
 #include "collision/collide_pairs.h"
 #include "collision/passage.h"
+#include "contacts/adopt.h"
+#include "contacts/found_manifold.h"
 #include "state/world_data.h"
-#include "step/adopt.h"
-#include "step/found_manifold.h"
 #include "surfaces/first_meetings.h"
 #include "surfaces/touch.h"
 
 namespace tweenfall {
 
-namespace step {
+namespace contacts {
 namespace {
 
 using collision::Passage;
@@ -201,10 +201,11 @@ class SurfaceContacts {
 };
 
 }  // namespace
-}  // namespace step
+}  // namespace contacts
 
-void World::Implementation::find_contacts_with_surface(const step::PairInContact& pair, step::PairMemories known,
-                                                       double dt, step::FoundPart& part) const {
+void World::Implementation::find_contacts_with_surface(const contacts::PairInContact& pair,
+                                                       contacts::PairMemories known, double dt,
+                                                       contacts::FoundPart& part) const {
   const bool surface_is_a = surfaces::surface_of(bodies[pair.a].shape.solid) != nullptr;
   const collision::Passage& way_surface = passages[surface_is_a ? pair.a : pair.b];
   const collision::Passage& whole = passages[surface_is_a ? pair.b : pair.a];
@@ -212,20 +213,20 @@ void World::Implementation::find_contacts_with_surface(const step::PairInContact
   const std::span<const std::uint32_t> all = memories.sorted().subspan(known.first, known.count);
   const std::size_t before = part.contacts.size();
   const auto find = [&](const collision::Passage& way, std::uint32_t number) {
-    std::array<std::uint32_t, 2 * step::SurfaceContacts::most> its;
+    std::array<std::uint32_t, 2 * contacts::SurfaceContacts::most> its;
     std::size_t count = 0;
     for (const std::uint32_t place : all)
       if ((surface_is_a ? memories[place].part_b : memories[place].part_a) == number && count < its.size())
         its[count++] = place;
     const std::span<const std::uint32_t> known_places = std::span(its).first(count);
-    step::PairInContact its_pair = pair;
+    contacts::PairInContact its_pair = pair;
     (surface_is_a ? its_pair.part_b : its_pair.part_a) = number;
-    step::SurfaceContacts its_contacts(its_pair, surface, way_surface, way, surface_is_a, dt);
+    contacts::SurfaceContacts its_contacts(its_pair, surface, way_surface, way, surface_is_a, dt);
     if (!its_contacts.take_up_all(memories, known_places)) {
       its_contacts.find();
       its_contacts.number(memories, known_places);
     }
-    for (step::ContactConstraint& contact : its_contacts.contacts()) {
+    for (contacts::ContactConstraint& contact : its_contacts.contacts()) {
       finish_contact(contact, contact.memory != state::ContactMemories::nowhere ? &memories[contact.memory] : nullptr);
       part.contacts.push_back(contact);
     }
@@ -236,7 +237,7 @@ void World::Implementation::find_contacts_with_surface(const step::PairInContact
   } else {
     find(whole, 0);
   }
-  const auto in_order = [](const step::ContactConstraint& a, const step::ContactConstraint& b) {
+  const auto in_order = [](const contacts::ContactConstraint& a, const contacts::ContactConstraint& b) {
     return std::tie(a.part_a, a.part_b) < std::tie(b.part_a, b.part_b);
   };
   std::sort(part.contacts.begin() + static_cast<std::ptrdiff_t>(before), part.contacts.end(), in_order);

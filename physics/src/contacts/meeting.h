@@ -2,10 +2,10 @@
 
 #include <cmath>
 
+#include "contacts/contact_constraint.h"
 #include "forces/free_flight.h"
-#include "step/contact_constraint.h"
 
-namespace tweenfall::step {
+namespace tweenfall::contacts {
 
 /// When and how fast a gap closes within a span of time; `span` and 0 when it does not.
 struct Meeting {
@@ -26,4 +26,4 @@ struct Closing {
 /// @param a  velocity of the first body at the start of the step
 void foresee(ContactConstraint& contact, const Twist& a, const Twist& b, const Closing& closing, double dt);
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::contacts

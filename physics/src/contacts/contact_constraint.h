@@ -2,7 +2,7 @@
 
 #include "state/contact_memories.h"
 
-namespace tweenfall::step {
+namespace tweenfall::contacts {
 
 /// One point of a contact through a step.
 struct PointConstraint {
@@ -42,4 +42,4 @@ struct ContactConstraint : PairInContact, state::KeptImpulses {
   double impact_time = 0;   ///< s after the start of the step
 };
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::contacts

@@ -1,10 +1,10 @@
-#include "recording/turned_profile.h"
+#include "figures/turned_profile.h"
 
 #include <tweenfall/curves/elementary.h>
 
 #include <numbers>
 
-namespace tweenfall::recordings {
+namespace tweenfall::figures {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::vector<ProfilePoint> turned_profile(const Solid& solid) {
   return {};
 }
 
-}  // namespace tweenfall::recordings
+}  // namespace tweenfall::figures

@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace tweenfall::queries {
+namespace tweenfall::convex {
 
 /// Up to four differences of points of two bodies, and which mix of them is nearest to zero.
 struct Simplex {
@@ -25,4 +25,4 @@ struct Simplex {
   [[nodiscard]] Vec3 on_b() const;
 };
 
-}  // namespace tweenfall::queries
+}  // namespace tweenfall::convex

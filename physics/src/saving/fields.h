@@ -8,7 +8,16 @@
 
 #include "state/world_state.h"
 
-namespace tweenfall::state {
+namespace tweenfall::saving {
+
+using state::Body;
+using state::ContactMemory;
+using state::FoundManifold;
+using state::IgnoredPairs;
+using state::Joint;
+using state::KeptImpulses;
+using state::PointMemory;
+using state::WorldState;
 
 template <class T, class Of>
 concept Is = std::same_as<std::remove_const_t<T>, Of>;
@@ -325,4 +334,4 @@ void each_field(T& world, const Visit& visit) {
   follows_from_others(failed);  // a body that is not finite cannot be saved, and is found again
 }
 
-}  // namespace tweenfall::state
+}  // namespace tweenfall::saving

@@ -9,9 +9,12 @@
 #include <variant>
 #include <vector>
 
-#include "state/fields.h"
+#include "saving/fields.h"
 
-namespace tweenfall::state {
+namespace tweenfall::saving {
+
+using state::ContactMemories;
+using state::IgnoredPairs;
 
 template <class T>
 struct IsVector : std::false_type {};
@@ -146,4 +149,4 @@ class Teller {
   Tool& tool() { return static_cast<Tool&>(*this); }
 };
 
-}  // namespace tweenfall::state
+}  // namespace tweenfall::saving

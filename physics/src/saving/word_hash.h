@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-namespace tweenfall::state {
+namespace tweenfall::saving {
 
 /// FNV-1a over 64-bit words with a final mix.
 /// Source: Fowler, Noll, Vo, The FNV Non-Cryptographic Hash Algorithm, IETF draft; splitmix64's finalizer.
@@ -24,4 +24,4 @@ class WordHash {
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 
-}  // namespace tweenfall::state
+}  // namespace tweenfall::saving

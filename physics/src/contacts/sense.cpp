@@ -5,7 +5,7 @@
 
 namespace tweenfall {
 
-namespace step {
+namespace contacts {
 namespace {
 
 bool sensed_before(const SensorOverlap& a, const SensorOverlap& b) {
@@ -17,7 +17,7 @@ bool same_pair(const SensorOverlap& a, const SensorOverlap& b) {
 }
 
 }  // namespace
-}  // namespace step
+}  // namespace contacts
 
 void World::Implementation::sense() {
   left_sensors.clear();
@@ -42,9 +42,9 @@ void World::Implementation::sense() {
   // Both by index; a body that came in the place of another is another.
   auto before = overlaps.cbegin();
   for (SensorOverlap& overlap : next_overlaps) {
-    for (; before != overlaps.cend() && step::sensed_before(*before, overlap); ++before)
+    for (; before != overlaps.cend() && contacts::sensed_before(*before, overlap); ++before)
       left_sensors.push_back(*before);
-    const bool known = before != overlaps.cend() && step::same_pair(*before, overlap);
+    const bool known = before != overlaps.cend() && contacts::same_pair(*before, overlap);
     overlap.began = !known;
     if (known) ++before;
   }

@@ -1,11 +1,11 @@
-#include "step/found_manifold.h"
+#include "contacts/found_manifold.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "step/workspace.h"
 
-namespace tweenfall::step {
+namespace tweenfall::contacts {
 
 using state::Body;
 using state::FoundManifold;
@@ -26,7 +26,7 @@ bool keeps_manifold(const ContactConstraint& contact) {
   return flat;
 }
 
-FoundManifold found_manifold(const ContactConstraint& contact, const Start& a, const Start& b) {
+FoundManifold found_manifold(const ContactConstraint& contact, const step::Start& a, const step::Start& b) {
   FoundManifold found;
   const Quat back_a = a.rotation.conjugate();
   const Quat back_b = b.rotation.conjugate();
@@ -66,4 +66,4 @@ bool take_up(const state::ContactMemory& memory, const Body& a, const Body& b, d
   return true;
 }
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::contacts

@@ -7,16 +7,16 @@
 #include <utility>
 
 #include "joints/validate.h"
-#include "state/bytes.h"
+#include "saving/bytes.h"
+#include "saving/envelope.h"
 #include "state/checks.h"
 #include "state/countable.h"
-#include "state/envelope.h"
 #include "state/world_data.h"
 #include "surfaces/surface.h"
 
 namespace tweenfall {
 
-namespace state {
+namespace saving {
 namespace {
 
 constexpr Envelope world_envelope{"world", 4};
@@ -27,34 +27,35 @@ bool unit(const Quat& rotation) {
 
 // Impulses and ways between bodies may be larger than what a world takes of its caller.
 void require_number(double value, const char* name) {
-  require(std::isfinite(value), std::string(name) + " must be a finite number");
+  state::require(std::isfinite(value), std::string(name) + " must be a finite number");
 }
 void require_numbers(const Vec3& value, const char* name) {
-  require(value.allFinite(), std::string(name) + " must be finite numbers");
+  state::require(value.allFinite(), std::string(name) + " must be finite numbers");
 }
 
 /// Sets what follows from the rest, too.
 void check(Body& body) {
-  validate_surface(body);
-  body.conveys = conveys(body.surface_velocity);
-  validate(body.drive);
-  require(unit(body.shape.offset.rotation), "rotation of a shape must be a unit quaternion");
+  state::validate_surface(body);
+  body.conveys = state::conveys(body.surface_velocity);
+  state::validate(body.drive);
+  state::require(unit(body.shape.offset.rotation), "rotation of a shape must be a unit quaternion");
   const std::optional<double> mass = body.mass.mass;
   body.mass = {};
-  give_mass(body, mass, 0);
+  state::give_mass(body, mass, 0);
   for (const Motion& motion : {body.motion, body.target}) {
-    static_cast<void>(checked(motion));
-    require(unit(motion.pose.rotation), "rotation of a body must be a unit quaternion");
+    static_cast<void>(state::checked(motion));
+    state::require(unit(motion.pose.rotation), "rotation of a body must be a unit quaternion");
   }
-  require(body.finite(), "its place and velocity must be finite and at most 1e30");
-  require(body.force.allFinite() && body.torque.allFinite() && body.reaction.allFinite(), "its forces must be finite");
-  require_amount(body.still_for, "time of stillness");
+  state::require(body.finite(), "its place and velocity must be finite and at most 1e30");
+  state::require(body.force.allFinite() && body.torque.allFinite() && body.reaction.allFinite(),
+                 "its forces must be finite");
+  state::require_amount(body.still_for, "time of stillness");
 }
 
 void check(const FoundManifold& found) {
   if (!found.holds) return;
-  require(unit(found.turn), "its turn must be a unit quaternion");
-  require(std::abs(found.normal.norm() - 1) <= 1e-6, "its normal must have length 1");
+  state::require(unit(found.turn), "its turn must be a unit quaternion");
+  state::require(std::abs(found.normal.norm() - 1) <= 1e-6, "its normal must have length 1");
   require_numbers(found.between, "way between the bodies");
   for (const FoundManifold::Point& point : found.points) {
     require_numbers(point.anchor_a, "anchor of a point");
@@ -64,7 +65,7 @@ void check(const FoundManifold& found) {
 }
 
 void check(const ContactMemory& memory) {
-  require(memory.count >= 1 && memory.count <= 4, "it must have 1 to 4 points");
+  state::require(memory.count >= 1 && memory.count <= 4, "it must have 1 to 4 points");
   for (std::size_t i = 0; i < within_four(memory.count); ++i) {
     const PointMemory& point = memory.points[i];
     require_numbers(point.arm_b, "arm of a point");
@@ -74,22 +75,23 @@ void check(const ContactMemory& memory) {
   require_numbers(memory.kept.kept_rolling, "rolling impulse");
   require_number(memory.kept.kept_spin, "spinning impulse");
   require_number(memory.kept.kept_step, "length of a sub-step");
-  require(memory.kept.kept_step >= 0 && memory.kept.passed_over >= 0, "its times must not be negative");
+  state::require(memory.kept.kept_step >= 0 && memory.kept.passed_over >= 0, "its times must not be negative");
   require_number(memory.kept.kept_twist, "twisting impulse");
   require_number(memory.kept.passed_over, "time passed over");
   check(memory.found);
 }
 
 void check(const Contact& contact) {
-  require(contact.manifold.count >= 1 && contact.manifold.count <= 4, "it must have 1 to 4 points");
-  require(std::abs(contact.manifold.normal.norm() - 1) <= 1e-6, "its normal must have length 1");
+  state::require(contact.manifold.count >= 1 && contact.manifold.count <= 4, "it must have 1 to 4 points");
+  state::require(std::abs(contact.manifold.normal.norm() - 1) <= 1e-6, "its normal must have length 1");
   for (std::size_t i = 0; i < within_four(contact.manifold.count); ++i) {
-    require(contact.manifold.points[i].position.allFinite(), "its points must be finite");
-    require(std::isfinite(contact.manifold.points[i].penetration), "its points must be finite");
+    state::require(contact.manifold.points[i].position.allFinite(), "its points must be finite");
+    state::require(std::isfinite(contact.manifold.points[i].penetration), "its points must be finite");
   }
-  require(contact.impulse >= 0 && std::isfinite(contact.impulse) && contact.total_impulse.allFinite(),
-          "its impulses must be finite");
-  require(contact.approach_speed >= 0 && std::isfinite(contact.approach_speed), "its approach speed must be finite");
+  state::require(contact.impulse >= 0 && std::isfinite(contact.impulse) && contact.total_impulse.allFinite(),
+                 "its impulses must be finite");
+  state::require(contact.approach_speed >= 0 && std::isfinite(contact.approach_speed),
+                 "its approach speed must be finite");
 }
 
 /// Runs a check with the place of what is checked in front of its words.
@@ -120,10 +122,10 @@ void check_bodies(WorldState& world) {
     if (world.bodies[i].sensor) world.sensors.push_back(static_cast<std::uint32_t>(i));
   }
   for (const std::uint32_t index : world.unused) {
-    require(index < free.size() && free[index] != 0, "a saved world has a bad list of free places");
+    state::require(index < free.size() && free[index] != 0, "a saved world has a bad list of free places");
     free[index] = 0;
   }
-  require(std::ranges::count(free, 1) == 0, "a saved world has a bad list of free places");
+  state::require(std::ranges::count(free, 1) == 0, "a saved world has a bad list of free places");
 }
 
 void check(const Joint& joint, const WorldState& world) {
@@ -132,21 +134,21 @@ void check(const Joint& joint, const WorldState& world) {
     return id.index < world.bodies.size() && world.bodies[id.index].alive &&
            world.bodies[id.index].generation == id.generation;
   };
-  require(here(settings.b) && (settings.a == BodyId{} || here(settings.a)) && settings.a != settings.b,
-          "there are no such bodies");
+  state::require(here(settings.b) && (settings.a == BodyId{} || here(settings.a)) && settings.a != settings.b,
+                 "there are no such bodies");
   static_cast<void>(joints::checked(settings));
-  require(unit(settings.frame_a.rotation) && unit(settings.frame_b.rotation),
-          "rotation of a joint's frame must be a unit quaternion");
+  state::require(unit(settings.frame_a.rotation) && unit(settings.frame_b.rotation),
+                 "rotation of a joint's frame must be a unit quaternion");
   if (const auto* limb = std::get_if<SwingTwistJoint>(&settings.kind); limb && limb->toward)
-    require(unit(*limb->toward), "the rotation that a joint is turned to must be a unit quaternion");
+    state::require(unit(*limb->toward), "the rotation that a joint is turned to must be a unit quaternion");
   if (const auto* pulley = std::get_if<PulleyJoint>(&settings.kind))
-    require(pulley->length.has_value(), "a pulley's rope must have a length");
+    state::require(pulley->length.has_value(), "a pulley's rope must have a length");
   for (const double impulse : joint.kept) require_number(impulse, "impulse");
-  for (const double angle : joint.angles) require_amount(std::abs(angle), "angle");
-  require(joint.kept_step >= 0 && std::isfinite(joint.kept_step) && joint.passed_over >= 0 &&
-              std::isfinite(joint.passed_over),
-          "its times must not be negative");
-  require(joint.side.allFinite() && joint.side.norm() <= 1 + 1e-6, "its side must be a unit vector or 0");
+  for (const double angle : joint.angles) state::require_amount(std::abs(angle), "angle");
+  state::require(joint.kept_step >= 0 && std::isfinite(joint.kept_step) && joint.passed_over >= 0 &&
+                     std::isfinite(joint.passed_over),
+                 "its times must not be negative");
+  state::require(joint.side.allFinite() && joint.side.norm() <= 1 + 1e-6, "its side must be a unit vector or 0");
   require_numbers(joint.force, "force");
   require_numbers(joint.torque, "torque");
 }
@@ -160,10 +162,10 @@ void check_joints(const WorldState& world) {
       free[i] = 1;
   }
   for (const std::uint32_t index : world.unused_joints) {
-    require(index < free.size() && free[index] != 0, "a saved world has a bad list of free joints");
+    state::require(index < free.size() && free[index] != 0, "a saved world has a bad list of free joints");
     free[index] = 0;
   }
-  require(std::ranges::count(free, 1) == 0, "a saved world has a bad list of free joints");
+  state::require(std::ranges::count(free, 1) == 0, "a saved world has a bad list of free joints");
 }
 
 void check_pairs(const WorldState& world) {
@@ -176,9 +178,9 @@ void check_pairs(const WorldState& world) {
     return surfaces::surface_of(solid) ? part < 64 : part < (compound ? compound->parts().size() : 1);
   };
   const auto require_pair = [&](const PartPair& pair) {
-    require(here(pair[0]) && here(pair[1]), "there are no such bodies");
-    require(has_part(pair[0], pair[2]) && has_part(pair[1], pair[3]), "there are no such parts");
-    require(in_order(pair, first ? nullptr : &before), "pairs must come in order");
+    state::require(here(pair[0]) && here(pair[1]), "there are no such bodies");
+    state::require(has_part(pair[0], pair[2]) && has_part(pair[1], pair[3]), "there are no such parts");
+    state::require(in_order(pair, first ? nullptr : &before), "pairs must come in order");
     before = pair;
     first = false;
   };
@@ -186,9 +188,9 @@ void check_pairs(const WorldState& world) {
     at("contact " + std::to_string(i), [&] {
       const Contact& contact = world.contacts[i];
       require_pair({contact.a.index, contact.b.index, contact.part_a, contact.part_b});
-      require(world.bodies[contact.a.index].generation == contact.a.generation &&
-                  world.bodies[contact.b.index].generation == contact.b.generation,
-              "there are no such bodies");
+      state::require(world.bodies[contact.a.index].generation == contact.a.generation &&
+                         world.bodies[contact.b.index].generation == contact.b.generation,
+                     "there are no such bodies");
       check(contact);
     });
   first = true;
@@ -204,35 +206,35 @@ void check_pairs(const WorldState& world) {
                std::tie(memory.a, memory.b, memory.part_a, memory.part_b);
       };
       while (told < world.contacts.size() && before_it(world.contacts[told])) ++told;
-      require(told < world.contacts.size() && world.contacts[told].a.index == memory.a &&
-                  world.contacts[told].b.index == memory.b && world.contacts[told].part_a == memory.part_a &&
-                  world.contacts[told].part_b == memory.part_b,
-              "a contact that touches is not among the contacts");
+      state::require(told < world.contacts.size() && world.contacts[told].a.index == memory.a &&
+                         world.contacts[told].b.index == memory.b && world.contacts[told].part_a == memory.part_a &&
+                         world.contacts[told].part_b == memory.part_b,
+                     "a contact that touches is not among the contacts");
     });
   first = true;
   for (std::size_t i = 0; i < world.ignored.all().size(); ++i)
     at("ignored pair " + std::to_string(i), [&] {
       const IgnoredPairs::Entry& pair = world.ignored.all()[i];
       require_pair({pair.a, pair.b, 0, 0});
-      require(pair.asked || pair.holders > 0, "nothing ignores it");
+      state::require(pair.asked || pair.holders > 0, "nothing ignores it");
     });
 }
 
 /// Sets what follows from the rest, too.
 void check(WorldState& world) {
   at("setting", [&] {
-    validate(world.settings);
-    require(world.settings.integrator == Integrator::exact_quadratic ||
-                world.settings.integrator == Integrator::semi_implicit_euler,
-            "there is no such integrator");
+    state::validate(world.settings);
+    state::require(world.settings.integrator == Integrator::exact_quadratic ||
+                       world.settings.integrator == Integrator::semi_implicit_euler,
+                   "there is no such integrator");
   });
-  require(world.time >= 0 && std::isfinite(world.time), "a saved world has a bad time");
+  state::require(world.time >= 0 && std::isfinite(world.time), "a saved world has a bad time");
   check_bodies(world);
   std::uint64_t least = 0;
   for (const forces::NumberedForce& entry : world.forces)
     at("force " + std::to_string(entry.number), [&] {
-      validate(entry.force);
-      require(entry.number >= least && entry.number < world.next_force, "numbers of forces must come in order");
+      state::validate(entry.force);
+      state::require(entry.number >= least && entry.number < world.next_force, "numbers of forces must come in order");
       least = entry.number + 1;
     });
   check_pairs(world);
@@ -240,25 +242,25 @@ void check(WorldState& world) {
 }
 
 }  // namespace
-}  // namespace state
+}  // namespace saving
 
 std::vector<std::byte> World::save() const {
   const state::WorldState& world = inside();
   for (std::size_t i = 0; i < world.bodies.size(); ++i)
     state::require(!world.bodies[i].alive || world.bodies[i].finite(),
                    "a world whose body " + std::to_string(i) + " is not finite cannot be saved");
-  state::ByteWriter contents;
+  saving::ByteWriter contents;
   walk(contents, world);
-  return state::sealed(state::world_envelope, contents.bytes);
+  return saving::sealed(saving::world_envelope, contents.bytes);
 }
 
 void World::load(std::span<const std::byte> saved) {
   const Implementation& before = changing();
-  state::ByteReader reader(state::opened(state::world_envelope, saved), "world");
+  saving::ByteReader reader(saving::opened(saving::world_envelope, saved), "world");
   state::WorldState loaded;
   walk(reader, loaded);
   reader.require(reader.at_end(), "there is more than a world");
-  state::check(loaded);
+  saving::check(loaded);
   loaded.settings.threads = before.settings.threads;
   implementation_ = std::make_unique<Implementation>(std::move(loaded), before.executor);
 }

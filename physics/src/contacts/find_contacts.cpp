@@ -5,15 +5,15 @@
 
 #include "collision/collide_pairs.h"
 #include "collision/passage.h"
+#include "contacts/adopt.h"
+#include "contacts/combine.h"
+#include "contacts/found_manifold.h"
 #include "state/world_data.h"
-#include "step/adopt.h"
-#include "step/combine.h"
-#include "step/found_manifold.h"
 #include "surfaces/surface.h"
 
 namespace tweenfall {
 
-namespace step {
+namespace contacts {
 namespace {
 
 /// Two bodies that both have so many contacts already get none with each other.
@@ -56,35 +56,35 @@ void inherit(ContactConstraint& constraint, const state::ContactMemory& old, dou
 }
 
 }  // namespace
-}  // namespace step
+}  // namespace contacts
 
-bool World::Implementation::find_manifold(step::ContactConstraint& constraint, const state::Body& a,
+bool World::Implementation::find_manifold(contacts::ContactConstraint& constraint, const state::Body& a,
                                           const state::Body& b, const collision::Passage& way_a,
                                           const collision::Passage& way_b, double dt,
-                                          std::vector<step::KnownApart>* told_apart) const {
+                                          std::vector<contacts::KnownApart>* told_apart) const {
   const double swing = way_a.swing + way_b.swing;
-  const double reach = step::near_enough + (swing * dt > step::near_enough ? swing * dt : 0);
+  const double reach = contacts::near_enough + (swing * dt > contacts::near_enough ? swing * dt : 0);
   const Manifold manifold = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
-                                               step::near_enough, reach);
+                                               contacts::near_enough, reach);
   if (manifold.count > 0) {
     constraint.manifold = manifold;
-    step::adopt(constraint, way_a, {a.center, a.motion.pose.rotation}, way_b, {b.center, b.motion.pose.rotation});
+    contacts::adopt(constraint, way_a, {a.center, a.motion.pose.rotation}, way_b, {b.center, b.motion.pose.rotation});
   } else {
     const collision::Apart apart = collision::apart_along(way_a, way_b, manifold.normal);
     if (told_apart && apart.frame != collision::Apart::Frame::none)
       told_apart->push_back({{constraint.a, constraint.b}, apart});
     const double gap = collision::gap_along(way_a, way_b, manifold.normal);
-    if (collision::stay_apart(way_a, way_b, manifold.normal, gap, step::near_enough, dt)) return false;
+    if (collision::stay_apart(way_a, way_b, manifold.normal, gap, contacts::near_enough, dt)) return false;
     const std::optional<double> meeting = collision::impact_time(way_a.course, way_b.course, dt);
     if (!meeting) return false;
     constraint.impact_time = *meeting;
     const collision::Prediction at_a = way_a.course.at(*meeting);
     const collision::Prediction at_b = way_b.course.at(*meeting);
     // What a spin brings down in what is left of the step, too.
-    const double rest = step::near_enough + swing * (dt - *meeting);
+    const double rest = contacts::near_enough + swing * (dt - *meeting);
     constraint.manifold =
         tweenfall::collide(*way_a.course.shape, at_a.node(a), *way_b.course.shape, at_b.node(b), rest);
-    step::adopt(constraint, way_a, at_a, way_b, at_b);
+    contacts::adopt(constraint, way_a, at_a, way_b, at_b);
   }
   return constraint.count > 0 && constraint.manifold.normal.allFinite();
 }
@@ -104,7 +104,7 @@ bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
       const pairs::Pair its(memory.a, memory.b);
       if (its > pair) break;
       if (its == pair) {
-        step::PairMemories its_own{static_cast<std::uint32_t>(next), 0};
+        contacts::PairMemories its_own{static_cast<std::uint32_t>(next), 0};
         for (; next < remembered_before.size() && memories[remembered_before[next]].a == pair.first &&
                memories[remembered_before[next]].b == pair.second;
              ++next)
@@ -113,7 +113,7 @@ bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
       }
       if (!bodies[memory.a].stirs() && !bodies[memory.b].stirs()) retained.push_back(remembered_before[next]);
     }
-    return step::PairMemories{};
+    return contacts::PairMemories{};
   };
   bool crowded = false;
   for (const pairs::Pair& pair : pairs) {
@@ -123,8 +123,8 @@ bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
       looked_at[index] = look;
       looked_for.push_back(index);
     }
-    crowded = crowded ||
-              (contact_counts[pair.first] >= step::most_contacts && contact_counts[pair.second] >= step::most_contacts);
+    crowded = crowded || (contact_counts[pair.first] >= contacts::most_contacts &&
+                          contact_counts[pair.second] >= contacts::most_contacts);
     ++contact_counts[pair.first];
     ++contact_counts[pair.second];
   }
@@ -132,16 +132,16 @@ bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
   return crowded;
 }
 
-void World::Implementation::find_contact(const step::PairInContact& pair, const collision::Passage& way_a,
+void World::Implementation::find_contact(const contacts::PairInContact& pair, const collision::Passage& way_a,
                                          const collision::Passage& way_b, double dt, bool alone,
-                                         step::FoundPart& part) const {
+                                         contacts::FoundPart& part) const {
   const state::Body& a = *way_a.body;
   const state::Body& b = *way_b.body;
   const state::ContactMemory* memory =
       pair.memory != state::ContactMemories::nowhere ? &memories[pair.memory] : nullptr;
-  step::ContactConstraint& constraint = part.contacts.emplace_back();
-  static_cast<step::PairInContact&>(constraint) = pair;
-  constraint.kept = memory && step::take_up(*memory, a, b, way_a.swing + way_b.swing, dt, constraint);
+  contacts::ContactConstraint& constraint = part.contacts.emplace_back();
+  static_cast<contacts::PairInContact&>(constraint) = pair;
+  constraint.kept = memory && contacts::take_up(*memory, a, b, way_a.swing + way_b.swing, dt, constraint);
   if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt, alone ? &part.aparts : nullptr)) {
     part.contacts.pop_back();
     return;
@@ -149,24 +149,24 @@ void World::Implementation::find_contact(const step::PairInContact& pair, const 
   finish_contact(constraint, memory);
 }
 
-void World::Implementation::finish_contact(step::ContactConstraint& constraint,
+void World::Implementation::finish_contact(contacts::ContactConstraint& constraint,
                                            const state::ContactMemory* memory) const {
   const state::Body& a = bodies[constraint.a];
   const state::Body& b = bodies[constraint.b];
-  constraint.friction = step::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
+  constraint.friction = contacts::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
   constraint.restitution =
-      step::combined_restitution(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
+      contacts::combined_restitution(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
   constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
   constraint.spinning_friction = std::max(a.spinning_friction, b.spinning_friction);
   constraint.began = !(memory && memory->touching);
-  if (memory) step::inherit(constraint, *memory, 0.05 * std::min(a.radius, b.radius));
+  if (memory) contacts::inherit(constraint, *memory, 0.05 * std::min(a.radius, b.radius));
 }
 
-void World::Implementation::find_contacts_of_parts(const step::PairInContact& pair, step::PairMemories known, double dt,
-                                                   step::FoundPart& part) const {
+void World::Implementation::find_contacts_of_parts(const contacts::PairInContact& pair, contacts::PairMemories known,
+                                                   double dt, contacts::FoundPart& part) const {
   const collision::Passage& way_a = passages[pair.a];
   const collision::Passage& way_b = passages[pair.b];
-  const std::span<const Shape> parts_a = step::parts_of(*way_a.body), parts_b = step::parts_of(*way_b.body);
+  const std::span<const Shape> parts_a = contacts::parts_of(*way_a.body), parts_b = contacts::parts_of(*way_b.body);
   const auto way_of = [](const collision::Passage& way, std::span<const Shape> parts, std::size_t index) {
     return parts.empty() ? way : collision::passage_of_part(way, parts[index]);
   };
@@ -174,7 +174,7 @@ void World::Implementation::find_contacts_of_parts(const step::PairInContact& pa
   // No part comes farther in the step than this.
   const Vec3 closing = way_a.course.linear - way_b.course.linear;
   const Vec3 pull = way_a.course.acceleration - way_b.course.acceleration;
-  const double room = step::near_enough + (closing.norm() + pull.norm() * dt + way_a.swing + way_b.swing) * dt;
+  const double room = contacts::near_enough + (closing.norm() + pull.norm() * dt + way_a.swing + way_b.swing) * dt;
   struct PartWay {
     collision::Passage way;
     Bounds box;
@@ -196,7 +196,7 @@ void World::Implementation::find_contacts_of_parts(const step::PairInContact& pa
     for (std::uint32_t k = 0; k < count_b; ++k) {
       const Bounds& box_b = ways_b[k].box;
       if (((box_a.low - box_b.high).array() > room).any() || ((box_b.low - box_a.high).array() > room).any()) continue;
-      step::PairInContact one = pair;
+      contacts::PairInContact one = pair;
       one.part_a = i;
       one.part_b = k;
       while (next < end && std::pair(memories[sorted[next]].part_a, memories[sorted[next]].part_b) < std::pair(i, k))
@@ -209,36 +209,36 @@ void World::Implementation::find_contacts_of_parts(const step::PairInContact& pa
 }
 
 void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
-                                      std::span<const step::PairMemories> memories_of, bool crowded, double dt,
-                                      step::FoundPart& part) {
+                                      std::span<const contacts::PairMemories> memories_of, bool crowded, double dt,
+                                      contacts::FoundPart& part) {
   part.contacts.clear();
   part.aparts.clear();
-  auto next_apart =
-      pairs.empty()
-          ? aparts.cend()
-          : std::lower_bound(aparts.cbegin(), aparts.cend(), pairs.front(),
-                             [](const step::KnownApart& known, const pairs::Pair& pair) { return known.pair < pair; });
+  auto next_apart = pairs.empty() ? aparts.cend()
+                                  : std::lower_bound(aparts.cbegin(), aparts.cend(), pairs.front(),
+                                                     [](const contacts::KnownApart& known, const pairs::Pair& pair) {
+                                                       return known.pair < pair;
+                                                     });
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto [index_a, index_b] = pairs[i];
     const state::Body& a = bodies[index_a];
     const state::Body& b = bodies[index_b];
-    if (crowded && contact_counts[index_a] >= step::most_contacts && contact_counts[index_b] >= step::most_contacts &&
-        !a.immovable() && !b.immovable())
+    if (crowded && contact_counts[index_a] >= contacts::most_contacts &&
+        contact_counts[index_b] >= contacts::most_contacts && !a.immovable() && !b.immovable())
       continue;
-    step::PairInContact pair;
+    contacts::PairInContact pair;
     pair.a = index_a;
     pair.b = index_b;
     const std::size_t before = part.contacts.size();
     if (surfaces::surface_of(a.shape.solid) || surfaces::surface_of(b.shape.solid)) {
       find_contacts_with_surface(pair, memories_of[i], dt, part);
-    } else if (step::parts_of(a).empty() && step::parts_of(b).empty()) {
+    } else if (contacts::parts_of(a).empty() && contacts::parts_of(b).empty()) {
       const collision::Passage& way_a = passages[index_a];
       const collision::Passage& way_b = passages[index_b];
       while (next_apart != aparts.cend() && next_apart->pair < pairs[i]) ++next_apart;
       if (next_apart != aparts.cend() && next_apart->pair == pairs[i]) {
         const Vec3 direction = next_apart->apart.in_world(way_a, way_b);
         if (collision::stay_apart(way_a, way_b, direction, collision::gap_along(way_a, way_b, direction),
-                                  step::near_enough, dt)) {
+                                  contacts::near_enough, dt)) {
           part.aparts.push_back(*next_apart);
           continue;
         }
@@ -260,20 +260,21 @@ void World::Implementation::find_constraints(double dt) {
   memories.tidy();
   const threads::Workers work = workers();
   const std::vector<pairs::Pair>& pairs =
-      broad_phase.find(bodies, watched, loads, {bodies, ignored}, step::near_enough, dt, work);
+      broad_phase.find(bodies, watched, loads, {bodies, ignored}, contacts::near_enough, dt, work);
   const bool crowded = recall(pairs);
   passages.resize(bodies.size());
-  work.ranges(looked_for.size(), step::worth_a_part, [&](std::size_t begin, std::size_t end) {
+  work.ranges(looked_for.size(), contacts::worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       passages[looked_for[i]] = collision::passage_of(bodies[looked_for[i]], loads[looked_for[i]], dt);
   });
   const std::span<const pairs::Pair> all = pairs;
-  const std::span<const step::PairMemories> known = pair_memories;
+  const std::span<const contacts::PairMemories> known = pair_memories;
   const auto find = [&](std::size_t part, std::size_t begin, std::size_t end) {
     find_part(all.subspan(begin, end - begin), known.subspan(begin, end - begin), crowded, dt, found[part]);
   };
   // In a crowd what a pair may have depends on the pairs before it.
-  const std::size_t parts = crowded ? 1 : std::max<std::size_t>(1, work.range_count(pairs.size(), step::worth_a_part));
+  const std::size_t parts =
+      crowded ? 1 : std::max<std::size_t>(1, work.range_count(pairs.size(), contacts::worth_a_part));
   found.resize(std::max(parts, found.size()));
   for (std::size_t i = parts; i < found.size(); ++i) found[i].contacts.clear();
   if (crowded) {
@@ -282,12 +283,12 @@ void World::Implementation::find_constraints(double dt) {
   } else if (pairs.empty()) {
     find(0, 0, 0);
   } else {
-    work.numbered_ranges(pairs.size(), step::worth_a_part, find);
+    work.numbered_ranges(pairs.size(), contacts::worth_a_part, find);
   }
   aparts.clear();
   for (std::size_t i = 0; i < parts; ++i) {
     aparts.insert(aparts.end(), found[i].aparts.begin(), found[i].aparts.end());
-    for (step::ContactConstraint& contact : found[i].contacts) active.push_back(&contact);
+    for (contacts::ContactConstraint& contact : found[i].contacts) active.push_back(&contact);
   }
 }
 

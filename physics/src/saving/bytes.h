@@ -10,9 +10,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "state/walk.h"
+#include "saving/walk.h"
 
-namespace tweenfall::state {
+namespace tweenfall::saving {
 
 /// The unsigned integer in which a number is written.
 template <class T>
@@ -152,4 +152,4 @@ class ByteReader {
   bool in_compound_ = false;
 };
 
-}  // namespace tweenfall::state
+}  // namespace tweenfall::saving

@@ -2,10 +2,10 @@
 
 #include <tweenfall/physics/world.h>
 
-namespace tweenfall::step {
+namespace tweenfall::contacts {
 
 /// The rule of a pair: that of the two bodies' rules which comes later in `Combine`.
 [[nodiscard]] double combined_friction(double a, Combine rule_a, double b, Combine rule_b);
 [[nodiscard]] double combined_restitution(double a, Combine rule_a, double b, Combine rule_b);
 
-}  // namespace tweenfall::step
+}  // namespace tweenfall::contacts

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-namespace tweenfall::state {
+namespace tweenfall::saving {
 
 /// What stands before saved contents: "tweenfall KIND", a version, how long they are, and their checksum.
 struct Envelope {
@@ -18,4 +18,4 @@ struct Envelope {
 /// The contents of saved bytes. @throws std::invalid_argument when what stands before them is not right
 [[nodiscard]] std::span<const std::byte> opened(const Envelope& envelope, std::span<const std::byte> saved);
 
-}  // namespace tweenfall::state
+}  // namespace tweenfall::saving
