@@ -7,10 +7,9 @@ import {findBrowser, Page} from "./browser.mjs";
 import {check, equal, near, summary} from "./checks.mjs";
 import {frameModels} from "./model_tests.mjs";
 import {showHostile} from "./hostile_tests.mjs";
-import {showsJoints} from "./joint_tests.mjs";
 import {fitsAllWidths} from "./layout_tests.mjs";
+import {showsJoints, showsSteps} from "./overlay_tests.mjs";
 import {readPng} from "./png.mjs";
-import {showsSteps} from "./step_tests.mjs";
 import {drivesTheTimeline} from "./timeline_tests.mjs";
 
 const browser = findBrowser();
