@@ -12,6 +12,23 @@
 
 namespace tweenfall::attack {
 
+namespace {
+
+/// All that a picture or a table may show in words: names may be any, also such as numbers that are none.
+std::string names_in(const StageDescription& stage) {
+  std::string names = stage.name;
+  for (const NodeDescription& node : stage.nodes) names += "\n" + node.name;
+  for (const JointDescription& joint : stage.joints) names += "\n" + joint.name;
+  for (const Clip& clip : stage.clips) {
+    names += "\n" + clip.name;
+    for (const Track& track : clip.tracks) names += "\n" + track.name();
+    for (const ClipEvent& event : clip.events) names += "\n" + event.name;
+  }
+  return names;
+}
+
+}  // namespace
+
 std::string fault_of_run(const StageDescription& description, double seconds) {
   Recording recording;
   try {
@@ -28,11 +45,14 @@ std::string fault_of_run(const StageDescription& description, double seconds) {
   if (const std::string fault = fault_of_json(recording_json(recording)); !fault.empty()) {
     return "the recording: " + fault;
   }
-  if (const std::string fault = fault_of_text(recording_csv(recording)); !fault.empty()) return "the table: " + fault;
+  const std::string names = names_in(description);
+  const auto numbers = [&](const std::string& text) { return fault_of_text(text, names); };
+  const auto letters = [](const std::string& text) { return std::string(is_utf8(text) ? "" : "not UTF-8"); };
   const std::pair<const char*, std::string> pictures[] = {
-      {"the moving picture: ", written([&] { return recording_svg(recording, description); })},
-      {"the plot: ", written([&] { return plot_svg(description, &recording); })},
-      {"the page: ", written([&] { return recording_html(recording, description); }, false)}};
+      {"the table: ", numbers(recording_csv(recording))},
+      {"the moving picture: ", written([&] { return recording_svg(recording, description); }, numbers)},
+      {"the plot: ", written([&] { return plot_svg(description, &recording); }, numbers)},
+      {"the page: ", written([&] { return recording_html(recording, description); }, letters)}};
   for (const auto& [name, fault] : pictures) {
     if (!fault.empty()) return name + fault;
   }

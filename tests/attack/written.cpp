@@ -25,22 +25,30 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-std::string fault_of_text(const std::string& text) {
+namespace {
+
+/// Where `word` stands as a word of its own, also in the attributes of a picture; npos for nowhere.
+std::size_t place_of_word(std::string_view word, const std::string& text) {
+  const auto beside = [&](std::size_t at) {
+    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
+  };
+  for (std::size_t i = text.find(word); i != std::string::npos; i = text.find(word, i + 1)) {
+    // "joint-inf" is a name.
+    const std::size_t begin = i > 0 && text[i - 1] == '-' ? i - 1 : i;
+    if (!(begin > 0 && beside(begin - 1)) && !beside(i + word.size())) return i;
+  }
+  return std::string::npos;
+}
+
+}  // namespace
+
+std::string fault_of_text(const std::string& text, const std::string& names) {
   if (!is_utf8(text)) return "not UTF-8";
-  // As a word of its own, also in the attributes of a picture. No document to begin with has such a name.
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    for (const std::string_view word : {"nan", "NaN", "inf", "Infinity"}) {
-      if (text.compare(i, word.size(), word) != 0) continue;
-      const auto beside = [&](std::size_t at) {
-        return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) || text[at] == '_');
-      };
-      // "joint-inf" is a name.
-      const std::size_t begin = i > 0 && text[i - 1] == '-' ? i - 1 : i;
-      if (!(begin > 0 && beside(begin - 1)) && !beside(i + word.size())) {
-        return "\"" + std::string(word) + "\" where a number belongs, after \"" + text.substr(i < 40 ? 0 : i - 40, 40) +
-               "\"";
-      }
-    }
+  for (const std::string_view word : {"nan", "NaN", "inf", "Infinity"}) {
+    const std::size_t at = place_of_word(word, text);
+    if (at == std::string::npos || names.find(word) != std::string::npos) continue;
+    const std::size_t from = at < 40 ? 0 : at - 40;
+    return "\"" + std::string(word) + "\" where a number belongs, after \"" + text.substr(from, at - from) + "\"";
   }
   return {};
 }

@@ -12,18 +12,18 @@ namespace tweenfall::attack {
 [[nodiscard]] bool is_utf8(std::string_view text);
 
 /// A NaN or an infinity in place of a number, or bytes that are not UTF-8; empty when there is none.
-[[nodiscard]] std::string fault_of_text(const std::string& text);
+/// @param names  that the text may show; a word of theirs is not looked for
+[[nodiscard]] std::string fault_of_text(const std::string& text, const std::string& names);
 
 /// The same of JSON, whose names may be any words.
 [[nodiscard]] std::string fault_of_json(const std::string& text);
 
-/// What is wrong with what `write` makes. That it refuses in words (std::runtime_error, std::invalid_argument) is
-/// right.
-template <class Write>
-[[nodiscard]] std::string written(const Write& write, bool only_numbers = true) {
+/// What `judge` finds wrong with what `write` makes. That it refuses in words (std::runtime_error,
+/// std::invalid_argument) is right.
+template <class Write, class Judge>
+[[nodiscard]] std::string written(const Write& write, const Judge& judge) {
   try {
-    const std::string text = write();
-    return only_numbers ? fault_of_text(text) : is_utf8(text) ? std::string() : "not UTF-8";
+    return judge(write());
   } catch (const std::runtime_error&) {
     return {};
   } catch (const std::invalid_argument&) {
