@@ -51,7 +51,7 @@ int command(const std::vector<std::string>& arguments) {
     say("tweenfall: error: not enough memory");
     return 1;
   } catch (const std::exception& error) {
-    say_faults(faults_of(error, "tweenfall"));
+    say_faults(error, "tweenfall");
     return 1;
   }
 }

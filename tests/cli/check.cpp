@@ -146,3 +146,41 @@ TEST_CASE("hostile models end with 1 and a message, repaired ones with 0, and th
     if (ran.code == 1) CHECK(ran.err.find(name) != std::string::npos);
   }
 }
+
+TEST_CASE("of very many problems the first are listed and all are counted") {
+  const Folder folder;
+  std::string nodes;
+  for (int i = 0; i < 9000; ++i) nodes += (i > 0 ? ", \"n" : "\"n") + std::to_string(i) + "\": {\"colr\": 1}";
+  folder.write("many.json", "{\"tweenfall\": 1, \"nodes\": {" + nodes + "}}");
+  for (const char* verb : {"check many.json", "run many.json --until 1"}) {
+    const Ran ran = folder.run(verb);
+    CHECK(ran.code == 1);
+    CHECK(ran.err.find("many.json: error: 8600 more problems are not listed\n9000 problems\n") != std::string::npos);
+  }
+  const json told = json::parse(folder.run("check --json many.json").out);
+  CHECK(told["problems"] == 9000);
+  CHECK(told["files"][0]["problems"].size() == 401);
+}
+
+TEST_CASE("a node where no picture can show it is told at its place, with a body and without, by rest and by track") {
+  const Folder folder;
+  folder.write("far.json",
+               "{\"tweenfall\": 1,\n \"nodes\": {\n  \"near\": {},\n  \"far\": {\"position\": [0, -1e39, 0]}}}");
+  folder.write("moved.json",
+               "{\"tweenfall\": 1,\n \"nodes\": {\"near\": {},\n  \"far\": {}},\n \"clips\": {\"c\": {\"tracks\": "
+               "{\"far.position\": [[0, [1e39, 0, 0]]]}}}}");
+  folder.write("free.json",
+               "{\"tweenfall\": 1,\n \"clips\": {\"c\": {\"tracks\": {\"far.scale\": [[0, 1e39], [1, 1e39]]}}}}");
+  const std::pair<const char*, const char*> places[] = {
+      {"far", ":4:23: error: node \"far\" is 1e+39 m from the origin at 0 s"},
+      {"moved", ":3:10: error: node \"far\" is 1e+39 m from the origin at 0 s"},
+      {"free", ":2:11: error: node \"far\" is 1e+39 times its size at 0 s"}};
+  for (const auto& [name, place] : places)
+    for (const char* verb : {"check ", "run --until 1 ", "sample --at 0 ", "plot -o out.svg ", "view -o out.html "}) {
+      const Ran ran = folder.run(verb + std::string(name) + ".json");
+      CHECK(ran.code == 1);
+      CHECK_MESSAGE(ran.err.starts_with(name + std::string(".json") + place), ran.err);
+    }
+  const json told = json::parse(folder.run("check --json far.json").out);
+  CHECK(told["files"][0]["problems"][0]["pointer"] == "/nodes/far/position");
+}

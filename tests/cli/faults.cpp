@@ -97,6 +97,48 @@ TEST_CASE("what check calls valid, run, sample, plot and view take; what it refu
   }
 }
 
+TEST_CASE("each shared document with a fault is held by a test here to what must come out") {
+  const fs::path shared = fs::path(TWEENFALL_SOURCE_DIR) / "../shared/faults";
+  std::string tests;
+  for (const auto& entry : fs::directory_iterator(fs::path(TWEENFALL_SOURCE_DIR) / "tests/cli"))
+    tests += detail::content(entry.path());
+  for (const fs::path& file : fault_documents())
+    if (file.parent_path() == fs::canonical(shared))
+      CHECK_MESSAGE(tests.find("\"" + file.stem().string() + "\"") != std::string::npos, file.stem().string());
+}
+
+TEST_CASE("a rule for all of a pattern leaves out what is static, and every verb says so") {
+  const Folder folder;
+  for (const fs::path& file : named("pattern_that_takes_a_static_body")) {
+    for (const Verb& verb : five) {
+      CAPTURE(verb.arguments);
+      const Ran ran = folder.run(with_file(verb.arguments, file));
+      CHECK(ran.code == 0);
+      CHECK_MESSAGE(ran.err.find(": note: \"*\" leaves out \"floor\"") != std::string::npos, ran.err);
+    }
+    const Ran ran = folder.run("run --until 1 --json " + shell_word(file));
+    const nlohmann::json handoffs = nlohmann::json::parse(ran.out)["handoffs"];
+    REQUIRE(handoffs.size() == 1);
+    CHECK(handoffs[0]["body"] == "ball");
+    CHECK(handoffs[0]["to"] == "driven");
+  }
+}
+
+TEST_CASE("keys so far from each other that no number is the way between them are refused by every verb") {
+  const Folder folder;
+  for (const fs::path& file : named("plot_of_a_huge_range"))
+    for (const Verb& verb : five) {
+      CAPTURE(verb.arguments);
+      const Ran ran = folder.run(with_file(verb.arguments, file));
+      CHECK(ran.code == 1);
+      CHECK_MESSAGE(
+          ran.err.find(".json:1:52: error: key 1 (time 1 s, value 1e+308) is further from the key before it") !=
+              std::string::npos,
+          ran.err);
+      CHECK(folder.names().empty());
+    }
+}
+
 TEST_CASE("plots of steep curves are pictures") {
   const Folder folder;
   for (const char* name : {"plot_of_a_huge_slope", "plot_of_a_steep_color"}) {

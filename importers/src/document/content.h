@@ -63,6 +63,7 @@ struct Building {
 
 // A document's tree and what it means.
 struct ReadDocument {
+  std::string name;  // in problems
   json::Tree tree;
   StageDescription stage;
   bool names_are_free = false;

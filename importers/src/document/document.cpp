@@ -2,6 +2,8 @@
 
 #include "document/content.h"
 #include "document/grammar/grammar.h"
+#include "document/judge/judge.h"
+#include "document/read/values.h"
 #include "document/write/from_model.h"
 #include "document/write/write.h"
 
@@ -38,6 +40,15 @@ const StageDescription& Document::stage() const noexcept {
 
 const std::vector<Problem>& Document::notes() const noexcept {
   return content_->document.notes;
+}
+
+Problem Document::problem_of_node(std::size_t node, std::string message) const {
+  const document::ReadDocument& read = content_->document;
+  const json::Value place =
+      document::judging::place_of_node(read.tree.root(), read.stage.nodes[node].name, read.names_are_free);
+  document::Problems problems;
+  problems.add(document::below(place, {"position"}), std::move(message));
+  return problems.located(Severity::error, read.name, read.tree).front();
 }
 
 std::string Document::text() const {

@@ -55,11 +55,16 @@ std::vector<std::string> Form::field_names() const {
   return names;
 }
 
-std::string Form::field_meant(std::string_view name) const {
+std::string Form::field_called(std::string_view name) const {
   const std::string small = small_letters(name);
   for (const Field& each : fields)
     if (std::find(each.elsewhere.begin(), each.elsewhere.end(), small) != each.elsewhere.end()) return each.name;
-  return document::name_meant(name, field_names());
+  return {};
+}
+
+std::string Form::field_meant(std::string_view name) const {
+  const std::string called = field_called(name);
+  return called.empty() ? document::name_meant(name, field_names()) : called;
 }
 
 bool is_free_name(std::string_view name) {

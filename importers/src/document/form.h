@@ -93,6 +93,8 @@ struct Form {
   [[nodiscard]] const Field* field(std::string_view name) const;
   [[nodiscard]] const Form* member(std::string_view name) const;  // form of a member's value; null: no such name
   [[nodiscard]] std::vector<std::string> field_names() const;
+  // The field that others call by this name, or nothing.
+  [[nodiscard]] std::string field_called(std::string_view name) const;
   // The field that a name which is none stands for: what others call it, or the nearest; or nothing.
   [[nodiscard]] std::string field_meant(std::string_view name) const;
 };

@@ -14,8 +14,8 @@ namespace tweenfall {
 namespace recordings {
 namespace {
 
-[[noreturn]] void fail(const Recording& recording, const std::string& what) {
-  throw std::invalid_argument((recording.name.empty() ? "" : "recording \"" + recording.name + "\": ") + what);
+[[noreturn]] void fail(const Recording& recording, std::string reason) {
+  throw RecordingFault(recording, no_node, std::move(reason));
 }
 
 void check_length(const Recording& recording, const NodeRecord& node, std::size_t length, const char* list) {
@@ -38,13 +38,15 @@ void check_node(const Recording& recording, std::size_t index) {
     const Twist& twist = node.twist[frame];
     if (!world.linear.allFinite() || !world.motion.pose.position.allFinite() ||
         !world.motion.pose.rotation.coeffs().allFinite() || !twist.linear.allFinite() || !twist.angular.allFinite())
-      fail(recording, "node \"" + node.name + "\" is not at a finite place or speed at " +
-                          number_text(recording.times[frame]) + " s (frame " + std::to_string(frame) +
-                          "); the simulation has gone astray there");
+      throw RecordingFault(recording, index,
+                           "node \"" + node.name + "\" is not at a finite place or speed at " +
+                               number_text(recording.times[frame]) + " s (frame " + std::to_string(frame) +
+                               "); the simulation has gone astray there");
     if (!node.weights.empty() && !std::all_of(node.weights[frame].begin(), node.weights[frame].end(),
                                               [](double weight) { return std::isfinite(weight); }))
-      fail(recording, "a morph weight of node \"" + node.name + "\" is not finite at " +
-                          number_text(recording.times[frame]) + " s");
+      throw RecordingFault(recording, index,
+                           "a morph weight of node \"" + node.name + "\" is not finite at " +
+                               number_text(recording.times[frame]) + " s");
   }
 }
 
@@ -103,6 +105,11 @@ double largest_number(const Shape& shape) {
 }  // namespace
 }  // namespace recordings
 
+RecordingFault::RecordingFault(const Recording& recording, NodeId node_at_fault, std::string why)
+    : std::invalid_argument((recording.name.empty() ? "" : "recording \"" + recording.name + "\": ") + why),
+      node(node_at_fault),
+      reason(std::move(why)) {}
+
 void check_recording(const Recording& recording) {
   for (std::size_t frame = 0; frame < recording.times.size(); ++frame) {
     if (!std::isfinite(recording.times[frame]))
@@ -157,15 +164,19 @@ void check_drawable(const Recording& recording, const StageDescription& stage) {
   check_recording(recording);
   constexpr double largest_float = std::numeric_limits<float>::max();
   constexpr const char* limit = ", beyond the 3.4e+38 that .glb files hold";
-  for (const NodeRecord& node : recording.nodes)
+  for (NodeId index = 0; index < recording.nodes.size(); ++index)
     for (std::size_t frame = 0; frame < recording.times.size(); ++frame)
-      if (const auto [size, what] = recordings::largest_number(node, frame); size > largest_float)
-        recordings::fail(recording, "node \"" + node.name + "\" is " + brief_text(size) + " " + what + " at " +
-                                        number_text(recording.times[frame]) + " s" + limit);
-  for (const NodeDescription& node : stage.nodes)
+      if (const auto [size, what] = recordings::largest_number(recording.nodes[index], frame); size > largest_float)
+        throw RecordingFault(recording, index,
+                             "node \"" + recording.nodes[index].name + "\" is " + brief_text(size) + " " + what +
+                                 " at " + number_text(recording.times[frame]) + " s" + limit);
+  for (NodeId index = 0; index < stage.nodes.size(); ++index) {
+    const NodeDescription& node = stage.nodes[index];
     if (node.body && recordings::largest_number(node.body->shape) > largest_float)
-      recordings::fail(recording, "the shape of node \"" + node.name + "\" is " +
-                                      brief_text(recordings::largest_number(node.body->shape)) + " m large" + limit);
+      throw RecordingFault(recording, index,
+                           "the shape of node \"" + node.name + "\" is " +
+                               brief_text(recordings::largest_number(node.body->shape)) + " m large" + limit);
+  }
 }
 
 }  // namespace tweenfall

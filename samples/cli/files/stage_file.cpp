@@ -49,6 +49,7 @@ std::size_t clip_called(const StageDescription& stage, const std::string& name, 
 void take(StageFile& read, const Document& document) {
   read.stage = document.stage();
   read.notes = document.notes();
+  read.document = document;
 }
 
 StageFile unjudged_file(const std::string& file) {
@@ -98,6 +99,9 @@ StageFile judged_stage_file(const std::string& file) {
     check_drawable(record(stage, 0, 1), read.stage);
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const RecordingFault& error) {
+    if (!read.document || error.node == no_node) throw Faults(faults_of(error, file));
+    throw DocumentError({read.document->problem_of_node(error.node, error.reason)});
   } catch (const std::exception& error) {
     throw Faults(faults_of(error, file));
   }

@@ -14,8 +14,9 @@ namespace tweenfall::cli {
 struct StageFile {
   std::string name;  ///< the file's, without folders and ending, for output beside it
   bool is_model = false;
-  StageDescription stage;      ///< named as the file where it has no name of its own
-  std::vector<Problem> notes;  ///< of the document, or what was lost of the model
+  StageDescription stage;            ///< named as the file where it has no name of its own
+  std::vector<Problem> notes;        ///< of the document, or what was lost of the model
+  std::optional<Document> document;  ///< none of a model
 };
 
 /// Whether the ending is a model's: .glb, .gltf, .fbx, .bvh, .dae or .obj, in any case.

@@ -46,9 +46,17 @@ std::vector<std::string> faults_of(const std::exception& error, const std::strin
   return all;
 }
 
-void say_faults(const std::vector<std::string>& texts) {
-  for (const std::string& text : texts) say(text);
-  say(counted(texts.size(), "problem"));
+std::size_t fault_count(const std::exception& error, const std::string& source) {
+  const auto* document = dynamic_cast<const DocumentError*>(&error);
+  if (!document) return faults_of(error, source).size();
+  std::size_t count = 0;
+  for (const Problem& problem : document->problems()) count += problem.count;
+  return count;
+}
+
+void say_faults(const std::exception& error, const std::string& source) {
+  for (const std::string& text : faults_of(error, source)) say(text);
+  say(counted(fault_count(error, source), "problem"));
 }
 
 }  // namespace tweenfall::cli

@@ -2,6 +2,7 @@
 
 /// Faults of files and runs as the command tells them: every one, as compilers print them, and their number.
 
+#include <cstddef>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -22,7 +23,10 @@ class Faults : public std::runtime_error {
 /// The texts of what a library threw; `source` stands before those that name no file.
 [[nodiscard]] std::vector<std::string> faults_of(const std::exception& error, const std::string& source);
 
+/// How many there are: of a document with very many, more than have a text.
+[[nodiscard]] std::size_t fault_count(const std::exception& error, const std::string& source);
+
 /// All on stderr, and "2 problems" below them.
-void say_faults(const std::vector<std::string>& texts);
+void say_faults(const std::exception& error, const std::string& source);
 
 }  // namespace tweenfall::cli

@@ -25,7 +25,7 @@ struct Finding {
   std::string summary;             ///< of a file without problems
   std::vector<std::string> texts;  ///< a problem or note each, as people read it
   std::vector<std::string> jsons;  ///< the same, as JSON objects
-  std::size_t problems = 0;        ///< of the texts those that are faults
+  std::size_t problems = 0;        ///< faults, listed or not
 };
 
 std::string problem_json(const Problem& problem) {
@@ -80,11 +80,12 @@ Finding check_file(const std::string& file) {
   } catch (const DocumentError& error) {
     finding.texts = faults_of(error, file);
     for (const Problem& problem : error.problems()) finding.jsons.push_back(problem_json(problem));
+    finding.problems = fault_count(error, file);
   } catch (const std::exception& error) {
     finding.texts = faults_of(error, file);
     for (const std::string& text : finding.texts) finding.jsons.push_back(problem_json(problem_of(text, file)));
+    finding.problems = finding.texts.size();
   }
-  finding.problems = finding.texts.size();
   return finding;
 }
 

@@ -113,18 +113,6 @@ TEST_CASE("of a group, too, what is static is left out with a note") {
   CHECK(has(rule, "(at /handoff/0/group)"));
 }
 
-TEST_CASE("words of other programs for fields are answered with ours") {
-  const std::string said = faults_of(
-      "{\"tweenfall\": 1, \"world\": {\"dt\": 0.01}, \"nodes\": {\"a\": {\"translation\": [0, 0, 0], \"body\": "
-      "{\"shape\": "
-      "{\"sphere\": {\"radius\": 1}}, \"fixed\": true, \"Bounciness\": 1}}}}",
-      "n.json", {});
-  CHECK(has(said, "unknown field \"dt\"; did you mean \"step\"?"));
-  CHECK(has(said, "unknown field \"translation\"; did you mean \"position\"?"));
-  CHECK(has(said, "unknown field \"fixed\"; did you mean \"static\"?"));
-  CHECK(has(said, "unknown field \"Bounciness\"; did you mean \"restitution\"?"));
-}
-
 TEST_CASE("what the stage would refuse is told with its place, all at once") {
   const std::string said = faults_of(
       "{\"tweenfall\": 1, \"world\": {\"gravity\": [0, 1e300, 0]}, \"nodes\": {\n"
@@ -140,58 +128,6 @@ TEST_CASE("what the stage would refuse is told with its place, all at once") {
                           "\"rest_length\": 1e200}}]}"),
                 "n.json", {}),
       "(at /world/forces/1)"));
-}
-
-TEST_CASE("errors say what to write where other words are used") {
-  const auto said = [](const std::string& rest) { return faults_of("{\"tweenfall\": 1, " + rest + "}", "n.json", {}); };
-  CHECK(has(said("\"import\": \"Fox.glb\""), "say {\"model\": \"Fox.glb\"}, and its nodes are \"model/...\""));
-  CHECK(has(said("\"nodes\": {\"a\": {\"parent\": \"fox/Head\"}}"),
-            "names that begin with \"fox/\" come in with \"import\": {\"fox\": \"FILE\"}"));
-  CHECK(has(said("\"clips\": {\"c\": {}}, \"play\": [{\"clip\": \"fox/walk\"}]"), "come in with \"import\": {\"fox\""));
-  CHECK(has(said("\"clips\": {\"c\": {\"tracks\": {\"hinge.rot\": {\"axis\": \"z\", \"keys\": [[0, 0], [1, 90]]}}}}"),
-            "did you mean \"hinge.rotation\"?"));
-  const std::string keys = said("\"clips\": {\"c\": {\"tracks\": {\"a.b\": [{\"time\": 0, \"value\": 1}]}}}");
-  CHECK(has(keys, "unknown field \"time\"; did you mean \"t\"?"));
-  CHECK(has(keys, "unknown field \"value\"; did you mean \"v\"?"));
-  CHECK_FALSE(has(keys, "is missing"));
-  const std::string nodes =
-      "\"nodes\": {\"a\": {\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}}}}, \"handoff\": [{\"body\": "
-      "\"a\", \"to\": \"free\", \"when\": ";
-  CHECK(has(said(nodes + "\"let go\"}]"), "say {\"marker\": \"let go\"} for"));
-  CHECK(has(said(nodes + "\"let go\"}]"), "or {\"event\": \"let go\"}"));
-  CHECK(has(said(nodes + "0.5}]"), "say {\"at\": 0.5}"));
-  CHECK(has(said("\"nodes\": {\"a\": {"), "1:"));
-}
-
-TEST_CASE(
-    "an import of this folder that is not there is missing, not outside, and nodes of imports have their whole name") {
-  const auto said = [](const std::string& rest) { return faults_of("{\"tweenfall\": 1, " + rest + "}", "n.json", {}); };
-  const std::string missing = said("\"import\": {\"fox\": \"Fox.glb\"}");
-  CHECK(has(missing, "there is no file \"Fox.glb\""));
-  CHECK_FALSE(has(missing, "outside"));
-  CHECK(has(said("\"import\": {\"fox\": \"../Fox.glb\"}"), "lies outside the document's folder"));
-  CHECK(has(said("\"import\": {\"fox\": {\"file\": \"Fox.glb\"}}"), "expected the path of a file"));
-
-  const std::filesystem::path folder = data_folder() / "documents/good";
-  const auto beside = [&](const std::string& rest) {
-    return faults_of("{\"tweenfall\": 1, \"import\": {\"start\": \"pendulum.json\"}, " + rest + "}", "n.json", folder);
-  };
-  const StageDescription all = Document::read(folder / "pendulum.json").stage();
-  REQUIRE(!all.nodes.empty());
-  const std::string& node = all.nodes.front().name;
-  CHECK(has(beside("\"nodes\": {\"a\": {\"parent\": \"" + node + "\"}}"), "did you mean \"start/" + node + "\"?"));
-}
-
-TEST_CASE("eases by the names of other programs are answered with ours, and those of CSS are taken") {
-  const auto ease = [](const std::string& word) {
-    return faults_of(
-        "{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {\"a.b\": [[0, 0, \"" + word + "\"], [1, 1]]}}}}", "n.json",
-        {});
-  };
-  CHECK(ease("ease-in-out").empty());
-  CHECK(has(ease("easeInOutQuad"), "quad-in-out"));
-  CHECK(has(ease("easeOutBounce"), "bounce-out"));
-  CHECK(has(ease("cubic-in-out(3)"), "\"cubic-in-out\" takes no values"));
 }
 
 TEST_CASE("files that import each other twice are read once each, and what they bring is bounded") {

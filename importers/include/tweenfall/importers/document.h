@@ -32,6 +32,7 @@ struct Problem {
   std::string excerpt;             ///< the line of the file, or of a very long one what stands around the place
   std::size_t excerpt_column = 1;  ///< column of the excerpt's first character
   std::size_t length = 1;          ///< how many bytes are meant
+  std::size_t count = 1;           ///< more where it says how many others are not listed
 
   /// "file:line:column: error: message (at pointer)", or "note:", then the line and a caret, as compilers print it.
   /// Always UTF-8.
@@ -69,6 +70,10 @@ class Document {
   /// What its author may want to know though the document is valid: names of ours nearly hit, what is too stiff or too
   /// fast for the step, bodies that start in each other, what a rule's pattern leaves out, what was lost of a model.
   [[nodiscard]] const std::vector<Problem>& notes() const noexcept;
+
+  /// What turned out to be wrong with a node of `stage`, such as a place that no file can hold: the message with the
+  /// node's place, or that of the import that brought it.
+  [[nodiscard]] Problem problem_of_node(std::size_t node, std::string message) const;
 
   /// The document as text: two spaces, one key per line, defaults left out. Reading and writing that again gives the
   /// same text.

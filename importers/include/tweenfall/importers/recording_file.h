@@ -5,18 +5,27 @@
 #include <tweenfall/physics/stage/recording.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <string>
 
 namespace tweenfall {
 
-/// @throws std::invalid_argument naming the node and the time when the recording does not hold together: lists of
-/// different lengths, numbers that are not finite, times that do not increase, nodes that are not there.
+/// A recording that cannot be written; `what()` says why, after the recording's name.
+class RecordingFault : public std::invalid_argument {
+ public:
+  RecordingFault(const Recording& recording, NodeId node, std::string reason);
+  NodeId node;         ///< `no_node` where it is about no single one
+  std::string reason;  ///< with the node's name and the time
+};
+
+/// @throws RecordingFault when the recording does not hold together: lists of different lengths, numbers that are not
+/// finite, times that do not increase, nodes that are not there.
 void check_recording(const Recording& recording);
 
 // All that follow throw as `check_recording` does.
 
 /// Whether .glb files can hold the recording, whose numbers are 32-bit floats.
-/// @throws std::invalid_argument naming the node, the time and the number that is beyond 3.4e+38.
+/// @throws RecordingFault with the node, the time and the number that is beyond 3.4e+38.
 void check_drawable(const Recording& recording, const StageDescription& stage);
 
 /// One object: "times", "nodes" (position, rotation x y z w, velocity and angular velocity at the center of mass,

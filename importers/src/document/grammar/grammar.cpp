@@ -62,11 +62,26 @@ struct Grammar {
                    {"name", any_text, "", false, "\"\""},
                    {"fps", store.add(frames), "what \"12f\" counts"},
                    {"import", import_form(store, values), "files whose nodes and clips come in"},
-                   {"nodes", named(fields::node_form(store, values), "an object with nodes by name"), ""},
-                   {"clips", named(clip_form(store, values), "an object with clips by name"), "", false, "{}"},
+                   {"nodes",
+                    named(fields::node_form(store, values), "an object with nodes by name"),
+                    "",
+                    false,
+                    "",
+                    {"bodies", "objects", "entities"}},
+                   {"clips",
+                    named(clip_form(store, values), "an object with clips by name"),
+                    "",
+                    false,
+                    "{}",
+                    {"animations", "animation", "actions"}},
                    {"play", rows_of(fields::play_form(store, values), "a list of plays"), "absent: the only clip"},
                    {"world", fields::world_form(store, values), "", false, "{}"},
-                   {"handoff", rows_of(fields::rule_form(store, values), "a list of rules"), "", false, "[]"}});
+                   {"handoff",
+                    rows_of(fields::rule_form(store, values), "a list of rules"),
+                    "",
+                    false,
+                    "[]",
+                    {"rules", "handoffs", "hand_off", "hand-off", "triggers"}}});
     document.one_a_line = true;
     root = store.add(std::move(document));
   }

@@ -9,18 +9,21 @@ namespace judging {
 namespace {
 
 // The member of `own`, or the import that brought it.
-json::Value place_of(const Building& building, std::string_view own, const std::string& name) {
-  if (const json::Value list = usable(building.root, own))
+json::Value place_of(const json::Value& root, std::string_view own, const std::string& name) {
+  if (const json::Value list = usable(root, own))
     if (const json::Value written = usable(list, name)) return written;
-  return below(building.root, {"import", std::string_view(name).substr(0, name.find('/'))});
+  return below(root, {"import", std::string_view(name).substr(0, name.find('/'))});
 }
 
 }  // namespace
 
-json::Value place_of_node(const Building& building, std::size_t node) {
-  const std::string& name = building.stage.nodes[node].name;
+json::Value place_of_node(const json::Value& root, const std::string& node, bool names_are_free) {
   // A document without nodes has them from its tracks.
-  return building.names_are_free ? below(building.root, {"clips"}) : place_of(building, "nodes", name);
+  return names_are_free ? below(root, {"clips"}) : place_of(root, "nodes", node);
+}
+
+json::Value place_of_node(const Building& building, std::size_t node) {
+  return place_of_node(building.root, building.stage.nodes[node].name, building.names_are_free);
 }
 
 json::Value place_of_world(const Building& building) {
@@ -28,7 +31,7 @@ json::Value place_of_world(const Building& building) {
 }
 
 json::Value place_of_clip(const Building& building, const std::string& clip) {
-  return place_of(building, "clips", clip);
+  return place_of(building.root, "clips", clip);
 }
 
 json::Value place_of_track(const Building& building, const Clip& clip, const Track& track) {

@@ -31,6 +31,7 @@ ReadDocument read_document(std::string text, const std::string& name, const std:
                            Reading& reading) {
   std::vector<json::Fault> faults;
   ReadDocument out;
+  out.name = name;
   out.tree = json::Tree::parse(std::move(text), faults, {.largest = largest_document});
   const json::Value root = out.tree.root();
   Problems problems;

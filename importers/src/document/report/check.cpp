@@ -2,11 +2,13 @@
 
 #include <tweenfall/curves/number_text.h>
 
+#include "document/report/homes.h"
 #include "document/report/suggestion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace tweenfall::document {
 
@@ -16,7 +18,7 @@ using Kind = json::Value::Kind;
 
 class Checker {
  public:
-  Checker(json::Tree& tree, Problems& problems) : tree_(tree), problems_(problems) {}
+  Checker(const Form& root, json::Tree& tree, Problems& problems) : root_(root), tree_(tree), problems_(problems) {}
 
   void value(const Form& form, const json::Value& value) {
     if (value.is(Kind::faulty)) return;
@@ -105,14 +107,13 @@ class Checker {
       }
     }
     std::vector<std::string> meant;  // fields that a misspelled name is near to
+    around_.push_back(&form);
     for (const json::Member& member : value.members()) {
       if (is_free_name(member.name)) continue;
       const Form* expected = form.member(member.name);
       if (!expected) {
         meant.push_back(form.field_meant(member.name));
-        problems_.add_name(
-            member, "unknown field " + json::in_quotes(member.name) + suggestion_of(meant.back(), form.field_names()));
-        tree_.mark_faulty(member.value);
+        unknown(form, member);
         continue;
       }
       if (form.name_fault && !form.field(member.name)) {
@@ -133,10 +134,22 @@ class Checker {
                                      " is a property of your own, and does not hold this value");
       tree_.mark_faulty(member.value);
     }
+    around_.pop_back();
     for (const Field& field : form.fields)
       if (field.required && !value.find(field.name) && std::find(meant.begin(), meant.end(), field.name) == meant.end())
         problems_.add(value, "expected " + what + "; " + json::in_quotes(field.name) + " is missing");
     for (const Together& rule : form.together) together(rule, what, value);
+  }
+
+  void unknown(const Form& form, const json::Member& member) {
+    std::string hint;
+    if (!problems_.crowded()) {
+      if (!homes_) homes_.emplace(root_);
+      hint = homes_->of(member.name, form, around_);
+      if (hint.empty()) hint = suggestion_of({}, form.field_names());
+    }
+    problems_.add_name(member, "unknown field " + json::in_quotes(member.name) + hint);
+    tree_.mark_faulty(member.value);
   }
 
   void together(const Together& rule, const std::string& what, const json::Value& value) {
@@ -167,14 +180,17 @@ class Checker {
     }
   }
 
+  const Form& root_;
   json::Tree& tree_;
   Problems& problems_;
+  std::vector<const Form*> around_;  // the objects that are open, the outermost first
+  std::optional<Homes> homes_;       // made when the first is asked for
 };
 
 }  // namespace
 
 void check(const Form& form, json::Tree& tree, Problems& problems) {
-  Checker(tree, problems).value(form, tree.root());
+  Checker(form, tree, problems).value(form, tree.root());
 }
 
 std::string described(const json::Value& value) {

@@ -164,6 +164,7 @@ std::vector<Problem> Problems::located(Severity severity, const std::string& fil
                                          (severity == Severity::note ? " more notes" : " more problems") +
                                          " are not listed"));
     out.back().severity = severity;
+    out.back().count = ordered.size() - count;
   }
   out.insert(out.end(), told.foreign.begin(), told.foreign.end());
   return out;

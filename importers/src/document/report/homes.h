@@ -1,0 +1,42 @@
+#pragma once
+
+// Where a name is at home that an object does not know: found in the forms, so that every field has one.
+
+#include "document/form.h"
+
+#include <cstddef>
+#include <deque>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tweenfall::document {
+
+class Homes {
+ public:
+  explicit Homes(const Form& root);
+
+  // `"; it belongs in \"world\""`, `"; did you mean \"step\" in \"world\"?"` of what others call it and of what is
+  // nearly it, or nothing.
+  // @param around  the objects that `here` stands in, the outermost first
+  [[nodiscard]] std::string of(std::string_view name, const Form& here, std::span<const Form* const> around) const;
+
+ private:
+  struct Object {
+    const Form* form;
+    std::string where;     // `in "world"`, `in a node of "nodes"`
+    const Object* holder;  // null for the whole document
+    std::size_t depth;     // how many objects hold it
+  };
+
+  void add(const Form& form, std::string what, const std::string& field, bool one_of_many, const Object* holder);
+  [[nodiscard]] std::string near(std::string_view name, const Form& here, std::span<const Form* const> around) const;
+  [[nodiscard]] std::string anywhere(std::string_view name, const Form& here) const;
+  using Meant = std::string (Form::*)(std::string_view) const;
+  [[nodiscard]] std::string meant_inside(std::string_view name, const Form& here, Meant meant) const;
+
+  std::deque<Object> objects_;  // those nearest to the whole document first
+};
+
+}  // namespace tweenfall::document

@@ -1,0 +1,153 @@
+// What errors say of what would be right: where a field belongs, what ours is called, what to write instead.
+
+#include "importers/document/document_files.h"
+
+#include <nlohmann/json.hpp>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// What is said of the first problem's field, after "unknown field".
+std::string hint(const std::string& text) {
+  const std::string said = faults_of(text, "n.json", {});
+  const std::string mark = "unknown field ";
+  const std::size_t from = said.find(mark);
+  REQUIRE_MESSAGE(from != std::string::npos, said);
+  const std::size_t to = said.find(" (at ", from);
+  return said.substr(from + mark.size(), to - from - mark.size());
+}
+
+std::string at_top(const std::string& field) {
+  return hint("{\"tweenfall\": 1, \"" + field + "\": 1}");
+}
+
+std::string in_node(const std::string& members) {
+  return hint("{\"tweenfall\": 1, \"nodes\": {\"a\": {" + members + "}}}");
+}
+
+bool says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("each field of the world that stands at the top of a document is told to belong in the world") {
+  const nlohmann::json schema = nlohmann::json::parse(document_schema());
+  const auto& fields = schema.at("definitions").at("world").at("properties");
+  REQUIRE(fields.size() >= 12);
+  for (const auto& [field, form] : fields.items()) CHECK(at_top(field) == "\"" + field + "\"; it belongs in \"world\"");
+}
+
+TEST_CASE("each field of a document that stands in the world is told to belong at the top") {
+  const nlohmann::json schema = nlohmann::json::parse(document_schema());
+  for (const auto& item : schema.at("properties").items()) {
+    const std::string& field = item.key();
+    if (field == "name") continue;  // of an event, too
+    CHECK(hint("{\"tweenfall\": 1, \"world\": {\"" + field + "\": 1}}") ==
+          "\"" + field + "\"; it belongs at the top of the document");
+  }
+}
+
+TEST_CASE("fields of a body in its node and of a node in its body are sent to each other") {
+  CHECK(in_node("\"mass\": 2") == "\"mass\"; it belongs in \"body\"");
+  CHECK(in_node("\"shape\": {\"sphere\": {\"radius\": 1}}") == "\"shape\"; it belongs in \"body\"");
+  const std::string body = "\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}, ";
+  CHECK(in_node(body + "\"color\": \"#fff\"}") == "\"color\"; it belongs in a node of \"nodes\"");
+  // What is inside comes with what is outside.
+  CHECK(in_node(body + "\"position\": [0, 1, 0]}") ==
+        "\"position\"; it belongs in a node of \"nodes\" or in \"offset\"");
+  CHECK(in_node("\"body\": {\"shape\": {\"sphere\": {\"radius\": 1, \"friction\": 1}}}") ==
+        "\"friction\"; it belongs in \"body\"");
+}
+
+TEST_CASE("what is at home in few things of the document is told with the whole way there") {
+  CHECK(at_top("tracks") == "\"tracks\"; it belongs in a clip of \"clips\"");
+  CHECK(at_top("mass") ==
+        "\"mass\"; it belongs in \"body\" of a node of \"nodes\" or in a ragdoll of \"ragdolls\" of \"world\"");
+  CHECK(in_node("\"sphere\": {\"radius\": 1}") ==
+        "\"sphere\"; it belongs in \"shape\" of \"body\" of a node of \"nodes\"");
+  CHECK(hint("{\"tweenfall\": 1, \"play\": [{\"clip\": \"c\", \"loop\": 1}]}") ==
+        "\"loop\"; it belongs in a clip of \"clips\"");
+}
+
+TEST_CASE("misspelled fields are still told by the nearest, in the object itself before those inside of it") {
+  CHECK(at_top("wrold") == "\"wrold\"; did you mean \"world\"?");
+  CHECK(at_top("rules") == "\"rules\"; did you mean \"handoff\"?");
+  CHECK(at_top("joint") == "\"joint\"; did you mean \"joints\" in \"world\"?");
+  CHECK(at_top("timestep") == "\"timestep\"; did you mean \"step\" in \"world\"?");
+  CHECK(at_top("zzzzzz").starts_with("\"zzzzzz\"; available: "));
+}
+
+TEST_CASE("fields of a joint's kind beside it are told the kinds that have them") {
+  const std::string said = hint(
+      "{\"tweenfall\": 1, \"world\": {\"joints\": {\"j\": {\"ball\": {}, \"between\": [\"a\", \"b\"], \"limits\": [0, "
+      "1]}}}}");
+  CHECK(said.find("it belongs in \"hinge\" or in \"slider\"") != std::string::npos);
+}
+
+TEST_CASE("words of other programs for fields are answered with ours") {
+  const std::string said = faults_of(
+      "{\"tweenfall\": 1, \"world\": {\"dt\": 0.01}, \"nodes\": {\"a\": {\"translation\": [0, 0, 0], \"body\": "
+      "{\"shape\": "
+      "{\"sphere\": {\"radius\": 1}}, \"fixed\": true, \"Bounciness\": 1}}}}",
+      "n.json", {});
+  CHECK(says(said, "unknown field \"dt\"; did you mean \"step\"?"));
+  CHECK(says(said, "unknown field \"translation\"; did you mean \"position\"?"));
+  CHECK(says(said, "unknown field \"fixed\"; did you mean \"static\"?"));
+  CHECK(says(said, "unknown field \"Bounciness\"; did you mean \"restitution\"?"));
+}
+
+TEST_CASE("errors say what to write where other words are used") {
+  const auto said = [](const std::string& rest) { return faults_of("{\"tweenfall\": 1, " + rest + "}", "n.json", {}); };
+  CHECK(says(said("\"import\": \"Fox.glb\""), "say {\"model\": \"Fox.glb\"}, and its nodes are \"model/...\""));
+  CHECK(says(said("\"nodes\": {\"a\": {\"parent\": \"fox/Head\"}}"),
+             "names that begin with \"fox/\" come in with \"import\": {\"fox\": \"FILE\"}"));
+  CHECK(
+      says(said("\"clips\": {\"c\": {}}, \"play\": [{\"clip\": \"fox/walk\"}]"), "come in with \"import\": {\"fox\""));
+  CHECK(says(said("\"clips\": {\"c\": {\"tracks\": {\"hinge.rot\": {\"axis\": \"z\", \"keys\": [[0, 0], [1, 90]]}}}}"),
+             "did you mean \"hinge.rotation\"?"));
+  const std::string keys = said("\"clips\": {\"c\": {\"tracks\": {\"a.b\": [{\"time\": 0, \"value\": 1}]}}}");
+  CHECK(says(keys, "unknown field \"time\"; did you mean \"t\"?"));
+  CHECK(says(keys, "unknown field \"value\"; did you mean \"v\"?"));
+  CHECK_FALSE(says(keys, "is missing"));
+  const std::string nodes =
+      "\"nodes\": {\"a\": {\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}}}}, \"handoff\": [{\"body\": "
+      "\"a\", \"to\": \"free\", \"when\": ";
+  CHECK(says(said(nodes + "\"let go\"}]"), "say {\"marker\": \"let go\"} for"));
+  CHECK(says(said(nodes + "\"let go\"}]"), "or {\"event\": \"let go\"}"));
+  CHECK(says(said(nodes + "0.5}]"), "say {\"at\": 0.5}"));
+  CHECK(says(said("\"nodes\": {\"a\": {"), "1:"));
+}
+
+TEST_CASE(
+    "an import of this folder that is not there is missing, not outside, and nodes of imports have their whole name") {
+  const auto said = [](const std::string& rest) { return faults_of("{\"tweenfall\": 1, " + rest + "}", "n.json", {}); };
+  const std::string missing = said("\"import\": {\"fox\": \"Fox.glb\"}");
+  CHECK(says(missing, "there is no file \"Fox.glb\""));
+  CHECK_FALSE(says(missing, "outside"));
+  CHECK(says(said("\"import\": {\"fox\": \"../Fox.glb\"}"), "lies outside the document's folder"));
+  CHECK(says(said("\"import\": {\"fox\": {\"file\": \"Fox.glb\"}}"), "expected the path of a file"));
+
+  const std::filesystem::path folder = data_folder() / "documents/good";
+  const auto beside = [&](const std::string& rest) {
+    return faults_of("{\"tweenfall\": 1, \"import\": {\"start\": \"pendulum.json\"}, " + rest + "}", "n.json", folder);
+  };
+  const StageDescription all = Document::read(folder / "pendulum.json").stage();
+  REQUIRE(!all.nodes.empty());
+  const std::string& node = all.nodes.front().name;
+  CHECK(says(beside("\"nodes\": {\"a\": {\"parent\": \"" + node + "\"}}"), "did you mean \"start/" + node + "\"?"));
+}
+
+TEST_CASE("eases by the names of other programs are answered with ours, and those of CSS are taken") {
+  const auto ease = [](const std::string& word) {
+    return faults_of(
+        "{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {\"a.b\": [[0, 0, \"" + word + "\"], [1, 1]]}}}}", "n.json",
+        {});
+  };
+  CHECK(ease("ease-in-out").empty());
+  CHECK(says(ease("easeInOutQuad"), "quad-in-out"));
+  CHECK(says(ease("easeOutBounce"), "bounce-out"));
+  CHECK(says(ease("cubic-in-out(3)"), "\"cubic-in-out\" takes no values"));
+}
