@@ -102,7 +102,7 @@ double BlockSolver::work_of_driven() const {
       if (!contacts_.origins[i][static_cast<std::size_t>(lane)] || bodies_[a].movable == bodies_[b].movable) continue;
       const bool a_moves = bodies_[a].movable;
       const IslandBody& driven = bodies_[a_moves ? b : a];
-      if (driven.still) continue;
+      if (driven.led == step::not_led) continue;
       const BodyLanes& will = velocities_[a_moves ? b : a];
       const Vec3 linear = linear_of(will), angular = angular_of(will);
       const auto work = [&](double impulse, const Vec3& direction, const Lanes3& turn) {
@@ -160,7 +160,7 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
     energy.add(bodies[entry.index], loads[entry.index], course);
   }
   // What moves by its own will is in islands that are solved alone.
-  if (driven_) {
+  if (!led_.empty()) {
     islands::IslandEnergy& energy = energies_.front();
     energy.limit += work_of_driven();
     for (const ReboundContact& contact : reach_.contacts()) {

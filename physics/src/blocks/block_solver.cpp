@@ -49,7 +49,8 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   std::uint32_t number = 0;
   uneven_.clear();
   rebounds_.clear();
-  bouncy_ = driven_ = conveyed_ = any_stale_ = false;
+  led_.clear();
+  bouncy_ = conveyed_ = any_stale_ = false;
   rebounds_.clear();  // of the island before
   const auto add = [&](std::uint32_t index) {
     if (places_[index] != 0) return;
@@ -86,14 +87,14 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
       if (!body.spherical) uneven_.push_back(places_[index]);
       set(velocity.linear, body.twist.linear);
       set(velocity.angular, body.twist.angular);
-    } else {
-      if (body.immovable()) entry.course = step::keyed_course(body, dt);
-      const auto& [mean, gain] = entry.course;
-      entry.still = mean.linear == Vec3::Zero() && mean.angular == Vec3::Zero() && gain.linear == Vec3::Zero() &&
-                    gain.angular == Vec3::Zero();
-      driven_ = driven_ || !entry.still;
-      set(velocity.linear, mean.linear - 0.5 * gain.linear);
-      set(velocity.angular, mean.angular - 0.5 * gain.angular);
+    } else if (body.immovable()) {
+      const step::KeyedCourse course = step::keyed_course(body, dt);
+      if (course.still()) return;
+      entry.led = static_cast<std::uint32_t>(led_.size());
+      const Twist start = course.velocity(0, dt);
+      led_.push_back({places_[index], course, start, start});
+      set(velocity.linear, start.linear);
+      set(velocity.angular, start.angular);
     }
   };
   for (const islands::IslandContents& island : islands) {
@@ -144,7 +145,7 @@ void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const st
 void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, double dt,
                                  int sub_steps, int sub_step) {
   const double h = dt / sub_steps;
-  const double share = static_cast<double>(sub_step) / sub_steps;
+  lead(dt, sub_steps, sub_step);
   each_body([&](std::size_t i) {
     BodyPace& pace = paces_[i];
     BodyLanes& velocity = velocities_[i];
@@ -159,12 +160,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     entry.sub_step_center = entry.center;
     entry.sub_step_rotation = entry.rotation;
     if (!pace.movable) {
-      const auto& [mean, gain] = entry.course;
-      set(start.linear, mean.linear + (share - 0.5) * gain.linear);
-      set(start.angular, mean.angular + (share - 0.5) * gain.angular);
-      const double middle = share + 0.5 / sub_steps - 0.5;
-      set(velocity.linear, mean.linear + middle * gain.linear);
-      set(velocity.angular, mean.angular + middle * gain.angular);
+      if (entry.led == step::not_led) start = {};
       return;
     }
     start = velocity;
@@ -188,11 +184,34 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
   });
 }
 
+/// What is led goes through the sub-step by its mean velocity, so that it is where its path is at the end.
+void BlockSolver::lead(double dt, int sub_steps, int sub_step) {
+  const double from = static_cast<double>(sub_step) / sub_steps;
+  const double to = static_cast<double>(sub_step + 1) / sub_steps;
+  for (step::LedBody& led : led_) {
+    set(starts_[led.place].linear, led.ending.linear);
+    set(starts_[led.place].angular, led.ending.angular);
+    led.mean = led.course.mean_between(from, to, dt);
+    led.ending = led.course.velocity(to, dt);
+    set(velocities_[led.place].linear, led.mean.linear);
+    set(velocities_[led.place].angular, led.mean.angular);
+  }
+}
+
+/// Then what it carries gets its velocity there.
+void BlockSolver::end_lead() {
+  for (const step::LedBody& led : led_) {
+    set(velocities_[led.place].linear, led.ending.linear);
+    set(velocities_[led.place].angular, led.ending.angular);
+  }
+  if (!led_.empty()) contacts_.end_ride();
+}
+
 void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
   if (!any_stale_ && joints_.empty()) return;
   any_stale_ = false;
   for (IslandBody& entry : bodies_) {
-    entry.stale = !entry.round && entry.turned > turned_enough_;
+    entry.stale = !entry.round && entry.turned > (entry.led == step::not_led ? turned_enough_ : 0);
     if (!joints_.empty() && entry.movable && !bodies[entry.index].spherical)
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
     if (!entry.stale) continue;
@@ -300,7 +319,7 @@ void BlockSolver::end_sub_step(double h) {
       for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
       if (!entry.round) {
         entry.turned += turning.norm();
-        stale = stale || entry.turned > turned_enough_;
+        stale = stale || entry.turned > (entry.led == step::not_led ? turned_enough_ : 0);
       }
       if (entry.followed && !pace.pressed) {
         // The spin of free flight keeps its energy only with the rotation that belongs to it.
@@ -382,6 +401,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
+    if (!led_.empty()) contacts_.ride(bodies_, led_, starts_, h);
     by_color([&](const Rows& some) { kernels.warm_start(some); });
     holds_.begin_sub_step(bodies, bodies_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
@@ -397,6 +417,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     if (!joints_.empty()) tame_jointed(bodies, h);
     joints_.move(velocities_);
     end_sub_step(h);
+    end_lead();
     for (int k = 0; k < effort.relaxing; ++k) {
       holds_.solve(bodies, bodies_, contacts_, velocities_);
       const PassRule hard{.inverse_h = 1 / h, .sum_up = k + 1 == effort.relaxing};

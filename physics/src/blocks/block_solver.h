@@ -77,6 +77,8 @@ class BlockSolver {
   void find_lags_of_jointed();
   void tame_jointed(const std::vector<state::Body>& bodies, double h);
   void end_sub_step(double h);
+  void lead(double dt, int sub_steps, int sub_step);
+  void end_lead();
   void bound_spins(const std::vector<state::Body>& bodies, double h);
   [[nodiscard]] Rows rows();
   /// Calls see(rows) for all blocks, or for parts of those of one color after the other.
@@ -117,6 +119,7 @@ class BlockSolver {
   std::vector<IslandBody> bodies_;     ///< the first is nobody: that of empty lanes
   std::vector<BodyPace> paces_;
   std::vector<BodyLanes> velocities_, starts_, displacements_;
+  std::vector<step::LedBody> led_;  ///< of bodies_
   std::vector<BodyLag> lags_;
   std::vector<BodyLag> sub_starts_;  ///< linear displacements at the start of the sub-step
   islands::IslandDepth depth_;
@@ -130,7 +133,6 @@ class BlockSolver {
   joints::IslandJoints joints_;
   IslandHolds holds_;
   bool bouncy_ = false;      ///< some contact has restitution
-  bool driven_ = false;      ///< something moves by its own will
   bool conveyed_ = false;    ///< some surface moves
   std::vector<char> stale_;  ///< by part of the bodies: one of them has
   double turned_enough_ = 0;

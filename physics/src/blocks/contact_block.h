@@ -41,8 +41,9 @@ struct FrictionRow {
 
 /// How the surfaces of the bodies move against each other at a row of friction, besides what the bodies do.
 struct DriftRow {
-  Lanes first, second;  ///< of b against a along the tangents, m/s
-  Lanes twist;          ///< about the normal, rad/s
+  Lanes first, second;              ///< of b against a along the tangents, m/s
+  Lanes later_first, later_second;  ///< once the bodies have been moved
+  Lanes twist;                      ///< about the normal, rad/s
 };
 
 /// Of bodies that turn about some axes more easily than about others.

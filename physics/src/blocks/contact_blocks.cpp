@@ -57,7 +57,7 @@ Grip grip_of(const ContactConstraint& contact) {
 }
 
 std::uint32_t kind_of(const ContactConstraint& contact, const IslandBody& a, const IslandBody& b) {
-  const auto smooth = [](const IslandBody& body) { return body.movable ? body.round : body.still; };
+  const auto smooth = [](const IslandBody& body) { return body.movable ? body.round : body.led == step::not_led; };
   if (contact.count == 1 && !a.conveys && !b.conveys && smooth(a) && smooth(b)) return ball_kind;
   return 2 * (3 * static_cast<std::uint32_t>(contact.count - 1) + static_cast<std::uint32_t>(grip_of(contact))) +
          (a.isotropic && b.isotropic ? 1 : 0);
@@ -120,7 +120,8 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
   points.clear();
   frictions.clear();
   drifts.clear();
-  conveyed_ = std::ranges::any_of(bodies, &IslandBody::conveys);
+  drifting_ =
+      std::ranges::any_of(bodies, [](const IslandBody& body) { return body.conveys || body.led != step::not_led; });
   inertias.clear();
   meetings.clear();
   ball_meetings.clear();
@@ -207,7 +208,7 @@ void ContactBlocks::open(std::uint32_t kind) {
   block.friction = static_cast<std::uint32_t>(frictions.size());
   points.resize(points.size() + static_cast<std::size_t>(block.points));
   frictions.resize(frictions.size() + static_cast<std::size_t>(block.frictions));
-  if (conveyed_) drifts.resize(frictions.size());
+  if (drifting_) drifts.resize(frictions.size());
   if (block.even) return;
   block.inertia = static_cast<std::uint32_t>(inertias.size());
   inertias.emplace_back();
@@ -289,11 +290,11 @@ void ContactBlocks::fill(int lane, ContactConstraint& contact, const std::vector
 
 void ContactBlocks::prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a,
                                   const IslandBody& b, const Vec3& arm_a, const Vec3& arm_b) {
-  if (!a.conveys && !b.conveys) return;
+  if (!a.conveys && !b.conveys && a.led == step::not_led && b.led == step::not_led) return;
   block.drifts = true;
   const Vec3 drift = step::drift_at(a.surface, arm_a, b.surface, arm_b);
-  drifts[row].first[lane] = lane_of(block.tangent1, lane).dot(drift);
-  drifts[row].second[lane] = lane_of(block.tangent2, lane).dot(drift);
+  drifts[row].first[lane] = drifts[row].later_first[lane] = lane_of(block.tangent1, lane).dot(drift);
+  drifts[row].second[lane] = drifts[row].later_second[lane] = lane_of(block.tangent2, lane).dot(drift);
   drifts[row].twist[lane] = lane_of(block.normal, lane).dot(b.surface.angular - a.surface.angular);
 }
 

@@ -9,6 +9,7 @@
 #include "blocks/island_body.h"
 #include "contacts/contact_constraint.h"
 #include "contacts/meeting.h"
+#include "step/keyed_step.h"
 #include "threads/workers.h"
 
 namespace tweenfall::blocks {
@@ -26,6 +27,11 @@ class ContactBlocks {
              const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h);
   /// Tells the rows of one contact how its bodies lie now.
   void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
+  /// In a sub-step with bodies that are led: what their riders' slip lacks.
+  void ride(const std::vector<IslandBody>& bodies, std::span<const step::LedBody> led,
+            const std::vector<BodyLanes>& starts, double h);
+  /// The bodies have been moved.
+  void end_ride();
   /// Gives the impulses back to the contacts.
   void store(double h, const threads::Workers& work);
 
@@ -47,7 +53,7 @@ class ContactBlocks {
   std::size_t pairs = 0, ball_pairs = 0;  ///< those of two movable bodies come first
   std::vector<PointRow> points;
   std::vector<FrictionRow> frictions;
-  std::vector<DriftRow> drifts;  ///< beside `frictions`, or none where no surface moves
+  std::vector<DriftRow> drifts;  ///< beside `frictions`, or none where no surface moves and nothing is led
   std::vector<InertiaRow> inertias;
   std::vector<MeetingRow> meetings, ball_meetings;
   std::vector<Origin> origins, ball_origins;
@@ -75,7 +81,7 @@ class ContactBlocks {
   void prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a, const IslandBody& b,
                      const Vec3& arm_a, const Vec3& arm_b);
 
-  bool conveyed_ = false;  ///< some surface moves
+  bool drifting_ = false;  ///< some surface moves, or something is led
   Coloring coloring_;
   std::vector<std::uint32_t> keys_, counts_, sorted_;
   std::vector<std::size_t> color_blocks_, color_balls_;  ///< by color: where its blocks begin

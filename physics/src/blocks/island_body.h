@@ -2,7 +2,7 @@
 
 #include "blocks/contact_block.h"
 #include "forces/free_flight.h"
-#include "step/keyed_step.h"
+#include "step/solver_body.h"
 
 namespace tweenfall::blocks {
 
@@ -37,7 +37,6 @@ struct alignas(64) BodyPace {
 struct alignas(64) IslandBody {
   std::uint32_t index = 0;
   bool movable = false;
-  bool still = false;      ///< nothing moves it through the step
   bool isotropic = true;   ///< the same moment about every axis, or none
   bool followed = false;   ///< nothing pressed it in the sub-step before: its spin is followed exactly
   bool round = false;      ///< a ball: no contact can rock it, and none sees it turn
@@ -56,8 +55,8 @@ struct alignas(64) IslandBody {
   Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
-  Quat free_rotation{1, 0, 0, 0};  ///< at the end of the sub-step if nothing touches it
-  step::KeyedCourse course;        ///< of an immovable body
+  Quat free_rotation{1, 0, 0, 0};     ///< at the end of the sub-step if nothing touches it
+  std::uint32_t led = step::not_led;  ///< which of those that are led
 
   // At the start of the sub-step
   Vec3 sub_step_center{0, 0, 0};

@@ -104,10 +104,7 @@ bool Solver::extrapolates(const std::vector<state::Body>& bodies, Springs spring
   // Between two that go their own ways no impulse is enough.
   const auto wills =
       std::count_if(bodies_.begin(), bodies_.end(), [](const SolverBody& body) { return !body.movable; });
-  const bool willful = std::any_of(bodies_.begin(), bodies_.end(), [](const SolverBody& body) {
-    return body.course.mean.linear != Vec3::Zero() || body.course.mean.angular != Vec3::Zero();
-  });
-  if (wills > 1 && willful) return false;
+  if (wills > 1 && !led_.empty()) return false;
   return std::none_of(bodies_.begin(), bodies_.end(), [&](const SolverBody& body) {
     return body.movable && bodies[body.index].drive.owner() == Owner::driven;
   });

@@ -28,11 +28,11 @@ void PointRows::prepare(const SolverBody& a, const SolverBody& b, const SolvedPo
   stiffest = 0;
   if (!tangents) return;
   along = *tangents;
-  drifts = a.conveys || b.conveys;
-  if (drifts) {
+  drifts = false;
+  drift1 = drift2 = later_drift1 = later_drift2 = 0;
+  if (a.conveys || b.conveys) {
     const Vec3 drift = drift_at(a.surface, point.arm_a, b.surface, point.arm_b);
-    drift1 = along.first.dot(drift);
-    drift2 = along.second.dot(drift);
+    drift_by(drift, drift);
   }
   turn_a1 = point.arm_a.cross(along.first);
   turn_a2 = point.arm_a.cross(along.second);
@@ -51,6 +51,14 @@ void PointRows::prepare(const SolverBody& a, const SolverBody& b, const SolvedPo
   inverse12 = -k12 / determinant;
   inverse22 = k11 / determinant;
   stiffest = 0.5 * (k11 + k22) + std::sqrt(0.25 * (k11 - k22) * (k11 - k22) + k12 * k12);
+}
+
+void PointRows::drift_by(const Vec3& moving, const Vec3& after) {
+  drifts = true;
+  drift1 += along.first.dot(moving);
+  drift2 += along.second.dot(moving);
+  later_drift1 += along.first.dot(after);
+  later_drift2 += along.second.dot(after);
 }
 
 double solve_friction(SolverBody& a, SolverBody& b, const PointRows& rows, Vec3& impulse, double limit) {

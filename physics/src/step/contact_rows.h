@@ -35,11 +35,14 @@ struct PointRows {
   Vec3 turn_a1, turn_a2, turn_b1, turn_b2, spin_a1, spin_a2, spin_b1, spin_b2;
   double inverse11 = 0, inverse12 = 0, inverse22 = 0;  ///< from the slip to the impulse that stops it
   double drift1 = 0, drift2 = 0;                       ///< of b's surface against a's, besides the bodies' motion, m/s
+  double later_drift1 = 0, later_drift2 = 0;           ///< once the bodies have been moved
   bool drifts = false;
   double stiffest = 0;  ///< the greatest speed that a unit of impulse makes, 1/kg
 
   void prepare(const SolverBody& a, const SolverBody& b, const SolvedPoint& point, const Vec3& normal,
                const Tangents* tangents);
+  /// What is added to the slip: while bodies are moved, and after.
+  void drift_by(const Vec3& moving, const Vec3& after);
 };
 
 /// Friction of one point on the circular cone: the impulse that stops the slip, or, when the cone is too narrow, a

@@ -15,7 +15,8 @@ constexpr double certain = 1e-6;
 constexpr double path_rounding = 4e-16;
 
 /// One half of a course, from the displacement and the path's own velocities.
-void fit(const Vec3& displacement, const Vec3& start, const Vec3& end, double size, double dt, Vec3& mean, Vec3& gain) {
+void fit(const Vec3& displacement, const Vec3& start, const Vec3& end, double size, double dt, Vec3& mean, Vec3& gain,
+         Vec3& bow) {
   if (path_rounding * size > certain * dt) {
     mean = end;
     return;
@@ -23,11 +24,47 @@ void fit(const Vec3& displacement, const Vec3& start, const Vec3& end, double si
   mean = displacement / dt;
   const Vec3 change = end - start;
   // Where an acceleration passes through zero the change is less than what a curve's jerk makes of the mean.
-  const bool even = (mean - 0.5 * (start + end)).norm() <= evenness * change.norm();
-  if (even || change.norm() <= slight * mean.norm()) gain = change;
+  const Vec3 off = 0.5 * (start + end) - mean;
+  if (!(off.norm() <= evenness * change.norm()) && !(change.norm() <= slight * mean.norm())) return;
+  gain = change;
+  bow = off;
+}
+
+/// Angular velocity, world axes, of what is turned by a rotation vector that changes so.
+Vec3 angular_of(const Vec3& turn, const Vec3& rate) {
+  return turn.cross(rate) == Vec3::Zero() ? rate : Vec3(right_jacobian(-turn) * rate);
+}
+/// The other way round.
+Vec3 rate_of(const Vec3& turn, const Vec3& angular) {
+  return turn.cross(angular) == Vec3::Zero() ? angular : Vec3(right_jacobian_inverse(-turn) * angular);
+}
+
+/// Mean rate between two parts of a step.
+Vec3 between(const Vec3& mean, const Vec3& gain, const Vec3& bow, double from, double to) {
+  const double sum = from + to;
+  return mean + (0.5 * sum - 0.5) * gain + (1 - 3 * sum + 2 * (from * from + from * to + to * to)) * bow;
 }
 
 }  // namespace
+
+bool KeyedCourse::still() const {
+  return mean.linear == Vec3::Zero() && mean.angular == Vec3::Zero() && gain.linear == Vec3::Zero() &&
+         gain.angular == Vec3::Zero() && bow.linear == Vec3::Zero() && bow.angular == Vec3::Zero();
+}
+
+Twist KeyedCourse::velocity(double share, double dt) const {
+  const double bent = 1 - 6 * share + 6 * share * share;
+  const Vec3 rate = mean.angular + (share - 0.5) * gain.angular + bent * bow.angular;
+  const Vec3 turn = share * dt * between(mean.angular, gain.angular, bow.angular, 0, share);
+  return {mean.linear + (share - 0.5) * gain.linear + bent * bow.linear, angular_of(turn, rate)};
+}
+
+Twist KeyedCourse::mean_between(double from, double to, double dt) const {
+  const double middle = 0.5 * (from + to);
+  const Vec3 turn = middle * dt * between(mean.angular, gain.angular, bow.angular, 0, middle);
+  return {between(mean.linear, gain.linear, bow.linear, from, to),
+          angular_of(turn, between(mean.angular, gain.angular, bow.angular, from, to))};
+}
 
 KeyedCourse keyed_course(const state::Body& body, double dt) {
   KeyedCourse course;
@@ -37,9 +74,24 @@ KeyedCourse keyed_course(const state::Body& body, double dt) {
   const Twist twist = shifted(body.target.twist, arm);
   const Vec3 turn = log_map(body.target.pose.rotation * body.motion.pose.rotation.conjugate());
   const double size = end.norm() + body.center.norm();
-  fit(end - body.center, body.twist.linear, twist.linear, size, dt, course.mean.linear, course.gain.linear);
-  fit(turn, body.twist.angular, twist.angular, 1, dt, course.mean.angular, course.gain.angular);
+  fit(end - body.center, body.twist.linear, twist.linear, size, dt, course.mean.linear, course.gain.linear,
+      course.bow.linear);
+  fit(turn, body.twist.angular, rate_of(turn, twist.angular), 1, dt, course.mean.angular, course.gain.angular,
+      course.bow.angular);
   return course;
+}
+
+Vec3 slip_change(const Twist& led, const Rider& rider) {
+  const Vec3 swing = rider.twist.angular.cross(rider.core_arm);
+  return rider.twist.angular.cross(swing) - led.angular.cross(rider.twist.linear + swing - led.linear);
+}
+
+SlipOfRider slip_of_rider(const LedBody& led, const Vec3& arm, const Rider& rider, double h) {
+  const Vec3 change = h * slip_change(led.mean, rider);
+  if (!rider.rolls) return {0.5 * change, change};
+  // Its velocity is that at the end from the start on, and the contact stays under it.
+  const Vec3 after = change - led.ending.angular.cross(rider.under - arm);
+  return {after - (led.ending.linear - led.mean.linear) - (led.ending.angular - led.mean.angular).cross(arm), after};
 }
 
 void arrive(state::Body& body) {

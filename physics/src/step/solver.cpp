@@ -42,6 +42,7 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<contacts::Contact
                     Springs springs, double dt) {
   for (const SolverBody& body : bodies_) slots_[body.index] = nowhere;
   bodies_.clear();
+  led_.clear();
   heaviest_ = 0;
   lightest_ = std::numeric_limits<double>::infinity();
   const auto add = [&](std::uint32_t index) {
@@ -65,10 +66,15 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<contacts::Contact
       entry.inverse_inertia = body.world_inverse_inertia(body.motion.pose.rotation);
       entry.linear = body.twist.linear;
       entry.angular = body.twist.angular;
-    } else {
-      if (body.immovable()) entry.course = keyed_course(body, dt);
-      entry.linear = entry.course.mean.linear - 0.5 * entry.course.gain.linear;
-      entry.angular = entry.course.mean.angular - 0.5 * entry.course.gain.angular;
+    } else if (body.immovable()) {
+      const KeyedCourse course = keyed_course(body, dt);
+      if (!course.still()) {
+        entry.led = static_cast<std::uint32_t>(led_.size());
+        const Twist start = course.velocity(0, dt);
+        led_.push_back({slots_[index], course, start, start});
+        entry.linear = start.linear;
+        entry.angular = start.angular;
+      }
     }
     bodies_.push_back(entry);
   };
@@ -125,24 +131,17 @@ void Solver::refresh(SolvedContact& constraint) const {
 
 void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads,
                             const WorldSettings& settings, double h, int sub_step) {
-  const double share = static_cast<double>(sub_step) / sub_steps_;
+  lead(h, sub_step);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     SolverBody& entry = bodies_[i];
     entry.pressed = false;
     SubStepStart& start = starts_[i];
     start.center = entry.center;
     start.rotation = entry.rotation;
-    if (!entry.movable) {
-      const auto& [mean, gain] = entry.course;
-      start.linear = mean.linear + (share - 0.5) * gain.linear;
-      start.angular = mean.angular + (share - 0.5) * gain.angular;
-      const double middle = share + 0.5 / sub_steps_ - 0.5;
-      entry.linear = mean.linear + middle * gain.linear;
-      entry.angular = mean.angular + middle * gain.angular;
-      continue;
-    }
+    if (entry.led != not_led) continue;
     start.linear = entry.linear;
     start.angular = entry.angular;
+    if (!entry.movable) continue;
     const Body& body = bodies[entry.index];
     const Load& load = loads[entry.index];
     entry.linear = forces::accelerated(entry.linear, load, settings.integrator, h);
@@ -161,6 +160,52 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
     entry.inverse_mass = given / body.mass.mass;
     entry.inverse_inertia *= given;
   }
+}
+
+/// What is led goes through the sub-step by its mean velocity, so that it is where its path is at the end.
+void Solver::lead(double h, int sub_step) {
+  const double dt = h * sub_steps_;
+  const double from = static_cast<double>(sub_step) / sub_steps_;
+  const double to = static_cast<double>(sub_step + 1) / sub_steps_;
+  for (LedBody& led : led_) {
+    SolverBody& entry = bodies_[led.place];
+    starts_[led.place].linear = led.ending.linear;
+    starts_[led.place].angular = led.ending.angular;
+    led.mean = led.course.mean_between(from, to, dt);
+    led.ending = led.course.velocity(to, dt);
+    entry.linear = led.mean.linear;
+    entry.angular = led.mean.angular;
+  }
+}
+
+/// Then what it carries gets its velocity there.
+void Solver::end_lead() {
+  for (const LedBody& led : led_) {
+    bodies_[led.place].linear = led.ending.linear;
+    bodies_[led.place].angular = led.ending.angular;
+  }
+  if (led_.empty()) return;
+  for (PointRows& rows : rows_) {
+    rows.drift1 = rows.later_drift1;
+    rows.drift2 = rows.later_drift2;
+  }
+}
+
+void Solver::ride(const SolvedContact& constraint, const SolvedPoint& point, PointRows& rows, double h) const {
+  const SolverBody& a = at(constraint.a);
+  const SolverBody& b = at(constraint.b);
+  const bool on_a = a.led != not_led;
+  if (!on_a && b.led == not_led) return;
+  const SolverBody& body = on_a ? b : a;
+  const SolverBody& carrier = on_a ? a : b;
+  const SubStepStart& start = starts_[slots_[body.index]];
+  const Vec3 arm = on_a ? point.arm_b : point.arm_a;
+  const Vec3 skin = on_a ? Vec3(-point.skin_b * constraint.normal) : Vec3(point.skin_a * constraint.normal);
+  const bool rolls = body.round && !body.impact && !body.sprung && !body.pulled;
+  const SlipOfRider slip =
+      slip_of_rider(led_[carrier.led], on_a ? point.arm_a : point.arm_b,
+                    {{start.linear, start.angular}, arm - skin, body.center + arm - carrier.center, rolls}, h);
+  rows.drift_by(on_a ? slip.moving : Vec3(-slip.moving), on_a ? slip.after : Vec3(-slip.after));
 }
 
 /// Points that press, or are about to, get one height: at different ones, however little, friction that lets none of
@@ -196,6 +241,7 @@ void Solver::warm_start(SolvedContact& constraint, PointRows* rows, const Softne
   for (int i = 0; i < constraint.count; ++i) {
     SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     rows[i].prepare(a, b, point, normal, constraint.friction > 0 ? &along : nullptr);
+    if (constraint.friction > 0 && !led_.empty()) ride(constraint, point, rows[i], h);
     // What a contact bears may be far more than the masses that meet in it.
     const double stiffness = softness.firm / softness.giving *
                              (extrapolating_ ? std::max(1.0, heaviest_ * rows[i].scale * rows[i].scale) : 1.0);
@@ -421,6 +467,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
     settle(passes, [&](bool backward) { return all(soft, backward); });
     find_lags(contacts);
     end_sub_step(h);
+    end_lead();
     settle(relaxing, [&](bool backward) { return all(hard, backward); });
     rebound(bodies, loads, contacts, thorough ? settings.iterations : std::max(1, settings.iterations / 4));
     bound_spins(bodies, h);

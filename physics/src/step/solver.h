@@ -7,6 +7,7 @@
 #include "forces/free_flight.h"
 #include "small/extrapolation.h"
 #include "step/contact_rows.h"
+#include "step/keyed_step.h"
 #include "step/softness.h"
 #include "step/solved_contact.h"
 #include "step/solver_body.h"
@@ -51,6 +52,9 @@ class Solver {
   void meet(const std::vector<forces::Load>& loads, SolvedContact& constraint, double h, double dt) const;
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
                       const WorldSettings& settings, double h, int sub_step);
+  void lead(double h, int sub_step);
+  void ride(const SolvedContact& constraint, const SolvedPoint& point, PointRows& rows, double h) const;
+  void end_lead();
   static void level(SolvedContact& constraint);
   void refresh(SolvedContact& constraint) const;
   void warm_start(SolvedContact& constraint, PointRows* rows, const Softness& softness, double h);
@@ -82,6 +86,7 @@ class Solver {
   std::vector<SolverBody> bodies_;
   std::vector<std::uint32_t> slots_;     ///< from a body's index into bodies_
   std::vector<SubStepStart> starts_;     ///< of bodies_
+  std::vector<LedBody> led_;             ///< of bodies_
   std::vector<SolvedContact> contacts_;  ///< of the island
   std::vector<PointRows> rows_;          ///< four per contact of the island
   int sub_steps_ = usual_sub_steps;

@@ -1,8 +1,11 @@
 #pragma once
 
-#include "step/keyed_step.h"
+#include "state/body.h"
 
 namespace tweenfall::step {
+
+/// The number of a body that is not.
+constexpr std::uint32_t not_led = 0xffffffffu;
 
 /// A body while contacts are being solved.
 struct SolverBody {
@@ -24,10 +27,10 @@ struct SolverBody {
   Quat turn{1, 0, 0, 0};           ///< from the start of the step to now
   Quat free_rotation{1, 0, 0, 0};  ///< at the end of the sub-step if nothing touches it
   Vec3 linear{0, 0, 0}, angular{0, 0, 0};
-  bool conveys = false;        ///< its surface moves against it
-  Twist surface;               ///< so, at the center of mass, world axes
-  KeyedCourse course;          ///< of an immovable body
-  Vec3 rebound_turn{0, 0, 0};  ///< what the rebound of the sub-step turns it by, rad
+  bool conveys = false;         ///< its surface moves against it
+  Twist surface;                ///< so, at the center of mass, world axes
+  std::uint32_t led = not_led;  ///< which of those that are led
+  Vec3 rebound_turn{0, 0, 0};   ///< what the rebound of the sub-step turns it by, rad
   Vec3 drive_impulse{0, 0, 0}, drive_angular_impulse{0, 0, 0};
 };
 
