@@ -439,7 +439,8 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   // Also a body that only the last pass reached has momentum from it.
   for (const ContactConstraint* contact : contacts)
     for (int i = 0; i < contact->count; ++i)
-      if (contact->points[static_cast<std::size_t>(i)].total_normal > 0)
+      if (contact->points[static_cast<std::size_t>(i)].total_normal > 0 ||
+          contact->points[static_cast<std::size_t>(i)].total_friction != Vec3::Zero())
         paces_[places_[contact->a]].touched = paces_[places_[contact->b]].touched = true;
   each_body([&](std::size_t i) {
     IslandBody& entry = bodies_[i];

@@ -6,6 +6,7 @@
 #include "collision/passage.h"
 #include "contacts/found.h"
 #include "forces/forces.h"
+#include "islands/free_islands.h"
 #include "islands/island_contents.h"
 #include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
@@ -91,6 +92,7 @@ struct Workspace {
   std::vector<double> stillness;
   islands::Islands islands;
   islands::IslandSorter island_sorter;
+  islands::FreeIslands free_islands;
   std::vector<Solvers> solvers;  ///< one for each thread
   std::vector<std::uint32_t> islands_by_size;
   std::vector<char> moved;   ///< by a solver in this step

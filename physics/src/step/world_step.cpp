@@ -158,6 +158,13 @@ void World::Implementation::solve_islands(double dt) {
     for (std::size_t i = next.fetch_add(1); i < all.size(); i = next.fetch_add(1)) solve(i, solvers[share], {});
     for (step::Batch& batch : solvers[share].batches) solvers[share].solve(batch, bodies, loads, settings, dt, moved);
   });
+  free_islands.begin(bodies.size());
+  const auto start_of = [this](std::uint32_t index) -> islands::FreeStart {
+    const step::Start& start = starts[index];
+    return {start.center, start.rotation, start.twist};
+  };
+  for (const islands::IslandContents& island : all)
+    free_islands.keep(island, bodies, loads, moved, settings.integrator, dt, start_of);
 }
 
 void World::Implementation::advance_bodies(double dt) {

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "forces/free_flight.h"
+#include "islands/island_contents.h"
+#include "islands/islands.h"
+
+namespace tweenfall::islands {
+
+/// Where a body was and how it moved at the start of a step.
+struct FreeStart {
+  Vec3 center;
+  Quat rotation;
+  Twist twist;
+};
+
+/// Bodies that have pushed only each other in a step keep their angular momentum. Impulses act where the bodies lay
+/// when the contact was found, and the bodies go on from there while the impulses are being found: what that leaves
+/// open is given back to all of them together as a turn about their common center of mass, which no contact feels, and
+/// the energy for it is taken from what they do besides. And that center goes where their momentum takes it.
+class FreeIslands {
+ public:
+  /// Before the bodies of a step.
+  void begin(std::size_t bodies) { slots_.resize(bodies, nobody); }
+  /// @param moved  by index: set for the bodies that the solver moved
+  /// @param start_of  a FreeStart by index
+  template <class StartOf>
+  void keep(const IslandContents& island, std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+            const std::vector<char>& moved, Integrator integrator, double dt, const StartOf& start_of) {
+    if (!gather(island, bodies, loads, moved)) return;
+    for (Member& member : members_) member.start = start_of(member.index);
+    keep_all(bodies, integrator, dt);
+  }
+
+ private:
+  static constexpr std::uint32_t nobody = 0xffffffffu;
+
+  struct Member {
+    std::uint32_t index = 0;
+    bool gripped = false;  ///< its spin changes with that of the others
+    FreeStart start;
+  };
+
+  /// @return whether nothing else holds or pushes them
+  bool gather(const IslandContents& island, const std::vector<state::Body>& bodies,
+              const std::vector<forces::Load>& loads, const std::vector<char>& moved);
+  void keep_all(std::vector<state::Body>& bodies, Integrator integrator, double dt);
+  static void keep_group(std::span<const Member> group, std::vector<state::Body>& bodies, Integrator integrator,
+                         double dt);
+
+  std::vector<std::uint32_t> slots_;  ///< from a body's index into members_
+  std::vector<Member> members_, group_;
+  Islands groups_;  ///< of members_: what pushed each other
+};
+
+}  // namespace tweenfall::islands

@@ -1,0 +1,106 @@
+#include <tweenfall/physics/world.h>
+
+#include "support.h"
+
+using namespace tweenfall;
+
+namespace {
+
+constexpr double without_end = std::numeric_limits<double>::infinity();
+
+/// Of all bodies about the origin.
+struct Momenta {
+  Vec3 linear{0, 0, 0}, angular{0, 0, 0};
+  double size = 0;  ///< of the parts of the angular one
+};
+
+Momenta momenta_of(const World& world) {
+  Momenta sum;
+  for (const BodyId body : world.bodies()) {
+    const MassProperties& mass = world.mass(body);
+    const Pose pose = world.motion(body).pose;
+    const Twist twist = world.twist(body);
+    const Vec3 center = pose.position + pose.rotation * mass.center;
+    const Vec3 spin = pose.rotation * (mass.inertia * (pose.rotation.conjugate() * twist.angular));
+    sum.linear += mass.mass * twist.linear;
+    sum.angular += mass.mass * center.cross(twist.linear) + spin;
+    sum.size += mass.mass * center.norm() * twist.linear.norm() + spin.norm();
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a cloud that falls together keeps its momentum and its angular momentum to 1e-12, and gains no energy") {
+  const ConvexHull wedge(
+      std::vector<Vec3>{{0.3, 0.3, 0.3}, {-0.3, -0.3, 0.3}, {-0.3, 0.3, -0.3}, {0.3, -0.3, -0.3}, {0, 0.4, 0}});
+  const Solid solids[] = {Box{Vec3(0.25, 0.2, 0.3)}, Sphere{0.3}, Capsule{0.2, 0.2}, Hull{wedge}};
+  for (int kind = 0; kind < 5; ++kind)
+    for (const int side : {2, 3, 4})
+      for (const double restitution : {0.0, 0.5, 1.0})
+        for (const double friction : {0.0, 0.5}) {
+          World world({.gravity = Vec3::Zero(), .sleep_after = without_end});
+          test::Random random(17);
+          for (int i = 0; i < side * side * side; ++i) {
+            BodySettings body;
+            body.shape.solid = solids[kind == 4 ? i % 4 : kind];
+            body.mass = 1 + i % 3;
+            body.friction = friction;
+            body.restitution = restitution;
+            body.motion.pose.position =
+                1.2 * Vec3(i % side, i / side % side, i / side / side) - 0.6 * (side - 1) * Vec3::Ones();
+            const Vec3 astray = random.vector(2), spin = random.vector(3);
+            body.motion.twist = {-2 * body.motion.pose.position + astray, spin};
+            world.add(body);
+          }
+          const Momenta start = momenta_of(world);
+          const double energy = world.kinetic_energy();
+          double worst = 0, worst_angular = 0, most = 0;
+          for (int i = 0; i < 240; ++i) {
+            world.step(1.0 / 240);
+            const Momenta now = momenta_of(world);
+            worst = std::max(worst, (now.linear - start.linear).norm() / start.linear.norm());
+            worst_angular = std::max(worst_angular, (now.angular - start.angular).norm() / start.size);
+            most = std::max(most, world.kinetic_energy() / energy);
+          }
+          CAPTURE(kind);
+          CAPTURE(side);
+          CAPTURE(restitution);
+          CAPTURE(friction);
+          CHECK(worst < 1e-12);
+          CHECK(worst_angular < 1e-12);
+          CHECK(most <= 1 + 1e-9);
+        }
+}
+
+TEST_CASE("bodies that meet in free fall turn about where gravity takes them") {
+  for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::semi_implicit_euler}) {
+    World world({.integrator = integrator, .sleep_after = without_end});
+    for (int i = 0; i < 5; ++i) {
+      BodySettings body;
+      body.shape.solid = Box{Vec3(0.3, 0.1, 0.2)};
+      body.mass = 1 + i;
+      body.motion.pose.position = Vec3(0.55 * i, 100 + 0.15 * i, 0.02 * i);
+      body.motion.twist = {Vec3(-2.0 * i, 0.5, 0), Vec3(0, 1, 2 - i)};
+      world.add(body);
+    }
+    const auto middle = [&] {
+      Vec3 sum = Vec3::Zero();
+      double mass = 0;
+      for (const BodyId body : world.bodies()) {
+        sum += world.mass(body).mass * world.motion(body).pose.position;
+        mass += world.mass(body).mass;
+      }
+      return Vec3(sum / mass);
+    };
+    const auto about_middle = [&] {
+      const Momenta all = momenta_of(world);
+      return Vec3(all.angular - middle().cross(all.linear));
+    };
+    const Vec3 start = middle(), velocity = momenta_of(world).linear / 15, spun = about_middle();
+    for (int i = 0; i < 120; ++i) world.step(1.0 / 120);
+    const double fallen = integrator == Integrator::exact_quadratic ? 0.5 * 9.81 : 0.5 * 9.81 * (1 + 1.0 / 120);
+    CHECK((middle() - (start + velocity - Vec3(0, fallen, 0))).norm() < 1e-10);
+    CHECK((about_middle() - spun).norm() < 1e-10 * spun.norm());
+  }
+}
