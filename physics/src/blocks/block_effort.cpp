@@ -24,9 +24,12 @@ constexpr int sub_steps_of_many = 10, fewest_of_many = 5;
 /// Of so few contacts they are those of `Solver`, with many passes in each.
 constexpr std::size_t small = 8;
 constexpr int sub_steps_of_small = 8;
-/// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s.
-constexpr int fewest_of_jointed = 4;
-constexpr double longest_of_jointed = 1.0 / 360;
+/// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s. Whoever takes
+/// short steps wants to be nearer.
+constexpr double longest_of_jointed = 1.0 / 180, long_step = 1.0 / 100;
+constexpr int fewest_of_jointed = 3, fewest_of_jointed_in_short = 4;
+/// On what a hand touches the whole figure may rest: as soft as for the hand alone, it would sink in.
+constexpr double giving_of_jointed = 0.25;
 /// Impulses of much longer sub-steps would bring their rounding along.
 constexpr double long_enough = 0.15;
 /// Rows are prepared again when a body has turned by this since, rad.
@@ -93,8 +96,10 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
   effort.heap = island.contacts.size() > few;
   effort.alone = effort.heap || !island.joints.empty();
   if (!island.joints.empty()) {
-    effort.sub_steps = static_cast<int>(
-        std::clamp(std::ceil(dt / longest_of_jointed - 1e-6), double{fewest_of_jointed}, double{sub_steps_of_few}));
+    effort.giving = giving_of_jointed;
+    const int fewest = dt > long_step ? fewest_of_jointed : fewest_of_jointed_in_short;
+    effort.sub_steps = std::max(
+        fewest, static_cast<int>(std::min(std::ceil(dt / longest_of_jointed - 1e-6), double{sub_steps_of_few})));
     return effort;
   }
   const std::uint32_t depth = depth_.of(island.contacts, bodies);

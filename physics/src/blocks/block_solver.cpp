@@ -397,7 +397,8 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   reach_.forget();
   joints_.build(island.joints, places_, bodies_, h, dt);
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
-  PassRule soft{softness.rate, softness.speed, softness.firm, 1 - softness.giving, 1 / h};
+  const double giving = effort.giving * softness.giving;
+  PassRule soft{softness.rate, softness.speed, 1 - giving, 1 - giving, 1 / h};
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);

@@ -27,6 +27,7 @@ class BlockSolver {
     int sub_steps = 1;
     int softening = 1, relaxing = 1;  ///< passes in each that take overlaps apart, and the speed of that away again
     int rebound_passes = 1;
+    double giving = 1;         ///< share of their softness that contacts have
     double turned_enough = 0;  ///< rows are prepared again when a body has turned by so much, rad
     bool heap = false;         ///< many press on each other
     bool alone = false;        ///< not together with others

@@ -1,5 +1,7 @@
 #include "joints/island_joints.h"
 
+#include <tweenfall/curves/rotation.h>
+
 #include <algorithm>
 
 #include "joints/kinds/kinds.h"
@@ -24,6 +26,9 @@ constexpr double long_enough = 0.15;
 constexpr double old_after = 24;
 /// So often rows change places between those in and those beside, before those that bound stay where they are.
 constexpr int most_rounds = 4;
+/// So often places are brought together at the end of a step, and how near they are then by once more, m or rad.
+constexpr int most_closings = 5;
+constexpr double closed = 2e-3;
 /// What is passed by less than this is not, m/s or rad/s.
 constexpr double passable = 1e-10;
 
@@ -114,33 +119,35 @@ void IslandJoints::find_figures(const std::vector<IslandBody>& island) {
   }
 }
 
-void IslandJoints::write(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
-                         const std::vector<BodyLanes>& velocities) {
+void IslandJoints::write(Entry& entry, const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
+                         const std::vector<BodyLanes>& velocities) const {
   const auto followed = [&](const BodyLanes& velocity) {
     Twist twist{blocks::linear_of(velocity), blocks::angular_of(velocity)};
     const double turn = twist.angular.norm() * h_;
     if (turn > followable) twist.angular *= followable / turn;
     return twist;
   };
-  for (std::size_t i = 0; i < joints_.size(); ++i) {
-    Entry& entry = joints_[i];
-    const IslandBody& a = island[entry.a];
-    const IslandBody& b = island[entry.b];
-    const Vec3 mass_center_a = entry.a == 0 ? Vec3(0, 0, 0) : bodies[a.index].mass.center;
-    Placement at = placement_of(entry.joint->settings, a.center, a.rotation, mass_center_a, b.center, b.rotation,
-                                bodies[b.index].mass.center);
-    at.twist_a = followed(velocities[entry.a]);
-    at.twist_b = followed(velocities[entry.b]);
-    entry.inverse_mass_a = a.inverse_mass;
-    entry.inverse_mass_b = b.inverse_mass;
-    entry.arm_b = at.arm_b;
-    entry.axis_a = at.x_a();
-    entry.axis_b = at.x_b();
-    entry.rows.begin({a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia}, h_, rate_,
-                     h_ * (at.twist_b.angular - at.twist_a.angular).norm());
-    std::visit([&](const auto& kind) { write_rows(kind, *entry.joint, at, entry.rows); }, entry.joint->settings.kind);
-    keep_turns(*entry.joint, at);
-  }
+  const IslandBody& a = island[entry.a];
+  const IslandBody& b = island[entry.b];
+  const Vec3 mass_center_a = entry.a == 0 ? Vec3(0, 0, 0) : bodies[a.index].mass.center;
+  Placement at = placement_of(entry.joint->settings, a.center, a.rotation, mass_center_a, b.center, b.rotation,
+                              bodies[b.index].mass.center);
+  at.twist_a = followed(velocities[entry.a]);
+  at.twist_b = followed(velocities[entry.b]);
+  entry.inverse_mass_a = a.inverse_mass;
+  entry.inverse_mass_b = b.inverse_mass;
+  entry.arm_b = at.arm_b;
+  entry.axis_a = at.x_a();
+  entry.axis_b = at.x_b();
+  entry.rows.begin({a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia}, h_, rate_, dt_,
+                   h_ * (at.twist_b.angular - at.twist_a.angular).norm());
+  std::visit([&](const auto& kind) { write_rows(kind, *entry.joint, at, entry.rows); }, entry.joint->settings.kind);
+  keep_turns(*entry.joint, at);
+}
+
+void IslandJoints::write(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
+                         const std::vector<BodyLanes>& velocities) {
+  for (Entry& entry : joints_) write(entry, bodies, island, velocities);
   for (std::size_t i = 0; i < figure_count_; ++i) figures_[i].stale = true;
 }
 
@@ -153,11 +160,69 @@ void IslandJoints::begin_sub_step(const std::vector<state::Body>& bodies, const 
       if (entry.rows.impulses[i] != 0) apply(entry, entry.rows.rows[i], entry.rows.impulses[i], velocities);
 }
 
-void IslandJoints::end_step(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
+/// Newton's method for the places, by the factors that the velocities need next. A blow turns limbs far within a
+/// sub-step: what holds along straight lines leaves the arcs, and bounds are passed.
+void IslandJoints::close_gaps(const std::vector<state::Body>& bodies, std::vector<IslandBody>& island,
+                              const std::vector<BodyLanes>& velocities) {
+  moves_.assign(island.size(), {});
+  for (std::size_t n = 0; n < figure_count_; ++n) {
+    Figure& figure = figures_[n];
+    for (int round = 0; round < most_closings; ++round) {
+      // What holds has the last word.
+      const bool last = round + 1 == most_closings;
+      if (close_gaps(figure, island, last) < closed || last) break;
+      for (std::size_t place = 0; place < figure.system.size(); ++place)
+        write(joints_[figure.system.member(place).joint], bodies, island, velocities);
+    }
+  }
+}
+
+/// @return the widest that there was, m or rad
+double IslandJoints::close_gaps(Figure& figure, std::vector<IslandBody>& island, bool of_what_holds) {
+  JointSystem& system = figure.system;
+  figure.stale = false;
+  for (std::size_t place = 0; place < system.size(); ++place) {
+    JointRows& rows = joints_[system.member(place).joint].rows;
+    if (of_what_holds)
+      rows.hold_only();
+    else if (rows.keep_passed())
+      figure.stale = true;
+  }
+  system.factor();
+  double widest = 0;
+  for (std::size_t place = 0; place < system.size(); ++place) {
+    const Entry& entry = joints_[system.member(place).joint];
+    const std::span<const std::uint8_t> slots = system.slots(place);
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const double left = entry.rows.rows[slots[i]].left;
+      system.values(place)[i] = left;
+      widest = std::max(widest, std::abs(left));
+    }
+  }
+  system.solve();
+  for (std::size_t place = 0; place < system.size(); ++place) {
+    const Entry& entry = joints_[system.member(place).joint];
+    const std::span<const std::uint8_t> slots = system.slots(place);
+    for (std::size_t i = 0; i < slots.size(); ++i)
+      apply(entry, entry.rows.rows[slots[i]], system.values(place)[i], moves_);
+  }
+  for (std::size_t place = 0; place < system.size(); ++place)
+    for (const std::uint32_t end : {system.member(place).a, system.member(place).b}) {
+      IslandBody& body = island[end];
+      const Vec3 turn = blocks::angular_of(moves_[end]);
+      body.center += blocks::linear_of(moves_[end]);
+      if (turn != Vec3::Zero()) body.rotation = (exp_map(turn) * body.rotation).normalized();
+      moves_[end] = {};
+    }
+  return widest;
+}
+
+void IslandJoints::end_step(const std::vector<state::Body>& bodies, std::vector<IslandBody>& island,
                             std::vector<BodyLanes>& velocities) {
   if (joints_.empty()) return;
   store();
   write(bodies, island, velocities);
+  close_gaps(bodies, island, velocities);
   for (Entry& entry : joints_) {
     entry.rows.hold_only();
     for (std::size_t i = 0; i < entry.rows.together; ++i) entry.rows.rows[i].wanted_after = 0;

@@ -39,8 +39,9 @@ class IslandJoints {
   void add_up();
   /// Begins the next sub-step without impulses.
   void forget();
-  /// Gives impulses, forces and torques back to the joints, and velocities that fit the places where the step ends.
-  void end_step(const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
+  /// Gives impulses, forces and torques back to the joints, takes what is left of errors away by moving the bodies, and
+  /// gives them velocities that fit the places where the step ends.
+  void end_step(const std::vector<state::Body>& bodies, std::vector<blocks::IslandBody>& island,
                 std::vector<blocks::BodyLanes>& velocities);
 
  private:
@@ -65,7 +66,12 @@ class IslandJoints {
   void find_figures(const std::vector<blocks::IslandBody>& island);
   void write(const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
              const std::vector<blocks::BodyLanes>& velocities);
+  void write(Entry& entry, const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
+             const std::vector<blocks::BodyLanes>& velocities) const;
   void store();
+  void close_gaps(const std::vector<state::Body>& bodies, std::vector<blocks::IslandBody>& island,
+                  const std::vector<blocks::BodyLanes>& velocities);
+  double close_gaps(Figure& figure, std::vector<blocks::IslandBody>& island, bool of_what_holds);
   void solve(Figure& figure, std::vector<blocks::BodyLanes>& velocities, bool moving);
   void solve_in(Figure& figure, std::vector<blocks::BodyLanes>& velocities, bool moving);
   bool admit(Figure& figure, const std::vector<blocks::BodyLanes>& velocities, bool moving);
@@ -75,6 +81,7 @@ class IslandJoints {
   std::vector<Entry> joints_;
   std::vector<Figure> figures_;
   std::size_t figure_count_ = 0;
+  std::vector<blocks::BodyLanes> moves_;  ///< by place, while gaps are being closed
   JointSystem::Plans plans_;
   std::vector<JointSystem::Member> members_, together_;
   std::vector<std::uint32_t> roots_, figure_of_, firsts_;

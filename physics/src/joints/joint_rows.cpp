@@ -14,13 +14,10 @@ namespace {
 /// its way.
 constexpr double fastest_approach = 4;
 constexpr double fastest_turn = 10;
+/// What has not passed its bound by more comes back at leisure, m or rad.
+constexpr double far_beyond = 3e-3;
 /// How far a blow may turn what stood still within a sub-step, rad: bounds that are nearer are minded.
 constexpr double reach_of_blow = 0.1;
-
-double correction(const Direction& direction, double rate, double error) {
-  const double most = direction.linear_b == Vec3::Zero() ? fastest_turn : fastest_approach;
-  return std::clamp(-rate * error, -most, most);
-}
 
 }  // namespace
 
@@ -40,10 +37,11 @@ Direction apart(const Placement& at, const Vec3& direction) {
   return {direction, at.arm_a.cross(direction), direction, at.arm_b.cross(direction)};
 }
 
-void JointRows::begin(const Masses& masses, double h, double rate, double turn) {
+void JointRows::begin(const Masses& masses, double h, double rate, double dt, double turn) {
   masses_ = masses;
   h_ = h;
   rate_ = rate;
+  dt_ = dt;
   far_ = reach_of_blow + 2 * turn;
   together = count = 0;
 }
@@ -53,7 +51,7 @@ Row& JointRows::add(const Direction& direction) {
   row.direction = direction;
   row.spin_a = masses_.inverse_inertia_a * direction.turn_a;
   row.spin_b = masses_.inverse_inertia_b * direction.turn_b;
-  row.compliance = 0;
+  row.compliance = row.left = 0;
   row.low = -std::numeric_limits<double>::infinity();
   row.high = std::numeric_limits<double>::infinity();
   parts[count - 1] = Part::in;
@@ -74,6 +72,23 @@ void JointRows::idle(std::size_t many) {
   }
 }
 
+bool JointRows::keep_passed() {
+  bool passed = false;
+  for (std::size_t i = together; i < count; ++i) {
+    const bool its = parts[i] != Part::idle && rows[i].left != 0;
+    parts[i] = its ? Part::in : Part::idle;
+    passed = passed || its;
+  }
+  return passed;
+}
+
+/// Toward where the error is 0.
+void JointRows::draw_near(Row& row, double error) {
+  const double fastest = row.direction.linear_b == Vec3::Zero() ? fastest_turn : fastest_approach;
+  row.wanted += std::clamp(-rate_ * error, -fastest, fastest);
+  row.left = std::clamp(-error, -fastest * dt_, fastest * dt_);
+}
+
 void JointRows::hold_only() {
   impulses.fill(0);
   for (std::size_t i = together; i < count; ++i) parts[i] = Part::idle;
@@ -84,8 +99,8 @@ void JointRows::hold_only() {
 /// of Computational Physics 52, 1983.
 void JointRows::hold(const Direction& direction, double error, double bend) {
   Row& row = add(direction);
-  row.wanted_after = -0.5 * h_ * bend;
-  row.wanted = row.wanted_after + correction(direction, rate_, error);
+  row.wanted = row.wanted_after = -0.5 * h_ * bend;
+  draw_near(row, error);
   ++together;
 }
 
@@ -134,8 +149,9 @@ void JointRows::bound(const Direction& direction, double position, const Limits*
       if (parts[count - 1] == Part::idle) continue;
     } else {
       Row& row = add(low ? direction : -direction);
-      row.wanted = gap > 0 ? -gap / h_ : correction(direction, rate_, gap);
-      row.wanted_after = gap > 0 ? row.wanted : 0;
+      row.wanted = row.wanted_after = gap > 0 ? -gap / h_ : 0;
+      if (gap < 0) draw_near(row, gap);
+      if (gap > -far_beyond) row.left = 0;
     }
     rows[count - 1].low = 0;
     place_last();

@@ -34,6 +34,7 @@ struct Row {
   Vec3 spin_a{0, 0, 0}, spin_b{0, 0, 0};  ///< angular velocity by a unit of impulse
   double wanted = 0;                      ///< speed while errors are taken apart
   double wanted_after = 0;                ///< and once the bodies have moved
+  double left = 0;                        ///< of its error when the step is over: how far it goes there, m or rad
   double compliance = 0;                  ///< speed that a soft row lets go for a unit of impulse; 0 for a hard one
   double low = 0, high = 0;               ///< of the impulse, N s or N m s
 };
@@ -55,8 +56,9 @@ class JointRows {
  public:
   /// @param h     length of the sub-step, s
   /// @param rate  share of an error that is taken apart, 1/s
+  /// @param dt    length of the step, s
   /// @param turn  how far the bodies turn against each other in the sub-step as they move, rad
-  void begin(const Masses& masses, double h, double rate, double turn);
+  void begin(const Masses& masses, double h, double rate, double dt, double turn);
 
   // What holds; all of them before any that bounds
   /// @param bend  how the error accelerates when both bodies go on as they move
@@ -79,6 +81,8 @@ class JointRows {
 
   /// Lets the impulse of a coming row begin with a share of what it was.
   void keep_of_next(std::size_t ahead, double share) { impulses[count + ahead] *= share; }
+  /// Leaves out all that bounds or drives, but what is passed: for errors, not for speeds. @return whether some is
+  bool keep_passed();
   /// Leaves out all that bounds or drives.
   void hold_only();
   [[nodiscard]] const Masses& masses() const { return masses_; }
@@ -96,8 +100,10 @@ class JointRows {
   /// What the last row added moves while the joint holds: speed by a unit of impulse; 0 for nothing.
   [[nodiscard]] double held_inverse_mass() const;
 
+  void draw_near(Row& row, double error);
+
   Masses masses_;
-  double h_ = 0, rate_ = 0, far_ = 0;
+  double h_ = 0, rate_ = 0, dt_ = 0, far_ = 0;
 };
 
 }  // namespace tweenfall::joints

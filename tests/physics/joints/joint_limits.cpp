@@ -351,9 +351,9 @@ TEST_CASE("a forearm whose cone is nearly a line keeps both its widths however i
       gap = std::max(gap, reading.gap);
     }
   }
-  CHECK(widest <= wide + 0.1);
-  CHECK(narrowest <= narrow + 0.25);
-  CHECK(gap <= 0.005);
+  CHECK(widest <= wide + 0.05);
+  CHECK(narrowest <= narrow + 0.05);
+  CHECK(gap <= 1e-4);
 }
 
 }  // namespace tweenfall::jointed
