@@ -40,22 +40,6 @@ void come_nearer(Closest& best, const Surface& surface, const Placed& at, const 
   });
 }
 
-/// Whether a ray, told from its start, meets a box within a length.
-bool enters_box(const Bounds& box, const Vec3& from, const Vec3& direction, double length) {
-  double enter = 0, leave = length;
-  for (int i = 0; i < 3; ++i) {
-    if (direction[i] == 0) {
-      if (from[i] < box.low[i] || from[i] > box.high[i]) return false;
-      continue;
-    }
-    const double to_low = (box.low[i] - from[i]) / direction[i], to_high = (box.high[i] - from[i]) / direction[i];
-    enter = std::max(enter, std::min(to_low, to_high));
-    leave = std::min(leave, std::max(to_low, to_high));
-  }
-  // A flat box is met at one place alone, which rounding must not tear apart.
-  return enter <= leave + 1e-12 * std::abs(leave);
-}
-
 /// Places as one sees them along a ray. A place looks the same from all triangles that it is a corner of, and on which
 /// side of an edge the ray passes is told exactly, so that no ray slips through between two.
 /// Source: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, Journal of Computer Graphics Techniques, 2013.
@@ -141,7 +125,7 @@ std::optional<RayHit> first_on_surface(const Surface& surface, const Placed& at,
   bool met = false;
   Vec3 normal;
   surface.walk_along(
-      direction, [&](const Bounds& box) { return enters_box(box, from, direction, length); },
+      direction, [&](const Bounds& box) { return meets_box(box, from, direction, length); },
       [&](std::uint32_t index) {
         const SurfaceTriangle triangle = surface.triangle(index);
         const Vec3 a = triangle.corners[0] - from, b = triangle.corners[1] - from, c = triangle.corners[2] - from;

@@ -32,21 +32,6 @@ Bounds with_room(const Bounds& box, double part) {
   return {box.low - room, box.high + room};
 }
 
-/// Whether a point on its way meets a box within a length.
-bool meets(const Bounds& box, const Vec3& from, const Vec3& direction, double length) {
-  double enter = 0, leave = length;
-  for (int i = 0; i < 3; ++i) {
-    if (direction[i] == 0) {
-      if (from[i] < box.low[i] || from[i] > box.high[i]) return false;
-      continue;
-    }
-    const double to_low = (box.low[i] - from[i]) / direction[i], to_high = (box.high[i] - from[i]) / direction[i];
-    enter = std::max(enter, std::min(to_low, to_high));
-    leave = std::min(leave, std::max(to_low, to_high));
-  }
-  return enter <= leave;
-}
-
 }  // namespace
 
 void Scene::arrange(std::size_t count, const std::function<Item(std::uint32_t)>& item_of) {
@@ -80,7 +65,7 @@ std::vector<Scene::ItemRayHit> Scene::all_on_ray(const Ray& ray, const Accept& a
   };
   for (const std::uint32_t plane : planes_) see(plane);
   tree_.visit_along(
-      ray.direction, [&](const Bounds& box) { return meets(box, ray.from, ray.direction, ray.length); }, see);
+      ray.direction, [&](const Bounds& box) { return meets_box(box, ray.from, ray.direction, ray.length); }, see);
   std::ranges::sort(hits, [](const ItemRayHit& a, const ItemRayHit& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.item < b.item;
   });
@@ -99,7 +84,7 @@ std::optional<Scene::ItemRayHit> Scene::first_on_ray(const Ray& ray, const Accep
   };
   for (const std::uint32_t plane : planes_) see(plane);
   tree_.visit_along(
-      ray.direction, [&](const Bounds& box) { return meets(box, ray.from, ray.direction, length); }, see);
+      ray.direction, [&](const Bounds& box) { return meets_box(box, ray.from, ray.direction, length); }, see);
   return first;
 }
 
@@ -119,8 +104,8 @@ std::optional<Scene::ItemShapeHit> Scene::first_on_way(const Shape& moving, cons
   for (const std::uint32_t plane : planes_) see(plane);
   // A hair farther than the first so far, for that is only nearly exact.
   const auto on_way = [&](const Bounds& other) {
-    return meets({other.low - half, other.high + half}, middle, displacement,
-                 first ? first->fraction * (1 + 1e-9) : 1.0);
+    return meets_box({other.low - half, other.high + half}, middle, displacement,
+                     first ? first->fraction * (1 + 1e-9) : 1.0);
   };
   tree_.visit_along(displacement, on_way, see);
   return first;
