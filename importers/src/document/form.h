@@ -29,6 +29,7 @@ struct Together {
   enum class Rule { exactly_one, at_most_one, first_needs_second };
   Rule rule;
   std::vector<std::string> names;
+  std::string otherwise{};  // after "give one of them": what else could be meant
 };
 
 // Forms of members whose names are the author's, by the names' ending.

@@ -153,7 +153,8 @@ Run declare_sample(Arguments& arguments) {
   auto options = std::make_shared<SampleOptions>();
   arguments.file("FILE", options->file, "a document or a model; - is a document on standard input");
   arguments.text("--clip", "NAME", options->clip, "the clip; needed when there are several");
-  arguments.numbers("--at", "T,T,...", options->at, "times on the clip's timeline, s");
+  arguments.numbers("--at", "T,T,...", options->at,
+                    "times on the clip's timeline, s; where it jumps or bends, the side that leaves");
   arguments.number("--fps", "N", options->fps, "every 1/N s from 0 to the clip's end, both included");
   arguments.number("--until", "T", options->until, "with --fps: to T instead of the clip's end, s");
   arguments.texts("--track", "NAME", options->tracks,

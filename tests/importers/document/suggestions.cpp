@@ -151,3 +151,28 @@ TEST_CASE("eases by the names of other programs are answered with ours, and thos
   CHECK(says(ease("easeOutBounce"), "bounce-out"));
   CHECK(says(ease("cubic-in-out(3)"), "\"cubic-in-out\" takes no values"));
 }
+
+TEST_CASE("two triggers beside each other, and the words and, or, are answered with all and any") {
+  const auto said = [](const std::string& when) {
+    return faults_of(
+        "{\"tweenfall\": 1, \"nodes\": {\"a\": {\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}}}}, \"handoff\": "
+        "[{\"body\": \"a\", \"to\": \"free\", \"when\": " +
+            when + "}]}",
+        "n.json", {});
+  };
+  CHECK(says(said(R"({"at": 1, "asleep": 2})"),
+             "\"asleep\" beside \"at\"; give one of them, or a list: {\"all\": [...]} for this and that, {\"any\": "
+             "[...]} for this or that"));
+  CHECK(says(said(R"({"and": [{"at": 1}, {"asleep": 2}]})"), "unknown field \"and\"; did you mean \"all\"?"));
+  CHECK(says(said(R"({"or": [{"at": 1}, {"asleep": 2}]})"), "unknown field \"or\"; did you mean \"any\"?"));
+  CHECK(said(R"({"any": [{"at": 1}, {"asleep": 2}]})").empty());
+}
+
+TEST_CASE("a rotation of bare numbers is answered with the spelling that so many numbers have") {
+  const auto said = [](const std::string& numbers) {
+    return faults_of("{\"tweenfall\": 1, \"nodes\": {\"a\": {\"rotation\": " + numbers + "}}}", "n.json", {});
+  };
+  CHECK(says(said("[0, 90, 0]"), "found a list of 3; say {\"euler\": [0, 90, 0]} (at /nodes/a/rotation)"));
+  CHECK(says(said("[0, 0, 1, 0]"), "found a list of 4; say {\"quat\": [0, 0, 1, 0]} (at"));
+  CHECK(says(said("[0, 0]"), "found a list of 2 (at"));
+}

@@ -157,9 +157,11 @@ const Form* when_form(FormStore& store, const ValueForms& values) {
   trigger.definition = "trigger";
   const Form* list = store.add(list_of(store.add(std::move(trigger)), "a list of triggers"));
   when.what = "a trigger, or \"all\" or \"any\" of a list";
-  when.fields.push_back({"all", list, "every one: instants latch, conditions must hold"});
-  when.fields.push_back({"any", list, "whichever comes first"});
+  when.fields.push_back({"all", list, "every one: instants latch, conditions must hold", false, "", {"and", "every"}});
+  when.fields.push_back({"any", list, "whichever comes first", false, "", {"or", "either"}});
   when.together = {exactly_one(when.field_names())};
+  when.together.front().otherwise =
+      ", or a list: {\"all\": [...]} for this and that, {\"any\": [...]} for this or that";
   when.definition = "when";
   when.instead = trigger_instead_of;
   return store.add(std::move(when));

@@ -222,6 +222,12 @@ ValueForms::ValueForms(FormStore& store) {
                    {Together::Rule::first_needs_second, {"angle", "axis"}}};
   rest.definition = "rotation";
   rest.on_one_line = true;
+  rest.instead = [](const json::Value& value) -> std::string {
+    if (!value.is(json::Value::Kind::list)) return {};
+    const char* const spelling = value.items().size() == 3 ? "euler" : value.items().size() == 4 ? "quat" : nullptr;
+    if (!spelling) return {};
+    return "; say {" + json::in_quotes(spelling) + ": " + json::on_one_line(value) + "}";
+  };
   rotation = store.add(std::move(rest));
 }
 

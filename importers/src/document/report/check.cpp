@@ -166,8 +166,8 @@ class Checker {
       return;
     }
     if (second) {
-      problems_.add_name(
-          *second, json::in_quotes(second->name) + " beside " + json::in_quotes(first->name) + "; give one of them");
+      problems_.add_name(*second, json::in_quotes(second->name) + " beside " + json::in_quotes(first->name) +
+                                      "; give one of them" + rule.otherwise);
       tree_.mark_faulty(second->value);
     }
     if (!first && rule.rule == Together::Rule::exactly_one) {
