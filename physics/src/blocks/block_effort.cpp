@@ -37,8 +37,9 @@ constexpr double turned_enough = 0.02, turned_enough_of_small = 0.002;
 /// Rows cannot follow what turns by more than this in a sub-step, rad.
 constexpr double followable = 0.5, followable_of_small = 0.05;
 
-/// What moves by less than this is about to rest, m/s.
-constexpr double lazy = 0.1;
+/// Of the blows of so little restitution those that are handed on do not matter.
+constexpr double dull = 0.25;
+constexpr int passes_of_meeting = 2;
 
 /// Even numbers: islands with the same are solved together.
 int sub_steps_of_depth(std::uint32_t depth) {
@@ -129,6 +130,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
   effort.rebound_passes = settings.iterations;
   effort.turned_enough = turned_enough_of_small;
   const double h = dt / sub_steps_of_small;
+  bool meets = false;
   for (ContactConstraint* contact : island.contacts) {
     if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return std::nullopt;
     const Body &a = bodies[contact->a], &b = bodies[contact->b];
@@ -137,15 +139,17 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
       if (body->immovable()) continue;
       if (body->drive.owner() == Owner::driven || body->turned || body->twist.angular.norm() * h > followable_of_small)
         return std::nullopt;
-      // What flies, slides, rolls or turns over by itself is solved to the end.
-      if (island.contacts.size() == 1 && body->twist.linear.norm() + body->twist.angular.norm() * body->radius > lazy)
-        return std::nullopt;
     }
     const contacts::Closing closing =
         contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
     contacts::foresee(*contact, a.twist, b.twist, closing, dt);
-    if (contact->impact) return std::nullopt;
+    if (!contact->impact) continue;
+    // The blow of two bodies, and what comes back from it, is solved to the end.
+    if (island.contacts.size() == 1 || contact->restitution > dull) return std::nullopt;
+    meets = true;
   }
+  // What meets has no rest yet that many passes would find.
+  if (meets) effort.softening = effort.relaxing = passes_of_meeting;
   return effort;
 }
 

@@ -36,7 +36,8 @@ class BlockSolver {
   };
 
   /// Nothing for an island that is for `Solver`: bodies that drives, stiff springs or rolling friction hold, steps far
-  /// shorter than those before them; of few contacts also what meets fast, spins, or is moved by its own will.
+  /// shorter than those before them; of few contacts also what meets and springs back, two that meet by themselves,
+  /// and what spins or is moved by its own will.
   [[nodiscard]] std::optional<Effort> effort_for(const islands::IslandContents& island,
                                                  const std::vector<state::Body>& bodies,
                                                  const std::vector<forces::Load>& loads, const WorldSettings& settings,

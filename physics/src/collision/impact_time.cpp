@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "collision/collide_pairs.h"
+#include "shapes/placed.h"
 #include "step/keyed_step.h"
 
 namespace tweenfall::collision {
@@ -55,6 +56,26 @@ double swing_speed(const Course& course) {
   return spin * body.radius;
 }
 
+bool stay_apart(const Course& a, const Course& b, const Vec3& direction, double gap, double from, double dt) {
+  const double left = dt - from;
+  const Vec3 speed = a.linear - b.linear, gain = a.acceleration - b.acceleration;
+  const double closing = std::max(direction.dot(speed + gain * from), direction.dot(speed + gain * dt));
+  const double swing_a = swing_speed(a), swing_b = swing_speed(b);
+  if (gap > 2 * hair + std::max(0.0, closing + swing_a + swing_b) * left) return true;
+  if (swing_a + swing_b == 0) return false;
+  // No point leaves the chord of its way by more than an eighth of its greatest acceleration times the square of the
+  // time: what is apart by more than that at both ends is so between them.
+  const double bent = std::abs(direction.dot(gain)) + a.angular.norm() * swing_a + b.angular.norm() * swing_b;
+  const double least = 2 * hair + 0.125 * bent * left * left;
+  if (!(gap > least)) return false;
+  const shapes::Placed end_a = shapes::place(*a.shape, a.at(dt).node(*a.body)),
+                       end_b = shapes::place(*b.shape, b.at(dt).node(*b.body));
+  const double rounding = 1e-14 * (end_a.center.norm() + end_b.center.norm());
+  return direction.dot(end_b.center - end_a.center) - shapes::support_along(a.shape->solid, end_a.axes, direction) -
+             shapes::support_along(b.shape->solid, end_b.axes, -direction) >
+         least + rounding;
+}
+
 std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
   const double swing = swing_speed(a) + swing_speed(b);
   double time = 0;
@@ -67,7 +88,7 @@ std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
                                            shapes::place(*b.shape, b.at(time).node(*b.body)), reachable);
     if (gap <= hair) return time;
     const double closing = std::max(normal.dot(now), normal.dot(last)) + swing;
-    if (!(closing > 0)) return std::nullopt;
+    if (!(closing > 0) || stay_apart(a, b, normal, gap, time, dt)) return std::nullopt;
     // Half a hair past the gap, so that the end comes after finitely many advances.
     time += (gap - 0.5 * hair) / closing;
     if (time > dt) return std::nullopt;

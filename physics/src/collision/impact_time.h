@@ -31,6 +31,11 @@ constexpr double hair = 1e-7;
 /// How fast a surface point can move along any direction because the body spins, m/s. A plane is taken not to spin.
 [[nodiscard]] double swing_speed(const Course& course);
 
+/// Whether shapes with such a gap along a unit direction stay apart along it by more than two hairs from a time on
+/// until `dt`.
+[[nodiscard]] bool stay_apart(const Course& a, const Course& b, const Vec3& direction, double gap, double from,
+                              double dt);
+
 /// The time in (0, dt] at which two separated shapes first come nearer than a hair, by conservative advancement: no
 /// step is longer than the gap divided by the greatest speed at which it can close.
 /// Source: Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, 1996, chapter 2.

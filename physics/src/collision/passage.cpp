@@ -2,57 +2,16 @@
 
 #include <tweenfall/physics/contact.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "shapes/turned.h"
+#include "shapes/placed.h"
 
 namespace tweenfall::collision {
 
 namespace {
 
-/// No place farther along a direction, from the middle of its solid.
-double support_along(const Sphere& sphere, const Mat3&, const Vec3&) {
-  return sphere.radius;
-}
-double support_along(const Box& box, const Mat3& axes, const Vec3& direction) {
-  return (axes.transpose() * direction).cwiseAbs().dot(box.half_extents);
-}
-double support_along(const Capsule& capsule, const Mat3& axes, const Vec3& direction) {
-  return std::abs(axes.col(1).dot(direction)) * capsule.half_height + capsule.radius;
-}
-double support_along(const Plane& plane, const Mat3& axes, const Vec3& direction) {
-  const bool out = (axes * plane.normal - direction).squaredNorm() < 1e-24;
-  return out ? plane.offset : std::numeric_limits<double>::infinity();
-}
-double support_along(const Hull& hull, const Mat3& axes, const Vec3& direction) {
-  const Vec3 local = axes.transpose() * direction;
-  double most = -std::numeric_limits<double>::infinity();
-  for (const Vec3& vertex : hull.convex.vertices()) most = std::max(most, local.dot(vertex));
-  return most;
-}
-
-double support_along(const Compound&, const Mat3&, const Vec3&) {
-  return std::numeric_limits<double>::infinity();  // its parts are looked at one by one
-}
-
-double support_along(const TriangleMesh&, const Mat3&, const Vec3&) {
-  return std::numeric_limits<double>::infinity();  // its triangles are looked at one by one
-}
-double support_along(const HeightField&, const Mat3&, const Vec3&) {
-  return std::numeric_limits<double>::infinity();
-}
-
-template <class Turned>
-double support_along(const Turned& solid, const Mat3& axes, const Vec3& direction) {
-  const Vec3 local = axes.transpose() * direction;
-  return local.dot(shapes::farthest(solid, local));
-}
-
 double support_along(const Passage& passage, const Vec3& direction) {
-  return std::visit([&](const auto& solid) { return support_along(solid, passage.placed.axes, direction); },
-                    passage.course.shape->solid);
+  return shapes::support_along(passage.course.shape->solid, passage.placed.axes, direction);
 }
 
 bool is_polyhedron(const Passage& passage) {
@@ -107,10 +66,7 @@ bool stay_apart(const Passage& a, const Passage& b, const Vec3& direction, doubl
   const double rounding = 1e-14 * (a.placed.center.norm() + b.placed.center.norm());
   if (!(gap > 1.000001 * near_enough + rounding)) return false;
   if ((std::isinf(a.body->radius) && a.spin > 0) || (std::isinf(b.body->radius) && b.spin > 0)) return false;
-  const Vec3 before = a.course.linear - b.course.linear;
-  const Vec3 after = before + (a.course.acceleration - b.course.acceleration) * dt;
-  const double closing = std::max(direction.dot(before), direction.dot(after));
-  return gap > 2 * hair + rounding + std::max(0.0, closing + a.swing + b.swing) * dt;
+  return stay_apart(a.course, b.course, direction, gap - rounding, 0, dt);
 }
 
 }  // namespace tweenfall::collision

@@ -19,13 +19,13 @@ class NearestSimplex {
  public:
   /// The place nearest to the origin; the points that it does not lie between are let go.
   Vec3 reduce() {
+    // The newest point is one of them: without it the place would be where it was.
+    const int newest = count_ - 1;
     best_ = {};
-    for (int i = 0; i < count_; ++i) try_point(i);
-    for (int i = 0; i < count_; ++i)
-      for (int k = i + 1; k < count_; ++k) try_segment(i, k);
-    for (int i = 0; i + 2 < count_; ++i)
-      for (int k = i + 1; k + 1 < count_; ++k)
-        for (int l = k + 1; l < count_; ++l) try_triangle(i, k, l);
+    try_point(newest);
+    for (int i = 0; i < newest; ++i) try_segment(i, newest);
+    for (int i = 0; i < newest; ++i)
+      for (int k = i + 1; k < newest; ++k) try_triangle(i, k, newest);
     keep(best_);
     return best_.place;
   }
@@ -72,37 +72,35 @@ class NearestSimplex {
 
   [[nodiscard]] const Vec3& at(int i) const { return points_[static_cast<std::size_t>(i)].apart; }
 
-  void try_candidate(Candidate candidate) {
-    candidate.place = Vec3::Zero();
-    for (int i = 0; i < candidate.count; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      candidate.place += candidate.shares[k] * at(candidate.corners[k]);
-    }
-    candidate.square = candidate.place.squaredNorm();
-    if (candidate.square < best_.square) best_ = candidate;
+  void try_candidate(const Vec3& place, const std::array<int, 3>& corners, const std::array<double, 3>& shares,
+                     int count) {
+    const double square = place.squaredNorm();
+    if (square < best_.square) best_ = {square, place, corners, shares, count};
   }
-  void try_point(int i) { try_candidate({.corners = {i}, .shares = {1}, .count = 1}); }
+  void try_point(int i) { try_candidate(at(i), {i}, {1}, 1); }
   void try_segment(int i, int k) {
     const Vec3 along = at(k) - at(i);
-    const double square = along.squaredNorm(), share = -along.dot(at(i));
-    if (!(share > 0) || !(share < square)) return;
-    try_candidate({.corners = {i, k}, .shares = {1 - share / square, share / square}, .count = 2});
+    const double square = along.squaredNorm(), part = -along.dot(at(i));
+    if (!(part > 0) || !(part < square)) return;
+    const double share = part / square;
+    try_candidate((1 - share) * at(i) + share * at(k), {i, k}, {1 - share, share}, 2);
   }
   void try_triangle(int i, int k, int l) {
     const Vec3 &a = at(i), &b = at(k), &c = at(l);
     const Vec3 normal = (b - a).cross(c - a);
     const double of_a = normal.dot(b.cross(c)), of_b = normal.dot(c.cross(a)), of_c = normal.dot(a.cross(b));
     if (!(of_a > 0) || !(of_b > 0) || !(of_c > 0)) return;
-    const double all = of_a + of_b + of_c;
-    try_candidate({.corners = {i, k, l}, .shares = {of_a / all, of_b / all, of_c / all}, .count = 3});
+    const double whole = 1 / (of_a + of_b + of_c);
+    const std::array<double, 3> shares = {of_a * whole, of_b * whole, of_c * whole};
+    try_candidate(shares[0] * a + shares[1] * b + shares[2] * c, {i, k, l}, shares, 3);
   }
 
   void keep(const Candidate& best) {
-    const std::array<SimplexPoint, 4> before = points_;
     count_ = best.count;
-    for (int i = 0; i < count_; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      points_[k] = before[static_cast<std::size_t>(best.corners[k])];
+    // Corners are told in order, so that none is written over before it is read.
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count_); ++k) {
+      const auto from = static_cast<std::size_t>(best.corners[k]);
+      if (from != k) points_[k] = points_[from];
       shares_[k] = best.shares[k];
     }
   }

@@ -245,3 +245,52 @@ Bounds bounds(const Shape& shape, const Pose& node) noexcept {
 }
 
 }  // namespace tweenfall
+
+namespace tweenfall::shapes {
+
+namespace {
+
+double support_of(const Sphere& sphere, const Mat3&, const Vec3&) {
+  return sphere.radius;
+}
+double support_of(const Box& box, const Mat3& axes, const Vec3& direction) {
+  return (axes.transpose() * direction).cwiseAbs().dot(box.half_extents);
+}
+double support_of(const Capsule& capsule, const Mat3& axes, const Vec3& direction) {
+  return std::abs(axes.col(1).dot(direction)) * capsule.half_height + capsule.radius;
+}
+double support_of(const Plane& plane, const Mat3& axes, const Vec3& direction) {
+  const bool out = (axes * plane.normal - direction).squaredNorm() < 1e-24;
+  return out ? plane.offset : std::numeric_limits<double>::infinity();
+}
+double support_of(const Hull& hull, const Mat3& axes, const Vec3& direction) {
+  const Vec3 local = axes.transpose() * direction;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Vec3& vertex : hull.convex.vertices()) most = std::max(most, local.dot(vertex));
+  return most;
+}
+
+double support_of(const Compound&, const Mat3&, const Vec3&) {
+  return std::numeric_limits<double>::infinity();  // its parts are looked at one by one
+}
+
+double support_of(const TriangleMesh&, const Mat3&, const Vec3&) {
+  return std::numeric_limits<double>::infinity();  // its triangles are looked at one by one
+}
+double support_of(const HeightField&, const Mat3&, const Vec3&) {
+  return std::numeric_limits<double>::infinity();
+}
+
+template <class Turned>
+double support_of(const Turned& solid, const Mat3& axes, const Vec3& direction) {
+  const Vec3 local = axes.transpose() * direction;
+  return local.dot(farthest(solid, local));
+}
+
+}  // namespace
+
+double support_along(const Solid& solid, const Mat3& axes, const Vec3& direction) {
+  return std::visit([&](const auto& one) { return support_of(one, axes, direction); }, solid);
+}
+
+}  // namespace tweenfall::shapes
