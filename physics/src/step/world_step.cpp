@@ -141,6 +141,10 @@ void World::Implementation::solve_islands(double dt) {
       solve_in_pieces(contents, pieces, dt, by.few);
       return;
     }
+    if (hands_on_blows(contents, dt)) {
+      solve_by_blows(contents, dt, by.few);
+      return;
+    }
     const std::optional<blocks::BlockSolver::Effort> effort = by.many.effort_for(contents, bodies, loads, settings, dt);
     if (!effort)
       by.few.solve(bodies, loads, contents.contacts, contents.springs, settings, dt, moved);

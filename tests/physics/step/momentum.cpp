@@ -47,8 +47,8 @@ TEST_CASE("a cloud that falls together keeps its momentum and its angular moment
             body.mass = 1 + i % 3;
             body.friction = friction;
             body.restitution = restitution;
-            body.motion.pose.position =
-                1.2 * Vec3(i % side, i / side % side, i / side / side) - 0.6 * (side - 1) * Vec3::Ones();
+            const int x = i % side, y = i / side % side, z = i / side / side;
+            body.motion.pose.position = 1.2 * Vec3(x, y, z) - 0.6 * (side - 1) * Vec3::Ones();
             const Vec3 astray = random.vector(2), spin = random.vector(3);
             body.motion.twist = {-2 * body.motion.pose.position + astray, spin};
             world.add(body);
