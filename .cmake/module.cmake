@@ -31,9 +31,12 @@ endfunction()
 
 # The headers that nearly every source includes, compiled once for all targets of the same flags: by OWNER.
 function(tweenfall_precompile target owner)
-  if(target STREQUAL owner)
+  set(eigen_inlined ${PROJECT_SOURCE_DIR}/.cmake/eigen_inlined.h)
+  if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    target_compile_options(${target} PRIVATE -include ${eigen_inlined})
+  elseif(target STREQUAL owner)
     target_precompile_headers(${target} PRIVATE
-      <Eigen/Geometry> <algorithm> <functional> <memory> <span> <string> <vector>)
+      ${eigen_inlined} <Eigen/Geometry> <algorithm> <functional> <memory> <span> <string> <vector>)
   else()
     target_precompile_headers(${target} REUSE_FROM ${owner})
   endif()
@@ -43,7 +46,8 @@ endfunction()
 function(tweenfall_flags target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   # Eigen adds in another order where it vectorizes, and what is not inlined is one weak symbol for the whole program:
-  # a consumer's own, compiled with other flags, would take the place of ours. So ours is scalar, and inlined always.
+  # a consumer's own, compiled with other flags, would take the place of ours. So ours is scalar, and inlined always;
+  # eigen_inlined.h, among the precompiled headers, does the rest of that.
   target_compile_definitions(${target} PRIVATE
     EIGEN_DONT_VECTORIZE "EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
   # Settings are aggregates with defaults, so leaving members out is the manner, not a slip.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "shapes/fitted_capsule.h"
+#include "shapes/turn_onto.h"
 
 namespace tweenfall {
 
@@ -20,7 +21,7 @@ void require(bool holds, const std::string& what) {
 
 /// A rotation that takes the x axis to a direction, the short way.
 Quat along(const Vec3& direction) {
-  return normalized(Quat::FromTwoVectors(Vec3(1, 0, 0), direction));
+  return normalized(shapes::turn_onto(Vec3(1, 0, 0), direction));
 }
 
 /// What a joint of the skin carries, in the axes of its node and the size of the world.
@@ -185,7 +186,7 @@ class Fitting {
     bone.parent = parent;
     bone.shape.solid = fitted->capsule;
     bone.shape.offset.position = fitted->center;
-    bone.shape.offset.rotation = normalized(Quat::FromTwoVectors(Vec3(0, 1, 0), fitted->axis));
+    bone.shape.offset.rotation = normalized(shapes::turn_onto(Vec3(0, 1, 0), fitted->axis));
     // The bone's way, or else that from the joint to what it carries.
     Vec3 twist = way.value_or(fitted->center);
     const double length = twist.norm();

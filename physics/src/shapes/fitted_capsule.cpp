@@ -1,9 +1,10 @@
 #include "shapes/fitted_capsule.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "shapes/principal_axes.h"
 
 namespace tweenfall::shapes {
 
@@ -44,14 +45,11 @@ FittedCapsule along_axis(std::span<const Vec3> points, const Vec3& middle, const
 
 std::optional<FittedCapsule> fitted_capsule(std::span<const Vec3> points, const std::optional<Vec3>& along) {
   if (points.empty()) return std::nullopt;
-  Vec3 middle = Vec3::Zero();
-  for (const Vec3& point : points) middle += point / static_cast<double>(points.size());
-  Mat3 spread = Mat3::Zero();
-  for (const Vec3& point : points) spread += (point - middle) * (point - middle).transpose();
-  const Eigen::SelfAdjointEigenSolver<Mat3> principal(spread);
+  const Vec3 middle = mean_of(points);
+  const Mat3 principal = principal_axes(points);
   std::vector<Vec3> axes;
   if (along) axes.push_back(*along);
-  for (int i = 2; i >= 0; --i) axes.emplace_back(principal.eigenvectors().col(i));
+  for (int i = 2; i >= 0; --i) axes.emplace_back(principal.col(i));
   std::optional<FittedCapsule> best;
   double least = 0;
   for (const Vec3& axis : axes) {

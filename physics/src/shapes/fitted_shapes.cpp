@@ -2,7 +2,6 @@
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/physics/fitted_shapes.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,8 @@
 #include <string>
 
 #include "shapes/fitted_capsule.h"
+#include "shapes/principal_axes.h"
+#include "shapes/turn_onto.h"
 
 namespace tweenfall {
 
@@ -103,16 +104,6 @@ OrientedBox box_along(const Mat3& axes, std::span<const Vec3> points) {
   return box;
 }
 
-Mat3 principal_axes(std::span<const Vec3> points) {
-  Vec3 middle = Vec3::Zero();
-  for (const Vec3& point : points) middle += point / static_cast<double>(points.size());
-  Mat3 spread = Mat3::Zero();
-  for (const Vec3& point : points) spread += (point - middle) * (point - middle).transpose();
-  Mat3 axes = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors();
-  if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
-  return axes;
-}
-
 /// Small turns about its own axes, made smaller when none is better.
 OrientedBox refined(OrientedBox box, std::span<const Vec3> points) {
   for (double turn = 0.2; turn > 1e-6;) {
@@ -203,7 +194,7 @@ Shape capsule_around(std::span<const Vec3> points, const std::optional<Vec3>& al
   if (!fitted) throw std::invalid_argument("a capsule around points needs some that span a volume");
   Shape shape{fitted->capsule, {}};
   shape.offset.position = fitted->center;
-  shape.offset.rotation = normalized(Quat::FromTwoVectors(Vec3(0, 1, 0), fitted->axis));
+  shape.offset.rotation = normalized(shapes::turn_onto(Vec3(0, 1, 0), fitted->axis));
   return shape;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shapes/compound.h"
+#include "shapes/turn_onto.h"
 #include "surfaces/surface.h"
 
 namespace tweenfall::staging {
@@ -45,7 +46,7 @@ void mirror(Shape& shape, const Vec3& scale) {
   const Vec3 axis = shape.offset.rotation * Vec3(0, 1, 0);
   const Vec3 mirrored = axis.cwiseProduct(scale.cwiseQuotient(scale.cwiseAbs()));
   if (mirrored == axis) return;
-  shape.offset.rotation = (Quat::FromTwoVectors(axis, mirrored) * shape.offset.rotation).normalized();
+  shape.offset.rotation = (shapes::turn_onto(axis, mirrored) * shape.offset.rotation).normalized();
 }
 
 /// A height field stays one where its grid does.

@@ -1,0 +1,11 @@
+#pragma once
+
+// Eigen, inlined always where our own code is optimized: of a function that is not, the linker keeps one copy for the
+// whole program, and a consumer's may be compiled with other instructions, which align and add otherwise.
+
+#include <Eigen/src/Core/util/Macros.h>
+
+#if defined(__OPTIMIZE__) && defined(__GNUC__)
+#undef EIGEN_DEVICE_FUNC
+#define EIGEN_DEVICE_FUNC __attribute__((always_inline))
+#endif
