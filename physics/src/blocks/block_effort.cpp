@@ -70,6 +70,20 @@ bool unlike(const islands::IslandContents& island, const std::vector<Body>& bodi
   return greatest > most * least;
 }
 
+/// Whether nearly all contacts are those of one body, which few passes do not bring together: each undoes what the ones
+/// before it did.
+bool has_hub(const islands::IslandContents& island, const std::vector<Body>& bodies) {
+  const std::size_t count = island.contacts.size();
+  for (const std::size_t i : {std::size_t{0}, count / 2, count - 1})
+    for (const std::uint32_t end : {island.contacts[i]->a, island.contacts[i]->b}) {
+      if (bodies[end].immovable()) continue;
+      const auto its = std::count_if(island.contacts.begin(), island.contacts.end(),
+                                     [end](const auto* contact) { return contact->a == end || contact->b == end; });
+      if (4 * static_cast<std::size_t>(its) >= 3 * count) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::IslandContents& island,
@@ -79,6 +93,9 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::Island
   if (island.joints.empty() && !island.springs.empty()) return std::nullopt;
   if (island.joints.empty() && island.contacts.size() <= step::Solver::to_the_end &&
       unlike(island, bodies, island.contacts.size() <= small ? 10 : 30))
+    return std::nullopt;
+  if (island.joints.empty() && island.contacts.size() > small && island.contacts.size() <= step::Solver::to_the_end &&
+      has_hub(island, bodies))
     return std::nullopt;
   if (island.joints.empty() && island.contacts.size() <= small)
     return effort_of_small(island, bodies, loads, settings, dt);

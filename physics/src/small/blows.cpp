@@ -24,6 +24,7 @@ using state::Body;
 /// Restitution of which blows that are handed on hardly matter, but for so many contacts.
 constexpr double dull = 0.25;
 constexpr std::size_t many = 5;
+constexpr std::size_t most_contacts_of_blows = 24;
 /// What meets within this part of a step meets now.
 constexpr double soon = 1e-6;
 /// In shorter steps than this what trembles is no faster than in such a one, s.
@@ -55,7 +56,7 @@ double time_of_blow(const ContactConstraint& contact, const std::vector<Body>& b
 }  // namespace small
 
 bool World::Implementation::hands_on_blows(const islands::IslandContents& island, double dt) const {
-  if (island.contacts.size() < 2 || island.contacts.size() > step::Solver::to_the_end || !island.springs.empty() ||
+  if (island.contacts.size() < 2 || island.contacts.size() > small::most_contacts_of_blows || !island.springs.empty() ||
       !island.joints.empty())
     return false;
   // Of little restitution what is handed on matters where it goes far: in what stands on one foot.

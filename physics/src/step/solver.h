@@ -41,7 +41,7 @@ class Solver {
   /// In a step; the passes are shared out among them.
   static constexpr int usual_sub_steps = 8;
   /// Up to so many contacts an island is solved to the end.
-  static constexpr std::size_t to_the_end = 24;
+  static constexpr std::size_t to_the_end = 32;
 
   /// Before the islands of a step.
   void begin(std::size_t bodies);

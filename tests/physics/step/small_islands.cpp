@@ -128,3 +128,35 @@ TEST_CASE("bullets of 100, 300 and 1,000 m/s do not pass a wall of a centimeter,
           CHECK(most < 1.02 * start + 5);
         }
 }
+
+TEST_CASE("a plate that is pulled over the floor under 25 balls, and they, speed up as friction lets them, to 1e-6") {
+  // The pull less the floor's friction moves the plate and two sevenths of each ball's mass, which rolls back on it.
+  for (const double force : {150.0, 200.0}) {
+    World world({.sleep_after = forever});
+    world.add({.shape = {Plane{}}, .friction = 0.4, .fixed = true});
+    BodySettings plate = solid_at(Box{Vec3(10, 0.5, 10)}, Vec3(0, 0.49998, 0), 10);
+    plate.friction = 0.4;
+    const BodyId pulled = world.add(plate);
+    std::vector<BodyId> balls;
+    for (int x = -2; x <= 2; ++x)
+      for (int z = -2; z <= 2; ++z) {
+        BodySettings ball = solid_at(Sphere{0.5}, Vec3(2 * x, 1.49994, 2 * z), 1);
+        ball.friction = 1.6;
+        balls.push_back(world.add(ball));
+      }
+    const double net = force - 0.4 * 35 * 9.81, faster = net / (10 + 25 * 2.0 / 7), slower = 2 * faster / 7;
+    const Vec3 along = Vec3(0.6, 0, 0.8);
+    double plates = 0, all = 0;
+    constexpr int steps = 1000;
+    for (int i = 1; i <= steps; ++i) {
+      world.apply_force(pulled, force * along, world.motion(pulled).pose.position);
+      world.step(1e-3);
+      plates += (world.twist(pulled).linear - faster * 1e-3 * i * along).squaredNorm() / steps;
+      for (const BodyId ball : balls)
+        all += (world.twist(ball).linear - slower * 1e-3 * i * along).squaredNorm() / steps / 25;
+    }
+    CAPTURE(force);
+    CHECK(plates < 1e-6);
+    CHECK(all < 1e-6);
+  }
+}
