@@ -15,10 +15,11 @@ constexpr double settled = 1e-14;
 constexpr double rounding = 1e-15;
 /// Passes that nearly always do.
 constexpr int plain_passes = 6;
-/// Passes after which what is left must do.
-constexpr int most_passes = 160;
+/// Passes after which what is left must do; more where much rests on several that are far lighter, for there what is
+/// left would throw them out.
+constexpr int most_passes = 160, most_far_apart = 500;
 /// Passes in which nothing gets better, so that nothing will.
-constexpr int most_idle = 40;
+constexpr int most_idle = 40, idle_far_apart = 200;
 /// A change that is so many times the least before.
 constexpr double wild = 100;
 
@@ -26,6 +27,8 @@ constexpr double wild = 100;
 constexpr double far = 1e4;
 /// Bodies of which one is so many times as heavy as another.
 constexpr double unlike = 10;
+constexpr double far_apart = 300;
+constexpr std::size_t several = 3;
 
 double greatest(const std::vector<double>& impulses) {
   double most = 0;
@@ -136,7 +139,9 @@ void Solver::settle(int passes, const std::function<double(bool backward)>& pass
   const double before = last;
   int idle = 0;
   read_holds(holds_);
-  for (int k = plain_passes; k < most_passes && idle <= most_idle; ++k) {
+  const bool burdened = contacts_.size() >= several && heaviest_ > far_apart * lightest_;
+  const int end = burdened ? most_far_apart : most_passes, bored = burdened ? idle_far_apart : most_idle;
+  for (int k = plain_passes; k < end && idle <= bored; ++k) {
     const double change = pass(false);
     if (change < enough) return;
     read_impulses(to_);

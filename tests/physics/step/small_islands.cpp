@@ -63,6 +63,33 @@ TEST_CASE("a hundred kilograms rest on ten boxes of one, and a thousand that fal
   CHECK(press.motion(falling).pose.position.y() > 1.499);
 }
 
+TEST_CASE("a thousand kilograms rest on ten boxes of one, in a column or a pyramid") {
+  const Solid box = Box{Vec3(0.5, 0.5, 0.5)};
+  for (const bool pyramid : {false, true})
+    for (const double rate : {60.0, 200.0}) {
+      World world({.sleep_after = forever});
+      world.add({.shape = {Plane{}}, .fixed = true});
+      const int rows = pyramid ? 4 : 10;
+      for (int row = 0; row < rows; ++row)
+        for (int i = 0; i < (pyramid ? rows - row : 1); ++i)
+          world.add(solid_at(box, Vec3(pyramid ? 1.05 * (i - 0.5 * (rows - 1 - row)) : 0, 0.5 + row, 0), 1));
+      const BodyId heavy = world.add(solid_at(box, Vec3(0, 0.5 + rows, 0), 1000));
+      double deepest = 0, fastest = 0;
+      for (int i = 0; i < (rate == 60 ? 1 : 0.25) * rate; ++i) {
+        world.step(1 / rate);
+        for (const Contact& contact : world.contacts())
+          for (int k = 0; k < contact.manifold.count; ++k)
+            deepest = std::max(deepest, contact.manifold.points[static_cast<std::size_t>(k)].penetration);
+        for (const BodyId body : world.bodies()) fastest = std::max(fastest, world.twist(body).linear.norm());
+      }
+      CAPTURE(pyramid);
+      CAPTURE(rate);
+      CHECK(deepest < 1e-3);
+      CHECK(fastest < 0.01);
+      CHECK(world.motion(heavy).pose.position.y() > rows + 0.499);
+    }
+}
+
 TEST_CASE(
     "of boxes, capsules and balls that meet in a plane nearly all stay in it to a billionth of a meter, and all near") {
   test::Random random(11);
