@@ -1,5 +1,7 @@
 #include "counted_allocations.h"
 
+#include <malloc.h>
+
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -8,16 +10,28 @@
 
 namespace {
 
-std::atomic<std::size_t> allocation_count = 0;
+std::atomic<std::size_t> allocation_count = 0, held = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
   ++allocation_count;
   const std::size_t least = size > 0 ? size : 1;
-  if (void* memory = std::aligned_alloc(alignment, (least + alignment - 1) / alignment * alignment)) return memory;
+  if (void* memory = std::aligned_alloc(alignment, (least + alignment - 1) / alignment * alignment)) {
+    held += malloc_usable_size(memory);
+    return memory;
+  }
   throw std::bad_alloc();
 }
 
+void give_back(void* memory) noexcept {
+  held -= malloc_usable_size(memory);
+  std::free(memory);
+}
+
 }  // namespace
+
+std::size_t tweenfall::test::bytes_held() noexcept {
+  return held;
+}
 
 std::size_t tweenfall::test::allocations() noexcept {
   return allocation_count;
@@ -38,14 +52,14 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   }
 }
 void operator delete(void* memory) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
+  give_back(memory);
 }

@@ -20,9 +20,9 @@ struct Separation {
 };
 
 /// The axis along which the boxes are farthest apart, or overlap least. Near ties go to a's faces, then b's, then to
-/// edges, so that the choice does not change from step to step.
-/// Source: Gottschalk, Lin, Manocha, OBBTree, SIGGRAPH 1996.
-Separation widest(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b) {
+/// edges, so that the choice does not change from step to step; but what one axis tells apart by more than the margin
+/// is apart. Source: Gottschalk, Lin, Manocha, OBBTree, SIGGRAPH 1996.
+Separation widest(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin) {
   const Mat3 turn = at_a.axes.transpose() * at_b.axes;
   const Mat3 reach = turn.cwiseAbs();
   const Vec3 between = at_b.center - at_a.center;
@@ -33,16 +33,17 @@ Separation widest(const Box& a, const Placed& at_a, const Box& b, const Placed& 
   Separation best;
   for (int i = 0; i < 3; ++i) {
     const double gap = std::abs(in_a[i]) - a.half_extents[i] - reach.row(i).dot(b.half_extents);
-    if (gap > best.gap + (i == 0 ? 0 : 0.1 * preference))
+    if (gap > best.gap + (i == 0 ? 0 : 0.1 * preference) || (gap > margin && gap > best.gap))
       best = {gap, at_a.axes.col(i) * (in_a[i] < 0 ? -1.0 : 1.0), Separation::face_a, i, 0};
   }
   Separation other;
   for (int i = 0; i < 3; ++i) {
     const double gap = std::abs(in_b[i]) - b.half_extents[i] - reach.col(i).dot(a.half_extents);
-    if (gap > other.gap + (i == 0 ? 0 : 0.1 * preference))
+    if (gap > other.gap + (i == 0 ? 0 : 0.1 * preference) || (gap > margin && gap > other.gap))
       other = {gap, at_b.axes.col(i) * (in_b[i] < 0 ? -1.0 : 1.0), Separation::face_b, 0, i};
   }
-  if (other.gap > best.gap + preference) best = other;
+  if (other.gap > best.gap + preference || (other.gap > margin && other.gap > best.gap)) best = other;
+  if (best.gap > margin) return best;
   Separation edge;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -170,7 +171,7 @@ void cross_edges(Manifold& manifold, const Separation& separation, const Box& a,
 
 Manifold collide(const Box& a, const Placed& at_a, const Box& b, const Placed& at_b, double margin, double reach) {
   Manifold manifold;
-  const Separation separation = widest(a, at_a, b, at_b);
+  const Separation separation = widest(a, at_a, b, at_b, margin);
   manifold.normal = separation.normal;
   if (separation.gap > margin) return manifold;
   if (separation.kind == Separation::face_a) {

@@ -24,10 +24,8 @@ struct PairInContact {
   std::uint32_t memory = state::ContactMemories::nowhere;  ///< where it is remembered, when it was there before
 };
 
-/// A pair in contact through a step.
-struct ContactConstraint : PairInContact, state::KeptImpulses {
-  Manifold manifold;
-  std::array<PointConstraint, 4> points{};
+/// What a pair in contact has but its points.
+struct ContactHead : PairInContact, state::KeptImpulses {
   int count = 0;
   double friction = 0;
   double restitution = 0;
@@ -40,6 +38,12 @@ struct ContactConstraint : PairInContact, state::KeptImpulses {
   bool began = false;       ///< did not touch in the step before
   bool impact = false;      ///< some point meets fast enough to rebound
   double impact_time = 0;   ///< s after the start of the step
+};
+
+/// A pair in contact through a step.
+struct ContactConstraint : ContactHead {
+  Manifold manifold;
+  std::array<PointConstraint, 4> points{};  ///< so many as `count` says
 };
 
 }  // namespace tweenfall::contacts

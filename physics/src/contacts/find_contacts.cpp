@@ -139,11 +139,11 @@ void World::Implementation::find_contact(const contacts::PairInContact& pair, co
   const state::Body& b = *way_b.body;
   const state::ContactMemory* memory =
       pair.memory != state::ContactMemories::nowhere ? &memories[pair.memory] : nullptr;
-  contacts::ContactConstraint& constraint = part.contacts.emplace_back();
+  contacts::ContactConstraint& constraint = part.contacts.add();
   static_cast<contacts::PairInContact&>(constraint) = pair;
   constraint.kept = memory && contacts::take_up(*memory, a, b, way_a.swing + way_b.swing, dt, constraint);
   if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt, alone ? &part.aparts : nullptr)) {
-    part.contacts.pop_back();
+    part.contacts.drop_last();
     return;
   }
   finish_contact(constraint, memory);
@@ -288,7 +288,7 @@ void World::Implementation::find_constraints(double dt) {
   aparts.clear();
   for (std::size_t i = 0; i < parts; ++i) {
     aparts.insert(aparts.end(), found[i].aparts.begin(), found[i].aparts.end());
-    for (contacts::ContactConstraint& contact : found[i].contacts) active.push_back(&contact);
+    for (contacts::ContactConstraint& contact : found[i].contacts.all()) active.push_back(&contact);
   }
 }
 

@@ -228,7 +228,7 @@ void World::Implementation::find_contacts_with_surface(const contacts::PairInCon
     }
     for (contacts::ContactConstraint& contact : its_contacts.contacts()) {
       finish_contact(contact, contact.memory != state::ContactMemories::nowhere ? &memories[contact.memory] : nullptr);
-      part.contacts.push_back(contact);
+      part.contacts.add() = contact;
     }
   };
   if (const auto* compound = std::get_if<Compound>(&whole.body->shape.solid)) {
@@ -240,7 +240,8 @@ void World::Implementation::find_contacts_with_surface(const contacts::PairInCon
   const auto in_order = [](const contacts::ContactConstraint& a, const contacts::ContactConstraint& b) {
     return std::tie(a.part_a, a.part_b) < std::tie(b.part_a, b.part_b);
   };
-  std::sort(part.contacts.begin() + static_cast<std::ptrdiff_t>(before), part.contacts.end(), in_order);
+  const std::span<contacts::ContactConstraint> its_own = part.contacts.all().subspan(before);
+  std::sort(its_own.begin(), its_own.end(), in_order);
 }
 
 }  // namespace tweenfall

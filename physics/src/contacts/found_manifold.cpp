@@ -51,14 +51,16 @@ bool take_up(const state::ContactMemory& memory, const Body& a, const Body& b, d
   const Vec3 between = rotation_a.conjugate() * Vec3(b.center - a.center);
   const double turn = 2 * (found.turn.conjugate() * (rotation_a.conjugate() * rotation_b)).vec().norm();
   if ((between - found.between).norm() + turn * size + swing * dt > std::min(hardly * size, unnoticed)) return false;
-  contact.manifold.normal = rotation_a * found.normal;
+  const Mat3 axes_a = rotation_a.toRotationMatrix(), axes_b = rotation_b.toRotationMatrix();
+  contact.manifold = {};
+  contact.manifold.normal = axes_a * found.normal;
   contact.manifold.count = contact.count = memory.count;
   for (std::size_t i = 0; i < static_cast<std::size_t>(memory.count); ++i) {
     PointConstraint& point = contact.points[i];
     point = {};
     point.feature = memory.points[i].feature;
-    point.start_arm_a = rotation_a * found.points[i].anchor_a;
-    point.start_arm_b = rotation_b * found.points[i].anchor_b;
+    point.start_arm_a = axes_a * found.points[i].anchor_a;
+    point.start_arm_b = axes_b * found.points[i].anchor_b;
     const Vec3 apart = (b.center + point.start_arm_b) - (a.center + point.start_arm_a);
     point.start_gap = found.points[i].gap + contact.manifold.normal.dot(apart);
     contact.manifold.points[i] = {a.center + point.start_arm_a + 0.5 * apart, -point.start_gap, point.feature};

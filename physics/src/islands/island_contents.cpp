@@ -4,6 +4,18 @@
 
 namespace tweenfall::islands {
 
+/// By counting, for an island has the number of one of its bodies.
+void IslandSorter::sort_by_island(std::size_t bodies, std::vector<Entry>& entries) {
+  const auto by_island = [](const Entry& left, const Entry& right) { return left.island < right.island; };
+  if (std::is_sorted(entries.begin(), entries.end(), by_island)) return;
+  starts_.assign(bodies + 1, 0);
+  for (const Entry& entry : entries) ++starts_[entry.island + 1];
+  for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
+  sorted_.resize(entries.size());
+  for (const Entry& entry : entries) sorted_[starts_[entry.island]++] = entry;
+  std::swap(entries, sorted_);
+}
+
 const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::Body>& bodies, Islands& islands,
                                                       std::span<contacts::ContactConstraint* const> contacts,
                                                       std::vector<step::SpringRow>& springs,
@@ -13,14 +25,11 @@ const std::vector<IslandContents>& IslandSorter::sort(const std::vector<state::B
     const bool by_a = a != step::SpringRow::world && (b == step::SpringRow::world || !bodies[a].immovable());
     return islands.of(by_a ? a : b);
   };
-  const auto sorted = [](const auto& list, std::vector<Entry>& entries, auto& pointers, const auto& island_of_item) {
+  const auto sorted = [&](const auto& list, std::vector<Entry>& entries, auto& pointers, const auto& island_of_item) {
     entries.clear();
     for (const auto* item : list)
       entries.push_back({island_of_item(item->a, item->b), static_cast<std::uint32_t>(entries.size())});
-    const auto before = [](const Entry& left, const Entry& right) {
-      return left.island != right.island ? left.island < right.island : left.number < right.number;
-    };
-    if (!std::is_sorted(entries.begin(), entries.end(), before)) std::sort(entries.begin(), entries.end(), before);
+    sort_by_island(bodies.size(), entries);
     pointers.clear();
     for (const Entry& entry : entries) pointers.push_back(list[entry.number]);
   };

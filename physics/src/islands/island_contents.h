@@ -31,6 +31,10 @@ class IslandSorter {
   struct Entry {
     std::uint32_t island, number;
   };
+  void sort_by_island(std::size_t bodies, std::vector<Entry>& entries);
+
+  std::vector<std::uint32_t> starts_;  ///< by island
+  std::vector<Entry> sorted_;
   std::vector<Entry> contact_entries_, spring_entries_, link_entries_;
   std::vector<contacts::ContactConstraint*> contacts_;
   std::vector<step::SpringRow*> springs_, listed_springs_;

@@ -67,7 +67,7 @@ class BoundsTree {
   static constexpr std::uint32_t none = 0xffffffff;
   static constexpr std::size_t most_depth = 64;
 
-  struct Node {
+  struct alignas(64) Node {
     Bounds bounds{Vec3::Zero(), Vec3::Zero()};
     std::uint32_t left = none, right = none;  ///< of a leaf: none
     std::uint32_t parent = none;

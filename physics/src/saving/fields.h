@@ -187,7 +187,7 @@ void each_field(T& found, const Visit& visit) {
 
 template <Is<ContactMemory> T, class Visit>
 void each_field(T& memory, const Visit& visit) {
-  auto& [a, b, part_a, part_b, count, points, kept, found, touching, gone] = memory;
+  auto& [a, b, part_a, part_b, count, touching, gone, kept, points, found] = memory;
   visit.rarely(part_a, part_b);
   visit(a, b, count, kept, found, touching);
   for (std::size_t i = 0; i < within_four(count); ++i) visit(points[i]);

@@ -45,11 +45,12 @@ struct ContactMemory {
   std::uint32_t a = 0, b = 0;            ///< indices of the bodies, a < b
   std::uint32_t part_a = 0, part_b = 0;  ///< of compounds
   int count = 0;
-  std::array<PointMemory, 4> points{};
-  KeptImpulses kept;
-  FoundManifold found;
   bool touching = false;  ///< an impulse passed or the shapes overlap
   bool gone = false;      ///< a body of it has left since
+  KeptImpulses kept;
+  // Last what most pairs have little of.
+  std::array<PointMemory, 4> points{};
+  FoundManifold found;
 };
 
 /// The memories of all contacts of the last step: each keeps its place while its pair is in contact.

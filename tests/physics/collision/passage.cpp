@@ -85,3 +85,26 @@ TEST_CASE("what a direction tells apart neither touches nor meets within the ste
   CHECK(told_again > 8000);
   CHECK(met > 1000);
 }
+
+TEST_CASE("boxes that a face of either tells apart by more than the margin do not touch, however little more") {
+  test::Random random(5);
+  const Box box{Vec3(0.3, 0.3, 0.3)};
+  std::size_t apart = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double turn = random.between(-0.2, 0.2), gap = near_enough + random.between(-1e-3, 1e-3);
+    const double aside = random.between(-0.3, 0.3);
+    const double reach = 0.6 * 0.5 * (std::cos(turn) + std::sin(std::abs(turn)));
+    const Vec3 away(0.3 + reach + gap, aside, 0);
+    // The second one's faces see it from the side.
+    const double seen = std::abs(std::cos(turn) * away.x() + std::sin(turn) * away.y()) - 0.3 - reach;
+    const bool told = std::max(gap, seen) > near_enough + 1e-12;
+    const Manifold manifold =
+        collide({box}, {}, {box}, {.position = away, .rotation = exp_map(Vec3(0, 0, turn))}, near_enough);
+    CAPTURE(turn);
+    CAPTURE(gap);
+    CAPTURE(seen);
+    if (told) CHECK(manifold.count == 0);
+    if (told) ++apart;
+  }
+  CHECK(apart > 5000);
+}
