@@ -166,7 +166,7 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     start = velocity;
     for (int k = 0; k < 3; ++k)
       velocity.linear[k] = (velocity.linear[k] + pace.acceleration[k] * h) / (1 + entry.drag * h);
-    entry.followed = !pace.pressed && !pace.even;
+    entry.followed = !pace.pressed && !pace.even && !entry.jointed;
     pace.pressed = false;
     if (pace.even) return;
     const Body& body = bodies[entry.index];

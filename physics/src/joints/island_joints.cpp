@@ -61,7 +61,8 @@ void IslandJoints::build(std::span<JointLink* const> links, const std::vector<st
   dt_ = dt;
   const double hurry = std::min(1.0, dt / unhurried);
   rate_ = hurry * hurry * taken_apart / h;
-  joints_.resize(links.size());
+  if (entries_.size() < links.size()) entries_.resize(links.size());
+  joints_ = std::span(entries_).first(links.size());
   members_.resize(links.size());
   for (std::size_t i = 0; i < links.size(); ++i) {
     Entry& entry = joints_[i];

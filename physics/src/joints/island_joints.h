@@ -78,7 +78,8 @@ class IslandJoints {
   bool dismiss(Figure& figure, std::vector<blocks::BodyLanes>& velocities, bool all);
   static void apply(const Entry& entry, const Row& row, double impulse, std::vector<blocks::BodyLanes>& velocities);
 
-  std::vector<Entry> joints_;
+  std::vector<Entry> entries_;  ///< of the island with most joints so far: one takes long to make
+  std::span<Entry> joints_;
   std::vector<Figure> figures_;
   std::size_t figure_count_ = 0;
   std::vector<blocks::BodyLanes> moves_;  ///< by place, while gaps are being closed

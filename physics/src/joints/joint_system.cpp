@@ -44,13 +44,13 @@ struct Coupling {
   }
 };
 
-/// lower x = values
+/// lower x = values. On the diagonal stand the inverses of its numbers, or 0.
 template <class Rows>
 void solve_lower(const double* lower, double* values, Rows rows) {
   for (std::size_t i = 0; i < rows; ++i) {
     double sum = values[i];
     for (std::size_t k = 0; k < i; ++k) sum -= lower[i * rows + k] * values[k];
-    values[i] = lower[i * rows + i] > 0 ? sum / lower[i * rows + i] : 0;
+    values[i] = lower[i * rows + i] > 0 ? sum * lower[i * rows + i] : 0;
   }
 }
 
@@ -60,7 +60,7 @@ void solve_upper(const double* lower, double* values, Rows rows) {
   for (std::size_t i = rows; i-- > 0;) {
     double sum = values[i];
     for (std::size_t k = i + 1; k < rows; ++k) sum -= lower[k * rows + i] * values[k];
-    values[i] = lower[i * rows + i] > 0 ? sum / lower[i * rows + i] : 0;
+    values[i] = lower[i * rows + i] > 0 ? sum * lower[i * rows + i] : 0;
   }
 }
 
@@ -256,9 +256,9 @@ void JointSystem::factor_diagonal(std::size_t place) {
         double sum = block[i * rows + k];
         for (std::size_t m = 0; m < k; ++m) sum -= block[i * rows + m] * block[k * rows + m];
         if (k < i)
-          block[i * rows + k] = block[k * rows + k] > 0 ? sum / block[k * rows + k] : 0;
+          block[i * rows + k] = block[k * rows + k] > 0 ? sum * block[k * rows + k] : 0;
         else
-          block[i * rows + i] = sum > new_enough * inverses[i] ? std::sqrt(sum) : 0;
+          block[i * rows + i] = sum > new_enough * inverses[i] ? 1 / std::sqrt(sum) : 0;
       }
   });
 }
