@@ -31,6 +31,8 @@ constexpr double soon = 1e-6;
 constexpr double unhurried = 1e-3;
 /// Cuts of a step; what still meets then is solved with the rest.
 constexpr int most_cuts = 64;
+/// Without getting on: what is wedged would bounce to and fro for ever.
+constexpr int most_strikes = 4;
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr int usual_sub_steps = step::Solver::usual_sub_steps;
 
@@ -93,7 +95,8 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
   };
   std::vector<ContactConstraint*> slow;
   double left = dt;
-  for (int cut = 0; cut < small::most_cuts; ++cut) {
+  int strikes = 0;  // since the last cut
+  for (int cut = 0; cut < small::most_cuts && strikes < small::most_strikes; ++cut) {
     // What meets right at the end of the step does so in it.
     const double span = left + soon;
     double first = small::never;
@@ -107,8 +110,10 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
     if (first <= soon) {
       for (const step::Blow& blow : solver.strike(bodies, loads, parts.near, std::max(dt, small::unhurried)))
         parts.add(*blow.contact, blow.impulse, blow.normal, blow.approach);
+      ++strikes;
       continue;
     }
+    strikes = 0;
     const double h = std::min(first - 0.5 * soon, left);
     calmly(slow, h);
     left -= h;

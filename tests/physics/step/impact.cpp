@@ -276,3 +276,30 @@ TEST_CASE("a column of twenty boxes that falls and bounces a little overlaps by 
       CHECK(near(world.motion(top).pose.position.y(), 19.5, 5e-3));
     }
 }
+
+TEST_CASE("a ball and a box that bounce without loss, wedged between walls, stay finite and gain no energy") {
+  for (const double room : {0.9999, 1.0, 1.0001})
+    for (const Solid& solid : {Solid(Sphere{0.5}), Solid(Box{Vec3(0.5, 0.5, 0.5)})}) {
+      World world({.gravity = Vec3::Zero(), .push_out_speed = 0});
+      for (const double side : {-1.0, 1.0})
+        world.add({.shape = {Box{Vec3(1, 1, 1)}},
+                   .restitution = 1,
+                   .fixed = true,
+                   .motion = {.pose = {.position = Vec3(side * (1 + 0.5 * room), 0, 0)}}});
+      BodySettings wedged;
+      wedged.shape.solid = solid;
+      wedged.restitution = 1;
+      wedged.friction = 0;
+      wedged.mass = 1;
+      wedged.motion.twist.linear = Vec3(3, 0.1, 0);
+      const BodyId body = world.add(wedged);
+      const double energy = world.kinetic_energy();
+      for (int i = 0; i < 30; ++i) {
+        world.step(1.0 / 60);
+        REQUIRE(world.motion(body).pose.position.allFinite());
+        CHECK(world.kinetic_energy() <= energy * (1 + 1e-9));
+      }
+      CAPTURE(room);
+      CHECK(std::abs(world.motion(body).pose.position.x()) < 0.01);
+    }
+}
