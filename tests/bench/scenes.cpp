@@ -1,6 +1,7 @@
 // Scenes of many bodies, one thread, nothing asleep: milliseconds of process time for each step, beside Bullet where it
 // is installed, and what state they end in.
 //   bench_physics [--scenes FOLDER] [--runs N] [--steps N] [--ours] [--threads N] [SCENE...]
+//   bench_physics --growth: what a step of 500 to 50,000 spheres costs, in parts of n log n
 // The engines take turns, run by run; of the runs the least median and the least 99th of a hundred are told. `--ours`
 // leaves Bullet out, so that one scene can be looked into: perf record -g bench_physics --ours --runs 1 pyramid50
 
@@ -213,6 +214,51 @@ bool compare(const Wanted& wanted, const std::string& name) {
   return true;
 }
 
+/// Spheres dropped into an open box as high above its floor however many they are: their median step while they settle.
+double step_of_spheres(int count) {
+  World world({.sleep_after = INFINITY});
+  const int side = static_cast<int>(std::ceil(std::sqrt(count / 16.0)));
+  const double half = 0.5 * 0.55 * side + 0.25;
+  const auto fixed = [&](const Vec3& half_extents, const Vec3& position) {
+    BodySettings body{.shape = {Box{half_extents}}, .fixed = true};
+    body.motion.pose.position = position;
+    world.add(body);
+  };
+  fixed(Vec3(half + 2, 1, half + 2), Vec3(0, -1, 0));
+  for (const double to : {-1.0, 1.0}) {
+    fixed(Vec3(0.5, 20, half + 1), Vec3(to * (half + 0.5), 20, 0));
+    fixed(Vec3(half + 1, 20, 0.5), Vec3(0, 20, to * (half + 0.5)));
+  }
+  for (int i = 0; i < count; ++i) {
+    const int across = i % side, along = i / side % side, up = i / side / side;
+    BodySettings body{.shape = {Sphere{0.25}}, .friction = 0.5, .restitution = 0.2};
+    body.motion.pose.position =
+        Vec3(0.55 * (across - 0.5 * (side - 1)) + 0.01 * ((7 * up + across) % 3 - 1), 1 + 0.55 * up,
+             0.55 * (along - 0.5 * (side - 1)) + 0.01 * ((5 * up + along) % 3 - 1));
+    world.add(body);
+  }
+  constexpr int falling = 60, measured = 60;
+  std::vector<double> times;
+  times.reserve(measured);
+  for (int i = 0; i < falling + measured; ++i) {
+    const double before = process_time();
+    world.step(1.0 / 60);
+    if (i >= falling) times.push_back(1e3 * (process_time() - before));
+  }
+  std::sort(times.begin(), times.end());
+  return times[times.size() / 2];
+}
+
+void tell_growth() {
+  double first = 0;
+  for (const int count : {500, 1000, 2000, 5000, 10000, 20000, 50000}) {
+    const double time = step_of_spheres(count), part = time / (count * std::log2(count));
+    if (first == 0) first = part;
+    std::printf("%6d spheres %9.3f ms, %.2f times as much for n log n as of 500\n", count, time, part / first);
+    std::fflush(stdout);
+  }
+}
+
 }  // namespace
 
 int main(int count, char** arguments) try {
@@ -229,7 +275,10 @@ int main(int count, char** arguments) try {
       wanted.steps = std::atoi(value());
     else if (argument == "--threads")
       wanted.threads = std::atoi(value());
-    else if (argument == "--ours")
+    else if (argument == "--growth") {
+      tell_growth();
+      return 0;
+    } else if (argument == "--ours")
       wanted.only_ours = true;
     else
       wanted.names.push_back(argument);
