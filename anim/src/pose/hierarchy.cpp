@@ -56,8 +56,15 @@ WorldMotion child_of(const WorldMotion& parent, const Motion& local) noexcept {
 
 /// Nodes are only ever put behind those that are there, and never moved: who sees the first ones sees them for good.
 struct Hierarchy::Room {
+  static constexpr std::uint32_t outside = 0xffffffff;
+
   std::vector<Node> nodes;
-  std::atomic<std::size_t> used{0};  ///< who grows first takes the place behind; another then needs a room of its own
+  std::vector<std::uint32_t> parents;  ///< of them, close together for the walk from local to world
+  std::atomic<std::size_t> used{0};    ///< who grows first takes the place behind; another then needs a room of its own
+
+  [[nodiscard]] static std::uint32_t parent_of(const Node& node) {
+    return node.parent == no_node ? outside : static_cast<std::uint32_t>(node.parent);
+  }
 };
 
 namespace pose {
@@ -95,6 +102,8 @@ Hierarchy::Hierarchy(std::vector<Node> nodes) {
   if (nodes.empty()) return;
   room_ = std::make_shared<Room>();
   room_->nodes = std::move(nodes);
+  room_->parents.reserve(room_->nodes.capacity());
+  for (const Node& node : room_->nodes) room_->parents.push_back(Room::parent_of(node));
   room_->used = room_->nodes.size();
   nodes_ = room_->nodes;
   Names all(nodes_.size());
@@ -127,9 +136,13 @@ std::size_t Hierarchy::add_again(Node node) {
     auto larger = std::make_shared<Room>();
     larger->nodes.reserve(std::max<std::size_t>(16, 2 * index));
     larger->nodes.assign(nodes_.begin(), nodes_.end());
+    larger->parents.reserve(larger->nodes.capacity());
+    if (room_)
+      larger->parents.assign(room_->parents.begin(), room_->parents.begin() + static_cast<std::ptrdiff_t>(index));
     larger->used = index + 1;
     room_ = std::move(larger);
   }
+  room_->parents.push_back(Room::parent_of(node));
   room_->nodes.push_back(std::move(node));
   nodes_ = {room_->nodes.data(), index + 1};
   runs_ = std::move(runs);
@@ -148,14 +161,16 @@ std::optional<std::size_t> Hierarchy::find(std::string_view name) const {
 
 void Hierarchy::world_motions(std::span<const Motion> local, std::span<WorldMotion> world) const noexcept {
   static const WorldMotion outside;
+  const std::uint32_t* const parents = room_ ? room_->parents.data() : nullptr;
   for (std::size_t i = 0; i < nodes_.size(); ++i)
-    pose::place(nodes_[i].parent == no_node ? outside : world[nodes_[i].parent], local[i], world[i]);
+    pose::place(parents[i] == Room::outside ? outside : world[parents[i]], local[i], world[i]);
 }
 
 void Hierarchy::world_frames(std::span<const Motion> local, std::span<WorldFrame> world) const noexcept {
   static const WorldFrame outside;
+  const std::uint32_t* const parents = room_ ? room_->parents.data() : nullptr;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const WorldFrame& above = nodes_[i].parent == no_node ? outside : world[nodes_[i].parent];
+    const WorldFrame& above = parents[i] == Room::outside ? outside : world[parents[i]];
     WorldFrame& frame = world[i];
     pose::write(pose::child_frame(pose::read(above.linear, above.linear_rate, above.origin, above.velocity), local[i]),
                 frame.linear, frame.linear_rate, frame.origin, frame.velocity);
