@@ -21,6 +21,7 @@ namespace tweenfall::document {
 struct Brought {
   StageDescription stage;
   bool names_are_free = false;
+  bool is_model = false;
 };
 
 // What all files of one reading share.

@@ -91,6 +91,27 @@ void add_meshes(Model& model, const StageDescription& stage, std::vector<bool>& 
   }
 }
 
+/// Bodies and joints as they are at the recording's start.
+void add_physics(Model& model, const Recording& recording, const StageDescription& stage,
+                 const std::vector<const NodeDescription*>& described) {
+  std::map<std::string_view, std::size_t> index_of;
+  for (std::size_t i = 0; i < recording.nodes.size(); ++i) {
+    if (!described[i] || !described[i]->body) continue;
+    const BodyDescription& body = *described[i]->body;
+    model.bodies.push_back({i, body, !body.fixed && recording.nodes[i].owner.front() == Owner::keyed});
+    index_of.emplace(recording.nodes[i].name, i);
+  }
+  const auto recorded = [&](std::size_t& node) {
+    if (node == no_node) return true;
+    const auto found = node < stage.nodes.size() ? index_of.find(stage.nodes[node].name) : index_of.end();
+    if (found == index_of.end()) return false;
+    node = found->second;
+    return true;
+  };
+  for (JointDescription joint : stage.joints)
+    if (recorded(joint.a) && recorded(joint.b)) model.joints.push_back(std::move(joint));
+}
+
 }  // namespace
 
 Model recording_model(const Recording& recording, const StageDescription& stage) {
@@ -111,6 +132,7 @@ Model recording_model(const Recording& recording, const StageDescription& stage)
   std::vector<bool> dressed(recording.nodes.size(), false);
   add_meshes(model, stage, dressed);
   const auto described = figures::descriptions(recording, stage);
+  add_physics(model, recording, stage, described);
   for (std::size_t i = 0; i < recording.nodes.size(); ++i) {
     if (!described[i] || !described[i]->body || dressed[i]) continue;
     Mesh mesh = figures::shape_mesh(described[i]->body->shape);

@@ -33,9 +33,12 @@ bool is_diagonal(const Mat3& matrix) {
   return rest.cwiseAbs().maxCoeff() <= hairline * matrix.cwiseAbs().maxCoeff();
 }
 
+/// Files hold scales as floats, and products of them.
+constexpr double even_enough = 1e-6;
+
 double uniform(const Vec3& scale, const char* what) {
   const Vec3 size = scale.cwiseAbs();
-  if (size.maxCoeff() - size.minCoeff() > hairline * size.maxCoeff())
+  if (size.maxCoeff() - size.minCoeff() > even_enough * size.maxCoeff())
     throw std::invalid_argument(std::string(what) + " takes the same scale along all axes, but its node is scaled by " +
                                 triple(scale) + "; make it a hull, or scale its node evenly");
   return size.x();

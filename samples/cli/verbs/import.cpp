@@ -29,10 +29,12 @@ int import_file(const ImportOptions& options) {
   const Model model = load_model(options.file);
   for (const std::string& repair : model.repairs) say(options.file + ": note: " + repair);
   write_output(options.output, Document::from_model(model).text());
-  if (!model.instances.empty() || !model.meshes.empty())
-    say(options.file + ": note: meshes, their skins and colors stay behind; a document with \"import\": {\"" +
-        model.name + "\": \"" + std::filesystem::path(options.file).filename().string() +
-        "\"} beside the model has them too");
+  const bool drawn = !model.instances.empty() || !model.meshes.empty();
+  if (drawn || !model.bodies.empty())
+    say(options.file + ": note: " + (drawn ? "meshes, their skins and colors" : "") +
+        (drawn && !model.bodies.empty() ? ", " : "") + (model.bodies.empty() ? "" : "bodies and joints") +
+        " stay behind; a document with \"import\": {\"" + model.name + "\": \"" +
+        std::filesystem::path(options.file).filename().string() + "\"} beside the model has them too");
   std::vector<std::string> names;
   for (const Clip& clip : model.clips) names.push_back(clip.name);
   std::string shows = counted(model.nodes.size(), "node") + " and " + counted(names.size(), "clip");

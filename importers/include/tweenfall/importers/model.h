@@ -15,6 +15,7 @@
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/anim/mesh.h>
+#include <tweenfall/physics/stage/description.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -23,6 +24,13 @@
 
 namespace tweenfall {
 
+/// What a node of a model is to physics.
+struct ModelBody {
+  std::size_t node = 0;
+  BodyDescription body = {};
+  bool keyed = false;  ///< follows its clips and not its forces
+};
+
 struct Model {
   std::string name;         ///< the file's, without its ending
   std::vector<Node> nodes;  ///< parents before children; of nodes with one name the second is "name#2"
@@ -30,6 +38,8 @@ struct Model {
   std::vector<Mesh> meshes;
   std::vector<Skin> skins;
   std::vector<MeshInstance> instances;
+  std::vector<ModelBody> bodies;         ///< of glTF with KHR_physics_rigid_bodies; at most one for each node
+  std::vector<JointDescription> joints;  ///< of the same; their ends are nodes of the model that have bodies
   std::vector<std::string> repairs;  ///< what was wrong with the file and how it was read all the same, a sentence each
 };
 
@@ -43,9 +53,11 @@ class ModelError : public std::runtime_error {
 /// @throws ModelError; nothing else, whatever the file holds.
 [[nodiscard]] Model load_model(const std::filesystem::path& file);
 
-/// Writes nodes, clips, meshes and skins as binary glTF 2.0. Step, linear and cubic tracks stay what they are where
-/// glTF has the form, others become linear keys `fps` a second. Left out, since glTF has no form for them: tracks of
-/// colors and of the user's properties, events, loops, and meshes without triangles.
+/// Writes nodes, clips, meshes and skins as binary glTF 2.0, bodies and joints by the extensions KHR_implicit_shapes
+/// and KHR_physics_rigid_bodies. Step, linear and cubic tracks stay what they are where glTF has the form, others
+/// become linear keys `fps` a second. Left out, since glTF has no form for them: tracks of colors and of the user's
+/// properties, events, loops, and meshes without triangles; pulleys and gears, loads at which joints break, springs
+/// that turn limbs, moving surfaces, damping, and friction against rolling.
 /// @throws std::runtime_error when the file cannot be written, a clip has no end, or a number exceeds 32-bit floats;
 ///         the file is written whole or not at all.
 void save_glb(const Model& model, const std::filesystem::path& file, double fps = 60);

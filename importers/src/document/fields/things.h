@@ -36,8 +36,9 @@ void read_world(const json::Value& world, Building& building);
 [[nodiscard]] json::Value place_of_gravity(const json::Value& world);  // or the world, where it says none; and so below
 [[nodiscard]] json::Value place_of_step(const json::Value& world);
 [[nodiscard]] json::Value place_of_force(const json::Value& world, std::size_t index);
-[[nodiscard]] json::Value place_of_joint(const json::Value& world, std::string_view name);
 
+// Null for a joint that is not of the world's own.
+[[nodiscard]] json::Value place_of_joint(const json::Value& world, std::string_view name);
 [[nodiscard]] json::Value place_of_ignored(const json::Value& world);
 
 // The node with a body of that name; `no_node` where there is none, which is told.

@@ -149,7 +149,8 @@ json::Value place_of_force(const json::Value& world, std::size_t index) {
 }
 
 json::Value place_of_joint(const json::Value& world, std::string_view name) {
-  return below(world, {"joints", name});
+  const json::Value joints = usable(world, "joints");
+  return joints ? usable(joints, name) : json::Value();
 }
 
 json::Value place_of_ignored(const json::Value& world) {

@@ -1,5 +1,6 @@
 #include "document/judge/judge.h"
 
+#include "document/fields/things.h"
 #include "document/read/values.h"
 
 namespace tweenfall::document {
@@ -28,6 +29,12 @@ json::Value place_of_node(const Building& building, std::size_t node) {
 
 json::Value place_of_world(const Building& building) {
   return below(building.root, {"world"});
+}
+
+json::Value place_of_joint(const Building& building, std::size_t joint) {
+  const std::string& name = building.stage.joints[joint].name;
+  const json::Value own = fields::place_of_joint(place_of_world(building), name);
+  return own ? own : place_of(building.root, "import", name);
 }
 
 json::Value place_of_clip(const Building& building, const std::string& clip) {

@@ -10,6 +10,7 @@ namespace tweenfall::document::judging {
 // Where a part of the stage is written; for what an import brought, the import.
 [[nodiscard]] json::Value place_of_node(const json::Value& root, const std::string& node, bool names_are_free);
 [[nodiscard]] json::Value place_of_node(const Building& building, std::size_t node);
+[[nodiscard]] json::Value place_of_joint(const Building& building, std::size_t joint);
 [[nodiscard]] json::Value place_of_clip(const Building& building, const std::string& clip);
 // The track, or the clip where it has none of that name.
 [[nodiscard]] json::Value place_of_track(const Building& building, const Clip& clip, const Track& track);

@@ -29,7 +29,7 @@ json::Value place_of_fault(const Building& building, const StageFault& fault) {
     case StageFault::Part::force:
       return fields::place_of_force(world, fault.index);
     case StageFault::Part::joint:
-      return fields::place_of_joint(world, building.stage.joints[fault.index].name);
+      return place_of_joint(building, fault.index);
     case StageFault::Part::ignored:
       return fields::place_of_ignored(world);
     case StageFault::Part::rule:
@@ -54,10 +54,7 @@ std::string span_text(const PassedLimit& passed) {
 }
 
 void note_joint_starts(Building& building, const StageInspection& found) {
-  const json::Value world = place_of_world(building);
-  const auto place = [&](std::size_t joint) {
-    return fields::place_of_joint(world, building.stage.joints[joint].name);
-  };
+  const auto place = [&](std::size_t joint) { return place_of_joint(building, joint); };
   for (const OpenJoint& open : found.open_joints) {
     const std::string gap = open.gap > 0 ? brief_text(open.gap) + " m apart" : "";
     const std::string turn = open.turn > 0 ? "turned by " + brief_text(degrees(open.turn)) + " degrees" : "";

@@ -27,6 +27,10 @@ void parents_first(Building& building) {
   }
   nodes = std::move(sorted);
   for (auto& [name, node] : building.nodes) renumber(node);
+  for (JointDescription& joint : building.stage.joints) {
+    renumber(joint.a);
+    renumber(joint.b);
+  }
   for (MeshInstance& instance : building.stage.mesh_instances) renumber(instance.node);
   for (Skin& skin : building.stage.skins)
     for (std::size_t& joint : skin.joints) renumber(joint);

@@ -32,6 +32,7 @@ std::size_t vertices_of(const StageDescription& stage) {
 
 Brought from_model(Model model) {
   Brought out;
+  out.is_model = true;
   for (Node& node : model.nodes) {
     NodeDescription description;
     description.name = std::move(node.name);
@@ -39,6 +40,8 @@ Brought from_model(Model model) {
     description.rest = node.rest;
     out.stage.nodes.push_back(std::move(description));
   }
+  for (ModelBody& body : model.bodies) out.stage.nodes[body.node].body = std::move(body.body);
+  out.stage.joints = std::move(model.joints);
   out.stage.clips = std::move(model.clips);
   out.stage.meshes = std::move(model.meshes);
   out.stage.skins = std::move(model.skins);
@@ -46,7 +49,8 @@ Brought from_model(Model model) {
   return out;
 }
 
-// Nodes, clips and meshes under the import's name; rules, plays and the world stay behind.
+// Nodes, clips and meshes under the import's name, and what a model has of joints; rules, plays and the world of a
+// document stay behind.
 void take(Building& building, const std::string& alias, const Brought& brought) {
   StageDescription& stage = building.stage;
   const std::size_t first_node = stage.nodes.size(), first_mesh = stage.meshes.size(), first_skin = stage.skins.size();
@@ -66,6 +70,12 @@ void take(Building& building, const std::string& alias, const Brought& brought) 
       for (Track& track : clip.tracks) track.node = alias + "/" + track.node;
     building.clips.emplace(clip.name, stage.clips.size());
     stage.clips.push_back(std::move(clip));
+  }
+  for (JointDescription joint : brought.is_model ? brought.stage.joints : std::vector<JointDescription>()) {
+    joint.name = alias + "/" + joint.name;
+    joint.a = shift(joint.a, first_node);
+    joint.b = shift(joint.b, first_node);
+    stage.joints.push_back(std::move(joint));
   }
   for (const Mesh& mesh : brought.stage.meshes) stage.meshes.push_back(mesh);
   for (Skin skin : brought.stage.skins) {

@@ -1,5 +1,6 @@
 #include "gltf/read/reader.h"
 
+#include "gltf/physics/read_physics.h"
 #include "gltf/read/accessors.h"
 #include "gltf/read/animations.h"
 #include "gltf/read/container.h"
@@ -8,6 +9,7 @@
 
 #include <iterator>
 #include <map>
+#include <set>
 
 namespace tweenfall::gltf {
 
@@ -59,6 +61,11 @@ class Assembly {
       model.skins.push_back(std::move(skin));
     }
     for (const std::size_t i : order) hang(nodes_[i], place[i], model);
+    for (ModelBody& body : model.bodies) body.node = place[body.node];
+    for (JointDescription& joint : model.joints) {
+      if (joint.a != no_node) joint.a = place[joint.a];
+      joint.b = place[joint.b];
+    }
   }
 
  private:
@@ -108,6 +115,20 @@ void tell_of_textures(const Fields& root) {
                                                              "materials show their base color factor alone"));
 }
 
+/// By node: whether a clip moves it or an ancestor.
+std::vector<char> moved_by(const std::vector<Clip>& clips, const std::vector<FileNode>& nodes) {
+  std::set<std::string_view> names;
+  for (const Clip& clip : clips)
+    for (const Track& track : clip.tracks)
+      if (track.property != "weights") names.insert(track.node);
+  std::vector<char> moved(nodes.size(), 0);
+  for (const std::size_t i : parents_first(nodes)) {
+    const std::size_t parent = nodes[i].node.parent;
+    moved[i] = names.contains(nodes[i].node.name) || (parent != no_node && moved[parent]) ? 1 : 0;
+  }
+  return moved;
+}
+
 }  // namespace
 
 Model read(std::string_view bytes, const std::filesystem::path& file, models::ModelProblems& problems) {
@@ -122,6 +143,9 @@ Model read(std::string_view bytes, const std::filesystem::path& file, models::Mo
   std::vector<Skin> skins = read_skins(root, accessors);
   Model model;
   model.clips = read_animations(root, accessors, nodes, meshes);
+  const FileScene scene{root, nodes, meshes, moved_by(model.clips, nodes)};
+  model.bodies = read_bodies(scene);
+  model.joints = read_joints(scene, model.bodies);
   tell_of_textures(root);
   Assembly assembly(std::move(nodes), std::move(meshes), std::move(skins), problems);
   assembly.check();

@@ -1,5 +1,6 @@
 // save_glb: a Model as binary glTF 2.0.
 
+#include "gltf/physics/written_physics.h"
 #include "gltf/write/buffer_writer.h"
 #include "gltf/write/mesh_writer.h"
 #include "gltf/write/sampler_keys.h"
@@ -107,6 +108,34 @@ void write_skins(const Model& model, Json& document, BufferWriter& buffer) {
         {{"joints", skin.joints}, {"inverseBindMatrices", inverse_bind_accessor(skin, buffer)}});
 }
 
+void add_physics(const Model& model, Json& document, BufferWriter& buffer) {
+  if (model.bodies.empty() && model.joints.empty()) return;
+  const WrittenPhysics written =
+      write_physics(model, document["nodes"].size(), document.value("meshes", Json::array()).size(), buffer);
+  for (const PlacedNode& placed : written.nodes) {
+    Json& nodes = document["nodes"];
+    if (placed.parent != no_node)
+      nodes[placed.parent]["children"].push_back(nodes.size());
+    else if (placed.in_scene)
+      document["scenes"][0]["nodes"].push_back(nodes.size());
+    nodes.push_back(node_json({.name = placed.name, .rest = placed.pose}));
+    if (placed.mesh) nodes.back()["mesh"] = *placed.mesh;
+  }
+  for (const ColliderMesh& mesh : written.meshes)
+    document["meshes"].push_back(
+        {{"name", "collider"},
+         {"primitives", {{{"attributes", {{"POSITION", mesh.positions}}}, {"indices", mesh.indices}}}}});
+  for (const auto& [node, physics] : written.of_nodes)
+    document["nodes"][node]["extensions"][bodies_extension] = Json::parse(physics);
+  const auto list = [&](const char* extension, const std::string& contents) {
+    if (contents.empty()) return;
+    document["extensions"][extension] = Json::parse(contents);
+    document["extensionsUsed"].push_back(extension);
+  };
+  list(shapes_extension, written.shapes);
+  list(bodies_extension, written.physics);
+}
+
 const char* path_named(const std::string& property) {
   switch (property_named(property)) {
     case Property::position:
@@ -212,6 +241,7 @@ void save_glb(const Model& model, const std::filesystem::path& file, double fps)
     gltf::BufferWriter buffer;
     gltf::write_nodes(model, document);
     gltf::add_meshes(model, document, buffer);
+    gltf::add_physics(model, document, buffer);
     gltf::write_skins(model, document, buffer);
     gltf::write_animations(model, document, buffer, fps);
     gltf::write_buffer(buffer, document);
