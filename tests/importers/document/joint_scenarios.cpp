@@ -60,21 +60,23 @@ TEST_CASE("scenario 4: a driven door on its hinge stalls against a box with the 
   stage.advance_to(4);
   const Vec3 before = stage.reaction(stage.node("wall"));
   stage.advance_to(5);
-  const double force = (stage.reaction(stage.node("wall")) - before).norm();
+  // What the wall's friction bears of the box's weight is not the door's.
+  const Vec3 borne = stage.reaction(stage.node("wall")) - before;
+  const double force = std::hypot(borne.x(), borne.z());
   const double angle = stage.joint("pin")->position[0];
   const double rate = stage.joint("pin")->rate[0];
   CHECK(angle < 0.6);
   CHECK(angle > 0.2);
   CHECK(std::abs(rate) < 1e-3);
-  // It presses on one of the box's front edges, with its whole torque.
+  // Its end presses on the box's front, or its face on one of the front edges, with its whole torque.
   const Pose box = stage.world(stage.node("box")).motion.pose;
-  double off = 5;
+  double off = std::abs(force * (0.9 * std::cos(angle) - 0.02 * std::sin(angle)) - 5);
   for (const double side : {-0.1, 0.1}) {
     const Vec3 edge = box.position + box.rotation * Vec3(side, 0, 0.1);
     off = std::min(off, std::abs(force * std::hypot(edge.x(), edge.z()) - 5));
   }
   MESSAGE("stalls at " << angle * 360 / turn << " degrees and presses with " << force << " N");
-  CHECK(off < 0.15);
+  CHECK(off < 0.05);
   CHECK(stage.joint("pin")->gap < 1e-4);
 }
 

@@ -283,7 +283,8 @@ TEST_CASE("what a recording ran with runs the same out of its glTF") {
   Stage stage(document.stage());
   save_recording(record(stage, 1, 60), document.stage(), folder / "chain.glb");
 
-  const Document again = Document::read(folder.file("again.json", R"({"tweenfall": 1, "import": {"c": "chain.glb"}, "play": []})"));
+  const Document again =
+      Document::read(folder.file("again.json", R"({"tweenfall": 1, "import": {"c": "chain.glb"}, "play": []})"));
   CHECK(again.stage().joints.size() == 2);
   Stage second(again.stage());
   stage.seek(0.3);
