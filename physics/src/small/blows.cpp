@@ -86,12 +86,12 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
   small::PartsOfStep parts(island, bodies);
   const double soon = small::soon * dt;
   // Between blows nothing bounces: what is slower than a blow would only tremble.
-  const auto calmly = [&](std::span<ContactConstraint* const> contacts, double h) {
+  const auto calmly = [&](std::span<ContactConstraint* const> blown, double h) {
     std::vector<double> restitutions;
-    restitutions.reserve(contacts.size());
-    for (ContactConstraint* contact : contacts) restitutions.push_back(std::exchange(contact->restitution, 0));
-    go_on(parts, contacts, h, std::max(1, static_cast<int>(std::ceil(small::usual_sub_steps * h / dt))), solver);
-    for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i]->restitution = restitutions[i];
+    restitutions.reserve(blown.size());
+    for (ContactConstraint* contact : blown) restitutions.push_back(std::exchange(contact->restitution, 0));
+    go_on(parts, blown, h, std::max(1, static_cast<int>(std::ceil(small::usual_sub_steps * h / dt))), solver);
+    for (std::size_t i = 0; i < blown.size(); ++i) blown[i]->restitution = restitutions[i];
   };
   std::vector<ContactConstraint*> slow;
   double left = dt;
@@ -102,9 +102,9 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
     double first = small::never;
     slow.clear();
     for (ContactConstraint* contact : find_again(island, parts, span)) {
-      const double time = small::time_of_blow(*contact, bodies, loads, span, dt);
-      if (time == small::never) slow.push_back(contact);
-      first = std::min(first, time);
+      const double meeting = small::time_of_blow(*contact, bodies, loads, span, dt);
+      if (meeting == small::never) slow.push_back(contact);
+      first = std::min(first, meeting);
     }
     if (first == small::never) break;
     if (first <= soon) {
