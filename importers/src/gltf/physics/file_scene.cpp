@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace tweenfall::gltf {
+namespace tweenfall::gltf::physics {
 
 Fields physics_of(const Fields& root, std::size_t node) {
   return root.at("nodes", node).inside("extensions").inside(bodies_extension);
@@ -47,4 +47,4 @@ Pose pose_within(const FileScene& scene, std::size_t node, std::size_t ancestor)
   return pose;
 }
 
-}  // namespace tweenfall::gltf
+}  // namespace tweenfall::gltf::physics

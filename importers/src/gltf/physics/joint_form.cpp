@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-namespace tweenfall::gltf {
+namespace tweenfall::gltf::physics {
 
 namespace {
 
@@ -139,4 +139,4 @@ std::string joint_form(const Masses& masses, const JointDescription& joint) {
   return form.text();
 }
 
-}  // namespace tweenfall::gltf
+}  // namespace tweenfall::gltf::physics

@@ -8,7 +8,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace tweenfall::gltf {
+namespace tweenfall::gltf::physics {
 
 namespace {
 
@@ -316,4 +316,4 @@ std::vector<ModelBody> read_bodies(const FileScene& scene) {
   return BodyReader(scene).read();
 }
 
-}  // namespace tweenfall::gltf
+}  // namespace tweenfall::gltf::physics

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace tweenfall::gltf {
+namespace tweenfall::gltf::physics {
 
 namespace {
 
@@ -303,4 +303,4 @@ std::vector<JointDescription> read_joints(const FileScene& scene, std::span<cons
   return JointReader(scene, bodies).read();
 }
 
-}  // namespace tweenfall::gltf
+}  // namespace tweenfall::gltf::physics

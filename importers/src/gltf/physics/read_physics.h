@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace tweenfall::gltf {
+namespace tweenfall::gltf::physics {
 
 /// The file as its parts were read; indices are the file's.
 struct FileScene {
@@ -38,4 +38,4 @@ struct FileScene {
 [[nodiscard]] std::optional<double> number_of(const Fields& fields, const char* name);
 [[nodiscard]] Vec3 vector_of(const Fields& fields, const char* name, const Vec3& otherwise);
 
-}  // namespace tweenfall::gltf
+}  // namespace tweenfall::gltf::physics

@@ -1,6 +1,6 @@
 #include "gltf/physics/reduced_mass.h"
 
-namespace tweenfall::gltf {
+namespace tweenfall::gltf::physics {
 
 Masses::Masses(std::size_t nodes, std::span<const ModelBody> bodies) : body_of_(nodes, nullptr) {
   for (const ModelBody& body : bodies) body_of_[body.node] = &body;
@@ -24,4 +24,4 @@ std::optional<ReducedMass> Masses::reduced(const JointDescription& joint) const 
   return ReducedMass{1 / linear, 1 / angular};
 }
 
-}  // namespace tweenfall::gltf
+}  // namespace tweenfall::gltf::physics

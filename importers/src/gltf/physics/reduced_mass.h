@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace tweenfall::gltf {
+namespace tweenfall::gltf::physics {
 
 /// What a spring between the two ends of a joint moves: glTF tells springs by their stiffness, a joint by frequency.
 struct ReducedMass {
@@ -26,4 +26,4 @@ class Masses {
   std::vector<const ModelBody*> body_of_;  ///< by node; null where there is none
 };
 
-}  // namespace tweenfall::gltf
+}  // namespace tweenfall::gltf::physics

@@ -5,7 +5,7 @@
 
 #include <variant>
 
-namespace tweenfall::gltf {
+namespace tweenfall::gltf::physics {
 
 namespace {
 
@@ -244,4 +244,4 @@ WrittenPhysics write_physics(const Model& model, std::size_t nodes, std::size_t 
   return writer.finish();
 }
 
-}  // namespace tweenfall::gltf
+}  // namespace tweenfall::gltf::physics

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace tweenfall::gltf {
+namespace tweenfall::gltf::physics {
 
 inline constexpr const char* shapes_extension = "KHR_implicit_shapes";
 inline constexpr const char* bodies_extension = "KHR_physics_rigid_bodies";
@@ -46,4 +46,4 @@ struct WrittenPhysics {
 /// Limits and drives of a joint as JSON; empty for kinds that the extension has no form for.
 [[nodiscard]] std::string joint_form(const Masses& masses, const JointDescription& joint);
 
-}  // namespace tweenfall::gltf
+}  // namespace tweenfall::gltf::physics

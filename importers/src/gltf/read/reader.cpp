@@ -143,9 +143,9 @@ Model read(std::string_view bytes, const std::filesystem::path& file, models::Mo
   std::vector<Skin> skins = read_skins(root, accessors);
   Model model;
   model.clips = read_animations(root, accessors, nodes, meshes);
-  const FileScene scene{root, nodes, meshes, moved_by(model.clips, nodes)};
-  model.bodies = read_bodies(scene);
-  model.joints = read_joints(scene, model.bodies);
+  const physics::FileScene scene{root, nodes, meshes, moved_by(model.clips, nodes)};
+  model.bodies = physics::read_bodies(scene);
+  model.joints = physics::read_joints(scene, model.bodies);
   tell_of_textures(root);
   Assembly assembly(std::move(nodes), std::move(meshes), std::move(skins), problems);
   assembly.check();

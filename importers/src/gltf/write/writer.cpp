@@ -110,9 +110,9 @@ void write_skins(const Model& model, Json& document, BufferWriter& buffer) {
 
 void add_physics(const Model& model, Json& document, BufferWriter& buffer) {
   if (model.bodies.empty() && model.joints.empty()) return;
-  const WrittenPhysics written =
-      write_physics(model, document["nodes"].size(), document.value("meshes", Json::array()).size(), buffer);
-  for (const PlacedNode& placed : written.nodes) {
+  const physics::WrittenPhysics written =
+      physics::write_physics(model, document["nodes"].size(), document.value("meshes", Json::array()).size(), buffer);
+  for (const physics::PlacedNode& placed : written.nodes) {
     Json& nodes = document["nodes"];
     if (placed.parent != no_node)
       nodes[placed.parent]["children"].push_back(nodes.size());
@@ -121,19 +121,19 @@ void add_physics(const Model& model, Json& document, BufferWriter& buffer) {
     nodes.push_back(node_json({.name = placed.name, .rest = placed.pose}));
     if (placed.mesh) nodes.back()["mesh"] = *placed.mesh;
   }
-  for (const ColliderMesh& mesh : written.meshes)
+  for (const physics::ColliderMesh& mesh : written.meshes)
     document["meshes"].push_back(
         {{"name", "collider"},
          {"primitives", {{{"attributes", {{"POSITION", mesh.positions}}}, {"indices", mesh.indices}}}}});
-  for (const auto& [node, physics] : written.of_nodes)
-    document["nodes"][node]["extensions"][bodies_extension] = Json::parse(physics);
+  for (const auto& [node, said] : written.of_nodes)
+    document["nodes"][node]["extensions"][physics::bodies_extension] = Json::parse(said);
   const auto list = [&](const char* extension, const std::string& contents) {
     if (contents.empty()) return;
     document["extensions"][extension] = Json::parse(contents);
     document["extensionsUsed"].push_back(extension);
   };
-  list(shapes_extension, written.shapes);
-  list(bodies_extension, written.physics);
+  list(physics::shapes_extension, written.shapes);
+  list(physics::bodies_extension, written.physics);
 }
 
 const char* path_named(const std::string& property) {
