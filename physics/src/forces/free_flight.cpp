@@ -6,34 +6,78 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shapes/turn_onto.h"
+
 namespace tweenfall::forces {
 
 using state::Body;
 
 namespace {
 
-/// Inverse of the derivative of the exponential, for rotation vectors in world axes, cut after the second bracket.
+/// Inverse of the derivative of the exponential, for rotation vectors in the body's axes, cut after the second bracket.
 /// Beyond a radian the series says nothing: then the plain midpoint is left, which turns by no more than the spin can.
 Vec3 inverse_derivative(const Vec3& turn, const Vec3& angular) {
   if (turn.squaredNorm() > 1) return angular;
   const Vec3 bracket = turn.cross(angular);
-  return angular - 0.5 * bracket + turn.cross(bracket) / 12;
+  return angular + 0.5 * bracket + turn.cross(bracket) / 12;
 }
 
-/// Turns a body with this angular momentum by the little that brings its energy to what it was. The gradient of the
-/// energy over turns of the body is w x L.
-void keep_energy(const Body& body, const Vec3& momentum, double energy, Spin& spin) {
-  const Vec3 gradient = spin.angular.cross(momentum);
-  const double off = energy - 0.5 * spin.angular.dot(momentum);
+/// A body that turns, told in its own axes: there the momentum about the axis of a needle changes by what its other
+/// moments differ, and by no error of where the needle points.
+struct Tumble {
+  Vec3 momentum;
+  Vec3 turn;  ///< since the start of a piece
+};
+
+class Tumbling {
+ public:
+  Tumbling(const Body& body, const Vec3& torque) : body_(body), torque_(torque), steady_(torque == Vec3::Zero()) {}
+
+  [[nodiscard]] Vec3 angular(const Vec3& momentum) const { return body_.inverse_inertia * momentum; }
+
+  /// Through `h` seconds from a rotation.
+  [[nodiscard]] Tumble through(double h, const Quat& rotation, const Vec3& momentum) const {
+    const Tumble start{momentum, Vec3::Zero()};
+    const Vec3 even = h * angular(momentum);
+    // Of what turns by more than a radian no series tells the way: it turns on as it does, which makes nothing longer.
+    if (!(even.squaredNorm() < 1)) return {exp_map(-even) * momentum + h * pushed(rotation), even};
+    const Tumble k1 = rate(rotation, start), k2 = rate(rotation, after(start, 0.5 * h, k1));
+    const Tumble k3 = rate(rotation, after(start, 0.5 * h, k2)), k4 = rate(rotation, after(start, h, k3));
+    return {momentum + h / 6 * (k1.momentum + 2 * (k2.momentum + k3.momentum) + k4.momentum),
+            h / 6 * (k1.turn + 2 * (k2.turn + k3.turn) + k4.turn)};
+  }
+
+ private:
+  [[nodiscard]] Tumble rate(const Quat& rotation, const Tumble& at) const {
+    const Vec3 w = angular(at.momentum), turning = at.momentum.cross(w);
+    return {steady_ ? turning : Vec3(turning + pushed(rotation * exp_map(at.turn))), inverse_derivative(at.turn, w)};
+  }
+  [[nodiscard]] Vec3 pushed(const Quat& rotation) const { return rotation.conjugate() * torque_; }
+  [[nodiscard]] static Tumble after(const Tumble& start, double h, const Tumble& rate) {
+    return {start.momentum + h * rate.momentum, start.turn + h * rate.turn};
+  }
+
+  const Body& body_;
+  const Vec3& torque_;
+  bool steady_;
+};
+
+/// A momentum, less as much of it as would have more energy than that.
+Vec3 within_energy(const Tumbling& tumbling, double energy, const Vec3& momentum) {
+  const double now = 0.5 * tumbling.angular(momentum).dot(momentum);
+  return now > energy * (1 + 1e-9) ? Vec3(momentum * std::sqrt(energy / now)) : momentum;
+}
+
+/// Turns a momentum in the body's axes by the little that brings its energy to what it was. The gradient of the energy
+/// over such turns is L x w.
+Vec3 with_energy(const Tumbling& tumbling, double energy, const Vec3& momentum) {
+  const Vec3 angular = tumbling.angular(momentum);
+  const Vec3 gradient = momentum.cross(angular);
+  const double off = energy - 0.5 * angular.dot(momentum);
+  if (std::abs(off) < 1e-3 * gradient.norm()) return exp_map(gradient * (off / gradient.squaredNorm())) * momentum;
   // About a principal axis no turn changes the energy, and none is needed. What turns too fast to be followed must not
   // grow: it slows down instead.
-  if (!(std::abs(off) < 1e-3 * gradient.norm())) {
-    spin.angular = bounded_spin(body.world_inertia(spin.rotation), energy, spin.angular);
-    return;
-  }
-  spin.rotation = exp_map(gradient * (off / gradient.squaredNorm())) * spin.rotation;
-  spin.rotation.normalize();
-  spin.angular = body.world_inverse_inertia(spin.rotation) * momentum;
+  return within_energy(tumbling, energy, momentum);
 }
 
 }  // namespace
@@ -50,47 +94,48 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
     spin.rotation.normalize();
     return spin;
   }
-  Vec3 momentum = body.world_inertia(start.rotation) * start.angular;
+  const Mat3& inertia = body.mass.inertia;
+  Vec3 momentum = inertia * (start.rotation.conjugate() * start.angular);  // in the body's axes, as all until its end
   if (load.angular_drag > 0 || load.angular_damping > 0) {
-    const Mat3 inertia = body.world_inertia(start.rotation);
     const Mat3 slowed =
         (1 + dt * load.angular_damping) * inertia + Mat3(Vec3::Constant(dt * load.angular_drag).asDiagonal());
     momentum = (inertia * (slowed.inverse() * momentum)).eval();
   }
-  const Vec3 first = body.world_inverse_inertia(start.rotation) * momentum;
-  Spin spin{start.rotation, first};
+  const Tumbling tumbling(body, load.torque);
+  const Vec3 first = tumbling.angular(momentum);
   if (body.spherical && steady) {
+    Spin spin{start.rotation, start.rotation * first};
     spin.rotation = exp_map(spin.angular * dt) * start.rotation;
     spin.rotation.normalize();
     return spin;
   }
+  const double energy = 0.5 * first.dot(momentum), length = momentum.norm();
+  const Vec3 end_momentum = start.rotation * momentum + dt * load.torque;  // in the world's axes
   // A tenth of a radian a piece keeps the energy of a tumbling body to parts in a billion.
   const double angle =
-      (first.norm() + 0.5 * dt * (body.world_inverse_inertia(start.rotation) * load.torque).norm()) * dt;
+      (first.norm() + 0.5 * dt * tumbling.angular(start.rotation.conjugate() * load.torque).norm()) * dt;
   const int pieces = static_cast<int>(std::min(64.0, std::max(1.0, std::ceil(angle / 0.1))));  // 1 for no number
-  const double h = dt / pieces;
-  const auto angular_at = [&](const Vec3& turn, const Vec3& at_momentum) -> Vec3 {
-    const Quat rotation = exp_map(turn) * spin.rotation;
-    return body.world_inverse_inertia(rotation) * at_momentum;
-  };
+  Quat rotation = start.rotation;
   for (int piece = 0; piece < pieces; ++piece) {
-    const Vec3 middle_momentum = momentum + 0.5 * h * load.torque;
-    const Vec3 end_momentum = momentum + h * load.torque;
-    const Vec3 k1 = body.world_inverse_inertia(spin.rotation) * momentum;
-    const Vec3 turn2 = 0.5 * h * k1;
-    const Vec3 k2 = inverse_derivative(turn2, angular_at(turn2, middle_momentum));
-    const Vec3 turn3 = 0.5 * h * k2;
-    const Vec3 k3 = inverse_derivative(turn3, angular_at(turn3, middle_momentum));
-    const Vec3 turn4 = h * k3;
-    const Vec3 k4 = inverse_derivative(turn4, angular_at(turn4, end_momentum));
-    const Vec3 turn = h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    spin.rotation = exp_map(turn) * spin.rotation;
-    spin.rotation.normalize();
-    momentum = end_momentum;
+    const Tumble tumble = tumbling.through(dt / pieces, rotation, momentum);
+    momentum = tumble.momentum;
+    if (steady && length > 0) momentum *= length / momentum.norm();
+    rotation = rotation * exp_map(tumble.turn);
+    rotation.normalize();
   }
-  spin.angular = body.world_inverse_inertia(spin.rotation) * momentum;
-  if (steady) keep_energy(body, momentum, 0.5 * first.dot(momentum), spin);
-  return spin;
+  if (steady) momentum = with_energy(tumbling, energy, momentum);
+  // What the world's axes hold of the momentum is known, and the body lies so that it is there; but where next to
+  // nothing is left of it, or the body turns too fast to be followed, it says nothing of how the body lies.
+  const Vec3 reached = rotation * momentum;
+  const double reach = reached.norm(), end = end_momentum.norm();
+  if (end > 1e-3 * length && reached.dot(end_momentum) > 0.5 * reach * end) {
+    rotation = shapes::turn_onto(reached, end_momentum) * rotation;
+    rotation.normalize();
+  } else {
+    momentum = rotation.conjugate() * end_momentum;
+    if (steady) momentum = within_energy(tumbling, energy, momentum);
+  }
+  return {rotation, rotation * tumbling.angular(momentum)};
 }
 
 Vec3 accelerated(const Vec3& velocity, const Load& load, Integrator integrator, double dt) {

@@ -22,8 +22,8 @@ struct Spin {
   Vec3 angular;  ///< rad/s, world axes
 };
 
-/// Turns a body that nothing touches: the angular momentum in the world changes by torque times time and by nothing
-/// else, and the rotation is carried by the exponential of the mean angular velocity, to fourth order.
+/// Turns a body that nothing touches, to fourth order: momentum and turn are carried in its own axes, and its angular
+/// momentum in the world changes by torque times time and by nothing else.
 /// Source: Munthe-Kaas, High order Runge-Kutta methods on manifolds, Applied Numerical Mathematics 29, 1999.
 [[nodiscard]] Spin turned(const state::Body& body, const Spin& start, const Load& load, double dt);
 

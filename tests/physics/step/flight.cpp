@@ -71,6 +71,62 @@ TEST_CASE("a tumbling box keeps its energy and its angular momentum, and flips")
   }
 }
 
+TEST_CASE("a needle that tumbles keeps its spin, and points where its closed form says, however thin it is") {
+  // Two moments alike and one unlike: it goes around its angular momentum by L / I, and keeps its spin about itself.
+  WorldSettings settings;
+  settings.gravity = Vec3::Zero();
+  settings.sleep_after = std::numeric_limits<double>::infinity();
+  const double rate = 1000 * test::pi / 180;
+  for (const Vec3& size :
+       {Vec3(0.1, 1, 0.1), Vec3(1e-3, 1, 1e-3), Vec3(1e-6, 1, 1e-6), Vec3(1, 1e-6, 1), Vec3(1e6, 1e-6, 1e6)}) {
+    CAPTURE(size.y());
+    World world(settings);
+    BodySettings needle;
+    needle.shape = {Box{0.5 * size}};
+    needle.mass = 1;
+    needle.motion.twist.angular = Vec3(rate, rate, rate);
+    const BodyId body = world.add(needle);
+    const Mat3 inertia = world.mass(body).inertia;
+    const Vec3 momentum = inertia * needle.motion.twist.angular;
+    for (int i = 0; i < 480; ++i) world.step(1.0 / 240);
+    const Motion motion = world.motion(body);
+    const Vec3 own = motion.pose.rotation.conjugate() * motion.twist.angular;
+    // What is rounded of the great momentum is much for the small moment.
+    const double rounding = 1e-6 + 1e-14 * inertia(0, 0) / inertia(1, 1);
+    CHECK(own.y() == doctest::Approx(rate).epsilon(rounding));
+    CHECK(std::hypot(own.x(), own.z()) == doctest::Approx(std::sqrt(2.0) * rate).epsilon(1e-6));
+    const Vec3 points = exp_map(momentum * (2 / inertia(0, 0))) * Vec3(0, 1, 0);
+    CHECK(near(motion.pose.rotation * Vec3(0, 1, 0), points, 1e-3));
+  }
+}
+
+TEST_CASE("a flat body that is no top keeps its energy and its angular momentum, however unlike its moments are") {
+  WorldSettings settings;
+  settings.gravity = Vec3::Zero();
+  settings.sleep_after = std::numeric_limits<double>::infinity();
+  for (const Vec3& size : {Vec3(0.01, 1, 0.02), Vec3(1e-4, 1, 2e-3), Vec3(1e-3, 1, 2), Vec3(1e-5, 1, 1e-4)}) {
+    CAPTURE(size.x());
+    World world(settings);
+    BodySettings blade;
+    blade.shape = {Box{0.5 * size}};
+    blade.mass = 1;
+    blade.motion.twist.angular = Vec3(3, 5, 4);
+    const BodyId body = world.add(blade);
+    const auto momentum = [&] {
+      const Mat3 axes = world.motion(body).pose.rotation.toRotationMatrix();
+      return Vec3(axes * world.mass(body).inertia * axes.transpose() * world.motion(body).twist.angular);
+    };
+    const Vec3 start = momentum();
+    const double energy = world.kinetic_energy();
+    for (int i = 0; i < 1200; ++i) {
+      world.step(1.0 / 240);
+      REQUIRE(world.kinetic_energy() == doctest::Approx(energy).epsilon(1e-6));
+    }
+    CHECK((momentum() - start).norm() < 1e-9 * start.norm());
+    CHECK(world.motion(body).twist.angular.norm() < 10 * blade.motion.twist.angular.norm());
+  }
+}
+
 TEST_CASE("a mass on a spring swings with period 2 pi sqrt(m / k) and keeps its energy") {
   WorldSettings settings;
   settings.gravity = Vec3::Zero();
