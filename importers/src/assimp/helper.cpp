@@ -6,8 +6,10 @@
 #include "model/model_bytes.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <new>
 
 namespace tweenfall::assimp {
@@ -20,8 +22,10 @@ constexpr double seconds = 120;
 
 /// What a file may take: many times its size, since text becomes numbers and numbers become vertices.
 std::size_t memory_for(std::size_t file_bytes) {
-  constexpr std::size_t base = std::size_t{512} << 20, most = std::size_t{8} << 30;
-  return std::min(base + 256 * std::min(file_bytes, most), most);
+  constexpr std::uint64_t base = std::uint64_t{512} << 20, most = std::uint64_t{8} << 30;
+  constexpr std::uint64_t addressable = std::numeric_limits<std::size_t>::max();
+  return static_cast<std::size_t>(
+      std::min({base + 256 * std::min(std::uint64_t{file_bytes}, most), most, addressable}));
 }
 
 /// Where the helper may be, the first that is there: as the environment says, beside the program that runs or where it

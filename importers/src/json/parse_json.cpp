@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace tweenfall::json {
@@ -76,7 +77,7 @@ class NamesOnce {
   [[nodiscard]] Node* known(const Node& node) {
     const std::string_view name = content_.name(node);
     const std::size_t hash = std::hash<std::string_view>{}(name);
-    const auto tag = static_cast<std::uint32_t>(hash >> 32);
+    const auto tag = static_cast<std::uint32_t>(hash >> (std::numeric_limits<std::size_t>::digits / 2));
     for (std::size_t place = hash;; ++place) {
       Place& entry = table_[place & (table_.size() - 1)];
       if (entry.number == 0) {

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace tweenfall::gltf {
 
@@ -180,7 +182,9 @@ std::optional<Decoded> Accessors::read(std::size_t accessor, const std::string& 
     from = source(fields, "byteOffset", decoded.count, part_size * decoded.parts);
     if (!from) return std::nullopt;
   }
-  constexpr std::size_t most = std::size_t{1} << 40;
+  // So that no product with what an element takes is too large a number.
+  constexpr auto most = static_cast<std::size_t>(
+      std::min<std::uint64_t>(std::uint64_t{1} << 40, std::numeric_limits<std::size_t>::max() / 64));
   if (decoded.count > most || !afford(fields, decoded.count * decoded.parts)) {
     if (decoded.count > most) problems_.add(fields.place_of("count"), "is beyond any file");
     return std::nullopt;
