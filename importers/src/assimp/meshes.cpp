@@ -1,4 +1,5 @@
 #include "assimp/meshes.h"
+#include "model/model_matrix.h"
 
 #include "assimp/values.h"
 #include "model/model_influences.h"
@@ -92,7 +93,7 @@ Skin skin_of_bones(const aiMesh& from, const std::map<std::string, std::size_t>&
     const auto joint = static_cast<std::uint32_t>(skin.joints.size());
     skin.joints.push_back(node->second);
     skin.inverse_binds.push_back({linear_of(bone.mOffsetMatrix), translation_of(bone.mOffsetMatrix)});
-    if (!skin.inverse_binds.back().linear.allFinite() || !skin.inverse_binds.back().translation.allFinite())
+    if (!models::is_finite(skin.inverse_binds.back().linear) || !skin.inverse_binds.back().translation.allFinite())
       problems.add(place, "the bind pose of bone \"" + text_of(bone.mName) + "\" is not finite");
     for (unsigned k = 0; k < bone.mNumWeights; ++k) {
       const aiVertexWeight& weight = bone.mWeights[k];

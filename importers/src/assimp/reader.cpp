@@ -47,7 +47,7 @@ bool has_double_names(const std::vector<Waiting>& nodes) {
 Pose rest_of(const aiNode& node, const std::string& name, models::ModelProblems& problems) {
   const Mat3 linear = linear_of(node.mTransformation);
   const Vec3 translation = translation_of(node.mTransformation);
-  if (!linear.allFinite() || !translation.allFinite()) {
+  if (!models::is_finite(linear) || !translation.allFinite()) {
     problems.add("node \"" + name + "\"", "its placement is not finite");
     return {};
   }

@@ -4,6 +4,9 @@
 
 #include <tweenfall/curves/pose.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace tweenfall::models {
 
 struct TakenApart {
@@ -14,5 +17,10 @@ struct TakenApart {
 /// Position, rotation and scale whose product is the matrix, or nearly so where it holds shear. A mirroring matrix gets
 /// a negative x scale.
 [[nodiscard]] TakenApart take_apart(const Mat3& linear, const Vec3& translation) noexcept;
+
+/// Number by number: as a whole, Eigen tells it by a function that it does not inline.
+[[nodiscard]] inline bool is_finite(const Mat3& matrix) noexcept {
+  return std::all_of(matrix.data(), matrix.data() + matrix.size(), [](double number) { return std::isfinite(number); });
+}
 
 }  // namespace tweenfall::models

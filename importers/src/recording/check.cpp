@@ -1,3 +1,5 @@
+#include "model/model_matrix.h"
+
 #include <tweenfall/importers/recording_file.h>
 
 #include <tweenfall/curves/number_text.h>
@@ -36,7 +38,7 @@ void check_node(const Recording& recording, std::size_t index) {
   for (std::size_t frame = 0; frame < recording.times.size(); ++frame) {
     const WorldMotion& world = node.world[frame];
     const Twist& twist = node.twist[frame];
-    if (!world.linear.allFinite() || !world.motion.pose.position.allFinite() ||
+    if (!models::is_finite(world.linear) || !world.motion.pose.position.allFinite() ||
         !world.motion.pose.rotation.coeffs().allFinite() || !twist.linear.allFinite() || !twist.angular.allFinite())
       throw RecordingFault(recording, index,
                            "node \"" + node.name + "\" is not at a finite place or speed at " +

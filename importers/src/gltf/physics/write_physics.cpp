@@ -19,6 +19,13 @@ bool stands_still(const Pose& pose) {
   return pose.position.isZero(0) && pose.rotation.vec().isZero(0);
 }
 
+/// A rotation that takes y to a unit direction.
+Quat from_up(const Vec3& direction) {
+  if (direction.y() < -1 + 1e-12) return {0, 1, 0, 0};
+  const Vec3 axis = Vec3(0, 1, 0).cross(direction);
+  return Quat(1 + direction.y(), axis.x(), axis.y(), axis.z()).normalized();
+}
+
 /// Things that are listed once each, however often they are meant.
 class Listed {
  public:
@@ -184,7 +191,7 @@ class PhysicsWriter {
     Pose place = shape.offset;
     if (const auto* plane = std::get_if<Plane>(&shape.solid)) {
       place.position += place.rotation * (plane->normal * plane->offset);
-      place.rotation = place.rotation * Quat::FromTwoVectors(Vec3(0, 1, 0), plane->normal);
+      place.rotation = place.rotation * from_up(plane->normal);
     }
     const bool part = std::holds_alternative<Compound>(body.body.shape.solid);
     const bool worn = !part && implicit_shape(shape.solid).is_null() && wears(body.node, shape);
