@@ -192,7 +192,7 @@ class Builder {
   [[nodiscard]] std::size_t start() const {
     const bool comments = content_.rules.comments;
     const std::size_t at = skip_space(text_, last_end_, comments);
-    return text_[at] == ',' || text_[at] == ':' ? skip_space(text_, at + 1, comments) : at;
+    return at < text_.size() && (text_[at] == ',' || text_[at] == ':') ? skip_space(text_, at + 1, comments) : at;
   }
 
   bool keep_decoded(std::size_t from, std::size_t size, const std::string& decoded) {

@@ -171,6 +171,9 @@ class Surveyor {
 
 }  // namespace
 
+/// Of one line, as nlohmann's lexer has it.
+constexpr std::string_view comment_ends("\n\r\0", 3);
+
 std::size_t skip_space(std::string_view text, std::size_t at, bool comments) {
   while (at < text.size()) {
     if (sort_of(text[at]) == Sort::space) {
@@ -180,7 +183,7 @@ std::size_t skip_space(std::string_view text, std::size_t at, bool comments) {
     if (text[at] != '/' || !comments) return at;
     const std::string_view mark = text.substr(at, 2);
     if (mark == "//") {
-      at = std::min(text.find('\n', at), text.size());
+      at = std::min(text.find_first_of(comment_ends, at), text.size());
     } else if (mark == "/*") {
       const std::size_t end = text.find("*/", at + 2);
       if (end == std::string_view::npos) return at;

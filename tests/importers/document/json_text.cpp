@@ -63,6 +63,13 @@ TEST_CASE("numbers are read to the bit, with the sign of 0 and the smallest ther
   CHECK(nodes[2].rest.position.z() == 100);
 }
 
+TEST_CASE("a comment ends where any line does, and at a zero byte, which is no text") {
+  for (const char* end : {"\n", "\r", "\r\n"})
+    CHECK(problems_in("{ // \"x\": 2," + std::string(end) + "\"tweenfall\": 1}").empty());
+  const std::string zero = std::string("{ //\"}\x1f\0\"body\"\0\0", 17);
+  CHECK_FALSE(problems_in(zero).empty());
+}
+
 TEST_CASE("comments stand anywhere between values and hide nothing") {
   const Document document = Document::parse(
       "// [{\"',\n/* , */{/**/\"tweenfall\"/*:*/:// 2\n1/*,*/,\"name\" : /*\"b\"*/ \"a//b/*c*/\" //\n}//", "a", {});
