@@ -7,6 +7,9 @@ cd "$source_folder"
 # Tests about the source and the page, which say the same under every compiler.
 about_source='^(headers|layering|page$)'
 
+# Long runs of worlds, whose code shorter tests run too; each takes half a minute or more under sanitizers.
+long_when_sanitized='^physics/(step/(small_islands|riders)|state/(saving|copies)|stage/saving)$'
+
 # run_stages NAME...: each by its function stage_NAME, up to the first that fails.
 run_stages() {
   local stage started status timings=""
