@@ -119,8 +119,7 @@ namespace tweenfall {
 
 template <class T>
 Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans, double end,
-                                 const spans::CurveEnd<T>& before, const spans::CurveEnd<T>& after,
-                                 [[maybe_unused]] std::span<const Rate<T>> rates) {
+                                 const spans::CurveEnd<T>& before, const spans::CurveEnd<T>& after) {
   spans::check(spans);
   auto data = std::make_shared<typename Curve<T>::Data>();
   typename Curve<T>::Data& d = *data;
@@ -161,11 +160,9 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
   std::size_t rows = 0;
   for (const auto& s : spans) rows += static_cast<std::size_t>(spans::rows_of(s)) - unread;
   d.rows = static_cast<std::uint32_t>(spans::rows_of(spans[0])) - static_cast<std::uint32_t>(unread);
-  if constexpr (std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3> || std::is_same_v<T, Vec4>)
-    d.passed = spans::passed_by<T>(spans, rates, *d.times);
   if (unread)
     d.turns.reserve(rows);
-  else if (d.passed.empty())
+  else
     d.pool.reserve(rows);
   const bool alike = spans::are_alike(spans);
   d.kinds.reserve(alike ? 1 : count);
@@ -178,7 +175,7 @@ Curve<T> CurveAccess::from_spans(std::span<const typename SpanOf<T>::type> spans
       if constexpr (std::is_same_v<T, Quat>) kind.form = s.form;
       d.kinds.push_back(kind);
     }
-    for (std::size_t k = unread; d.passed.empty() && k < static_cast<std::size_t>(spans::rows_of(s)); ++k) {
+    for (std::size_t k = unread; k < static_cast<std::size_t>(spans::rows_of(s)); ++k) {
       const auto& c = s.coefficients[k];
       if constexpr (std::is_same_v<T, Color>)
         d.pool.push_back(c.rgba);
@@ -374,11 +371,10 @@ std::vector<typename SpanOf<T>::type> Curve<T>::spans() const {
   return result;
 }
 
-#define TWEENFALL_CURVE(T)                                                                           \
-  template class Curve<T>;                                                                           \
-  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double,    \
-                                               const spans::CurveEnd<T>&, const spans::CurveEnd<T>&, \
-                                               std::span<const Rate<T>>);                            \
+#define TWEENFALL_CURVE(T)                                                                            \
+  template class Curve<T>;                                                                            \
+  template Curve<T> CurveAccess::from_spans<T>(std::span<const typename SpanOf<T>::type>, double,     \
+                                               const spans::CurveEnd<T>&, const spans::CurveEnd<T>&); \
   template T CurveAccess::end_value<T>(const Curve<T>&, bool) noexcept;
 TWEENFALL_CURVE(double)
 TWEENFALL_CURVE(Vec2)

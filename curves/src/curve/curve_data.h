@@ -161,11 +161,17 @@ struct CurveAccess {
   }
 
   /// A curve of checked spans with its last knot given to the bit, and what lies beyond its ends.
-  /// @param rates  at each knot, where the spans may be the cubics with these slopes: so they are stored then
   template <class T>
   static Curve<T> from_spans(std::span<const typename SpanOf<T>::type> spans, double end,
-                             const spans::CurveEnd<T>& before = {}, const spans::CurveEnd<T>& after = {},
-                             std::span<const Rate<T>> rates = {});
+                             const spans::CurveEnd<T>& before = {}, const spans::CurveEnd<T>& after = {});
+
+  /// The cubics through values with one rate at each of two or more knots, `dimensions` numbers per rate: the curve
+  /// that their spans are, without making them. Nothing where numbers are so large that each span is to be looked at.
+  /// @param times  finite and increasing
+  template <class T>
+  static std::optional<Curve<T>> cubics_through(std::span<const double> times, std::span<const T> values,
+                                                std::span<const double> rates, const spans::CurveEnd<T>& before = {},
+                                                const spans::CurveEnd<T>& after = {});
 
   /// The same curve with something else beyond its ends.
   template <class T>

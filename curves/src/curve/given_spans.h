@@ -3,7 +3,6 @@
 /// Spans as a curve is given them: what is wrong with them, and what they have in common, so that it keeps less.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 #include <stdexcept>
@@ -122,30 +121,6 @@ bool are_joined(std::span<const SpanType> spans) {
       if (!(spans[i].end == spans[i + 1].coefficients[0])) return false;
     }
   return true;
-}
-
-/// The values of spans at their knots with these rates, where the cubics through them are the spans to the bit; else
-/// nothing.
-template <class T>
-std::vector<T> passed_by(std::span<const Span<T>> spans, std::span<const Rate<T>> rates, const SpanTimes& times) {
-  std::vector<T> passed;
-  if (rates.size() != spans.size() + 1) return passed;
-  passed.reserve(2 * rates.size());
-  for (std::size_t i = 0; i < spans.size(); ++i) {
-    passed.push_back(spans[i].coefficients[0]);
-    passed.push_back(rates[i]);
-  }
-  passed.push_back(spans.back().end);
-  passed.push_back(rates.back());
-  for (std::size_t i = 0; i < spans.size(); ++i) {
-    std::array<T, 4> c;
-    cubic_through(&passed[2 * i], times.duration(i), c.data());
-    const Span<T>& s = spans[i];
-    if (s.degree != 3 || s.warp.function || !(s.end == passed[2 * i + 2]) ||
-        !std::equal(c.begin(), c.end(), s.coefficients.begin()))
-      return {};
-  }
-  return passed;
 }
 
 }  // namespace tweenfall::spans

@@ -4,8 +4,8 @@ namespace tweenfall {
 
 SpanTimes::SpanTimes(std::span<const double> knots) : knots_(knots.begin(), knots.end()) {
   const std::size_t count = knots_.size() - 1;
-  inverses_.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) inverses_.push_back(1 / duration(i));
+  inverses_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) inverses_[i] = 1 / duration(i);
   if (count == 1) return;
   bucket_scale_ = static_cast<double>(2 * count) / (end() - start());
   buckets_.assign(2 * count + 1, 0);

@@ -20,6 +20,11 @@ template <class T>
 SlopeRequest request_of(std::span<const Key<T>> keys, Ends ends) {
   constexpr std::size_t n = spans::dimensions<T>;
   SlopeRequest request{n, {}, {}, ends, {}, {}};
+  const std::size_t count = keys.size() - 1;
+  request.eases.reserve(keys.size());
+  request.durations.reserve(count);
+  request.secants.reserve(count * n);
+  request.span_eases.reserve(count);
   for (const Key<T>& key : keys) request.eases.push_back(&key.ease);
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
     const double duration = keys[i + 1].time - keys[i].time;
@@ -72,6 +77,52 @@ Span<T> cubic(const Key<T>& from, const Key<T>& to, const KeyTangents<T>& tangen
   return span;
 }
 
+// The rates at the keys where each has one, and all that lies between them are the plain cubics; else nothing.
+template <class T>
+std::vector<double> shared_rates(std::span<const Key<T>> keys, const KeyTangents<T>& tangents) {
+  constexpr double third = 1.0 / 3;
+  std::vector<double> rates;
+  const auto add = [&rates](const T& rate) {
+    for (int c = 0; c < spans::dimensions<T>; ++c) rates.push_back(spans::component(rate, c));
+  };
+  T arriving = zero<T>();
+  for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
+    const Key<T>&a = keys[i], &b = keys[i + 1];
+    const bool stated = a.out || b.in;
+    if (plan_span(a.ease, stated).kind != SpanKind::cubic || (b.value_in && !(*b.value_in == b.value))) return {};
+    if (stated) {
+      const HandleWidths w = tangents.widths(i);
+      if (w.start != third || w.end != third) return {};
+    }
+    const T leaving = tangents.leaving(i);
+    if (i == 0)
+      rates.reserve(keys.size() * static_cast<std::size_t>(spans::dimensions<T>));
+    else if (!(leaving == arriving))
+      return {};
+    add(leaving);
+    arriving = tangents.arriving(i);
+  }
+  add(arriving);
+  return rates;
+}
+
+// The curve where it is nothing but cubics through its keys.
+template <class T>
+std::optional<Curve<T>> cubics_through_keys(std::span<const Key<T>> keys, const KeyTangents<T>& tangents) {
+  const std::vector<double> rates = shared_rates(keys, tangents);
+  if (rates.empty()) return std::nullopt;
+  std::vector<double> times;
+  std::vector<T> values;
+  times.reserve(keys.size());
+  values.reserve(keys.size());
+  for (const Key<T>& key : keys) {
+    times.push_back(key.time);
+    values.push_back(key.value);
+  }
+  return CurveAccess::cubics_through<T>(times, values, rates, {{}, values.front(), tangents.before()},
+                                        {{}, values.back(), tangents.after()});
+}
+
 // Numbers and vectors, in their own units.
 template <class T>
 Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
@@ -79,14 +130,12 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
   const SlopeRequest request = request_of(keys, options.ends);
   const Slopes slopes = choose_slopes(request);
   const KeyTangents<T> tangents(keys, request, slopes);
+  if (std::optional<Curve<T>> curve = cubics_through_keys(keys, tangents)) return *std::move(curve);
   std::vector<Span<T>> spans;
   spans.reserve(keys.size() - 1);
-  std::vector<T> rates;  // at the keys, while they are the same on both sides and all spans are cubics
   for (std::size_t i = 0; i + 1 < keys.size(); ++i) {
     const Key<T>&a = keys[i], &b = keys[i + 1];
     const SpanKind kind = plan_span(a.ease, a.out || b.in).kind;
-    if (kind == SpanKind::cubic && rates.size() == i && (i == 0 || tangents.leaving(i) == tangents.arriving(i - 1)))
-      rates.push_back(tangents.leaving(i));
     if (kind != SpanKind::hold && !spans::all_finite(T(arrival(b) - a.value)))
       refuse_key(keys, i + 1,
                  "is further from the key before it, at " + spans::text_of(a.value) + ", than numbers hold");
@@ -107,9 +156,8 @@ Curve<T> plain_curve(std::span<const Key<T>> keys, const KeyOptions& options) {
       spans.push_back(span);
     }
   }
-  if (rates.size() + 1 == keys.size()) rates.push_back(tangents.arriving(keys.size() - 2));
   return CurveAccess::from_spans<T>(spans, keys.back().time, {{}, keys.front().value, tangents.before()},
-                                    {{}, keys.back().value, tangents.after()}, rates);
+                                    {{}, keys.back().value, tangents.after()});
 }
 
 }  // namespace

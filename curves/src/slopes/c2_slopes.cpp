@@ -2,10 +2,12 @@
 
 #include <tweenfall/curves/number_text.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "math/tridiagonal.h"
+#include "slopes/c2_rows.h"
 
 namespace tweenfall::slopes {
 namespace {
@@ -20,67 +22,31 @@ void fill_inner_row(math::Tridiagonal& rows, std::size_t row, const SlopeProblem
   for (std::size_t c = 0; c < p.dimensions; ++c) rows.at(row, c) = 3 * (h1 * p.secant(a, c) + h0 * p.secant(b, c));
 }
 
-// The row of a run's first key (or last, seen backwards): `own` is its span, `next` the one after that.
-void fill_end_row(math::Tridiagonal& rows, std::size_t row, std::vector<double>& coupling, const SlopeProblem& p,
-                  const C2End& end, std::size_t own, std::size_t next, double sign) {
-  const double h = p.durations[own];
-  if (end.kind == C2End::Kind::not_a_knot && own != next) {
-    const double total = h + p.durations[next];
-    const double h0 = h / total, h1 = p.durations[next] / total;
-    rows.diagonal[row] = h1;
-    coupling[row] = 1;
-    for (std::size_t c = 0; c < p.dimensions; ++c)
-      rows.at(row, c) = (h0 + 2) * h1 * p.secant(own, c) + h0 * h0 * p.secant(next, c);
-    return;
-  }
-  for (std::size_t c = 0; c < p.dimensions; ++c) {
-    const double given = end.given.empty() ? 0 : end.given[c];
-    if (end.kind == C2End::Kind::second) {
-      rows.diagonal[row] = 2;
-      coupling[row] = 1;
-      rows.at(row, c) = 3 * p.secant(own, c) - sign * 0.5 * h * given;
-    } else {
-      rows.diagonal[row] = 1;
-      rows.at(row, c) = end.kind == C2End::Kind::slope ? given : p.secant(own, c);
-    }
-  }
-}
+struct Run {
+  const SlopeProblem& problem;
 
-// Both ends of a parabola through three values.
-void fit_parabola(const SlopeProblem& p, C2End& start, C2End& end) {
-  const std::size_t a = p.first, b = p.first + 1;
-  const double h0 = p.durations[a], h1 = p.durations[b];
-  start = end = {C2End::Kind::slope, std::vector<double>(p.dimensions)};
-  for (std::size_t c = 0; c < p.dimensions; ++c) {
-    const double change = p.secant(b, c) - p.secant(a, c);
-    start.given[c] = p.secant(a, c) - h0 / (h0 + h1) * change;
-    end.given[c] = p.secant(b, c) + h1 / (h0 + h1) * change;
+  [[nodiscard]] std::size_t spans() const noexcept { return problem.last - problem.first; }
+  [[nodiscard]] std::size_t dimensions() const noexcept { return problem.dimensions; }
+  [[nodiscard]] double duration(std::size_t span) const noexcept { return problem.durations[problem.first + span]; }
+  [[nodiscard]] double secant(std::size_t span, std::size_t c) const noexcept {
+    return problem.secant(problem.first + span, c);
   }
-}
+};
 
-void store(const SlopeProblem& p, math::Tridiagonal& rows, bool periodic) {
-  const std::size_t count = p.last - p.first;
-  for (std::size_t k = 0; k < count; ++k)
-    for (std::size_t c = 0; c < p.dimensions; ++c) {
-      p.leaving[(p.first + k) * p.dimensions + c] = rows.at(k, c);
-      p.arriving[(p.first + k) * p.dimensions + c] = rows.at(periodic && k + 1 == count ? 0 : k + 1, c);
-    }
+// @param slopes  at the run's keys, of which the last is left out where the run is a period
+void store(const SlopeProblem& p, const std::vector<double>& slopes) {
+  const std::size_t count = (p.last - p.first) * p.dimensions;
+  double *leaving = p.leaving + p.first * p.dimensions, *arriving = p.arriving + p.first * p.dimensions;
+  std::copy_n(slopes.begin(), count, leaving);
+  const std::size_t own = std::min(count, slopes.size() - p.dimensions);  // that arrive at a key of the run's own
+  std::copy_n(slopes.begin() + static_cast<std::ptrdiff_t>(p.dimensions), own, arriving);
+  std::copy_n(slopes.begin(), count - own, arriving + own);
 }
 
 }  // namespace
 
-void solve_c2(const SlopeProblem& p, const C2End& given_start, const C2End& given_end) {
-  C2End start = given_start, end = given_end;
-  const std::size_t spans = p.last - p.first;
-  const bool both_free = start.kind == C2End::Kind::not_a_knot && end.kind == C2End::Kind::not_a_knot;
-  if (both_free && spans == 2) fit_parabola(p, start, end);
-  math::Tridiagonal rows(spans + 1, p.dimensions);
-  const std::size_t last = p.last - 1;
-  fill_end_row(rows, 0, rows.upper, p, start, p.first, spans > 1 ? p.first + 1 : p.first, 1);
-  for (std::size_t k = 1; k < spans; ++k) fill_inner_row(rows, k, p, p.first + k - 1, p.first + k);
-  fill_end_row(rows, spans, rows.lower, p, end, last, spans > 1 ? last - 1 : last, -1);
-  rows.solve();
-  store(p, rows, false);
+void solve_c2(const SlopeProblem& problem, const C2End& start, const C2End& end) {
+  store(problem, c2_slopes(Run{problem}, start, end));
 }
 
 void solve_c2_periodic(const SlopeProblem& p) {
@@ -95,7 +61,7 @@ void solve_c2_periodic(const SlopeProblem& p) {
     fill_inner_row(rows, k, p, a, p.first + k);
   }
   rows.solve_cyclic();
-  store(p, rows, true);
+  store(p, rows.right);
 }
 
 void solve_c2_automatic(const SlopeProblem& p, C2End::Kind usual) {

@@ -17,6 +17,9 @@ namespace tweenfall::splines {
 
 inline void check_spline_times(std::span<const double> times) {
   if (times.size() < 2) refuse_spline("needs two or more times; " + std::to_string(times.size()) + " were given");
+  bool increase = std::isfinite(times.front()) && std::isfinite(times.back());
+  for (std::size_t i = 1; i < times.size(); ++i) increase &= times[i] > times[i - 1];
+  if (increase) return;
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]))
       refuse_spline("has the non-finite time " + spans::text_of(times[i]) + " at " + std::to_string(i));

@@ -4,11 +4,37 @@
 #include "curve/hermite_coefficients.h"
 #include "eases/ease_form.h"
 #include "keys/span_slopes.h"
-#include "slopes/c2_slopes.h"
+#include "slopes/c2_rows.h"
 #include "splines/spline_check.h"
 
 namespace tweenfall::splines {
 namespace {
+
+template <class T>
+void check_data(std::span<const double> times, std::span<const T> values, const SplineEnds<T>& ends) {
+  check_spline_times(times);
+  check_spline_list(values, times.size() - (ends.closed ? 1 : 0), "value");
+  for (const SplineEnd<T>* end : {&ends.start, &ends.end}) {
+    if (!spans::all_finite(end->given))
+      refuse_spline("has the non-finite number " + spans::text_of(end->given) + " at an end");
+    if (ends.closed && end->kind != SplineEnd<T>::Kind::automatic) refuse_spline("that is closed has no ends to state");
+  }
+}
+
+// A curve's values as `c2_slopes` asks for them.
+template <class T>
+struct Run {
+  std::span<const double> times;
+  std::span<const T> values;
+
+  [[nodiscard]] std::size_t spans() const noexcept { return times.size() - 1; }
+  [[nodiscard]] static std::size_t dimensions() noexcept { return static_cast<std::size_t>(spans::dimensions<T>); }
+  [[nodiscard]] double duration(std::size_t i) const noexcept { return times[i + 1] - times[i]; }
+  [[nodiscard]] double secant(std::size_t i, std::size_t c) const noexcept {
+    const int component = static_cast<int>(c);
+    return (spans::component(values[i + 1], component) - spans::component(values[i], component)) / duration(i);
+  }
+};
 
 // Spans between the values, and the slopes at both ends of each, to be chosen.
 template <class T>
@@ -18,16 +44,8 @@ struct Interpolation {
   std::vector<double> durations, secants;
   keying::Slopes slopes;
 
-  Interpolation(std::span<const double> given_times, std::span<const T> given_values, const SplineEnds<T>& ends)
+  Interpolation(std::span<const double> given_times, std::span<const T> given_values)
       : times(given_times), values(given_values) {
-    check_spline_times(times);
-    check_spline_list(values, times.size() - (ends.closed ? 1 : 0), "value");
-    for (const SplineEnd<T>* end : {&ends.start, &ends.end}) {
-      if (!spans::all_finite(end->given))
-        refuse_spline("has the non-finite number " + spans::text_of(end->given) + " at an end");
-      if (ends.closed && end->kind != SplineEnd<T>::Kind::automatic)
-        refuse_spline("that is closed has no ends to state");
-    }
     durations.reserve(times.size() - 1);
     secants.reserve(durations.capacity() * static_cast<std::size_t>(spans::dimensions<T>));
     for (std::size_t i = 0; i + 1 < times.size(); ++i) {
@@ -106,7 +124,13 @@ namespace tweenfall {
 
 template <class T>
 Curve<T> c2_spline(std::span<const double> times, std::span<const T> values, const SplineEnds<T>& ends) {
-  splines::Interpolation<T> frame(times, values, ends);
+  splines::check_data(times, values, ends);
+  const slopes::C2End start = splines::c2_end(ends.start), end = splines::c2_end(ends.end);
+  if (!ends.closed)
+    if (std::optional<Curve<T>> curve = CurveAccess::cubics_through<T>(
+            times, values, slopes::c2_slopes(splines::Run<T>{times, values}, start, end)))
+      return *std::move(curve);
+  splines::Interpolation<T> frame(times, values);
   const std::size_t spans = frame.durations.size(), d = static_cast<std::size_t>(spans::dimensions<T>);
   frame.slopes.leaving.resize(spans * d);
   frame.slopes.arriving.resize(spans * d);
@@ -120,17 +144,15 @@ Curve<T> c2_spline(std::span<const double> times, std::span<const T> values, con
                              nullptr,
                              frame.slopes.leaving.data(),
                              frame.slopes.arriving.data()};
-  if (ends.closed)
-    slopes::solve_c2_periodic(problem);
-  else
-    slopes::solve_c2(problem, splines::c2_end(ends.start), splines::c2_end(ends.end));
+  ends.closed ? slopes::solve_c2_periodic(problem) : slopes::solve_c2(problem, start, end);
   return frame.curve();
 }
 
 template <class T>
 Curve<T> cubic_spline(std::span<const double> times, std::span<const T> values, std::span<const Ease> rules,
                       const SplineEnds<T>& ends) {
-  splines::Interpolation<T> frame(times, values, ends);
+  splines::check_data(times, values, ends);
+  splines::Interpolation<T> frame(times, values);
   if (rules.size() != 1 && rules.size() != values.size())
     splines::refuse_spline("needs one rule, or " + std::to_string(values.size()) + "; " + std::to_string(rules.size()) +
                            " were given");
