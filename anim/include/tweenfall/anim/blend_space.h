@@ -1,0 +1,72 @@
+#pragma once
+
+/// Blend spaces: weights for poses that stand at places, from where a parameter is among them.
+///
+/// A walk at 1.5 m/s, a run at 4 m/s: a parameter of 2 m/s gives each its weight. The parameter carries its rate and
+/// acceleration, and the weights carry theirs, exactly. Weights are 0 to 1 and sum to 1, at the place of an entry that
+/// entry's is 1 and the others' 0, exactly, and they are continuous everywhere. Their rates jump where the parameter
+/// goes from one stretch or triangle to the next: there they are those of the side to which it moves (`Side::out`) or
+/// from which it comes (`Side::in`).
+
+#include <tweenfall/curves/values.h>
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace tweenfall {
+
+/// Entries along a line: two neighbors share the weight, evenly between their places; beyond the ends the last has it.
+class BlendLine {
+ public:
+  /// @param places  of the entries, in any order and any unit
+  /// @throws std::invalid_argument listing all problems: fewer than two, two at one place, places that are not finite
+  explicit BlendLine(std::vector<double> places);
+
+  [[nodiscard]] std::span<const double> places() const noexcept { return places_; }
+
+  /// @param weights  written, one for each entry, in order
+  void weights(const Sample<double>& parameter, std::span<Sample<double>> weights,
+               Side side = Side::out) const noexcept;
+
+ private:
+  std::vector<double> places_;
+  std::vector<std::size_t> order_;  ///< entries from the least place on
+};
+
+/// Entries on a plane: the three corners of the triangle around the parameter share the weight, by its barycentric
+/// coordinates; outside of all triangles the nearest point on their border stands for the parameter.
+///
+/// The triangles are those of Delaunay, which have no entry inside their circumcircles; where four entries or more lie
+/// on one circle with none inside, as on a grid, one of several ways to cut is taken. "Nearest" counts both axes
+/// alike, so their units should make a step of one as far as a step of the other.
+/// Source: Lawson, "Software for C1 surface interpolation", 1977.
+class BlendPlane {
+ public:
+  /// @throws std::invalid_argument listing all problems: fewer than three, two at one place (nearer than 1e-9 of the
+  /// whole), all on one line, places that are not finite
+  explicit BlendPlane(std::vector<Vec2> places);
+
+  [[nodiscard]] std::span<const Vec2> places() const noexcept { return places_; }
+
+  /// Three entries each, counter-clockwise.
+  [[nodiscard]] std::span<const std::array<std::size_t, 3>> triangles() const noexcept { return triangles_; }
+  /// Entries on the border, counter-clockwise.
+  [[nodiscard]] std::span<const std::size_t> border() const noexcept { return border_; }
+
+  /// @param weights  written, one for each entry, in order
+  void weights(const Sample<Vec2>& parameter, std::span<Sample<double>> weights, Side side = Side::out) const noexcept;
+
+ private:
+  [[nodiscard]] Vec2 scaled(const Vec2& place) const noexcept;
+
+  std::vector<Vec2> places_;
+  Vec2 center_{0, 0};
+  double size_ = 1;                  ///< of the whole
+  std::vector<Vec2> scaled_places_;  ///< about the center, the whole being of size 1
+  std::vector<std::array<std::size_t, 3>> triangles_;
+  std::vector<std::size_t> border_;
+};
+
+}  // namespace tweenfall
