@@ -4,6 +4,40 @@
 #include "math/polynomial.h"
 #include "rotation/moving_rotation.h"
 
+namespace tweenfall::spans {
+namespace {
+
+// Value and rate of a cubic without the acceleration, number by number, in every bit as `cubic_through` and
+// `evaluate_polynomial` give them.
+struct CubicAt {
+  double s, inverse, rate;
+
+  void operator()(double c0, double c1, double c2, double c3, double& value, double& velocity) const noexcept {
+    const double cubic_s = s * c3, a = c2 + cubic_s, b = a + cubic_s;
+    const double slope = c1 + s * a;
+    value = c0 + s * slope;
+    velocity = (slope + s * b) * inverse * rate;
+  }
+
+  // @param c  four rows of coefficients
+  void of_coefficients(const Vec3* c, Vec3& value, Vec3& velocity) const noexcept {
+    for (int i = 0; i < 3; ++i) (*this)(c[0][i], c[1][i], c[2][i], c[3][i], value[i], velocity[i]);
+  }
+
+  // @param ends  a value and its rate at the start of a span of `duration`, and the same at its end
+  void through(const Vec3* ends, double duration, Vec3& value, Vec3& velocity) const noexcept {
+    for (int i = 0; i < 3; ++i) {
+      double c[4];
+      const double of_component[4] = {ends[0][i], ends[1][i], ends[2][i], ends[3][i]};
+      cubic_through(of_component, duration, c);
+      (*this)(c[0], c[1], c[2], c[3], value[i], velocity[i]);
+    }
+  }
+};
+
+}  // namespace
+}  // namespace tweenfall::spans
+
 namespace tweenfall {
 
 // Where one time lies in the knots that were asked for last.
@@ -64,12 +98,12 @@ class MotionCurves::Sampler {
       return;
     }
     const Vec3* c = channel.rows + span_ * row_count(channel);
-    Vec3 through[4];
+    const spans::CubicAt cubic{position_, inverse_, rate_};
     if (channel.passed) {
-      spans::cubic_through(c, times_->duration(span_), through);
-      c = through;
-    }
-    if (channel.degree == 1) {
+      cubic.through(c, times_->duration(span_), value, rate);
+    } else if (channel.degree == 3) {
+      cubic.of_coefficients(c, value, rate);
+    } else if (channel.degree == 1) {
       value = c[1] * position_ + c[0];
       rate = c[1] * inverse_ * rate_;
     } else {
@@ -93,13 +127,26 @@ class MotionCurves::Sampler {
       rate = start * rows[0] * inverse_ * rate_;
       return;
     }
-    Vec3 c[max_degree + 1];
-    c[0].setZero();
-    std::copy_n(rows, channel.degree, c + 1);
-    const math::Polynomial<Vec3> p = math::evaluate_polynomial(c, channel.degree, position_);
-    const rotations::TurningRotation turned = rotations::exponential(p.value, p.first);
+    Vec3 turn, turn_rate;
+    turn_at(rows, channel.degree, turn, turn_rate);
+    const rotations::TurningRotation turned = rotations::exponential(turn, turn_rate);
     value = start * turned.value;
     rate = value * turned.velocity * inverse_ * rate_;
+  }
+
+  // How far a rotation has turned from its span's start, and how fast it does per span.
+  void turn_at(const Vec3* rows, int degree, Vec3& turn, Vec3& rate) const noexcept {
+    if (degree == 3) {
+      const spans::CubicAt cubic{position_, 1, 1};
+      for (int i = 0; i < 3; ++i) cubic(0, rows[0][i], rows[1][i], rows[2][i], turn[i], rate[i]);
+      return;
+    }
+    Vec3 c[max_degree + 1];
+    c[0].setZero();
+    std::copy_n(rows, degree, c + 1);
+    const math::Polynomial<Vec3> p = math::evaluate_polynomial(c, degree, position_);
+    turn = p.value;
+    rate = p.first;
   }
 
   const MotionCurves& curves_;
