@@ -1,0 +1,65 @@
+#pragma once
+
+/// Two bones that bend at one joint, as limbs do, so that their end is where it is wanted.
+///
+/// The chain is made once from names; `reach` then turns its start and its middle, in closed form, and says with which
+/// exact angular velocities they turn when target and pose move. The middle bends about one axis of the start's own
+/// space, one way only, so that there is one answer and no flip between close frames.
+
+#include <tweenfall/anim/node_ref.h>
+
+namespace tweenfall {
+
+/// Which nodes are the chain.
+struct TwoBoneSettings {
+  NodeRef start;   ///< such as the thigh; it is turned
+  NodeRef middle;  ///< the shin, below it; it is turned
+  NodeRef end;     ///< the foot, below the middle; it is to reach the target
+  /// Axis about which the middle turns when it bends, in the space of the start; any length, not along the bone. Left
+  /// out, it is the one about which the rest pose is bent.
+  std::optional<Vec3> axis = std::nullopt;
+};
+
+class TwoBoneChain {
+ public:
+  /// @throws std::invalid_argument listing what is wrong: a node that does not exist or is not below the one before;
+  ///         no axis where the rest pose is straight; an axis along the bone
+  TwoBoneChain(const Hierarchy& nodes, const TwoBoneSettings& settings);
+
+  [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
+  [[nodiscard]] std::size_t start() const noexcept { return start_; }
+  [[nodiscard]] std::size_t middle() const noexcept { return middle_; }
+  [[nodiscard]] std::size_t end() const noexcept { return end_; }
+  [[nodiscard]] const Vec3& axis() const noexcept { return axis_; }  ///< unit, in the space of the start
+
+ private:
+  Hierarchy nodes_;
+  std::size_t start_ = no_node, middle_ = no_node, end_ = no_node;
+  Vec3 axis_{0, 0, 1};
+};
+
+/// What the end of a chain is to reach.
+struct TwoBoneGoal {
+  Sample<Vec3> target;  ///< place in the world, m, and its velocity
+  /// Direction in the world toward which the middle goes, seen from the line to the target; any length. Left out, or
+  /// along that line, the middle stays on the side on which the pose has it.
+  std::optional<Sample<Vec3>> pole = std::nullopt;
+  /// Share of the chain's length, before it is all stretched, over which stretching slows down: 0 to 0.5. With 0 every
+  /// target within reach is reached, and the bend moves infinitely fast at the border.
+  double softness = 0;
+};
+
+/// Turns start and middle so that the end is at the target, or as near to it as the bones' lengths let it. Lengths of
+/// bones are those of the pose; a bone without length leaves the other to point at the target. Exact where scales below
+/// the start are uniform. Where the target is at the start itself, the direction is the pose's own.
+///
+/// @param weight  0 leaves the pose as it is and 1 reaches, bit for bit; between, each joint turns part of its way
+/// @param pose    local motions of all nodes; those of start and middle are changed
+void reach(const TwoBoneChain& chain, const TwoBoneGoal& goal, const Sample<double>& weight,
+           std::span<Motion> pose) noexcept;
+
+/// The same where the world motion of the start's parent is known already.
+void reach(const TwoBoneChain& chain, const TwoBoneGoal& goal, const Sample<double>& weight, const WorldMotion& parent,
+           std::span<Motion> pose) noexcept;
+
+}  // namespace tweenfall

@@ -1,0 +1,69 @@
+#include "chains/problems.h"
+
+#include <tweenfall/curves/nearest_name.h>
+#include <tweenfall/curves/number_text.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+namespace tweenfall {
+
+std::optional<std::size_t> NodeRef::in(const Hierarchy& nodes) const {
+  if (const auto* name = std::get_if<std::string>(&told_)) return nodes.find(*name);
+  const std::size_t index = std::get<std::size_t>(told_);
+  return index < nodes.size() ? std::optional(index) : std::nullopt;
+}
+
+std::string NodeRef::text() const {
+  if (const auto* name = std::get_if<std::string>(&told_)) return '"' + *name + '"';
+  return "number " + std::to_string(std::get<std::size_t>(told_));
+}
+
+namespace chains {
+
+void Problems::add(const std::string& problem) {
+  text_ += (text_.empty() ? "" : "\n") + what_ + ": " + problem;
+}
+
+bool Problems::require(bool holds, const std::string& problem) {
+  if (!holds) add(problem);
+  return holds;
+}
+
+std::size_t Problems::node(const Hierarchy& nodes, const NodeRef& told, const std::string& role) {
+  if (const auto found = told.in(nodes)) return *found;
+  std::vector<std::string> names;
+  names.reserve(nodes.size());
+  for (const Node& node : nodes.nodes()) names.push_back(node.name);
+  std::string wrong = told.text();
+  std::string nearest;
+  if (wrong.size() > 2 && wrong.front() == '"') nearest = nearest_name(wrong.substr(1, wrong.size() - 2), names);
+  add(role + " is " + wrong + ", and there is no such node" +
+      (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+  return no_node;
+}
+
+void Problems::require_finite(const Vec3& v, const std::string& name) {
+  require(std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()), name + " must be finite");
+}
+
+void Problems::require_in(double number, double low, double high, const std::string& name) {
+  require(number >= low && number <= high,
+          name + " is " + number_text(number) + "; it must be from " + number_text(low) + " to " + number_text(high));
+}
+
+void Problems::report() const {
+  if (!none()) throw std::invalid_argument(text_);
+}
+
+bool is_below(const Hierarchy& nodes, std::size_t node, std::size_t above) {
+  while (node != no_node) {
+    node = nodes[node].parent;
+    if (node == above) return true;
+  }
+  return false;
+}
+
+}  // namespace chains
+}  // namespace tweenfall

@@ -1,0 +1,35 @@
+#pragma once
+
+// What is wrong with a chain, gathered while it is read, and told all at once.
+
+#include <tweenfall/anim/node_ref.h>
+
+#include <string>
+
+namespace tweenfall::chains {
+
+class Problems {
+ public:
+  /// @param what  of which all the problems are, such as "two-bone chain"
+  explicit Problems(std::string what) : what_(std::move(what)) {}
+
+  void add(const std::string& problem);
+  /// Adds the problem unless it `holds`. @returns holds
+  bool require(bool holds, const std::string& problem);
+  /// The node; `no_node`, and a problem with the nearest name, where there is none. @param role  such as "start"
+  [[nodiscard]] std::size_t node(const Hierarchy& nodes, const NodeRef& told, const std::string& role);
+  void require_finite(const Vec3& v, const std::string& name);
+  void require_in(double number, double low, double high, const std::string& name);
+
+  [[nodiscard]] bool none() const noexcept { return text_.empty(); }
+  /// @throws std::invalid_argument listing them, when there are any.
+  void report() const;
+
+ private:
+  std::string what_, text_;
+};
+
+/// Whether `node` is below `above`, at any depth, and not the same.
+[[nodiscard]] bool is_below(const Hierarchy& nodes, std::size_t node, std::size_t above);
+
+}  // namespace tweenfall::chains
