@@ -1,0 +1,192 @@
+#include <tweenfall/anim/marker_sync.h>
+
+#include "anim/moving_pose.h"
+#include "curves/counted_allocations.h"
+#include "support.h"
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+// A walk, a limping run that begins with its right foot, a skip of two rounds, and a breath without steps.
+std::vector<SyncClip> gaits() {
+  return {{.duration = 1.2, .markers = {{0.1, "left"}, {0.7, "right"}}},
+          {.duration = 0.7, .markers = {{0.05, "right"}, {0.45, "left"}}},
+          {.duration = 2.5, .markers = {{0.0, "left"}, {0.8, "right"}, {1.3, "left"}, {1.9, "right"}}},
+          {.duration = 4}};
+}
+
+double unwrapped(const MarkerSync& sync, std::size_t clip, double phase) {
+  const SyncedTime at = sync.time(clip, {phase, 0, 0});
+  return at.time.value + at.cycle * gaits()[clip].duration;
+}
+
+}  // namespace
+
+TEST_CASE("at a whole phase every clip is at its marker of the same name") {
+  const MarkerSync sync(gaits());
+  CHECK(sync.period() == 4);
+  for (int phase = -8; phase < 12; ++phase) {
+    const bool left = phase % 2 == 0;
+    CHECK(sync.time(0, {1.0 * phase, 1, 0}).time.value == (left ? 0.1 : 0.7));
+    CHECK(near(sync.time(1, {1.0 * phase, 1, 0}).time.value, left ? 0.45 : 0.05, 1e-15));
+    const double skip[]{0, 0.8, 1.3, 1.9};
+    CHECK(sync.time(2, {1.0 * phase, 1, 0}).time.value == skip[(phase + 8) % 4]);
+    CHECK(near(sync.time(3, {1.0 * phase, 1, 0}).time.value, left ? 0.0 : 2.0, 1e-15));
+  }
+}
+
+TEST_CASE("a clip's time in phase goes on smoothly and never back, and its rates are derivatives") {
+  const MarkerSync sync(gaits());
+  for (std::size_t clip = 0; clip < 4; ++clip) {
+    double before = unwrapped(sync, clip, -4.001);
+    for (int step = -4000; step < 8000; ++step) {
+      const double now = unwrapped(sync, clip, step / 1000.0);
+      if (!(now > before && now - before < 0.004)) CHECK(now > before);
+      before = now;
+    }
+    for (const double phase : {0.3, 1.7, 2.45, 3.9}) {
+      const double rate = 1.3, bend = -0.4;
+      const auto at = [&](double t) {
+        return sync.time(clip, {phase + rate * t + 0.5 * bend * t * t, rate + bend * t, bend});
+      };
+      const auto whole = [&](double t) { return at(t).time.value + at(t).cycle * gaits()[clip].duration; };
+      CHECK(near(at(0).time.rate, slope(whole, 0), 1e-10));
+      CHECK(near(at(0).time.acceleration, slope([&](double t) { return at(t).time.rate; }, 0), 1e-10));
+    }
+    // No jump of speed at a marker.
+    for (const double phase : {0.0, 1.0, 2.0, 3.0})
+      CHECK(near(sync.time(clip, {phase - 1e-9, 1, 0}).time.rate, sync.time(clip, {phase, 1, 0}).time.rate, 1e-7));
+  }
+}
+
+TEST_CASE("a clip that has all the weight runs at its own speed, whatever the others are like") {
+  const MarkerSync sync(gaits());
+  for (std::size_t clip = 0; clip < 4; ++clip) {
+    std::vector<double> weights(4, 0.0);
+    std::vector<Sample<double>> samples(4, {0, 0, 0});
+    weights[clip] = 0.3;
+    samples[clip] = {0.3, 0.1, 0};
+    double phase = sync.phase_at(clip, 0.2);
+    CHECK(near(sync.time(clip, {phase, 0, 0}).time.value, 0.2, 1e-15));
+    CHECK(near(sync.time(clip, sync.running(phase, samples)).time.rate, 1, 1e-15));
+    CHECK(near(sync.time(clip, sync.running(phase, samples)).time.acceleration, 0, 1e-12));
+    const double start = unwrapped(sync, clip, phase);
+    for (int step = 1; step <= 100; ++step) {
+      phase = sync.advanced(phase, 0.05, weights);
+      CHECK(near(unwrapped(sync, clip, phase), start + 0.05 * step, 1e-13));
+    }
+    phase = sync.advanced(phase, -5, weights);
+    CHECK(near(unwrapped(sync, clip, phase), start, 1e-12));
+  }
+}
+
+TEST_CASE("the running phase has the exact rates of the clock, the weights' rates among them") {
+  const MarkerSync sync(gaits());
+  const auto weights_at = [](double t) {
+    std::vector<Sample<double>> weights;
+    for (const double start : {0.5, 0.2, 0.1, 0.3}) weights.push_back(moving_weight(t, start));
+    return weights;
+  };
+  for (const double phase : {0.3, 1.2, 2.6, 3.8}) {
+    const Sample<double> now = sync.running(phase, weights_at(0));
+    // A phase that runs so for a moment, to the second order.
+    const auto rate_at = [&](double t) {
+      return sync.running(phase + now.rate * t + 0.5 * now.acceleration * t * t, weights_at(t)).rate;
+    };
+    CHECK(near(now.acceleration, slope(rate_at, 0), 1e-9));
+    std::vector<double> plain;
+    for (const Sample<double>& weight : weights_at(0)) plain.push_back(weight.value);
+    CHECK(near(now.rate, slope([&](double t) { return sync.advanced(phase, t, plain); }, 0), 1e-9));
+  }
+}
+
+TEST_CASE("under steady weights the mean of what clips go on by is the time that passes, over 10,000 loops too") {
+  const MarkerSync sync(gaits());
+  const std::vector<double> weights{0.4, 0.3, 0.2, 0.1};
+  for (const double seconds : {0.001, 0.3, 5.0, 100.0, 25000.0}) {
+    const double start = 1.37, end = sync.advanced(start, seconds, weights);
+    double mean = 0;
+    for (std::size_t i = 0; i < 4; ++i) mean += weights[i] * (unwrapped(sync, i, end) - unwrapped(sync, i, start));
+    CHECK(near(mean, seconds, 1e-13));
+    CHECK(near(sync.advanced(end, -seconds, weights), start, 1e-11 * std::max(1.0, seconds)));
+  }
+  // One step of ten thousand periods is that many periods, exactly.
+  const double period = 0.4 * 2.4 + 0.3 * 1.4 + 0.2 * 2.5 + 0.1 * 8;
+  CHECK(near(sync.advanced(0.5, 10000 * period, weights), 0.5 + 40000, 1e-14));
+}
+
+TEST_CASE("while weights change the phase is the same for long frames as for short ones") {
+  const MarkerSync sync(gaits());
+  const auto share = [](double t) { return std::vector<double>{1 - t, t, 0, 0}; };
+  const auto run = [&](int frames) {
+    double phase = 0.2;
+    for (int k = 0; k < frames; ++k)
+      phase = sync.advanced(phase, 1.0 / frames, share(1.0 * k / frames), share((k + 1.0) / frames));
+    return phase;
+  };
+  const double fine = run(4000);
+  CHECK(std::abs(run(30) - fine) < 1e-7);
+  CHECK(std::abs(run(60) - fine) < 3e-8);
+  CHECK(std::abs(run(144) - fine) < 3e-9);
+  CHECK(run(60) != sync.advanced(0.2, 1, share(0.5)));
+}
+
+TEST_CASE("clips without markers are played in shares of their loops") {
+  const MarkerSync sync({{.duration = 2}, {.duration = 3}});
+  CHECK(sync.period() == 1);
+  CHECK(sync.phase_at(1, 1.5) == 0.5);
+  CHECK(near(sync.phase_at(1, 7.5), 0.5, 1e-15));
+  const std::vector<double> even{1, 1};
+  CHECK(near(sync.advanced(0, 1, even), 0.4, 1e-15));
+  CHECK(sync.time(0, {0.25, 0.4, 0}).time.rate == 0.8);
+  CHECK(sync.time(1, {2.5, 0.4, 0}).cycle == 2);
+  const std::vector<double> none{0, -1};
+  CHECK(near(sync.advanced(0, 1, none), 0.4, 1e-15));
+}
+
+TEST_CASE("markers are a clip's events of the names asked for") {
+  Clip clip{.name = "walk", .duration = 1.5};
+  clip.events = {{0.2, 0.2, "foot left", ""}, {0.5, 0.6, "sound", ""}, {0.9, 1.0, "foot right", ""}};
+  const SyncClip made = sync_clip(clip, "foot *");
+  REQUIRE(made.markers.size() == 2);
+  CHECK(made.duration == 1.5);
+  CHECK(made.markers[1].time == 0.9);
+  CHECK(made.markers[1].name == "foot right");
+}
+
+TEST_CASE("all that keeps clips from being played in phase is listed") {
+  CHECK_THROWS_WITH_AS(MarkerSync({}), "clips cannot be played in phase:\n  there are no clips", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(MarkerSync({{.duration = 1, .markers = {{0.1, "left"}, {0.6, "right"}}},
+                                   {.duration = 0},
+                                   {.duration = 1, .markers = {{0.1, "left"}, {1.2, "right"}}},
+                                   {.duration = 1, .markers = {{0, "left"}, {1, "right"}}},
+                                   {.duration = 1, .markers = {{0.2, "left"}, {0.3, "left"}, {0.4, "right"}}}}),
+                       "clips cannot be played in phase:\n"
+                       "  the duration of clip 1 must be finite and above 0 s; it is 0\n"
+                       "  the marker \"right\" of clip 2 must lie within its 1 s; it is at 1.2\n"
+                       "  the markers \"left\" and \"right\" of clip 3 are both at 0 s\n"
+                       "  the markers of clip 4 (\"left\", \"left\", \"right\") do not follow each other as those of "
+                       "clip 0 (\"left\", \"right\")",
+                       std::invalid_argument);
+}
+
+TEST_CASE("playing clips in phase asks for no memory, and takes any phase and time") {
+  const MarkerSync sync(gaits());
+  const std::vector<double> weights{0.4, 0.3, 0.2, 0.1}, others{0, 1, 0, 2};
+  const std::vector<Sample<double>> samples(4, {0.2, 0.1, 0});
+  const std::size_t before = allocations();
+  double sum = 0;
+  for (const double phase : {-1e9, -3.0, 0.0, 3.999999999999999, 1e9, 1e15}) {
+    sum += sync.advanced(phase, 0.1, weights, others) - phase + sync.running(phase, samples).rate;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const SyncedTime at = sync.time(i, {phase, 1, 0});
+      sum += at.time.value + at.time.rate;
+      if (!(at.time.value >= 0 && at.time.value < 4)) sum = -1e9;
+    }
+  }
+  CHECK(sum > 0);
+  CHECK(std::isfinite(sum));
+  CHECK(allocations() == before);
+}
