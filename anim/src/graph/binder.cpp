@@ -1,0 +1,238 @@
+#include "graph/binder.h"
+
+#include <tweenfall/curves/nearest_name.h>
+#include <tweenfall/curves/number_text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace tweenfall::graphs {
+
+namespace {
+
+constexpr std::size_t deepest = 64;     // operations one in another
+constexpr double most_evaluated = 1e4;  // operations that one pose may come to
+
+std::string quoted(const std::string& name) {
+  return "\"" + name + "\"";
+}
+
+std::string nearest_of(const std::string& wrong, const std::vector<std::string>& names) {
+  const std::string nearest = nearest_name(wrong, names);
+  return nearest.empty() ? "" : "; did you mean " + quoted(nearest) + "?";
+}
+
+template <class Things>
+std::vector<std::string> names_of(const Things& things) {
+  std::vector<std::string> names;
+  names.reserve(things.size());
+  for (const auto& thing : things) names.push_back(thing.name);
+  return names;
+}
+
+// The first thing of a name; as many as there are where there is none.
+template <class Things>
+std::size_t number_of(const Things& things, const std::string& name) {
+  const auto found = std::ranges::find_if(things, [&](const auto& thing) { return thing.name == name; });
+  return static_cast<std::size_t>(found - things.begin());
+}
+
+}  // namespace
+
+Binder::Binder(const GraphDescription& description, const Hierarchy& nodes, std::span<const Clip> clips)
+    : description_(description),
+      nodes_(nodes),
+      clips_(clips),
+      compiled_(std::make_unique<Graph::Compiled>()),
+      made_(description.poses.size()) {
+  compiled_->clips.resize(clips.size());
+  for (std::size_t i = 0; i < description.poses.size(); ++i)
+    if (std::holds_alternative<MachinePose>(description.poses[i].operation)) compiled_->machine_poses.push_back(i);
+  compiled_->machines.resize(compiled_->machine_poses.size());
+}
+
+void Binder::bind_all() {
+  bind_parameters();
+  bind_inputs();
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < description_.poses.size(); ++i) {
+    const std::string& name = description_.poses[i].name;
+    if (!names.insert(name).second) fault({"poses", name}, "two poses are named " + quoted(name));
+    if (made_[i].stage == Made::Stage::waiting) static_cast<void>(bind_pose(i));
+  }
+  if (description_.poses.empty()) {
+    fault({"poses"}, "a graph has poses; this one has none");
+    return;
+  }
+  const std::size_t shown =
+      description_.output.empty() ? made_.size() - 1 : number_of(description_.poses, description_.output);
+  if (shown < made_.size())
+    compiled_->output = made_[shown].operation;
+  else
+    fault({"output"}, "there is no pose " + quoted(description_.output) +
+                          nearest_of(description_.output, names_of(description_.poses)));
+}
+
+void Binder::bind_parameters() {
+  std::set<std::string> names;
+  for (const GraphParameter& parameter : description_.parameters) {
+    const Place place = {"parameters", parameter.name};
+    if (!names.insert(parameter.name).second) fault(place, "two parameters are named " + quoted(parameter.name));
+    if (!std::isfinite(parameter.start)) fault(place, "a parameter starts as a finite number");
+    if (!(parameter.half_life >= 0) || !std::isfinite(parameter.half_life))
+      fault({"parameters", parameter.name, "half_life"},
+            "a half-life is 0 s or more; it is " + number_text(parameter.half_life) + " s");
+    if (parameter.curve && parameter.half_life != 0)
+      fault({"parameters", parameter.name, "half_life"}, "a half-life means nothing for a parameter that has keys");
+  }
+}
+
+void Binder::bind_inputs() {
+  for (std::size_t i = 0; i < description_.inputs.size(); ++i) {
+    const GraphInput& input = description_.inputs[i];
+    const Place place = {"inputs", std::to_string(i)};
+    if (!(input.time >= 0) || !std::isfinite(input.time))
+      fault(place, "an input comes at 0 s or later; this one at " + number_text(input.time) + " s");
+    const std::size_t found = number_of(description_.parameters, input.name);
+    const bool known = found < description_.parameters.size();
+    if (!input.value) {
+      if (known) fault(place, "the parameter " + quoted(input.name) + " is set to a value; give one");
+      continue;
+    }
+    if (!std::isfinite(*input.value)) fault(place, "a parameter is set to a finite number");
+    if (!known)
+      fault(place,
+            "there is no parameter " + quoted(input.name) + nearest_of(input.name, names_of(description_.parameters)));
+    else if (description_.parameters[found].curve)
+      fault(place, "the parameter " + quoted(input.name) + " has keys, and is not set");
+  }
+}
+
+const Operation* Binder::bind_pose(std::size_t index) {
+  Made& made = made_[index];
+  made.stage = Made::Stage::making;
+  made.depth = 1;
+  made.size = 1;
+  making_.push_back(index);
+  std::unique_ptr<Operation> operation =
+      std::visit([&](const auto& described) { return bound(described, *this); }, description_.poses[index].operation);
+  if (operation) operation->set_rooms(operation->rooms() + made.rooms);
+  if (operation && made.depth > deepest) {
+    fault({}, "poses lie more than " + std::to_string(deepest) + " deep in each other here");
+    operation.reset();
+  }
+  if (operation && made.size > most_evaluated) {
+    fault({},
+          "this pose comes to " + brief_text(made.size) + " operations, for others are named in it again and again");
+    operation.reset();
+  }
+  making_.pop_back();
+  made.stage = Made::Stage::made;
+  if (!operation) return nullptr;
+  made.operation = add(std::move(operation));
+  for (std::size_t m = 0; m < compiled_->machines.size(); ++m)
+    if (compiled_->machine_poses[m] == index) compiled_->machines[m] = made.operation;
+  return made.operation;
+}
+
+const Operation* Binder::add(std::unique_ptr<Operation> operation) {
+  compiled_->operations.push_back(std::move(operation));
+  return compiled_->operations.back().get();
+}
+
+const Operation* Binder::pose(const std::string& name, const Place& place) {
+  Made& outer = made_[making_.back()];
+  const std::size_t index = number_of(description_.poses, name);
+  if (index == made_.size()) {
+    const std::size_t clip_index = number_of(clips_, name);
+    if (clip_index == clips_.size()) {
+      std::vector<std::string> names = names_of(description_.poses);
+      for (const Clip& each : clips_) names.push_back(each.name);
+      fault(place, "there is no pose or clip " + quoted(name) + nearest_of(name, names));
+      return nullptr;
+    }
+    outer.size += 1;
+    outer.depth = std::max<std::size_t>(outer.depth, 2);
+    const Operation*& played = played_[clip_index];
+    if (!played)
+      if (std::unique_ptr<Operation> operation = bound(ClipPose{.clip = name}, *this))
+        played = add(std::move(operation));
+    return played;
+  }
+  if (made_[index].stage == Made::Stage::making) {
+    std::string way;
+    for (auto at = std::ranges::find(making_, index); at != making_.end(); ++at)
+      way += quoted(description_.poses[*at].name) + " -> ";
+    fault(place, "poses go around in a circle: " + way + quoted(name));
+    return nullptr;
+  }
+  const Operation* found = made_[index].stage == Made::Stage::waiting ? bind_pose(index) : made_[index].operation;
+  if (!found) return nullptr;
+  outer.size += made_[index].size;
+  outer.depth = std::max(outer.depth, made_[index].depth + 1);
+  outer.rooms = std::max(outer.rooms, found->rooms());
+  return found;
+}
+
+const pose::BoundClip* Binder::clip(const std::string& name, const Place& place) {
+  const std::size_t index = number_of(clips_, name);
+  if (index == clips_.size()) {
+    fault(place, "there is no clip " + quoted(name) + nearest_of(name, names_of(clips_)));
+    return nullptr;
+  }
+  auto& bound_clip = compiled_->clips[index];
+  if (!bound_clip) {
+    std::string problems;
+    bound_clip = std::make_unique<const pose::BoundClip>(clips_[index], nodes_, problems);
+    if (!problems.empty()) fault(place, "the clip does not fit its nodes:" + problems);
+  }
+  return bound_clip.get();
+}
+
+std::size_t Binder::clip_number(const pose::BoundClip& clip) const noexcept {
+  return static_cast<std::size_t>(&clip.clip() - clips_.data());
+}
+
+std::optional<std::size_t> Binder::parameter(const std::string& name, const Place& place) {
+  const std::size_t index = number_of(description_.parameters, name);
+  if (index < description_.parameters.size()) return index;
+  fault(place, "there is no parameter " + quoted(name) + nearest_of(name, names_of(description_.parameters)));
+  return std::nullopt;
+}
+
+Number Binder::number(const GraphNumber& number, const Place& place) {
+  if (const double* constant = std::get_if<double>(&number)) {
+    if (!std::isfinite(*constant)) fault(place, "this is not a finite number");
+    return Number(*constant);
+  }
+  if (const auto* curve = std::get_if<Curve<double>>(&number)) return Number(*curve);
+  const std::optional<std::size_t> found = parameter(std::get<ByParameter>(number).name, place);
+  return found ? Number(description_, *found) : Number();
+}
+
+JointMask Binder::mask(const std::vector<MaskPart>& parts, const Place& place) {
+  if (parts.empty()) return {};
+  try {
+    return JointMask(nodes_, parts);
+  } catch (const std::invalid_argument& problems) {
+    std::string text = problems.what();
+    const std::size_t list = text.find('\n');
+    fault(place, list == std::string::npos ? text : text.substr(text.find_first_not_of("\n ", list)));
+    return {};
+  }
+}
+
+std::size_t Binder::machine_number() const noexcept {
+  return static_cast<std::size_t>(std::ranges::find(compiled_->machine_poses, making_.back()) -
+                                  compiled_->machine_poses.begin());
+}
+
+void Binder::fault(const Place& place, std::string message) {
+  Place full;
+  if (!making_.empty()) full = {"poses", description_.poses[making_.back()].name};
+  full.insert(full.end(), place.begin(), place.end());
+  faults_.push_back({std::move(full), std::move(message)});
+}
+
+}  // namespace tweenfall::graphs

@@ -1,0 +1,77 @@
+#pragma once
+
+// What operations are given while they are made: the poses, clips, parameters and joints that they name, each found or
+// told to be missing.
+
+#include "graph/number.h"
+#include "graph/operation.h"
+#include "pose/bound_clip.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+struct Graph::Compiled {
+  std::vector<std::unique_ptr<const graphs::Operation>> operations;
+  std::vector<std::unique_ptr<const pose::BoundClip>> clips;  // by number; null for those that none names
+  std::vector<const graphs::Operation*> machines;             // as they stand among the poses
+  std::vector<std::size_t> machine_poses;                     // the pose that each is
+  const graphs::Operation* output = nullptr;
+};
+
+}  // namespace tweenfall
+
+namespace tweenfall::graphs {
+
+using Place = std::vector<std::string>;
+
+class Binder {
+ public:
+  Binder(const GraphDescription& description, const Hierarchy& nodes, std::span<const Clip> clips);
+
+  [[nodiscard]] const GraphDescription& description() const noexcept { return description_; }
+  [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
+
+  /// Makes everything.
+  void bind_all();
+  [[nodiscard]] std::vector<GraphFault> take_faults() { return std::move(faults_); }
+  [[nodiscard]] std::unique_ptr<Graph::Compiled> take_compiled() { return std::move(compiled_); }
+
+  // For operations; `place` goes on from the pose that is being made
+  /// Null where there is none, or it goes around in a circle, which is told.
+  [[nodiscard]] const Operation* pose(const std::string& name, const Place& place);
+  [[nodiscard]] const pose::BoundClip* clip(const std::string& name, const Place& place);
+  [[nodiscard]] std::size_t clip_number(const pose::BoundClip& clip) const noexcept;
+  [[nodiscard]] std::optional<std::size_t> parameter(const std::string& name, const Place& place);
+  [[nodiscard]] Number number(const GraphNumber& number, const Place& place);
+  [[nodiscard]] JointMask mask(const std::vector<MaskPart>& parts, const Place& place);
+  [[nodiscard]] std::size_t machine_number() const noexcept;
+  void fault(const Place& place, std::string message);
+
+ private:
+  void bind_parameters();
+  void bind_inputs();
+  const Operation* bind_pose(std::size_t index);
+  const Operation* add(std::unique_ptr<Operation> operation);
+
+  const GraphDescription& description_;
+  const Hierarchy& nodes_;
+  std::span<const Clip> clips_;
+  std::unique_ptr<Graph::Compiled> compiled_;
+  std::vector<GraphFault> faults_;
+
+  struct Made {
+    enum class Stage { waiting, making, made } stage = Stage::waiting;
+    const Operation* operation = nullptr;
+    double size = 0;        // operations that one evaluation may come to
+    std::size_t depth = 0;  // operations one in another
+    std::size_t rooms = 0;  // poses that its operands work in
+  };
+  std::vector<Made> made_;                          // by pose
+  std::map<std::size_t, const Operation*> played_;  // clips that are named as poses
+  std::vector<std::size_t> making_;                 // poses, the outermost first
+};
+
+}  // namespace tweenfall::graphs

@@ -1,0 +1,86 @@
+#include <tweenfall/anim/blend.h>
+#include <tweenfall/curves/number_text.h>
+
+#include "graph/binder.h"
+
+#include <array>
+#include <cmath>
+
+namespace tweenfall::graphs {
+
+namespace {
+
+class Blended : public Operation {
+ public:
+  struct Part {
+    const Operation* pose;
+    Number weight;
+  };
+  explicit Blended(std::vector<Part> parts) : parts_(std::move(parts)) {}
+
+  void pose(const Log& log, const Moment& moment, const Scratch& scratch,
+            std::span<Motion> out) const noexcept override {
+    std::array<PoseLayer, most_blended> layers;
+    std::size_t count = 0;
+    Scratch free = scratch;
+    for (const Part& part : parts_) {
+      const Sample<double> weight = as_weight(part.weight.sample(log, moment.time, moment.side));
+      if (is_nothing(weight)) continue;
+      const std::span<Motion> motions = free.pose();
+      free = free.rest();
+      part.pose->pose(log, moment, free, motions);
+      layers[count++] = {.pose = motions, .weight = weight};
+    }
+    blend({layers.data(), count}, scratch.below, out);
+  }
+
+  [[nodiscard]] std::vector<const Operation*> operands() const override {
+    std::vector<const Operation*> poses;
+    poses.reserve(parts_.size());
+    for (const Part& part : parts_) poses.push_back(part.pose);
+    return poses;
+  }
+
+  [[nodiscard]] double share(const Log& log, std::size_t operand, double time) const noexcept override {
+    double sum = 0;
+    for (const Part& part : parts_) sum += as_weight(part.weight.sample(log, time, Side::out)).value;
+    const double own = as_weight(parts_[operand].weight.sample(log, time, Side::out)).value;
+    return sum > 0 ? own / std::max(sum, least_weight) : 0;
+  }
+
+ private:
+  std::vector<Part> parts_;
+};
+
+}  // namespace
+
+std::unique_ptr<Operation> bound(const BlendPose& described, Binder& binder) {
+  std::vector<Blended::Part> parts;
+  double sum = 0;
+  bool constant = true, whole = true;
+  for (std::size_t i = 0; i < described.parts.size(); ++i) {
+    const Place place = {"blend", std::to_string(i)};
+    const Operation* pose = binder.pose(described.parts[i].pose, place);
+    whole = whole && pose;
+    Number weight = binder.number(described.parts[i].weight, place);
+    const std::optional<double> said = weight.constant();
+    if (said && !(*said >= 0 && std::isfinite(*said)))
+      binder.fault(place, "a weight is 0 or more; it is " + number_text(*said));
+    constant = constant && said;
+    sum += said.value_or(0);
+    parts.push_back({pose, std::move(weight)});
+  }
+  if (parts.empty())
+    binder.fault({"blend"}, "a blend has poses; this one has none");
+  else if (constant && sum == 0)
+    binder.fault({"blend"}, "these weights sum to nothing; give one above 0");
+  if (parts.size() > most_blended)
+    binder.fault({"blend"}, "a blend takes " + std::to_string(most_blended) + " poses at most; this one has " +
+                                std::to_string(parts.size()) + ": blend blends of them");
+  if (!whole || parts.empty() || parts.size() > most_blended) return nullptr;
+  auto operation = std::make_unique<Blended>(std::move(parts));
+  operation->set_rooms(described.parts.size());
+  return operation;
+}
+
+}  // namespace tweenfall::graphs

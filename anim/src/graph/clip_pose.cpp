@@ -1,0 +1,64 @@
+#include <tweenfall/anim/play.h>
+
+#include "graph/binder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tweenfall::graphs {
+
+namespace {
+
+class PlayedClip : public Operation {
+ public:
+  PlayedClip(const ClipPose& described, const pose::BoundClip& clip, std::size_t number, const Hierarchy& nodes)
+      : clip_(clip), number_(number), nodes_(nodes), at_(described.at), speed_(described.speed) {}
+
+  void pose(const Log&, const Moment& moment, const Scratch& scratch, std::span<Motion> out) const noexcept override {
+    std::ranges::copy(scratch.below, out.begin());
+    clip_.sample(nodes_, clock_at(moment.start + at_, speed_, clip_.clip(), moment.time, moment.side), out);
+  }
+
+  void events(const Log&, const Stretch& stretch, std::vector<GraphEvent>& out) const override {
+    const bool begins = stretch.from == stretch.start;
+    for (FiredEvent& event :
+         events_between(play(stretch.start), clip_.clip(), stretch.from, stretch.to, begins && at_ == 0))
+      out.push_back({event.time, std::move(event.name), std::move(event.data), number_, kind_of(event.kind), 1});
+  }
+
+  [[nodiscard]] std::optional<double> next_event(const Log&, std::string_view name, double start, double after,
+                                                 double until) const override {
+    if (const auto event = first_event(play(start), clip_.clip(), after, until, false, name)) return event->time;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] double end(const Log&, double start) const noexcept override {
+    return end_time(play(start), clip_.clip());
+  }
+
+ private:
+  [[nodiscard]] Play play(double start) const { return {.clip = number_, .at = start + at_, .speed = speed_}; }
+  static GraphEvent::Kind kind_of(FiredEvent::Kind kind) {
+    if (kind == FiredEvent::Kind::begin) return GraphEvent::Kind::begin;
+    return kind == FiredEvent::Kind::end ? GraphEvent::Kind::end : GraphEvent::Kind::moment;
+  }
+
+  const pose::BoundClip& clip_;
+  std::size_t number_;
+  const Hierarchy& nodes_;
+  double at_, speed_;
+};
+
+}  // namespace
+
+std::unique_ptr<Operation> bound(const ClipPose& described, Binder& binder) {
+  const pose::BoundClip* clip = binder.clip(described.clip, {"clip"});
+  if (!std::isfinite(described.at)) binder.fault({"at"}, "a clip starts at a finite time");
+  if (!std::isfinite(described.speed)) binder.fault({"speed"}, "a speed is a finite number");
+  if (!clip) return nullptr;
+  if (described.speed < 0 && std::isinf(clip->clip().duration))
+    binder.fault({"speed"}, "an endless clip has no end from which to run backwards");
+  return std::make_unique<PlayedClip>(described, *clip, binder.clip_number(*clip), binder.nodes());
+}
+
+}  // namespace tweenfall::graphs

@@ -1,0 +1,18 @@
+#pragma once
+
+// The course of a graph: what follows from what came in, instant by instant.
+
+#include "graph/machine.h"
+
+namespace tweenfall::graphs {
+
+/// Of each machine at most so many transitions are kept; then it stays where it is.
+inline constexpr std::size_t most_passages = 1'000'000;
+
+/// Makes known what happens until a time. @param room  `rooms_of` poses
+void make_known(Log& log, const Graph& graph, double until, const PoseBelow& below, std::span<Motion> room);
+
+/// Poses that a graph is evaluated in.
+[[nodiscard]] std::size_t rooms_of(const Graph& graph) noexcept;
+
+}  // namespace tweenfall::graphs

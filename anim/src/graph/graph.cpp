@@ -1,0 +1,40 @@
+#include <tweenfall/anim/graph.h>
+
+#include "graph/binder.h"
+
+#include <algorithm>
+
+namespace tweenfall {
+
+std::vector<GraphFault> inspect(const GraphDescription& description, const Hierarchy& nodes,
+                                std::span<const Clip> clips) {
+  graphs::Binder binder(description, nodes, clips);
+  binder.bind_all();
+  return binder.take_faults();
+}
+
+Graph::Graph(std::shared_ptr<const Hierarchy> nodes, std::shared_ptr<const std::vector<Clip>> clips,
+             GraphDescription description)
+    : nodes_(std::move(nodes)), clips_(std::move(clips)), description_(std::move(description)) {
+  graphs::Binder binder(description_, *nodes_, *clips_);
+  binder.bind_all();
+  std::string problems;
+  for (const GraphFault& fault : binder.take_faults()) {
+    problems += "\n  ";
+    for (const std::string& part : fault.place) problems += "/" + part;
+    problems += ": " + fault.message;
+  }
+  if (!problems.empty()) throw std::invalid_argument("a graph does not hold together:" + problems);
+  compiled_ = binder.take_compiled();
+}
+
+Graph::~Graph() = default;
+
+bool Graph::moves(std::size_t node) const noexcept {
+  return std::ranges::any_of(compiled_->clips, [&](const auto& clip) {
+    const std::uint32_t entry = clip ? clip->entry_of(node) : pose::BoundClip::no_entry;
+    return entry != pose::BoundClip::no_entry && clip->entries()[entry].parts != 0;
+  });
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,187 @@
+#include <tweenfall/anim/graph_player.h>
+#include <tweenfall/curves/nearest_name.h>
+#include <tweenfall/curves/number_text.h>
+
+#include "graph/course.h"
+#include "graph/log_bytes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tweenfall {
+
+struct GraphPlayer::Run {
+  graphs::Log log;
+  double time = 0;
+  PoseBelow below;
+  std::vector<Motion> room;
+};
+
+namespace graphs {
+namespace {
+
+void write_at_rest(const Hierarchy& nodes, std::span<Motion> out) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    out[i] = Motion();
+    out[i].pose = nodes[i].rest;
+  }
+}
+
+void require_time(double time, double least) {
+  if (!(time >= least) || !std::isfinite(time))
+    throw std::invalid_argument("a graph goes to a finite time of 0 s or later, not to " + number_text(time) + " s");
+}
+
+std::size_t parameter_named(const GraphDescription& description, std::string_view name) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < description.parameters.size(); ++i) {
+    if (description.parameters[i].name == name) return i;
+    names.push_back(description.parameters[i].name);
+  }
+  const std::string nearest = nearest_name(name, names);
+  throw std::invalid_argument("there is no parameter \"" + std::string(name) + "\"" +
+                              (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+}
+
+}  // namespace
+}  // namespace graphs
+
+GraphPlayer::GraphPlayer(std::shared_ptr<const Graph> graph, PoseBelow below)
+    : graph_(std::move(graph)), run_(std::make_unique<Run>()) {
+  run_->log = graphs::fresh_log(graph_->description(), machines());
+  run_->room.resize(graphs::rooms_of(*graph_) * graph_->nodes().size());
+  run_->below = std::move(below);
+  if (!run_->below)
+    run_->below = [graph = graph_.get()](double, Side, std::span<Motion> out) {
+      graphs::write_at_rest(graph->nodes(), out);
+    };
+  know(0);
+}
+
+GraphPlayer::~GraphPlayer() = default;
+GraphPlayer::GraphPlayer(GraphPlayer&&) noexcept = default;
+GraphPlayer& GraphPlayer::operator=(GraphPlayer&&) noexcept = default;
+
+void GraphPlayer::know(double time) {
+  if (run_->log.known < time) graphs::make_known(run_->log, *graph_, time, run_->below, run_->room);
+}
+
+void GraphPlayer::set(std::string_view name, double value) {
+  const std::size_t parameter = graphs::parameter_named(graph_->description(), name);
+  if (graph_->description().parameters[parameter].curve)
+    throw std::invalid_argument("the parameter \"" + std::string(name) + "\" has keys, and is not set");
+  if (!std::isfinite(value))
+    throw std::invalid_argument("the parameter \"" + std::string(name) + "\" is set to a finite number, not to " +
+                                number_text(value));
+  graphs::forget_after(run_->log, graph_->description(), run_->time);
+  graphs::set(run_->log, graph_->description(), parameter, run_->time, value, false);
+  know(run_->time);
+}
+
+void GraphPlayer::send(std::string_view event) {
+  graphs::forget_after(run_->log, graph_->description(), run_->time);
+  graphs::send(run_->log, run_->time, event, false);
+  know(run_->time);
+}
+
+std::vector<GraphInput> GraphPlayer::inputs() const {
+  std::vector<GraphInput> inputs;
+  for (std::size_t p = 0; p < run_->log.settings.size(); ++p)
+    for (std::size_t i = 1; i < run_->log.settings[p].size(); ++i)
+      inputs.push_back(
+          {run_->log.settings[p][i].time, graph_->description().parameters[p].name, run_->log.settings[p][i].value});
+  for (const graphs::Sending& each : run_->log.sent) inputs.push_back({each.time, each.event, std::nullopt});
+  std::ranges::stable_sort(inputs, {}, &GraphInput::time);
+  return inputs;
+}
+
+void GraphPlayer::advance(double dt) {
+  if (!(dt >= 0)) throw std::invalid_argument("a graph goes on by 0 s or more, not by " + number_text(dt) + " s");
+  seek(run_->time + dt);
+}
+
+void GraphPlayer::seek(double time) {
+  graphs::require_time(time, 0);
+  know(time);
+  run_->time = time;
+}
+
+double GraphPlayer::time() const noexcept {
+  return run_->time;
+}
+
+void GraphPlayer::pose(std::span<Motion> local, Side side) noexcept {
+  evaluate(run_->time, local, side);
+}
+
+void GraphPlayer::pose_at(double time, std::span<Motion> local, Side side) {
+  graphs::require_time(time, 0);
+  know(time);
+  evaluate(time, local, side);
+}
+
+void GraphPlayer::evaluate(double time, std::span<Motion> local, Side side) noexcept {
+  const std::size_t nodes = graph_->nodes().size();
+  const std::span<Motion> below(run_->room.data(), nodes);
+  run_->below(time, side, below);
+  graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes}, local);
+}
+
+Sample<double> GraphPlayer::parameter(std::string_view name) const {
+  return graphs::sample_of(run_->log, graph_->description(), graphs::parameter_named(graph_->description(), name),
+                           run_->time, Side::out);
+}
+
+std::vector<GraphEvent> GraphPlayer::events(double from, double to) {
+  if (std::isnan(from)) throw std::invalid_argument("events are asked for between two times");
+  graphs::require_time(to, 0);
+  know(to);
+  std::vector<GraphEvent> events;
+  if (from <= to) graph_->compiled().output->events(run_->log, {from, to, 0}, events);
+  std::erase_if(events, [](const GraphEvent& event) { return !(event.weight > 0); });
+  std::ranges::stable_sort(events, {}, &GraphEvent::time);
+  return events;
+}
+
+std::size_t GraphPlayer::machines() const noexcept {
+  return graph_->compiled().machines.size();
+}
+
+const std::string& GraphPlayer::machine_name(std::size_t machine) const {
+  return graph_->description().poses[graph_->compiled().machine_poses.at(machine)].name;
+}
+
+std::vector<GraphActivity> GraphPlayer::activity(std::size_t machine) const {
+  const graphs::Operation* operation = graph_->compiled().machines.at(machine);
+  return static_cast<const graphs::Machine*>(operation)->activity(run_->log, run_->time);
+}
+
+std::vector<GraphPassage> GraphPlayer::passages(std::size_t machine) const {
+  std::vector<GraphPassage> out;
+  for (const graphs::Passage& each : run_->log.passages.at(machine))
+    if (each.time <= run_->time) out.push_back(each);
+  return out;
+}
+
+std::vector<GraphStop> GraphPlayer::stops() const {
+  std::vector<GraphStop> out = run_->log.stops;
+  std::erase_if(out, [&](const GraphStop& stop) { return stop.time > run_->time; });
+  return out;
+}
+
+std::vector<std::byte> GraphPlayer::save() const {
+  return graphs::bytes_of(run_->log, graph_->description(), run_->time);
+}
+
+void GraphPlayer::load(std::span<const std::byte> saved) {
+  graphs::SavedLog read = graphs::log_of(saved, graph_->description(), machines());
+  graphs::make_known(read.log, *graph_, read.time, run_->below, run_->room);
+  run_->log = std::move(read.log);
+  run_->time = read.time;
+}
+
+std::uint64_t GraphPlayer::hash() const noexcept {
+  return graphs::hash_of(run_->log, run_->time);
+}
+
+}  // namespace tweenfall

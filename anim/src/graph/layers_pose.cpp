@@ -1,0 +1,103 @@
+#include <tweenfall/anim/blend.h>
+#include <tweenfall/curves/number_text.h>
+
+#include "graph/binder.h"
+
+#include <algorithm>
+
+namespace tweenfall::graphs {
+
+namespace {
+
+class Layered : public Operation {
+ public:
+  struct Layer {
+    const Operation* pose;
+    const Operation* reference;  // of one that adds; null: what lies below the graph
+    bool adds;
+    Number weight;
+    JointMask mask;
+  };
+  Layered(const Operation* base, std::vector<Layer> layers) : base_(base), layers_(std::move(layers)) {}
+
+  void pose(const Log& log, const Moment& moment, const Scratch& scratch,
+            std::span<Motion> out) const noexcept override {
+    if (base_)
+      base_->pose(log, moment, scratch, out);
+    else
+      std::ranges::copy(scratch.below, out.begin());
+    for (const Layer& layer : layers_) {
+      const Sample<double> weight = as_share(layer.weight.sample(log, moment.time, moment.side));
+      if (is_nothing(weight)) continue;
+      const std::span<Motion> motions = scratch.pose();
+      const Scratch rest = scratch.rest();
+      layer.pose->pose(log, moment, rest, motions);
+      if (!layer.adds) {
+        cross_fade(out, motions, weight, out, layer.mask);
+        continue;
+      }
+      std::span<const Motion> reference = scratch.below;
+      if (layer.reference) {
+        layer.reference->pose(log, moment, rest.rest(), rest.pose());
+        reference = rest.pose();
+      }
+      difference(reference, motions, motions);
+      add(out, motions, weight, out, layer.mask);
+    }
+  }
+
+  // References tell no events.
+  [[nodiscard]] std::vector<const Operation*> operands() const override {
+    std::vector<const Operation*> poses;
+    if (base_) poses.push_back(base_);
+    for (const Layer& layer : layers_) poses.push_back(layer.pose);
+    return poses;
+  }
+
+  [[nodiscard]] double share(const Log& log, std::size_t operand, double time) const noexcept override {
+    const auto weight = [&](const Layer& layer) { return as_share(layer.weight.sample(log, time, Side::out)).value; };
+    const std::size_t above = base_ ? operand : operand + 1;  // the first layer that lies over it
+    double share = above == 0 ? 1 : weight(layers_[above - 1]);
+    for (std::size_t i = above; i < layers_.size(); ++i)
+      if (!layers_[i].adds && layers_[i].mask.size() == 0) share *= 1 - weight(layers_[i]);
+    return share;
+  }
+
+ private:
+  const Operation* base_;  // null: what lies below the graph
+  std::vector<Layer> layers_;
+};
+
+}  // namespace
+
+std::unique_ptr<Operation> bound(const LayersPose& described, Binder& binder) {
+  bool whole = true;
+  const auto pose = [&](const std::string& name, const Place& place) -> const Operation* {
+    const Operation* found = binder.pose(name, place);
+    whole = whole && found;
+    return found;
+  };
+  const Operation* base = described.base.empty() ? nullptr : pose(described.base, {"base"});
+  std::vector<Layered::Layer> layers;
+  for (std::size_t i = 0; i < described.layers.size(); ++i) {
+    const LayersPose::Layer& layer = described.layers[i];
+    const auto place = [&](const char* part) { return Place{"layers", std::to_string(i), part}; };
+    Layered::Layer made{.pose = pose(layer.pose, place(layer.adds ? "add" : "over")),
+                        .reference = layer.reference.empty() ? nullptr : pose(layer.reference, place("reference")),
+                        .adds = layer.adds,
+                        .weight = binder.number(layer.weight, place("weight")),
+                        .mask = binder.mask(layer.mask, place("mask"))};
+    if (!layer.adds && !layer.reference.empty()) binder.fault(place("reference"), "only what is added has a reference");
+    const std::optional<double> said = made.weight.constant();
+    if (said && !(*said >= 0 && *said <= 1))
+      binder.fault(place("weight"), "the weight of a layer is 0 to 1; it is " + number_text(*said));
+    layers.push_back(std::move(made));
+  }
+  if (layers.empty()) binder.fault({"layers"}, "there are no layers; give one, or name the pose itself");
+  if (!whole) return nullptr;
+  auto operation = std::make_unique<Layered>(base, std::move(layers));
+  operation->set_rooms(2);
+  return operation;
+}
+
+}  // namespace tweenfall::graphs

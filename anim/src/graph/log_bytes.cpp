@@ -1,0 +1,204 @@
+#include "graph/log_bytes.h"
+
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+namespace tweenfall::graphs {
+
+namespace {
+
+constexpr std::uint64_t kind_of_file = 0x3148504152474654;  // "TFGRAPH1", the first letter lowest
+
+/// FNV-1a, 64 bits. Source: Fowler, Noll, Vo, "The FNV non-cryptographic hash algorithm", 1991.
+class Digest {
+ public:
+  void byte(std::uint8_t byte) noexcept { value_ = (value_ ^ byte) * 0x100000001b3; }
+  void number(std::uint64_t number) noexcept {
+    for (int shift = 0; shift < 64; shift += 8) byte(static_cast<std::uint8_t>(number >> shift));
+  }
+  void number(double number_) noexcept { number(std::bit_cast<std::uint64_t>(number_)); }
+  void text(std::string_view text) noexcept {
+    number(std::uint64_t{text.size()});
+    for (const char letter : text) byte(static_cast<std::uint8_t>(letter));
+  }
+  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+std::uint64_t fingerprint_of(const GraphDescription& description) noexcept {
+  Digest digest;
+  for (const GraphParameter& parameter : description.parameters) {
+    digest.text(parameter.name);
+    digest.number(parameter.start);
+    digest.number(parameter.half_life);
+  }
+  for (const GraphPose& pose : description.poses) {
+    digest.text(pose.name);
+    digest.number(std::uint64_t{pose.operation.index()});
+    const auto* machine = std::get_if<MachinePose>(&pose.operation);
+    if (!machine) continue;
+    for (const MachinePose::State& state : machine->states) digest.text(state.name);
+    digest.number(std::uint64_t{machine->transitions.size()});
+  }
+  for (const GraphInput& input : description.inputs) {
+    digest.text(input.name);
+    digest.number(input.time);
+    digest.number(input.value.value_or(0));
+  }
+  return digest.value();
+}
+
+class Writer {
+ public:
+  void number(std::uint64_t number) {
+    for (int shift = 0; shift < 64; shift += 8) bytes_.push_back(static_cast<std::byte>(number >> shift & 0xff));
+  }
+  void number(double number_) { number(std::bit_cast<std::uint64_t>(number_)); }
+  void text(std::string_view text) {
+    number(std::uint64_t{text.size()});
+    for (const char letter : text) bytes_.push_back(static_cast<std::byte>(letter));
+  }
+  [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
+
+ private:
+  std::vector<std::byte> bytes_;
+};
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  std::uint64_t number() {
+    const std::span<const std::byte> part = next(8);
+    std::uint64_t out = 0;
+    for (std::size_t i = 0; i < 8; ++i) out |= std::to_integer<std::uint64_t>(part[i]) << (8 * i);
+    return out;
+  }
+  double real() {
+    const double out = std::bit_cast<double>(number());
+    if (!std::isfinite(out)) refuse("a number in them is not finite");
+    return out;
+  }
+  std::string text() {
+    std::string out;
+    for (const std::byte letter : next(number())) out += static_cast<char>(letter);
+    return out;
+  }
+  [[nodiscard]] std::size_t left() const noexcept { return bytes_.size(); }
+  [[noreturn]] static void refuse(const std::string& why) {
+    throw std::invalid_argument("these bytes are no saved graph: " + why);
+  }
+
+ private:
+  std::span<const std::byte> next(std::uint64_t size) {
+    if (size > bytes_.size()) refuse("they end too soon");
+    const std::span<const std::byte> part = bytes_.first(size);
+    bytes_ = bytes_.subspan(size);
+    return part;
+  }
+  std::span<const std::byte> bytes_;
+};
+
+std::uint64_t checksum(std::span<const std::byte> bytes) noexcept {
+  Digest digest;
+  for (const std::byte byte : bytes) digest.byte(std::to_integer<std::uint8_t>(byte));
+  return digest.value();
+}
+
+}  // namespace
+
+std::vector<std::byte> bytes_of(const Log& log, const GraphDescription& description, double time) {
+  Writer out;
+  out.number(kind_of_file);
+  out.number(fingerprint_of(description));
+  out.number(time);
+  for (const std::vector<Setting>& settings : log.settings) {
+    std::uint64_t own = 0;
+    for (const Setting& each : settings) own += !each.given;
+    out.number(own);
+    for (const Setting& each : settings) {
+      if (each.given) continue;
+      out.number(each.time);
+      out.number(each.value);
+    }
+  }
+  std::uint64_t own = 0;
+  for (const Sending& each : log.sent) own += !each.given;
+  out.number(own);
+  for (const Sending& each : log.sent) {
+    if (each.given) continue;
+    out.number(each.time);
+    out.text(each.event);
+  }
+  std::vector<std::byte> bytes = out.take();
+  Writer end;
+  end.number(checksum(bytes));
+  for (const std::byte byte : end.take()) bytes.push_back(byte);
+  return bytes;
+}
+
+SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& description, std::size_t machines) {
+  if (bytes.size() < 32) Reader::refuse("they end too soon");
+  Reader reader(bytes.first(bytes.size() - 8));
+  if (reader.number() != kind_of_file) Reader::refuse("they begin as none does");
+  if (Reader(bytes.last(8)).number() != checksum(bytes.first(bytes.size() - 8)))
+    Reader::refuse("their checksum does not fit");
+  if (reader.number() != fingerprint_of(description)) Reader::refuse("they are of another graph");
+  SavedLog saved{fresh_log(description, machines), reader.real()};
+  if (saved.time < 0) Reader::refuse("its time is before 0 s");
+  const auto time_after = [&](double last) {
+    const double read = reader.real();
+    if (read < last || read > saved.time) Reader::refuse("what came in is not in order of time");
+    return read;
+  };
+  for (std::size_t p = 0; p < description.parameters.size(); ++p) {
+    const std::uint64_t count = reader.number();
+    if (count > 0 && description.parameters[p].curve) Reader::refuse("a parameter that has keys was set");
+    double at = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      at = time_after(at);
+      set(saved.log, description, p, at, reader.real(), false);
+    }
+  }
+  const std::uint64_t count = reader.number();
+  double at = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    at = time_after(at);
+    send(saved.log, at, reader.text(), false);
+  }
+  if (reader.left() > 0) Reader::refuse("something follows their end");
+  return saved;
+}
+
+std::uint64_t hash_of(const Log& log, double time) noexcept {
+  Digest digest;
+  digest.number(time);
+  for (const std::vector<Setting>& settings : log.settings)
+    for (const Setting& each : settings) {
+      if (each.time > time) break;
+      digest.number(each.time);
+      digest.number(each.value);
+    }
+  for (const Sending& each : log.sent) {
+    if (each.time > time) break;
+    digest.number(each.time);
+    digest.text(each.event);
+  }
+  for (const std::vector<Passage>& passages : log.passages)
+    for (const Passage& each : passages) {
+      if (each.time > time) break;
+      digest.number(each.time);
+      digest.number(std::uint64_t{each.state});
+      digest.number(std::uint64_t{each.transition});
+      for (const Offset& offset : each.offsets)
+        for (const Vec3* part :
+             {&offset.position, &offset.velocity, &offset.turn, &offset.turn_rate, &offset.scale, &offset.scale_rate})
+          for (int i = 0; i < 3; ++i) digest.number((*part)[i]);
+    }
+  return digest.value();
+}
+
+}  // namespace tweenfall::graphs

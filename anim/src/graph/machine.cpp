@@ -1,0 +1,207 @@
+#include "graph/machine.h"
+
+#include <tweenfall/anim/blend.h>
+
+#include "graph/inertia.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tweenfall::graphs {
+
+namespace {
+
+struct ShownPassage {
+  const Passage* passage;
+  Sample<double> weight;  // over those before it
+};
+using ShownPassages = std::array<ShownPassage, most_fades_at_once + 1>;
+
+Sample<double> progress(const GraphChange& change, double since, Side side) noexcept {
+  if (since >= change.seconds) return {1, 0, 0};
+  const double u = since / change.seconds;
+  if (change.ease && change.ease->rule() == Ease::Rule::linear) return {u, 1 / change.seconds, 0};
+  if (!change.ease) return {u * u * (3 - 2 * u), 6 * u * (1 - u) / change.seconds, 0};
+  Sample<double> sample = change.ease->progress(u, side);
+  sample.rate /= change.seconds;
+  return sample;
+}
+
+/// The passages that show at a time, the latest first, down to one that covers all before it.
+std::size_t shown_at(std::span<const Passage> passages, double time, Side side, ShownPassages& shown) noexcept {
+  std::size_t count = 0;
+  for (std::size_t i = passages.size(); i-- > 0 && count < shown.size();) {
+    const Passage& passage = passages[i];
+    // What was left in no time never showed.
+    if (i + 1 < passages.size() && passages[i + 1].time == passage.time) continue;
+    const bool first = passages.front().time == passage.time;
+    const Sample<double> weight =
+        first || passage.settles ? Sample<double>{1, 0, 0} : progress(passage.change, time - passage.time, side);
+    if (is_nothing(weight)) continue;
+    shown[count++] = {&passage, weight};
+    if (is_whole(weight)) break;
+  }
+  return count;
+}
+
+/// Those that there were before a time, or at it.
+std::span<const Passage> until(const std::vector<Passage>& passages, double time, Side side) noexcept {
+  const auto later = [&](double t, const Passage& each) { return side == Side::out ? t < each.time : t <= each.time; };
+  const auto next = std::upper_bound(passages.begin(), passages.end(), time, later);
+  return {passages.data(), std::max<std::size_t>(1, static_cast<std::size_t>(next - passages.begin()))};
+}
+
+}  // namespace
+
+Machine::Machine(const GraphDescription& description, std::size_t number, std::vector<const Operation*> states,
+                 std::vector<Transition> transitions, std::size_t start)
+    : description_(description),
+      number_(number),
+      states_(std::move(states)),
+      transitions_(std::move(transitions)),
+      start_(start) {}
+
+void Machine::show(const Log& log, std::span<const Passage> passages, const Moment& moment, const Scratch& scratch,
+                   std::span<Motion> out) const noexcept {
+  ShownPassages shown;
+  const std::size_t count = shown_at(passages, moment.time, moment.side, shown);
+  for (std::size_t i = count; i-- > 0;) {
+    const Passage& passage = *shown[i].passage;
+    const bool lowest = i + 1 == count;
+    const std::span<Motion> motions = lowest ? out : scratch.pose();
+    const Moment own{moment.time, moment.side, passage.time};
+    states_[passage.state]->pose(log, own, lowest ? scratch : scratch.rest(), motions);
+    const double since = moment.time - passage.time;
+    if (!passage.offsets.empty() && since < settling_time(passage.change))
+      settle(passage.change, passage.offsets, since, motions);
+    if (!lowest) cross_fade(out, motions, shown[i].weight, out);
+  }
+}
+
+void Machine::pose(const Log& log, const Moment& moment, const Scratch& scratch, std::span<Motion> out) const noexcept {
+  show(log, until(log.passages[number_], moment.time, moment.side), moment, scratch, out);
+}
+
+std::vector<GraphActivity> Machine::activity(const Log& log, double time) const {
+  ShownPassages shown;
+  const std::span<const Passage> passages = until(log.passages[number_], time, Side::out);
+  const std::size_t count = shown_at(passages, time, Side::out, shown);
+  std::vector<GraphActivity> out;
+  Sample<double> left{1, 0, 0};  // what those above leave
+  for (std::size_t i = 0; i < count; ++i) {
+    const Passage& passage = *shown[i].passage;
+    const Sample<double>& weight = shown[i].weight;
+    const double since = time - passage.time;
+    const bool settles = !passage.offsets.empty() && since < settling_time(passage.change);
+    out.push_back({.state = passage.state,
+                   .since = passage.time,
+                   .weight = {left.value * weight.value, left.rate * weight.value + left.value * weight.rate, 0},
+                   .settling = settles ? since : 0});
+    left = {left.value * (1 - weight.value), left.rate * (1 - weight.value) - left.value * weight.rate, 0};
+  }
+  std::ranges::reverse(out);
+  return out;
+}
+
+namespace {
+
+/// Calls `visit(passage, from, to)` with each stretch in (from, to] in which a state was the latest, until it returns
+/// false. The instant at which it was entered is its own too.
+template <class Visit>
+void for_each_stretch(const std::vector<Passage>& passages, double from, double to, const Visit& visit) {
+  auto passage = std::ranges::upper_bound(passages, from, {}, &Passage::time);
+  if (passage != passages.begin()) --passage;
+  while (passage != passages.begin() && std::prev(passage)->time == passage->time) --passage;
+  for (; passage != passages.end() && passage->time <= to; ++passage) {
+    const auto next = std::next(passage);
+    const bool left = next != passages.end();
+    if (left && next->time == passage->time) continue;
+    const double begin = from < passage->time ? std::nextafter(passage->time, -1.0) : from;
+    if (!visit(*passage, begin, left ? std::min(to, next->time) : to)) return;
+  }
+}
+
+}  // namespace
+
+void Machine::events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const {
+  for_each_stretch(log.passages[number_], stretch.from, stretch.to,
+                   [&](const Passage& passage, double from, double to) {
+                     states_[passage.state]->events(log, {from, to, passage.time}, out);
+                     return true;
+                   });
+}
+
+std::optional<double> Machine::next_event(const Log& log, std::string_view name, double, double after,
+                                          double until) const {
+  std::optional<double> found;
+  for_each_stretch(log.passages[number_], after, until, [&](const Passage& passage, double from, double to) {
+    found = states_[passage.state]->next_event(log, name, passage.time, from, to);
+    return !found;
+  });
+  return found;
+}
+
+double Machine::end(const Log& log, double) const noexcept {
+  return states_[current(log).state]->end(log, current(log).time);
+}
+
+void Machine::begin(Log& log) const {
+  Passage first;
+  first.state = start_;
+  log.passages[number_] = {first};
+}
+
+std::optional<double> Machine::next_instant(const Log& log, double after, double until) const {
+  std::optional<double> first;
+  for (const Transition& transition : transitions_) {
+    if (!transition.from[current(log).state]) continue;
+    for (const Condition& condition : transition.when)
+      if (const auto next = condition.next(log, description_, standing(log), after, first.value_or(until)))
+        first = next;
+  }
+  return first;
+}
+
+std::size_t Machine::transition_at(const Log& log, double time, std::optional<std::string_view> event) const {
+  const Standing state = standing(log);
+  for (std::size_t i = 0; i < transitions_.size(); ++i) {
+    const Transition& transition = transitions_[i];
+    if (!transition.from[current(log).state]) continue;
+    if (std::ranges::all_of(transition.when, [&](const Condition& condition) {
+          return condition.holds(log, description_, state, time, event);
+        }))
+      return i;
+  }
+  return GraphPassage::no_transition;
+}
+
+Passage Machine::passage(const Log& log, std::size_t index, double time) const {
+  const Transition& transition = transitions_[index];
+  Passage passage;
+  passage.time = time;
+  passage.state = transition.to;
+  passage.transition = index;
+  passage.change = transition.change;
+  ShownPassages shown;
+  const std::vector<Passage>& passages = log.passages[number_];
+  if (passages.front().time == time) return passage;  // nothing has shown
+  const std::size_t count = shown_at(until(passages, time, Side::in), time, Side::in, shown);
+  const bool fades = transition.change.kind == GraphChange::Kind::fade;
+  passage.settles = !fades || (count > most_fades_at_once && transition.change.seconds > 0);
+  if (passage.settles && fades) passage.change.kind = GraphChange::Kind::quintic;
+  return passage;
+}
+
+void Machine::measure(const Log& log, Passage& passage, std::span<const Motion> below_in,
+                      std::span<const Motion> below_out, Motion* free) const {
+  const std::size_t nodes = below_in.size();
+  const std::span<Motion> shown(free, nodes), next(free + nodes, nodes);
+  Motion* const rest = free + 2 * nodes;
+  const double time = passage.time;
+  show(log, until(log.passages[number_], time, Side::in), {time, Side::in, time}, {below_in, rest}, shown);
+  states_[passage.state]->pose(log, {time, Side::out, time}, {below_out, rest}, next);
+  passage.offsets = offsets_of(passage.change, shown, next);
+}
+
+}  // namespace tweenfall::graphs

@@ -1,0 +1,60 @@
+#pragma once
+
+// A machine: its states, the way between them, and what shows of it.
+
+#include "graph/condition.h"
+
+namespace tweenfall::graphs {
+
+class Machine : public Operation {
+ public:
+  struct Transition {
+    std::vector<char> from;  // by state
+    std::size_t to;
+    std::vector<Condition> when;
+    GraphChange change;
+  };
+  Machine(const GraphDescription& description, std::size_t number, std::vector<const Operation*> states,
+          std::vector<Transition> transitions, std::size_t start);
+
+  // What shows
+  void pose(const Log& log, const Moment& moment, const Scratch& scratch,
+            std::span<Motion> out) const noexcept override;
+  [[nodiscard]] std::vector<const Operation*> operands() const override { return states_; }
+  void events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const override;
+  [[nodiscard]] std::optional<double> next_event(const Log& log, std::string_view name, double start, double after,
+                                                 double until) const override;
+  [[nodiscard]] double end(const Log& log, double start) const noexcept override;
+  [[nodiscard]] std::vector<GraphActivity> activity(const Log& log, double time) const;
+
+  // What happens
+  void begin(Log& log) const;
+  /// The first time in (after, until] at which it may leave the state it is in, without an input.
+  [[nodiscard]] std::optional<double> next_instant(const Log& log, double after, double until) const;
+  /// The first transition that may be taken at a time; none: `no_transition`.
+  /// @param event  the one that is told; empty: those of the state's clips
+  [[nodiscard]] std::size_t transition_at(const Log& log, double time, std::optional<std::string_view> event) const;
+  [[nodiscard]] const Transition& transition(std::size_t index) const noexcept { return transitions_[index]; }
+  /// The passage by which a transition leads on. Where its difference settles, that is still to be measured.
+  [[nodiscard]] Passage passage(const Log& log, std::size_t transition, double time) const;
+  /// Measures it, before the passage is in the log. @param below_in, below_out  what lies below the graph, as it
+  /// arrives and leaves  @param free  `rooms() + 2` poses
+  void measure(const Log& log, Passage& passage, std::span<const Motion> below_in, std::span<const Motion> below_out,
+               Motion* free) const;
+
+ private:
+  void show(const Log& log, std::span<const Passage> passages, const Moment& moment, const Scratch& scratch,
+            std::span<Motion> out) const noexcept;
+  [[nodiscard]] const Passage& current(const Log& log) const noexcept { return log.passages[number_].back(); }
+  [[nodiscard]] Standing standing(const Log& log) const noexcept {
+    return {*states_[current(log).state], current(log).time};
+  }
+
+  const GraphDescription& description_;
+  std::size_t number_;
+  std::vector<const Operation*> states_;
+  std::vector<Transition> transitions_;
+  std::size_t start_;
+};
+
+}  // namespace tweenfall::graphs

@@ -1,0 +1,57 @@
+#pragma once
+
+// A number of an operation, whose parameter has been found.
+
+#include "graph/log.h"
+
+#include <optional>
+
+namespace tweenfall::graphs {
+
+class Number {
+ public:
+  Number() = default;
+  explicit Number(double constant) : constant_(constant) {}
+  explicit Number(Curve<double> curve) : curve_(std::move(curve)) {}
+  Number(const GraphDescription& description, std::size_t parameter)
+      : description_(&description), parameter_(parameter) {}
+
+  [[nodiscard]] Sample<double> sample(const Log& log, double time, Side side) const noexcept {
+    if (curve_) return curve_->sample(time, side);
+    if (description_) return sample_of(log, *description_, parameter_, time, side);
+    return {constant_, 0, 0};
+  }
+
+  /// Nothing for one that may change.
+  [[nodiscard]] std::optional<double> constant() const noexcept {
+    return curve_ || description_ ? std::nullopt : std::optional(constant_);
+  }
+
+ private:
+  double constant_ = 1;
+  std::optional<Curve<double>> curve_{};
+  const GraphDescription* description_ = nullptr;
+  std::size_t parameter_ = 0;
+};
+
+/// What lies beyond 0 or 1 is the nearer end, at rest.
+[[nodiscard]] inline Sample<double> as_share(const Sample<double>& number) noexcept {
+  if (number.value < 0 || (number.value == 0 && number.rate < 0)) return {0, 0, 0};
+  if (number.value > 1 || (number.value == 1 && number.rate > 0)) return {1, 0, 0};
+  return number;
+}
+
+/// What lies below 0 is 0, at rest.
+[[nodiscard]] inline Sample<double> as_weight(const Sample<double>& number) noexcept {
+  if (number.value < 0 || (number.value == 0 && number.rate < 0)) return {0, 0, 0};
+  return number;
+}
+
+[[nodiscard]] inline bool is_nothing(const Sample<double>& weight) noexcept {
+  return weight.value == 0 && weight.rate == 0;
+}
+[[nodiscard]] inline bool is_whole(const Sample<double>& weight) noexcept {
+  return weight.value == 1 && weight.rate == 0;
+}
+
+}  // namespace tweenfall::graphs

@@ -1,0 +1,85 @@
+#pragma once
+
+// One operation of a graph: from poses to a pose.
+
+#include <tweenfall/anim/graph.h>
+#include <tweenfall/anim/graph_player.h>
+
+#include "graph/log.h"
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace tweenfall::graphs {
+
+/// When a pose is asked for.
+struct Moment {
+  double time;
+  Side side;
+  double start;  // when the state around it was entered, or the graph began
+};
+
+/// Poses to work in, and the one that lies below the graph.
+struct Scratch {
+  std::span<const Motion> below;
+  Motion* free;
+
+  [[nodiscard]] std::span<Motion> pose() const noexcept { return {free, below.size()}; }
+  [[nodiscard]] Scratch rest() const noexcept { return {below, free + below.size()}; }
+};
+
+/// A stretch of time in which a pose shows: what happens at `from` counts only where the stretch begins with it.
+struct Stretch {
+  double from, to, start;
+};
+
+class Operation {
+ public:
+  Operation() = default;
+  Operation(const Operation&) = delete;
+  Operation& operator=(const Operation&) = delete;
+  virtual ~Operation() = default;
+
+  /// Writes the motions of all nodes.
+  virtual void pose(const Log& log, const Moment& moment, const Scratch& scratch,
+                    std::span<Motion> out) const noexcept = 0;
+
+  /// The poses that it is made of.
+  [[nodiscard]] virtual std::vector<const Operation*> operands() const { return {}; }
+
+  /// How much of an operand shows, by its number among them.
+  [[nodiscard]] virtual double share(const Log&, std::size_t, double) const noexcept { return 1; }
+
+  /// Appends the events of the clips that show, in any order.
+  virtual void events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const;
+
+  /// The first time in (after, until] at which an event of that name happens in a clip, shown or not.
+  [[nodiscard]] virtual std::optional<double> next_event(const Log& log, std::string_view name, double start,
+                                                         double after, double until) const;
+
+  /// When all clips have ended; 0 where there are none.
+  [[nodiscard]] virtual double end(const Log& log, double start) const noexcept;
+
+  /// Poses that it works in, its operands' included.
+  [[nodiscard]] std::size_t rooms() const noexcept { return rooms_; }
+  void set_rooms(std::size_t rooms) noexcept { rooms_ = rooms; }
+
+ private:
+  std::size_t rooms_ = 0;
+};
+
+class Binder;
+
+// One file each
+[[nodiscard]] std::unique_ptr<Operation> bound(const ClipPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const RestPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const BlendPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const LayersPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const MachinePose& pose, Binder& binder);
+
+}  // namespace tweenfall::graphs

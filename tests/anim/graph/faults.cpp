@@ -1,0 +1,111 @@
+#include "graph_support.h"
+
+#include <limits>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+using Kind = GraphCondition::Kind;
+
+std::string faults_of(const GraphDescription& description) {
+  std::string text;
+  for (const GraphFault& fault : inspect(description, *limb(), *three_clips())) {
+    for (const std::string& part : fault.place) text += "/" + part;
+    text += ": " + fault.message + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("all faults of a graph are listed, each with its place") {
+  const GraphDescription faulty = {
+      .parameters = {{.name = "speed"}, {.name = "speed"}},
+      .poses = {{"a", LayersPose{.base = "b", .layers = {{.pose = "walk", .mask = {{.joints = "uper"}}}}}},
+                {"b", BlendPose{{{"idle", 1.0}, {"a", 1.0}}}},
+                {"c", BlendPose{{{"idle", 0.0}, {"walk", 0.0}}}},
+                {"d", ClipPose{"wlak"}},
+                {"e", MachinePose{.start = "one",
+                                  .states = {{"one", "idle"}, {"two", "runn"}},
+                                  .transitions = {{{"one"}, "tow", {{Kind::above, "sped", 1}}}}}}},
+      .output = "z"};
+  CHECK(faults_of(faulty) ==
+        "/parameters/speed: two parameters are named \"speed\"\n"
+        "/poses/b/blend/1: poses go around in a circle: \"a\" -> \"b\" -> \"a\"\n"
+        "/poses/a/layers/0/mask: no joint is named \"uper\"; did you mean \"upper\"?\n"
+        "/poses/c/blend: these weights sum to nothing; give one above 0\n"
+        "/poses/d/clip: there is no clip \"wlak\"; did you mean \"walk\"?\n"
+        "/poses/e/machine/states/two: there is no pose or clip \"runn\"\n"
+        "/poses/e/machine/transitions/0/to: there is no state \"tow\"; did you mean \"two\"?\n"
+        "/poses/e/machine/transitions/0/when: there is no parameter \"sped\"; did you mean \"speed\"?\n"
+        "/output: there is no pose \"z\"; did you mean \"a\"?\n");
+  CHECK_THROWS_WITH_AS(Graph(limb(), three_clips(), faulty), doctest::Contains("/poses/c/blend: these weights"),
+                       std::invalid_argument);
+}
+
+TEST_CASE("transitions without conditions that lead around are refused") {
+  const GraphDescription faulty = {
+      .poses = {{"a", MachinePose{.start = "one",
+                                  .states = {{"one", "idle"}, {"two", "walk"}, {"three", "jump"}},
+                                  .transitions = {{{"one"}, "two"}, {{"two"}, "three"}, {{"three"}, "two"}}}}}};
+  CHECK(faults_of(faulty) ==
+        "/poses/a/machine/states/two: transitions without conditions lead on from here for ever; give one of them a "
+        "\"when\"\n");
+}
+
+TEST_CASE("numbers that are none, or out of their range, are refused") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK(faults_of({.poses = {{"a", ClipPose{"walk", nan}}}}) == "/poses/a/at: a clip starts at a finite time\n");
+  CHECK(faults_of({.poses = {{"a", BlendPose{{{"walk", -1.0}}}}}}) ==
+        "/poses/a/blend/0: a weight is 0 or more; it is -1\n");
+  CHECK(faults_of({.poses = {{"a", LayersPose{.layers = {{.pose = "walk", .weight = 1.5}}}}}}) ==
+        "/poses/a/layers/0/weight: the weight of a layer is 0 to 1; it is 1.5\n");
+  CHECK(faults_of({.parameters = {{.name = "x", .half_life = -1}}, .poses = {{"a", RestPose{}}}}) ==
+        "/parameters/x/half_life: a half-life is 0 s or more; it is -1 s\n");
+  CHECK(faults_of({.poses = {{"a", RestPose{}}}, .inputs = {{-1, "x", 2}, {1, "jump"}}}) ==
+        "/inputs/0: an input comes at 0 s or later; this one at -1 s\n/inputs/0: there is no parameter \"x\"\n");
+  const auto changing = [](const GraphChange& change) {
+    return GraphDescription{
+        .poses = {{"a", MachinePose{"one", {{"one", "idle"}, {"two", "walk"}}, {{{"one"}, "two", {}, change}}}}}};
+  };
+  CHECK(faults_of(changing({.seconds = -1})) ==
+        "/poses/a/machine/transitions/0/fade: a fade lasts 0 s or more; this one -1 s\n");
+  CHECK(faults_of(changing({GraphChange::Kind::quintic, 0})) ==
+        "/poses/a/machine/transitions/0/settle: to settle takes more than 0 s; this 0 s\n");
+  CHECK(
+      faults_of(changing({.seconds = 1, .ease = Ease::smooth()})) ==
+      "/poses/a/machine/transitions/0/ease: \"smooth\" looks at keys, and a fade has none; say \"linear\" or a shape, "
+      "such as \"quad-in-out\"\n");
+}
+
+TEST_CASE("a graph that comes to too much is refused, and at once") {
+  GraphDescription doubling;
+  doubling.poses.push_back({"p0", BlendPose{{{"walk"}, {"idle"}}}});
+  for (int i = 1; i < 60; ++i) {
+    const std::string below = "p" + std::to_string(i - 1);
+    doubling.poses.push_back({"p" + std::to_string(i), BlendPose{{{below}, {below}}}});
+  }
+  CHECK(faults_of(doubling).find("for others are named in it again and again") != std::string::npos);
+  GraphDescription deep;
+  deep.poses.push_back({"p0", LayersPose{.layers = {{.pose = "walk"}}}});
+  for (int i = 1; i < 200; ++i)
+    deep.poses.push_back({"p" + std::to_string(i), LayersPose{.layers = {{.pose = "p" + std::to_string(i - 1)}}}});
+  CHECK(faults_of(deep).find("deep in each other") != std::string::npos);
+  std::ranges::reverse(deep.poses);
+  CHECK(faults_of(deep).find("deep in each other") != std::string::npos);
+}
+
+TEST_CASE("a graph of nothing is refused, and one of the deepest and widest is played") {
+  CHECK(faults_of({}) == "/poses: a graph has poses; this one has none\n");
+  GraphDescription deep;
+  deep.poses.push_back({"p0", BlendPose{{{"walk"}, {"idle"}, {"jump"}}}});
+  for (int i = 1; i < 60; ++i)
+    deep.poses.push_back(
+        {"p" + std::to_string(i),
+         LayersPose{.layers = {{.pose = "p" + std::to_string(i - 1), .adds = true, .reference = "walk"},
+                               {.pose = "idle", .weight = 0.1}}}});
+  GraphPlayer player(graph_of(deep));
+  CHECK(rate_error(player, 0.7) < 1e-5);
+}
