@@ -36,17 +36,19 @@ bool is_nothing(const Sample<double>& weight) noexcept {
 
 /// Takes these parts of `from`, so that everything else keeps its bits.
 void take(Parts parts, const Motion& from, Motion& motion) noexcept {
-  if (parts & position_part) {
-    motion.pose.position = from.pose.position;
-    motion.twist.linear = from.twist.linear;
-  }
   if (parts & rotation_part) {
     motion.pose.rotation = from.pose.rotation;
     motion.twist.angular = from.twist.angular;
   }
-  if (parts & scale_part) {
-    motion.pose.scale = from.pose.scale;
-    motion.scale_rate = from.scale_rate;
+  for (int i = 0; i < 3; ++i) {
+    if (parts & (1 << i)) {
+      motion.pose.position[i] = from.pose.position[i];
+      motion.twist.linear[i] = from.twist.linear[i];
+    }
+    if (parts & (16 << i)) {
+      motion.pose.scale[i] = from.pose.scale[i];
+      motion.scale_rate[i] = from.scale_rate[i];
+    }
   }
 }
 
@@ -129,9 +131,26 @@ void fade(Sample<T>& under, Sample<T> over, const Sample<double>& weight) noexce
     numbers(under.value) += weight.value * difference;
 }
 
-void fade_color(const Curve<Color>& curve, const ClipClock& clock, const Sample<double>& weight, const Node& node,
+/// What a clip has for a node's color; single numbers lie over what is below, or over white.
+Sample<Color> color_over(const BoundClip::Entry& entry, const ClipClock& clock, const Node& node,
+                         const std::optional<Sample<Color>>& look) {
+  if (entry.color) return per_stage_second(entry.color->sample(clock.time, clock.side), clock.rate);
+  Sample<Color> over =
+      look.value_or(Sample<Color>{node.color.value_or(Color{Vec4(1, 1, 1, 1)}), Vec4(0, 0, 0, 0), Vec4(0, 0, 0, 0)});
+  for (int i = 0; i < 4; ++i) {
+    const Curve<double>* curve = entry.tints[static_cast<std::size_t>(i)];
+    if (!curve) continue;
+    const Sample<double> number = per_stage_second(curve->sample(clock.time, clock.side), clock.rate);
+    over.value.rgba[i] = number.value;
+    over.rate[i] = number.rate;
+    over.acceleration[i] = number.acceleration;
+  }
+  return over;
+}
+
+void fade_color(const BoundClip::Entry& entry, const ClipClock& clock, const Sample<double>& weight, const Node& node,
                 std::optional<Sample<Color>>& look) {
-  const Sample<Color> over = per_stage_second(curve.sample(clock.time, clock.side), clock.rate);
+  const Sample<Color> over = color_over(entry, clock, node, look);
   if (!look && !node.color) {
     look = over;  // there is nothing to fade from
     return;
@@ -280,11 +299,11 @@ NodeLook Animation::look(std::size_t node, double stage_time, Side side, const C
                            const std::uint32_t index = play.clip->entry_of(node);
                            if (!play.drives(index)) return;
                            const BoundClip::Entry& entry = play.clip->entries()[index];
-                           if (!entry.color && !entry.weights) return;
+                           if (!entry.has_color() && !entry.weights) return;
                            const ClipClock clock = play.clock(stage_time, side);
                            const Sample<double> weight = play.weight_at(side);
-                           if (entry.color && (clock.started || !look.color))
-                             pose::fade_color(*entry.color, clock, weight, (*nodes_)[node], look.color);
+                           if (entry.has_color() && (clock.started || !look.color))
+                             pose::fade_color(entry, clock, weight, (*nodes_)[node], look.color);
                            if (entry.weights && (clock.started || look.weights.empty()))
                              pose::fade_weights(*entry.weights, clock, weight, (*nodes_)[node], look.weights);
                          });

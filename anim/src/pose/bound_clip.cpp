@@ -1,9 +1,12 @@
 #include "pose/bound_clip.h"
 
+#include <tweenfall/anim/component.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <optional>
 
 namespace tweenfall::pose {
 namespace {
@@ -15,57 +18,98 @@ const T* required(const Track& track, const Clip& clip, const char* expected, st
   return nullptr;
 }
 
-// The tracks of one node.
-struct NodeTracks {
-  BoundClip::Entry entry;
-  MotionCurves::Parts curves;
-};
-
 void set_part(BoundClip::Entry& entry, Parts part, bool present, bool relative) {
   entry.parts = static_cast<Parts>(present ? entry.parts | part : entry.parts & ~part);
   entry.relative = static_cast<Parts>(present && relative ? entry.relative | part : entry.relative & ~part);
 }
 
-void bind_track(const Track& track, Property property, const Clip& clip, NodeTracks& node, std::string& problems) {
-  switch (property) {
-    case Property::position:
-      node.curves.position = required<Curve<Vec3>>(track, clip, "vectors", problems);
-      set_part(node.entry, position_part, node.curves.position != nullptr, track.relative);
-      break;
-    case Property::rotation:
-      node.curves.rotation = required<Curve<Quat>>(track, clip, "rotations", problems);
-      set_part(node.entry, rotation_part, node.curves.rotation != nullptr, track.relative);
-      break;
-    case Property::scale:
-      node.curves.scale = required<Curve<Vec3>>(track, clip, "vectors", problems);
-      set_part(node.entry, scale_part, node.curves.scale != nullptr, track.relative);
-      break;
-    case Property::color:
-      node.entry.color = required<Curve<Color>>(track, clip, "colors", problems);
-      break;
-    case Property::weights:
-      node.entry.weights = required<WeightCurves>(track, clip, "weights", problems);
-      break;
-    case Property::user:
-      break;
-  }
-}
-
-void set_gains(NodeTracks& node, const Clip& clip) {
-  if (const Curve<Vec3>* curve = node.curves.position)
-    node.entry.gain = curve->value(clip.duration, Side::in) - curve->value(0.0);
-  if (const Curve<Quat>* curve = node.curves.rotation)
-    node.entry.turn = log_map(curve->value(clip.duration, Side::in) * curve->value(0.0).conjugate());
-}
-
 }  // namespace
+
+/// The tracks of one node, while they are gathered.
+class BoundClip::Binding {
+ public:
+  explicit Binding(std::size_t node) { entry.node = node; }
+
+  void bind(const Track& track, const Clip& clip, std::string& problems) {
+    if (const std::optional<Component> component = component_named(track.property)) {
+      bind_component(track, *component, clip, problems);
+      return;
+    }
+    switch (property_named(track.property)) {
+      case Property::position:
+        curves.position = required<Curve<Vec3>>(track, clip, "vectors", problems);
+        set_part(entry, position_part, curves.position != nullptr, track.relative);
+        break;
+      case Property::rotation:
+        curves.rotation = required<Curve<Quat>>(track, clip, "rotations", problems);
+        set_part(entry, rotation_part, curves.rotation != nullptr, track.relative);
+        break;
+      case Property::scale:
+        curves.scale = required<Curve<Vec3>>(track, clip, "vectors", problems);
+        set_part(entry, scale_part, curves.scale != nullptr, track.relative);
+        break;
+      case Property::color:
+        entry.color = required<Curve<Color>>(track, clip, "colors", problems);
+        break;
+      case Property::weights:
+        entry.weights = required<WeightCurves>(track, clip, "weights", problems);
+        break;
+      case Property::user:
+        break;
+    }
+  }
+
+  /// The angles become one rotation; what a loop gains is reckoned.
+  void complete(const Clip& clip, const Pose& rest, bool climbs) {
+    if (angles_[0] || angles_[1] || angles_[2]) {
+      turned_ = turned_by(angles_, rest.rotation);
+      curves.rotation = &*turned_;
+    }
+    if (!climbs || !std::isfinite(clip.duration)) return;
+    if (const Curve<Vec3>* curve = curves.position)
+      entry.gain = curve->value(clip.duration, Side::in) - curve->value(0.0);
+    if (const Curve<Quat>* curve = curves.rotation)
+      entry.turn = log_map(curve->value(clip.duration, Side::in) * curve->value(0.0).conjugate());
+    for (const Number& number : numbers)
+      if (!number.of_scale)
+        entry.gain[number.index] = number.curve->value(clip.duration, Side::in) - number.curve->value(0.0);
+  }
+
+  Entry entry{};
+  MotionCurves::Parts curves;
+  std::vector<Number> numbers;
+
+ private:
+  void bind_component(const Track& track, Component component, const Clip& clip, std::string& problems) {
+    const auto* curve = required<Curve<double>>(track, clip, "numbers", problems);
+    if (!curve) return;
+    const auto index = static_cast<std::size_t>(component.index);
+    if (component.property == Property::color) {
+      entry.tints[index] = curve;
+    } else if (component.property == Property::rotation) {
+      if (!is_of_three_axes(track.order)) {
+        problems += "\n  clip \"" + clip.name + "\": track \"" + track.name() +
+                    "\" is an angle of an order that turns twice about one axis";
+        return;
+      }
+      angles_[index] = &track;
+      set_part(entry, rotation_part, true, false);
+    } else {
+      const bool of_scale = component.property == Property::scale;
+      numbers.push_back({curve, of_scale, component.index, track.relative});
+      entry.parts = static_cast<Parts>(entry.parts | (1u << (component.index + (of_scale ? 4 : 0))));
+    }
+  }
+
+  std::array<const Track*, 3> angles_{};
+  std::optional<Curve<Quat>> turned_;
+};
 
 BoundClip::BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& problems) : clip_(&clip) {
   entry_of_.assign(nodes.size(), no_entry);
-  std::vector<NodeTracks> driven;
+  std::deque<Binding> driven;
   for (const Track& track : clip.tracks) {
-    const Property property = property_named(track.property);
-    if (property == Property::user) continue;
+    if (property_named(track.property) == Property::user && !component_named(track.property)) continue;
     const std::optional<std::size_t> node = nodes.find(track.node);
     if (!node) {
       problems += "\n  clip \"" + clip.name + "\": there is no node \"" + track.node + "\"";
@@ -74,20 +118,29 @@ BoundClip::BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& prob
     std::uint32_t& index = entry_of_[*node];
     if (index == no_entry) {
       index = static_cast<std::uint32_t>(driven.size());
-      driven.push_back({{.node = *node}, {}});
+      driven.emplace_back(*node);
     }
-    bind_track(track, property, clip, driven[index], problems);
+    driven[index].bind(track, clip, problems);
   }
+  for (const Rivals& pair : rivals(clip.tracks))
+    problems += "\n  clip \"" + clip.name + "\": the tracks " + pair.problem;
   if (!problems.empty()) return;
-  std::ranges::sort(driven, {}, [](const NodeTracks& node) { return node.entry.node; });
+  std::vector<Binding*> in_order;
+  in_order.reserve(driven.size());
+  for (Binding& node : driven) in_order.push_back(&node);
+  std::ranges::sort(in_order, {}, [](const Binding* node) { return node->entry.node; });
   const bool climbs = clip.loop.mode == LoopMode::repeat_offset;
   finished_ = !climbs;
-  for (NodeTracks& node : driven) {
-    if (climbs && std::isfinite(clip.duration)) set_gains(node, clip);
-    if (node.entry.relative) finished_ = false;
-    entry_of_[node.entry.node] = static_cast<std::uint32_t>(entries_.size());
-    entries_.push_back(node.entry);
-    curves_.add(node.entry.node, node.curves);
+  for (Binding* node : in_order) {
+    node->complete(clip, nodes[node->entry.node].rest, climbs);
+    Entry& entry = node->entry;
+    if (entry.relative || !node->numbers.empty()) finished_ = false;
+    entry.first_number = static_cast<std::uint32_t>(numbers_.size());
+    entry.numbers = static_cast<std::uint32_t>(node->numbers.size());
+    numbers_.insert(numbers_.end(), node->numbers.begin(), node->numbers.end());
+    entry_of_[entry.node] = static_cast<std::uint32_t>(entries_.size());
+    entries_.push_back(entry);
+    curves_.add(entry.node, node->curves);
   }
 }
 
@@ -103,9 +156,28 @@ void BoundClip::sample_entry(std::uint32_t index, const Hierarchy& nodes, const 
   if (!finished_) finish(entries_[index], nodes[entries_[index].node].rest, clock, motion);
 }
 
+void BoundClip::set_numbers(const Entry& entry, const Pose& rest, const ClipClock& clock,
+                            Motion& motion) const noexcept {
+  for (std::uint32_t i = entry.first_number; i < entry.first_number + entry.numbers; ++i) {
+    const Number& number = numbers_[i];
+    const Sample<double> sample = number.curve->sample(clock.time, clock.side);
+    const double rate = sample.rate * clock.rate;
+    if (number.of_scale) {
+      const double own = number.relative ? rest.scale[number.index] : 1;
+      motion.pose.scale[number.index] = sample.value * own;
+      motion.scale_rate[number.index] = rate * own;
+    } else {
+      const double own = number.relative ? rest.position[number.index] : 0;
+      motion.pose.position[number.index] = sample.value + own;
+      motion.twist.linear[number.index] = rate;
+    }
+  }
+}
+
 // From what the curves say to the motion: a loop with offset goes on from where it was, and relative tracks compose
 // with the rest pose.
 void BoundClip::finish(const Entry& entry, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept {
+  if (entry.numbers) set_numbers(entry, rest, clock, motion);
   if (clip_->loop.mode == LoopMode::repeat_offset && clock.cycle != 0) {
     if (entry.parts & position_part) motion.pose.position += clock.cycle * entry.gain;
     if (entry.parts & rotation_part) {

@@ -7,15 +7,17 @@
 #include <tweenfall/anim/play.h>
 #include <tweenfall/curves/motion_curves.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace tweenfall::pose {
 
-/// Which parts of a node's motion are meant; a set of bits.
+/// Which parts of a node's motion are meant; a set of bits. Positions and scales have one for each number, that of x
+/// the lowest.
 using Parts = std::uint8_t;
-inline constexpr Parts position_part = 1, rotation_part = 2, scale_part = 4;
+inline constexpr Parts position_part = 7, rotation_part = 8, scale_part = 112;
 
 class BoundClip {
  public:
@@ -25,9 +27,13 @@ class BoundClip {
     Parts parts = 0;     ///< of its motion
     Parts relative = 0;  ///< those that compose with the node's rest pose instead of replacing it
     const Curve<Color>* color = nullptr;
+    std::array<const Curve<double>*, 4> tints{};  ///< single numbers of the color
     const WeightCurves* weights = nullptr;
-    Vec3 gain{0, 0, 0};  ///< what the position has gained after one play of a loop with offset
-    Vec3 turn{0, 0, 0};  ///< the same of the rotation, as a rotation vector
+    std::uint32_t first_number = 0, numbers = 0;  ///< those of `numbers_` that are its own
+    Vec3 gain{0, 0, 0};                           ///< what the position has gained after one play of a loop with offset
+    Vec3 turn{0, 0, 0};                           ///< the same of the rotation, as a rotation vector
+
+    [[nodiscard]] bool has_color() const noexcept { return color || tints[0] || tints[1] || tints[2] || tints[3]; }
   };
   static constexpr std::uint32_t no_entry = static_cast<std::uint32_t>(-1);
 
@@ -49,13 +55,24 @@ class BoundClip {
   void sample_entry(std::uint32_t entry, const Hierarchy& nodes, const ClipClock& clock, Motion& motion) const noexcept;
 
  private:
+  /// One number of a position or a scale.
+  struct Number {
+    const Curve<double>* curve;
+    bool of_scale;
+    int index;
+    bool relative;
+  };
+  class Binding;
+
+  void set_numbers(const Entry& entry, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept;
   void finish(const Entry& entry, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept;
 
   const Clip* clip_;
   std::vector<Entry> entries_;           // in order of the nodes
   std::vector<std::uint32_t> entry_of_;  // by node
   MotionCurves curves_;                  // one thing for each entry
-  bool finished_ = true;                 // no entry is relative, and no loop climbs
+  std::vector<Number> numbers_;          // by entry
+  bool finished_ = true;                 // no entry is relative or has numbers, and no loop climbs
 };
 
 }  // namespace tweenfall::pose

@@ -1,5 +1,6 @@
 #include "plot/plotted_track.h"
 
+#include <tweenfall/anim/component.h>
 #include <tweenfall/importers/recording_file.h>
 #include <tweenfall/importers/track_sample.h>
 
@@ -155,7 +156,13 @@ void add_handles(PlottedTrack& plotted, const Shown& shown) {
 void name_parts(PlottedTrack& plotted) {
   plotted.names = component_names(plotted.track->curve);
   plotted.rate_names = rate_names(plotted.track->curve);
-  switch (property_named(plotted.track->property)) {
+  const std::optional<Component> component = component_named(plotted.track->property);
+  if (component)
+    plotted.names = plotted.rate_names = {plotted.track->property.substr(plotted.track->property.size() - 1)};
+  switch (component ? component->property : property_named(plotted.track->property)) {
+    case Property::rotation:
+      if (component) turn_into_degrees(plotted);
+      break;
     case Property::position:
       plotted.unit = "m";
       plotted.rate_unit = "m/s";
@@ -243,8 +250,7 @@ void add_recorded(PlottedTrack& plotted, const Recording& recording) {
     while (last + 1 < found->owner.size() && found->owner[last + 1] == found->owner[first]) ++last;
     has_left = has_left || found->owner[first] != Owner::keyed;
     if (has_left) {
-      std::vector<TrackPoint> points =
-          recorded_track(recording, node, property_named(plotted.track->property), first, last);
+      std::vector<TrackPoint> points = recorded_track(recording, node, plotted.track->property, first, last);
       if (!points.empty()) plotted.simulated.push_back(std::move(points));
     }
     first = last + 1;

@@ -155,4 +155,15 @@ void turn_into_angles(PlottedTrack& plotted) {
   plotted.rate_names = plotted.names;
 }
 
+void turn_into_degrees(PlottedTrack& plotted) {
+  for_all_points(plotted, [](TrackPoint& point) {
+    for (double& value : point.values) value *= in_degrees;
+    for (double& rate : point.rates) rate *= in_degrees;
+  });
+  for (PlottedKey& key : plotted.keys)
+    for (PlottedHandle& handle : key.handles) handle.change *= in_degrees;
+  plotted.unit = "degrees";
+  plotted.rate_unit = "degrees/s";
+}
+
 }  // namespace tweenfall::plotting

@@ -10,4 +10,7 @@ namespace tweenfall::plotting {
 /// one axis, the angle about that; else three angles, intrinsic x, y, z. From the first point on neither is wrapped.
 void turn_into_angles(PlottedTrack& plotted);
 
+/// The same of a single angle.
+void turn_into_degrees(PlottedTrack& plotted);
+
 }  // namespace tweenfall::plotting

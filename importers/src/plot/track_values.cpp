@@ -1,5 +1,7 @@
 #include "plot/track_values.h"
 
+#include <tweenfall/anim/component.h>
+
 namespace tweenfall::plotting {
 
 namespace {
@@ -34,9 +36,13 @@ std::vector<std::string> rate_names(const TrackCurve& curve) {
   return component_names(curve);
 }
 
-std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t node, Property property,
+std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t node, std::string_view property_name,
                                        std::size_t first, std::size_t last) {
   std::vector<TrackPoint> points;
+  const std::optional<Component> component = component_named(property_name);
+  // A single angle is not told from the recorded rotation.
+  const bool coordinate = component && component->property == Property::position;
+  const Property property = coordinate ? Property::position : property_named(property_name);
   if (property != Property::position && property != Property::rotation) return points;
   const NodeRecord& record = recording.nodes[node];
   Quat before(0, 0, 0, 0);
@@ -48,6 +54,11 @@ std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t n
     if (property == Property::position) {
       point.values = parts(local.pose.position);
       point.rates = parts(local.twist.linear);
+      if (coordinate) {
+        const auto index = static_cast<std::size_t>(component->index);
+        point.values = {point.values[index]};
+        point.rates = {point.rates[index]};
+      }
     } else {
       Quat rotation = local.pose.rotation;
       if (rotation.dot(before) < 0) rotation.coeffs() = -rotation.coeffs();

@@ -5,6 +5,7 @@
 #include <tweenfall/physics/stage/recording.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tweenfall::plotting {
@@ -24,7 +25,8 @@ struct TrackPoint {
 /// What is left of the motion of a recorded node, relative to its parent, as a track of `property` would say it; empty
 /// for properties other than position and rotation.
 /// @param first, last  frames, both included
-[[nodiscard]] std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t node, Property property,
-                                                     std::size_t first, std::size_t last);
+[[nodiscard]] std::vector<TrackPoint> recorded_track(const Recording& recording, std::size_t node,
+                                                     std::string_view property_name, std::size_t first,
+                                                     std::size_t last);
 
 }  // namespace tweenfall::plotting

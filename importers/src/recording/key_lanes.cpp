@@ -118,8 +118,7 @@ std::vector<KeyLane> key_lanes(const StageDescription& stage, double from, doubl
                      passes[place->second]))
         lane.is_thinned = true;
       const std::vector<std::string> eases = key_ease_texts(track, keys);
-      for (std::size_t k = 0; k < keys.size(); ++k)
-        lane.keys.push_back({key_value_text(track.curve, keys[k]), eases[k]});
+      for (std::size_t k = 0; k < keys.size(); ++k) lane.keys.push_back({key_value_text(track, keys[k]), eases[k]});
     }
   }
   for (std::size_t i = 0; i < lanes.size(); ++i) {

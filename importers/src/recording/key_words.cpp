@@ -113,8 +113,10 @@ std::vector<std::string> ease_texts(const StepCurve<T>& curve, const std::vector
 
 }  // namespace key_words
 
-std::string key_value_text(const TrackCurve& curve, double clip_time) {
-  return std::visit([&](const auto& held) { return key_words::value_text(held, clip_time); }, curve);
+std::string key_value_text(const Track& track, double clip_time) {
+  if (const auto* angle = std::get_if<Curve<double>>(&track.curve); angle && track.property.starts_with("rotation."))
+    return short_text(angle->value(clip_time) * 180 / std::numbers::pi, 2) + "°";
+  return std::visit([&](const auto& held) { return key_words::value_text(held, clip_time); }, track.curve);
 }
 
 std::vector<std::string> key_ease_texts(const Track& track, const std::vector<double>& clip_times) {

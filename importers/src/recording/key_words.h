@@ -11,7 +11,7 @@ namespace tweenfall::recordings {
 
 /// The value of a track at a key, with four decimals at most: "(0, 1.5, 0)", rotations as "90° about (0, 0, 1)", colors
 /// as linear "(r, g, b, a)".
-[[nodiscard]] std::string key_value_text(const TrackCurve& curve, double clip_time);
+[[nodiscard]] std::string key_value_text(const Track& track, double clip_time);
 
 /// How the curve goes on from each key: as the author said; where nobody said it "hold", "linear", "eased" (a straight
 /// way re-timed), "quadratic", "cubic", "quintic", or "several" where components differ; "end" for the last key.

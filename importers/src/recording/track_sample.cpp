@@ -73,7 +73,8 @@ struct Sampler {
 }  // namespace track_samples
 
 TrackSample sample_track(const Clip& clip, const Track& track, const ClipClock& clock) {
-  const bool gains = clip.loop.mode == LoopMode::repeat_offset && clock.cycle != 0 && track.property != "scale";
+  const bool gains = clip.loop.mode == LoopMode::repeat_offset && clock.cycle != 0 && track.property != "scale" &&
+                     !track.property.starts_with("scale.");
   return std::visit(track_samples::Sampler{clip, clock, gains}, track.curve);
 }
 

@@ -42,14 +42,20 @@ enum class Property { position, rotation, scale, color, weights, user };
 [[nodiscard]] Property property_named(std::string_view word) noexcept;
 
 struct Track {
-  std::string node;      ///< name of the node
-  std::string property;  ///< "position", "rotation", "scale", "color", "weights" or a name of the user's
-  TrackCurve
-      curve;  ///< position, scale: Curve<Vec3>; rotation: Curve<Quat>; color: Curve<Color>; weights: WeightCurves
-  bool relative = false;  ///< compose with the node's rest value instead of replacing it
+  std::string node;  ///< name of the node
+  /// "position", "rotation", "scale", "color", "weights", one number of one of the first four ("position.y", see
+  /// component.h), or a name of the user's.
+  std::string property;
+  /// Of position and scale a Curve<Vec3>, of rotation Curve<Quat>, of color Curve<Color>, of weights WeightCurves; of a
+  /// component Curve<double>.
+  TrackCurve curve;
+  /// Compose with the node's rest value instead of replacing it; of a component: add to the node's own number, or
+  /// multiply its scale.
+  bool relative = false;
   /// The author's words for how the curve goes on from its keys ("smooth", "quad-in-out"), for people: each with the
   /// time of the first key that it is said of, s, up to the next pair; empty words and an empty list say nothing.
   std::vector<std::pair<double, std::string>> words{};
+  EulerOrder order{};  ///< of a rotation's component: the order in which its angles turn
 
   [[nodiscard]] std::string name() const { return node + "." + property; }
 };

@@ -15,7 +15,7 @@ struct ValueForms {
   const Form *boolean, *name, *number, *positive, *not_negative;
   const Form *vector, *vector_2, *vector_4, *any_vector, *numbers;
   const Form *key_time, *stage_time, *length_of_time, *ease;
-  const Form *color, *scale, *axis, *rotation, *euler_order;
+  const Form *color, *scale, *axis, *rotation, *euler_order, *three_axes;
   const Form *euler, *axis_angle, *quaternion;  // rotations as keys spell them
   const Form* any;
 };

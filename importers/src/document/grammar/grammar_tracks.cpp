@@ -469,6 +469,21 @@ const Form* tracks_form(FormStore& store, const ValueForms& values) {
                               {make.aspect()}})},
       {".color", make.either({"color", values.color, values.vector_4, false, {make.space(), make.hue()}})},
       {".weights", make.either({"weights", values.numbers, values.numbers, false, {}, {}, {}, false})}};
+  const auto component = [&](const std::string& name, std::vector<Field> options, const std::string& unit) {
+    return make.either({name, values.number, values.number, false, std::move(options),
+                        make.functions.of_numbers(unit, name == "angle")});
+  };
+  const Form* length = component("coordinate", {make.relative(), make.modifiers(1)}, "m");
+  const Form* angle = component(
+      "angle", {make.relative(), {"order", values.three_axes, "", false, "\"XYZ\""}, make.modifiers(1)}, "degrees");
+  const Form* factor = component("factor", {make.relative(), make.modifiers(1)}, "of the size");
+  const Form* channel = component("channel", {make.modifiers(1)}, "linear, 0 to 1");
+  for (const char axis : {'x', 'y', 'z'}) {
+    tracks.endings.push_back({std::string(".position.") + axis, length});
+    tracks.endings.push_back({std::string(".rotation.") + axis, angle});
+    tracks.endings.push_back({std::string(".scale.") + axis, factor});
+  }
+  for (const char part : {'r', 'g', 'b', 'a'}) tracks.endings.push_back({std::string(".color.") + part, channel});
   tracks.others = make.user();
   tracks.name_pattern = "^[\\s\\S]+\\.[^.]+$";
   tracks.name_meant = property_meant;

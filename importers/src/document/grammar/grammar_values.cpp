@@ -188,6 +188,11 @@ ValueForms::ValueForms(FormStore& store) {
                                {"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "XYX", "XZX", "YXY", "YZY", "ZXZ", "ZYZ",
                                 "xyz", "xzy", "yxz", "yzx", "zxy", "zyx", "xyx", "xzx", "yxy", "yzy", "zxz", "zyz"}),
                       "euler-order"));
+  three_axes =
+      store.add(named(words_of("an order of three axes: capitals turn about the turned axes (\"XYZ\"), small "
+                               "letters about the fixed ones (\"xyz\")",
+                               {"XYZ", "XZY", "YXZ", "YZX", "ZXY", "ZYX", "xyz", "xzy", "yxz", "yzx", "zxy", "zyx"}),
+                      "order-of-three-axes"));
 
   const std::string what =
       "a rotation: {\"euler\": [x, y, z]}, {\"axis\": \"z\", \"angle\": 90} or {\"quat\": [x, y, z, w]}, in degrees";

@@ -1,3 +1,4 @@
+#include <tweenfall/anim/component.h>
 #include <tweenfall/curves/number_text.h>
 
 #include "document/form.h"
@@ -57,6 +58,19 @@ void read_events(const json::Value& list, const ClipTimes& times, double duratio
                    [](const ClipEvent& a, const ClipEvent& b) { return a.from < b.from; });
 }
 
+void read_tracks(const json::Value& tracks, const ClipTimes& times, Clip& clip, Problems& problems) {
+  std::vector<json::Member> read_from;
+  for (const json::Member& member : tracks.members()) {
+    if (is_free_name(member.name)) continue;
+    std::optional<Track> track = read_track(member, times, problems);
+    if (!track) continue;
+    clip.tracks.push_back(std::move(*track));
+    read_from.push_back(member);
+  }
+  for (const Rivals& pair : rivals(clip.tracks))
+    problems.add_name_beside(read_from[pair.second], "the tracks " + pair.problem, read_from[pair.first]);
+}
+
 }  // namespace
 
 Clip read_clip(const json::Member& member, std::optional<double> fps, Problems& problems) {
@@ -82,10 +96,7 @@ Clip read_clip(const json::Member& member, std::optional<double> fps, Problems& 
     if (endless) problems.add(loop, "an endless clip cannot loop; give it a \"duration\"");
     if (clip.duration <= 0) problems.add(loop, "a clip of no length cannot loop; give it a \"duration\"");
   }
-  if (const json::Value tracks = usable(value, "tracks"))
-    for (const json::Member& track : tracks.members())
-      if (!is_free_name(track.name))
-        if (std::optional<Track> read = read_track(track, times, problems)) clip.tracks.push_back(std::move(*read));
+  if (const json::Value tracks = usable(value, "tracks")) read_tracks(tracks, times, clip, problems);
   if (const json::Value events = usable(value, "events")) read_events(events, times, clip.duration, clip, problems);
   return clip;
 }

@@ -1,3 +1,5 @@
+#include <tweenfall/anim/component.h>
+
 #include "document/content.h"
 #include "document/fields/things.h"
 #include "document/form.h"
@@ -16,7 +18,7 @@ using Kind = json::Value::Kind;
 // Without nodes of its own a document's tracks make them, in order of appearance, so that it can be played.
 void make_nodes(Building& building, const json::Value& tracks) {
   for (const json::Member& track : tracks.members()) {
-    const std::size_t dot = track.name.rfind('.');
+    const std::size_t dot = property_dot(track.name);
     if (is_free_name(track.name) || dot == std::string::npos || track.value.is(Kind::faulty)) continue;
     NodeDescription node;
     node.name = track.name.substr(0, dot);
@@ -27,12 +29,13 @@ void make_nodes(Building& building, const json::Value& tracks) {
 
 void check_nodes(Building& building, const json::Value& tracks) {
   for (const json::Member& track : tracks.members()) {
-    const std::size_t dot = track.name.rfind('.');
+    const std::size_t dot = property_dot(track.name);
     if (is_free_name(track.name) || dot == std::string::npos || track.value.is(Kind::faulty)) continue;
     const std::string node(track.name.substr(0, dot));
-    if (building.nodes.count(node) == 0 && !building.excused(node))
-      building.problems.add_name(
-          track, "there is no node " + json::in_quotes(node) + suggestion_or_import(node, building.node_names()));
+    if (building.nodes.count(node) > 0 || building.excused(node)) continue;
+    const std::string meant = component_meant(track.name);
+    building.problems.add_name(track, "there is no node " + json::in_quotes(node) +
+                                          (meant.empty() ? suggestion_or_import(node, building.node_names()) : meant));
   }
 }
 

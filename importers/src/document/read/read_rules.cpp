@@ -1,5 +1,5 @@
 #include <tweenfall/anim/animation.h>
-
+#include <tweenfall/anim/component.h>
 #include <tweenfall/curves/number_text.h>
 
 #include "document/content.h"
@@ -38,7 +38,8 @@ class RuleReader {
     for (const Play& play : stage.plays) {
       if (play.clip >= stage.clips.size()) continue;
       for (const Track& track : stage.clips[play.clip].tracks) {
-        const Property property = property_named(track.property);
+        const auto component = component_named(track.property);
+        const Property property = component ? component->property : property_named(track.property);
         if (property != Property::position && property != Property::rotation && property != Property::scale) continue;
         const bool driven =
             play.mask.empty() || std::any_of(play.mask.begin(), play.mask.end(),

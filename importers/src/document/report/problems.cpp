@@ -119,6 +119,10 @@ void Problems::add_name(const json::Member& at, std::string message) {
   add(json::Fault{at.name_offset(), at.name_length(), std::move(message)});
 }
 
+void Problems::add_name_beside(const json::Member& at, std::string message, const json::Member& other) {
+  errors_.entries.push_back({{at.name_offset(), at.name_length(), std::move(message)}, {}, other.name_offset()});
+}
+
 void Problems::keep(std::size_t count) {
   errors_.entries.resize(std::min(errors_.entries.size(), count - std::min(count, errors_.foreign.size())));
 }
@@ -149,13 +153,18 @@ std::vector<Problem> Problems::located(Severity severity, const std::string& fil
   out.reserve(count + told.foreign.size() + 1);
   Walk walk(tree.text());
   for (std::size_t i = 0; i < count; ++i) {
-    const auto& [fault, value] = *ordered[i];
+    const auto& [fault, value, other] = *ordered[i];
     Problem problem;
     problem.severity = severity;
     problem.file = file;
     walk.to(std::min(fault.offset, tree.text().size()), problem);
     problem.pointer = tree.pointer_to(fault.offset);
     problem.message = fault.message;
+    if (other) {
+      const json::TextPlace place = json::place_in(tree.text(), *other);
+      problem.message +=
+          "; the first stands at line " + std::to_string(place.line) + ", column " + std::to_string(place.column);
+    }
     problem.length = value ? value.length() : fault.length;
     out.push_back(std::move(problem));
   }

@@ -6,6 +6,7 @@
 
 #include "json/json_tree.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ class Problems {
   void add(const json::Fault& fault) { errors_.entries.push_back({fault, {}}); }
   void add(const json::Value& at, std::string message);
   void add_name(const json::Member& at, std::string message);
+  // The same of two members, the second of which is where the first stands, too.
+  void add_name_beside(const json::Member& at, std::string message, const json::Member& other);
   // Forgets errors that another says better. @param count  errors that stay, the first
   void keep(std::size_t count);
   // What is no fault; a document without errors keeps it.
@@ -43,7 +46,8 @@ class Problems {
 
   struct Entry {
     json::Fault fault;
-    json::Value value;  // whose length is the fault's, unless it has one
+    json::Value value;                      // whose length is the fault's, unless it has one
+    std::optional<std::size_t> other = {};  // where the other stands that has part in it
   };
 
   struct Told {

@@ -1,5 +1,6 @@
 #include "document/report/suggestion.h"
 
+#include <tweenfall/anim/component.h>
 #include <tweenfall/curves/nearest_name.h>
 
 #include "json/json_tree.h"
@@ -58,12 +59,30 @@ std::string name_meant(std::string_view wrong, const std::vector<std::string>& n
 
 std::string property_meant(std::string_view track) {
   static const std::vector<std::string> ours{"position", "rotation", "scale", "color", "weights"};
-  const std::size_t dot = track.rfind('.');
+  const std::size_t dot = property_dot(track);
   if (dot == std::string_view::npos) return {};
   const std::string_view property = track.substr(dot + 1);
+  if (component_named(property)) return {};
   if (std::find(ours.begin(), ours.end(), property) != ours.end()) return {};
   const std::string meant = name_meant(property, ours);
   return meant.empty() ? meant : std::string(track.substr(0, dot + 1)) + meant;
+}
+
+std::string component_meant(std::string_view track) {
+  const std::size_t last = track.rfind('.');
+  const std::size_t before = last == std::string_view::npos || last == 0 ? last : track.rfind('.', last - 1);
+  if (before == std::string_view::npos || before == last) return {};
+  static const std::vector<std::string> whole{"position", "rotation", "scale", "color"};
+  const std::string_view word = track.substr(before + 1, last - before - 1), part = track.substr(last + 1);
+  const bool ours = std::find(whole.begin(), whole.end(), word) != whole.end();
+  const std::string meant = ours ? std::string(word) : name_meant(word, whole);
+  if (meant.empty()) return {};
+  const std::string small = small_letters(part);
+  const std::string name = std::string(track.substr(0, before + 1)) + meant + "." + small;
+  if (component_named(meant + "." + small)) return "; did you mean " + json::in_quotes(name) + "?";
+  if (!ours) return {};
+  return "; the components of a " + meant + " are " +
+         (meant == "color" ? "\"r\", \"g\", \"b\" and \"a\"" : "\"x\", \"y\" and \"z\"");
 }
 
 std::string suggestion_or_import(std::string_view wrong, const std::vector<std::string>& names) {

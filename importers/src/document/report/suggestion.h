@@ -29,4 +29,8 @@ namespace tweenfall::document {
 // "hinge.rotation" for "hinge.rot" or "hinge.rotate"; nothing for a track of ours and for what is near to none.
 [[nodiscard]] std::string property_meant(std::string_view track);
 
+// What a track's name may mean that ends in something like a component which is none, after "there is no node ...", or
+// nothing.
+[[nodiscard]] std::string component_meant(std::string_view track);
+
 }  // namespace tweenfall::document

@@ -66,9 +66,8 @@ class RotationTrack {
     return in_quaternions(text_in(track_, "turn") == "long");
   }
 
- private:
-  std::optional<Curve<Quat>> about_axis() {
-    const std::optional<Vec3> axis = axis_of(usable(track_, "axis"), problems_);
+  /// The angle alone, of plain degrees.
+  std::optional<Curve<double>> read_angle() {
     std::optional<Curve<double>> angle;
     if (const json::Value mix = usable(track_, "barycentric"))
       angle = mixed_angle(mix);
@@ -76,10 +75,16 @@ class RotationTrack {
       angle = read_angle_function(track_, problems_);
     else if (list_)
       angle = degrees_curve([](const json::Value& value) { return value; }, {});
-    if (!axis || !angle) return {};
-    angle = with_outside_of(track_, *angle);
-    if (usable(track_, "modifiers")) angle = with_modifiers(*angle);
     if (!angle) return {};
+    angle = with_outside_of(track_, *angle);
+    return usable(track_, "modifiers") ? with_modifiers(*angle) : angle;
+  }
+
+ private:
+  std::optional<Curve<Quat>> about_axis() {
+    const std::optional<Vec3> axis = axis_of(usable(track_, "axis"), problems_);
+    const std::optional<Curve<double>> angle = read_angle();
+    if (!axis || !angle) return {};
     return axis_curve(*axis, *angle);
   }
 
@@ -248,6 +253,10 @@ class RotationTrack {
 
 std::optional<Curve<Quat>> read_rotation_track(const json::Value& track, const ClipTimes& times, Problems& problems) {
   return RotationTrack(track, times, problems).read();
+}
+
+std::optional<Curve<double>> read_angle_track(const json::Value& track, const ClipTimes& times, Problems& problems) {
+  return RotationTrack(track, times, problems).read_angle();
 }
 
 }  // namespace tweenfall::document

@@ -12,4 +12,8 @@ namespace tweenfall::document {
 [[nodiscard]] std::optional<Curve<Quat>> read_rotation_track(const json::Value& track, const ClipTimes& times,
                                                              Problems& problems);
 
+// The angle of one axis, in radians, from plain degrees.
+[[nodiscard]] std::optional<Curve<double>> read_angle_track(const json::Value& track, const ClipTimes& times,
+                                                            Problems& problems);
+
 }  // namespace tweenfall::document

@@ -1,5 +1,6 @@
 #include "document/tracks/read_track.h"
 
+#include <tweenfall/anim/component.h>
 #include <tweenfall/curves/barycentric.h>
 #include <tweenfall/curves/functions.h>
 #include <tweenfall/curves/number_text.h>
@@ -57,6 +58,7 @@ class TrackReader {
 
   std::optional<TrackCurve> read(const std::string& property) {
     if (property == "rotation") return made(read_rotation_track(track_, times_, problems_));
+    if (property.starts_with("rotation.")) return made(read_angle_track(track_, times_, problems_));
     if (const json::Value mix = usable(track_, "barycentric")) return mixed(property, mix);
     if (const json::Value ratios = usable(track_, "aspect")) {
       const std::optional<Curve<Vec3>> factors = read_aspect(ratios, times_, problems_);
@@ -296,7 +298,7 @@ std::vector<std::pair<double, std::string>> words_of(const json::Value& track, c
 }  // namespace
 
 std::optional<Track> read_track(const json::Member& track, const ClipTimes& times, Problems& problems) {
-  const std::size_t dot = track.name.rfind('.');
+  const std::size_t dot = property_dot(track.name);
   if (dot == std::string::npos || track.value.is(Kind::faulty)) return {};
   const std::string property(track.name.substr(dot + 1));
   std::optional<TrackCurve> curve = read_curve(track.value, property, times, problems);
@@ -306,7 +308,8 @@ std::optional<Track> read_track(const json::Member& track, const ClipTimes& time
                .property = property,
                .curve = std::move(*curve),
                .relative = flag_in(track.value, "relative", false),
-               .words = std::move(words)};
+               .words = std::move(words),
+               .order = order_of(text_in(track.value, "order", "XYZ"))};
 }
 
 std::optional<Curve<double>> read_numbers(const json::Value& track, const ClipTimes& times, Problems& problems) {

@@ -5,6 +5,7 @@
 #include "gltf/write/mesh_writer.h"
 #include "gltf/write/sampler_keys.h"
 
+#include <tweenfall/anim/component.h>
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/model.h>
 #include <tweenfall/importers/whole_file.h>
@@ -183,8 +184,12 @@ Json animation_json(const Model& model, const Clip& clip, const std::map<std::st
 void write_animations(const Model& model, Json& document, BufferWriter& buffer, double fps) {
   std::map<std::string, std::size_t> index;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) index.emplace(model.nodes[i].name, i);
+  const auto node_named = [&](std::string_view name) -> const Node* {
+    const auto found = index.find(std::string(name));
+    return found == index.end() ? nullptr : &model.nodes[found->second];
+  };
   for (const Clip& clip : model.clips) {
-    Json animation = animation_json(model, clip, index, fps, buffer);
+    Json animation = animation_json(model, with_whole_tracks(clip, node_named), index, fps, buffer);
     if (!animation.is_null()) document["animations"].push_back(std::move(animation));
   }
 }

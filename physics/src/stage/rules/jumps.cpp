@@ -1,3 +1,4 @@
+#include <tweenfall/anim/component.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
@@ -9,6 +10,9 @@ namespace tweenfall::staging {
 
 namespace {
 
+bool differ(double a, double b) {
+  return (a - b) * (a - b) > 1e-18 * (1 + a * a);
+}
 bool differ(const Vec3& a, const Vec3& b) {
   return (a - b).squaredNorm() > 1e-18 * (1 + a.squaredNorm());
 }
@@ -85,6 +89,13 @@ std::shared_ptr<const Jumps> find_jumps(const StageState& state) {
       // What moves no body may jump as it likes: physics need not know.
       const auto node = state.nodes->find(track.node);
       if (!node || !jumps->carriers[*node]) continue;
+      if (const auto component = component_named(track.property)) {
+        if (component->property == Property::color) continue;
+        if (const auto* curve = std::get_if<Curve<double>>(&track.curve))
+          collect(*curve, clip, component->property != Property::scale, shadow.events);
+        moves = true;
+        continue;
+      }
       const Property property = property_named(track.property);
       if (property == Property::position || property == Property::scale) {
         // A parent's scale moves its children.
