@@ -145,6 +145,23 @@ TEST_CASE(
       "other": {"hinge": {"axis": "z", "motor": {"speed": -3000}}, "between": ["a", "b"], "at": [0.7, 3, 0]}}})"))
                             .stage());
     run(stage, 3);
+    CHECK(count_of(stage, "joint_strained") == 2);
+  }
+  {
+    Stage stage = Stage(parsed(document(two, R"("world": {"joints": {
+      "one": {"hinge": {"axis": "z", "limits": [10, 20]}, "between": ["a", "b"], "at": [0.5, 3, 0]},
+      "other": {"hinge": {"axis": "z", "limits": [-40, -30]}, "between": ["a", "b"], "at": [0.5, 3, 0]}}})"))
+                            .stage());
+    run(stage, 3);
+    CHECK(count_of(stage, "joint_strained") >= 1);
+  }
+  {
+    Stage stage = Stage(parsed(document(two, R"("world": {"joints": {
+      "turns": {"hinge": {"axis": "z", "motor": {"speed": 300}}, "between": ["a", "b"], "at": [0.5, 3, 0]},
+      "stops": {"hinge": {"axis": "z", "limits": [-10, 10], "motor": {"speed": 90}}, "between": "a", "at": [0, 3, 0]}}})"))
+                            .stage());
+    run(stage, 3);
+    CHECK(count_of(stage, "joint_strained") == 0);
   }
   {
     Stage stage = Stage(parsed(document(two, R"("world": {"joints": {

@@ -5,6 +5,7 @@
 #include "stage/rules/meetings.h"
 #include "stage/rules/overlaps.h"
 #include "stage/rules/sensed.h"
+#include "stage/rules/strains.h"
 
 namespace tweenfall::staging {
 

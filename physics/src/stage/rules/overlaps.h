@@ -1,6 +1,6 @@
 #pragma once
 
-// Bodies that lie in each other: where one leaves its path in others, and where something is pressed too hard.
+// Bodies that lie in each other where one leaves its path.
 
 #include <vector>
 
@@ -18,8 +18,5 @@ namespace tweenfall::staging {
 
 /// Lets bodies that pass through each other until they are apart meet again where they are.
 void end_passing(StageState& state);
-
-/// Tells of bodies that have come to lie deep in each other, and of joints that are torn open.
-void report_strains(StageState& state, std::vector<Happening>& happenings);
 
 }  // namespace tweenfall::staging
