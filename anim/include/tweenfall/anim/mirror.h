@@ -1,0 +1,57 @@
+#pragma once
+
+/// Mirroring whole poses: what the left side does, the right side does, and the other way about.
+///
+/// Each joint does what its partner across the plane does, measured from the rest pose, in the space of the whole
+/// figure: turned by the mirror image of the turn its partner made from rest, moved by the mirror image of its way. So
+/// the joints' own axes may lie in any way, on each side another; where the rest pose is symmetrical in the figure's
+/// space the mirrored pose is the mirror image, and where it is not each side keeps its own rest pose and proportions.
+/// Scales are taken over along the axes that are each other's images; a scale along axes that are not is spread over
+/// those nearest. Rates are mirrored with the poses, exactly. The mirror of a mirrored pose is the pose: bit for bit
+/// where the rest pose is symmetrical in the joints' own axes, to rounding else.
+
+#include <tweenfall/anim/hierarchy.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// Two names, or two patterns of names: what `*` stands for in a name on the left it stands for on the right
+/// ("*.L" and "*.R", "Left*" and "Right*"; as many in both).
+struct MirrorPair {
+  std::string left, right;
+};
+
+/// The usual ways of naming sides (".L", "_r", "Left") that this figure uses.
+[[nodiscard]] std::vector<MirrorPair> usual_sides(const Hierarchy& nodes);
+
+class Mirror {
+ public:
+  /// A joint that no pair names is its own partner.
+  /// @param normal  of the mirror plane, which goes through the origin of the figure's space; any length
+  /// @throws std::invalid_argument listing all problems: a pair that no joint matches, a joint without its partner, one
+  /// with two, partners whose parents are not partners, a normal of no length.
+  Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const Vec3& normal = {1, 0, 0});
+
+  [[nodiscard]] std::size_t size() const noexcept { return joints_.size(); }
+  [[nodiscard]] std::size_t partner(std::size_t joint) const noexcept { return joints_[joint].partner; }
+
+  /// @param pose  local motions, one for each node  @param out  written, of the same size; may be the pose itself
+  void apply(std::span<const Motion> pose, std::span<Motion> out) const noexcept;
+
+ private:
+  struct Joint {
+    std::size_t partner = 0;
+    Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before m(R) after, of the partner's mirrored R
+    Vec3 offset{0, 0, 0};                        ///< how its place at rest differs from the mirrored one
+    Mat3 scales = Mat3::Identity();              ///< from the partner's scale to its own
+  };
+  [[nodiscard]] Motion mirrored(const Joint& joint, const Motion& partner) const noexcept;
+
+  std::vector<Joint> joints_;
+  Vec3 normal_;
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,168 @@
+#include <tweenfall/anim/mirror.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "pose/name_patterns.h"
+#include "pose/rest.h"
+
+namespace tweenfall {
+
+namespace pose {
+namespace {
+
+Vec3 reflected(const Vec3& v, const Vec3& normal) noexcept {
+  return v - (2 * normal.dot(v)) * normal;
+}
+
+// Axes of turns: what is reflected turns the other way.
+Vec3 reflected_turn(const Vec3& v, const Vec3& normal) noexcept {
+  return (2 * normal.dot(v)) * normal - v;
+}
+
+Quat reflected(const Quat& q, const Vec3& normal) noexcept {
+  const Vec3 v = reflected_turn(q.vec(), normal);
+  return {q.w(), v[0], v[1], v[2]};
+}
+
+// The partner of each joint, and what is wrong with the pairs.
+std::vector<std::size_t> partners_of(const Hierarchy& nodes, std::span<const MirrorPair> pairs, std::string& problems) {
+  std::vector<std::size_t> partners(nodes.size(), no_node);
+  const auto meet = [&](std::size_t a, std::size_t b) {
+    if (partners[a] == no_node) partners[a] = b;
+    if (partners[a] == b) return;
+    problems += "\n  \"" + nodes[a].name + "\" has two partners, \"" + nodes[partners[a]].name + "\" and \"" +
+                nodes[b].name + "\"";
+  };
+  for (const MirrorPair& pair : pairs) {
+    if (stars_in(pair.left) != stars_in(pair.right)) {
+      problems += "\n  \"" + pair.left + "\" and \"" + pair.right + "\" must have as many *";
+      continue;
+    }
+    bool any = false;
+    const auto meet_all = [&](const std::string& from, const std::string& to) {
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const std::optional<std::string> name = renamed(nodes[i].name, from, to);
+        if (!name) continue;
+        any = true;
+        if (const auto other = nodes.find(*name))
+          meet(i, *other);
+        else
+          problems += "\n  \"" + nodes[i].name + "\" has no partner, for there is no \"" + *name + "\"";
+      }
+    };
+    meet_all(pair.left, pair.right);
+    meet_all(pair.right, pair.left);
+    if (!any) problems += "\n  no joint matches \"" + pair.left + "\" or \"" + pair.right + "\"";
+  }
+  for (std::size_t i = 0; i < partners.size(); ++i)
+    if (partners[i] == no_node) partners[i] = i;
+  return partners;
+}
+
+}  // namespace
+}  // namespace pose
+
+std::vector<MirrorPair> usual_sides(const Hierarchy& nodes) {
+  static const MirrorPair usual[]{
+      {"*.L", "*.R"},     {"*.l", "*.r"},     {"*_L", "*_R"},        {"*_l", "*_r"},        {"*-L", "*-R"},
+      {"*.L.*", "*.R.*"}, {"*.l.*", "*.r.*"}, {"*_L_*", "*_R_*"},    {"*_l_*", "*_r_*"},    {"L_*", "R_*"},
+      {"l_*", "r_*"},     {"* L *", "* R *"}, {"*Left*", "*Right*"}, {"*left*", "*right*"}, {"*LEFT*", "*RIGHT*"},
+  };
+  std::vector<MirrorPair> sides;
+  for (const MirrorPair& pair : usual) {
+    bool any = false, all = true;
+    for (const Node& node : nodes.nodes()) {
+      auto other = pose::renamed(node.name, pair.left, pair.right);
+      if (!other) other = pose::renamed(node.name, pair.right, pair.left);
+      if (!other) continue;
+      const bool found = nodes.find(*other).has_value();
+      any |= found;
+      all &= found;
+    }
+    if (any && all) sides.push_back(pair);
+  }
+  return sides;
+}
+
+Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const Vec3& normal) : normal_(normal) {
+  std::string problems;
+  const double largest = normal.cwiseAbs().maxCoeff();
+  if (!(largest > 0) || !std::isfinite(normal.sum()))
+    problems += "\n  the normal of its plane must have a length, and be finite";
+  else
+    normal_ = Vec3(normal / largest) / std::sqrt(Vec3(normal / largest).squaredNorm());
+
+  const std::size_t sound = problems.size();
+  const std::vector<std::size_t> partners = pose::partners_of(nodes, pairs, problems);
+  const bool paired_well = problems.size() == sound;
+  for (std::size_t i = 0; i < nodes.size() && paired_well; ++i) {
+    const std::size_t parent = nodes[i].parent, other = nodes[partners[i]].parent;
+    const bool paired = parent == no_node || other == no_node ? parent == other : partners[parent] == other;
+    if (paired || partners[i] < i) continue;
+    const auto name = [&](std::size_t node) {
+      return node == no_node ? std::string("no joint") : "\"" + nodes[node].name + "\"";
+    };
+    problems += "\n  " + name(i) + " is below " + name(parent) + " and its partner " + name(partners[i]) + " below " +
+                name(other) + ", which are no partners";
+  }
+  if (!problems.empty()) throw std::invalid_argument("a mirror does not fit its joints:" + problems);
+
+  // From rest, in the figure's space, a joint has the turn D = R B^-1 of its rotation R and of that at rest, B. It is
+  // to have the mirror image m(D) of its partner's. With the parents' the same, its local rotation is (Bp^-1 m(Bp'))
+  // m(q') (m(B')^-1 B), q' being its partner's, Bp the parent's rotation at rest, ' the partner's.
+  const std::vector<Pose> rest = pose::figure_poses(nodes);
+  joints_.resize(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Joint& joint = joints_[i];
+    joint.partner = partners[i];
+    const std::size_t parent = nodes[i].parent, other = nodes[joint.partner].parent;
+    if (parent != no_node)
+      joint.before =
+          pose::tidied(Quat(rest[parent].rotation.conjugate() * pose::reflected(rest[other].rotation, normal_)));
+    joint.after =
+        pose::tidied(Quat(pose::reflected(rest[joint.partner].rotation, normal_).conjugate() * rest[i].rotation));
+
+    const Pose &own = nodes[i].rest, &theirs = nodes[joint.partner].rest;
+    joint.offset = own.position - joint.before * pose::reflected(theirs.position, normal_);
+    const double size = std::max(own.position.cwiseAbs().maxCoeff(), theirs.position.cwiseAbs().maxCoeff());
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(joint.offset[k]) <= 1e-12 * size) joint.offset[k] = 0;
+
+    // A scale S of the partner's axes is one of m(S) in mirrored axes, of which these axes see the diagonal.
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vec3 seen = pose::reflected(Vec3(joint.after * Vec3(Mat3::Identity().col(axis))), normal_);
+      double at_rest = 0;
+      for (int k = 0; k < 3; ++k) {
+        joint.scales(axis, k) = pose::tidied(seen[k] * seen[k]);
+        at_rest += joint.scales(axis, k) * theirs.scale[k];
+      }
+      const double ratio = at_rest == 0 ? 1 : pose::tidied(own.scale[axis] / at_rest);
+      if (ratio != 0) joint.scales.row(axis) *= ratio;
+    }
+  }
+}
+
+Motion Mirror::mirrored(const Joint& joint, const Motion& partner) const noexcept {
+  Motion result;
+  result.pose.position = joint.before * pose::reflected(partner.pose.position, normal_) + joint.offset;
+  result.pose.rotation = joint.before * pose::reflected(partner.pose.rotation, normal_) * joint.after;
+  result.pose.scale = joint.scales * partner.pose.scale;
+  result.twist.linear = joint.before * pose::reflected(partner.twist.linear, normal_);
+  result.twist.angular = joint.before * pose::reflected_turn(partner.twist.angular, normal_);
+  result.scale_rate = joint.scales * partner.scale_rate;
+  return result;
+}
+
+void Mirror::apply(std::span<const Motion> pose, std::span<Motion> out) const noexcept {
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const std::size_t other = joints_[i].partner;
+    if (other < i) continue;
+    const Motion here = mirrored(joints_[i], pose[other]);
+    if (other != i) out[other] = mirrored(joints_[other], pose[i]);
+    out[i] = here;
+  }
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,38 @@
+#pragma once
+
+// Rest poses in the space of the whole figure.
+
+#include <tweenfall/anim/hierarchy.h>
+#include <tweenfall/curves/rotation.h>
+
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace tweenfall::pose {
+
+/// Of each node, from the local poses given; rotations of unit length. Empty: the nodes' own rest poses.
+[[nodiscard]] inline std::vector<Pose> figure_poses(const Hierarchy& nodes, std::span<const Pose> local = {}) {
+  std::vector<Pose> poses(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Pose own = local.empty() ? nodes[i].rest : local[i];
+    own.rotation = normalized(own.rotation);
+    poses[i] = nodes[i].parent == no_node ? own : compose(poses[nodes[i].parent], own);
+    poses[i].rotation = normalized(poses[i].rotation);
+  }
+  return poses;
+}
+
+/// The same rotation, or none where it is none but for rounding.
+[[nodiscard]] inline Quat tidied(const Quat& q) noexcept {
+  if (q.vec().cwiseAbs().maxCoeff() < 1e-12) return {1, 0, 0, 0};
+  return q;
+}
+
+/// The same number, or the whole one that it is but for rounding.
+[[nodiscard]] inline double tidied(double number) noexcept {
+  const double whole = std::round(number);
+  return std::abs(number - whole) < 1e-12 ? whole : number;
+}
+
+}  // namespace tweenfall::pose
