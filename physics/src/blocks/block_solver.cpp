@@ -398,7 +398,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   joints_.build(island.joints, places_, bodies_, h, dt);
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
   const double giving = effort.giving * softness.giving;
-  PassRule soft{softness.rate, softness.speed, 1 - giving, 1 - giving, 1 / h};
+  PassRule soft{all(softness.rate), all(softness.speed), all(1 - giving), all(1 - giving), all(1 / h)};
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
@@ -421,7 +421,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     end_lead();
     for (int k = 0; k < effort.relaxing; ++k) {
       holds_.solve(bodies, bodies_, contacts_, velocities_);
-      const PassRule hard{.inverse_h = 1 / h, .sum_up = k + 1 == effort.relaxing};
+      const PassRule hard{.inverse_h = all(1 / h), .sum_up = k + 1 == effort.relaxing};
       by_color([&](const Rows& some) { kernels.solve(some, hard); });
       joints_.solve(velocities_, false, k % 2 == 0);
     }

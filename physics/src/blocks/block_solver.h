@@ -16,7 +16,7 @@
 
 namespace tweenfall::blocks {
 
-/// Contacts of islands in sub-steps, four at a time: what `Solver` does, with rows prepared once for a step (and
+/// Contacts of islands in sub-steps, eight at a time: what `Solver` does, with rows prepared once for a step (and
 /// again when a body has turned), few passes, and friction at the middle of what does not slide.
 /// Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024, and SIMD Matters,
 /// 2024.
@@ -55,7 +55,7 @@ class BlockSolver {
  private:
   /// A point that would rebound in this sub-step.
   struct Rebound {
-    std::uint32_t lane, point;  ///< 4 * block + lane, and which of the contact's points
+    std::uint32_t lane, point;  ///< 8 * block + lane, and which of the contact's points
     double speed;               ///< wanted at the end of the sub-step, m/s
     double time;                ///< how long it moves the bodies, s
     double speed_before = 0;    ///< m/s

@@ -1,8 +1,9 @@
 #pragma once
 
-/// Contacts of four pairs that share no movable body, row by row.
+/// Contacts of eight pairs that share no movable body, row by row.
 
 #include <cstdint>
+#include <span>
 
 #include "blocks/lanes.h"
 
@@ -95,15 +96,15 @@ struct MeetingRow {
   Lanes pull, tremble, restitution;
 };
 
-/// How an overlapping contact gives way in a pass.
+/// How an overlapping contact gives way in a pass: the same in all lanes.
 struct PassRule {
-  double rate = 0;       ///< share of the overlap that is taken apart, 1/s
-  double speed = 0;      ///< at most, m/s
-  double firm = 1;       ///< share of the speed error met
-  double keeping = 1;    ///< share of the impulse kept
-  double inverse_h = 0;  ///< of the sub-step, 1/s
-  bool note = false;     ///< notes what is pressed and held
-  bool sum_up = false;   ///< adds the impulses to the totals
+  Lanes rate = all(0);       ///< share of the overlap that is taken apart, 1/s
+  Lanes speed = all(0);      ///< at most, m/s
+  Lanes firm = all(1);       ///< share of the speed error met
+  Lanes keeping = all(1);    ///< share of the impulse kept
+  Lanes inverse_h = all(0);  ///< of the sub-step, 1/s
+  bool note = false;         ///< notes what is pressed and held
+  bool sum_up = false;       ///< adds the impulses to the totals
 };
 
 /// Rows of a whole island, and its bodies. What stands firm has the last word: contacts of one movable body come after
@@ -144,14 +145,15 @@ struct Kernels {
   void (*solve)(const Rows& rows, const PassRule& rule);
   /// Takes out of the lags of what is pressed what a contact holds: along the normal, or all of it.
   void (*hold)(const Rows& rows);
-  /// Finds what may meet in the sub-step fast enough to rebound: lanes as 4 * block + lane, in order; balls after all
+  /// Finds what may meet in the sub-step fast enough to rebound: lanes as 8 * block + lane, in order; balls after all
   /// blocks.
   /// `starts`: velocities at the start of the sub-step; `found`: room for all lanes. Returns how many.
   std::size_t (*find_meetings)(const Rows& rows, const BodyLanes* starts, double h, std::uint32_t* found);
 };
 
-[[nodiscard]] const Kernels& plain_kernels();
-/// The widest that this processor has.
+/// For all instruction sets that this processor has, the plainest first and the widest last.
+[[nodiscard]] std::span<const Kernels* const> possible_kernels();
+/// The last of them.
 [[nodiscard]] const Kernels& fastest_kernels();
 
 }  // namespace tweenfall::blocks

@@ -14,7 +14,7 @@
 
 namespace tweenfall::blocks {
 
-/// The contacts of an island, four at a time, by color.
+/// The contacts of an island, eight at a time, by color.
 class ContactBlocks {
  public:
   /// Which contacts a block holds; null for an empty lane.
@@ -41,7 +41,7 @@ class ContactBlocks {
     return i < blocks.size() ? origins[i] : ball_origins[i - blocks.size()];
   }
 
-  /// Of a point of the contact in a lane, 4 * block + lane, N s.
+  /// Of a point of the contact in a lane, 8 * block + lane, N s.
   [[nodiscard]] double impulse(std::uint32_t lane, std::uint32_t point) const {
     const std::size_t i = lane / lane_count;
     return i < blocks.size() ? points[blocks[i].point + point].impulse[lane % lane_count]

@@ -41,7 +41,7 @@ class IslandHolds {
   };
   struct Rolling {
     contacts::ContactConstraint* contact = nullptr;
-    std::uint32_t lane = 0;      ///< 4 * block + lane; balls come after all blocks
+    std::uint32_t lane = 0;      ///< 8 * block + lane; balls come after all blocks
     std::uint32_t a = 0, b = 0;  ///< places
   };
   void solve_drive(HeldByDrive& held, const std::vector<state::Body>& bodies, std::vector<IslandBody>& entries,

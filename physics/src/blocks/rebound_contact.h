@@ -11,7 +11,7 @@ namespace tweenfall::blocks {
 /// looked at several times.
 class ReboundContact {
  public:
-  /// @param lane  4 * block + lane; balls come after all blocks
+  /// @param lane  8 * block + lane; balls come after all blocks
   void take(const ContactBlocks& contacts, std::uint32_t lane, const std::vector<IslandBody>& bodies);
   /// Point `i` shall leave with this speed.
   void want(std::size_t i, double speed) { points_[i].wanted = speed; }

@@ -11,7 +11,7 @@
 namespace tweenfall::blocks {
 
 /// The contacts that a rebound reaches, and which of them are to be looked at again because a body of theirs was
-/// pushed. Contacts are told by lanes: 4 * block + lane, balls after all blocks.
+/// pushed. Contacts are told by lanes: 8 * block + lane, balls after all blocks.
 class ReboundReach {
  public:
   /// The blocks have others in them.
