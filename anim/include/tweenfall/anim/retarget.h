@@ -1,0 +1,69 @@
+#pragma once
+
+/// The poses of one skeleton for another, of other proportions, other joints between and other axes of the joints.
+///
+/// A joint of the target turns, in the space of the whole figure, as its source joint turns from rest: its rotation is
+/// that turn of its own rotation at rest. Joints without a source keep their rest pose relative to their parent. Ways
+/// are those of the joint that carries the figure, the hips, scaled by the ratio of the two hip heights; all other
+/// joints keep the lengths of their own bones. Scales are those of the target at rest. All rates are exact.
+///
+/// Where the two rest poses do not stand alike (arms out, arms down), poses in which they do are given as stances.
+/// Scales of the rest poses are taken into account as far as they are even.
+
+#include <tweenfall/anim/hierarchy.h>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// Two names, or two patterns of names: what `*` stands for in the source stands for in the target ("mixamorig:*" and
+/// "*"; as many in both); of a pattern, joints that the target lacks are left out.
+struct RetargetPair {
+  std::string source, target;
+  bool moves = false;  ///< its way from rest is taken over too, scaled; that of joints below no other mapped one always
+};
+
+struct RetargetSettings {
+  double scale = 0;       ///< of ways; 0: the ratio of the hip heights, of the highest mapped joint that moves
+  Vec3 up{0, 1, 0};       ///< in the source's space: along it heights are measured, from the origin
+  Quat turn{1, 0, 0, 0};  ///< from the source figure's space to the target figure's
+  std::vector<Pose> source_stance{}, target_stance{};  ///< local poses in which both stand alike; empty: the rest poses
+};
+
+class Retarget {
+ public:
+  /// @throws std::invalid_argument listing all problems: names and patterns of no joint, a joint mapped twice, a joint
+  /// that is below another in the target and not in the source, no pairs, hips on the ground where no scale is given,
+  /// stances of another size.
+  Retarget(const Hierarchy& source, const Hierarchy& target, std::span<const RetargetPair> pairs,
+           const RetargetSettings& settings = {});
+
+  /// Of target joints.
+  [[nodiscard]] std::size_t size() const noexcept { return joints_.size(); }
+  /// The source joint of a target joint, or `no_node`.
+  [[nodiscard]] std::size_t source_of(std::size_t joint) const noexcept { return joints_[joint].source; }
+  /// Of ways.
+  [[nodiscard]] double scale() const noexcept { return scale_; }
+
+  /// @param source  local motions of the source  @param out  written, one for each joint of the target; not the source
+  void apply(std::span<const Motion> source, std::span<Motion> out) const noexcept;
+
+ private:
+  struct Joint {
+    Motion rest;
+    std::size_t source = no_node;
+    std::size_t chain = 0, chain_end = 0;        ///< the source's joints below the one of the next mapped parent
+    Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before Q after, Q being the chain's
+    Vec3 chain_place{0, 0, 0};                   ///< the chain's end at rest
+    Mat3 way = Mat3::Zero();                     ///< from the way of the chain's end to its own
+  };
+  class Maker;
+
+  std::vector<Joint> joints_;
+  std::vector<std::size_t> chains_;
+  double scale_ = 1;
+};
+
+}  // namespace tweenfall
