@@ -84,6 +84,7 @@ inline Scene scene_from(const nlohmann::json& json) {
     entry.angular_damping = json.value("angular_damping", 0.0);
     if (body.contains("linear_velocity")) entry.motion.twist.linear = vector_from(body.at("linear_velocity"));
     if (body.contains("angular_velocity")) entry.motion.twist.angular = vector_from(body.at("angular_velocity"));
+    if (!json.value("collisions", true)) entry.collides_with = 0;
     scene.bodies.push_back(scene.world.add(entry));
     scene.settings.push_back(entry);
   }

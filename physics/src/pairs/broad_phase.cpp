@@ -76,6 +76,8 @@ BroadPhase::Look BroadPhase::look_at(const Body& body, std::uint32_t index, cons
                                      double dt) {
   Entry& entry = entries_[index];
   Look look;
+  // What may meet nobody needs no box.
+  if (body.sensor || body.groups == 0 || body.collides_with == 0) return look;
   look.kind = std::isinf(body.radius) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
   entry.stirs = body.stirs();
   entry.displaces = body.displaces();
@@ -98,7 +100,7 @@ void BroadPhase::follow(const Look& look, std::uint32_t index) {
   }
   Entry& entry = entries_[index];
   entry.kind = look.kind;
-  if (look.kind == Kind::plane || !look.leaves) return;
+  if (look.kind == Kind::none || look.kind == Kind::plane || !look.leaves) return;
   // Not all for the same number of steps, so that bodies that fall alike do not leave their boxes all at once.
   const int ahead = entry.foresight - static_cast<int>(index % (entry.foresight / 2 + 1u));
   tree_of(look.kind).set(index, look.still ? entry.swept : in_space(with_room(entry.swept, look.travel, ahead)));

@@ -25,7 +25,7 @@ class BroadPhase {
   /// Pairs, sorted, that may meet and whose swept bounds overlap, of which at least one moves by itself and at least
   /// one stirs.
   /// @param changed  sorted: all bodies that move by themselves, and all others that were added, moved or handed over,
-  /// or had or have a target, since they were last given
+  /// or had or have a target, or were told whom they may meet, since they were last given
   /// @param margin  pairs with a gap up to this count too, m
   const std::vector<Pair>& find(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
                                 const std::vector<forces::Load>& loads, const PairFilter& filter, double margin,

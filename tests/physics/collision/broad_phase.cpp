@@ -85,7 +85,8 @@ struct Crowd {
           broad_phase.look_again(index);
       } else if (what < 0.15) {
         body.groups = random.bits() % 8;
-        body.collides_with = random.bits() % 16 | 1;
+        body.collides_with = random.unit() < 0.2 ? 0 : random.bits() % 16 | 1;
+        told.push_back(index);
         broad_phase.look_again(index);
       } else if (what < 0.25 && body.alive) {
         broad_phase.remove(index);
