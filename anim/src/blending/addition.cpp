@@ -1,6 +1,5 @@
 #include <tweenfall/anim/blend.h>
 #include <tweenfall/curves/elementary.h>
-#include <tweenfall/curves/rotation.h>
 
 namespace tweenfall {
 
@@ -10,6 +9,7 @@ namespace {
 // s r^w with its rate.
 void grow(double& scale, double& rate, double ratio, double ratio_rate, double weight, double weight_rate) noexcept {
   double factor, factor_rate;
+  if (ratio == 1 && ratio_rate == 0) return;
   if (ratio > 0) {
     const double logarithm = elementary::log(ratio);
     factor = weight == 0 ? 1 : weight == 1 ? ratio : elementary::exp(weight * logarithm);
@@ -44,22 +44,16 @@ Motion difference(const Motion& reference, const Motion& pose) noexcept {
 Motion add(const Motion& base, const Motion& difference, const Sample<double>& weight) noexcept {
   const double w = weight.value, w_rate = weight.rate;
   if (w == 0 && w_rate == 0) return base;
+  // The part of the difference is what lies so far on the way to it from nothing.
+  const Motion part = mix(Motion{}, difference, w, w_rate);
   Motion result = base;
-  result.pose.position += w * difference.pose.position;
-  result.twist.linear += w * difference.twist.linear + w_rate * difference.pose.position;
+  result.pose.position += part.pose.position;
+  result.twist.linear += part.twist.linear;
+  if (w != 0) result.pose.rotation = base.pose.rotation * part.pose.rotation;
+  result.twist.angular += base.pose.rotation * part.twist.angular;
   for (int i = 0; i < 3; ++i)
     blending::grow(result.pose.scale[i], result.scale_rate[i], difference.pose.scale[i], difference.scale_rate[i], w,
                    w_rate);
-
-  // D^w = exp(w r) with exp(r) = D; the left Jacobian (that of -r) ties the rate of r to the angular velocity.
-  const Vec3 r = log_map(difference.pose.rotation);
-  const Vec3 r_rate = right_jacobian_inverse(-r) * difference.twist.angular;
-  const Vec3 turning = right_jacobian(-w * r) * Vec3(w_rate * r + w * r_rate);
-  if (w == 1)
-    result.pose.rotation = base.pose.rotation * difference.pose.rotation;
-  else if (w != 0)
-    result.pose.rotation = base.pose.rotation * exp_map(w * r);
-  result.twist.angular += base.pose.rotation * turning;
   return result;
 }
 

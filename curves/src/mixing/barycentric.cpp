@@ -73,6 +73,15 @@ Sample<Quat> center(const Shares& shares, const Get& get) {
   return result;
 }
 
+// Without the acceleration, which takes half the time.
+template <class Get>
+Sample<Quat> turning(const Shares& shares, const Get& get) {
+  Sample<Quat> result = rotations::outer(
+      rotations::turning_center(shares.size(), get, [&shares](std::size_t i) { return shares[i]; }).moving);
+  if (shares.only() < shares.size()) result.value = get(shares.only()).value;
+  return result;
+}
+
 }  // namespace
 }  // namespace tweenfall::mixing
 
@@ -135,7 +144,7 @@ Motion barycentric(std::span<const Motion> values, mixing::Weights weights) {
   const Sample<Vec3> scale = mixing::mean<Vec3>(shares, [&](std::size_t i) {
     return Sample<Vec3>{values[i].pose.scale, values[i].scale_rate, none};
   });
-  const Sample<Quat> rotation = mixing::center(shares, [&](std::size_t i) {
+  const Sample<Quat> rotation = mixing::turning(shares, [&](std::size_t i) {
     return Sample<Quat>{values[i].pose.rotation, values[i].twist.angular, none};
   });
   return {{position.value, rotation.value, scale.value}, {position.rate, rotation.rate}, scale.rate};

@@ -1,6 +1,8 @@
 #include <tweenfall/curves/pose.h>
 #include <tweenfall/curves/rotation.h>
 
+#include "rotation/rotation_parts.h"
+
 namespace tweenfall {
 
 Vec3 transform_point(const Pose& pose, const Vec3& point) noexcept {
@@ -55,6 +57,19 @@ Motion mix(const Motion& a, const Motion& b, double weight, double weight_rate) 
     if (weight == 1) return b;
   }
   Motion result;
+  result.twist.linear =
+      (1 - weight) * a.twist.linear + weight * b.twist.linear + weight_rate * (b.pose.position - a.pose.position);
+  result.scale_rate = (1 - weight) * a.scale_rate + weight * b.scale_rate + weight_rate * (b.pose.scale - a.pose.scale);
+
+  // q = a exp(w r) with exp(r) = a^-1 b. In the axes of a, the rate of exp(r) is the difference of the
+  // two angular velocities; the left Jacobian (that of -r) leads to r' and back.
+  const Quat back = a.pose.rotation.conjugate();
+  const rotations::LogParts way(back * b.pose.rotation);
+  const rotations::ExpParts turn(weight * way.r);
+  const Vec3 difference = back * Vec3(b.twist.angular - a.twist.angular);
+  const Vec3 turning = turn.left(weight_rate * way.r + weight * way.left_inverse(difference));
+  result.twist.angular = a.twist.angular + a.pose.rotation * turning;
+
   // The ends are the inputs themselves, whatever the rate.
   if (weight == 0) {
     result.pose = a.pose;
@@ -63,20 +78,9 @@ Motion mix(const Motion& a, const Motion& b, double weight, double weight_rate) 
   } else {
     result.pose.position = (1 - weight) * a.pose.position + weight * b.pose.position;
     result.pose.scale = (1 - weight) * a.pose.scale + weight * b.pose.scale;
-    result.pose.rotation = slerp(a.pose.rotation, b.pose.rotation, weight);
+    const Quat& near = weight < 0.5 ? a.pose.rotation : b.pose.rotation;
+    result.pose.rotation = hemisphere_aligned(a.pose.rotation * turn.rotation, near);
   }
-  result.twist.linear =
-      (1 - weight) * a.twist.linear + weight * b.twist.linear + weight_rate * (b.pose.position - a.pose.position);
-  result.scale_rate = (1 - weight) * a.scale_rate + weight * b.scale_rate + weight_rate * (b.pose.scale - a.pose.scale);
-
-  // q = a exp(w r) with exp(r) = a^-1 b. In the axes of a, the rate of exp(r) is the difference of the
-  // two angular velocities; the left Jacobian (that of -r) leads to r' and back.
-  const Quat back = a.pose.rotation.conjugate();
-  const Vec3 r = log_map(back * b.pose.rotation);
-  const Vec3 difference = back * Vec3(b.twist.angular - a.twist.angular);
-  const Vec3 r_rate = right_jacobian_inverse(-r) * difference;
-  const Vec3 turning = right_jacobian(-weight * r) * Vec3(weight_rate * r + weight * r_rate);
-  result.twist.angular = a.twist.angular + a.pose.rotation * turning;
   return result;
 }
 

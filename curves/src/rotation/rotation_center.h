@@ -6,8 +6,10 @@
 
 #include <Eigen/LU>
 
+#include "math/cross_matrix.h"
 #include "math/jet.h"
 #include "rotation/moving_rotation.h"
+#include "rotation/rotation_parts.h"
 
 namespace tweenfall::rotations {
 
@@ -18,65 +20,116 @@ namespace tweenfall::rotations {
   return signed_log(between);
 }
 
-/// `get(i)` is rotation i as a Sample, `weight(i)` its weight as a Jet; weights sum to one.
-///
-/// With r_i the way to rotation i in the axes of the center, sum w_i r_i = 0. A small turn d of the center takes
-/// J(-r_i)^-1 d off every way, from which Newton's method follows, and differentiating the sum twice gives the rates.
-template <class Get, class Weight>
-[[nodiscard]] Sample<Quat> rotation_center(std::size_t count, const Get& get, const Weight& weight) noexcept {
-  const Vec3 rest(0, 0, 0);
-  std::size_t heaviest = 0;
-  for (std::size_t i = 1; i < count; ++i)
-    if (weight(i).v > weight(heaviest).v) heaviest = i;
-  MovingRotation center{get(heaviest).value, rest, rest};
+/// The sum of the weighted ways from a rotation to others, and the slope by which a small turn of it is taken off.
+struct Balance {
+  Vec3 sum{0, 0, 0};
+  Mat3 slope = Mat3::Zero();
 
-  const auto left_over = [&](const Quat& q, Mat3& slope) {
-    Vec3 sum = rest;
-    slope.setZero();
+  template <class Get, class Weight>
+  Balance(const Quat& q, std::size_t count, const Get& get, const Weight& weight) noexcept {
+    const Quat back = q.conjugate();
+    double even = 0;
     for (std::size_t i = 0; i < count; ++i) {
       const double w = weight(i).v;
       if (w == 0) continue;
-      const Vec3 r = log_map(q.conjugate() * get(i).value);
-      sum += w * r;
-      slope += w * right_jacobian_inverse(-r);
+      const LogParts way(back * get(i).value);
+      sum += w * way.r;
+      // J(-r)^-1 = 1 - [r]/2 + c [r]^2, and [r]^2 = r r^T - |r|^2
+      const Vec3 bent = (w * way.c) * way.r;
+      for (int k = 0; k < 3; ++k) slope.col(k) += way.r[k] * bent;
+      even += w - bent.dot(way.r);
     }
-    return sum;
+    slope.diagonal().array() += even;
+    slope -= 0.5 * math::cross_matrix(sum);
+  }
+};
+
+/// Near the center, where all lie near each other: the mean of the numbers, signs aligned to the heaviest.
+template <class Get, class Weight>
+[[nodiscard]] Quat center_guess(std::size_t count, const Get& get, const Weight& weight) noexcept {
+  std::size_t heaviest = 0;
+  for (std::size_t i = 1; i < count; ++i)
+    if (weight(i).v > weight(heaviest).v) heaviest = i;
+  const Quat first = get(heaviest).value;
+  Vec4 sum = Vec4::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double w = weight(i).v;
+    if (w < 0) return first;
+    const Quat q = get(i).value;
+    sum += (q.dot(first) < 0 ? -w : w) * q.coeffs();
+  }
+  const double length = std::sqrt(sum.squaredNorm());
+  if (!(length > 0.5)) return first;
+  return Quat(sum / length);
+}
+
+/// A center, how it turns, and the inverse of the slope of its balance.
+struct TurningCenter {
+  MovingRotation moving;
+  Mat3 inverse;
+};
+
+/// `get(i)` is rotation i as a Sample, `weight(i)` its weight as a Jet; weights sum to one. The acceleration is left
+/// out.
+///
+/// With r_i the way to rotation i in the axes of the center, sum w_i r_i = 0. A small turn d of the center takes
+/// J(-r_i)^-1 d off every way, from which Newton's method follows, and differentiating the sum gives the rate.
+template <class Get, class Weight>
+[[nodiscard]] TurningCenter turning_center(std::size_t count, const Get& get, const Weight& weight) noexcept {
+  Quat center = center_guess(count, get, weight);
+  const auto turned = [](const Quat& q, const Vec3& step) {
+    Quat next = q * exp_map(step);
+    next.coeffs() /= std::sqrt(next.coeffs().squaredNorm());
+    return next;
   };
-  Mat3 slope;
-  Vec3 sum = left_over(center.value, slope);
-  for (int round = 0; round < 40 && !sum.isZero(0); ++round) {
-    Vec3 step = slope.inverse() * sum;
+  Balance balance(center, count, get, weight);
+  for (int round = 0; round < 40; ++round) {
+    Vec3 step = balance.slope.inverse() * balance.sum;
+    const double square = step.squaredNorm();
+    if (!(square > 1e-32)) break;
+    if (square < 1e-16) {  // Newton's method leaves the square of it
+      center = turned(center, step);
+      balance = Balance(center, count, get, weight);
+      break;
+    }
     bool better = false;
     for (int halving = 0; halving < 8 && !better; ++halving, step /= 2) {
-      Quat next = center.value * exp_map(step);
-      next.coeffs() /= std::sqrt(next.coeffs().squaredNorm());
-      Mat3 next_slope;
-      const Vec3 next_sum = left_over(next, next_slope);
-      if (!(next_sum.squaredNorm() < sum.squaredNorm())) continue;
+      const Quat next = turned(center, step);
+      const Balance there(next, count, get, weight);
+      if (!(there.sum.squaredNorm() < balance.sum.squaredNorm())) continue;
       better = true;
-      center.value = next;
-      sum = next_sum;
-      slope = next_slope;
+      center = next;
+      balance = there;
     }
     if (!better) break;
   }
 
-  const Mat3 inverse = slope.inverse();
+  const Vec3 rest(0, 0, 0);
+  TurningCenter result{{center, rest, rest}, balance.slope.inverse()};
   Vec3 pull = rest;
+  const Quat back = center.conjugate();
   for (std::size_t i = 0; i < count; ++i) {
     const math::Jet w = weight(i);
-    const MovingVector r = short_way(center, inner(get(i)));
-    pull += w.d * r.value + w.v * r.first;
+    const Sample<Quat> other = get(i);
+    const LogParts way(back * other.value);
+    pull += w.d * way.r + w.v * way.right_inverse(other.value.conjugate() * other.rate);
   }
-  center.velocity = inverse * pull;
-  pull = rest;
+  result.moving.velocity = result.inverse * pull;
+  return result;
+}
+
+/// The same with the acceleration, by differentiating the sum twice.
+template <class Get, class Weight>
+[[nodiscard]] Sample<Quat> rotation_center(std::size_t count, const Get& get, const Weight& weight) noexcept {
+  TurningCenter center = turning_center(count, get, weight);
+  Vec3 pull(0, 0, 0);
   for (std::size_t i = 0; i < count; ++i) {
     const math::Jet w = weight(i);
-    const MovingVector r = short_way(center, inner(get(i)));
+    const MovingVector r = short_way(center.moving, inner(get(i)));
     pull += w.dd * r.value + 2 * w.d * r.first + w.v * r.second;
   }
-  center.acceleration = inverse * pull;
-  return outer(center);
+  center.moving.acceleration = center.inverse * pull;
+  return outer(center.moving);
 }
 
 }  // namespace tweenfall::rotations
