@@ -25,7 +25,7 @@ inline double unit_hash(std::uint32_t x) {
   return x / 4294967296.0;
 }
 
-struct CrowdClip {
+struct CrowdFigure {
   static constexpr std::uint32_t frames = 301;
   static constexpr double duration = 10;
 

@@ -12,7 +12,7 @@
 namespace {
 
 using namespace tweenfall;
-using tweenfall::bench::CrowdClip;
+using tweenfall::bench::CrowdFigure;
 using tweenfall::bench::unit_hash;
 
 enum class Order { forward, random };
@@ -31,9 +31,9 @@ const Figure& figure(std::uint32_t joints, Keys keys) {
   static std::map<std::pair<std::uint32_t, Keys>, Figure> made;
   const auto known = made.find({joints, keys});
   if (known != made.end()) return known->second;
-  const auto nodes = CrowdClip::nodes(joints);
+  const auto nodes = CrowdFigure::nodes(joints);
   const std::size_t before = allocated();
-  Animation animation(nodes, {CrowdClip::clip(joints, keys == Keys::smooth ? Ease::smooth() : Ease::linear())},
+  Animation animation(nodes, {CrowdFigure::clip(joints, keys == Keys::smooth ? Ease::smooth() : Ease::linear())},
                       {{.clip = 0}});
   const std::size_t bytes = allocated() - before;
   return made.emplace(std::pair(joints, keys), Figure{std::move(animation), bytes}).first->second;
@@ -47,11 +47,11 @@ struct Crowd {
   std::uint32_t draws = 0;
 
   explicit Crowd(std::uint32_t joints) : poses(std::size_t{size} * joints) {
-    for (std::uint32_t i = 0; i < size; ++i) times.push_back(CrowdClip::duration * unit_hash(i));
+    for (std::uint32_t i = 0; i < size; ++i) times.push_back(CrowdFigure::duration * unit_hash(i));
   }
   void move(Order order) {
     for (double& time : times)
-      time = order == Order::forward ? time + 1 / 60.0 : CrowdClip::duration * unit_hash(++draws);
+      time = order == Order::forward ? time + 1 / 60.0 : CrowdFigure::duration * unit_hash(++draws);
   }
 };
 
@@ -67,7 +67,7 @@ void one_figure(benchmark::State& state, Order order, Keys keys) {
   std::uint32_t frame = 0;
   for (auto _ : state) {
     ++frame;
-    figure_of_joints.animation.sample(order == Order::forward ? frame / 60.0 : CrowdClip::duration * unit_hash(frame),
+    figure_of_joints.animation.sample(order == Order::forward ? frame / 60.0 : CrowdFigure::duration * unit_hash(frame),
                                       pose);
     benchmark::DoNotOptimize(pose.data());
     benchmark::ClobberMemory();

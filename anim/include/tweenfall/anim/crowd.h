@@ -1,0 +1,72 @@
+#pragma once
+
+/// Clips for crowds: compiled once into a compact form, then sampled at any time at the same small cost.
+///
+/// `compile` measures what it leaves out against the exact path, in the space of the whole figure, and goes on until
+/// the tolerance is kept. A compiled clip holds what moves joints; its events and other tracks stay with the clip that
+/// it was made from. Sampling is total, allocates nothing, and gives the same bits on every processor.
+
+#include <tweenfall/anim/clip.h>
+#include <tweenfall/anim/crowd_pose.h>
+#include <tweenfall/anim/hierarchy.h>
+#include <tweenfall/anim/play.h>
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace tweenfall {
+
+struct CrowdSettings {
+  /// How far a point may be from where the exact path has it, in the space of the figure, m; > 0.
+  double tolerance = 1e-4;
+  /// The points: this far from each joint along each of its axes, m; >= 0. The length of what hangs on a joint.
+  double arm = 0.1;
+};
+
+namespace crowd {
+struct CompiledClip;
+}
+
+class CrowdClip {
+ public:
+  [[nodiscard]] std::size_t joints() const noexcept;
+  [[nodiscard]] std::size_t groups() const noexcept { return crowd_groups(joints()); }
+  [[nodiscard]] double duration() const noexcept;  ///< s
+  [[nodiscard]] const Loop& loop() const noexcept;
+  /// The largest distance from the exact path that was measured, m: of the points that the settings tell of.
+  [[nodiscard]] double error() const noexcept;
+  [[nodiscard]] std::size_t byte_count() const noexcept;  ///< as many as `to_bytes` gives
+
+  /// Where a play of the clip stands: the one clock of all its tracks, as `clock_at` has it.
+  [[nodiscard]] ClipClock clock(double at, double speed, double stage_time, Side side = Side::out) const noexcept;
+
+  /// The pose at a clock. @param pose  written; `groups()` of them
+  void sample(const ClipClock& clock, std::span<CrowdGroup> pose) const noexcept;
+  /// The same and its rates: the derivatives, with respect to stage time, of what is written to `pose`.
+  /// @param rates  written; `groups()` of them
+  void sample(const ClipClock& clock, std::span<CrowdGroup> pose, std::span<CrowdRates> rates) const noexcept;
+  /// The pose at a time of the clip; the ends hold.
+  void sample(double clip_time, std::span<CrowdGroup> pose) const noexcept;
+
+  /// Bytes to be kept: a version, a checksum and the clip; the same on every machine.
+  [[nodiscard]] std::vector<std::byte> to_bytes() const;
+  /// @throws std::invalid_argument for bytes that `to_bytes` of this version did not write, saying what is wrong
+  [[nodiscard]] static CrowdClip from_bytes(std::span<const std::byte> bytes);
+
+  [[nodiscard]] const crowd::CompiledClip& compiled() const noexcept { return *compiled_; }  ///< for our own kernels
+
+ private:
+  friend CrowdClip compile(const Clip& clip, const Hierarchy& nodes, const CrowdSettings& settings);
+  explicit CrowdClip(std::shared_ptr<const crowd::CompiledClip> compiled) : compiled_(std::move(compiled)) {}
+  std::shared_ptr<const crowd::CompiledClip> compiled_;  // copies share it
+};
+
+/// The clip as the joints of `nodes` play it, one joint for each node; those without a track rest.
+/// @throws std::invalid_argument for a clip that does not fit the nodes or has no end, settings that are out of their
+///         ranges, and a tolerance that float cannot keep: it names how near it comes.
+[[nodiscard]] CrowdClip compile(const Clip& clip, const Hierarchy& nodes, const CrowdSettings& settings = {});
+
+}  // namespace tweenfall

@@ -1,0 +1,33 @@
+#pragma once
+
+/// Poses of a crowd: eight joints side by side, in float.
+///
+/// A pose is a list of groups. Joint `j` is lane `j % 8` of group `j / 8`; lanes after the last joint are there, and
+/// mean nothing. What is written here at once for eight joints is what processors are quick at.
+
+#include <cstddef>
+#include <span>
+
+namespace tweenfall {
+
+/// Eight joints, each relative to its parent.
+struct alignas(32) CrowdGroup {
+  static constexpr std::size_t size = 8;
+  float translation[3][size];  ///< m
+  float rotation[4][size];     ///< unit quaternions: x, y, z, w
+  float scale[3][size];
+};
+
+/// How fast these move.
+struct alignas(32) CrowdRates {
+  float linear[3][CrowdGroup::size];   ///< m/s
+  float angular[3][CrowdGroup::size];  ///< rad/s, in the axes of the parent
+  float scale[3][CrowdGroup::size];    ///< 1/s
+};
+
+/// How many groups hold a number of joints.
+[[nodiscard]] constexpr std::size_t crowd_groups(std::size_t joints) noexcept {
+  return (joints + CrowdGroup::size - 1) / CrowdGroup::size;
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,291 @@
+#include <tweenfall/anim/crowd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+#include "crowd/compiled_clip.h"
+
+// Before the contents stand "tweenfall crowd\n", the version, how long the contents are, and their checksum. All
+// numbers are little-endian, each in its own width.
+
+namespace tweenfall {
+
+namespace crowd {
+namespace {
+
+constexpr std::string_view signature = "tweenfall crowd\n";
+/// Raised whenever the contents change, so that older bytes are refused and not misread.
+constexpr std::uint32_t format_version = 1;
+constexpr std::size_t header_size = signature.size() + 4 + 8 + 8;
+constexpr std::uint32_t largest_stride = 64;
+constexpr std::uint32_t most_joints = 1U << 30;
+/// So far that no clip reaches there, and near enough that differences are finite; s.
+constexpr double latest_knot = 1e100;
+
+/// FNV-1a by words of eight bytes, with the finalizer of splitmix64.
+std::uint64_t checksum(std::span<const std::byte> bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325U ^ bytes.size();
+  for (std::size_t i = 0; i < bytes.size(); i += 8) {
+    std::uint64_t word = 0;
+    for (std::size_t k = 0; k < std::min<std::size_t>(8, bytes.size() - i); ++k)
+      word |= static_cast<std::uint64_t>(bytes[i + k]) << (8 * k);
+    sum = (sum ^ word) * 0x100000001b3U;
+    sum ^= sum >> 29;
+  }
+  sum = (sum ^ (sum >> 30)) * 0xbf58476d1ce4e5b9U;
+  sum = (sum ^ (sum >> 27)) * 0x94d049bb133111ebU;
+  return sum ^ (sum >> 31);
+}
+
+template <std::size_t size>
+using Unsigned = std::conditional_t<
+    size == 1, std::uint8_t,
+    std::conditional_t<size == 2, std::uint16_t, std::conditional_t<size == 4, std::uint32_t, std::uint64_t>>>;
+
+class Writer {
+ public:
+  template <class T>
+  void number(T value) {
+    const auto word = std::bit_cast<Unsigned<sizeof(T)>>(value);
+    for (std::size_t i = 0; i < sizeof(T); ++i) bytes.push_back(static_cast<std::byte>(word >> (8 * i) & 0xff));
+  }
+  void count(std::size_t value) { number(static_cast<std::uint32_t>(value)); }
+
+  std::vector<std::byte> bytes;
+};
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw std::invalid_argument("these bytes are no compiled clip: " + why);
+}
+
+class Reader {
+ public:
+  explicit Reader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+  template <class T>
+  [[nodiscard]] T number() {
+    require(left() >= sizeof(T), "it ends too early");
+    Unsigned<sizeof(T)> word = 0;
+    for (std::size_t i = 0; i < sizeof(T); ++i)
+      word = static_cast<Unsigned<sizeof(T)>>(word | static_cast<Unsigned<sizeof(T)>>(bytes_[place_ + i]) << (8 * i));
+    place_ += sizeof(T);
+    return std::bit_cast<T>(word);
+  }
+  [[nodiscard]] double finite() {
+    const auto value = number<double>();
+    require(std::isfinite(value), "a number is not finite");
+    return value;
+  }
+  /// How many things follow, each of which takes `least` bytes or more.
+  [[nodiscard]] std::size_t count(std::size_t least) {
+    const auto many = number<std::uint32_t>();
+    require(many <= left() / least, "it tells of more than there is room for");
+    return many;
+  }
+  /// @param values  many that are known from what came before; room is made once it is sure that they are there
+  template <class T>
+  void all(std::vector<T>& values, std::uint64_t many) {
+    require(many <= left() / sizeof(T), "it tells of more than there is room for");
+    values.resize(static_cast<std::size_t>(many));
+    for (T& value : values) value = number<T>();
+  }
+  void require(bool holds, const char* what) const {
+    if (!holds) refuse(std::string(what) + ", at byte " + std::to_string(place_) + " of its contents");
+  }
+  [[nodiscard]] std::size_t left() const { return bytes_.size() - place_; }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t place_ = 0;
+};
+
+void write(Writer& to, const CompiledClip& clip) {
+  to.number(clip.joints);
+  to.number(clip.duration);
+  to.number(static_cast<std::uint8_t>(clip.loop.mode));
+  to.number(clip.loop.count);
+  to.number(clip.error);
+  to.count(clip.timelines.size());
+  for (const Timeline& timeline : clip.timelines) {
+    to.count(timeline.knots.size());
+    for (const double knot : timeline.knots) to.number(knot);
+  }
+  to.count(clip.runs.size());
+  for (const Run& run : clip.runs) {
+    to.number(run.form.timeline);
+    to.number(static_cast<std::uint8_t>(run.form.cubic ? 1 : 0));
+    to.number(static_cast<std::uint8_t>(run.form.base));
+    to.number(static_cast<std::uint8_t>(run.form.fine));
+    to.number(run.form.stride);
+    to.number(run.count);
+    for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+      to.number(clip.channels[i].group);
+      to.number(static_cast<std::uint8_t>(clip.channels[i].kind));
+    }
+  }
+  for (const float value : clip.numbers) to.number(value);
+  for (const std::int32_t word : clip.words) to.number(word);
+  to.count(clip.climbs.size());
+  for (const Climb& climb : clip.climbs) {
+    to.number(climb.joint);
+    for (const double part : climb.gain) to.number(part);
+    for (const double part : climb.turn) to.number(part);
+  }
+}
+
+void read_timeline(Reader& from, Timeline& timeline) {
+  const std::size_t knots = from.count(sizeof(double));
+  from.require(knots >= 2, "a timeline has fewer than two knots");
+  from.all(timeline.knots, knots);
+  for (const double knot : timeline.knots) from.require(std::abs(knot) <= latest_knot, "a knot lies nowhere");
+  from.require(std::ranges::is_sorted(timeline.knots), "the knots of a timeline go back in time");
+  timeline.index();
+}
+
+Form read_form(Reader& from, const CompiledClip& clip) {
+  Form form;
+  form.timeline = from.number<std::uint32_t>();
+  const auto cubic = from.number<std::uint8_t>(), base = from.number<std::uint8_t>(),
+             fine = from.number<std::uint8_t>();
+  from.require(cubic <= 1 && base <= static_cast<std::uint8_t>(Packing::wide) &&
+                   fine <= static_cast<std::uint8_t>(Packing::exact),
+               "there is no such form");
+  form.cubic = cubic != 0;
+  form.base = static_cast<Packing>(base);
+  form.fine = static_cast<Packing>(fine);
+  form.stride = from.number<std::uint32_t>();
+  if (form.is_constant()) {
+    from.require(form.timeline == Form::no_timeline && !form.cubic, "what is constant has no timeline");
+  } else {
+    from.require(form.timeline < clip.timelines.size(), "there is no such timeline");
+  }
+  if (form.base == Packing::none) {
+    from.require(form.stride == 0, "there is no base for this stride");
+  } else {
+    from.require(form.stride >= 1 && form.stride <= largest_stride, "there is no such stride");
+    from.require(form.fine == Packing::none || form.fine == Packing::narrow, "there is no such form");
+  }
+  return form;
+}
+
+void read_run(Reader& from, CompiledClip& clip, std::vector<bool>& seen, std::uint64_t& numbers) {
+  Run run{.form = read_form(from, clip), .first = static_cast<std::uint32_t>(clip.channels.size())};
+  run.count = static_cast<std::uint32_t>(from.count(5));
+  from.require(run.count > 0, "a run has no channels");
+  for (std::uint32_t i = 0; i < run.count; ++i) {
+    Channel channel{.group = from.number<std::uint32_t>()};
+    const auto kind = from.number<std::uint8_t>();
+    from.require(channel.group < seen.size() / 3 && kind <= 2, "there is no such channel");
+    channel.kind = static_cast<Kind>(kind);
+    const std::size_t place = std::size_t{3} * channel.group + kind;
+    from.require(!seen[place], "a channel is there twice");
+    seen[place] = true;
+    from.require(numbers <= 0xffffffffU, "it tells of more than there is room for");
+    channel.numbers = static_cast<std::uint32_t>(numbers);
+    numbers += run.form.slots(components(channel.kind)) * run.form.numbers_per_slot() * lane_count;
+    clip.channels.push_back(channel);
+  }
+  clip.runs.push_back(run);
+}
+
+void require_finite_floats(const Reader& from, const CompiledClip& clip) {
+  for (const float value : clip.numbers) from.require(std::isfinite(value), "a number is not finite");
+  for (const Run& run : clip.runs) {
+    if (run.form.fine != Packing::exact) continue;
+    const std::size_t many = run.fine_row * clip.timelines[run.form.timeline].knots.size();
+    for (std::size_t i = 0; i < many; ++i)
+      from.require(std::isfinite(std::bit_cast<float>(clip.words[run.fine_begin + i])), "a number is not finite");
+  }
+}
+
+void read_climbs(Reader& from, CompiledClip& clip) {
+  const std::size_t climbs = from.count(4 + 6 * 8);
+  clip.climbs.resize(climbs);
+  for (Climb& climb : clip.climbs) {
+    climb.joint = from.number<std::uint32_t>();
+    from.require(climb.joint < clip.joints, "there is no such joint");
+    for (double& part : climb.gain) part = from.finite();
+    for (double& part : climb.turn) part = from.finite();
+  }
+}
+
+void read(Reader& from, CompiledClip& clip) {
+  clip.joints = from.number<std::uint32_t>();
+  from.require(clip.joints <= most_joints, "it tells of more than there is room for");
+  clip.duration = from.finite();
+  const auto mode = from.number<std::uint8_t>();
+  from.require(mode <= static_cast<std::uint8_t>(LoopMode::pingpong), "there is no such loop");
+  clip.loop.mode = static_cast<LoopMode>(mode);
+  clip.loop.count = from.finite();
+  clip.error = from.finite();
+  from.require(clip.duration >= 0 && clip.loop.count >= 0 && clip.error >= 0, "a number is negative that cannot be");
+  const std::size_t timelines = from.count(4);
+  for (std::size_t i = 0; i < timelines; ++i) read_timeline(from, clip.timelines.emplace_back());
+
+  const std::size_t channels = 3 * crowd_groups(clip.joints), runs = from.count(15 + 5);
+  from.require(channels <= from.left() / 5, "it tells of more than there is room for");
+  std::vector<bool> seen(channels);
+  std::uint64_t numbers = 0;
+  for (std::size_t i = 0; i < runs; ++i) read_run(from, clip, seen, numbers);
+  from.require(clip.channels.size() == channels, "some joints have no values");
+  from.all(clip.numbers, numbers);
+  from.all(clip.words, lay_out(clip));
+  require_finite_floats(from, clip);
+  read_climbs(from, clip);
+  from.require(from.left() == 0, "it should end");
+}
+
+}  // namespace
+}  // namespace crowd
+
+std::vector<std::byte> CrowdClip::to_bytes() const {
+  crowd::Writer contents;
+  crowd::write(contents, *compiled_);
+  crowd::Writer all;
+  all.bytes.reserve(crowd::header_size + contents.bytes.size());
+  for (const char c : crowd::signature) all.number(c);
+  all.number(crowd::format_version);
+  all.number(static_cast<std::uint64_t>(contents.bytes.size()));
+  all.number(crowd::checksum(contents.bytes));
+  all.bytes.insert(all.bytes.end(), contents.bytes.begin(), contents.bytes.end());
+  return std::move(all.bytes);
+}
+
+std::size_t CrowdClip::byte_count() const noexcept {
+  const crowd::CompiledClip& clip = *compiled_;
+  std::size_t bytes = crowd::header_size + 4 + 8 + 1 + 8 + 8 + 4 + 4 + 4;
+  for (const crowd::Timeline& timeline : clip.timelines) bytes += 4 + 8 * timeline.knots.size();
+  return bytes + 15 * clip.runs.size() + 5 * clip.channels.size() + 4 * (clip.numbers.size() + clip.words.size()) +
+         52 * clip.climbs.size();
+}
+
+CrowdClip CrowdClip::from_bytes(std::span<const std::byte> bytes) {
+  using namespace crowd;
+  if (bytes.size() < header_size)
+    refuse("there are " + std::to_string(bytes.size()) + " of them, fewer than stand before any");
+  for (std::size_t i = 0; i < signature.size(); ++i)
+    if (static_cast<char>(bytes[i]) != signature[i]) refuse("they do not begin with \"tweenfall crowd\"");
+  Reader header(bytes.subspan(signature.size(), header_size - signature.size()));
+  const auto version = header.number<std::uint32_t>();
+  if (version != format_version)
+    refuse("they are of version " + std::to_string(version) + ", and only version " + std::to_string(format_version) +
+           " can be read");
+  const auto size = header.number<std::uint64_t>(), sum = header.number<std::uint64_t>();
+  const std::span<const std::byte> contents = bytes.subspan(header_size);
+  if (contents.size() != size)
+    refuse("there should be " + std::to_string(size) + " of them after the header, and there are " +
+           std::to_string(contents.size()));
+  if (checksum(contents) != sum) refuse("they were damaged, for their checksum is another");
+  Reader reader(contents);
+  auto clip = std::make_shared<CompiledClip>();
+  read(reader, *clip);
+  return CrowdClip(clip);
+}
+
+}  // namespace tweenfall

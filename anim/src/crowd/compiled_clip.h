@@ -1,0 +1,151 @@
+#pragma once
+
+// What a clip is compiled to.
+//
+// A channel is one kind of value (translation, rotation, scale) of the eight joints of a group. Its values at the knots
+// of a timeline, and for cubic channels its rates there, are rows; between two knots the channel is a Hermite cubic of
+// these, or a line. A row is the sum of a base, a uniform cubic B-spline over the numbers of the knots with a
+// coefficient for every `stride` of them, and of what the base leaves, a whole number. Where a base does not pay there
+// is none.
+//
+// Channels that are alike in all this form a run, and are stored together, knot after knot.
+
+#include <tweenfall/anim/clip.h>
+#include <tweenfall/anim/crowd_pose.h>
+
+#include <compare>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace tweenfall::crowd {
+
+inline constexpr std::size_t lane_count = CrowdGroup::size;
+
+enum class Kind : std::uint8_t { translation, rotation, scale };
+
+[[nodiscard]] constexpr std::size_t components(Kind kind) {
+  return kind == Kind::rotation ? 4 : 3;
+}
+
+/// How the three or four components of a value are put into the words of a lane.
+enum class Packing : std::uint8_t {
+  none,
+  narrow,  ///< one word: 10 bits for each of three, 8 for each of four
+  wide,    ///< two words: 16 bits each
+  exact,   ///< a float each
+};
+
+[[nodiscard]] constexpr std::size_t words_of(Packing packing, std::size_t component_count) {
+  switch (packing) {
+    case Packing::narrow:
+      return 1;
+    case Packing::wide:
+      return 2;
+    case Packing::exact:
+      return component_count;
+    case Packing::none:
+      break;
+  }
+  return 0;
+}
+
+/// The largest whole number that a packing holds; the least is its negative.
+[[nodiscard]] constexpr int limit_of(Packing packing, std::size_t component_count) {
+  return packing == Packing::wide ? 32767 : component_count == 3 ? 511 : 127;
+}
+
+struct Timeline {
+  std::vector<double> knots;  ///< s; two or more, none before the one in front of it; equal ones are a jump or a kink
+
+  // Made from the knots: for each of many equal stretches of time the first knot that is not before it.
+  std::vector<std::uint32_t> cells;
+  double cells_per_second = 0;
+
+  void index();
+
+  struct Place {
+    std::size_t knot;   ///< the segment's first
+    double u;           ///< 0 to 1, along it
+    double per_second;  ///< of u; 0 for a segment that is a jump
+  };
+  [[nodiscard]] Place at(double time, bool arriving) const noexcept;
+};
+
+struct Channel {
+  std::uint32_t group = 0;
+  Kind kind = Kind::translation;
+  std::uint32_t numbers = 0;  ///< where its offsets and steps begin
+};
+
+/// How channels are stored.
+struct Form {
+  static constexpr std::uint32_t no_timeline = 0xffffffff;
+
+  std::uint32_t timeline = no_timeline;  ///< none: the channels are constant, their offsets
+  bool cubic = false;
+  Packing base = Packing::none, fine = Packing::none;
+  std::uint32_t stride = 0;  ///< knots for each coefficient of the base
+
+  auto operator<=>(const Form&) const = default;
+
+  [[nodiscard]] bool is_constant() const { return base == Packing::none && fine == Packing::none; }
+
+  [[nodiscard]] std::size_t slots(std::size_t component_count) const {
+    return cubic ? 2 * component_count : component_count;
+  }
+  /// Lines of eight floats for each slot: offset, step of the base, step of the fine part.
+  [[nodiscard]] std::size_t numbers_per_slot() const {
+    if (fine == Packing::exact) return 0;
+    return 1 + (base != Packing::none ? 1 : 0) + (fine != Packing::none ? 1 : 0);
+  }
+  /// Lines of eight words of one channel in a row of the base, or of the fine part.
+  [[nodiscard]] std::size_t lines(Packing packing, std::size_t component_count) const {
+    return (cubic ? 2 : 1) * words_of(packing, component_count);
+  }
+  [[nodiscard]] std::size_t base_rows(std::size_t knots) const {
+    return base == Packing::none ? 0 : (knots - 2) / stride + 4;
+  }
+};
+
+struct Run {
+  Form form;
+  std::uint32_t first = 0, count = 0;          ///< channels
+  std::size_t base_row = 0, fine_row = 0;      ///< words in a row
+  std::size_t base_begin = 0, fine_begin = 0;  ///< where the rows begin among the words
+  std::size_t taps_begin = 0;  ///< where the weights of the base's coefficients begin, four for each knot of a stride
+};
+
+/// A joint that a loop with offset takes further each time.
+struct Climb {
+  std::uint32_t joint = 0;
+  double gain[3] = {0, 0, 0};  ///< m each time
+  double turn[3] = {0, 0, 0};  ///< rotation vector, each time
+};
+
+struct CompiledClip {
+  std::uint32_t joints = 0;
+  double duration = 0;  ///< s
+  Loop loop;
+  double error = 0;  ///< m
+  std::vector<Timeline> timelines;
+  std::vector<Run> runs;
+  std::vector<Channel> channels;  ///< each kind of each group once
+  std::vector<float> numbers;
+  std::vector<std::int32_t> words;
+  std::vector<Climb> climbs;
+  std::vector<float> taps;  ///< made by `lay_out`
+};
+
+/// Where the rows of each run lie, from its form and channels, and the weights of its base. @returns how many words
+/// there are in all
+std::uint64_t lay_out(CompiledClip& clip);
+
+/// Takes the joints that climb to where they are after `cycle` plays. @param rates  null for none
+void climb(const CompiledClip& clip, int cycle, CrowdGroup* pose, CrowdRates* rates) noexcept;
+
+/// The four coefficients' weights of a uniform cubic B-spline at x, 0 to 1, between the second and the third.
+void spline_weights(double x, double* weights) noexcept;
+
+}  // namespace tweenfall::crowd

@@ -1,0 +1,45 @@
+#include <tweenfall/anim/crowd.h>
+
+#include "crowd/compiled_clip.h"
+#include "crowd/sample_kernels.h"
+
+namespace tweenfall {
+
+std::size_t CrowdClip::joints() const noexcept {
+  return compiled_->joints;
+}
+
+double CrowdClip::duration() const noexcept {
+  return compiled_->duration;
+}
+
+const Loop& CrowdClip::loop() const noexcept {
+  return compiled_->loop;
+}
+
+double CrowdClip::error() const noexcept {
+  return compiled_->error;
+}
+
+ClipClock CrowdClip::clock(double at, double speed, double stage_time, Side side) const noexcept {
+  const Clip timing{.duration = compiled_->duration, .loop = compiled_->loop};
+  return clock_at(at, speed, timing, stage_time, side);
+}
+
+void CrowdClip::sample(double clip_time, std::span<CrowdGroup> pose) const noexcept {
+  crowd::sample_with(crowd::fastest_sample_kernels(), *compiled_, clip_time, false, 1, pose.data(), nullptr);
+}
+
+void CrowdClip::sample(const ClipClock& clock, std::span<CrowdGroup> pose) const noexcept {
+  crowd::sample_with(crowd::fastest_sample_kernels(), *compiled_, clock.time, clock.side == Side::in, 1, pose.data(),
+                     nullptr);
+  if (clock.cycle != 0) crowd::climb(*compiled_, clock.cycle, pose.data(), nullptr);
+}
+
+void CrowdClip::sample(const ClipClock& clock, std::span<CrowdGroup> pose, std::span<CrowdRates> rates) const noexcept {
+  crowd::sample_with(crowd::fastest_sample_kernels(), *compiled_, clock.time, clock.side == Side::in, clock.rate,
+                     pose.data(), rates.data());
+  if (clock.cycle != 0) crowd::climb(*compiled_, clock.cycle, pose.data(), rates.data());
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,74 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "crowd/fit.h"
+
+namespace tweenfall::crowd {
+
+namespace {
+
+/// Repeats of a curve beyond these are found by looking at the curve, as what formulas do is.
+constexpr std::size_t most_knots = 200000;
+/// How long a stretch of a formula is looked at as one, at most, s.
+constexpr double longest_look = 1.0 / 16;
+
+void add_inside(double time, double duration, std::vector<double>& out) {
+  if (time > 0 && time < duration && out.size() < most_knots) out.push_back(time);
+}
+
+/// The knots of a curve that goes on from `edge` by a rule, forwards or backwards.
+template <class T>
+void add_repeats(const Curve<T>& curve, Outside rule, bool after, double duration, std::vector<double>& out) {
+  add_inside(after ? curve.end() : curve.start(), duration, out);
+  if (rule == Outside::hold || rule == Outside::linear) return;
+  const double period = curve.duration(), edge = after ? curve.end() : curve.start();
+  if (!(period > 0) || !std::isfinite(period)) return;
+  const std::span<const double> knots = curve.knots();
+  for (std::size_t play = 1; out.size() < most_knots; ++play) {
+    const double begin =
+        after ? edge + static_cast<double>(play - 1) * period : edge - static_cast<double>(play) * period;
+    if (after ? begin > duration : begin + period < 0) break;
+    add_inside(begin, duration, out);
+    for (const double knot : knots) {
+      add_inside(begin + (knot - curve.start()), duration, out);
+      if (rule == Outside::pingpong) add_inside(begin + (curve.end() - knot), duration, out);
+    }
+  }
+}
+
+template <class T>
+void add_knots(const Curve<T>& curve, double duration, std::vector<double>& out) {
+  for (const double knot : curve.knots()) add_inside(knot, duration, out);
+  if (std::isfinite(curve.start())) add_repeats(curve, curve.before(), false, duration, out);
+  if (std::isfinite(curve.end())) add_repeats(curve, curve.after(), true, duration, out);
+  const bool constant = curve.knots().empty() && curve.start() == curve.end();
+  if (constant || !curve.spans().empty()) return;
+  const auto looks = static_cast<std::size_t>(std::min(std::ceil(duration / longest_look), 1e5));
+  for (std::size_t i = 1; i < looks; ++i)
+    add_inside(duration * static_cast<double>(i) / static_cast<double>(looks), duration, out);
+}
+
+std::optional<Kind> kind_of(Property property) {
+  if (property == Property::position) return Kind::translation;
+  if (property == Property::rotation) return Kind::rotation;
+  if (property == Property::scale) return Kind::scale;
+  return std::nullopt;
+}
+
+}  // namespace
+
+CurveKnots::CurveKnots(const Clip& clip, const Hierarchy& nodes) {
+  for (auto& kind : of) kind.resize(nodes.size());
+  for (const Track& track : clip.tracks) {
+    const std::optional<Kind> kind = kind_of(property_named(track.property));
+    const std::optional<std::size_t> node = nodes.find(track.node);
+    if (!kind || !node) continue;
+    std::vector<double>& out = of[static_cast<std::size_t>(*kind)][*node];
+    out.clear();  // the last track of a property is the one that counts
+    if (const auto* vectors = std::get_if<Curve<Vec3>>(&track.curve)) add_knots(*vectors, clip.duration, out);
+    if (const auto* rotations = std::get_if<Curve<Quat>>(&track.curve)) add_knots(*rotations, clip.duration, out);
+  }
+}
+
+}  // namespace tweenfall::crowd

@@ -1,0 +1,211 @@
+#include "crowd/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace tweenfall::crowd {
+
+namespace {
+
+/// Knots nearer than this to the one before are left out, unless the curves turn out to need them: files round times.
+constexpr double nearest_knots = 1e-6;  // s
+/// A change that is over within this is a jump, even where no knot tells of it.
+constexpr double shortest = 1e-9;  // s
+constexpr std::size_t most_knots_of_fit = 200000;
+
+/// The values of a channel at one time, and how fast they change: up to four of each lane.
+struct Look {
+  double value[4][lane_count] = {}, rate[4][lane_count] = {};
+};
+
+class Fitter {
+ public:
+  /// @param knots  all of the curves, in order
+  Fitter(const ExactPose& exact, std::size_t group, Kind kind, const std::array<double, lane_count>& tolerance,
+         std::span<const double> knots)
+      : exact_(exact), first_(group * lane_count), kind_(kind), tolerance_(tolerance), knots_(knots) {}
+
+  [[nodiscard]] Look look(double time, Side side) const {
+    Look look;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const bool is_there = first_ + lane < exact_.nodes().size();
+      const Motion motion = is_there ? exact_.joint(first_ + lane, time, side) : Motion{};
+      if (kind_ == Kind::rotation) {
+        const Quat& q = motion.pose.rotation;
+        const Vec3& w = motion.twist.angular;
+        const Vec3 vector = 0.5 * (q.w() * w + w.cross(q.vec()));
+        const double scalar = -0.5 * w.dot(q.vec());
+        for (int c = 0; c < 4; ++c) {
+          look.value[c][lane] = q.coeffs()[c];
+          look.rate[c][lane] = c < 3 ? vector[c] : scalar;
+        }
+      } else {
+        for (int c = 0; c < 3; ++c) {
+          look.value[c][lane] = kind_ == Kind::scale ? motion.pose.scale[c] : motion.pose.position[c];
+          look.rate[c][lane] = kind_ == Kind::scale ? motion.scale_rate[c] : motion.twist.linear[c];
+        }
+      }
+    }
+    return look;
+  }
+
+  /// A rotation is told by either of two signs: by that nearer to another.
+  void align(Look& look, const Look& to) const {
+    if (kind_ != Kind::rotation) return;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      double dot = 0;
+      for (std::size_t c = 0; c < 4; ++c) dot += look.value[c][lane] * to.value[c][lane];
+      if (dot >= 0) continue;
+      for (std::size_t c = 0; c < 4; ++c) {
+        look.value[c][lane] = -look.value[c][lane];
+        look.rate[c][lane] = -look.rate[c][lane];
+      }
+    }
+  }
+
+  /// @param most  knots; a fit that would take more is given up and comes back with none
+  [[nodiscard]] Fitted fit(std::span<const double> knots, bool cubic, std::size_t most) {
+    fit_ = {.kind = kind_, .cubic = cubic};
+    most_ = most;
+    given_up_ = false;
+    Look from = look(knots.front(), Side::out);
+    before_ = from;
+    for (std::size_t i = 0; i + 1 < knots.size() && !given_up_; ++i) {
+      if (i > 0) from = look(knots[i], Side::out);
+      align(from, before_);
+      Look to = look(knots[i + 1], Side::in);
+      align(to, from);
+      piece(knots[i], from, knots[i + 1], to);
+    }
+    if (given_up_) fit_.knots.clear();
+    return std::move(fit_);
+  }
+
+ private:
+  void piece(double from, const Look& left, double to, const Look& right) {
+    if (given_up_) return;
+    if (to - from <= shortest + 1e-15 * std::abs(to) || near(from, left, to, right)) {
+      if (fit_.knots.empty() || !joined(left, std::max(to - from, from - last_begin_))) add(from, left);
+      add(to, right);
+      last_begin_ = from;
+      before_ = right;
+      return;
+    }
+    const double middle = split(from, to);
+    Look arriving = look(middle, Side::in), leaving = look(middle, Side::out);
+    align(arriving, left);
+    piece(from, left, middle, arriving);
+    align(leaving, arriving);
+    Look end = right;
+    align(end, leaving);
+    piece(middle, leaving, to, end);
+  }
+
+  /// A knot of a curve that was taken for one with its neighbor, or else the middle.
+  [[nodiscard]] double split(double from, double to) const {
+    const auto first = std::ranges::upper_bound(knots_, from);
+    const auto last = std::ranges::lower_bound(knots_, to);
+    return first < last ? first[(last - first) / 2] : from + 0.5 * (to - from);
+  }
+
+  /// Whether what leaves the last knot is what arrives there.
+  [[nodiscard]] bool joined(const Look& left, double length) const {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const double room = 0.1 * tolerance_[lane];
+      for (std::size_t c = 0; c < components(kind_); ++c) {
+        if (!(std::abs(left.value[c][lane] - before_.value[c][lane]) <= room)) return false;
+        if (fit_.cubic && !(std::abs(left.rate[c][lane] - before_.rate[c][lane]) * length * 0.15 <= room)) return false;
+      }
+    }
+    return true;
+  }
+
+  void add(double time, const Look& look) {
+    if (fit_.knots.size() >= most_) {
+      given_up_ = true;
+      return;
+    }
+    fit_.knots.push_back(time);
+    for (std::size_t c = 0; c < components(kind_); ++c)
+      fit_.values.insert(fit_.values.end(), std::begin(look.value[c]), std::end(look.value[c]));
+    for (std::size_t c = 0; fit_.cubic && c < components(kind_); ++c)
+      fit_.values.insert(fit_.values.end(), std::begin(look.rate[c]), std::end(look.rate[c]));
+  }
+
+  /// Whether the piece between two looks is as near to the curves as it has to be, at times that no wave is likely to
+  /// have in common.
+  [[nodiscard]] bool near(double from, const Look& left, double to, const Look& right) const {
+    const double length = to - from;
+    for (const double u : {0.5, 0.2113248654, 0.7886751346, 0.0694318442, 0.9305681558, 0.3617261933, 0.6382738067}) {
+      const double time = from + u * length;
+      const Look there = look(time, Side::out);
+      const double h01 = fit_.cubic ? u * u * (3 - 2 * u) : u, h00 = 1 - h01;
+      const double h10 = fit_.cubic ? u * (1 - u) * (1 - u) * length : 0,
+                   h11 = fit_.cubic ? -u * u * (1 - u) * length : 0;
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        double mixed[4] = {}, squared = 0, dot = 0;
+        for (std::size_t c = 0; c < components(kind_); ++c) {
+          mixed[c] = h00 * left.value[c][lane] + h01 * right.value[c][lane] + h10 * left.rate[c][lane] +
+                     h11 * right.rate[c][lane];
+          squared += mixed[c] * mixed[c];
+          dot += mixed[c] * there.value[c][lane];
+        }
+        double factor = 1;
+        if (kind_ == Kind::rotation) factor = (dot < 0 ? -1 : 1) / std::sqrt(squared);
+        for (std::size_t c = 0; c < components(kind_); ++c)
+          if (!(std::abs(factor * mixed[c] - there.value[c][lane]) <= tolerance_[lane])) return false;
+      }
+    }
+    return true;
+  }
+
+  const ExactPose& exact_;
+  std::size_t first_;
+  Kind kind_;
+  const std::array<double, lane_count>& tolerance_;
+  std::span<const double> knots_;
+  Fitted fit_;
+  std::size_t most_ = 0;
+  bool given_up_ = false;
+  Look before_;
+  double last_begin_ = 0;
+};
+
+}  // namespace
+
+Fitted fitted(const ExactPose& exact, const CurveKnots& knots, std::size_t group, Kind kind,
+              const std::array<double, lane_count>& tolerance) {
+  std::vector<double> all;
+  for (std::size_t node = group * lane_count; node < std::min(exact.nodes().size(), (group + 1) * lane_count); ++node) {
+    const std::vector<double>& of_node = knots.of[static_cast<std::size_t>(kind)][node];
+    all.insert(all.end(), of_node.begin(), of_node.end());
+  }
+  std::ranges::sort(all);
+  std::vector<double> times{0.0};
+  for (const double time : all)
+    if (time > times.back() + nearest_knots) times.push_back(time);
+  if (exact.duration() > 0) times.push_back(exact.duration());
+  Fitter fitter(exact, group, kind, tolerance, all);
+  if (times.size() == 1) {
+    Fitted still{.kind = kind, .knots = times};
+    const Look look = fitter.look(0, Side::out);
+    for (std::size_t c = 0; c < components(kind); ++c)
+      still.values.insert(still.values.end(), std::begin(look.value[c]), std::end(look.value[c]));
+    return still;
+  }
+  Fitted lines = fitter.fit(times, false, most_knots_of_fit);
+  // A knot of a cubic takes twice the room; but where its neighbors are far apart it is the lines that take more.
+  Fitted cubics = fitter.fit(times, true, lines.knots.empty() ? most_knots_of_fit : lines.knots.size() / 2);
+  if (!cubics.knots.empty()) return cubics;
+  if (lines.knots.empty())
+    throw std::invalid_argument("200,000 knots are too few for the " +
+                                std::string(kind == Kind::rotation ? "rotation"
+                                            : kind == Kind::scale  ? "scale"
+                                                                   : "position") +
+                                " of the joints from \"" + exact.nodes()[group * lane_count].name + "\" on");
+  return lines;
+}
+
+}  // namespace tweenfall::crowd

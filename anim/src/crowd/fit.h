@@ -1,0 +1,26 @@
+#pragma once
+
+// From curves to a line or Hermite cubics between few knots.
+
+#include <array>
+#include <vector>
+
+#include "crowd/encode.h"
+#include "crowd/exact_pose.h"
+
+namespace tweenfall::crowd {
+
+/// Where, within a clip, the curves of each node have knots of their own; by kind.
+struct CurveKnots {
+  CurveKnots(const Clip& clip, const Hierarchy& nodes);
+
+  std::array<std::vector<std::vector<double>>, 3> of;  ///< for each kind and node; s, in no order
+};
+
+/// A channel through the knots of its curves, and as many more as it takes for none of its numbers to be further off
+/// than `tolerance` has it for the lane.
+/// @throws std::invalid_argument where 200,000 knots do not do
+[[nodiscard]] Fitted fitted(const ExactPose& exact, const CurveKnots& knots, std::size_t group, Kind kind,
+                            const std::array<double, CrowdGroup::size>& tolerance);
+
+}  // namespace tweenfall::crowd

@@ -1,0 +1,56 @@
+#pragma once
+
+// Eight floats side by side. Each operation rounds as it does for one float, so that the bits are the same whatever
+// the processor does at once.
+
+#include "crowd/compiled_clip.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace tweenfall::crowd {
+
+using Lanes = float __attribute__((vector_size(32), aligned(32)));
+using Words = std::int32_t __attribute__((vector_size(32), aligned(32)));
+
+/// What is inlined into a function takes that function's instruction set.
+#define TWEENFALL_CROWD_LANES [[gnu::always_inline]] inline
+
+// How vectors would be passed to functions that are not inlined does not matter here: all are.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+TWEENFALL_CROWD_LANES Lanes all(float value) {
+  return Lanes{value, value, value, value, value, value, value, value};
+}
+TWEENFALL_CROWD_LANES Lanes load(const float* from) {
+  Lanes lanes;
+  __builtin_memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+TWEENFALL_CROWD_LANES void store(float* to, const Lanes& lanes) {
+  __builtin_memcpy(to, &lanes, sizeof lanes);
+}
+TWEENFALL_CROWD_LANES Words load_words(const std::int32_t* from) {
+  Words words;
+  __builtin_memcpy(&words, from, sizeof words);
+  return words;
+}
+/// Signed whole numbers of `bits` bits, of which the lowest is number `at` of each word.
+template <int at, int bits>
+TWEENFALL_CROWD_LANES Lanes field(const Words& words) {
+  return __builtin_convertvector((words << (32 - at - bits)) >> (32 - bits), Lanes);
+}
+TWEENFALL_CROWD_LANES Lanes select(const Words& which, const Lanes& yes, const Lanes& no) {
+  return reinterpret_cast<Lanes>((which & reinterpret_cast<Words>(yes)) | (~which & reinterpret_cast<Words>(no)));
+}
+/// Square roots and reciprocals are those of IEEE 754: the quicker instructions differ from processor to processor.
+TWEENFALL_CROWD_LANES Lanes root(const Lanes& value) {
+  Lanes result;
+  for (std::size_t i = 0; i < lane_count; ++i) result[i] = __builtin_sqrtf(value[i]);
+  return result;
+}
+
+#pragma GCC diagnostic pop
+
+}  // namespace tweenfall::crowd

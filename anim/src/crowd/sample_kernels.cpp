@@ -1,0 +1,209 @@
+#include "crowd/sample_kernels.h"
+
+#include "crowd/lanes.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace tweenfall::crowd {
+
+namespace {
+
+template <std::size_t count, Packing packing>
+TWEENFALL_CROWD_LANES void unpack(const std::int32_t* row, Lanes (&out)[count]) {
+  if constexpr (packing == Packing::exact) {
+    for (std::size_t c = 0; c < count; ++c) out[c] = reinterpret_cast<Lanes>(load_words(row + c * lane_count));
+  } else if constexpr (packing == Packing::wide) {
+    const Words low = load_words(row), high = load_words(row + lane_count);
+    out[0] = field<0, 16>(low);
+    out[1] = field<16, 16>(low);
+    out[2] = field<0, 16>(high);
+    if constexpr (count == 4) out[3] = field<16, 16>(high);
+  } else if constexpr (count == 3) {
+    const Words row_words = load_words(row);
+    out[0] = field<0, 10>(row_words);
+    out[1] = field<10, 10>(row_words);
+    out[2] = field<20, 10>(row_words);
+  } else {
+    const Words row_words = load_words(row);
+    out[0] = field<0, 8>(row_words);
+    out[1] = field<8, 8>(row_words);
+    out[2] = field<16, 8>(row_words);
+    out[3] = field<24, 8>(row_words);
+  }
+}
+
+/// The rows of `rows`, each times its weight; and for rates times the others.
+template <std::size_t count, Packing packing, int rows, bool rates>
+TWEENFALL_CROWD_LANES void weighted_rows(const std::int32_t* first, std::size_t row_words,
+                                         const float (*weights)[lane_count], const float (*rate_weights)[lane_count],
+                                         Lanes (&value)[count], Lanes (&rate)[count]) {
+  for (int row = 0; row < rows; ++row) {
+    Lanes part[count];
+    unpack<count, packing>(first + static_cast<std::size_t>(row) * row_words, part);
+    for (std::size_t c = 0; c < count; ++c) {
+      value[c] = row == 0 ? part[c] * load(weights[row]) : value[c] + part[c] * load(weights[row]);
+      if constexpr (rates)
+        rate[c] = row == 0 ? part[c] * load(rate_weights[row]) : rate[c] + part[c] * load(rate_weights[row]);
+    }
+  }
+}
+
+/// Where the kernel is: among the words of the base and fine rows, and among the numbers.
+struct Cursor {
+  const std::int32_t* base;
+  const std::int32_t* fine;
+  const float* numbers;
+};
+
+/// What the values, or the tangents, of a channel add to it; the cursor goes on.
+template <std::size_t count, Packing base, Packing fine, bool rates>
+TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const RowWeights& weights, const RowWeights& rate_weights,
+                                 Lanes (&value)[count], Lanes (&rate)[count]) {
+  constexpr bool based = base != Packing::none, has_fine = fine != Packing::none, exact = fine == Packing::exact;
+  Lanes smooth[count], smooth_rate[count], rest[count], rest_rate[count];
+  if constexpr (based)
+    weighted_rows<count, base, 4, rates>(at.base, run.base_row, weights.base, rate_weights.base, smooth, smooth_rate);
+  if constexpr (has_fine)
+    weighted_rows<count, fine, 2, rates>(at.fine, run.fine_row, weights.fine, rate_weights.fine, rest, rest_rate);
+  for (std::size_t c = 0; c < count; ++c) {
+    if constexpr (exact) {
+      value[c] = rest[c];
+      if constexpr (rates) rate[c] = rest_rate[c];
+    } else {
+      const Lanes offset = load(at.numbers);
+      value[c] = offset * load(weights.sum);
+      if constexpr (rates) rate[c] = offset * load(rate_weights.sum);
+      if constexpr (based) {
+        const Lanes step = load(at.numbers + lane_count);
+        value[c] = value[c] + step * smooth[c];
+        if constexpr (rates) rate[c] = rate[c] + step * smooth_rate[c];
+      }
+      if constexpr (has_fine) {
+        const Lanes step = load(at.numbers + (based ? 2 : 1) * lane_count);
+        value[c] = value[c] + step * rest[c];
+        if constexpr (rates) rate[c] = rate[c] + step * rest_rate[c];
+      }
+      at.numbers += (1 + (based ? 1 : 0) + (has_fine ? 1 : 0)) * lane_count;
+    }
+  }
+  at.base += words_of(base, count) * lane_count;
+  at.fine += words_of(fine, count) * lane_count;
+}
+
+template <bool rates>
+TWEENFALL_CROWD_LANES void put(Lanes (&value)[3], Lanes (&rate)[3], float (*to)[lane_count],
+                               float (*rate_to)[lane_count]) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    store(to[c], value[c]);
+    if constexpr (rates) store(rate_to[c], rate[c]);
+  }
+}
+
+/// Rotations are of length 1; p'/|p| with its part along p taken off is half of w p/|p|.
+template <bool rates>
+TWEENFALL_CROWD_LANES void put(Lanes (&p)[4], Lanes (&rate)[4], float (*to)[lane_count], float (*rate_to)[lane_count]) {
+  const Lanes squared = (p[0] * p[0] + p[1] * p[1]) + (p[2] * p[2] + p[3] * p[3]);
+  const Lanes shrink = all(1) / root(squared);
+  for (std::size_t c = 0; c < 4; ++c) store(to[c], p[c] * shrink);
+  if constexpr (rates) {
+    const Lanes twice = all(2) / squared;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t a = (c + 1) % 3, b = (c + 2) % 3;
+      store(rate_to[c], twice * ((p[3] * rate[c] - rate[3] * p[c]) - (rate[a] * p[b] - rate[b] * p[a])));
+    }
+  }
+}
+
+template <std::size_t count, Packing base, Packing fine, bool rates>
+TWEENFALL_CROWD_LANES void one_channel(Cursor& at, const Run& run, const RunPlace& place, float (*to)[lane_count],
+                                       float (*rate_to)[lane_count]) {
+  Lanes value[count], rate[count];
+  slots<count, base, fine, rates>(at, run, place.value, place.value_rate, value, rate);
+  if (run.form.cubic) {
+    Lanes more[count], more_rate[count];
+    slots<count, base, fine, rates>(at, run, place.tangent, place.tangent_rate, more, more_rate);
+    for (std::size_t c = 0; c < count; ++c) {
+      value[c] = value[c] + more[c];
+      if constexpr (rates) rate[c] = rate[c] + more_rate[c];
+    }
+  }
+  put<rates>(value, rate, to, rate_to);
+}
+
+template <Packing base, Packing fine, bool rates>
+TWEENFALL_CROWD_LANES void each_channel(const CompiledClip& clip, const Run& run, const RunPlace& place,
+                                        CrowdGroup* pose, CrowdRates* moving) {
+  Cursor at{place.base, place.fine, nullptr};
+  const Channel* const end = clip.channels.data() + run.first + run.count;
+  for (const Channel* channel = end - run.count; channel != end; ++channel) {
+    at.numbers = clip.numbers.data() + channel->numbers;
+    CrowdGroup& group = pose[channel->group];
+    CrowdRates* const moves = rates ? moving + channel->group : nullptr;
+    if (channel->kind == Kind::rotation)
+      one_channel<4, base, fine, rates>(at, run, place, group.rotation, rates ? moves->angular : nullptr);
+    else if (channel->kind == Kind::translation)
+      one_channel<3, base, fine, rates>(at, run, place, group.translation, rates ? moves->linear : nullptr);
+    else
+      one_channel<3, base, fine, rates>(at, run, place, group.scale, rates ? moves->scale : nullptr);
+  }
+}
+
+template <bool rates>
+TWEENFALL_CROWD_LANES void whole_run(const CompiledClip& clip, const Run& run, const RunPlace& place, CrowdGroup* pose,
+                                     CrowdRates* moving) {
+  constexpr Packing none = Packing::none, narrow = Packing::narrow, wide = Packing::wide;
+  const Packing base = run.form.base, fine = run.form.fine;
+  if (base == narrow && fine == narrow)
+    each_channel<narrow, narrow, rates>(clip, run, place, pose, moving);
+  else if (base == narrow)
+    each_channel<narrow, none, rates>(clip, run, place, pose, moving);
+  else if (base == wide && fine == narrow)
+    each_channel<wide, narrow, rates>(clip, run, place, pose, moving);
+  else if (base == wide)
+    each_channel<wide, none, rates>(clip, run, place, pose, moving);
+  else if (fine == narrow)
+    each_channel<none, narrow, rates>(clip, run, place, pose, moving);
+  else if (fine == wide)
+    each_channel<none, wide, rates>(clip, run, place, pose, moving);
+  else if (fine == Packing::exact)
+    each_channel<none, Packing::exact, rates>(clip, run, place, pose, moving);
+  else
+    each_channel<none, none, rates>(clip, run, place, pose, moving);
+}
+
+// The same source for each instruction set. None of them has a fused multiply and add, so the bits are the same.
+void pose_plain(const CompiledClip& clip, const Run& run, const RunPlace& place, CrowdGroup* pose) {
+  whole_run<false>(clip, run, place, pose, nullptr);
+}
+void pose_and_rates_plain(const CompiledClip& clip, const Run& run, const RunPlace& place, CrowdGroup* pose,
+                          CrowdRates* rates) {
+  whole_run<true>(clip, run, place, pose, rates);
+}
+
+#if defined(__x86_64__) || defined(__i386__)
+[[gnu::target("avx2")]] void pose_avx2(const CompiledClip& clip, const Run& run, const RunPlace& place,
+                                       CrowdGroup* pose) {
+  whole_run<false>(clip, run, place, pose, nullptr);
+}
+[[gnu::target("avx2")]] void pose_and_rates_avx2(const CompiledClip& clip, const Run& run, const RunPlace& place,
+                                                 CrowdGroup* pose, CrowdRates* rates) {
+  whole_run<true>(clip, run, place, pose, rates);
+}
+#endif
+
+}  // namespace
+
+const SampleKernels& plain_sample_kernels() {
+  static constexpr SampleKernels plain = {pose_plain, pose_and_rates_plain};
+  return plain;
+}
+
+const SampleKernels& fastest_sample_kernels() {
+#if defined(__x86_64__) || defined(__i386__)
+  static constexpr SampleKernels avx2 = {pose_avx2, pose_and_rates_avx2};
+  if (__builtin_cpu_supports("avx2")) return avx2;
+#endif
+  return plain_sample_kernels();
+}
+
+}  // namespace tweenfall::crowd

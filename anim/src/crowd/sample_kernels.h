@@ -1,0 +1,38 @@
+#pragma once
+
+// The inner loops of sampling, one version for each instruction set.
+
+#include "crowd/compiled_clip.h"
+
+namespace tweenfall::crowd {
+
+/// What the rows around a time are multiplied by; each once for every lane.
+struct alignas(32) RowWeights {
+  static constexpr std::size_t lanes = CrowdGroup::size;
+  float base[4][lanes];
+  float fine[2][lanes];
+  float sum[lanes];  ///< of what the values at the two knots are multiplied by
+};
+
+/// A run at a time.
+struct RunPlace {
+  const std::int32_t* base;             ///< the first of four rows
+  const std::int32_t* fine;             ///< the first of two
+  RowWeights value, tangent;            ///< for the values; the tangents' are not set where there are none
+  RowWeights value_rate, tangent_rate;  ///< not set where no rates are asked for
+};
+
+struct SampleKernels {
+  void (*pose)(const CompiledClip& clip, const Run& run, const RunPlace& place, CrowdGroup* pose);
+  void (*pose_and_rates)(const CompiledClip& clip, const Run& run, const RunPlace& place, CrowdGroup* pose,
+                         CrowdRates* rates);
+};
+
+[[nodiscard]] const SampleKernels& plain_sample_kernels();
+[[nodiscard]] const SampleKernels& fastest_sample_kernels();
+
+/// The whole of a clip by given kernels. @param rates  null for none
+void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double time, bool arriving, double rate,
+                 CrowdGroup* pose, CrowdRates* rates) noexcept;
+
+}  // namespace tweenfall::crowd

@@ -1,0 +1,145 @@
+#include <tweenfall/curves/rotation.h>
+
+#include <algorithm>
+
+#include "crowd/sample_kernels.h"
+
+namespace tweenfall::crowd {
+
+namespace {
+
+/// Of the values and of the tangents at a segment's two knots.
+struct SegmentWeights {
+  double value[2], tangent[2];
+};
+
+SegmentWeights segment_weights(bool cubic, const Timeline::Place& place) {
+  const double u = place.u, left = 1 - u;
+  if (!cubic) return {{left, u}, {0, 0}};
+  const double seconds = place.per_second > 0 ? 1 / place.per_second : 0, end = u * u * (3 - 2 * u);
+  return {{1 - end, end}, {u * left * left * seconds, -u * u * left * seconds}};
+}
+
+SegmentWeights segment_rates(bool cubic, const Timeline::Place& place) {
+  const double u = place.u, per_second = place.per_second;
+  if (per_second == 0) return {};
+  if (!cubic) return {{-per_second, per_second}, {0, 0}};
+  const double end = 6 * u * (1 - u) * per_second;
+  return {{-end, end}, {(1 - u) * (1 - 3 * u), u * (3 * u - 2)}};
+}
+
+void set_lanes(float (&lanes)[lane_count], float weight) {
+  for (float& lane : lanes) lane = weight;
+}
+
+/// @param taps  of the base's coefficients at the first knot; those at the second follow
+void set_weights(RowWeights& weights, const Form& form, const double* of_knots, const float* taps) {
+  const float first = static_cast<float>(of_knots[0]), second = static_cast<float>(of_knots[1]);
+  if (form.base != Packing::none)
+    for (int i = 0; i < 4; ++i) set_lanes(weights.base[i], first * taps[i] + second * taps[4 + i]);
+  set_lanes(weights.fine[0], first);
+  set_lanes(weights.fine[1], second);
+  set_lanes(weights.sum, static_cast<float>(of_knots[0] + of_knots[1]));
+}
+
+void set_place(RunPlace& at, const CompiledClip& clip, const Run& run, const Timeline::Place& place, bool with_rates) {
+  const Form& form = run.form;
+  const float* taps = nullptr;
+  if (form.base != Packing::none) {
+    const std::uint32_t knot = static_cast<std::uint32_t>(place.knot), row = knot / form.stride;
+    taps = clip.taps.data() + run.taps_begin + std::size_t{4} * (knot - row * form.stride);
+    at.base = clip.words.data() + run.base_begin + row * run.base_row;
+  }
+  at.fine = clip.words.data() + run.fine_begin + place.knot * run.fine_row;
+  const SegmentWeights weights = segment_weights(form.cubic, place);
+  set_weights(at.value, form, weights.value, taps);
+  if (form.cubic) set_weights(at.tangent, form, weights.tangent, taps);
+  if (!with_rates) return;
+  const SegmentWeights moving = segment_rates(form.cubic, place);
+  set_weights(at.value_rate, form, moving.value, taps);
+  if (form.cubic) set_weights(at.tangent_rate, form, moving.tangent, taps);
+}
+
+void set_constant(RunPlace& at, bool with_rates) {
+  set_lanes(at.value.sum, 1);
+  if (with_rates) set_lanes(at.value_rate.sum, 0);
+}
+
+void scale_rates(CrowdRates* rates, std::size_t groups, float factor) {
+  for (std::size_t g = 0; g < groups; ++g) {
+    CrowdRates& group = rates[g];
+    for (auto* part : {group.linear, group.angular, group.scale})
+      for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t lane = 0; lane < CrowdGroup::size; ++lane) part[c][lane] *= factor;
+  }
+}
+
+}  // namespace
+
+void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double time, bool arriving, double rate,
+                 CrowdGroup* pose, CrowdRates* rates) noexcept {
+  RunPlace at;
+  at.base = at.fine = nullptr;
+  std::uint32_t timeline = Form::no_timeline;
+  Timeline::Place place{};
+  for (const Run& run : clip.runs) {
+    if (run.form.timeline == Form::no_timeline) {
+      set_constant(at, rates != nullptr);
+    } else {
+      if (run.form.timeline != timeline) place = clip.timelines[timeline = run.form.timeline].at(time, arriving);
+      set_place(at, clip, run, place, rates != nullptr);
+    }
+    if (rates)
+      kernels.pose_and_rates(clip, run, at, pose, rates);
+    else
+      kernels.pose(clip, run, at, pose);
+  }
+  if (rates && rate != 1) scale_rates(rates, crowd_groups(clip.joints), static_cast<float>(rate));
+}
+
+void climb(const CompiledClip& clip, int cycle, CrowdGroup* pose, CrowdRates* rates) noexcept {
+  for (const Climb& joint : clip.climbs) {
+    CrowdGroup& group = pose[joint.joint / CrowdGroup::size];
+    const std::size_t lane = joint.joint % CrowdGroup::size;
+    for (std::size_t c = 0; c < 3; ++c)
+      group.translation[c][lane] = static_cast<float>(group.translation[c][lane] + cycle * joint.gain[c]);
+    const Vec3 turn(joint.turn[0], joint.turn[1], joint.turn[2]);
+    if (turn == Vec3(0, 0, 0)) continue;
+    const Quat turned = exp_map(cycle * turn);
+    const Quat q = turned * Quat(group.rotation[3][lane], group.rotation[0][lane], group.rotation[1][lane],
+                                 group.rotation[2][lane]);
+    for (int c = 0; c < 4; ++c) group.rotation[c][lane] = static_cast<float>(q.coeffs()[c]);
+    if (!rates) continue;
+    auto& angular = rates[joint.joint / CrowdGroup::size].angular;
+    const Vec3 moved = turned * Vec3(angular[0][lane], angular[1][lane], angular[2][lane]);
+    for (int c = 0; c < 3; ++c) angular[c][lane] = static_cast<float>(moved[c]);
+  }
+}
+
+std::uint64_t lay_out(CompiledClip& clip) {
+  std::uint64_t words = 0;
+  clip.taps.clear();
+  for (Run& run : clip.runs) {
+    run.base_row = run.fine_row = 0;
+    for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+      const std::size_t count = components(clip.channels[i].kind);
+      run.base_row += CrowdGroup::size * run.form.lines(run.form.base, count);
+      run.fine_row += CrowdGroup::size * run.form.lines(run.form.fine, count);
+    }
+    const std::size_t knots =
+        run.form.timeline == Form::no_timeline ? 0 : clip.timelines[run.form.timeline].knots.size();
+    run.base_begin = static_cast<std::size_t>(words);
+    words += std::uint64_t{run.base_row} * run.form.base_rows(knots);
+    run.fine_begin = static_cast<std::size_t>(words);
+    words += std::uint64_t{run.fine_row} * knots;
+    run.taps_begin = clip.taps.size();
+    for (std::uint32_t i = 0; run.form.base != Packing::none && i <= run.form.stride; ++i) {
+      double weights[4];
+      spline_weights(static_cast<double>(i) / run.form.stride, weights);
+      for (const double weight : weights) clip.taps.push_back(static_cast<float>(weight));
+    }
+  }
+  return words;
+}
+
+}  // namespace tweenfall::crowd

@@ -1,0 +1,57 @@
+#include <algorithm>
+#include <cmath>
+
+#include "crowd/compiled_clip.h"
+
+namespace tweenfall::crowd {
+
+namespace {
+
+/// What the quotient of two nearly equal knots may be at most, so that products with it stay finite in float.
+constexpr double steepest = 1e30;
+
+std::size_t cell_of(const Timeline& timeline, double time) {
+  const double cell = (time - timeline.knots.front()) * timeline.cells_per_second;
+  const std::size_t last = timeline.cells.size() - 2;
+  return cell > 0 ? std::min(static_cast<std::size_t>(std::min(cell, 4e9)), last) : 0;
+}
+
+}  // namespace
+
+void Timeline::index() {
+  const double length = knots.back() - knots.front();
+  const std::size_t count = length > 0 ? knots.size() : 1;
+  cells_per_second = length > 0 ? std::min(static_cast<double>(count) / length, 1e300) : 0;
+  cells.assign(count + 1, static_cast<std::uint32_t>(knots.size()));
+  // By the very rounding with which times are looked up, so that a knot is never taken for one of another cell.
+  for (std::size_t i = knots.size(); i-- > 0;) cells[cell_of(*this, knots[i])] = static_cast<std::uint32_t>(i);
+  for (std::size_t cell = count; cell-- > 0;) cells[cell] = std::min(cells[cell], cells[cell + 1]);
+}
+
+Timeline::Place Timeline::at(double time, bool arriving) const noexcept {
+  const std::size_t cell = cell_of(*this, time);
+  const auto begin = knots.begin() + cells[cell], end = knots.begin() + cells[cell + 1];
+  // The first knot behind the time; one at the time counts as behind for who arrives.
+  const auto next = arriving ? std::lower_bound(begin, end, time) : std::upper_bound(begin, end, time);
+  const std::size_t behind = static_cast<std::size_t>(next - knots.begin());
+  Place place{};
+  place.knot = std::min(behind > 0 ? behind - 1 : 0, knots.size() - 2);
+  const double from = knots[place.knot], length = knots[place.knot + 1] - from;
+  if (length > 0) {
+    place.u = std::clamp((time - from) / length, 0.0, 1.0);
+    place.per_second = std::min(1 / length, steepest);
+  } else {
+    place.u = arriving ? 0 : 1;
+  }
+  return place;
+}
+
+void spline_weights(double x, double* weights) noexcept {
+  const double y = 1 - x;
+  weights[0] = y * y * y / 6;
+  weights[1] = (4 + x * x * (3 * x - 6)) / 6;
+  weights[2] = (4 + y * y * (3 * y - 6)) / 6;
+  weights[3] = x * x * x / 6;
+}
+
+}  // namespace tweenfall::crowd
