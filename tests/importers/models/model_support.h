@@ -5,6 +5,7 @@
 #include "support.h"
 
 #include <tweenfall/anim/animation.h>
+#include <tweenfall/anim/skinning.h>
 #include <tweenfall/importers/model.h>
 
 #include <memory>
@@ -57,6 +58,14 @@ class Posed {
     const std::vector<double> in_force = weights(instance);
     deform(mesh, in_force, skin, instance.node, world_, out);
     return out;
+  }
+
+  /// How each joint of its skin, or its node, has carried it.
+  [[nodiscard]] std::vector<SkinJoint> joints(const MeshInstance& instance) const {
+    if (instance.skin == no_node) return {skin_joint(world_[instance.node])};
+    std::vector<SkinJoint> result(model_.skins[instance.skin].joints.size());
+    skin_joints(model_.skins[instance.skin], world_, result);
+    return result;
   }
 
  private:

@@ -12,6 +12,8 @@ namespace {
 
 struct Errors {
   double rest = 0, world = 0, vertices = 0, weights = 0;
+  double skinned = 0;  // of vertices by the joints of a pose
+  double outside = 0;  // by which the quick bounds miss the box
   std::string where;
 
   void world_at(double error, const std::string& place) {
@@ -111,11 +113,26 @@ class Comparison {
             errors.vertices,
             (points[mesh["vertices"][i].get<std::size_t>()] - point_of(expected["points"][i])).cwiseAbs().maxCoeff() /
                 size);
+    compare_skinned(*instance, points, wanted_low, wanted_high, size, errors);
     if (!expected.contains("weights")) return;
     const std::vector<double> weights = posed_.weights(*instance);
     REQUIRE(weights.size() == expected["weights"].size());
     for (std::size_t i = 0; i < weights.size(); ++i)
       errors.weights = std::max(errors.weights, std::abs(weights[i] - expected["weights"][i].get<double>()));
+  }
+
+  void compare_skinned(const MeshInstance& instance, const std::vector<Vec3>& points, const Vec3& low, const Vec3& high,
+                       double size, Errors& errors) {
+    const Mesh& mesh = model_.meshes[instance.mesh];
+    const std::vector<SkinJoint> joints = posed_.joints(instance);
+    const std::vector<double> weights = posed_.weights(instance);
+    std::vector<Vec3> skinned(points.size());
+    deform(mesh, joints, {.weights = weights}, {.positions = skinned});
+    for (std::size_t i = 0; i < points.size(); ++i)
+      errors.skinned = std::max(errors.skinned, (skinned[i] - points[i]).cwiseAbs().maxCoeff() / size);
+    const MeshBounds quick = SkinBounds(mesh, joints.size()).world(joints, weights);
+    errors.outside =
+        std::max({errors.outside, (quick.low - low).maxCoeff() / size, (high - quick.high).maxCoeff() / size});
   }
 
   const Model& model_;
@@ -152,6 +169,8 @@ TEST_CASE("every glTF model stands, bends and molds where three.js says it does"
     CHECK(errors.rest <= tolerance_of(*truth, "world"));
     CHECK(errors.world <= tolerance_of(*truth, "world"));
     CHECK(errors.vertices <= tolerance_of(*truth, "verticesRelBbox"));
+    CHECK(errors.skinned <= 1e-12);
+    CHECK(errors.outside <= tolerance_of(*truth, "verticesRelBbox"));
     CHECK(errors.weights <= tolerance_of(*truth, "world"));
   }
 }
@@ -188,6 +207,8 @@ TEST_CASE("every FBX model stands, bends and molds where ufbx says it does") {
     CHECK(errors.rest <= tolerance_of(*truth, "world"));
     CHECK(errors.world <= tolerance_of(*truth, "world"));
     CHECK(errors.vertices <= tolerance_of(*truth, "world"));
+    CHECK(errors.skinned <= 1e-12);
+    CHECK(errors.outside <= tolerance_of(*truth, "world"));
     CHECK(errors.weights <= tolerance_of(*truth, "world"));
   }
 }
