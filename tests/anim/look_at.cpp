@@ -155,9 +155,9 @@ TEST_CASE("what is wrong with a look-at chain is told all at once") {
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(
       LookAtChain(nodes, {.joints = {{"head", 2}, {"nek"}, {"neck"}, {"head"}, {"spine"}}, .limit = -1}),
-      "look-at chain: share of joint 1 is 2; it must be from 0 to 1\n"
       "look-at chain: joint 2 is \"nek\", and there is no such node; did you mean \"neck\"?\n"
       "look-at chain: joint 5 (\"spine\") must be below the joint before it (\"head\")\n"
+      "look-at chain: share of joint 1 is 2; it must be from 0 to 1\n"
       "look-at chain: limit is -1; it must be from 0 to 3.141592653589793",
       std::invalid_argument);
   CHECK_THROWS_WITH_AS(LookAtChain(nodes, {.joints = {{"head"}}, .forward = {0, 2, 0}}),

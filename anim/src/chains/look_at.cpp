@@ -1,5 +1,6 @@
 #include <tweenfall/anim/look_at.h>
 
+#include "chains/angle_limit.h"
 #include "chains/moving.h"
 #include "chains/problems.h"
 
@@ -7,30 +8,13 @@ namespace tweenfall {
 namespace chains {
 namespace {
 
-// The direction in which it is to look, no farther from `forward` than the limit lets it.
-Arrow within_limit(const LookAtChain& chain, const Arrow& forward, const Arrow& direction) noexcept {
-  const double limit = chain.limit(), ease = std::min(chain.ease(), limit), free = limit - ease;
-  if (limit >= std::numbers::pi) return direction;
-  const Measured side = measured(across(direction, forward));
-  const Dual angle = angle_of(side.length, dot(direction, forward));
-  if (angle.v <= free) return direction;
-  if (side.length.v < 1e-12) return forward;
-  const Dual beyond = angle - Dual(free);
-  Dual eased(limit);
-  if (ease > 0) eased = Dual(free) + Dual(ease) * (Dual(1) - exponential(beyond / Dual(-ease)));
-  const double behind = std::min(std::numbers::pi - limit, 1.0);
-  const Dual limited = eased * smooth_step((Dual(std::numbers::pi) - angle) / Dual(behind));
-  const elementary::SinCos turn = elementary::sin_cos(limited.v);
-  return Dual(turn.cos, -turn.sin * limited.d) * forward + Dual(turn.sin, turn.cos * limited.d) * side.unit;
-}
-
 // Who looks, seen from the joint that turns: the eye, where it looks, and what is up.
 struct Sight {
   Arrow eye, forward, up;
 };
 
 // The turn that brings the line of sight onto a point `to`, `distance` away.
-Turn aimed(const Sight& sight, const Measured& to) noexcept {
+Turning aimed(const Sight& sight, const Measured& to) noexcept {
   // The point of the line that is as far from the joint as the target is.
   const Dual lever = dot(sight.eye, sight.forward);
   const Dual along = root(lever * lever + to.length * to.length - dot(sight.eye, sight.eye)) - lever;
@@ -42,7 +26,7 @@ Turn aimed(const Sight& sight, const Measured& to) noexcept {
 // The turn about `axis`, the line to the target, that brings what is up for the eye into the plane of the line of sight
 // and the `wanted` up; less of it where that is nearly along the axis. What is to the side of the eye must come to lie
 // across the wanted up, on a cone about the axis.
-Turn rolled(const Arrow& axis, const Sight& sight, const Arrow& wanted) noexcept {
+Turning rolled(const Arrow& axis, const Sight& sight, const Arrow& wanted) noexcept {
   constexpr double fade = 0.05;
   const Dual height = length(across(wanted, axis));
   if (!(height.v > 0)) return {};
@@ -67,17 +51,14 @@ LookAtChain::LookAtChain(const Hierarchy& nodes, const LookAtSettings& settings)
       ease_(settings.ease) {
   chains::Problems problems("look-at chain");
   problems.require(!settings.joints.empty(), "it has no joint; it needs at least the one that looks");
-  joints_.reserve(settings.joints.size());
-  for (std::size_t i = 0; i < settings.joints.size(); ++i) {
-    const LookAtJoint& joint = settings.joints[i];
-    const std::string name = "joint " + std::to_string(i + 1);
-    const std::size_t node = problems.node(nodes, joint.node, name);
-    problems.require_in(joint.share, 0, 1, "share of " + name);
-    if (!joints_.empty() && node != no_node && joints_.back().node != no_node)
-      problems.require(chains::is_below(nodes, node, joints_.back().node),
-                       name + " (" + joint.node.text() + ") must be below the joint before it (" +
-                           settings.joints[i - 1].node.text() + ")");
-    joints_.push_back({node, joint.share});
+  std::vector<NodeRef> told;
+  told.reserve(settings.joints.size());
+  for (const LookAtJoint& joint : settings.joints) told.push_back(joint.node);
+  const std::vector<std::size_t> found = problems.chain(nodes, told);
+  joints_.reserve(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    problems.require_in(settings.joints[i].share, 0, 1, "share of joint " + std::to_string(i + 1));
+    joints_.push_back({found[i], settings.joints[i].share});
   }
   problems.require_finite(forward_, "forward");
   problems.require_finite(up_, "up");
@@ -108,7 +89,7 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
 
   const Vec3 still(0, 0, 0);
   const auto sight_of = [&](const Motion& looking) {
-    const Turn turn = rotation_of(looking);
+    const Turning turn = rotation_of(looking);
     return Sight{position_of(looking) + turn * componentwise(scale_of(looking), {chain.eye(), still}),
                  turn * Arrow{chain.forward(), still}, turn * Arrow{chain.up(), still}};
   };
@@ -116,7 +97,7 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
   const Sight before = sight_of(looking);
   const Measured way = measured(inward.point(arrow(goal.target)) - before.eye);
   if (!way.any) return;
-  const Arrow target = before.eye + way.length * within_limit(chain, before.forward, way.unit);
+  const Arrow target = before.eye + way.length * within_angle(way.unit, before.forward, chain.limit(), chain.ease());
   const Arrow up = goal.up ? inward.direction(arrow(*goal.up)) : Arrow{};
 
   Motion carrier;  // of the joint, in the space in which the chain stands
@@ -131,12 +112,12 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
     const Measured to = measured(target - joint);
     Motion turned = pose[node];
     if (to.any) {
-      Turn correction = aimed(sight, to);
+      Turning correction = aimed(sight, to);
       if (goal.up)
         correction = rolled(to.unit, {sight.eye, correction * sight.forward, correction * sight.up}, up) * correction;
       if (joints[i].share != 1) correction = exp_turn(Dual(joints[i].share) * log_turn(correction));
-      const Turn outer = rotation_of(carrier);
-      const Turn local = chains::inverse(outer) * correction * rotation_of(here);
+      const Turning outer = rotation_of(carrier);
+      const Turning local = chains::inverse(outer) * correction * rotation_of(here);
       turned.pose.rotation = local.v;
       turned.twist.angular = local.w;
     }

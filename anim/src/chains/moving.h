@@ -125,62 +125,62 @@ inline Vec3 any_across(const Vec3& u) noexcept {
 }
 
 /// A rotation and its angular velocity, about the axes of the space that it maps into.
-struct Turn {
+struct Turning {
   Quat v{1, 0, 0, 0};
   Vec3 w{0, 0, 0};
 };
 
 /// a b, of unit length again.
-[[gnu::always_inline]] inline Turn operator*(const Turn& a, const Turn& b) noexcept {
+[[gnu::always_inline]] inline Turning operator*(const Turning& a, const Turning& b) noexcept {
   Quat q = a.v * b.v;
   q.coeffs() *= 1.5 - 0.5 * q.squaredNorm();
   return {q, a.w + a.v * b.w};
 }
-[[gnu::always_inline]] inline Turn inverse(const Turn& a) noexcept {
+[[gnu::always_inline]] inline Turning inverse(const Turning& a) noexcept {
   const Quat back = a.v.conjugate();
   return {back, -(back * a.w)};
 }
-[[gnu::always_inline]] inline Arrow operator*(const Turn& a, const Arrow& u) noexcept {
+[[gnu::always_inline]] inline Arrow operator*(const Turning& a, const Arrow& u) noexcept {
   const Vec3 turned = a.v * u.v;
   return {turned, a.w.cross(turned) + a.v * u.d};
 }
-inline Turn exp_turn(const Arrow& r) noexcept {
+inline Turning exp_turn(const Arrow& r) noexcept {
   return {exp_map(r.v), right_jacobian(-r.v) * r.d};
 }
-inline Arrow log_turn(const Turn& q) noexcept {
+inline Arrow log_turn(const Turning& q) noexcept {
   const Vec3 r = log_map(q.v);
   return {r, right_jacobian_inverse(-r) * q.w};
 }
 
 /// The shortest rotation from unit `u` to unit `v`; where they are opposite, by half a turn about `axis`, a unit
 /// vector across them. With x = u x v and c = u . v, the quaternion is along (1 + c, x).
-[[gnu::always_inline]] inline Turn arc(const Arrow& u, const Arrow& v, const Vec3& axis) noexcept {
+[[gnu::always_inline]] inline Turning arc(const Arrow& u, const Arrow& v, const Vec3& axis) noexcept {
   const Arrow x = cross(u, v);
   const Dual c = dot(u, v);
   const double s = 1 + c.v;
   if (s < 1e-14) return {Quat(0, axis.x(), axis.y(), axis.z()), Vec3(0, 0, 0)};
   const double i = 1 / std::sqrt(s * s + x.v.squaredNorm());
-  Turn turn;
+  Turning turn;
   turn.v = Quat(s * i, x.v.x() * i, x.v.y() * i, x.v.z() * i);
   turn.w = (s * x.d - c.d * x.v + x.v.cross(x.d)) * (2 * i * i);
   return turn;
 }
 
 /// Three unit vectors at right angles to each other.
-struct Frame {
+struct Axes {
   Arrow x, y, z;
 
   [[nodiscard]] Vec3 spin() const noexcept { return x.v.cross(x.d) + y.d.dot(z.v) * x.v; }
 };
 
 /// @param x, y  unit, at right angles
-[[gnu::always_inline]] inline Frame frame(const Arrow& x, const Arrow& y) noexcept {
+[[gnu::always_inline]] inline Axes axes(const Arrow& x, const Arrow& y) noexcept {
   return {x, y, cross(x, y)};
 }
 
 /// The rotation from `a` to `b`.
 /// Source of the quaternion: Shepperd, "Quaternion from rotation matrix", 1978.
-[[gnu::always_inline]] inline Turn between(const Frame& a, const Frame& b) noexcept {
+[[gnu::always_inline]] inline Turning between(const Axes& a, const Axes& b) noexcept {
   double m[3][3];
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) m[i][j] = b.x.v[i] * a.x.v[j] + b.y.v[i] * a.y.v[j] + b.z.v[i] * a.z.v[j];
@@ -222,7 +222,7 @@ struct Turned {
   return {turned, a.w.cross(turned) + a.m * u.d};
 }
 
-[[gnu::always_inline]] inline Turn rotation_of(const Motion& motion) noexcept {
+[[gnu::always_inline]] inline Turning rotation_of(const Motion& motion) noexcept {
   return {motion.pose.rotation, motion.twist.angular};
 }
 [[gnu::always_inline]] inline Arrow position_of(const Motion& motion) noexcept {
@@ -236,15 +236,15 @@ struct Turned {
 }
 
 /// The rotation of a local motion replaced; a weight of 0 leaves it as it is and 1 puts `to` there, bit for bit.
-inline void turn_to(Motion& motion, const Turn& to, const Sample<double>& weight) noexcept {
+inline void turn_to(Motion& motion, const Turning& to, const Sample<double>& weight) noexcept {
   if (weight.value == 1 && weight.rate == 0) {
     motion.pose.rotation = to.v;
     motion.twist.angular = to.w;
     return;
   }
-  const Turn from = rotation_of(motion);
+  const Turning from = rotation_of(motion);
   const Arrow way = log_turn(to * inverse(from));
-  const Turn blended = exp_turn(Dual(weight.value, weight.rate) * way) * from;
+  const Turning blended = exp_turn(Dual(weight.value, weight.rate) * way) * from;
   motion.pose.rotation = blended.v;
   motion.twist.angular = blended.w;
 }

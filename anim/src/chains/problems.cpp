@@ -3,9 +3,8 @@
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
 
+#include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <vector>
 
 namespace tweenfall {
 
@@ -42,6 +41,28 @@ std::size_t Problems::node(const Hierarchy& nodes, const NodeRef& told, const st
   add(role + " is " + wrong + ", and there is no such node" +
       (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
   return no_node;
+}
+
+std::vector<std::size_t> Problems::chain(const Hierarchy& nodes, std::span<const NodeRef> told) {
+  std::vector<std::size_t> result;
+  result.reserve(told.size());
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const std::string name = "joint " + std::to_string(i + 1);
+    const std::size_t index = node(nodes, told[i], name);
+    if (i > 0 && index != no_node && result.back() != no_node)
+      require(is_below(nodes, index, result.back()),
+              name + " (" + told[i].text() + ") must be below the joint before it (" + told[i - 1].text() + ")");
+    result.push_back(index);
+  }
+  return result;
+}
+
+void Problems::add_all(const std::string& lines, const std::string& whose) {
+  for (std::size_t at = 0; at <= lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', at), lines.size());
+    add(whose + " " + lines.substr(at, end - at));
+    at = end + 1;
+  }
 }
 
 void Problems::require_finite(const Vec3& v, const std::string& name) {

@@ -4,7 +4,11 @@
 
 #include <tweenfall/anim/node_ref.h>
 
+#include <span>
+#include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tweenfall::chains {
 
@@ -21,11 +25,25 @@ class Problems {
   void require_finite(const Vec3& v, const std::string& name);
   void require_in(double number, double low, double high, const std::string& name);
 
+  /// The nodes in order, each below the one before. @returns of each its number or `no_node`
+  [[nodiscard]] std::vector<std::size_t> chain(const Hierarchy& nodes, std::span<const NodeRef> told);
+  /// The problems that `make` throws, each behind `whose`.
+  template <class Make>
+  void include(const Make& make, const std::string& whose) {
+    try {
+      make();
+    } catch (const std::invalid_argument& fault) {
+      add_all(fault.what(), whose);
+    }
+  }
+
   [[nodiscard]] bool none() const noexcept { return text_.empty(); }
   /// @throws std::invalid_argument listing them, when there are any.
   void report() const;
 
  private:
+  void add_all(const std::string& lines, const std::string& whose);
+
   std::string what_, text_;
 };
 

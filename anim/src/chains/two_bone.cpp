@@ -11,7 +11,7 @@ constexpr double nothing = 1e-14;  // of the chain's length
 
 struct TwoBones {
   Arrow first, second;  // in the space of the start
-  Turn carried;         // from the space in which the middle turns to that of the start
+  Turning carried;      // from the space in which the middle turns to that of the start
 };
 
 TwoBones two_bones(const TwoBoneChain& chain, std::span<const Motion> pose) noexcept {
@@ -172,12 +172,12 @@ void reach(const TwoBoneChain& chain, const TwoBoneGoal& goal, const Sample<doub
   const Arrow& first = first_bone.unit;
   Measured hinge = measured(across({chain.axis(), Vec3(0, 0, 0)}, first));
   if (!(hinge.length.v > 1e-9)) hinge.unit = {any_across(first.v), Vec3(0, 0, 0)};
-  const Frame old = frame(first, hinge.unit);
-  const Turn at_middle = arc(second_bone.unit, bend_cosine * first - bend_sine * old.z, hinge.unit.v);
+  const Axes old = axes(first, hinge.unit);
+  const Turning at_middle = arc(second_bone.unit, bend_cosine * first - bend_sine * old.z, hinge.unit.v);
 
   const Plane plane = goal.pole ? pole_plane(inward.direction(arrow(*goal.pole)), along, turn, hinge.unit, first)
                                 : own_plane(along, turn, hinge.unit, first);
-  turn_to(start, between(old, frame(cosine * along + sine * plane.side, plane.normal)), weight);
+  turn_to(start, between(old, axes(cosine * along + sine * plane.side, plane.normal)), weight);
   if (chain.nodes()[chain.middle()].parent == chain.start())
     turn_to(middle, at_middle * rotation_of(middle), weight);
   else

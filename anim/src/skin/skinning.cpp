@@ -8,7 +8,7 @@ namespace {
 
 using chains::Arrow;
 using chains::Dual;
-using chains::Turn;
+using chains::Turning;
 
 // A matrix and its rate, and what it leaves out: where the origin goes.
 struct Affine {
@@ -149,9 +149,9 @@ void split(SkinJoint& joint) noexcept {
     joint.stretch_rate = rate;
     return;
   }
-  const chains::Frame own = frame(x.unit, cross(z.unit, x.unit));
+  const chains::Axes own = axes(x.unit, cross(z.unit, x.unit));
   const Vec3 still(0, 0, 0);
-  const Turn turn = between(chains::frame({Vec3(1, 0, 0), still}, {Vec3(0, 1, 0), still}), own);
+  const Turning turn = between(chains::axes({Vec3(1, 0, 0), still}, {Vec3(0, 1, 0), still}), own);
   joint.rotation = turn.v;
   joint.spin = turn.w;
   for (int i = 0; i < 3; ++i) {

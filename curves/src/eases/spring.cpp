@@ -1,7 +1,8 @@
+#include <tweenfall/curves/spring_response.h>
+
 #include <algorithm>
 
 #include "eases/ease_row.h"
-#include "formulas/spring_response.h"
 
 namespace tweenfall::eases {
 namespace {
@@ -12,7 +13,7 @@ struct Response {
 
 // Step response of x'' + 2 z w x' + w^2 (x - 1) = 0 from rest at 0, at phase w t, derivatives with respect to it.
 Response step_response(double phase, double z) noexcept {
-  const formulas::SpringResponse r = formulas::spring_response(phase, z);
+  const SpringResponse r = spring_response(phase, z);
   return {1 - r.displaced, r.struck, r.displaced - 2 * z * r.struck};
 }
 

@@ -1,10 +1,10 @@
 #include <tweenfall/curves/functions.h>
+#include <tweenfall/curves/spring_response.h>
 
 #include <limits>
 #include <stdexcept>
 
 #include "curve/components.h"
-#include "formulas/spring_response.h"
 
 namespace tweenfall {
 
@@ -22,7 +22,7 @@ Curve<double> damped_spring(const DampedSpring& s) {
   const double x0 = s.position - s.goal + lag, v0 = (s.velocity - s.goal_velocity) / w;
   return Curve<double>(
       [goal = s.goal - lag, goal_velocity = s.goal_velocity, w, z, x0, v0](double t, Side) {
-        const formulas::SpringResponse r = formulas::spring_response(w * t, z);
+        const SpringResponse r = spring_response(w * t, z);
         const double x = x0 * r.displaced + v0 * r.struck;
         const double v = v0 * (r.displaced - 2 * z * r.struck) - x0 * r.struck;
         return Sample<double>{goal + goal_velocity * t + x, goal_velocity + w * v, -w * w * (2 * z * v + x)};

@@ -1,6 +1,5 @@
-#include "formulas/spring_response.h"
-
 #include <tweenfall/curves/elementary.h>
+#include <tweenfall/curves/spring_response.h>
 
 #include <cmath>
 
@@ -23,6 +22,9 @@ double cosh_series(double x) noexcept {
 }
 
 }  // namespace
+}  // namespace tweenfall::formulas
+
+namespace tweenfall {
 
 SpringResponse spring_response(double phase, double z) noexcept {
   if (z < 1) {
@@ -35,8 +37,8 @@ SpringResponse spring_response(double phase, double z) noexcept {
   }
   const double d = std::sqrt((z - 1) * (z + 1));
   if (std::abs(d * phase) < 1) {
-    const double e = elementary::exp(-z * phase), k = phase * sinh_ratio(d * phase);
-    return {e * (cosh_series(d * phase) + z * k), e * k};
+    const double e = elementary::exp(-z * phase), k = phase * formulas::sinh_ratio(d * phase);
+    return {e * (formulas::cosh_series(d * phase) + z * k), e * k};
   }
   // The slow root by its product with the fast one, which does not cancel.
   const double fast = z + d, slow = 1 / fast;
@@ -44,4 +46,4 @@ SpringResponse spring_response(double phase, double z) noexcept {
   return {(fast * es - slow * ef) / (2 * d), (es - ef) / (2 * d)};
 }
 
-}  // namespace tweenfall::formulas
+}  // namespace tweenfall

@@ -1,8 +1,8 @@
 #pragma once
 
-// The free motion of a damped spring of frequency 1 radian per second, for every damping ratio.
+/// The free motion of a damped spring of frequency 1 radian per second, for every damping ratio.
 
-namespace tweenfall::formulas {
+namespace tweenfall {
 
 /// x'' + 2 z x' + x = 0 at some time: the motion from 1 at rest, and the one from 0 at speed 1.
 /// The derivative of `displaced` is -struck, that of `struck` is displaced - 2 z struck.
@@ -14,4 +14,4 @@ struct SpringResponse {
 /// @param damping_ratio  >= 0
 [[nodiscard]] SpringResponse spring_response(double phase, double damping_ratio) noexcept;
 
-}  // namespace tweenfall::formulas
+}  // namespace tweenfall

@@ -1,0 +1,75 @@
+#pragma once
+
+/// Chains of joints that swing after what carries them: tails, hair, ropes, antennas, loose flesh.
+///
+/// Each joint's tail, which is the next joint, is drawn to where the script has it by a spring, is pulled by gravity,
+/// and stays at its distance. What swings is seen by the joints after it. Like springs, chains go by a grid of absolute
+/// time, so that the same movement comes out to the bit at every frame rate, with exact rates.
+
+#include <tweenfall/anim/node_spring.h>
+
+#include <numbers>
+
+namespace tweenfall {
+
+struct JiggleSettings {
+  /// From the one nearest to the root on, each below the one before. The last is only a tail, unless it has a `tip`.
+  std::vector<NodeRef> joints;
+  Vec3 tip{0, 0, 0};                ///< tail of the last joint, in its own space, m; zero for none
+  SpringSettings spring = {};       ///< of each joint's tail; hz 0 leaves it to gravity alone
+  double limit = std::numbers::pi;  ///< of the angle by which a joint swings away from the script, rad; 0 to pi
+  double ease = 0.2;                ///< over which it comes to a halt before the limit, rad; >= 0
+};
+
+/// Where the tails are at a point of the grid, seen from where the script has them.
+struct JiggleState {
+  std::int64_t step = 0;
+  std::vector<Vec3> offsets;  ///< one per swinging joint, world axes, m
+  std::vector<Vec3> rates;    ///< m/s
+
+  bool operator==(const JiggleState&) const = default;
+  [[nodiscard]] std::vector<std::byte> bytes() const;
+  /// @throws std::invalid_argument for bytes that are no such state
+  [[nodiscard]] static JiggleState from_bytes(std::span<const std::byte> bytes);
+};
+
+class JiggleChain {
+ public:
+  /// @throws std::invalid_argument listing what is wrong: a chain of one joint without a tip, nodes that do not exist
+  /// or
+  ///         do not stand below each other, settings out of range
+  JiggleChain(const Hierarchy& nodes, const JiggleSettings& settings);
+
+  [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
+  [[nodiscard]] const SpringFollower& spring() const noexcept { return spring_; }
+  [[nodiscard]] std::span<const std::size_t> joints() const noexcept { return joints_; }  ///< those that swing
+  [[nodiscard]] std::size_t tail() const noexcept { return tail_; }  ///< node after the last; `no_node` for the tip
+  [[nodiscard]] const Vec3& tip() const noexcept { return tip_; }
+  [[nodiscard]] double limit() const noexcept { return limit_; }
+  [[nodiscard]] double ease() const noexcept { return ease_; }
+
+  /// As the script has it. @param time  s, any finite
+  [[nodiscard]] JiggleState at_rest(double time) const;
+  /// Motions that `jiggle` needs for its own use.
+  [[nodiscard]] std::size_t scratch_size() const noexcept { return 2 * nodes_.size(); }
+
+ private:
+  Hierarchy nodes_;
+  SpringFollower spring_;
+  std::vector<std::size_t> joints_;
+  std::size_t tail_ = no_node;
+  Vec3 tip_;
+  double limit_, ease_;
+};
+
+/// Brings the state to the last point of the grid up to `time` and the joints to where they are at `time`. A state of
+/// another number of joints, of a later time, or more than four million steps old starts anew at rest.
+///
+/// @param pose_at  the script
+/// @param weight   0 leaves the pose's bits as they are (the chain goes on swinging), 1 shows it
+/// @param scratch  `scratch_size()` motions
+/// @param pose     what the script gives for `time`; the rotations of the joints in it are changed
+void jiggle(const JiggleChain& chain, JiggleState& state, double time, const PoseAt& pose_at,
+            const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept;
+
+}  // namespace tweenfall

@@ -1,0 +1,54 @@
+#pragma once
+
+/// A node whose place, rotation or both follow the script by springs: antennas, cameras, packs.
+
+#include <tweenfall/anim/node_ref.h>
+#include <tweenfall/anim/spring.h>
+
+namespace tweenfall {
+
+/// Writes the local motions of all nodes at a time, s. It is asked for times on a spring's grid, up to one step ahead.
+/// It must not throw.
+using PoseAt = std::function<void(double time, std::span<Motion> pose)>;
+
+struct NodeSpringSettings {
+  NodeRef node;
+  std::optional<SpringSettings> position = std::nullopt;  ///< of its place in the world
+  std::optional<SpringSettings> rotation = std::nullopt;  ///< of its rotation in the world; gravity does not act on it
+};
+
+struct NodeSpringState {
+  SpringState position, rotation;
+
+  bool operator==(const NodeSpringState&) const = default;
+};
+
+class NodeSpring {
+ public:
+  /// @throws std::invalid_argument listing what is wrong: no such node, neither spring, settings out of range
+  NodeSpring(const Hierarchy& nodes, const NodeSpringSettings& settings);
+
+  [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
+  [[nodiscard]] std::size_t node() const noexcept { return node_; }
+  [[nodiscard]] const std::optional<SpringFollower>& position() const noexcept { return position_; }
+  [[nodiscard]] const std::optional<SpringFollower>& rotation() const noexcept { return rotation_; }
+
+  [[nodiscard]] NodeSpringState at_rest(double time) const noexcept;
+
+ private:
+  Hierarchy nodes_;
+  std::size_t node_;
+  std::optional<SpringFollower> position_, rotation_;
+};
+
+/// Brings the state to `time` and the node to where its springs are then. Within a step of the grid the node's way in
+/// the world is taken for the cubic that its places and velocities at both ends give.
+///
+/// @param pose_at  the script
+/// @param weight   0 leaves the pose's bits as they are (the springs go on), 1 shows the springs
+/// @param scratch  as many motions as there are nodes
+/// @param pose     what the script gives for `time`; the node's motion in it is changed
+void follow(const NodeSpring& spring, NodeSpringState& state, double time, const PoseAt& pose_at,
+            const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept;
+
+}  // namespace tweenfall

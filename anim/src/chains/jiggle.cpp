@@ -1,0 +1,216 @@
+#include <tweenfall/anim/jiggle.h>
+
+#include "chains/angle_limit.h"
+#include "chains/problems.h"
+#include "chains/spring_forcing.h"
+#include "chains/state_bytes.h"
+
+namespace tweenfall {
+namespace chains {
+namespace {
+
+// The joints of a chain in one pose, one after the other: where each is, carried by those before it that swing.
+class Walk {
+ public:
+  Walk(const JiggleChain& chain, std::span<const Motion> pose) noexcept
+      : chain_(chain), pose_(pose), carrier_(above(chain.nodes(), chain.joints().front(), pose).motion) {
+    stand();
+  }
+
+  [[nodiscard]] const Arrow& joint() const noexcept { return joint_; }
+  [[nodiscard]] const Arrow& tail() const noexcept { return tail_; }  ///< where the script has it
+  /// The rotation of the joint's parent.
+  [[nodiscard]] Turning outer() const noexcept { return rotation_of(carrier_); }
+
+  /// The joint with its tail in the direction of `tail_ + offset`. @returns its own rotation, told in its parent's axes
+  Turning swing(const Arrow& offset) noexcept {
+    const Measured arm = measured(tail_ - joint_), away = measured(tail_ + offset - joint_);
+    Turning swung = rotation_of(here_);
+    if (arm.any && away.any) {
+      const Arrow to = within_angle(away.unit, arm.unit, chain_.limit(), chain_.ease());
+      swung = arc(arm.unit, to, any_across(arm.unit.v)) * swung;
+    }
+    const Turning local = chains::inverse(outer()) * swung;
+    here_.pose.rotation = swung.v;
+    here_.twist.angular = swung.w;
+    return local;
+  }
+
+  /// On to the next joint.
+  void go_on() noexcept {
+    const std::size_t before = chain_.joints()[number_], now = chain_.joints()[++number_];
+    carrier_ = here_;
+    const std::size_t parent = chain_.nodes()[now].parent;
+    if (parent != before) carrier_ = compose(here_, seen_from(chain_.nodes(), before, parent, pose_));
+    stand();
+  }
+
+ private:
+  void stand() noexcept {
+    const std::size_t node = chain_.joints()[number_];
+    const bool last = number_ + 1 == chain_.joints().size();
+    const std::size_t next = last ? chain_.tail() : chain_.joints()[number_ + 1];
+    here_ = compose(carrier_, pose_[node]);
+    joint_ = position_of(here_);
+    Motion tip;
+    tip.pose.position = chain_.tip();
+    tail_ = position_of(compose(here_, next == no_node ? tip : seen_from(chain_.nodes(), node, next, pose_)));
+  }
+
+  const JiggleChain& chain_;
+  std::span<const Motion> pose_;
+  std::size_t number_ = 0;
+  Motion carrier_, here_;
+  Arrow joint_, tail_;
+};
+
+// The offset of a tail that is brought back to its distance from the joint, keeping its direction and the rate of that.
+Arrow held(const Arrow& offset, const Walk& walk) noexcept {
+  const Measured arm = measured(walk.tail() - walk.joint()), away = measured(walk.tail() + offset - walk.joint());
+  if (!arm.any || !away.any) return {};
+  return walk.joint() + arm.length * away.unit - walk.tail();
+}
+
+// What the bone does to the tail within a step: it holds it at its distance, which takes the outward part of all other
+// accelerations and the turning's own, as they are when the step begins. What is left of the distance's error `held`
+// mends; without this it would be of first order, and damp what swings under gravity.
+void pull_back(Forcing& push, const SpringFollower& spring, const Walk& before, const Walk& after,
+               const Arrow& offset) noexcept {
+  const SpringSettings& settings = spring.settings();
+  const double w = 2 * std::numbers::pi * settings.hz, drag = 2 * settings.damping * w;
+  const double h = 1 / settings.steps_per_second;
+  // A stiff spring is home before the step ends: what held at its beginning does not hold on.
+  if (drag * h + w * h > 1) return;
+  const Arrow &joint = before.joint(), &later = after.joint();
+  const Measured away = measured(before.tail() + offset - joint);
+  if (!away.any) return;
+  const Vec3 joint_acceleration = (6 * (later.v - joint.v) - h * (4 * joint.d + 2 * later.d)) / (h * h);
+  const Vec3 free = settings.gravity - drag * offset.d - (w * w) * offset.v - joint_acceleration;
+  const double length = away.length.v, most = 0.5 * length / (h * h);
+  const double turning = length * away.unit.d.squaredNorm();
+  const double pull = std::clamp(away.unit.v.dot(free) + turning, -most, most);
+  push.parts[0] -= pull * away.unit.v;
+  push.parts[1] -= pull * away.unit.d;
+}
+
+}  // namespace
+}  // namespace chains
+
+std::vector<std::byte> JiggleState::bytes() const {
+  chains::StateWriter out;
+  out.number(step);
+  out.number(static_cast<std::int64_t>(offsets.size()));
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    out.vector(offsets[i]);
+    out.vector(rates[i]);
+  }
+  return out.bytes;
+}
+
+JiggleState JiggleState::from_bytes(std::span<const std::byte> bytes) {
+  chains::StateReader in{bytes, "jiggle state"};
+  if (bytes.size() < 16 || (bytes.size() - 16) % 48 != 0) in.require_size(16);
+  JiggleState state;
+  state.step = in.number();
+  const std::size_t count = (bytes.size() - 16) / 48;
+  const std::int64_t told = in.number();
+  if (told != static_cast<std::int64_t>(count))
+    throw std::invalid_argument("jiggle state: it is told to have " + std::to_string(told) + " joints and has " +
+                                std::to_string(count));
+  state.offsets.reserve(count);
+  state.rates.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    state.offsets.push_back(in.vector());
+    state.rates.push_back(in.vector());
+  }
+  return state;
+}
+
+JiggleChain::JiggleChain(const Hierarchy& nodes, const JiggleSettings& settings)
+    : nodes_(nodes), spring_(SpringSettings{}), tip_(settings.tip), limit_(settings.limit), ease_(settings.ease) {
+  chains::Problems problems("jiggle chain");
+  const bool with_tip = !settings.tip.isZero(0);
+  const std::size_t least = with_tip ? 1 : 2;
+  problems.require(settings.joints.size() >= least,
+                   "it has " + std::to_string(settings.joints.size()) + " joints; it needs two, or one and a tip");
+  joints_ = problems.chain(nodes, settings.joints);
+  problems.include([&] { spring_ = SpringFollower(settings.spring); }, "each joint's");
+  problems.require_finite(tip_, "tip");
+  problems.require_in(limit_, 0, std::numbers::pi, "limit");
+  problems.require_in(ease_, 0, 1e300, "ease");
+  problems.report();
+  if (!with_tip) {
+    tail_ = joints_.back();
+    joints_.pop_back();
+  }
+}
+
+JiggleState JiggleChain::at_rest(double time) const {
+  JiggleState state;
+  state.step = spring_.step_at(time);
+  state.offsets.assign(joints_.size(), Vec3(0, 0, 0));
+  state.rates = state.offsets;
+  return state;
+}
+
+void jiggle(const JiggleChain& chain, JiggleState& state, double time, const PoseAt& pose_at,
+            const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept {
+  using namespace chains;
+  const SpringFollower& spring = chain.spring();
+  const std::size_t count = chain.joints().size();
+  const double h = 1 / spring.settings().steps_per_second;
+  std::span<Motion> from = scratch.first(chain.nodes().size()), to = scratch.subspan(chain.nodes().size());
+  const auto rest = [&] {
+    state.offsets.assign(count, Vec3(0, 0, 0));
+    state.rates.assign(count, Vec3(0, 0, 0));
+    pose_at(spring.time_of(state.step), from);
+  };
+  if (state.offsets.size() != count || state.rates.size() != count) {
+    state.step = spring.step_at(time);
+    rest();
+  } else {
+    pose_at(spring.time_of(state.step), from);
+  }
+
+  const auto pushed = [&](const Walk& before, const Walk& after, const Arrow& offset) {
+    Forcing push = forcing(before.tail(), after.tail(), h, spring.settings().gravity);
+    pull_back(push, spring, before, after, offset);
+    return push;
+  };
+  advance_to(spring, state.step, time, rest, [&](std::int64_t step) {
+    pose_at(spring.time_of(step + 1), to);
+    Walk before(chain, from), after(chain, to);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Arrow offset{state.offsets[i], state.rates[i]};
+      const Arrow next = held(carried(spring.of_step(), offset, pushed(before, after, offset)), after);
+      state.offsets[i] = next.v;
+      state.rates[i] = next.d;
+      if (i + 1 == count) break;
+      before.swing(offset);
+      before.go_on();
+      after.swing(next);
+      after.go_on();
+    }
+    std::swap(from, to);
+  });
+  if (is_nothing(weight)) return;
+
+  pose_at(spring.time_of(state.step + 1), to);
+  const SpringShares shares = spring.shares(seconds_into(spring, state.step, time));
+  Walk before(chain, from), after(chain, to), now(chain, pose);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Arrow offset{state.offsets[i], state.rates[i]};
+    const Forcing push = pushed(before, after, offset);
+    const Turning local = now.swing(carried(shares, offset, push));
+    if (i + 1 < count) {
+      before.swing(offset);
+      before.go_on();
+      after.swing(held(carried(spring.of_step(), offset, push), after));
+      after.go_on();
+      now.go_on();
+    }
+    turn_to(pose[chain.joints()[i]], local, weight);
+  }
+}
+
+}  // namespace tweenfall
