@@ -11,7 +11,7 @@
 
 namespace tweenfall::test {
 
-inline constexpr std::size_t joints = 6;  ///< of a pose in these tests
+inline constexpr std::size_t pose_size = 6;  ///< joints of a pose in these tests
 
 /// A smooth function of time with a known rate.
 inline Motion moving_joint(Random& random, double time) {
