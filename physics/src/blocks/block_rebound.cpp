@@ -68,7 +68,8 @@ void BlockSolver::find_rebounds(double h) {
 }
 
 /// See Solver::move_by_rebound.
-void BlockSolver::move_by(const Rebound& rebound, const ReboundContact& contact) {
+template <class Contact>
+void BlockSolver::move_by(const Rebound& rebound, const Contact& contact) {
   const double part = rebound.speed / (rebound.speed - std::min(0.0, rebound.speed_before));
   const double most = contact.mass(rebound.point) * rebound.speed;
   const double own = std::clamp(contact.given(rebound.point) * part, -most, most) * rebound.time;
@@ -182,39 +183,44 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
     back(velocities_[i].linear, before->linear);
     back(velocities_[i].angular, before->angular);
   }
-  for (ReboundContact& contact : reach_.contacts()) {
+  const auto take_back = [this](auto& contact) {
     const double share = shares_[island_of_[bodies_[contact.a()].movable ? contact.a() : contact.b()]];
     if (share != 1) contact.take_back(share);
-  }
+  };
+  std::ranges::for_each(reach_.contacts(), take_back);
+  std::ranges::for_each(reach_.balls(), take_back);
 }
 
 void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes) {
   const auto pressed = [this](const Rebound& rebound) { return contacts_.impulse(rebound.lane, rebound.point) > 0; };
   if (std::none_of(rebounds_.begin(), rebounds_.end(), pressed)) return;
   reach_.begin(contacts_, bodies_);
-  const auto reach = [this](std::uint32_t lane) -> ReboundContact& {
-    return reach_.reach(lane, contacts_, bodies_, velocities_);
+  const auto reach = [this](std::uint32_t lane, const auto& act) {
+    return reach_.reach(lane, contacts_, bodies_, velocities_, act);
   };
   for (Rebound& rebound : rebounds_) {
-    ReboundContact& contact = reach(rebound.lane);
-    contact.want(rebound.point, rebound.speed);
-    rebound.speed_before = contact.speed(rebound.point, velocities_);
+    rebound.speed_before = reach(rebound.lane, [&](auto& contact) {
+      contact.want(rebound.point, rebound.speed);
+      return contact.speed(rebound.point, velocities_);
+    });
     if (pressed(rebound)) reach_.look_at(rebound.lane);
   }
   for (int pass = 0; pass < passes; ++pass) {
     const bool any = reach_.visit([&](std::uint32_t lane) {
-      ReboundContact& contact = reach(lane);
-      // Where it pushes on, the neighbors are to be looked at, too.
-      if (contact.solve(velocities_) > quiet * contact.tremble())
-        for (const std::uint32_t place : {contact.a(), contact.b()})
-          if (bodies_[place].movable) reach_.push(place);
+      reach(lane, [&](auto& contact) {
+        // Where it pushes on, the neighbors are to be looked at, too.
+        if (contact.solve(velocities_) > quiet * contact.tremble())
+          for (const std::uint32_t place : {contact.a(), contact.b()})
+            if (bodies_[place].movable) reach_.push(place);
+      });
       reach_.pass_by(lane);
     });
     if (!any) break;
   }
-  for (const Rebound& rebound : rebounds_) move_by(rebound, reach(rebound.lane));
+  for (const Rebound& rebound : rebounds_) reach(rebound.lane, [&](const auto& contact) { move_by(rebound, contact); });
   bound_energy(bodies, loads);
   for (const ReboundContact& contact : reach_.contacts()) contact.put_back(contacts_);
+  for (const ReboundBall& ball : reach_.balls()) ball.put_back(contacts_);
 }
 
 }  // namespace tweenfall::blocks

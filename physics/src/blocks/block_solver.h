@@ -109,7 +109,8 @@ class BlockSolver {
   // Rebound
   void find_rebounds(double h);
   void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes);
-  void move_by(const Rebound& rebound, const ReboundContact& contact);
+  template <class Contact>
+  void move_by(const Rebound& rebound, const Contact& contact);
   [[nodiscard]] double work_of_driven() const;
   void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads);
 

@@ -15,6 +15,9 @@ namespace tweenfall::blocks {
 [[nodiscard]] inline Vec3 lane_of(const Lanes3& lanes, int lane) {
   return {lanes.x[lane], lanes.y[lane], lanes.z[lane]};
 }
+inline void add(double (&lanes)[4], const Vec3& value) {
+  for (int i = 0; i < 3; ++i) lanes[i] += value[i];
+}
 inline void set(double (&lanes)[4], const Vec3& value) {
   for (int i = 0; i < 3; ++i) lanes[i] = value[i];
 }

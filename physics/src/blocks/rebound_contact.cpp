@@ -5,49 +5,20 @@
 
 namespace tweenfall::blocks {
 
-namespace {
-
-void add(double (&lanes)[4], const Vec3& value) {
-  for (int i = 0; i < 3; ++i) lanes[i] += value[i];
-}
-
-}  // namespace
-
 void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, const std::vector<IslandBody>& bodies) {
   lane_ = index;
   const std::size_t i = index / lane_count;
   const int lane = static_cast<int>(index % lane_count);
-  ball_ = i >= contacts.blocks.size();
-  const contacts::ContactConstraint& contact = *contacts.origin(i)[static_cast<std::size_t>(lane)];
-  const auto ends = [&](const auto& block) {
-    a_ = block.a[lane];
-    b_ = block.b[lane];
-    inverse_mass_a_ = block.inverse_mass_a[lane];
-    inverse_mass_b_ = block.inverse_mass_b[lane];
-    normal_ = lane_of(block.normal, lane);
-    coefficient_ = block.coefficient[lane];
-    // Of most contacts nothing but their lane is looked at.
-    grips_ = block.hard[lane] != 0 && contact.impact;
-  };
-  const auto point = [&](std::size_t k, double mass, double gap, double impulse, const Vec3& turn_a,
-                         const Vec3& turn_b) { points_[k] = {mass, gap, impulse, impulse, 0, turn_a, turn_b}; };
-  if (ball_) {
-    const BallBlock& block = contacts.balls[i - contacts.blocks.size()];
-    ends(block);
-    tremble_ = contacts.ball_meetings[i - contacts.blocks.size()].tremble[lane];
-    count_ = 1;
-    frictions_ = 0;
-    arm_a_ = block.arm_a[lane];
-    arm_b_ = block.arm_b[lane];
-    spin_a_ = block.spin_a[lane];
-    spin_b_ = block.spin_b[lane];
-    slip_mass_ = block.slip_mass[lane];
-    friction_ = friction_before_ = lane_of(block.friction, lane);
-    point(0, block.mass[lane], block.gap[lane], block.impulse[lane], Vec3::Zero(), Vec3::Zero());
-    return;
-  }
+  const contacts::ContactConstraint& contact = *contacts.origins[i][static_cast<std::size_t>(lane)];
   const ContactBlock& block = contacts.blocks[i];
-  ends(block);
+  a_ = block.a[lane];
+  b_ = block.b[lane];
+  inverse_mass_a_ = block.inverse_mass_a[lane];
+  inverse_mass_b_ = block.inverse_mass_b[lane];
+  normal_ = lane_of(block.normal, lane);
+  coefficient_ = block.coefficient[lane];
+  // Of most contacts nothing but their lane is looked at.
+  grips_ = block.hard[lane] != 0 && contact.impact;
   body_a_ = &bodies[a_];
   body_b_ = &bodies[b_];
   inverse_moment_a_ = body_a_->inverse_moment;
@@ -61,7 +32,9 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
   tangent2_ = lane_of(block.tangent2, lane);
   for (std::size_t k = 0; k < count_; ++k) {
     const PointRow& row = contacts.points[block.point + k];
-    point(k, row.mass[lane], row.gap[lane], row.impulse[lane], lane_of(row.turn_a, lane), lane_of(row.turn_b, lane));
+    const double impulse = row.impulse[lane];
+    points_[k] = {row.mass[lane],           row.gap[lane], impulse, impulse, 0, lane_of(row.turn_a, lane),
+                  lane_of(row.turn_b, lane)};
   }
   for (std::size_t k = 0; k < frictions_; ++k) {
     const FrictionRow& row = contacts.frictions[block.friction + k];
@@ -122,28 +95,10 @@ double ReboundContact::solve_friction(Friction& row, double limit, BodyLanes& a,
   return row.firm > 0 ? std::max(std::abs(change1), std::abs(change2)) / row.firm : 0;
 }
 
-double ReboundContact::solve_ball_friction(BodyLanes& a, BodyLanes& b) {
-  const Vec3 relative = linear_of(b) - linear_of(a);
-  const Vec3 slip =
-      relative - normal_.dot(relative) * normal_ - Vec3(arm_a_ * angular_of(a) + arm_b_ * angular_of(b)).cross(normal_);
-  const double limit = coefficient_ * points_[0].impulse;
-  Vec3 next = friction_ - slip_mass_ * slip;
-  const double length = next.norm();
-  if (length > limit) next *= limit / length;
-  const Vec3 change = next - friction_;
-  friction_ = next;
-  push(a, b, change);
-  const Vec3 turning = normal_.cross(change);
-  add(a.angular, -spin_a_ * turning);
-  add(b.angular, -spin_b_ * turning);
-  return change.norm() / slip_mass_;
-}
-
 double ReboundContact::solve(std::vector<BodyLanes>& velocities) {
   BodyLanes &a = velocities[a_], &b = velocities[b_];
   double change = 0;
-  if (grips_ && ball_) change = solve_ball_friction(a, b);
-  if (grips_ && !ball_) {
+  if (grips_) {
     double pressing = 0;
     for (std::size_t k = 0; k < count_; ++k) pressing += points_[k].impulse;
     for (std::size_t k = 0; k < frictions_; ++k)
@@ -158,7 +113,7 @@ double ReboundContact::solve(std::vector<BodyLanes>& velocities) {
     if (pushed == 0) continue;
     point.impulse = next;
     push(a, b, pushed * normal_);
-    if (!ball_) turn(a, b, pushed * point.turn_a, pushed * point.turn_b);
+    turn(a, b, pushed * point.turn_a, pushed * point.turn_b);
     change = std::max(change, std::abs(pushed) / point.mass);
   }
   return change;
@@ -167,7 +122,7 @@ double ReboundContact::solve(std::vector<BodyLanes>& velocities) {
 double ReboundContact::speed(std::size_t i, const std::vector<BodyLanes>& velocities) const {
   const BodyLanes &a = velocities[a_], &b = velocities[b_];
   const double along = normal_.dot(linear_of(b) - linear_of(a));
-  return ball_ ? along : along + points_[i].turn_b.dot(angular_of(b)) - points_[i].turn_a.dot(angular_of(a));
+  return along + points_[i].turn_b.dot(angular_of(b)) - points_[i].turn_a.dot(angular_of(a));
 }
 
 double ReboundContact::work(const BodyLanes& will, bool a_moves) const {
@@ -191,22 +146,11 @@ void ReboundContact::take_back(double share) {
     back(rows_[k].first, rows_[k].first_before);
     back(rows_[k].second, rows_[k].second_before);
   }
-  if (ball_) friction_ = friction_before_ + share * (friction_ - friction_before_);
 }
 
 void ReboundContact::put_back(ContactBlocks& contacts) const {
   const std::size_t i = lane_ / lane_count;
   const int lane = static_cast<int>(lane_ % lane_count);
-  if (ball_) {
-    BallBlock& block = contacts.balls[i - contacts.blocks.size()];
-    block.total[lane] += given(0);
-    if (points_[0].wanted > 0) block.impulse[lane] = 0;
-    const Vec3 dragged = friction_ - friction_before_;
-    block.total_friction.x[lane] += dragged.x();
-    block.total_friction.y[lane] += dragged.y();
-    block.total_friction.z[lane] += dragged.z();
-    return;
-  }
   const ContactBlock& block = contacts.blocks[i];
   for (std::size_t k = 0; k < count_; ++k) {
     PointRow& row = contacts.points[block.point + k];

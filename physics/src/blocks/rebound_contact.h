@@ -11,7 +11,7 @@ namespace tweenfall::blocks {
 /// looked at several times.
 class ReboundContact {
  public:
-  /// @param lane  8 * block + lane; balls come after all blocks
+  /// @param lane  8 * block + lane
   void take(const ContactBlocks& contacts, std::uint32_t lane, const std::vector<IslandBody>& bodies);
   /// Point `i` shall leave with this speed.
   void want(std::size_t i, double speed) { points_[i].wanted = speed; }
@@ -49,20 +49,16 @@ class ReboundContact {
     double drift1 = 0, drift2 = 0;  ///< of the surfaces, m/s
   };
   double solve_friction(Friction& row, double limit, BodyLanes& a, BodyLanes& b) const;
-  double solve_ball_friction(BodyLanes& a, BodyLanes& b);
   void turn(BodyLanes& a, BodyLanes& b, const Vec3& turn_a, const Vec3& turn_b) const;
   void push(BodyLanes& a, BodyLanes& b, const Vec3& impulse) const;
 
   std::uint32_t lane_ = 0, a_ = 0, b_ = 0;
   std::size_t count_ = 0, frictions_ = 0;
-  bool ball_ = false, central_ = false, grips_ = false, isotropic_ = true;
+  bool central_ = false, grips_ = false, isotropic_ = true;
   double tremble_ = 0, coefficient_ = 0;
   double inverse_mass_a_ = 0, inverse_mass_b_ = 0, inverse_moment_a_ = 0, inverse_moment_b_ = 0;
   const IslandBody *body_a_ = nullptr, *body_b_ = nullptr;
   Vec3 normal_;
-  // Of a ball
-  double arm_a_ = 0, arm_b_ = 0, spin_a_ = 0, spin_b_ = 0, slip_mass_ = 0;
-  Vec3 friction_, friction_before_;
   std::array<Point, 4> points_;
   Vec3 tangent1_, tangent2_;
   std::array<Friction, 4> rows_;

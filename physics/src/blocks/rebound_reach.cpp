@@ -7,7 +7,8 @@ void ReboundReach::begin(const ContactBlocks& contacts, const std::vector<Island
   before_.resize(bodies.size());
   open_.assign((contacts.size() * lane_count + 63) / 64, 0);
   slots_.assign(contacts.size() * lane_count, 0);
-  reached_ = 0;
+  contact_count_ = ball_count_ = 0;
+  first_ball_ = contacts.blocks.size() * lane_count;
   if (!starts_.empty()) return;
   const auto each_end = [&](const auto& see) {
     for (std::size_t i = contacts.size(); i-- > 0;) {
@@ -28,22 +29,6 @@ void ReboundReach::begin(const ContactBlocks& contacts, const std::vector<Island
   for (std::uint32_t& start : starts_) start = end += start;
   lanes_.resize(end);
   each_end([this](std::uint32_t place, std::uint32_t lane) { lanes_[--starts_[place]] = lane; });
-}
-
-ReboundContact& ReboundReach::reach(std::uint32_t lane, const ContactBlocks& contacts,
-                                    const std::vector<IslandBody>& bodies, const std::vector<BodyLanes>& velocities) {
-  std::uint32_t& slot = slots_[lane];
-  if (slot != 0) return contacts_[slot - 1];
-  if (reached_ == contacts_.size()) contacts_.emplace_back();
-  ReboundContact& contact = contacts_[reached_++];
-  slot = static_cast<std::uint32_t>(reached_);
-  contact.take(contacts, lane, bodies);
-  for (const std::uint32_t place : {contact.a(), contact.b()}) {
-    if (known_[place]) continue;
-    known_[place] = 1;
-    before_[place] = velocities[place];
-  }
-  return contact;
 }
 
 void ReboundReach::push(std::uint32_t place) {
