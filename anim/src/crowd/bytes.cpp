@@ -168,7 +168,7 @@ Form read_form(Reader& from, const CompiledClip& clip) {
   if (form.base == Packing::none) {
     from.require(form.stride == 0, "there is no base for this stride");
   } else {
-    from.require(form.stride >= 1 && form.stride <= largest_stride, "there is no such stride");
+    from.require(std::has_single_bit(form.stride) && form.stride <= largest_stride, "there is no such stride");
     from.require(form.fine == Packing::none || form.fine == Packing::narrow, "there is no such form");
   }
   return form;

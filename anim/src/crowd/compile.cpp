@@ -120,7 +120,8 @@ void add_climbs(CompiledClip& clip, const ExactPose& exact) {
 }
 
 std::shared_ptr<CompiledClip> assembled(const ExactPose& exact, const std::vector<FittedChannel>& fits,
-                                        const std::vector<Survey>& surveys, const Reach& reach, double share) {
+                                        const std::vector<Survey>& surveys, const Reach& reach, double share,
+                                        bool smallest) {
   auto clip = std::make_shared<CompiledClip>();
   clip->joints = static_cast<std::uint32_t>(exact.nodes().size());
   clip->duration = exact.duration();
@@ -131,7 +132,7 @@ std::shared_ptr<CompiledClip> assembled(const ExactPose& exact, const std::vecto
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const Fitted& fit = fits[i].fit;
     std::vector<Way>& of_channel =
-        choices.emplace_back(surveys[i].ways(steps_for(fit, rooms(reach, fits[i].group, fit.kind, share))));
+        choices.emplace_back(surveys[i].ways(steps_for(fit, rooms(reach, fits[i].group, fit.kind, share)), smallest));
     if (of_channel.front().form.is_constant()) continue;
     const auto [found, added] = timelines.try_emplace(fit.knots, static_cast<std::uint32_t>(clip->timelines.size()));
     if (added) {
@@ -178,7 +179,7 @@ std::shared_ptr<CompiledClip> coarsest(const ExactPose& exact, const std::vector
   std::shared_ptr<CompiledClip> best;
   double holds = 0, fails = 0, share = 0.4 * settings.tolerance;
   for (int attempt = 0; attempt < 12; ++attempt) {
-    const std::shared_ptr<CompiledClip> clip = assembled(exact, fits, surveys, reach, share);
+    const std::shared_ptr<CompiledClip> clip = assembled(exact, fits, surveys, reach, share, settings.smallest);
     clip->error = largest_error(exact, *clip, settings.arm, times);
     best_error = std::min(best_error, clip->error);
     if (clip->error <= allowed) {

@@ -66,9 +66,9 @@ struct Timeline {
   void index();
 
   struct Place {
-    std::size_t knot;   ///< the segment's first
-    double u;           ///< 0 to 1, along it
-    double per_second;  ///< of u; 0 for a segment that is a jump
+    std::size_t knot;  ///< the segment's first
+    double u;          ///< 0 to 1, along it
+    double length;     ///< of it, s; 0 for one that is a jump
   };
   [[nodiscard]] Place at(double time, bool arriving) const noexcept;
 };
@@ -86,7 +86,7 @@ struct Form {
   std::uint32_t timeline = no_timeline;  ///< none: the channels are constant, their offsets
   bool cubic = false;
   Packing base = Packing::none, fine = Packing::none;
-  std::uint32_t stride = 0;  ///< knots for each coefficient of the base
+  std::uint32_t stride = 0;  ///< knots for each coefficient of the base; a power of 2, or 0 without one
 
   auto operator<=>(const Form&) const = default;
 
@@ -114,6 +114,7 @@ struct Run {
   std::uint32_t first = 0, count = 0;          ///< channels
   std::size_t base_row = 0, fine_row = 0;      ///< words in a row
   std::size_t base_begin = 0, fine_begin = 0;  ///< where the rows begin among the words
+  std::uint32_t stride_bits = 0;               ///< the stride is 2 to the power of this
   std::size_t taps_begin = 0;  ///< where the weights of the base's coefficients begin, four for each knot of a stride
 };
 

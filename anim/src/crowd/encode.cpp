@@ -11,6 +11,8 @@ namespace tweenfall::crowd {
 
 namespace {
 
+/// For how much of a line at each knot a slot is read from a row less.
+constexpr double line_for_row = 0.06;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// A sequence of numbers as whole numbers of steps from an offset.
@@ -170,7 +172,7 @@ Survey::Survey(const Fitted& fitted) : fitted_(&fitted) {
     for (std::size_t knot = 0; knot < knots; ++knot) numbers[knot] = fitted.values[knot * sequences + i];
     whole_.push_back(extent());
   }
-  for (const std::uint32_t stride : {2, 3, 4, 6, 8, 12, 16, 32}) {
+  for (const std::uint32_t stride : {2, 4, 8, 16, 32}) {
     if (stride + 1 > knots) break;
     Based based(fitted, stride);
     for (const Packing base : {Packing::narrow, Packing::wide}) {
@@ -185,7 +187,7 @@ Survey::Survey(const Fitted& fitted) : fitted_(&fitted) {
   }
 }
 
-std::vector<Way> Survey::ways(const Steps& steps) const {
+std::vector<Way> Survey::ways(const Steps& steps, bool smallest) const {
   const std::size_t count = components(fitted_->kind), knots = fitted_->knots.size();
   const auto all_within = [&](const Extents& extents, const auto& within) {
     for (std::size_t i = 0; i < extents.size(); ++i)
@@ -200,11 +202,14 @@ std::vector<Way> Survey::ways(const Steps& steps) const {
   const bool constant = all_within(whole_, [&](const Extent& extent, double step, std::size_t slot) {
     return (slot < count ? extent.half : extent.most) <= 0.5 * step;
   });
-  if (knots < 2 || constant) return {{Form{}, count}};
+  if (knots < 2 || constant) return {{Form{}, static_cast<double>(count)}};
   std::vector<Way> all;
   const auto add = [&](const Form& form) {
-    all.push_back({form, form.base_rows(knots) * form.lines(form.base, count) + knots * form.lines(form.fine, count) +
-                             form.slots(count) * form.numbers_per_slot()});
+    const std::size_t lines = form.base_rows(knots) * form.lines(form.base, count) +
+                              knots * form.lines(form.fine, count) + form.slots(count) * form.numbers_per_slot();
+    const std::size_t rows = (form.base != Packing::none ? 4 : 0) + (form.fine != Packing::none ? 2 : 0);
+    const double time = smallest ? 0 : line_for_row * static_cast<double>(knots * rows * form.slots(count));
+    all.push_back({form, static_cast<double>(lines) + time});
   };
   const bool cubic = fitted_->cubic;
   add({.cubic = cubic, .fine = Packing::exact});

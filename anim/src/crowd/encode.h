@@ -31,10 +31,10 @@ struct Encoded {
   std::vector<std::int32_t> base, fine;  ///< row after row
 };
 
-/// A way to store a channel, and how much room that takes.
+/// A way to store a channel, and what that costs.
 struct Way {
-  Form form;  ///< the number of the timeline is not set
-  std::size_t lines;
+  Form form;    ///< the number of the timeline is not set
+  double cost;  ///< lines of eight words; and what it takes to read them, where that counts, as so many lines
 };
 
 /// What every way of storing a channel would leave, so that the ways for some steps are known at once.
@@ -43,7 +43,8 @@ class Survey {
   explicit Survey(const Fitted& fitted);
 
   /// All ways in which no number is further off than half its step, or hardly. One at least.
-  [[nodiscard]] std::vector<Way> ways(const Steps& steps) const;
+  /// @param smallest  only room counts, and not time
+  [[nodiscard]] std::vector<Way> ways(const Steps& steps, bool smallest) const;
 
  private:
   /// Of a sequence of numbers: half its range, and its largest magnitude.

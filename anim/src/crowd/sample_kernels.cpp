@@ -56,7 +56,7 @@ struct Cursor {
 };
 
 /// What the values, or the tangents, of a channel add to it; the cursor goes on.
-template <std::size_t count, Packing base, Packing fine, bool rates>
+template <std::size_t count, Packing base, Packing fine, bool rates, bool tangents>
 TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const RowWeights& weights, const RowWeights& rate_weights,
                                  Lanes (&value)[count], Lanes (&rate)[count]) {
   constexpr bool based = base != Packing::none, has_fine = fine != Packing::none, exact = fine == Packing::exact;
@@ -71,8 +71,9 @@ TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const RowWeights& w
       if constexpr (rates) rate[c] = rest_rate[c];
     } else {
       const Lanes offset = load(at.numbers);
-      value[c] = offset * load(weights.sum);
-      if constexpr (rates) rate[c] = offset * load(rate_weights.sum);
+      // The values at the two knots are mixed; of the tangents there can be more or less.
+      value[c] = tangents ? offset * load(weights.sum) : offset;
+      if constexpr (rates) rate[c] = tangents ? offset * load(rate_weights.sum) : all(0);
       if constexpr (based) {
         const Lanes step = load(at.numbers + lane_count);
         value[c] = value[c] + step * smooth[c];
@@ -118,10 +119,10 @@ template <std::size_t count, Packing base, Packing fine, bool rates>
 TWEENFALL_CROWD_LANES void one_channel(Cursor& at, const Run& run, const RunPlace& place, float (*to)[lane_count],
                                        float (*rate_to)[lane_count]) {
   Lanes value[count], rate[count];
-  slots<count, base, fine, rates>(at, run, place.value, place.value_rate, value, rate);
+  slots<count, base, fine, rates, false>(at, run, place.value, place.value_rate, value, rate);
   if (run.form.cubic) {
     Lanes more[count], more_rate[count];
-    slots<count, base, fine, rates>(at, run, place.tangent, place.tangent_rate, more, more_rate);
+    slots<count, base, fine, rates, true>(at, run, place.tangent, place.tangent_rate, more, more_rate);
     for (std::size_t c = 0; c < count; ++c) {
       value[c] = value[c] + more[c];
       if constexpr (rates) rate[c] = rate[c] + more_rate[c];

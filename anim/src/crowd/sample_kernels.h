@@ -11,7 +11,7 @@ struct alignas(32) RowWeights {
   static constexpr std::size_t lanes = CrowdGroup::size;
   float base[4][lanes];
   float fine[2][lanes];
-  float sum[lanes];  ///< of what the values at the two knots are multiplied by
+  float sum[lanes];  ///< of those of the two knots; tangents have it alone
 };
 
 /// A run at a time.

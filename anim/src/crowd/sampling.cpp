@@ -1,12 +1,16 @@
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "crowd/sample_kernels.h"
 
 namespace tweenfall::crowd {
 
 namespace {
+
+/// What the quotient of two nearly equal times is at most, so that products with it stay finite in float.
+constexpr double steepest = 1e30;
 
 /// Of the values and of the tangents at a segment's two knots.
 struct SegmentWeights {
@@ -16,13 +20,13 @@ struct SegmentWeights {
 SegmentWeights segment_weights(bool cubic, const Timeline::Place& place) {
   const double u = place.u, left = 1 - u;
   if (!cubic) return {{left, u}, {0, 0}};
-  const double seconds = place.per_second > 0 ? 1 / place.per_second : 0, end = u * u * (3 - 2 * u);
-  return {{1 - end, end}, {u * left * left * seconds, -u * u * left * seconds}};
+  const double end = u * u * (3 - 2 * u);
+  return {{1 - end, end}, {u * left * left * place.length, -u * u * left * place.length}};
 }
 
 SegmentWeights segment_rates(bool cubic, const Timeline::Place& place) {
-  const double u = place.u, per_second = place.per_second;
-  if (per_second == 0) return {};
+  if (!(place.length > 0)) return {};
+  const double u = place.u, per_second = std::min(1 / place.length, steepest);
   if (!cubic) return {{-per_second, per_second}, {0, 0}};
   const double end = 6 * u * (1 - u) * per_second;
   return {{-end, end}, {(1 - u) * (1 - 3 * u), u * (3 * u - 2)}};
@@ -39,6 +43,11 @@ void set_weights(RowWeights& weights, const Form& form, const double* of_knots, 
     for (int i = 0; i < 4; ++i) set_lanes(weights.base[i], first * taps[i] + second * taps[4 + i]);
   set_lanes(weights.fine[0], first);
   set_lanes(weights.fine[1], second);
+}
+
+/// Of tangents, which are mixed with what does not sum to 1.
+void set_tangent_weights(RowWeights& weights, const Form& form, const double* of_knots, const float* taps) {
+  set_weights(weights, form, of_knots, taps);
   set_lanes(weights.sum, static_cast<float>(of_knots[0] + of_knots[1]));
 }
 
@@ -46,23 +55,18 @@ void set_place(RunPlace& at, const CompiledClip& clip, const Run& run, const Tim
   const Form& form = run.form;
   const float* taps = nullptr;
   if (form.base != Packing::none) {
-    const std::uint32_t knot = static_cast<std::uint32_t>(place.knot), row = knot / form.stride;
-    taps = clip.taps.data() + run.taps_begin + std::size_t{4} * (knot - row * form.stride);
+    const std::uint32_t knot = static_cast<std::uint32_t>(place.knot), row = knot >> run.stride_bits;
+    taps = clip.taps.data() + run.taps_begin + std::size_t{4} * (knot & (form.stride - 1));
     at.base = clip.words.data() + run.base_begin + row * run.base_row;
   }
   at.fine = clip.words.data() + run.fine_begin + place.knot * run.fine_row;
   const SegmentWeights weights = segment_weights(form.cubic, place);
   set_weights(at.value, form, weights.value, taps);
-  if (form.cubic) set_weights(at.tangent, form, weights.tangent, taps);
+  if (form.cubic) set_tangent_weights(at.tangent, form, weights.tangent, taps);
   if (!with_rates) return;
   const SegmentWeights moving = segment_rates(form.cubic, place);
   set_weights(at.value_rate, form, moving.value, taps);
-  if (form.cubic) set_weights(at.tangent_rate, form, moving.tangent, taps);
-}
-
-void set_constant(RunPlace& at, bool with_rates) {
-  set_lanes(at.value.sum, 1);
-  if (with_rates) set_lanes(at.value_rate.sum, 0);
+  if (form.cubic) set_tangent_weights(at.tangent_rate, form, moving.tangent, taps);
 }
 
 void scale_rates(CrowdRates* rates, std::size_t groups, float factor) {
@@ -83,9 +87,7 @@ void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double 
   std::uint32_t timeline = Form::no_timeline;
   Timeline::Place place{};
   for (const Run& run : clip.runs) {
-    if (run.form.timeline == Form::no_timeline) {
-      set_constant(at, rates != nullptr);
-    } else {
+    if (run.form.timeline != Form::no_timeline) {
       if (run.form.timeline != timeline) place = clip.timelines[timeline = run.form.timeline].at(time, arriving);
       set_place(at, clip, run, place, rates != nullptr);
     }
@@ -121,6 +123,7 @@ std::uint64_t lay_out(CompiledClip& clip) {
   clip.taps.clear();
   for (Run& run : clip.runs) {
     run.base_row = run.fine_row = 0;
+    run.stride_bits = run.form.stride > 0 ? static_cast<std::uint32_t>(std::bit_width(run.form.stride) - 1) : 0;
     for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
       const std::size_t count = components(clip.channels[i].kind);
       run.base_row += CrowdGroup::size * run.form.lines(run.form.base, count);

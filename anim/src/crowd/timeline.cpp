@@ -7,8 +7,8 @@ namespace tweenfall::crowd {
 
 namespace {
 
-/// What the quotient of two nearly equal knots may be at most, so that products with it stay finite in float.
-constexpr double steepest = 1e30;
+/// Of so many knots one is found as quickly one by one.
+constexpr std::size_t few = 8;
 
 std::size_t cell_of(const Timeline& timeline, double time) {
   const double cell = (time - timeline.knots.front()) * timeline.cells_per_second;
@@ -30,19 +30,25 @@ void Timeline::index() {
 
 Timeline::Place Timeline::at(double time, bool arriving) const noexcept {
   const std::size_t cell = cell_of(*this, time);
-  const auto begin = knots.begin() + cells[cell], end = knots.begin() + cells[cell + 1];
   // The first knot behind the time; one at the time counts as behind for who arrives.
-  const auto next = arriving ? std::lower_bound(begin, end, time) : std::upper_bound(begin, end, time);
-  const std::size_t behind = static_cast<std::size_t>(next - knots.begin());
+  std::size_t behind = cells[cell];
+  const std::size_t end = cells[cell + 1];
+  if (end - behind > few) {
+    const auto first = knots.begin() + static_cast<std::ptrdiff_t>(behind),
+               last = knots.begin() + static_cast<std::ptrdiff_t>(end);
+    const auto next = arriving ? std::lower_bound(first, last, time) : std::upper_bound(first, last, time);
+    behind = static_cast<std::size_t>(next - knots.begin());
+  } else {
+    while (behind < end && (arriving ? knots[behind] < time : knots[behind] <= time)) ++behind;
+  }
   Place place{};
   place.knot = std::min(behind > 0 ? behind - 1 : 0, knots.size() - 2);
-  const double from = knots[place.knot], length = knots[place.knot + 1] - from;
-  if (length > 0) {
-    place.u = std::clamp((time - from) / length, 0.0, 1.0);
-    place.per_second = std::min(1 / length, steepest);
-  } else {
+  const double from = knots[place.knot];
+  place.length = knots[place.knot + 1] - from;
+  if (place.length > 0)
+    place.u = std::clamp((time - from) / place.length, 0.0, 1.0);
+  else
     place.u = arriving ? 0 : 1;
-  }
   return place;
 }
 
