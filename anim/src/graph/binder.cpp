@@ -46,7 +46,6 @@ Binder::Binder(const GraphDescription& description, const Hierarchy& nodes, std:
       clips_(clips),
       compiled_(std::make_unique<Graph::Compiled>()),
       made_(description.poses.size()) {
-  compiled_->clips.resize(clips.size());
   for (std::size_t i = 0; i < description.poses.size(); ++i)
     if (std::holds_alternative<MachinePose>(description.poses[i].operation)) compiled_->machine_poses.push_back(i);
   compiled_->machines.resize(compiled_->machine_poses.size());
@@ -175,23 +174,18 @@ const Operation* Binder::pose(const std::string& name, const Place& place) {
   return found;
 }
 
-const pose::BoundClip* Binder::clip(const std::string& name, const Place& place) {
+const LoopedClip* Binder::clip(const std::string& name, const std::optional<Loop>& loop, const Place& place) {
   const std::size_t index = number_of(clips_, name);
   if (index == clips_.size()) {
     fault(place, "there is no clip " + quoted(name) + nearest_of(name, names_of(clips_)));
     return nullptr;
   }
-  auto& bound_clip = compiled_->clips[index];
-  if (!bound_clip) {
-    std::string problems;
-    bound_clip = std::make_unique<const pose::BoundClip>(clips_[index], nodes_, problems);
-    if (!problems.empty()) fault(place, "the clip does not fit its nodes:" + problems);
-  }
-  return bound_clip.get();
-}
-
-std::size_t Binder::clip_number(const pose::BoundClip& clip) const noexcept {
-  return static_cast<std::size_t>(&clip.clip() - clips_.data());
+  LoopedClip& made = *compiled_->clips.emplace_back(std::make_unique<LoopedClip>(LoopedClip{index, clips_[index]}));
+  if (loop) made.clip.loop = *loop;
+  std::string problems;
+  made.bound.emplace(made.clip, nodes_, problems);
+  if (!problems.empty()) fault(place, "the clip does not fit its nodes:" + problems);
+  return &made;
 }
 
 std::optional<std::size_t> Binder::parameter(const std::string& name, const Place& place) {

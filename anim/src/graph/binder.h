@@ -13,11 +13,22 @@
 
 namespace tweenfall {
 
+namespace graphs {
+
+/// A clip as it is played: with a loop that may not be its own.
+struct LoopedClip {
+  std::size_t number;
+  Clip clip;
+  std::optional<pose::BoundClip> bound{};
+};
+
+}  // namespace graphs
+
 struct Graph::Compiled {
   std::vector<std::unique_ptr<const graphs::Operation>> operations;
-  std::vector<std::unique_ptr<const pose::BoundClip>> clips;  // by number; null for those that none names
-  std::vector<const graphs::Operation*> machines;             // as they stand among the poses
-  std::vector<std::size_t> machine_poses;                     // the pose that each is
+  std::vector<std::unique_ptr<graphs::LoopedClip>> clips;
+  std::vector<const graphs::Operation*> machines;  // as they stand among the poses
+  std::vector<std::size_t> machine_poses;          // the pose that each is
   const graphs::Operation* output = nullptr;
 };
 
@@ -42,8 +53,7 @@ class Binder {
   // For operations; `place` goes on from the pose that is being made
   /// Null where there is none, or it goes around in a circle, which is told.
   [[nodiscard]] const Operation* pose(const std::string& name, const Place& place);
-  [[nodiscard]] const pose::BoundClip* clip(const std::string& name, const Place& place);
-  [[nodiscard]] std::size_t clip_number(const pose::BoundClip& clip) const noexcept;
+  [[nodiscard]] const LoopedClip* clip(const std::string& name, const std::optional<Loop>& loop, const Place& place);
   [[nodiscard]] std::optional<std::size_t> parameter(const std::string& name, const Place& place);
   [[nodiscard]] Number number(const GraphNumber& number, const Place& place);
   [[nodiscard]] JointMask mask(const std::vector<MaskPart>& parts, const Place& place);

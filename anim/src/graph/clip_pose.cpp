@@ -11,8 +11,8 @@ namespace {
 
 class PlayedClip : public Operation {
  public:
-  PlayedClip(const ClipPose& described, const pose::BoundClip& clip, std::size_t number, const Hierarchy& nodes)
-      : clip_(clip), number_(number), nodes_(nodes), at_(described.at), speed_(described.speed) {}
+  PlayedClip(const ClipPose& described, const LoopedClip& clip, const Hierarchy& nodes)
+      : clip_(*clip.bound), number_(clip.number), nodes_(nodes), at_(described.at), speed_(described.speed) {}
 
   void pose(const Log&, const Moment& moment, const Scratch& scratch, std::span<Motion> out) const noexcept override {
     std::ranges::copy(scratch.below, out.begin());
@@ -52,13 +52,15 @@ class PlayedClip : public Operation {
 }  // namespace
 
 std::unique_ptr<Operation> bound(const ClipPose& described, Binder& binder) {
-  const pose::BoundClip* clip = binder.clip(described.clip, {"clip"});
+  const LoopedClip* clip = binder.clip(described.clip, described.loop, {"clip"});
   if (!std::isfinite(described.at)) binder.fault({"at"}, "a clip starts at a finite time");
   if (!std::isfinite(described.speed)) binder.fault({"speed"}, "a speed is a finite number");
+  if (described.loop && (!(described.loop->count >= 0) || !std::isfinite(described.loop->count)))
+    binder.fault({"count"}, "a count of plays is 0 or more");
   if (!clip) return nullptr;
-  if (described.speed < 0 && std::isinf(clip->clip().duration))
+  if (described.speed < 0 && std::isinf(clip->clip.duration))
     binder.fault({"speed"}, "an endless clip has no end from which to run backwards");
-  return std::make_unique<PlayedClip>(described, *clip, binder.clip_number(*clip), binder.nodes());
+  return std::make_unique<PlayedClip>(described, *clip, binder.nodes());
 }
 
 }  // namespace tweenfall::graphs

@@ -32,8 +32,8 @@ Graph::~Graph() = default;
 
 bool Graph::moves(std::size_t node) const noexcept {
   return std::ranges::any_of(compiled_->clips, [&](const auto& clip) {
-    const std::uint32_t entry = clip ? clip->entry_of(node) : pose::BoundClip::no_entry;
-    return entry != pose::BoundClip::no_entry && clip->entries()[entry].parts != 0;
+    const std::uint32_t entry = clip->bound->entry_of(node);
+    return entry != pose::BoundClip::no_entry && clip->bound->entries()[entry].parts != 0;
   });
 }
 

@@ -143,6 +143,19 @@ std::vector<GraphEvent> GraphPlayer::events(double from, double to) {
   return events;
 }
 
+std::optional<double> GraphPlayer::first_instant(double from, double to) {
+  if (!(from < to) || !std::isfinite(to)) return std::nullopt;
+  know(to);
+  std::optional<double> first;
+  const auto meet = [&](const auto& list, auto time) {
+    const auto next = std::ranges::upper_bound(list, from, {}, time);
+    if (next != list.end() && std::invoke(time, *next) <= first.value_or(to)) first = std::invoke(time, *next);
+  };
+  for (const std::vector<graphs::Setting>& settings : run_->log.settings) meet(settings, &graphs::Setting::time);
+  for (const std::vector<graphs::Passage>& passages : run_->log.passages) meet(passages, &graphs::Passage::time);
+  return first;
+}
+
 std::size_t GraphPlayer::machines() const noexcept {
   return graph_->compiled().machines.size();
 }

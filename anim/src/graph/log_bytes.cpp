@@ -1,5 +1,7 @@
 #include "graph/log_bytes.h"
 
+#include "graph/digest.h"
+
 #include <bit>
 #include <cmath>
 #include <stdexcept>
@@ -9,47 +11,6 @@ namespace tweenfall::graphs {
 namespace {
 
 constexpr std::uint64_t kind_of_file = 0x3148504152474654;  // "TFGRAPH1", the first letter lowest
-
-/// FNV-1a, 64 bits. Source: Fowler, Noll, Vo, "The FNV non-cryptographic hash algorithm", 1991.
-class Digest {
- public:
-  void byte(std::uint8_t byte) noexcept { value_ = (value_ ^ byte) * 0x100000001b3; }
-  void number(std::uint64_t number) noexcept {
-    for (int shift = 0; shift < 64; shift += 8) byte(static_cast<std::uint8_t>(number >> shift));
-  }
-  void number(double number_) noexcept { number(std::bit_cast<std::uint64_t>(number_)); }
-  void text(std::string_view text) noexcept {
-    number(std::uint64_t{text.size()});
-    for (const char letter : text) byte(static_cast<std::uint8_t>(letter));
-  }
-  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325;
-};
-
-std::uint64_t fingerprint_of(const GraphDescription& description) noexcept {
-  Digest digest;
-  for (const GraphParameter& parameter : description.parameters) {
-    digest.text(parameter.name);
-    digest.number(parameter.start);
-    digest.number(parameter.half_life);
-  }
-  for (const GraphPose& pose : description.poses) {
-    digest.text(pose.name);
-    digest.number(std::uint64_t{pose.operation.index()});
-    const auto* machine = std::get_if<MachinePose>(&pose.operation);
-    if (!machine) continue;
-    for (const MachinePose::State& state : machine->states) digest.text(state.name);
-    digest.number(std::uint64_t{machine->transitions.size()});
-  }
-  for (const GraphInput& input : description.inputs) {
-    digest.text(input.name);
-    digest.number(input.time);
-    digest.number(input.value.value_or(0));
-  }
-  return digest.value();
-}
 
 class Writer {
  public:
@@ -113,7 +74,7 @@ std::uint64_t checksum(std::span<const std::byte> bytes) noexcept {
 std::vector<std::byte> bytes_of(const Log& log, const GraphDescription& description, double time) {
   Writer out;
   out.number(kind_of_file);
-  out.number(fingerprint_of(description));
+  out.number(fingerprint(description));
   out.number(time);
   for (const std::vector<Setting>& settings : log.settings) {
     std::uint64_t own = 0;
@@ -146,7 +107,7 @@ SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& descri
   if (reader.number() != kind_of_file) Reader::refuse("they begin as none does");
   if (Reader(bytes.last(8)).number() != checksum(bytes.first(bytes.size() - 8)))
     Reader::refuse("their checksum does not fit");
-  if (reader.number() != fingerprint_of(description)) Reader::refuse("they are of another graph");
+  if (reader.number() != fingerprint(description)) Reader::refuse("they are of another graph");
   SavedLog saved{fresh_log(description, machines), reader.real()};
   if (saved.time < 0) Reader::refuse("its time is before 0 s");
   const auto time_after = [&](double last) {

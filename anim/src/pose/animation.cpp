@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "graph/graph_stack.h"
 #include "pose/bound_clip.h"
 
 namespace tweenfall {
@@ -215,15 +216,46 @@ Animation::Animation(std::shared_ptr<const Hierarchy> nodes, std::vector<Clip> c
 Animation Animation::with_nodes(std::shared_ptr<const Hierarchy> nodes) const {
   Animation other = *this;
   other.nodes_ = std::move(nodes);
+  other.graphs_ = nullptr;
   other.bind_clips({});
   other.bind_plays();
-  return other;
+  return graphs_ ? other.with_graphs({graphs().begin(), graphs().end()}) : other;
 }
 
 Animation Animation::with_more_nodes(std::shared_ptr<const Hierarchy> nodes) const {
   Animation other = *this;
   other.nodes_ = std::move(nodes);
   return other;
+}
+
+Animation Animation::with_graphs(std::vector<GraphDescription> graphs) const {
+  Animation other = *this;
+  other.graphs_ = nullptr;
+  if (!graphs.empty())
+    other.graphs_ = std::make_shared<graphs::GraphStack>(
+        nodes_, clips_, std::move(graphs),
+        [plays = other](double time, Side side, std::span<Motion> out) { plays.sample(time, out, side); });
+  other.bind_plays();
+  return other;
+}
+
+std::span<const GraphDescription> Animation::graphs() const noexcept {
+  if (!graphs_) return {};
+  return graphs_->descriptions();
+}
+
+std::vector<GraphEvent> Animation::graph_events(double from, double to) const {
+  if (!graphs_) return {};
+  return graphs_->events(from, to);
+}
+
+std::optional<double> Animation::first_graph_event(std::string_view name, std::size_t node, double from,
+                                                   double to) const {
+  return graphs_ ? graphs_->first_event(name, node, from, to) : std::nullopt;
+}
+
+std::optional<double> Animation::first_graph_instant(double from, double to) const {
+  return graphs_ ? graphs_->first_instant(from, to) : std::nullopt;
 }
 
 void Animation::bind_clips(std::string problems) {
@@ -250,6 +282,7 @@ void Animation::bind_plays() {
     }
   }
   for (std::size_t node = 0; node < nodes_->size(); ++node) {
+    if (graphs_ && graphs_->moves(node)) bound->animated[node] = 1;
     const std::size_t parent = (*nodes_)[node].parent;
     if (parent != no_node && bound->animated[parent]) bound->animated[node] = 1;
   }
@@ -258,7 +291,13 @@ void Animation::bind_plays() {
 
 void Animation::sample(double stage_time, std::span<Motion> local, Side side,
                        const ClockOverride& own_clock) const noexcept {
-  for (std::size_t node = 0; node < nodes_->size(); ++node) local[node] = pose::at_rest_on((*nodes_)[node]);
+  const bool by_graphs = graphs_ && own_clock.clip == ClockOverride::every_clip;
+  for (std::size_t node = by_graphs ? graphs_->nodes() : 0; node < nodes_->size(); ++node)
+    local[node] = pose::at_rest_on((*nodes_)[node]);
+  if (by_graphs) {
+    graphs_->sample(own_clock.timeline_at(stage_time), side, local.first(graphs_->nodes()));
+    return;
+  }
   pose::for_each_running(*plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock,
                          [&](const pose::Running& play) {
                            const ClipClock clock = play.clock(stage_time, side);
@@ -277,6 +316,8 @@ void Animation::sample(double stage_time, std::span<Motion> local, Side side,
 
 Motion Animation::sample_node(std::size_t node, double stage_time, Side side,
                               const ClockOverride& own_clock) const noexcept {
+  if (graphs_ && own_clock.clip == ClockOverride::every_clip && node < graphs_->nodes())
+    return graphs_->sample_node(node, own_clock.timeline_at(stage_time), side);
   Motion motion = pose::at_rest_on((*nodes_)[node]);
   pose::for_each_running(
       *plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock, [&](const pose::Running& play) {

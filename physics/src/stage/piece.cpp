@@ -1,3 +1,4 @@
+#include <tweenfall/anim/graph_player.h>
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/rotation.h>
 
@@ -23,6 +24,8 @@ void report_events(const StageState& state, double from, double to, std::vector<
     std::vector<FiredEvent> more = events_between(play, clip, std::max(from, 0.0), to, from < 0);
     fired.insert(fired.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   }
+  for (GraphEvent& event : state.animation->graph_events(from, to))
+    fired.push_back({event.time, std::move(event.name), std::move(event.data), event.clip});
   std::ranges::stable_sort(fired, {}, &FiredEvent::time);
   for (FiredEvent& event : fired) {
     Happening& happening = happenings.emplace_back();

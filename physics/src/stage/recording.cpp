@@ -142,6 +142,11 @@ double natural_length(const StageDescription& description) {
     else
       length = std::max(length, play.at + (clip.duration < hour ? std::max(endless, clip.duration) : endless));
   }
+  for (const GraphDescription& graph : description.graphs) {
+    length = std::max(length, endless);
+    for (const GraphInput& input : graph.inputs)
+      if (input.time < hour) length = std::max(length, input.time + endless / 2);
+  }
   for (const Rule& rule : description.rules) {
     simulated = true;
     for (const Trigger& trigger : rule.when.triggers)

@@ -199,7 +199,8 @@ StageState described_state(const StageDescription& description, std::vector<Stag
   state.gravity = description.world.gravity;
   const bool bound = attempt(faults, Part::clips, 0, "", [&] {
     state.nodes = std::make_shared<const Hierarchy>(nodes_of(description, faults));
-    state.animation = std::make_shared<const Animation>(state.nodes, description.clips, description.plays);
+    state.animation = std::make_shared<const Animation>(
+        Animation(state.nodes, description.clips, description.plays).with_graphs(description.graphs));
     require_countable_events(description);
   });
   if (!bound) return state;

@@ -180,12 +180,57 @@ std::string joints_table(const StageDescription& stage) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
+std::string poses_table(const GraphDescription& graph) {
+  Table table("poses of the graph " + graph.name, {"name", "is", "of"});
+  for (const GraphPose& pose : graph.poses) {
+    std::string of;
+    for (const GraphOperand& operand : operands_of(pose.operation))
+      of += (of.empty() ? "" : "; ") + (operand.clip ? "" : operand.role + ": ") + operand.pose;
+    const bool shows = graph.output.empty() ? &pose == &graph.poses.back() : pose.name == graph.output;
+    table.row({pose.name + (shows ? " (shows)" : ""), words_of(pose.operation), of});
+  }
+  return table.text(styled_output());
+}
+
+std::string parameters_table(const GraphDescription& graph) {
+  Table table("parameters of the graph " + graph.name, {"name", ">starts as", ">half-life, s", "comes from"});
+  for (const GraphParameter& parameter : graph.parameters) {
+    const auto inputs = std::ranges::count(graph.inputs, parameter.name, &GraphInput::name);
+    const std::string from = parameter.curve ? "keys"
+                             : inputs > 0    ? counted(static_cast<std::size_t>(inputs), "input")
+                                             : "outside";
+    table.row({parameter.name, parameter.curve ? "" : brief_text(parameter.start),
+               parameter.half_life > 0 ? brief_text(parameter.half_life) : "", from});
+  }
+  return table.empty() ? "" : table.text(styled_output());
+}
+
+std::string transitions_table(const GraphPose& pose, const MachinePose& machine) {
+  Table table("machine " + pose.name + ": starts with " + machine.start, {"from", "to", "when", "how"});
+  for (const GraphTransition& transition : machine.transitions) {
+    std::string from;
+    for (const std::string& state : transition.from) from += (from.empty() ? "" : ", ") + state;
+    table.row({from.empty() ? "any" : from, transition.to, words_of(transition.when), words_of(transition.change)});
+  }
+  return table.text(styled_output());
+}
+
+std::string graph_tables(const StageDescription& stage) {
+  std::string out;
+  for (const GraphDescription& graph : stage.graphs) {
+    out += parameters_table(graph) + poses_table(graph);
+    for (const GraphPose& pose : graph.poses)
+      if (const auto* machine = std::get_if<MachinePose>(&pose.operation)) out += transitions_table(pose, *machine);
+  }
+  return out;
+}
+
 int inspect_file(const std::string& file) {
   const StageFile read = read_stage_file(file);
   const StageDescription& stage = read.stage;
   std::string out = nodes_table(stage) + clips_table(stage);
   for (const Clip& clip : stage.clips) out += tracks_table(clip) + events_table(clip);
-  out += bodies_table(stage, file) + joints_table(stage);
+  out += graph_tables(stage) + bodies_table(stage, file) + joints_table(stage);
   print(out);
   return 0;
 }

@@ -8,6 +8,7 @@
 #include "verbs/verbs.h"
 
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/importers/graph_plot.h>
 #include <tweenfall/importers/plot.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ struct PlotFileOptions : RunOptions {
   std::string output;
   std::vector<std::string> tracks;
   std::optional<double> columns;
-  bool no_rates = false;
+  bool no_rates = false, graph = false;
 };
 
 constexpr int most_columns = 6;
@@ -60,7 +61,18 @@ std::vector<std::string> chosen_tracks(const StageDescription& stage, const std:
   return names;
 }
 
+int plot_graphs(const PlotFileOptions& options) {
+  const StageFile read = read_stage_file(options.file);
+  if (read.stage.graphs.empty()) throw UsageError(options.file + " has no graph to draw");
+  write_output(options.output, graph_svg(read.stage.graphs));
+  std::string names;
+  for (const GraphDescription& graph : read.stage.graphs) names += (names.empty() ? "" : ", ") + graph.name;
+  say_written(options.output, counted(read.stage.graphs.size(), "graph") + ": " + names);
+  return 0;
+}
+
 int plot_file(const PlotFileOptions& options) {
+  if (options.graph) return plot_graphs(options);
   require_amount(options);
   require_output(options.output, options.file, std::vector<std::string>{".svg"});
   const double columns = options.columns.value_or(1);
@@ -113,6 +125,7 @@ Run declare_plot(Arguments& arguments) {
   arguments.text("--clip", "NAME", options->clip, "this clip; else the only one, or all that play");
   arguments.number("--until", "T", options->until, "simulate to stage time T, s");
   arguments.number("--columns", "N", options->columns, "so many side by side, 1 to 6; 1 without it");
+  arguments.flag("--graph", options->graph, "the graphs instead: what is made of what, and machines with their states");
   arguments.flag("--no-rates", options->no_rates, "values alone, without their rates below");
   return [options] { return plot_file(*options); };
 }

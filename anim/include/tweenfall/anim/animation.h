@@ -21,6 +21,12 @@
 
 namespace tweenfall {
 
+struct GraphDescription;
+struct GraphEvent;
+namespace graphs {
+class GraphStack;
+}
+
 /// The animated values of one node at one time, beside its motion.
 struct NodeLook {
   std::optional<Sample<Color>> color;
@@ -39,6 +45,10 @@ class Animation {
   /// The same over the same nodes and more after them, none of which has a track: binds nothing, and takes no longer
   /// for more nodes.
   [[nodiscard]] Animation with_more_nodes(std::shared_ptr<const Hierarchy> nodes) const;
+
+  /// The same with graphs over its plays, each over the one before; they run by the same clock, from time 0.
+  /// @throws std::invalid_argument listing all faults of the first that has any.
+  [[nodiscard]] Animation with_graphs(std::vector<GraphDescription> graphs) const;
 
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return *nodes_; }
   [[nodiscard]] std::span<const Clip> clips() const noexcept { return *clips_; }
@@ -62,8 +72,18 @@ class Animation {
   [[nodiscard]] NodeLook look(std::size_t node, double stage_time, Side side = Side::out,
                               const ClockOverride& clock = {}) const;
 
+  // Graphs
+  [[nodiscard]] std::span<const GraphDescription> graphs() const noexcept;
+  /// Events of their clips that show, in (from, to], in order, as `GraphPlayer::events` has them.
+  [[nodiscard]] std::vector<GraphEvent> graph_events(double from, double to) const;
+  /// The first of a name, ends of intervals left out. @param node  only of graphs that move this node; `no_node`: all
+  [[nodiscard]] std::optional<double> first_graph_event(std::string_view name, std::size_t node, double from,
+                                                        double to) const;
+  /// The first time in (from, to] at which something came in to a graph, or a machine passed to another state.
+  [[nodiscard]] std::optional<double> first_graph_instant(double from, double to) const;
+
   // Plays
-  /// Whether some play has a track for the node's position, rotation or scale, or an ancestor's.
+  /// Whether some play or graph has a track for the node's position, rotation or scale, or an ancestor's.
   [[nodiscard]] bool animates(std::size_t node) const noexcept;
 
   /// Whether some clip, played or not, has a track for the node itself.
@@ -103,6 +123,7 @@ class Animation {
   struct BoundPlays;  ///< which of the nodes each play drives
   std::shared_ptr<const BoundClips> bound_clips_;
   std::shared_ptr<const BoundPlays> bound_plays_;
+  std::shared_ptr<graphs::GraphStack> graphs_;  ///< null for none
 };
 
 /// Whether `name` matches `pattern`, in which `*` stands for any run of characters.

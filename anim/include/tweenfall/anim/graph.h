@@ -13,8 +13,10 @@
 #include <tweenfall/curves/curve.h>
 #include <tweenfall/curves/ease.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -41,8 +43,9 @@ using GraphNumber = std::variant<double, Curve<double>, ByParameter>;
 /// A clip, from when the state that shows it was entered, or the graph began. What it does not drive is as below.
 struct ClipPose {
   std::string clip;
-  double at = 0;     ///< seconds until it starts
-  double speed = 1;  ///< clip seconds per second; negative runs backwards from the end
+  double at = 0;               ///< seconds until it starts
+  double speed = 1;            ///< clip seconds per second; negative runs backwards from the end
+  std::optional<Loop> loop{};  ///< absent: the clip's own
 };
 
 /// What lies below the graph: the plays, and where they do nothing the nodes at rest.
@@ -142,6 +145,25 @@ struct GraphDescription {
   std::string output;                   ///< the pose that shows; empty: the last
   std::vector<GraphInput> inputs = {};  ///< those that are known beforehand
 };
+
+/// A pose or clip that an operation names, and for what, in a word or two.
+struct GraphOperand {
+  std::string pose;
+  std::string role;
+  bool clip = false;  ///< only clips are meant
+};
+[[nodiscard]] std::vector<GraphOperand> operands_of(const PoseOperation& operation);
+
+/// All names by which poses mean clips, each once.
+[[nodiscard]] std::vector<std::string> clips_named_in(const GraphDescription& description);
+
+/// For tools: `speed > 0.1 and event "jump"`, "at once"; "fade 0.2 s", "settle quintic 0.3 s", "cut"; "machine".
+[[nodiscard]] std::string words_of(std::span<const GraphCondition> when);
+[[nodiscard]] std::string words_of(const GraphChange& change);
+[[nodiscard]] std::string words_of(const PoseOperation& operation);
+
+/// A number that changes with anything that the description says.
+[[nodiscard]] std::uint64_t fingerprint(const GraphDescription& description) noexcept;
 
 /// Something for which a description makes no graph.
 struct GraphFault {

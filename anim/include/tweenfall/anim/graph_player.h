@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -94,6 +95,9 @@ class GraphPlayer {
   /// Events of clips that show, in (from, to], in order; with an event at 0 where `from` is below 0.
   /// @throws std::length_error where a tiny loop makes more than a million of them.
   [[nodiscard]] std::vector<GraphEvent> events(double from, double to);
+
+  /// The first time in (from, to] at which something came in or a machine passed to another state.
+  [[nodiscard]] std::optional<double> first_instant(double from, double to);
 
   // Looking inside. Machines are counted as they stand among the graph's poses, from 0.
   [[nodiscard]] std::size_t machines() const noexcept;

@@ -3,6 +3,7 @@
 #include "document/fields/rule.h"
 #include "document/fields/things.h"
 #include "document/grammar/grammar_parts.h"
+#include "document/graphs/graphs.h"
 
 #include <utility>
 
@@ -75,6 +76,7 @@ struct Grammar {
                     "{}",
                     {"animations", "animation", "actions"}},
                    {"play", rows_of(fields::play_form(store, values), "a list of plays"), "absent: the only clip"},
+                   {"graphs", graphs::form(store, values), "what lies over the plays", false, "{}", {"graph", "animator"}},
                    {"world", fields::world_form(store, values), "", false, "{}"},
                    {"handoff",
                     rows_of(fields::rule_form(store, values), "a list of rules"),

@@ -76,7 +76,7 @@ void read_clips(Building& building) {
 void read_plays(Building& building) {
   const json::Value list = usable(building.root, "play");
   if (!list) {
-    if (building.stage.clips.size() == 1) building.stage.plays.push_back({});
+    if (building.stage.clips.size() == 1 && !usable(building.root, "graphs")) building.stage.plays.push_back({});
     return;
   }
   for (const json::Value& value : list.items())

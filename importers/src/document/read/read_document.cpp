@@ -4,6 +4,7 @@
 #include "document/content.h"
 #include "document/fields/things.h"
 #include "document/grammar/grammar.h"
+#include "document/graphs/graphs.h"
 #include "document/judge/judge.h"
 #include "document/read/values.h"
 #include "document/report/check.h"
@@ -47,6 +48,7 @@ ReadDocument read_document(std::string text, const std::string& name, const std:
     fields::check_groups(building);
     read_clips(building);
     read_plays(building);
+    graphs::read(usable(root, "graphs"), building);
     fields::read_world(usable(root, "world"), building);
     read_rules(building);
     if (problems.empty()) judge(building);

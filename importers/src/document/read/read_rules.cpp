@@ -35,22 +35,29 @@ class RuleReader {
   void find_animated() {
     const StageDescription& stage = building_.stage;
     animated_.assign(stage.nodes.size(), false);
-    for (const Play& play : stage.plays) {
-      if (play.clip >= stage.clips.size()) continue;
-      for (const Track& track : stage.clips[play.clip].tracks) {
-        const auto component = component_named(track.property);
-        const Property property = component ? component->property : property_named(track.property);
-        if (property != Property::position && property != Property::rotation && property != Property::scale) continue;
-        const bool driven =
-            play.mask.empty() || std::any_of(play.mask.begin(), play.mask.end(),
-                                             [&](const std::string& each) { return matches(each, track.node); });
-        if (const auto found = building_.nodes.find(track.node); driven && found != building_.nodes.end())
-          animated_[found->second] = true;
-      }
-    }
+    for (const Play& play : stage.plays)
+      if (play.clip < stage.clips.size()) mark_animated(stage.clips[play.clip], play.mask);
+    const std::vector<std::string> everything;
+    for (const GraphDescription& graph : stage.graphs)
+      for (const std::string& name : clips_named_in(graph))
+        if (const auto clip = building_.clips.find(name); clip != building_.clips.end())
+          mark_animated(stage.clips[clip->second], everything);
     // Parents stand before their children.
     for (std::size_t i = 0; i < stage.nodes.size(); ++i)
       if (stage.nodes[i].parent != no_node && animated_[stage.nodes[i].parent]) animated_[i] = true;
+  }
+
+  void mark_animated(const Clip& clip, const std::vector<std::string>& mask) {
+    for (const Track& track : clip.tracks) {
+      const auto component = component_named(track.property);
+      const Property property = component ? component->property : property_named(track.property);
+      if (property != Property::position && property != Property::rotation && property != Property::scale) continue;
+      const bool driven = mask.empty() || std::any_of(mask.begin(), mask.end(), [&](const std::string& each) {
+                            return matches(each, track.node);
+                          });
+      if (const auto found = building_.nodes.find(track.node); driven && found != building_.nodes.end())
+        animated_[found->second] = true;
+    }
   }
 
   void check_path(const fields::RuleBeingRead& read) {

@@ -72,6 +72,8 @@ double first_jump_by(const StageState& state, const ClockOverride& clock, double
     if (const auto jump = first_event(play, state.jumps->clips[play.clip], from, to))
       first = std::min(first, jump->time);
   });
+  if (clock == ClockOverride{})
+    if (const auto instant = state.animation->first_graph_instant(from, to)) first = std::min(first, *instant);
   return first;
 }
 

@@ -107,6 +107,8 @@ double event_time(const Animation& animation, const ClockOverride& clock, const 
     if (const auto event = first_event(play, clip, std::max(from, 0.0), to, from < 0, name))
       first = std::min(first, event->time);
   });
+  if (clock == ClockOverride{})
+    if (const auto event = animation.first_graph_event(name, node, from, to)) first = std::min(first, *event);
   return first;
 }
 

@@ -71,6 +71,10 @@ std::uint64_t fingerprint(const StageDescription& description) {
     visit(play.at, play.speed, play.mask);
     sampling(play.weight);
   }
+  for (const GraphDescription& graph : description.graphs) {
+    const std::uint64_t of_graph = fingerprint(graph);
+    visit(of_graph);
+  }
   for (const ForceDescription& force : description.forces) {
     if (const auto* drag = std::get_if<DragDescription>(&force)) visit(drag->drag);
     if (const auto* spring = std::get_if<SpringDescription>(&force)) {

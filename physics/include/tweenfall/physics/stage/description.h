@@ -3,6 +3,7 @@
 /// Everything a stage is made of, as plain values: what a document says, or what a program fills in.
 
 #include <tweenfall/anim/animation.h>
+#include <tweenfall/anim/graph.h>
 #include <tweenfall/anim/mesh.h>
 #include <tweenfall/physics/handoff/rule.h>
 #include <tweenfall/physics/world.h>
@@ -77,6 +78,7 @@ struct StageDescription {
   std::vector<NodeDescription> nodes;
   std::vector<Clip> clips;
   std::vector<Play> plays;
+  std::vector<GraphDescription> graphs;  ///< over the plays, each over the one before
   WorldSettings world = {};
   double step = 1.0 / 240;  ///< s
   std::vector<ForceDescription> forces;

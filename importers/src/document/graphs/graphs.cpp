@@ -1,0 +1,170 @@
+#include "document/graphs/graphs.h"
+
+#include "document/graphs/parts.h"
+#include "document/read/clip_times.h"
+#include "document/tracks/read_track.h"
+
+#include <charconv>
+
+namespace tweenfall::document::graphs {
+
+namespace {
+
+using fields::Table;
+using Kind = json::Value::Kind;
+
+// Parameters
+
+const Table<GraphParameter>& parameter_table() {
+  const auto start = [](const json::Value& value, GraphParameter& parameter, Building&) {
+    parameter.start = read_setting(value);
+  };
+  static const Table<GraphParameter> table(
+      "a parameter", {{"start", setting_form, "until it is set", {start, "0"}},
+                      {"half_life", &ValueForms::not_negative, "seconds in which poses come half way to what was set",
+                       fields::member<GraphParameter>(&GraphParameter::half_life)}});
+  return table;
+}
+
+const Form* parameter_form(FormStore& store, const ValueForms& values) {
+  Form full = parameter_table().listing_form(store, values);
+  full.on_one_line = true;
+  return store.add(
+      choice_of("a number, true, false, {\"start\", \"half_life\"}, or a list of keys",
+                {values.number, values.boolean, store.add(std::move(full)), weight_keys_form(store, values)}));
+}
+
+void read_parameters(const json::Value& value, GraphDescription& graph, Building& building) {
+  for (const json::Member& member : value.members()) {
+    if (is_free_name(member.name)) continue;
+    GraphParameter& parameter = graph.parameters.emplace_back();
+    parameter.name = member.name;
+    if (member.value.is(Kind::object))
+      parameter_table().read(member.value, parameter, building);
+    else if (member.value.is(Kind::list))
+      parameter.curve = read_plain_keys(member.value, building.problems);
+    else
+      parameter.start = read_setting(member.value);
+  }
+}
+
+// Inputs
+
+const Form* inputs_form(FormStore& store, const ValueForms& values) {
+  Form input;
+  input.kind = Form::Kind::tuple;
+  input.what = "an input: [time, parameter, value] or [time, event]";
+  input.parts = {values.stage_time, values.name, setting_form(store, values)};
+  input.fewest = 2;
+  input.on_one_line = true;
+  Form list = list_of(store.add(std::move(input)), "a list of inputs", 0);
+  list.one_a_line = true;
+  return store.add(std::move(list));
+}
+
+void read_inputs(const json::Value& value, GraphDescription& graph, Building& building) {
+  const ClipTimes times(building.fps, {}, "a graph's time has none");
+  for (const json::Value& item : value.items()) {
+    GraphInput& input = graph.inputs.emplace_back();
+    if (item.items().size() < 2) continue;
+    input.time = times.seconds(item.items()[0], {}, building.problems).value_or(0);
+    input.name = item.items()[1].text();
+    if (item.items().size() > 2) input.value = read_setting(item.items()[2]);
+  }
+}
+
+// The whole
+
+const Form* poses_form(FormStore& store, const ValueForms& values) {
+  return store.add(map_of(pose_form(store, values), "an object with poses by name"));
+}
+const Form* parameters_form(FormStore& store, const ValueForms& values) {
+  return store.add(map_of(parameter_form(store, values), "an object with parameters by name"));
+}
+
+void read_poses(const json::Value& value, GraphDescription& graph, Building& building) {
+  for (const json::Member& member : value.members()) {
+    if (is_free_name(member.name)) continue;
+    GraphPose& pose = graph.poses.emplace_back();
+    pose.name = member.name;
+    read_pose(member.value, pose, building);
+  }
+}
+
+const Table<GraphDescription>& graph_table() {
+  static const Table<GraphDescription> table(
+      "a graph", {{"parameters", parameters_form, "numbers that come from outside", {read_parameters, "{}"}},
+                  {"poses", poses_form, "made of clips and of each other", {read_poses}, true},
+                  {"output", &ValueForms::name, "the pose that shows; absent: the last",
+                   fields::member<GraphDescription>(&GraphDescription::output)},
+                  {"inputs", inputs_form, "parameters that are set and events that are sent", {read_inputs, "[]"}}});
+  return table;
+}
+
+// The value at a fault's place, or the last on the way that is there, and whether it is all the way.
+std::pair<json::Value, bool> place_in(json::Value value, const std::vector<std::string>& place) {
+  for (const std::string& part : place) {
+    json::Value next = usable(value, part);
+    if (value.is(Kind::list)) {
+      std::size_t index = 0;
+      std::from_chars(part.data(), part.data() + part.size(), index);
+      if (index < value.items().size() && !value.items()[index].is(Kind::faulty)) next = value.items()[index];
+    }
+    if (!next) return {value, false};
+    value = next;
+  }
+  return {value, true};
+}
+
+Hierarchy hierarchy_of(const Building& building) {
+  std::vector<Node> nodes;
+  nodes.reserve(building.stage.nodes.size());
+  for (const NodeDescription& node : building.stage.nodes)
+    nodes.push_back({.name = node.name, .parent = node.parent, .rest = node.rest});
+  return Hierarchy(std::move(nodes));
+}
+
+// Tracks whose nodes are not there are told of where they stand.
+std::vector<Clip> clips_of_known_nodes(const Building& building) {
+  std::vector<Clip> clips = building.stage.clips;
+  for (Clip& clip : clips)
+    std::erase_if(clip.tracks, [&](const Track& track) { return building.nodes.count(track.node) == 0; });
+  return clips;
+}
+
+void tell_faults(const json::Value& value, const GraphDescription& graph, Building& building) {
+  if (!building.failed_imports.empty()) return;
+  std::vector<GraphFault> faults;
+  try {
+    faults = inspect(graph, hierarchy_of(building), clips_of_known_nodes(building));
+  } catch (const std::invalid_argument&) {
+    return;  // of the nodes, which are told of elsewhere
+  }
+  // Beside other faults, what is missing may only be faulty.
+  const bool sound = building.problems.empty();
+  for (GraphFault& fault : faults)
+    if (const auto [place, whole] = place_in(value, fault.place); whole || sound)
+      building.problems.add(place, std::move(fault.message));
+}
+
+}  // namespace
+
+const Form* form(FormStore& store, const ValueForms& values) {
+  Form graph = graph_table().listing_form(store, values);
+  graph.one_a_line = true;
+  graph.definition = "graph";
+  return store.add(map_of(store.add(std::move(graph)), "an object with graphs by name"));
+}
+
+void read(const json::Value& value, Building& building) {
+  for (const json::Member& member : value.members()) {
+    if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
+    GraphDescription graph;
+    graph.name = member.name;
+    graph_table().read(member.value, graph, building);
+    tell_faults(member.value, graph, building);
+    building.stage.graphs.push_back(std::move(graph));
+  }
+}
+
+}  // namespace tweenfall::document::graphs

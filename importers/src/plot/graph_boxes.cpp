@@ -1,0 +1,115 @@
+#include "plot/graph_boxes.h"
+
+#include "plot/label_rows.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tweenfall::plotting {
+
+namespace {
+
+constexpr const char* ink = "#24292f";
+constexpr const char* pale = "#57606a";
+constexpr const char* line = "#8c959f";
+
+Vec2 on_curve(const Vec2& from, const Vec2& control, const Vec2& to, double t) {
+  return (1 - t) * (1 - t) * from + 2 * t * (1 - t) * control + t * t * to;
+}
+
+}  // namespace
+
+Vec2 Rectangle::border_toward(const Vec2& point) const {
+  const Vec2 middle = center(), way = point - middle;
+  const double x = std::abs(way.x()) * (bottom - top), y = std::abs(way.y()) * (right - left);
+  if (x == 0 && y == 0) return middle;
+  const double part = x > y ? (right - left) / 2 / std::abs(way.x()) : (bottom - top) / 2 / std::abs(way.y());
+  return middle + std::min(part, 1.0) * way;
+}
+
+Rectangle around(const Vec2& center, double width, double height) {
+  return {center.x() - width / 2, center.y() - height / 2, center.x() + width / 2, center.y() + height / 2};
+}
+
+void draw_box(SvgWriter& svg, const Rectangle& box, const std::string& name, const std::string& words,
+              const BoxStyle& style) {
+  const double width = box.right - box.left, x = (box.left + box.right) / 2, y = (box.top + box.bottom) / 2;
+  svg.open("g");
+  svg.text("title", {}, words.empty() ? name : name + ": " + words);
+  svg.leaf("rect", {{"x", px(box.left)},
+                    {"y", px(box.top)},
+                    {"width", px(width)},
+                    {"height", px(box.bottom - box.top)},
+                    {"rx", px(style.round)},
+                    {"fill", style.fill},
+                    {"stroke", style.stroke},
+                    {"stroke-width", style.strong ? "2.5" : "1.2"}});
+  svg.text("text",
+           {{"x", px(x)},
+            {"y", px(words.empty() ? y + 4 : y - 2)},
+            {"text-anchor", "middle"},
+            {"font-weight", "600"},
+            {"fill", ink}},
+           shortened(name, (width - 12) / 1.3));
+  if (!words.empty())
+    svg.text("text",
+             {{"x", px(x)}, {"y", px(y + 13)}, {"text-anchor", "middle"}, {"font-size", "10.5"}, {"fill", pale}},
+             shortened(words, width - 12));
+  svg.close();
+}
+
+void draw_arrow(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec2& to) {
+  Vec2 way = to - control;
+  way /= std::max(way.norm(), 1e-9);
+  const Vec2 across(-way.y(), way.x()), foot = to - 9 * way;
+  svg.leaf("path",
+           {{"d", "M" + px(from.x(), from.y()) + " Q" + px(control.x(), control.y()) + " " + px(foot.x(), foot.y())},
+            {"fill", "none"},
+            {"stroke", line},
+            {"stroke-width", "1.4"}});
+  const Vec2 one = foot + 4 * across, other = foot - 4 * across;
+  svg.leaf("polygon", {{"points", px(to.x(), to.y()) + " " + px(one.x(), one.y()) + " " + px(other.x(), other.y())},
+                       {"fill", line}});
+}
+
+void Labels::draw(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec2& to, const std::string& first,
+                  const std::string& second) {
+  constexpr double widest = 230;
+  const std::string one = shortened(first, widest), two = shortened(second, widest);
+  const double width = 1.1 * std::max(text_width(one), text_width(two)) + 8, height = 30;
+  Rectangle best = around(on_curve(from, control, to, 0.5), width, height);
+  [&] {
+    for (const double shift : {0.0, -16.0, 16.0, -32.0, 32.0, -48.0, 48.0})
+      for (const double t : {0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8}) {
+        const Rectangle place = around(on_curve(from, control, to, t) + Vec2(0, shift), width, height);
+        if (std::ranges::any_of(taken_, [&](const Rectangle& other) { return place.overlaps(other); })) continue;
+        best = place;
+        return;
+      }
+  }();
+  taken_.push_back(best);
+  const Vec2 middle = best.center();
+  svg.open("g");
+  svg.text("title", {}, first + "; " + second);
+  svg.leaf("rect", {{"x", px(best.left)},
+                    {"y", px(best.top)},
+                    {"width", px(width)},
+                    {"height", px(height)},
+                    {"rx", "4"},
+                    {"fill", "#ffffff"},
+                    {"fill-opacity", "0.88"}});
+  svg.text(
+      "text",
+      {{"x", px(middle.x())}, {"y", px(middle.y() - 2)}, {"text-anchor", "middle"}, {"font-size", "11"}, {"fill", ink}},
+      one);
+  svg.text("text",
+           {{"x", px(middle.x())},
+            {"y", px(middle.y() + 11)},
+            {"text-anchor", "middle"},
+            {"font-size", "10"},
+            {"fill", pale}},
+           two);
+  svg.close();
+}
+
+}  // namespace tweenfall::plotting

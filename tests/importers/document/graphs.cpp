@@ -1,0 +1,159 @@
+// Graphs of poses in documents: read, judged with places, written, and played by the stage.
+
+#include "importers/document/document_files.h"
+
+#include <tweenfall/anim/graph_player.h>
+#include <tweenfall/physics/stage/recording.h>
+#include <tweenfall/physics/stage/stage.h>
+
+#include <cstring>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+Document good_graph() {
+  return Document::read(data_folder() / "documents/good/graph.json");
+}
+
+std::string with_poses(const std::string& poses, const std::string& more = "") {
+  return "{\"tweenfall\": 1,\n\"nodes\": {\"hip\": {}, \"knee\": {\"parent\": \"hip\"}},\n\"clips\": {\"walk\": "
+         "{\"tracks\": {\"hip.position\": [[0, [0, 0, 0]], [1, [1, 0, 0]]]}}},\n\"graphs\": {\"g\": {\"poses\": {\n" +
+         poses + "}" + more + "}}}";
+}
+
+std::string graph_faults(const std::string& poses, const std::string& more = "") {
+  return faults_of(with_poses(poses, more), "g.json", {});
+}
+
+}  // namespace
+
+TEST_CASE("a graph of a document means what the same graph means in C++") {
+  const Document document = good_graph();
+  const GraphDescription& read = document.stage().graphs.at(0);
+  CHECK(read.name == "body");
+  REQUIRE(read.parameters.size() == 4);
+  CHECK(read.parameters[1].start == 1);
+  CHECK(read.parameters[2].half_life == 0.1);
+  CHECK(read.parameters[3].curve->value(2) == 1);
+  CHECK(read.inputs ==
+        std::vector<GraphInput>{{0.2, "speed", 1.5}, {0.3, "grounded", 1}, {0.5, "jump", {}}, {1, "lean", 0.75}});
+  const auto& clip = std::get<ClipPose>(read.poses.at(1).operation);
+  CHECK(clip.loop->mode == LoopMode::pingpong);
+  CHECK(clip.loop->count == 3);
+  CHECK(clip.at == 0.1);
+  const auto& legs = std::get<MachinePose>(read.poses.at(3).operation);
+  REQUIRE(legs.transitions.size() == 4);
+  CHECK(legs.transitions[0].from.empty());
+  CHECK(legs.transitions[0].when.size() == 2);
+  CHECK(legs.transitions[1].change.kind == GraphChange::Kind::dead_blend);
+  CHECK(legs.transitions[2].change.ease->name() == "quad-in-out");
+  CHECK(legs.transitions[2].change.seconds == 0.3);
+  const auto& all = std::get<LayersPose>(read.poses.at(4).operation);
+  CHECK(all.layers[0].adds);
+  CHECK(all.layers[1].mask.at(0).below);
+  CHECK(document.stage().plays.empty());
+}
+
+TEST_CASE("the stage shows what the graph shows, at any time, bit for bit") {
+  const StageDescription description = good_graph().stage();
+  std::vector<Node> nodes;
+  for (const NodeDescription& node : description.nodes) nodes.push_back({node.name, node.parent, node.rest});
+  const auto hierarchy = std::make_shared<const Hierarchy>(nodes);
+  GraphPlayer player(std::make_shared<const Graph>(
+      hierarchy, std::make_shared<const std::vector<Clip>>(description.clips), description.graphs[0]));
+  Stage stage(description);
+  std::vector<Motion> local(nodes.size());
+  std::vector<WorldMotion> world(nodes.size());
+  for (const double time : {0.0, 0.31, 0.55, 1.25, 1.7, 2.4, 0.6}) {
+    stage.seek(time);
+    player.pose_at(time, local);
+    hierarchy->world_motions(local, world);
+    for (NodeId node = 0; node < nodes.size(); ++node) {
+      const WorldMotion alone = stage.world(node);
+      CHECK(std::memcmp(&alone.motion, &world[node].motion, sizeof(Motion)) == 0);
+    }
+  }
+  player.seek(2.4);
+  CHECK(player.passages(0).size() >= 3);
+}
+
+TEST_CASE("a stage with a graph tells the events of clips that show, and saves and loads to the same bits") {
+  const StageDescription description = good_graph().stage();
+  Stage stage(description), other(description);
+  stage.advance_to(1.6);
+  std::vector<std::string> names;
+  for (const StageEvent& event : stage.events()) names.push_back(event.name);
+  CHECK(std::count(names.begin(), names.end(), "landed") == 1);
+  CHECK(std::count(names.begin(), names.end(), "right") >= 1);
+  other.load(stage.save());
+  stage.advance_to(2.5);
+  other.advance_to(2.5);
+  const WorldMotion a = stage.world(1), b = other.world(1);
+  CHECK(std::memcmp(&a.motion, &b.motion, sizeof(Motion)) == 0);
+  StageDescription changed = description;
+  std::get<MachinePose>(changed.graphs[0].poses[3].operation).transitions[0].change.seconds = 0.16;
+  Stage stranger(changed);
+  CHECK_THROWS_AS(stranger.load(stage.save()), std::invalid_argument);
+}
+
+TEST_CASE("a body follows the graph keyed, and leaves it at an event with the graph's own velocity") {
+  const std::string text = R"({"tweenfall": 1,
+    "nodes": {"ball": {"body": {"shape": {"sphere": {"radius": 0.1}}, "mass": 1}}},
+    "clips": {"swing": {"tracks": {"ball.position": [[0, [0, 1, 0], "smooth"], [1, [2, 3, 0], "smooth"], [2, [3, 1, 0]]]},
+                        "events": [[0.8, "throw"]]},
+              "wait": {"tracks": {"ball.position": [[0, [0, 1, 0]]]}}},
+    "graphs": {"arm": {"poses": {"all": {"machine": {"start": "wait", "states": {"wait": "wait", "swing": "swing"},
+      "transitions": [{"from": "wait", "to": "swing", "when": {"event": "go"}, "fade": 0.2}]}}},
+      "inputs": [[0.25, "go"]]}},
+    "handoff": [{"body": "ball", "when": {"event": "throw"}, "to": "free"}]})";
+  Stage stage(parsed(text).stage());
+  CHECK(stage.owner(0) == Owner::keyed);
+  stage.advance_to(1.5);
+  REQUIRE(stage.handoffs().size() == 1);
+  CHECK(near(stage.handoffs()[0].time, 1.05, 1e-12));
+  const Curve<Vec3> path = std::get<Curve<Vec3>>(parsed(text).stage().clips[0].tracks[0].curve);
+  CHECK(near(stage.handoffs()[0].after.twist.linear, path.rate(0.8), 1e-9));
+}
+
+TEST_CASE("faults of graphs are told with their places") {
+  CHECK(graph_faults("\"a\": {\"clip\": \"wlak\"}") ==
+        "g.json:5:15: error: there is no clip \"wlak\"; did you mean \"walk\"? (at /graphs/g/poses/a/clip)\n"
+        " 5 | \"a\": {\"clip\": \"wlak\"}}}}}\n   |               ^\n");
+  CHECK(
+      graph_faults("\"a\": {\"blend\": [[\"b\", 1], [\"walk\", 1]]},\n\"b\": {\"base\": \"a\", \"layers\": [{\"over\": "
+                   "\"walk\"}]}")
+          .find("g.json:6:15: error: poses go around in a circle: \"a\" -> \"b\" -> \"a\"") == 0);
+  CHECK(graph_faults("\"a\": {\"layers\": [{\"over\": \"walk\", \"mask\": [\"knee\", \"ankle\"]}]}")
+            .find("error: no joint is named \"ankle\" (at /graphs/g/poses/a/layers/0/mask)") != std::string::npos);
+  CHECK(graph_faults("\"a\": {\"blend\": [[\"walk\", 0]]}").find("g.json:5:16: error: these weights sum to nothing") ==
+        0);
+  CHECK(
+      graph_faults("\"a\": {\"machine\": {\"start\": \"s\", \"states\": {\"s\": \"walk\"}, \"transitions\": [{\"to\": "
+                   "\"t\", \"when\": {\"parameter\": \"v\", \"above\": 1}}]}}")
+          .find("there is no state \"t\"") != std::string::npos);
+  CHECK(graph_faults("\"a\": {\"rest\": true}", ", \"inputs\": [[1, \"v\", 2]]")
+            .find("there is no parameter \"v\" (at /graphs/g/inputs/0)") != std::string::npos);
+}
+
+TEST_CASE("faults of shape in graphs are told as everywhere") {
+  CHECK(graph_faults("\"a\": {\"clip\": \"walk\", \"blend\": []}") != "");
+  CHECK(graph_faults("\"a\": {\"clip\": \"walk\", \"sped\": 2}").find("did you mean \"speed\"") != std::string::npos);
+  CHECK(graph_faults("\"a\": {\"rest\": true, \"speed\": 2}") != "");
+  CHECK(
+      graph_faults("\"a\": {\"machine\": {\"start\": \"s\", \"states\": {\"s\": \"walk\"}, \"transitions\": [{\"to\": "
+                   "\"s\", \"from\": \"s\", \"when\": {\"above\": 1}}]}}") != "");
+  CHECK(graph_faults(
+            "\"a\": {\"machine\": {\"start\": \"s\", \"states\": {\"s\": \"walk\"}, \"transitions\": [{\"to\": "
+            "\"s\", \"from\": \"s\", \"when\": {\"event\": \"e\"}, \"fade\": 1, \"settle\": {\"quintic\": 1}}]}}") !=
+        "");
+  CHECK(graph_faults("\"a\": {\"rest\": true}", ", \"inputs\": [[-1, \"jump\"]]") != "");
+}
+
+TEST_CASE("a clip with faults is told of once, not again by the graphs that play it") {
+  const std::string text =
+      R"({"tweenfall": 1, "nodes": {"hip": {}}, "clips": {"walk": {"tracks": {"hipp.position": [[0, [0, 0, 0]]]}}},
+"graphs": {"g": {"poses": {"a": {"clip": "walk"}}}}})";
+  CHECK(count(faults_of(text, "g.json", {}), "error:") == 1);
+}
