@@ -45,7 +45,7 @@ const Table<GraphCondition>& condition_table() {
   return table;
 }
 
-std::vector<Together> condition_rules(std::vector<std::string> ends) {
+std::vector<Together> condition_rules(const std::vector<std::string>& ends) {
   std::vector<Together> rules = {exactly_one(ends)};
   for (const char* const word : {"above", "below", "equals"})
     rules.push_back({Together::Rule::first_needs_second, {word, "parameter"}});
