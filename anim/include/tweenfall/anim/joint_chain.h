@@ -1,0 +1,90 @@
+#pragma once
+
+/// Chains of any number of joints whose end reaches for a target: FABRIK and CCD, with limits of the joints.
+///
+/// A solve has two parts: a fixed number of sweeps by the method, which give the shape, and a refinement by
+/// least squares, which brings the end to the target to rounding. Nothing is drawn at random and nothing kept from one
+/// solve to the next: close poses and targets have close answers, with exact rates.
+
+#include <tweenfall/anim/node_ref.h>
+
+#include <array>
+#include <numbers>
+#include <variant>
+#include <vector>
+
+namespace tweenfall {
+
+/// Turns about one axis alone, from the rest pose.
+struct HingeLimit {
+  Vec3 axis{1, 0, 0};                                       ///< in the joint's own space; any length
+  double low = -std::numbers::pi, high = std::numbers::pi;  ///< rad, counted from the rest pose; -pi to pi
+};
+
+/// Swings its bone within a cone about where it is at rest, and twists about it.
+struct ConeLimit {
+  double swing = std::numbers::pi / 2;                                  ///< half the opening of the cone, rad; 0 to 3.1
+  double twist_low = -std::numbers::pi, twist_high = std::numbers::pi;  ///< rad; -pi to pi
+};
+
+using JointLimit = std::variant<std::monostate, HingeLimit, ConeLimit>;
+
+struct ChainLink {
+  NodeRef node;
+  JointLimit limit = {};
+};
+
+enum class ChainMethod {
+  fabrik,  ///< forward and backward reaching: bones stay near where they were
+  ccd,     ///< cyclic coordinate descent: joints near the end turn the most
+};
+
+struct JointChainSettings {
+  std::vector<ChainLink> links;  ///< from the one nearest to the root to the end, which is carried; 2 to 65
+  ChainMethod method = ChainMethod::fabrik;
+  int sweeps = 8;  ///< 0 to 1000
+};
+
+class JointChain {
+ public:
+  static constexpr std::size_t most_joints = 64;
+
+  /// A joint that turns.
+  struct Joint {
+    std::size_t node = no_node;
+    JointLimit limit;       ///< axes of unit length
+    Quat rest{1, 0, 0, 0};  ///< the node's rest rotation
+    Vec3 bone{0, 1, 0};     ///< where the next joint is at rest, in the joint's own space; unit
+    bool has_bone = false;  ///< whether the next joint is elsewhere at rest
+  };
+
+  /// @throws std::invalid_argument listing what is wrong: a chain of one joint, too many, nodes that do not exist or do
+  ///         not stand below each other, limits out of range or on the end, a cone where there is no bone
+  JointChain(const Hierarchy& nodes, const JointChainSettings& settings);
+
+  [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
+  [[nodiscard]] std::span<const Joint> joints() const noexcept { return joints_; }
+  [[nodiscard]] std::size_t end() const noexcept { return end_; }
+  [[nodiscard]] ChainMethod method() const noexcept { return method_; }
+  [[nodiscard]] int sweeps() const noexcept { return sweeps_; }
+  [[nodiscard]] bool limited() const noexcept { return limited_; }
+
+ private:
+  Hierarchy nodes_;
+  std::vector<Joint> joints_;
+  std::size_t end_ = no_node;
+  ChainMethod method_;
+  int sweeps_;
+  bool limited_ = false;
+};
+
+/// Turns the joints so that the end is at the target, or, where bones and limits do not let it, as near as it comes
+/// from the pose. Limits hold in the answer, whatever the pose is. Exact where scales are uniform.
+///
+/// @param target  place in the world, m, and its velocity
+/// @param weight  0 leaves the pose as it is and 1 reaches, bit for bit; between, each joint turns part of its way
+/// @param pose    local motions of all nodes; those of the joints are changed
+void reach(const JointChain& chain, const Sample<Vec3>& target, const Sample<double>& weight,
+           std::span<Motion> pose) noexcept;
+
+}  // namespace tweenfall

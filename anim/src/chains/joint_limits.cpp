@@ -1,0 +1,110 @@
+#include "chains/joint_limits.h"
+
+namespace tweenfall::chains {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double at_border = 1e-12;
+
+// By how much a rotation turns about a unit axis, -pi to pi.
+Dual twist_about(const Vec3& axis, const Turning& turn) noexcept {
+  const Quat& q = turn.v;
+  // q' = w q / 2
+  const double along = q.vec().dot(axis), along_rate = 0.5 * (q.w() * turn.w + turn.w.cross(q.vec())).dot(axis);
+  const double rest_rate = -0.5 * turn.w.dot(q.vec());
+  Dual angle = Dual(2) * angle_of({along, along_rate}, {q.w(), rest_rate});
+  if (angle.v > pi) angle.v -= 2 * pi;
+  if (angle.v < -pi) angle.v += 2 * pi;
+  return angle;
+}
+
+// The nearest angle of the range, around the circle.
+Dual within(const Dual& angle, double low, double high) noexcept {
+  if (angle.v >= low && angle.v <= high) return angle;
+  const double over = angle.v > high ? angle.v - high : angle.v + 2 * pi - high;
+  const double under = angle.v < low ? low - angle.v : low + 2 * pi - angle.v;
+  return over <= under ? Dual(high) : Dual(low);
+}
+
+Turning about(const Vec3& axis, const Dual& angle) noexcept {
+  const elementary::SinCos half = elementary::sin_cos(0.5 * angle.v);
+  return {Quat(half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z()), angle.d * axis};
+}
+
+Turning within_cone(const JointChain::Joint& joint, const ConeLimit& cone, const Turning& turn) noexcept {
+  const Vec3 still(0, 0, 0);
+  const Arrow rest{joint.bone, still};
+  const Arrow bone = turn * rest;
+  const Arrow beside = across(bone, rest);
+  const Measured side = measured(beside);
+  const Dual swing = angle_of(side.length, dot(bone, rest));
+  const Dual twist = twist_about(joint.bone, turn), held = within(twist, cone.twist_low, cone.twist_high);
+  if (swing.v <= cone.swing && held.v == twist.v) return turn;
+  Arrow towards = bone;
+  if (swing.v > cone.swing) {
+    const Arrow away = side.any ? side.unit : Arrow{any_across(joint.bone), still};
+    const elementary::SinCos edge = elementary::sin_cos(cone.swing);
+    towards = Dual(edge.cos) * rest + Dual(edge.sin) * away;
+  }
+  return arc(rest, towards, any_across(joint.bone)) * about(joint.bone, held);
+}
+
+}  // namespace
+
+Turning within_limits(const JointChain::Joint& joint, const Turning& turn) noexcept {
+  if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit))
+    return about(hinge->axis, within(twist_about(hinge->axis, turn), hinge->low, hinge->high));
+  if (const auto* cone = std::get_if<ConeLimit>(&joint.limit)) return within_cone(joint, *cone, turn);
+  return turn;
+}
+
+Freedom freedom_of(const JointChain::Joint& joint, const Turning& turn) noexcept {
+  const Vec3 still(0, 0, 0);
+  Freedom freedom;
+  if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit)) {
+    const double angle = twist_about(hinge->axis, turn).v;
+    freedom.count = 1;
+    freedom.ways[0] = {{hinge->axis, still}, angle <= hinge->low + at_border, angle >= hinge->high - at_border};
+    return freedom;
+  }
+  freedom.count = 3;
+  const auto* cone = std::get_if<ConeLimit>(&joint.limit);
+  if (!cone) {
+    for (int i = 0; i < 3; ++i) freedom.ways[i].axis.v = Vec3::Unit(i);
+    return freedom;
+  }
+  // A turn about the normal of rest and bone swings alone, one about their sum twists alone.
+  // Source: differential of the swing-twist decomposition; twist' = w . (rest + bone) / (1 + rest . bone).
+  const Arrow rest{joint.bone, still}, bone = turn * rest;
+  const Measured normal = measured(cross(rest, bone));
+  const bool swung = normal.length.v > 1e-9;
+  const Arrow swing = swung ? normal.unit : Arrow{any_across(joint.bone), still};
+  Measured twist = measured(rest + bone);
+  if (!(twist.length.v > 1e-9)) twist.unit = {Vec3(swing.v.cross(joint.bone)), still};
+  const double angle = twist_about(joint.bone, turn).v;
+  const double opening = elementary::atan2(normal.length.v, dot(rest, bone).v);
+  freedom.ways[0] = {swing, cone->swing <= at_border, opening >= cone->swing - at_border};
+  freedom.ways[1] = {twist.unit, angle <= cone->twist_low + at_border, angle >= cone->twist_high - at_border};
+  freedom.ways[2] = {cross(swing, twist.unit), cone->swing <= at_border, cone->swing <= at_border};
+  return freedom;
+}
+
+Turning turned_towards(const JointChain::Joint& joint, const Turning& turn, const Arrow& from,
+                       const Arrow& to) noexcept {
+  if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit)) {
+    const Arrow axis{hinge->axis, Vec3(0, 0, 0)};
+    const Arrow a = across(from, axis), b = across(to, axis);
+    // What lies along the axis tells no angle.
+    if (a.v.squaredNorm() < 1e-20 * from.v.squaredNorm() || b.v.squaredNorm() < 1e-20 * to.v.squaredNorm()) return turn;
+    return within_limits(joint, about(hinge->axis, angle_of(dot(axis, cross(a, b)), dot(a, b))) * turn);
+  }
+  const Measured a = measured(from), b = measured(to);
+  if (!a.any || !b.any) return turn;
+  return within_limits(joint, arc(a.unit, b.unit, any_across(a.unit.v)) * turn);
+}
+
+Turning turned_by(const JointChain::Joint& joint, const Turning& turn, const Arrow& by) noexcept {
+  return within_limits(joint, exp_turn(by) * turn);
+}
+
+}  // namespace tweenfall::chains

@@ -1,0 +1,32 @@
+#pragma once
+
+// What the limits of a joint let it do.
+
+#include <tweenfall/anim/joint_chain.h>
+
+#include "chains/moving.h"
+
+namespace tweenfall::chains {
+
+/// The nearest rotation that the limit allows. @param turn  from the joint's rest pose, in the axes of that
+[[nodiscard]] Turning within_limits(const JointChain::Joint& joint, const Turning& turn) noexcept;
+
+/// The directions about which a joint can turn on from where it is, and which of both ways a limit closes.
+struct Freedom {
+  struct Way {
+    Arrow axis;  ///< unit, at right angles to the others, in the axes of the joint's rest pose
+    bool at_low = false, at_high = false;
+  };
+  Way ways[3];
+  int count = 0;
+};
+[[nodiscard]] Freedom freedom_of(const JointChain::Joint& joint, const Turning& turn) noexcept;
+
+/// A turn of the joint that brings the direction `from` towards `to`, as far as its limits let it.
+[[nodiscard]] Turning turned_towards(const JointChain::Joint& joint, const Turning& turn, const Arrow& from,
+                                     const Arrow& to) noexcept;
+
+/// Turned by the rotation vector `by`.
+[[nodiscard]] Turning turned_by(const JointChain::Joint& joint, const Turning& turn, const Arrow& by) noexcept;
+
+}  // namespace tweenfall::chains
