@@ -4,7 +4,7 @@ namespace tweenfall {
 namespace chains {
 namespace {
 
-constexpr std::size_t most = JointChain::most_joints;
+constexpr std::size_t room = JointChain::most_joints;
 
 // A chain in one pose, as it is turned: in the space of the first joint's parent.
 class Solve {
@@ -43,13 +43,13 @@ class Solve {
   const std::size_t count_;
   Arrow target_;
   Dual reach_;
-  Arrow bone_[most];  // to the next joint, in the joint's own axes, at its size
-  Dual length_[most];
-  Turning between_[most];            // from the own axes of the joint before to those of the parent
-  Turning fixed_[most];              // rest rotation
-  Turning turn_[most];               // from rest, in the axes of the rest pose
-  Turning outer_[most], own_[most];  // of the rest pose and of the joint, in the space in which all stand
-  Arrow at_[most + 1];               // joints and the end
+  Arrow bone_[room];  // to the next joint, in the joint's own axes, at its size
+  Dual length_[room];
+  Turning between_[room];            // from the own axes of the joint before to those of the parent
+  Turning fixed_[room];              // rest rotation
+  Turning turn_[room];               // from rest, in the axes of the rest pose
+  Turning outer_[room], own_[room];  // of the rest pose and of the joint, in the space in which all stand
+  Arrow at_[room + 1];               // joints and the end
 };
 
 Solve::Solve(const JointChain& chain, std::span<const Motion> pose, const Arrow& target) noexcept
@@ -115,7 +115,7 @@ void Solve::bend() noexcept {
 }
 
 void Solve::reach_forward_and_backward() noexcept {
-  Arrow wanted[most + 1];
+  Arrow wanted[room + 1];
   wanted[count_] = target_;
   for (std::size_t i = count_; i-- > 0;) {
     const Measured back = measured(at_[i] - wanted[i + 1]);
@@ -168,9 +168,9 @@ void Solve::step(double caution) noexcept {
   constexpr double damping = 0.1, widest = 0.5;
   const Arrow missing = target_ - at_[count_];
   const Dual damped = Dual(caution * damping) * length(missing) * reach_;
-  Arrow columns[most][3];
-  Freedom freedom[most];
-  bool held[most][3] = {};
+  Arrow columns[room][3];
+  Freedom freedom[room];
+  bool held[room][3] = {};
   for (std::size_t i = 0; i < count_; ++i) {
     freedom[i] = freedom_of(joint(i), turn_[i]);
     const Arrow arm = inside(i, at_[count_] - at_[i]);
@@ -223,7 +223,7 @@ bool Solve::refine() noexcept {
   Dual missing = distance();
   for (int i = 0; i < steps; ++i) {
     const bool near = missing.v <= there * reach_.v;
-    Turning before[most];
+    Turning before[room];
     std::copy(turn_, turn_ + count_, before);
     step(caution);
     if (near) return true;
@@ -286,7 +286,7 @@ void Solve::run() noexcept {
   }
   if (attempt()) return;
   if (length(target_ - at_[0]).v > reach_.v) return;
-  Turning best[most];
+  Turning best[room];
   std::copy(turn_, turn_ + count_, best);
   constexpr int more = 12;
   for (int number = 0; number < more; ++number) {

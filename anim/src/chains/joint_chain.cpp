@@ -43,7 +43,7 @@ JointChain::JointChain(const Hierarchy& nodes, const JointChainSettings& setting
   for (std::size_t i = 0; i < nodes.size(); ++i) rest[i].pose = nodes[i].rest;
   joints_.reserve(count - 1);
   for (std::size_t i = 0; i + 1 < count; ++i) {
-    Joint joint;
+    Joint& joint = joints_.emplace_back();
     joint.node = found[i];
     joint.limit = settings.links[i].limit;
     joint.rest = nodes[found[i]].rest.rotation;
@@ -57,7 +57,6 @@ JointChain::JointChain(const Hierarchy& nodes, const JointChainSettings& setting
                      "joint " + std::to_string(i + 1) + " (" + told[i].text() +
                          ") has a cone and, at rest, no bone that could swing in it");
     limited_ = limited_ || !std::holds_alternative<std::monostate>(joint.limit);
-    joints_.push_back(joint);
   }
   problems.report();
 }

@@ -1,0 +1,81 @@
+#pragma once
+
+/// Feet on uneven ground: what walks over a flat floor by its script stands on slopes, stairs and stones.
+///
+/// The script's feet keep their height above the script's floor, and get it above the ground: the pelvis goes to where
+/// the lowest foot reaches, each leg bends, and each foot lies along the ground's normal. Who asks brings the ground.
+
+#include <tweenfall/anim/two_bone.h>
+
+#include <functional>
+#include <vector>
+
+namespace tweenfall {
+
+/// The ground below or above a place.
+struct Ground {
+  double height = 0;          ///< along up, m
+  Vec3 normal{0, 1, 0};       ///< any length; leaning over more than 84 degrees it counts as no ground
+  double height_rate = 0;     ///< how fast it rises itself, at a still place, m/s
+  Vec3 normal_rate{0, 0, 0};  ///< of the normal below the place that was asked for as it moves, 1/s
+};
+
+/// The ground at a place that moves; nothing where there is none. It must not throw.
+using GroundAt = std::function<std::optional<Ground>(const Sample<Vec3>& place)>;
+
+struct FootSettings {
+  TwoBoneSettings leg;  ///< its end is the foot
+  std::optional<double> ankle_height =
+      std::nullopt;  ///< of the foot's joint above its sole, m; left out, above 0 at rest
+};
+
+struct FootPlacementSettings {
+  NodeRef pelvis;                  ///< all legs are below it; it is moved
+  std::vector<FootSettings> feet;  ///< at least one
+  Vec3 up{0, 1, 0};                ///< in the world; any length
+  double lowest = 0.5;             ///< by how far the pelvis goes down at most, m
+  double highest = 0.5;            ///< and up
+  double evenness = 0;             ///< over which the pelvis turns from one foot to another as the lowest, m; 0 sharply
+  double tilt = 0.8;               ///< of the feet at most, rad
+  double softness = 0;             ///< of the legs, as of a `TwoBoneGoal`
+};
+
+class FootPlacement {
+ public:
+  struct Foot {
+    TwoBoneChain leg;
+    double ankle_height;
+  };
+
+  /// @throws std::invalid_argument listing what is wrong: nodes that do not exist, no foot, legs that are not below the
+  ///         pelvis or that share joints, numbers out of range, and what is wrong with each leg
+  FootPlacement(const Hierarchy& nodes, const FootPlacementSettings& settings);
+
+  [[nodiscard]] const Hierarchy& nodes() const noexcept { return nodes_; }
+  [[nodiscard]] std::size_t pelvis() const noexcept { return pelvis_; }
+  [[nodiscard]] std::span<const Foot> feet() const noexcept { return feet_; }
+  [[nodiscard]] const Vec3& up() const noexcept { return up_; }  ///< unit
+  [[nodiscard]] double lowest() const noexcept { return lowest_; }
+  [[nodiscard]] double highest() const noexcept { return highest_; }
+  [[nodiscard]] double evenness() const noexcept { return evenness_; }
+  [[nodiscard]] double tilt() const noexcept { return tilt_; }
+  [[nodiscard]] double softness() const noexcept { return softness_; }
+
+ private:
+  Hierarchy nodes_;
+  std::size_t pelvis_ = no_node;
+  std::vector<Foot> feet_;
+  Vec3 up_;
+  double lowest_, highest_, evenness_, tilt_, softness_;
+};
+
+/// Puts the feet on the ground. @throws nothing, and allocates nothing; at most eight feet are placed
+///
+/// @param floor    height along up of the floor that the script walks on, m
+/// @param weight   0 leaves the pose as it is, bit for bit; 1 places
+/// @param weights  one per foot, of how much it belongs on the ground; or empty for all 1
+/// @param pose     local motions of all nodes; those of pelvis, legs and feet are changed
+void place_feet(const FootPlacement& placement, const GroundAt& ground, const Sample<double>& floor,
+                const Sample<double>& weight, std::span<const Sample<double>> weights, std::span<Motion> pose) noexcept;
+
+}  // namespace tweenfall

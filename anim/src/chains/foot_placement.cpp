@@ -1,0 +1,148 @@
+#include <tweenfall/anim/foot_placement.h>
+
+#include "chains/angle_limit.h"
+#include "chains/moving.h"
+#include "chains/problems.h"
+
+namespace tweenfall {
+namespace chains {
+namespace {
+
+constexpr std::size_t most_feet = 8;
+constexpr double steepest = 0.1;  // of the normal along up
+
+// What a foot is to do: how much higher the ground is than the floor, and how its sole is to lie.
+struct Step {
+  Arrow ankle;       // by the script
+  Turning rotation;  // by the script
+  Dual rise;
+  Turning tilt;
+};
+
+Dual number(const Sample<double>& sample) noexcept {
+  return {sample.value, sample.rate};
+}
+
+Step step_of(const FootPlacement& placement, std::size_t foot, const GroundAt& ground, const Dual& floor,
+             const Dual& weight, std::span<const Motion> pose) noexcept {
+  const Vec3 still(0, 0, 0), &up = placement.up();
+  const std::size_t end = placement.feet()[foot].leg.end();
+  const Motion world =
+      placement.nodes().world_motion(end, [&](std::size_t i) -> const Motion& { return pose[i]; }).motion;
+  Step step;
+  step.ankle = position_of(world);
+  step.rotation = rotation_of(world);
+  const std::optional<Ground> below = ground({step.ankle.v, step.ankle.d, still});
+  if (!below) return step;
+  const Measured normal = measured({below->normal, below->normal_rate});
+  const double steepness = normal.unit.v.dot(up);
+  if (!normal.any || !(steepness > steepest)) return step;
+  // The ground is a plane across its normal: that says how its height changes below a foot that moves.
+  const Vec3 sideways = step.ankle.d - step.ankle.d.dot(up) * up;
+  const Dual height(below->height, below->height_rate - normal.unit.v.dot(sideways) / steepness);
+  step.rise = weight * (height - floor);
+  const Arrow lain = within_angle(normal.unit, {up, still}, placement.tilt(), 0.25 * placement.tilt());
+  const Turning whole = arc({up, still}, lain, any_across(up));
+  step.tilt = exp_turn(weight * log_turn(whole));
+  return step;
+}
+
+// To where the lowest foot lets the pelvis go.
+Dual lowest_of(std::span<const Step> steps, double evenness) noexcept {
+  Dual lowest = steps.front().rise;
+  for (const Step& step : steps)
+    if (step.rise.v < lowest.v) lowest = step.rise;
+  if (!(evenness > 0)) return lowest;
+  // The mean of exp(-rise / evenness), taken from the lowest on so that nothing overflows.
+  Dual mean;
+  for (const Step& step : steps) mean = mean + exponential((lowest - step.rise) / Dual(evenness));
+  mean = mean / Dual(static_cast<double>(steps.size()));
+  return lowest - Dual(evenness) * Dual(elementary::log(mean.v), mean.d / mean.v);
+}
+
+}  // namespace
+}  // namespace chains
+
+FootPlacement::FootPlacement(const Hierarchy& nodes, const FootPlacementSettings& settings)
+    : nodes_(nodes),
+      up_(settings.up),
+      lowest_(settings.lowest),
+      highest_(settings.highest),
+      evenness_(settings.evenness),
+      tilt_(settings.tilt),
+      softness_(settings.softness) {
+  chains::Problems problems("foot placement");
+  pelvis_ = problems.node(nodes, settings.pelvis, "pelvis");
+  problems.require(!settings.feet.empty() && settings.feet.size() <= chains::most_feet,
+                   "it has " + std::to_string(settings.feet.size()) + " feet; it needs from 1 to " +
+                       std::to_string(chains::most_feet));
+  problems.require_finite(up_, "up");
+  problems.require(up_.squaredNorm() > 0, "up is zero");
+  problems.require_in(lowest_, 0, 1e300, "lowest");
+  problems.require_in(highest_, 0, 1e300, "highest");
+  problems.require_in(evenness_, 0, 1e300, "evenness");
+  problems.require_in(tilt_, 0, 1.5, "tilt");
+  problems.require_in(softness_, 0, 0.5, "softness");
+  up_ = up_ / std::sqrt(up_.squaredNorm());
+  std::vector<Motion> rest(nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) rest[i].pose = nodes[i].rest;
+  for (std::size_t i = 0; i < settings.feet.size(); ++i) {
+    const FootSettings& told = settings.feet[i];
+    const std::string name = "foot " + std::to_string(i + 1);
+    problems.include(
+        [&] {
+          Foot foot{TwoBoneChain(nodes, told.leg), 0};
+          const WorldMotion world =
+              nodes.world_motion(foot.leg.end(), [&](std::size_t node) -> const Motion& { return rest[node]; });
+          foot.ankle_height = told.ankle_height.value_or(std::max(0.0, world.motion.pose.position.dot(up_)));
+          problems.require_in(foot.ankle_height, -1e300, 1e300, "ankle_height of " + name);
+          if (pelvis_ != no_node)
+            problems.require(chains::is_below(nodes, foot.leg.start(), pelvis_),
+                             name + ": its leg must be below the pelvis (" + settings.pelvis.text() + ")");
+          for (const Foot& other : feet_)
+            problems.require(!chains::is_below(nodes, foot.leg.end(), other.leg.start()) &&
+                                 !chains::is_below(nodes, other.leg.end(), foot.leg.start()),
+                             name + ": its leg shares joints with one before");
+          feet_.push_back(std::move(foot));
+        },
+        name + ":");
+  }
+  problems.report();
+}
+
+void place_feet(const FootPlacement& placement, const GroundAt& ground, const Sample<double>& floor,
+                const Sample<double>& weight, std::span<const Sample<double>> weights,
+                std::span<Motion> pose) noexcept {
+  using namespace chains;
+  if (is_nothing(weight)) return;
+  const Hierarchy& nodes = placement.nodes();
+  const Arrow up{placement.up(), Vec3(0, 0, 0)};
+  const std::size_t count = placement.feet().size();
+  Step steps[most_feet];
+  for (std::size_t i = 0; i < count; ++i) {
+    const Dual own = i < weights.size() ? number(weights[i]) : Dual(1);
+    steps[i] = step_of(placement, i, ground, number(floor), number(weight) * own, pose);
+  }
+
+  const Inward around(above(nodes, placement.pelvis(), pose));
+  if (around.flat()) return;
+  Dual fall = lowest_of(std::span(steps).first(count), placement.evenness());
+  if (fall.v < -placement.lowest()) fall = Dual(-placement.lowest());
+  if (fall.v > placement.highest()) fall = Dual(placement.highest());
+  const Arrow way = around.direction(fall * up);
+  Motion& pelvis = pose[placement.pelvis()];
+  pelvis.pose.position += way.v;
+  pelvis.twist.linear += way.d;
+
+  for (std::size_t i = 0; i < count; ++i) {
+    const FootPlacement::Foot& foot = placement.feet()[i];
+    const Step& step = steps[i];
+    const Arrow ankle = Dual(foot.ankle_height) * up;
+    const Arrow target = step.ankle + step.rise * up + step.tilt * ankle - ankle;
+    reach(foot.leg, {.target = {target.v, target.d, Vec3(0, 0, 0)}, .softness = placement.softness()}, {1, 0, 0}, pose);
+    const Turning outer = rotation_of(above(nodes, foot.leg.end(), pose).motion);
+    turn_to(pose[foot.leg.end()], chains::inverse(outer) * step.tilt * step.rotation, {1, 0, 0});
+  }
+}
+
+}  // namespace tweenfall
