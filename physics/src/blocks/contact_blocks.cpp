@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "step/contact_rows.h"
 
@@ -101,20 +102,14 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
                           double h) {
   coloring_.reset(bodies.size());
   keys_.clear();
-  counts_.assign((Coloring::none + 1) * kinds + 1, 0);
+  keys_.reserve(contacts.size());
   for (const ContactConstraint* contact : contacts) {
     const std::uint32_t place_a = places[contact->a], place_b = places[contact->b];
     const IslandBody &a = bodies[place_a], &b = bodies[place_b];
     const std::uint32_t color = coloring_.color(place_a, a.movable, place_b, b.movable);
-    const std::uint32_t key = color * kinds + kind_of(*contact, a, b);
-    keys_.push_back(key);
-    ++counts_[key + 1];
+    keys_.push_back(color * kinds + kind_of(*contact, a, b));
   }
-  for (std::size_t i = 1; i < counts_.size(); ++i) counts_[i] += counts_[i - 1];
-  sorted_.resize(contacts.size());
-  for (std::uint32_t i = 0; i < contacts.size(); ++i) sorted_[counts_[keys_[i]]++] = i;
-
-  // Each count is now where its key ends.
+  sort_by_key();
   blocks.clear();
   balls.clear();
   points.clear();
@@ -131,35 +126,54 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
   color_balls_.clear();
   room = static_cast<std::uint32_t>(bodies.size());
   std::size_t next = 0;
-  for (std::uint32_t key = 0; key + 1 < counts_.size(); ++key) {
-    if (key % kinds == 0) {
+  std::uint32_t colors = 0;
+  const auto open_colors = [&](std::uint32_t end) {
+    for (; colors < end; ++colors) {
       color_blocks_.push_back(blocks.size());
       color_balls_.push_back(balls.size());
-    }
-    if (key == Coloring::half * kinds) {
+      if (colors != Coloring::half) continue;
       pairs = blocks.size();
       ball_pairs = balls.size();
     }
-    const std::size_t width = key >= Coloring::none * kinds ? 1 : lane_count;
-    while (next < counts_[key]) {
-      const std::uint32_t kind = key % kinds;
-      open(kind);
-      const std::size_t end = std::min<std::size_t>(counts_[key], next + width);
-      for (int lane = 0; next < end; ++next, ++lane) {
-        ContactConstraint& contact = *contacts[sorted_[next]];
-        const contacts::Closing& closing = closings[sorted_[next]];
-        if (kind == ball_kind)
-          fill_ball(lane, contact, places, bodies, closing, h);
-        else
-          fill(lane, contact, places, bodies, closing, h);
-      }
+  };
+  while (next < sorted_.size()) {
+    const std::uint32_t key = keys_[sorted_[next]], color = key / kinds, kind = key % kinds;
+    open_colors(color + 1);
+    open(kind);
+    const std::size_t width = color >= Coloring::none ? 1 : lane_count;
+    for (int lane = 0; lane < static_cast<int>(width) && next < sorted_.size() && keys_[sorted_[next]] == key;
+         ++next, ++lane) {
+      ContactConstraint& contact = *contacts[sorted_[next]];
+      const contacts::Closing& closing = closings[sorted_[next]];
       if (kind == ball_kind)
-        close(balls.back());
+        fill_ball(lane, contact, places, bodies, closing, h);
       else
-        close(blocks.back());
+        fill(lane, contact, places, bodies, closing, h);
     }
+    if (kind == ball_kind)
+      close(balls.back());
+    else
+      close(blocks.back());
   }
+  open_colors(Coloring::none + 1);
   find_phases();
+}
+
+/// Those of one key in their order. There are thousands of keys, and of most islands' contacts only few.
+void ContactBlocks::sort_by_key() {
+  constexpr std::size_t few = 256;
+  sorted_.resize(keys_.size());
+  if (keys_.size() <= few) {
+    std::iota(sorted_.begin(), sorted_.end(), std::uint32_t{0});
+    std::sort(sorted_.begin(), sorted_.end(), [this](std::uint32_t left, std::uint32_t right) {
+      return keys_[left] != keys_[right] ? keys_[left] < keys_[right] : left < right;
+    });
+    return;
+  }
+  counts_.assign((Coloring::none + 1) * kinds + 1, 0);
+  for (const std::uint32_t key : keys_) ++counts_[key + 1];
+  for (std::size_t i = 1; i < counts_.size(); ++i) counts_[i] += counts_[i - 1];
+  for (std::uint32_t i = 0; i < keys_.size(); ++i) sorted_[counts_[keys_[i]]++] = i;
 }
 
 template <class Block>

@@ -69,6 +69,7 @@ class ContactBlocks {
   std::uint32_t room = 0;  ///< of bodies, and after them of what is written and not read
 
  private:
+  void sort_by_key();
   void open(std::uint32_t kind);
   template <class Block>
   void close(Block& block);
