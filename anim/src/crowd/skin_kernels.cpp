@@ -1,0 +1,151 @@
+#include "crowd/skin_kernels.h"
+
+#include "crowd/lanes.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace tweenfall::crowd {
+
+namespace {
+
+using Four = float __attribute__((vector_size(16), aligned(16)));
+
+TWEENFALL_CROWD_LANES Four four(const float* from) {
+  Four numbers;
+  __builtin_memcpy(&numbers, from, sizeof numbers);
+  return numbers;
+}
+TWEENFALL_CROWD_LANES Four repeated(float value) {
+  return Four{value, value, value, value};
+}
+
+/// The rows of a vertex's matrix: those of its joints by its weights.
+TWEENFALL_CROWD_LANES void add_joints(const CrowdMesh::Influence4& of, const CrowdMatrix* palette, bool first,
+                                      Four* rows) {
+  for (int i = 0; i < 4; ++i) {
+    const CrowdMatrix& matrix = palette[of.joint[i]];
+    const Four weight = repeated(of.weight[i]);
+    for (int r = 0; r < 3; ++r)
+      rows[r] = first && i == 0 ? weight * four(matrix.row[r]) : rows[r] + weight * four(matrix.row[r]);
+  }
+}
+
+/// The same row of eight matrices, column by column.
+TWEENFALL_CROWD_LANES void columns(const Four (*rows)[3], int r, Lanes* out) {
+  Lanes pairs[4];
+  for (int i = 0; i < 4; ++i) pairs[i] = __builtin_shufflevector(rows[i][r], rows[i + 4][r], 0, 1, 2, 3, 4, 5, 6, 7);
+  const Lanes low01 = __builtin_shufflevector(pairs[0], pairs[1], 0, 8, 1, 9, 4, 12, 5, 13),
+              high01 = __builtin_shufflevector(pairs[0], pairs[1], 2, 10, 3, 11, 6, 14, 7, 15),
+              low23 = __builtin_shufflevector(pairs[2], pairs[3], 0, 8, 1, 9, 4, 12, 5, 13),
+              high23 = __builtin_shufflevector(pairs[2], pairs[3], 2, 10, 3, 11, 6, 14, 7, 15);
+  out[0] = __builtin_shufflevector(low01, low23, 0, 1, 8, 9, 4, 5, 12, 13);
+  out[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
+  out[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
+  out[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+/// Eight points. A fourth number is written over by the next point, so the last one is written by itself.
+TWEENFALL_CROWD_LANES void put_points(const Lanes& x, const Lanes& y, const Lanes& z, CrowdPoint* out) {
+  const Lanes xy_low = __builtin_shufflevector(x, y, 0, 8, 1, 9, 4, 12, 5, 13),
+              xy_high = __builtin_shufflevector(x, y, 2, 10, 3, 11, 6, 14, 7, 15),
+              z_low = __builtin_shufflevector(z, z, 0, 8, 1, 9, 4, 12, 5, 13),
+              z_high = __builtin_shufflevector(z, z, 2, 10, 3, 11, 6, 14, 7, 15);
+  const Lanes pairs[4] = {__builtin_shufflevector(xy_low, z_low, 0, 1, 8, 9, 4, 5, 12, 13),
+                          __builtin_shufflevector(xy_low, z_low, 2, 3, 10, 11, 6, 7, 14, 15),
+                          __builtin_shufflevector(xy_high, z_high, 0, 1, 8, 9, 4, 5, 12, 13),
+                          __builtin_shufflevector(xy_high, z_high, 2, 3, 10, 11, 6, 7, 14, 15)};
+  float* const to = &out->x;
+  for (int i = 0; i < 4; ++i) {
+    const Four point = __builtin_shufflevector(pairs[i], pairs[i], 0, 1, 2, 3);
+    __builtin_memcpy(to + 3 * i, &point, sizeof point);
+  }
+  for (int i = 0; i < 4; ++i) {
+    const Four point = __builtin_shufflevector(pairs[i], pairs[i], 4, 5, 6, 7);
+    __builtin_memcpy(to + 3 * (i + 4), &point, i < 3 ? sizeof point : 3 * sizeof(float));
+  }
+}
+
+/// The normal by the cofactors of a matrix: the cross products of its rows, mixed.
+TWEENFALL_CROWD_LANES void put_normals(const Lanes (&m)[3][4], const Lanes* n, CrowdPoint* out) {
+  Lanes turned[3];
+  for (int r = 0; r < 3; ++r) {
+    const Lanes *const a = m[(r + 1) % 3], *const b = m[(r + 2) % 3];
+    turned[r] =
+        (n[0] * (a[1] * b[2] - a[2] * b[1]) + n[1] * (a[2] * b[0] - a[0] * b[2])) + n[2] * (a[0] * b[1] - a[1] * b[0]);
+  }
+  const Lanes squared = (turned[0] * turned[0] + turned[1] * turned[1]) + turned[2] * turned[2];
+  const Words there = squared > all(1e-36F);
+  const Lanes shrink = select(there, all(1) / root(squared), all(0));
+  put_points(turned[0] * shrink, turned[1] * shrink, turned[2] * shrink, out);
+}
+
+template <bool many, bool with_normals>
+TWEENFALL_CROWD_LANES void skin_block(const SkinWork& work, std::size_t block, CrowdPoint* positions,
+                                      CrowdPoint* normals) {
+  Four rows[lane_count][3];
+  const std::size_t first = block * lane_count;
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    add_joints(work.influences[first + i], work.palette, true, rows[i]);
+    if constexpr (many)
+      for (std::uint32_t k = work.more[first + i]; k < work.more[first + i + 1]; ++k)
+        add_joints(work.more_influences[k], work.palette, false, rows[i]);
+  }
+  Lanes m[3][4];
+  for (int r = 0; r < 3; ++r) columns(rows, r, m[r]);
+  Lanes numbers[6];
+  for (int i = 0; i < 6; ++i) numbers[i] = load(work.blocks[block].numbers[i]);
+  Lanes moved[3];
+  for (int r = 0; r < 3; ++r)
+    moved[r] = (m[r][0] * numbers[0] + m[r][1] * numbers[1]) + (m[r][2] * numbers[2] + m[r][3]);
+  put_points(moved[0], moved[1], moved[2], positions);
+  if constexpr (with_normals) put_normals(m, numbers + 3, normals);
+}
+
+template <bool many, bool with_normals>
+TWEENFALL_CROWD_LANES void skin_blocks(const SkinWork& work) {
+  const std::size_t whole = work.vertices / lane_count, rest = work.vertices % lane_count;
+  for (std::size_t block = 0; block < whole; ++block)
+    skin_block<many, with_normals>(work, block, work.positions + block * lane_count,
+                                   with_normals ? work.normals + block * lane_count : nullptr);
+  if (rest == 0) return;
+  CrowdPoint positions[lane_count], normals[lane_count];
+  skin_block<many, with_normals>(work, whole, positions, normals);
+  for (std::size_t i = 0; i < rest; ++i) {
+    work.positions[whole * lane_count + i] = positions[i];
+    if constexpr (with_normals) work.normals[whole * lane_count + i] = normals[i];
+  }
+}
+
+TWEENFALL_CROWD_LANES void skin_all(const SkinWork& work) {
+  if (work.more)
+    work.normals ? skin_blocks<true, true>(work) : skin_blocks<true, false>(work);
+  else
+    work.normals ? skin_blocks<false, true>(work) : skin_blocks<false, false>(work);
+}
+
+// The same source for each instruction set. None of them has a fused multiply and add, so the bits are the same.
+void skin_plain(const SkinWork& work) {
+  skin_all(work);
+}
+#if defined(__x86_64__) || defined(__i386__)
+[[gnu::target("avx2")]] void skin_avx2(const SkinWork& work) {
+  skin_all(work);
+}
+#endif
+
+}  // namespace
+
+const SkinKernels& plain_skin_kernels() {
+  static constexpr SkinKernels plain = {skin_plain};
+  return plain;
+}
+
+const SkinKernels& fastest_skin_kernels() {
+#if defined(__x86_64__) || defined(__i386__)
+  static constexpr SkinKernels avx2 = {skin_avx2};
+  if (__builtin_cpu_supports("avx2")) return avx2;
+#endif
+  return plain_skin_kernels();
+}
+
+}  // namespace tweenfall::crowd
