@@ -173,6 +173,22 @@ TEST_CASE("a mirror lists all that is wrong with its pairs") {
       std::invalid_argument);
 }
 
+TEST_CASE("a figure that rests bent is mirrored evenly from its stance") {
+  const Hierarchy even = mirrored_figure(true), bent = mirrored_figure(true, 0.3);
+  std::vector<Pose> stance;
+  for (const Node& node : even.nodes()) stance.push_back(node.rest);
+  const auto pose = moved_figure(even, 5, 0.2);
+  std::vector<Motion> out(pose.size()), expected(pose.size());
+  Mirror(bent, sides, {1, 0, 0}, stance).apply(pose, out);
+  Mirror(even, sides).apply(pose, expected);
+  for (std::size_t i = 0; i < pose.size(); ++i) CHECK(same_bits(out[i], expected[i]));
+  stance.pop_back();
+  CHECK_THROWS_WITH_AS(
+      Mirror(bent, sides, {1, 0, 0}, stance),
+      "a mirror does not fit its joints:\n  its stance needs a pose for each of the 11 joints; it has 10",
+      std::invalid_argument);
+}
+
 TEST_CASE("mirroring asks for no memory") {
   const Hierarchy nodes = mirrored_figure(true);
   const Mirror mirror(nodes, sides);

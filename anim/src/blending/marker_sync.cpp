@@ -212,6 +212,7 @@ double MarkerSync::advanced_by(double phase, double seconds, const Share& share)
   for (std::size_t i = 0; i < clips_.size(); ++i)
     whole += share(i) * clips_[i].duration * (period_ / static_cast<double>(clips_[i].stretches.size()));
   const double periods = std::floor(seconds / whole), rest = seconds - periods * whole;
+  if (!std::isfinite(periods)) return phase;  // loops too short to be counted
   const double start = phase - std::floor(phase / period_) * period_;
   const auto gone = [&](double to, double& slope) noexcept {
     double sum = 0;

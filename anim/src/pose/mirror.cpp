@@ -66,9 +66,10 @@ std::vector<std::size_t> partners_of(const Hierarchy& nodes, std::span<const Mir
 
 std::vector<MirrorPair> usual_sides(const Hierarchy& nodes) {
   static const MirrorPair usual[]{
-      {"*.L", "*.R"},     {"*.l", "*.r"},     {"*_L", "*_R"},        {"*_l", "*_r"},        {"*-L", "*-R"},
-      {"*.L.*", "*.R.*"}, {"*.l.*", "*.r.*"}, {"*_L_*", "*_R_*"},    {"*_l_*", "*_r_*"},    {"L_*", "R_*"},
-      {"l_*", "r_*"},     {"* L *", "* R *"}, {"*Left*", "*Right*"}, {"*left*", "*right*"}, {"*LEFT*", "*RIGHT*"},
+      {"*.L", "*.R"},        {"*.l", "*.r"},        {"*_L", "*_R"},     {"*_l", "*_r"},     {"*-L", "*-R"},
+      {"*.L.*", "*.R.*"},    {"*.l.*", "*.r.*"},    {"*.L_*", "*.R_*"}, {"*.L#*", "*.R#*"}, {"*_L_*", "*_R_*"},
+      {"*_l_*", "*_r_*"},    {"L_*", "R_*"},        {"l_*", "r_*"},     {"* L *", "* R *"}, {"*Left*", "*Right*"},
+      {"*left*", "*right*"}, {"*LEFT*", "*RIGHT*"},
   };
   std::vector<MirrorPair> sides;
   for (const MirrorPair& pair : usual) {
@@ -86,8 +87,13 @@ std::vector<MirrorPair> usual_sides(const Hierarchy& nodes) {
   return sides;
 }
 
-Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const Vec3& normal) : normal_(normal) {
+Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const Vec3& normal,
+               std::span<const Pose> stance)
+    : normal_(normal) {
   std::string problems;
+  if (!stance.empty() && stance.size() != nodes.size())
+    problems += "\n  its stance needs a pose for each of the " + std::to_string(nodes.size()) + " joints; it has " +
+                std::to_string(stance.size());
   const double largest = normal.cwiseAbs().maxCoeff();
   if (!(largest > 0) || !std::isfinite(normal.sum()))
     problems += "\n  the normal of its plane must have a length, and be finite";
@@ -112,7 +118,7 @@ Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const 
   // From rest, in the figure's space, a joint has the turn D = R B^-1 of its rotation R and of that at rest, B. It is
   // to have the mirror image m(D) of its partner's. With the parents' the same, its local rotation is (Bp^-1 m(Bp'))
   // m(q') (m(B')^-1 B), q' being its partner's, Bp the parent's rotation at rest, ' the partner's.
-  const std::vector<Pose> rest = pose::figure_poses(nodes);
+  const std::vector<Pose> rest = pose::figure_poses(nodes, stance);
   joints_.resize(nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Joint& joint = joints_[i];
@@ -124,7 +130,8 @@ Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const 
     joint.after =
         pose::tidied(Quat(pose::reflected(rest[joint.partner].rotation, normal_).conjugate() * rest[i].rotation));
 
-    const Pose &own = nodes[i].rest, &theirs = nodes[joint.partner].rest;
+    const Pose &own = stance.empty() ? nodes[i].rest : stance[i],
+               &theirs = stance.empty() ? nodes[joint.partner].rest : stance[joint.partner];
     joint.offset = own.position - joint.before * pose::reflected(theirs.position, normal_);
     const double size = std::max(own.position.cwiseAbs().maxCoeff(), theirs.position.cwiseAbs().maxCoeff());
     for (int k = 0; k < 3; ++k)

@@ -7,8 +7,9 @@
 /// the joints' own axes may lie in any way, on each side another; where the rest pose is symmetrical in the figure's
 /// space the mirrored pose is the mirror image, and where it is not each side keeps its own rest pose and proportions.
 /// Scales are taken over along the axes that are each other's images; a scale along axes that are not is spread over
-/// those nearest. Rates are mirrored with the poses, exactly. The mirror of a mirrored pose is the pose: bit for bit
-/// where the rest pose is symmetrical in the joints' own axes, to rounding else.
+/// those nearest. A figure whose rest pose is bent is given a stance, a pose in which it stands evenly, to measure
+/// from. Rates are mirrored with the poses, exactly. The mirror of a mirrored pose is the pose: bit for bit where the
+/// rest pose is symmetrical in the joints' own axes, to rounding else.
 
 #include <tweenfall/anim/hierarchy.h>
 
@@ -31,9 +32,11 @@ class Mirror {
  public:
   /// A joint that no pair names is its own partner.
   /// @param normal  of the mirror plane, which goes through the origin of the figure's space; any length
+  /// @param stance  local poses to measure from; empty: the rest poses
   /// @throws std::invalid_argument listing all problems: a pair that no joint matches, a joint without its partner, one
-  /// with two, partners whose parents are not partners, a normal of no length.
-  Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const Vec3& normal = {1, 0, 0});
+  /// with two, partners whose parents are not partners, a normal of no length, a stance of another size.
+  Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const Vec3& normal = {1, 0, 0},
+         std::span<const Pose> stance = {});
 
   [[nodiscard]] std::size_t size() const noexcept { return joints_.size(); }
   [[nodiscard]] std::size_t partner(std::size_t joint) const noexcept { return joints_[joint].partner; }
