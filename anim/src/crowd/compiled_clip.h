@@ -37,6 +37,25 @@ enum class Packing : std::uint8_t {
   exact,   ///< a float each
 };
 
+/// Where a component stands in its word. Reading leaves it there, and takes only what is at the top for signed: steps
+/// and offsets are made for that.
+struct Field {
+  std::size_t word;
+  int at, bits;
+
+  [[nodiscard]] constexpr bool at_top() const { return at + bits == 32; }
+  /// What is added to a number so that it is not negative.
+  [[nodiscard]] constexpr int bias() const { return at_top() ? 0 : 1 << (bits - 1); }
+  /// What a number is multiplied by when it is read.
+  [[nodiscard]] constexpr double factor() const { return at_top() ? 1.0 : static_cast<double>(1U << at); }
+};
+
+[[nodiscard]] constexpr Field field_of(Packing packing, std::size_t component_count, std::size_t component) {
+  if (packing == Packing::wide) return {component / 2, component % 2 == 0 ? 0 : 16, 16};
+  if (component_count == 4) return {0, static_cast<int>(8 * component), 8};
+  return {0, component == 2 ? 22 : static_cast<int>(10 * component), 10};
+}
+
 [[nodiscard]] constexpr std::size_t words_of(Packing packing, std::size_t component_count) {
   switch (packing) {
     case Packing::narrow:

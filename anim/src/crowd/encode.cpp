@@ -99,12 +99,11 @@ class Based {
 };
 
 /// Puts one whole number of a lane into its word.
-void pack(std::int32_t* row, Packing packing, std::size_t count, std::size_t component, std::size_t lane, int number) {
-  const std::size_t bits = packing == Packing::wide ? 16 : count == 3 ? 10 : 8;
-  const std::size_t each = packing == Packing::wide ? 2 : count, word = component / each;
-  const std::uint32_t field = (static_cast<std::uint32_t>(number) & ((1U << bits) - 1)) << (bits * (component % each));
-  std::int32_t& at = row[word * lane_count + lane];
-  at = static_cast<std::int32_t>(static_cast<std::uint32_t>(at) | field);
+void pack(std::int32_t* row, const Field& field, std::size_t lane, int number) {
+  const std::uint32_t mask = (1U << field.bits) - 1;
+  std::int32_t& at = row[field.word * lane_count + lane];
+  at = static_cast<std::int32_t>(static_cast<std::uint32_t>(at) |
+                                 (static_cast<std::uint32_t>(number + field.bias()) & mask) << field.at);
 }
 
 /// The first word of a slot's value within a channel's row.
@@ -124,11 +123,12 @@ Encoded written(const Fitted& fitted, const Form& form, const Based* based) {
   for (std::size_t slot = 0; slot < form.slots(count); ++slot)
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const std::size_t sequence = slot * lane_count + lane, component = slot % count;
+      const Field base_field = field_of(form.base, count, component),
+                  fine_field = field_of(form.fine, count, component);
       if (based) {
         based->residual(sequence, left);
         for (std::size_t row = 0; row < based->rows(); ++row)
-          pack(slot_row(out.base, row, form, form.base, count, slot), form.base, count, component, lane,
-               based->rounded(row, sequence));
+          pack(slot_row(out.base, row, form, form.base, count, slot), base_field, lane, based->rounded(row, sequence));
       } else {
         for (std::size_t knot = 0; knot < knots; ++knot) left[knot] = fitted.at(knot, slot, lane);
       }
@@ -145,15 +145,18 @@ Encoded written(const Fitted& fitted, const Form& form, const Based* based) {
         const int limit = limit_of(form.fine, count);
         grid = grid_over(range, limit);
         for (std::size_t knot = 0; knot < knots; ++knot)
-          pack(slot_row(out.fine, knot, form, form.fine, count, slot), form.fine, count, component, lane,
+          pack(slot_row(out.fine, knot, form, form.fine, count, slot), fine_field, lane,
                grid.nearest(left[knot], limit));
       } else if (based) {
         grid.offset = 0;
       }
       float* numbers = out.numbers.data() + slot * form.numbers_per_slot() * lane_count + lane;
-      *numbers = based ? grid.offset + based->grid(sequence).offset : grid.offset;
-      if (based) *(numbers += lane_count) = based->grid(sequence).step;
-      if (form.fine != Packing::none) *(numbers += lane_count) = grid.step;
+      double offset = grid.offset;
+      if (based) offset += based->grid(sequence).number(-base_field.bias());
+      if (form.fine != Packing::none) offset -= static_cast<double>(grid.step) * fine_field.bias();
+      *numbers = static_cast<float>(offset);
+      if (based) *(numbers += lane_count) = static_cast<float>(based->grid(sequence).step / base_field.factor());
+      if (form.fine != Packing::none) *(numbers += lane_count) = static_cast<float>(grid.step / fine_field.factor());
     }
   return out;
 }

@@ -36,10 +36,13 @@ TWEENFALL_CROWD_LANES Words load_words(const std::int32_t* from) {
   __builtin_memcpy(&words, from, sizeof words);
   return words;
 }
-/// Signed whole numbers of `bits` bits, of which the lowest is number `at` of each word.
+/// Whole numbers of `bits` bits, of which the lowest is number `at` of each word, as they stand: times 2 to the power
+/// of `at` and without a sign, but for those at the top of the word.
 template <int at, int bits>
 TWEENFALL_CROWD_LANES Lanes field(const Words& words) {
-  return __builtin_convertvector((words << (32 - at - bits)) >> (32 - bits), Lanes);
+  if constexpr (at + bits == 32) return __builtin_convertvector(words >> at, Lanes);
+  constexpr std::int32_t mask = static_cast<std::int32_t>(((std::uint32_t{1} << bits) - 1) << at);
+  return __builtin_convertvector(words & Words{mask, mask, mask, mask, mask, mask, mask, mask}, Lanes);
 }
 TWEENFALL_CROWD_LANES Lanes select(const Words& which, const Lanes& yes, const Lanes& no) {
   return reinterpret_cast<Lanes>((which & reinterpret_cast<Words>(yes)) | (~which & reinterpret_cast<Words>(no)));

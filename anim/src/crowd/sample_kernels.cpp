@@ -22,7 +22,7 @@ TWEENFALL_CROWD_LANES void unpack(const std::int32_t* row, Lanes (&out)[count]) 
     const Words row_words = load_words(row);
     out[0] = field<0, 10>(row_words);
     out[1] = field<10, 10>(row_words);
-    out[2] = field<20, 10>(row_words);
+    out[2] = field<22, 10>(row_words);
   } else {
     const Words row_words = load_words(row);
     out[0] = field<0, 8>(row_words);

@@ -15,25 +15,28 @@ TWEENFALL_CROWD_LANES Four four(const float* from) {
   __builtin_memcpy(&numbers, from, sizeof numbers);
   return numbers;
 }
-TWEENFALL_CROWD_LANES Four repeated(float value) {
-  return Four{value, value, value, value};
-}
 
-/// The rows of a vertex's matrix: those of its joints by its weights.
+/// The matrix of a vertex: its first two rows, and the third.
+struct Blended {
+  Lanes upper;
+  Four lower;
+};
+
+/// The matrices of joints by their weights.
 TWEENFALL_CROWD_LANES void add_joints(const CrowdMesh::Influence4& of, const CrowdMatrix* palette, bool first,
-                                      Four* rows) {
+                                      Blended& matrix) {
   for (int i = 0; i < 4; ++i) {
-    const CrowdMatrix& matrix = palette[of.joint[i]];
-    const Four weight = repeated(of.weight[i]);
-    for (int r = 0; r < 3; ++r)
-      rows[r] = first && i == 0 ? weight * four(matrix.row[r]) : rows[r] + weight * four(matrix.row[r]);
+    const CrowdMatrix& joint = palette[of.joint[i]];
+    const float weight = of.weight[i];
+    const Lanes upper = load(joint.row[0]) * Lanes{weight, weight, weight, weight, weight, weight, weight, weight};
+    const Four lower = four(joint.row[2]) * Four{weight, weight, weight, weight};
+    matrix.upper = first && i == 0 ? upper : matrix.upper + upper;
+    matrix.lower = first && i == 0 ? lower : matrix.lower + lower;
   }
 }
 
-/// The same row of eight matrices, column by column.
-TWEENFALL_CROWD_LANES void columns(const Four (*rows)[3], int r, Lanes* out) {
-  Lanes pairs[4];
-  for (int i = 0; i < 4; ++i) pairs[i] = __builtin_shufflevector(rows[i][r], rows[i + 4][r], 0, 1, 2, 3, 4, 5, 6, 7);
+/// From four pairs of a vertex and the one four further, each four numbers, to those numbers of all eight.
+TWEENFALL_CROWD_LANES void columns(const Lanes (&pairs)[4], Lanes* out) {
   const Lanes low01 = __builtin_shufflevector(pairs[0], pairs[1], 0, 8, 1, 9, 4, 12, 5, 13),
               high01 = __builtin_shufflevector(pairs[0], pairs[1], 2, 10, 3, 11, 6, 14, 7, 15),
               low23 = __builtin_shufflevector(pairs[2], pairs[3], 0, 8, 1, 9, 4, 12, 5, 13),
@@ -42,6 +45,18 @@ TWEENFALL_CROWD_LANES void columns(const Four (*rows)[3], int r, Lanes* out) {
   out[1] = __builtin_shufflevector(low01, low23, 2, 3, 10, 11, 6, 7, 14, 15);
   out[2] = __builtin_shufflevector(high01, high23, 0, 1, 8, 9, 4, 5, 12, 13);
   out[3] = __builtin_shufflevector(high01, high23, 2, 3, 10, 11, 6, 7, 14, 15);
+}
+
+TWEENFALL_CROWD_LANES void all_columns(const Blended (&of)[lane_count], Lanes (&m)[3][4]) {
+  Lanes first[4], second[4], third[4];
+  for (int i = 0; i < 4; ++i) {
+    first[i] = __builtin_shufflevector(of[i].upper, of[i + 4].upper, 0, 1, 2, 3, 8, 9, 10, 11);
+    second[i] = __builtin_shufflevector(of[i].upper, of[i + 4].upper, 4, 5, 6, 7, 12, 13, 14, 15);
+    third[i] = __builtin_shufflevector(of[i].lower, of[i + 4].lower, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  columns(first, m[0]);
+  columns(second, m[1]);
+  columns(third, m[2]);
 }
 
 /// Eight points. A fourth number is written over by the next point, so the last one is written by itself.
@@ -82,16 +97,16 @@ TWEENFALL_CROWD_LANES void put_normals(const Lanes (&m)[3][4], const Lanes* n, C
 template <bool many, bool with_normals>
 TWEENFALL_CROWD_LANES void skin_block(const SkinWork& work, std::size_t block, CrowdPoint* positions,
                                       CrowdPoint* normals) {
-  Four rows[lane_count][3];
+  Blended matrices[lane_count];
   const std::size_t first = block * lane_count;
   for (std::size_t i = 0; i < lane_count; ++i) {
-    add_joints(work.influences[first + i], work.palette, true, rows[i]);
+    add_joints(work.influences[first + i], work.palette, true, matrices[i]);
     if constexpr (many)
       for (std::uint32_t k = work.more[first + i]; k < work.more[first + i + 1]; ++k)
-        add_joints(work.more_influences[k], work.palette, false, rows[i]);
+        add_joints(work.more_influences[k], work.palette, false, matrices[i]);
   }
   Lanes m[3][4];
-  for (int r = 0; r < 3; ++r) columns(rows, r, m[r]);
+  all_columns(matrices, m);
   Lanes numbers[6];
   for (int i = 0; i < 6; ++i) numbers[i] = load(work.blocks[block].numbers[i]);
   Lanes moved[3];
