@@ -1,0 +1,32 @@
+#include "bench/crowd_clip.h"
+#include "figures.h"
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+using tweenfall::bench::CrowdFigure;
+
+TEST_CASE(
+    "figures of 1 to 200 joints keep a tenth of a millimeter, in no more than 4,500 bytes for each of many joints") {
+  for (const std::uint32_t size : {1U, 20U, 67U, 200U}) {
+    const auto nodes = CrowdFigure::nodes(size);
+    const Animation exact(nodes, {CrowdFigure::clip(size, Ease::linear())}, {{.clip = 0}});
+    const CrowdClip clip = compile(exact.clips()[0], *nodes);
+    double farthest = 0;
+    const int times = size > 100 ? 197 : 997;
+    for (int i = 0; i < times; ++i) farthest = std::max(farthest, distance(exact, clip, 10.0 * (i + 0.37) / times));
+    INFO("joints ", size);
+    CHECK(farthest <= 1e-4);
+    CHECK(clip.error() <= 1e-4);
+    if (size == 67) CHECK(clip.byte_count() <= 300000);
+    if (size >= 20) CHECK(clip.byte_count() <= 4500 * size);
+  }
+}
+
+TEST_CASE("asked for the smallest, a crowd's clip takes less room and keeps its tolerance") {
+  const auto nodes = CrowdFigure::nodes(67);
+  const Animation exact(nodes, {CrowdFigure::clip(67, Ease::linear())}, {{.clip = 0}});
+  const CrowdClip quick = compile(exact.clips()[0], *nodes);
+  const CrowdClip small = compile(exact.clips()[0], *nodes, {.smallest = true});
+  CHECK(small.byte_count() < 0.9 * static_cast<double>(quick.byte_count()));
+  for (int i = 0; i < 97; ++i) CHECK(distance(exact, small, 10.0 * (i + 0.6) / 97) <= 1e-4);
+}
