@@ -2,10 +2,12 @@
 
 #include "random.h"
 
+#include <tweenfall/anim/joint_chain.h>
 #include <tweenfall/anim/two_bone.h>
 
 #include <benchmark/benchmark.h>
 
+#include <string>
 #include <vector>
 
 namespace {
@@ -57,6 +59,39 @@ void two_bone(benchmark::State& state, bool pole) {
                                                benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
+// Six joints to targets within reach, with or without a cone at each.
+void joint_chain(benchmark::State& state, ChainMethod method, const JointLimit& limit) {
+  Hierarchy nodes;
+  JointChainSettings settings{.links = {}, .method = method};
+  for (std::size_t i = 0; i < 7; ++i) {
+    Node node{.name = std::to_string(i), .parent = i == 0 ? no_node : i - 1};
+    if (i > 0) node.rest.position = {0, 0.3, 0};
+    nodes.add(node);
+    settings.links.push_back({i, i < 6 ? limit : JointLimit{}});
+  }
+  const JointChain chain(nodes, settings);
+  std::vector<Motion> rest(7);
+  for (std::size_t i = 0; i < 7; ++i) rest[i].pose = nodes[i].rest;
+  std::vector<Sample<Vec3>> targets;
+  test::Random random(2);
+  for (std::size_t i = 0; i < solves; ++i) {
+    const Vec3 place = Vec3(0, 1, 0) + random.vector(0.4), velocity = random.vector(1);
+    targets.push_back({place, velocity, {0, 0, 0}});
+  }
+  for (auto _ : state) {
+    for (const Sample<Vec3>& target : targets) {
+      std::vector<Motion> pose = rest;
+      reach(chain, target, {1, 0, 0}, pose);
+      benchmark::DoNotOptimize(pose.data());
+    }
+  }
+  state.counters["solve"] = benchmark::Counter(static_cast<double>(state.iterations()) * solves,
+                                               benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK_CAPTURE(joint_chain, fabrik, ChainMethod::fabrik, JointLimit());
+BENCHMARK_CAPTURE(joint_chain, ccd, ChainMethod::ccd, JointLimit());
+BENCHMARK_CAPTURE(joint_chain, fabrik_in_cones, ChainMethod::fabrik, JointLimit(ConeLimit{0.7, -0.5, 0.5}));
 BENCHMARK_CAPTURE(two_bone, with_pole, true);
 BENCHMARK_CAPTURE(two_bone, without_pole, false);
 

@@ -33,10 +33,10 @@ class Solve {
   void reach_forward_and_backward() noexcept;
   void descend() noexcept;
   void sweep() noexcept;
-  bool refine() noexcept;
+  bool refine(int steps) noexcept;
   void step(double caution) noexcept;
   [[nodiscard]] Dual distance() const noexcept { return length(target_ - at_[count_]); }
-  bool attempt() noexcept;
+  bool attempt(int steps) noexcept;
   void start_over(int number) noexcept;
 
   const JointChain& chain_;
@@ -215,12 +215,12 @@ void Solve::step(double caution) noexcept {
 }
 
 // @returns whether the end is at the target
-bool Solve::refine() noexcept {
-  constexpr int steps = 120;
+bool Solve::refine(int steps) noexcept {
   constexpr double there = 1e-13;  // of the chain's length
   // Far from what can be reached a step may lead away: then it is taken anew with more damping.
   double caution = 1;
   Dual missing = distance();
+  int idle = 0;  // steps that did next to nothing
   for (int i = 0; i < steps; ++i) {
     const bool near = missing.v <= there * reach_.v;
     Turning before[room];
@@ -233,18 +233,20 @@ bool Solve::refine() noexcept {
       place(0);
       caution *= 4;
       if (caution > 1e12) break;
-    } else {
-      missing = now;
-      caution = std::max(1.0, caution / 2);
+      continue;
     }
+    idle = missing.v - now.v < 1e-12 * reach_.v && now.v > 1e-6 * reach_.v ? idle + 1 : 0;
+    missing = now;
+    caution = std::max(1.0, caution / 2);
+    if (idle == 4) return false;
   }
   return missing.v <= 1e-9 * reach_.v;
 }
 
-bool Solve::attempt() noexcept {
+bool Solve::attempt(int steps) noexcept {
   bend();
   sweep();
-  return refine();
+  return refine(steps);
 }
 
 // Joints at other places within their limits, the same for every solve, where they did not get on from the pose's own.
@@ -273,25 +275,26 @@ void Solve::start_over(int number) noexcept {
 }
 
 void Solve::run() noexcept {
+  constexpr int many = 120;
   if (!(reach_.v > 0)) return;
   if (!chain_.limited()) {
     if (stretch()) return;
     // Long chains that have to turn over need more than one go, and reaching forward and backward uncurls them.
-    bool there = attempt();
+    bool there = attempt(many);
     for (int more = 0; !there && more < 8; ++more) {
       for (int i = 0; i < 8; ++i) reach_forward_and_backward();
-      there = refine();
+      there = refine(many);
     }
     return;
   }
-  if (attempt()) return;
+  if (attempt(many)) return;
   if (length(target_ - at_[0]).v > reach_.v) return;
   Turning best[room];
   std::copy(turn_, turn_ + count_, best);
-  constexpr int more = 12;
+  constexpr int more = 12, few = 30;  // what can be reached from there is reached soon
   for (int number = 0; number < more; ++number) {
     start_over(number);
-    if (attempt()) return;
+    if (attempt(few)) return;
   }
   std::copy(best, best + count_, turn_);
   place(0);

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
+#include <type_traits>
 
 // Small functions are inlined always: a solve is a few hundred operations, and calls would take half of its time.
 
@@ -36,6 +38,12 @@ struct Dual {
 [[gnu::always_inline]] inline Dual operator/(const Dual& a, const Dual& b) noexcept {
   const double i = 1 / b.v, q = a.v * i;
   return {q, (a.d - q * b.d) * i};
+}
+[[gnu::always_inline]] inline Dual operator*(const Dual& a, double b) noexcept {
+  return {a.v * b, a.d * b};
+}
+[[gnu::always_inline]] inline Dual operator*(double a, const Dual& b) noexcept {
+  return {a * b.v, a * b.d};
 }
 /// 0 at rest for what is not positive.
 [[gnu::always_inline]] inline Dual root(const Dual& a) noexcept {
@@ -94,6 +102,15 @@ struct Arrow {
 [[gnu::always_inline]] inline Arrow unit(const Arrow& a) noexcept {
   return unit(a, length(a));
 }
+// Vectors that stand still take part without rates, where that saves time.
+template <std::same_as<Dual> Number>
+[[gnu::always_inline]] inline Arrow operator*(const Number& s, const Vec3& a) noexcept {
+  return {s.v * a, s.d * a};
+}
+[[gnu::always_inline]] inline Vec3 cross(const Vec3& a, const Vec3& b) noexcept {
+  return a.cross(b);
+}
+
 /// A vector's length and direction, at once.
 struct Measured {
   Arrow unit;
@@ -166,24 +183,36 @@ inline Arrow log_turn(const Turning& q) noexcept {
   return turn;
 }
 
-/// Three unit vectors at right angles to each other.
+/// Three unit vectors at right angles to each other, of a kind that moves or stands still.
+template <class Vector>
 struct Axes {
-  Arrow x, y, z;
-
-  [[nodiscard]] Vec3 spin() const noexcept { return x.v.cross(x.d) + y.d.dot(z.v) * x.v; }
+  Vector x, y, z;
 };
 
 /// @param x, y  unit, at right angles
-[[gnu::always_inline]] inline Axes axes(const Arrow& x, const Arrow& y) noexcept {
+template <class Vector>
+[[gnu::always_inline]] inline Axes<Vector> axes(const Vector& x, const Vector& y) noexcept {
   return {x, y, cross(x, y)};
+}
+
+[[gnu::always_inline]] inline const Vec3& place_of(const Arrow& a) noexcept {
+  return a.v;
+}
+[[gnu::always_inline]] inline const Vec3& place_of(const Vec3& a) noexcept {
+  return a;
+}
+[[gnu::always_inline]] inline Vec3 spin_of(const Axes<Arrow>& a) noexcept {
+  return a.x.v.cross(a.x.d) + a.y.d.dot(a.z.v) * a.x.v;
 }
 
 /// The rotation from `a` to `b`.
 /// Source of the quaternion: Shepperd, "Quaternion from rotation matrix", 1978.
-[[gnu::always_inline]] inline Turning between(const Axes& a, const Axes& b) noexcept {
+template <class Vector>
+[[gnu::always_inline]] inline Turning between(const Axes<Vector>& a, const Axes<Arrow>& b) noexcept {
+  const Vec3 &x = place_of(a.x), &y = place_of(a.y), &z = place_of(a.z);
   double m[3][3];
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) m[i][j] = b.x.v[i] * a.x.v[j] + b.y.v[i] * a.y.v[j] + b.z.v[i] * a.z.v[j];
+    for (int j = 0; j < 3; ++j) m[i][j] = b.x.v[i] * x[j] + b.y.v[i] * y[j] + b.z.v[i] * z[j];
   Quat q;
   const double trace = m[0][0] + m[1][1] + m[2][2];
   if (trace > 0) {
@@ -199,7 +228,9 @@ struct Axes {
     part[k] = (m[k][i] + m[i][k]) * s;
     q = Quat((m[k][j] - m[j][k]) * s, part.x(), part.y(), part.z());
   }
-  return {q, b.spin() - q * a.spin()};
+  Turning turn{q, spin_of(b)};
+  if constexpr (std::is_same_v<Vector, Arrow>) turn.w -= q * spin_of(a);
+  return turn;
 }
 
 /// A rotation that is applied more than once.
@@ -220,6 +251,10 @@ struct Turned {
 [[gnu::always_inline]] inline Arrow operator*(const Turned& a, const Arrow& u) noexcept {
   const Vec3 turned = a.m * u.v;
   return {turned, a.w.cross(turned) + a.m * u.d};
+}
+[[gnu::always_inline]] inline Arrow operator*(const Turned& a, const Vec3& u) noexcept {
+  const Vec3 turned = a.m * u;
+  return {turned, a.w.cross(turned)};
 }
 
 [[gnu::always_inline]] inline Turning rotation_of(const Motion& motion) noexcept {
@@ -258,17 +293,15 @@ inline bool is_nothing(const Sample<double>& weight) noexcept {
 class Inward {
  public:
   explicit Inward(const WorldMotion& world) noexcept
-      : origin_(world.motion.pose.position),
-        velocity_(world.motion.twist.linear),
-        rate_(world.linear_rate),
-        size_(world.linear.cwiseAbs().maxCoeff()) {
+      : origin_(world.motion.pose.position), velocity_(world.motion.twist.linear), rate_(world.linear_rate) {
     const Vec3 a = world.linear.col(0), b = world.linear.col(1), c = world.linear.col(2);
     const Vec3 bc = b.cross(c);
     const double volume = a.dot(bc), inverse = 1 / volume;
     back_[0] = bc * inverse;
     back_[1] = c.cross(a) * inverse;
     back_[2] = a.cross(b) * inverse;
-    flat_ = !(std::abs(volume) > 1e-30 * size_ * size_ * size_) || !std::isfinite(inverse);
+    const double box = a.squaredNorm() * b.squaredNorm() * c.squaredNorm();
+    flat_ = !(volume * volume > 1e-60 * box) || !std::isfinite(inverse);
   }
 
   /// Whether the space has no inside, for it is flattened or shrunk to nothing.
@@ -290,7 +323,6 @@ class Inward {
   Vec3 back_[3];  // rows of the inverse matrix
   Vec3 origin_, velocity_;
   Mat3 rate_;
-  double size_;
   bool flat_;
 };
 

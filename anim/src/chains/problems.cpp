@@ -9,14 +9,12 @@
 namespace tweenfall {
 
 std::optional<std::size_t> NodeRef::in(const Hierarchy& nodes) const {
-  if (const auto* name = std::get_if<std::string>(&told_)) return nodes.find(*name);
-  const std::size_t index = std::get<std::size_t>(told_);
-  return index < nodes.size() ? std::optional(index) : std::nullopt;
+  if (!by_number_) return nodes.find(name_);
+  return index_ < nodes.size() ? std::optional(index_) : std::nullopt;
 }
 
 std::string NodeRef::text() const {
-  if (const auto* name = std::get_if<std::string>(&told_)) return '"' + *name + '"';
-  return "number " + std::to_string(std::get<std::size_t>(told_));
+  return by_number_ ? "number " + std::to_string(index_) : '"' + name_ + '"';
 }
 
 namespace chains {

@@ -16,22 +16,16 @@ struct TwoBones {
 
 TwoBones two_bones(const TwoBoneChain& chain, std::span<const Motion> pose) noexcept {
   const Hierarchy& nodes = chain.nodes();
-  const Motion &start = pose[chain.start()], &middle = pose[chain.middle()];
-  const Arrow end = nodes[chain.end()].parent == chain.middle()
-                        ? position_of(pose[chain.end()])
-                        : position_of(seen_from(nodes, chain.middle(), chain.end(), pose));
-  const Arrow scale = scale_of(start);
+  const Motion carrier = nodes[chain.middle()].parent == chain.start()
+                             ? Motion{}
+                             : seen_from(nodes, chain.start(), nodes[chain.middle()].parent, pose);
+  const Motion middle = compose(carrier, pose[chain.middle()]),
+               end = seen_from(nodes, chain.middle(), chain.end(), pose);
+  const Arrow scale = scale_of(pose[chain.start()]);
   TwoBones bones;
-  if (nodes[chain.middle()].parent == chain.start()) {
-    bones.first = componentwise(scale, position_of(middle));
-    bones.second = componentwise(scale, Turned(middle) * componentwise(scale_of(middle), end));
-    return bones;
-  }
-  const Motion carrier = seen_from(nodes, chain.start(), nodes[chain.middle()].parent, pose);
-  const Motion carried = compose(carrier, middle);
   bones.carried = rotation_of(carrier);
-  bones.first = componentwise(scale, position_of(carried));
-  bones.second = componentwise(scale, Turned(carried) * componentwise(scale_of(carried), end));
+  bones.first = componentwise(scale, position_of(middle));
+  bones.second = componentwise(scale, rotation_of(middle) * componentwise(scale_of(middle), position_of(end)));
   return bones;
 }
 
@@ -49,24 +43,25 @@ struct Plane {
 };
 
 // The pose's own, given by the axis about which it bends.
-Plane own_plane(const Arrow& along, const Turned& turn, const Arrow& hinge, const Arrow& first) noexcept {
-  const Measured normal = measured(across(turn * hinge, along));
+template <class Vector>
+Plane own_plane(const Arrow& along, const Turned& turn, const Axes<Vector>& bone) noexcept {
+  const Measured normal = measured(across(turn * bone.y, along));
   if (normal.length.v > 1e-9) return {cross(along, normal.unit), normal.unit};
-  const Measured beside = measured(across(turn * first, along));
+  const Measured beside = measured(across(turn * bone.x, along));
   const Arrow side = beside.length.v > 1e-9 ? beside.unit : Arrow{any_across(along.v), Vec3(0, 0, 0)};
   return {side, cross(side, along)};
 }
 
 // The pole's. Where the pole is nearly along the chain, it turns over from the pose's own: without a flip where the
 // pole goes through the line.
-Plane pole_plane(const Arrow& pole, const Arrow& along, const Turned& turn, const Arrow& hinge,
-                 const Arrow& first) noexcept {
+template <class Vector>
+Plane pole_plane(const Arrow& pole, const Arrow& along, const Turned& turn, const Axes<Vector>& bone) noexcept {
   constexpr double blend = 0.02;
   const double size = pole.v.squaredNorm();
   const Measured beside = measured(across(pole, along));
   if (beside.any && beside.length.v * beside.length.v >= blend * blend * size)
     return {beside.unit, cross(beside.unit, along)};
-  const Plane own = own_plane(along, turn, hinge, first);
+  const Plane own = own_plane(along, turn, bone);
   if (!beside.any) return own;
   const Dual share = smooth_step(beside.length / (Dual(blend) * length(pole)));
   const Dual angle = share * angle_of(-dot(own.normal, beside.unit), dot(own.side, beside.unit));
@@ -74,6 +69,61 @@ Plane pole_plane(const Arrow& pole, const Arrow& along, const Turned& turn, cons
   const Dual cosine(sin_cos.cos, -sin_cos.sin * angle.d), sine(sin_cos.sin, sin_cos.cos * angle.d);
   const Arrow side = cosine * own.side - sine * own.normal;
   return {side, cross(side, along)};
+}
+
+// The two turns that a solve is about.
+struct Bend {
+  Turning start;   // the whole rotation of the start
+  Turning middle;  // what comes to the middle's, in the space of the start
+};
+
+// The solve proper, for bones that change their lengths or, in a third less time, do not.
+// @param bone         axes of the first bone: along it, that about which the middle bends, and the third
+// @param a, b         lengths of the bones
+// @param second       the second's direction
+// @param along, d     direction and distance of the target from the start
+template <class Vector, class Number>
+Bend bent(const Axes<Vector>& bone, const Number& a, const Number& b, const Arrow& second, const Arrow& along,
+          const Dual& d, const Turned& turn, const Inward& inward, const TwoBoneGoal& goal) noexcept {
+  // The triangle of the two bones and the line to the target, by Heron's formula.
+  const Dual reach = a + b, least = Dual(a).v >= Dual(b).v ? a - b : b - a;
+  Dual distance = softened(d, reach, goal.softness);
+  Dual area;  // four times
+  if (distance.v >= reach.v)
+    distance = reach;
+  else if (distance.v <= least.v)
+    distance = least;
+  else
+    area = root((reach - distance) * (reach + distance) * (distance - least) * (distance + least));
+  const Dual square = distance * distance;
+  Dual cosine(0), sine(1);  // of the angle at the start
+  if (distance.v > nothing * reach.v) {
+    const Dual inverse = Dual(0.5) / (distance * a);
+    cosine = (square + (a - b) * (a + b)) * inverse;
+    sine = area * inverse;
+  }
+  const Number inverse = 0.5 / (a * b);
+  const Dual bend_cosine = (square - a * a - b * b) * inverse, bend_sine = area * inverse;
+
+  const Plane plane =
+      goal.pole ? pole_plane(inward.direction(arrow(*goal.pole)), along, turn, bone) : own_plane(along, turn, bone);
+  return {between(bone, axes(cosine * along + sine * plane.side, plane.normal)),
+          arc(second, bend_cosine * bone.x - bend_sine * bone.z, place_of(bone.y))};
+}
+
+// The axis about which the middle bends, across the first bone.
+Arrow hinge_of(const TwoBoneChain& chain, const Arrow& first) noexcept {
+  const Measured hinge = measured(across({chain.axis(), Vec3(0, 0, 0)}, first));
+  return hinge.length.v > 1e-9 ? hinge.unit : Arrow{any_across(first.v), Vec3(0, 0, 0)};
+}
+
+// Whether nothing but rotations moves in a chain of three nodes, of which none stretches unevenly.
+bool is_stiff(const TwoBoneChain& chain, const Motion& start, const Motion& middle, const Motion& end) noexcept {
+  const auto still = [](const Vec3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; };
+  const Vec3& scale = start.pose.scale;
+  return chain.nodes()[chain.middle()].parent == chain.start() && chain.nodes()[chain.end()].parent == chain.middle() &&
+         scale.x() == scale.y() && scale.y() == scale.z() && scale.x() > 0 && still(start.scale_rate) &&
+         still(middle.scale_rate) && still(middle.twist.linear) && still(end.twist.linear);
 }
 
 }  // namespace
@@ -125,63 +175,45 @@ void reach(const TwoBoneChain& chain, const TwoBoneGoal& goal, const Sample<doub
   if (is_nothing(weight)) return;
   const Inward inward(parent);
   if (inward.flat()) return;
-  Motion& start = pose[chain.start()];
-  Motion& middle = pose[chain.middle()];
+  Motion &start = pose[chain.start()], &middle = pose[chain.middle()];
+  const Motion& end = pose[chain.end()];
   const Turned turn(start);
-  const TwoBones bones = two_bones(chain, pose);
-  const Measured first_bone = measured(bones.first), second_bone = measured(bones.second);
-  const Dual &a = first_bone.length, &b = second_bone.length, reach = a + b;
-  if (!(reach.v > 0)) return;
-
   const Measured way = measured(inward.point(arrow(goal.target)) - position_of(start));
-  const Dual& d = way.length;
-  Arrow along = way.unit;
-  if (d.v <= nothing * reach.v) {
-    const Measured unturned = measured(bones.first + bones.second);
-    along = turn * (unturned.length.v > nothing * reach.v ? unturned.unit
-                    : first_bone.any                      ? first_bone.unit
-                                                          : second_bone.unit);
+
+  if (is_stiff(chain, start, middle, end)) {
+    const Vec3 first = start.pose.scale.x() * middle.pose.position,
+               second = start.pose.scale.x() * middle.pose.scale.cwiseProduct(end.pose.position);
+    const double a = std::sqrt(first.squaredNorm()), b = std::sqrt(second.squaredNorm());
+    const Vec3 along = (1 / a) * first, hinge = chain.axis() - chain.axis().dot(along) * along;
+    const double size = std::sqrt(hinge.squaredNorm());
+    if (a > nothing * (a + b) && b > nothing * (a + b) && size > 1e-9 && way.length.v > nothing * (a + b)) {
+      const Bend bend =
+          bent<Vec3, double>(axes<Vec3>(along, (1 / size) * hinge), a, b, Turned(middle) * Vec3((1 / b) * second),
+                             way.unit, way.length, turn, inward, goal);
+      turn_to(start, bend.start, weight);
+      turn_to(middle, bend.middle * rotation_of(middle), weight);
+      return;
+    }
   }
 
-  if (a.v <= nothing * reach.v || b.v <= nothing * reach.v) {
+  const TwoBones bones = two_bones(chain, pose);
+  const Measured first = measured(bones.first), second = measured(bones.second);
+  const double length = first.length.v + second.length.v;
+  if (!(length > 0)) return;
+  Arrow along = way.unit;
+  if (way.length.v <= nothing * length) {
+    const Measured unturned = measured(bones.first + bones.second);
+    along = turn * (unturned.length.v > nothing * length ? unturned.unit : first.any ? first.unit : second.unit);
+  }
+  if (first.length.v <= nothing * length || second.length.v <= nothing * length) {
     const Arrow from = turn * unit(bones.first + bones.second);
     turn_to(start, arc(from, along, any_across(from.v)) * rotation_of(start), weight);
     return;
   }
-
-  // The triangle of the two bones and the line to the target, by Heron's formula.
-  const Dual least = a.v >= b.v ? a - b : b - a;
-  Dual distance = softened(d, reach, goal.softness);
-  Dual area;  // four times
-  if (distance.v >= reach.v)
-    distance = reach;
-  else if (distance.v <= least.v)
-    distance = least;
-  else
-    area = root((reach - distance) * (reach + distance) * (distance - least) * (distance + least));
-  const Dual square = distance * distance;
-  Dual cosine(0), sine(1);  // of the angle at the start
-  if (distance.v > nothing * reach.v) {
-    const Dual inverse = Dual(0.5) / (a * distance);
-    cosine = (square + (a - b) * reach) * inverse;
-    sine = area * inverse;
-  }
-  const Dual inverse = Dual(0.5) / (a * b);
-  const Dual bend_cosine = (square - a * a - b * b) * inverse, bend_sine = area * inverse;
-
-  const Arrow& first = first_bone.unit;
-  Measured hinge = measured(across({chain.axis(), Vec3(0, 0, 0)}, first));
-  if (!(hinge.length.v > 1e-9)) hinge.unit = {any_across(first.v), Vec3(0, 0, 0)};
-  const Axes old = axes(first, hinge.unit);
-  const Turning at_middle = arc(second_bone.unit, bend_cosine * first - bend_sine * old.z, hinge.unit.v);
-
-  const Plane plane = goal.pole ? pole_plane(inward.direction(arrow(*goal.pole)), along, turn, hinge.unit, first)
-                                : own_plane(along, turn, hinge.unit, first);
-  turn_to(start, between(old, axes(cosine * along + sine * plane.side, plane.normal)), weight);
-  if (chain.nodes()[chain.middle()].parent == chain.start())
-    turn_to(middle, at_middle * rotation_of(middle), weight);
-  else
-    turn_to(middle, chains::inverse(bones.carried) * at_middle * bones.carried * rotation_of(middle), weight);
+  const Bend bend = bent<Arrow, Dual>(axes(first.unit, hinge_of(chain, first.unit)), first.length, second.length,
+                                      second.unit, along, way.length, turn, inward, goal);
+  turn_to(start, bend.start, weight);
+  turn_to(middle, chains::inverse(bones.carried) * bend.middle * bones.carried * rotation_of(middle), weight);
 }
 
 }  // namespace tweenfall

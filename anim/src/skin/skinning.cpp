@@ -149,9 +149,8 @@ void split(SkinJoint& joint) noexcept {
     joint.stretch_rate = rate;
     return;
   }
-  const chains::Axes own = axes(x.unit, cross(z.unit, x.unit));
-  const Vec3 still(0, 0, 0);
-  const Turning turn = between(chains::axes({Vec3(1, 0, 0), still}, {Vec3(0, 1, 0), still}), own);
+  const chains::Axes<Arrow> own = axes(x.unit, cross(z.unit, x.unit));
+  const Turning turn = between(chains::axes<Vec3>({1, 0, 0}, {0, 1, 0}), own);
   joint.rotation = turn.v;
   joint.spin = turn.w;
   for (int i = 0; i < 3; ++i) {

@@ -8,17 +8,16 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 
 namespace tweenfall {
 
 class NodeRef {
  public:
-  NodeRef(std::string_view name) : told_(std::string(name)) {}
-  NodeRef(const std::string& name) : told_(name) {}
-  NodeRef(const char* name) : told_(std::string(name)) {}
+  NodeRef(std::string_view name) : name_(name) {}
+  NodeRef(const std::string& name) : name_(name) {}
+  NodeRef(const char* name) : name_(name) {}
   template <std::integral Number>
-  NodeRef(Number index) : told_(static_cast<std::size_t>(index)) {}
+  NodeRef(Number index) : index_(static_cast<std::size_t>(index)), by_number_(true) {}
 
   /// Its number; nothing when the hierarchy has no such node.
   [[nodiscard]] std::optional<std::size_t> in(const Hierarchy& nodes) const;
@@ -27,7 +26,9 @@ class NodeRef {
   [[nodiscard]] std::string text() const;
 
  private:
-  std::variant<std::string, std::size_t> told_;
+  std::string name_;
+  std::size_t index_ = no_node;
+  bool by_number_ = false;
 };
 
 }  // namespace tweenfall
