@@ -218,7 +218,7 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
     entry.turned = 0;
     if (entry.movable) entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
   }
-  work_.ranges(contacts_.blocks.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+  work_.ranges(contacts_.blocks.size(), blocks_worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const ContactBlock& block = contacts_.blocks[i];
       for (int lane = 0; lane < lane_count; ++lane)

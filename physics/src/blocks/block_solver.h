@@ -93,7 +93,7 @@ class BlockSolver {
     }
     for (const ContactBlocks::Phase& phase : contacts_.phases) {
       const std::size_t count = phase.end - phase.begin;
-      work_.ranges(count, phase.divisible ? worth_a_part : count, [&](std::size_t begin, std::size_t end) {
+      work_.ranges(count, phase.divisible ? blocks_worth_a_part : count, [&](std::size_t begin, std::size_t end) {
         see(part_of(all, phase.of_balls, phase.begin + begin, phase.begin + end));
       });
     }
@@ -114,8 +114,9 @@ class BlockSolver {
   [[nodiscard]] double work_of_driven() const;
   void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads);
 
-  /// Bodies, or blocks, that are worth a part of their own.
+  /// Bodies, or contacts, that are worth a part of their own; and blocks.
   static constexpr std::size_t worth_a_part = 48;
+  static constexpr std::size_t blocks_worth_a_part = 24;
 
   threads::Workers work_;              ///< within the island that is being solved
   std::vector<std::uint32_t> places_;  ///< from a body's index into bodies_; 0 for none

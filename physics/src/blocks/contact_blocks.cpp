@@ -87,7 +87,7 @@ void prepare_friction(FrictionRow& row, int lane, const step::Tangents& along, c
 
 template <class Visit>
 void each_lane(const std::vector<ContactBlocks::Origin>& origins, const threads::Workers& work, const Visit& visit) {
-  constexpr std::size_t worth_a_part = 32;
+  constexpr std::size_t worth_a_part = 16;
   work.ranges(origins.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       for (int lane = 0; lane < lane_count; ++lane)
