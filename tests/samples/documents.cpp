@@ -116,3 +116,19 @@ TEST_CASE("the showcase holds all of it, and runs to the same bits twice") {
   CHECK(stage.handoffs().size() >= 2);
   CHECK(stage.events().size() > 10);
 }
+
+TEST_CASE("the stroller stands, walks and waves as its inputs say, and stands again as before") {
+  Stage stage = staged("stroller");
+  const auto place_at = [&](double time, const char* node) {
+    stage.seek(time);
+    return place(stage, node);
+  };
+  const Vec3 foot = place_at(0.2, "figure/LeftFoot"), hand = place_at(0.2, "figure/RightHand");
+  double most = 0;
+  for (double time = 0.9; time < 1.5; time += 0.05)
+    most = std::max(most, (place_at(time, "figure/LeftFoot") - foot).norm());
+  CHECK(most > 0.15);
+  CHECK(place_at(2.8, "figure/RightHand").y() > hand.y() + 0.3);
+  CHECK(near(place_at(5.9, "figure/LeftFoot"), foot, 1e-9));
+  CHECK(near(place_at(5.9, "figure/RightHand"), hand, 1e-6));
+}

@@ -30,6 +30,7 @@ struct Graph::Compiled {
   std::vector<const graphs::Operation*> machines;  // as they stand among the poses
   std::vector<std::size_t> machine_poses;          // the pose that each is
   const graphs::Operation* output = nullptr;
+  std::size_t phases = 0;  // of clips that run in phase
 };
 
 }  // namespace tweenfall
@@ -58,6 +59,7 @@ class Binder {
   [[nodiscard]] Number number(const GraphNumber& number, const Place& place);
   [[nodiscard]] JointMask mask(const std::vector<MaskPart>& parts, const Place& place);
   [[nodiscard]] std::size_t machine_number() const noexcept;
+  [[nodiscard]] std::size_t new_phase() noexcept { return compiled_->phases++; }
   void fault(const Place& place, std::string message);
 
  private:

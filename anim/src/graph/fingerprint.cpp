@@ -81,6 +81,16 @@ class Fingerprint {
       }
     }
   }
+  void add(const SpacePose& pose) {
+    for (const GraphNumber& number : pose.by) add(number);
+    for (const SpacePose::Entry& entry : pose.entries) {
+      digest_.text(entry.pose);
+      digest_.number(entry.place.x());
+      digest_.number(entry.place.y());
+    }
+    digest_.number(std::uint64_t{pose.sync.has_value()});
+    digest_.text(pose.sync.value_or(""));
+  }
   void add(const MachinePose& pose) {
     digest_.text(pose.start);
     for (const MachinePose::State& state : pose.states) {

@@ -48,7 +48,7 @@ std::size_t parameter_named(const GraphDescription& description, std::string_vie
 
 GraphPlayer::GraphPlayer(std::shared_ptr<const Graph> graph, PoseBelow below)
     : graph_(std::move(graph)), run_(std::make_unique<Run>()) {
-  run_->log = graphs::fresh_log(graph_->description(), machines());
+  run_->log = graphs::fresh_log(graph_->description(), machines(), graph_->compiled().phases);
   run_->room.resize(graphs::rooms_of(*graph_) * graph_->nodes().size());
   run_->below = std::move(below);
   if (!run_->below)
@@ -187,7 +187,7 @@ std::vector<std::byte> GraphPlayer::save() const {
 }
 
 void GraphPlayer::load(std::span<const std::byte> saved) {
-  graphs::SavedLog read = graphs::log_of(saved, graph_->description(), machines());
+  graphs::SavedLog read = graphs::log_of(saved, graph_->description(), machines(), graph_->compiled().phases);
   graphs::make_known(read.log, *graph_, read.time, run_->below, run_->room);
   run_->log = std::move(read.log);
   run_->time = read.time;

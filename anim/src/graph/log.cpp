@@ -34,8 +34,9 @@ void follow(std::vector<Setting>& settings, double half_life, std::size_t from) 
 
 }  // namespace
 
-Log fresh_log(const GraphDescription& description, std::size_t machines) {
+Log fresh_log(const GraphDescription& description, std::size_t machines, std::size_t phases) {
   Log log;
+  log.marks.resize(phases);
   log.passages.resize(machines);
   for (const GraphParameter& parameter : description.parameters)
     log.settings.push_back({{.time = 0, .value = parameter.start, .given = true}});
@@ -68,6 +69,7 @@ void forget_after(Log& log, const GraphDescription& description, double time) {
   for (std::size_t p = 0; p < log.settings.size(); ++p)
     if (std::erase_if(log.settings[p], is_late) > 0) follow(log.settings[p], description.parameters[p].half_life, 1);
   std::erase_if(log.sent, is_late);
+  for (auto& marks : log.marks) marks.fill({});
   if (log.known < time) return;
   const auto follows = [&](const auto& each) { return each.time >= time; };
   for (std::vector<Passage>& passages : log.passages) std::erase_if(passages, follows);

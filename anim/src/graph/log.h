@@ -6,6 +6,7 @@
 #include <tweenfall/anim/graph_player.h>
 #include <tweenfall/curves/pose.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -38,16 +39,24 @@ struct Passage : GraphPassage {
   std::vector<Offset> offsets = {};  // one per node, where the difference settles
 };
 
+/// How far a phase has come; see `Phase`.
+struct PhaseMark {
+  static constexpr std::size_t kept = 4;
+  double start = -1, time = -1, phase = 0;
+};
+
 struct Log {
   std::vector<std::vector<Setting>> settings;  // by parameter, in order of time
   std::vector<Sending> sent;                   // in order of time
   std::vector<std::vector<Passage>> passages;  // by machine, in order of time
   std::vector<GraphStop> stops;
+  /// By phase of the graph: where to go on from, so that not all its way is gone again. Says nothing new.
+  mutable std::vector<std::array<PhaseMark, PhaseMark::kept>> marks;
   double known = -1;  // all that happens until then, and at that time, is known; below 0: nothing is
 };
 
 /// A log in which nothing has happened yet but what the description gives.
-[[nodiscard]] Log fresh_log(const GraphDescription& description, std::size_t machines);
+[[nodiscard]] Log fresh_log(const GraphDescription& description, std::size_t machines, std::size_t phases);
 
 /// Puts it in, in order; of equal times behind those that are there.
 void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value, bool given);

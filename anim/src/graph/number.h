@@ -4,6 +4,8 @@
 
 #include "graph/log.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 
 namespace tweenfall::graphs {
@@ -20,6 +22,20 @@ class Number {
     if (curve_) return curve_->sample(time, side);
     if (description_) return sample_of(log, *description_, parameter_, time, side);
     return {constant_, 0, 0};
+  }
+
+  /// Whether it may change between the times at which it is set.
+  [[nodiscard]] bool flows() const noexcept {
+    return curve_ || (description_ && (description_->parameters[parameter_].curve ||
+                                       description_->parameters[parameter_].half_life > 0));
+  }
+  /// The first time after `after` at which it is set; infinity for none.
+  [[nodiscard]] double next_setting(const Log& log, double after) const noexcept {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (!description_) return never;
+    const std::vector<Setting>& settings = log.settings[parameter_];
+    const auto next = std::ranges::upper_bound(settings, after, {}, &Setting::time);
+    return next == settings.end() ? never : next->time;
   }
 
   /// Nothing for one that may change.

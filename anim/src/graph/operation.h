@@ -80,6 +80,7 @@ class Binder;
 [[nodiscard]] std::unique_ptr<Operation> bound(const RestPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const BlendPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const LayersPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const SpacePose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const MachinePose& pose, Binder& binder);
 
 }  // namespace tweenfall::graphs

@@ -7,19 +7,19 @@ namespace graphs {
 namespace {
 
 std::string in_words(const GraphCondition& condition) {
-  using Kind = GraphCondition::Kind;
+  using When = GraphCondition::Kind;
   switch (condition.kind) {
-    case Kind::above:
+    case When::above:
       return condition.name + " > " + brief_text(condition.value);
-    case Kind::below:
+    case When::below:
       return condition.name + " < " + brief_text(condition.value);
-    case Kind::equals:
+    case When::equals:
       return condition.name + " = " + brief_text(condition.value);
-    case Kind::event:
+    case When::event:
       return "event \"" + condition.name + "\"";
-    case Kind::time_in_state:
+    case When::time_in_state:
       return "after " + brief_text(condition.value) + " s";
-    case Kind::clip_end:
+    case When::clip_end:
       return "clip ends";
   }
   return {};
@@ -38,6 +38,14 @@ struct OperationWords {
   }
   std::string operator()(const BlendPose&) const { return "blend"; }
   std::string operator()(const LayersPose&) const { return "layers"; }
+  std::string operator()(const SpacePose& pose) const {
+    std::string words = "space";
+    for (const GraphNumber& number : pose.by) {
+      const auto* parameter = std::get_if<ByParameter>(&number);
+      words += (&number == &pose.by.front() ? " by " : ", ") + (parameter ? parameter->name : "keys");
+    }
+    return words + (pose.sync ? ", in phase" : "");
+  }
   std::string operator()(const MachinePose&) const { return "machine"; }
 };
 

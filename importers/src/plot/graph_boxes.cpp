@@ -9,9 +9,9 @@ namespace tweenfall::plotting {
 
 namespace {
 
-constexpr const char* ink = "#24292f";
-constexpr const char* pale = "#57606a";
-constexpr const char* line = "#8c959f";
+constexpr const char* box_ink = "#24292f";
+constexpr const char* box_pale = "#57606a";
+constexpr const char* arrow_line = "#8c959f";
 
 Vec2 on_curve(const Vec2& from, const Vec2& control, const Vec2& to, double t) {
   return (1 - t) * (1 - t) * from + 2 * t * (1 - t) * control + t * t * to;
@@ -49,11 +49,11 @@ void draw_box(SvgWriter& svg, const Rectangle& box, const std::string& name, con
             {"y", px(words.empty() ? y + 4 : y - 2)},
             {"text-anchor", "middle"},
             {"font-weight", "600"},
-            {"fill", ink}},
+            {"fill", box_ink}},
            shortened(name, (width - 12) / 1.3));
   if (!words.empty())
     svg.text("text",
-             {{"x", px(x)}, {"y", px(y + 13)}, {"text-anchor", "middle"}, {"font-size", "10.5"}, {"fill", pale}},
+             {{"x", px(x)}, {"y", px(y + 13)}, {"text-anchor", "middle"}, {"font-size", "10.5"}, {"fill", box_pale}},
              shortened(words, width - 12));
   svg.close();
 }
@@ -65,11 +65,11 @@ void draw_arrow(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec
   svg.leaf("path",
            {{"d", "M" + px(from.x(), from.y()) + " Q" + px(control.x(), control.y()) + " " + px(foot.x(), foot.y())},
             {"fill", "none"},
-            {"stroke", line},
+            {"stroke", arrow_line},
             {"stroke-width", "1.4"}});
   const Vec2 one = foot + 4 * across, other = foot - 4 * across;
   svg.leaf("polygon", {{"points", px(to.x(), to.y()) + " " + px(one.x(), one.y()) + " " + px(other.x(), other.y())},
-                       {"fill", line}});
+                       {"fill", arrow_line}});
 }
 
 void Labels::draw(SvgWriter& svg, const Vec2& from, const Vec2& control, const Vec2& to, const std::string& first,
@@ -98,16 +98,19 @@ void Labels::draw(SvgWriter& svg, const Vec2& from, const Vec2& control, const V
                     {"rx", "4"},
                     {"fill", "#ffffff"},
                     {"fill-opacity", "0.88"}});
-  svg.text(
-      "text",
-      {{"x", px(middle.x())}, {"y", px(middle.y() - 2)}, {"text-anchor", "middle"}, {"font-size", "11"}, {"fill", ink}},
-      one);
+  svg.text("text",
+           {{"x", px(middle.x())},
+            {"y", px(middle.y() - 2)},
+            {"text-anchor", "middle"},
+            {"font-size", "11"},
+            {"fill", box_ink}},
+           one);
   svg.text("text",
            {{"x", px(middle.x())},
             {"y", px(middle.y() + 11)},
             {"text-anchor", "middle"},
             {"font-size", "10"},
-            {"fill", pale}},
+            {"fill", box_pale}},
            two);
   svg.close();
 }

@@ -18,7 +18,7 @@ struct Way {
 };
 
 // From a box to another, bent to the right of the way; the more there are the further.
-Way between(const Rectangle& a, const Rectangle& b, std::size_t already) {
+Way way_between(const Rectangle& a, const Rectangle& b, std::size_t already) {
   const Vec2 way = b.center() - a.center();
   const double length = std::max(way.norm(), 1.0);
   const Vec2 right(-way.y() / length, way.x() / length);
@@ -88,7 +88,7 @@ void MachinePicture::draw(SvgWriter& svg, double left, double top) const {
       const std::size_t from = state(name);
       if (from == boxes.size()) continue;
       const std::size_t already = drawn[{from, to}]++;
-      add(from == to ? around_itself(boxes[to], direction(to), already) : between(boxes[from], boxes[to], already));
+      add(from == to ? around_itself(boxes[to], direction(to), already) : way_between(boxes[from], boxes[to], already));
     }
   }
   for (const Way& way : ways) draw_arrow(svg, way.from, way.control, way.to);

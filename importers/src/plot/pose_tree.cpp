@@ -8,7 +8,7 @@ namespace tweenfall::plotting {
 
 namespace {
 
-constexpr double box_width = 150, box_height = 40, column = 270, row_height = 52;
+constexpr double tree_box_width = 150, tree_box_height = 40, tree_column = 270, tree_row = 52;
 
 }  // namespace
 
@@ -32,8 +32,8 @@ PoseTree::PoseTree(const GraphDescription& graph) {
   for (std::size_t i = 0; i < things_.size(); ++i)
     if (!things_[i].placed) static_cast<void>(place(i));
   for (const Thing& thing : things_) {
-    width_ = std::max(width_, static_cast<double>(thing.level) * column + box_width);
-    height_ = std::max(height_, (thing.row + 1) * row_height);
+    width_ = std::max(width_, static_cast<double>(thing.level) * tree_column + tree_box_width);
+    height_ = std::max(height_, (thing.row + 1) * tree_row);
   }
 }
 
@@ -54,11 +54,11 @@ std::size_t PoseTree::place(std::size_t index) {
   double sum = 0;
   std::size_t level = 0, count = 0;
   for (const GraphOperand& operand : std::vector<GraphOperand>(things_[index].operands)) {
-    const std::size_t below = thing_of(operand);
-    if (below == things_.size()) continue;
-    const std::size_t of = things_[below].placed ? things_[below].level : place(below);
+    const std::size_t part = thing_of(operand);
+    if (part == things_.size()) continue;
+    const std::size_t of = things_[part].placed ? things_[part].level : place(part);
     level = std::max(level, of + 1);
-    sum += things_[below].row;
+    sum += things_[part].row;
     ++count;
   }
   Thing& thing = things_[index];
@@ -70,8 +70,8 @@ std::size_t PoseTree::place(std::size_t index) {
 }
 
 Rectangle PoseTree::box(const Thing& thing, double left, double top) const {
-  const double x = left + static_cast<double>(thing.level) * column, y = top + thing.row * row_height;
-  return {x, y, x + box_width, y + box_height};
+  const double x = left + static_cast<double>(thing.level) * tree_column, y = top + thing.row * tree_row;
+  return {x, y, x + tree_box_width, y + tree_box_height};
 }
 
 void PoseTree::draw(SvgWriter& svg, double left, double top) const {
@@ -79,9 +79,9 @@ void PoseTree::draw(SvgWriter& svg, double left, double top) const {
   for (const Thing& thing : things_) taken.push_back(box(thing, left, top));
   for (const Thing& thing : things_)
     for (const GraphOperand& operand : thing.operands) {
-      const std::size_t below = thing_of(operand);
-      if (below == things_.size()) continue;
-      const Rectangle from = box(things_[below], left, top), to = box(thing, left, top);
+      const std::size_t part = thing_of(operand);
+      if (part == things_.size()) continue;
+      const Rectangle from = box(things_[part], left, top), to = box(thing, left, top);
       const Vec2 start(from.right, from.center().y()), end(to.left, to.center().y());
       const double bend = std::max(40.0, (end.x() - start.x()) / 2);
       svg.leaf("path", {{"d", "M" + px(start.x(), start.y()) + " C" + px(start.x() + bend, start.y()) + " " +
@@ -90,7 +90,7 @@ void PoseTree::draw(SvgWriter& svg, double left, double top) const {
                         {"stroke", "#afb8c1"},
                         {"stroke-width", "1.4"}});
       if (operand.clip) continue;
-      const std::string words = shortened(operand.role, column - box_width - 16);
+      const std::string words = shortened(operand.role, tree_column - tree_box_width - 16);
       Rectangle place{start.x() + 6, start.y() - 15, start.x() + 6 + text_width(words), start.y() - 3};
       while (std::ranges::any_of(taken, [&](const Rectangle& other) { return place.overlaps(other); }))
         place = {place.left, place.top + 13, place.right, place.bottom + 13};

@@ -129,7 +129,8 @@ void choose_play(StageFile& read, const std::optional<std::string>& name, const 
   StageDescription& stage = read.stage;
   if (name) {
     stage.plays = {Play{.clip = clip_called(stage, *name, file)}};
-  } else if (stage.plays.empty() && !stage.clips.empty()) {
+    stage.graphs.clear();
+  } else if (stage.plays.empty() && !stage.clips.empty() && stage.graphs.empty()) {
     if (read.is_model) stage.plays = {Play{.clip = 0}};
     if (stage.clips.size() == 1) return;
     const std::string names = one_of(clip_names(stage));

@@ -43,14 +43,14 @@ TEST_CASE("a graph of a document means what the same graph means in C++") {
   CHECK(clip.loop->mode == LoopMode::pingpong);
   CHECK(clip.loop->count == 3);
   CHECK(clip.at == 0.1);
-  const auto& legs = std::get<MachinePose>(read.poses.at(3).operation);
+  const auto& legs = std::get<MachinePose>(read.poses.at(5).operation);
   REQUIRE(legs.transitions.size() == 4);
   CHECK(legs.transitions[0].from.empty());
   CHECK(legs.transitions[0].when.size() == 2);
   CHECK(legs.transitions[1].change.kind == GraphChange::Kind::dead_blend);
   CHECK(legs.transitions[2].change.ease->name() == "quad-in-out");
   CHECK(legs.transitions[2].change.seconds == 0.3);
-  const auto& all = std::get<LayersPose>(read.poses.at(4).operation);
+  const auto& all = std::get<LayersPose>(read.poses.at(6).operation);
   CHECK(all.layers[0].adds);
   CHECK(all.layers[1].mask.at(0).below);
   CHECK(document.stage().plays.empty());
@@ -93,7 +93,7 @@ TEST_CASE("a stage with a graph tells the events of clips that show, and saves a
   const WorldMotion a = stage.world(1), b = other.world(1);
   CHECK(std::memcmp(&a.motion, &b.motion, sizeof(Motion)) == 0);
   StageDescription changed = description;
-  std::get<MachinePose>(changed.graphs[0].poses[3].operation).transitions[0].change.seconds = 0.16;
+  std::get<MachinePose>(changed.graphs[0].poses[5].operation).transitions[0].change.seconds = 0.16;
   Stage stranger(changed);
   CHECK_THROWS_AS(stranger.load(stage.save()), std::invalid_argument);
 }

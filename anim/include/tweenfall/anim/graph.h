@@ -74,6 +74,20 @@ struct LayersPose {
   std::vector<Layer> layers;
 };
 
+/// Poses at places along a line or on a plane, weighed by where one or two numbers are among them, as `BlendLine` and
+/// `BlendPlane` do it.
+struct SpacePose {
+  struct Entry {
+    std::string pose;
+    Vec2 place{0, 0};  ///< along a line x alone
+  };
+  std::vector<GraphNumber> by;  ///< one or two
+  std::vector<Entry> entries;   ///< `most_blended` at most
+  /// For clips alone, which then loop in phase, as `MarkerSync` has it: a pattern of the events that are markers. None
+  /// with these names: by the shares of their loops that lie behind.
+  std::optional<std::string> sync{};
+};
+
 /// When a transition may be taken.
 struct GraphCondition {
   enum class Kind {
@@ -122,7 +136,7 @@ struct MachinePose {
   std::vector<GraphTransition> transitions;  ///< the first that may be taken is
 };
 
-using PoseOperation = std::variant<ClipPose, RestPose, BlendPose, LayersPose, MachinePose>;
+using PoseOperation = std::variant<ClipPose, RestPose, BlendPose, LayersPose, SpacePose, MachinePose>;
 
 struct GraphPose {
   std::string name;

@@ -34,6 +34,7 @@ struct OperationWord {
 [[nodiscard]] OperationWord rest_word();
 [[nodiscard]] OperationWord blend_word();
 [[nodiscard]] OperationWord layers_word();
+[[nodiscard]] OperationWord space_word();
 [[nodiscard]] OperationWord machine_word();
 
 template <class Operation>

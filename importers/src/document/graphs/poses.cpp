@@ -75,7 +75,7 @@ void read_layers(const json::Value& value, GraphPose& pose, Building& building) 
 }
 
 std::vector<OperationWord> words() {
-  return {clip_word(), rest_word(), blend_word(), layers_word(), machine_word()};
+  return {clip_word(), rest_word(), blend_word(), layers_word(), space_word(), machine_word()};
 }
 
 const fields::Table<GraphPose>& pose_table() {
@@ -138,8 +138,8 @@ OperationWord layers_word() {
 
 const Form* pose_form(FormStore& store, const ValueForms& values) {
   Form pose = pose_table().form(store, values);
-  pose.what += ": {\"clip\"}, {\"rest\"}, {\"blend\"}, {\"layers\"} or {\"machine\"}";
-  pose.together = {exactly_one({"clip", "rest", "blend", "layers", "machine"}),
+  pose.what += ": {\"clip\"}, {\"rest\"}, {\"blend\"}, {\"layers\"}, {\"space\"} or {\"machine\"}";
+  pose.together = {exactly_one({"clip", "rest", "blend", "layers", "space", "machine"}),
                    {Together::Rule::first_needs_second, {"speed", "clip"}},
                    {Together::Rule::first_needs_second, {"at", "clip"}},
                    {Together::Rule::first_needs_second, {"loop", "clip"}},

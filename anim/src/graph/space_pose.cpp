@@ -1,0 +1,198 @@
+#include <tweenfall/anim/blend.h>
+#include <tweenfall/anim/blend_space.h>
+#include <tweenfall/anim/marker_sync.h>
+
+#include "graph/binder.h"
+#include "graph/phase.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tweenfall::graphs {
+
+namespace {
+
+std::vector<std::string> problems_in(const std::string& text) {
+  std::vector<std::string> problems;
+  std::size_t at = text.find('\n');
+  if (at == std::string::npos) return {text};
+  while (at != std::string::npos) {
+    const std::size_t begin = text.find_first_not_of("\n ", at);
+    at = text.find('\n', begin == std::string::npos ? text.size() : begin);
+    if (begin != std::string::npos) problems.push_back(text.substr(begin, at == std::string::npos ? at : at - begin));
+  }
+  return problems;
+}
+
+class Space : public Operation {
+ public:
+  Space(std::vector<const Operation*> poses, SpaceWeights weights)
+      : poses_(std::move(poses)), weights_(std::move(weights)) {}
+
+  void pose(const Log& log, const Moment& moment, const Scratch& scratch,
+            std::span<Motion> out) const noexcept override {
+    std::array<Sample<double>, most_blended> weights;
+    std::array<PoseLayer, most_blended> layers;
+    const std::span<Sample<double>> own(weights.data(), poses_.size());
+    weights_.sample(log, moment.time, moment.side, own);
+    std::size_t count = 0;
+    Scratch free = scratch;
+    for (std::size_t i = 0; i < poses_.size(); ++i) {
+      if (is_nothing(own[i])) continue;
+      const std::span<Motion> motions = free.pose();
+      free = free.rest();
+      poses_[i]->pose(log, moment, free, motions);
+      layers[count++] = {.pose = motions, .weight = own[i]};
+    }
+    blend({layers.data(), count}, scratch.below, out);
+  }
+
+  [[nodiscard]] std::vector<const Operation*> operands() const override { return poses_; }
+
+  [[nodiscard]] double share(const Log& log, std::size_t operand, double time) const noexcept override {
+    std::array<Sample<double>, most_blended> weights;
+    weights_.sample(log, time, Side::out, {weights.data(), poses_.size()});
+    return weights[operand].value;
+  }
+
+ private:
+  std::vector<const Operation*> poses_;
+  SpaceWeights weights_;
+};
+
+/// Clips that run in phase by their markers.
+class SyncedSpace : public Operation {
+ public:
+  SyncedSpace(std::vector<const LoopedClip*> clips, const Hierarchy& nodes, Phase phase)
+      : clips_(std::move(clips)), nodes_(nodes), phase_(std::move(phase)) {}
+
+  void pose(const Log& log, const Moment& moment, const Scratch& scratch,
+            std::span<Motion> out) const noexcept override {
+    std::array<Sample<double>, most_blended> weights;
+    std::array<PoseLayer, most_blended> layers;
+    const std::span<Sample<double>> own(weights.data(), clips_.size());
+    phase_.weights().sample(log, moment.time, moment.side, own);
+    const Sample<double> phase = phase_.sync().running(phase_.at(log, moment.start, moment.time), own);
+    std::size_t count = 0;
+    Scratch free = scratch;
+    for (std::size_t i = 0; i < clips_.size(); ++i) {
+      if (is_nothing(own[i])) continue;
+      const std::span<Motion> motions = free.pose();
+      free = free.rest();
+      const SyncedTime at = phase_.sync().time(i, phase);
+      ClipClock clock;
+      clock.time = at.time.value;
+      clock.rate = at.time.rate;
+      clock.cycle = static_cast<int>(std::clamp(at.cycle, -2e9, 2e9));
+      clock.started = true;
+      clock.side = moment.side;
+      std::ranges::copy(scratch.below, motions.begin());
+      clips_[i]->bound->sample(nodes_, clock, motions);
+      layers[count++] = {.pose = motions, .weight = own[i]};
+    }
+    blend({layers.data(), count}, scratch.below, out);
+  }
+
+  void events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const override {
+    for (std::size_t i = 0; i < clips_.size(); ++i) {
+      phase_.each_event(log, i, clips_[i]->clip, stretch.start, stretch.from, stretch.to,
+                        [&](double time, const ClipEvent& event, GraphEvent::Kind kind) {
+                          std::array<Sample<double>, most_blended> weights;
+                          phase_.weights().sample(log, time, Side::out, {weights.data(), clips_.size()});
+                          out.push_back({time, event.name, event.data, clips_[i]->number, kind, weights[i].value});
+                          return true;
+                        });
+    }
+  }
+
+  [[nodiscard]] std::optional<double> next_event(const Log& log, std::string_view name, double start, double after,
+                                                 double until) const override {
+    std::optional<double> first;
+    for (std::size_t i = 0; i < clips_.size(); ++i)
+      phase_.each_event(log, i, clips_[i]->clip, start, after, first.value_or(until),
+                        [&](double time, const ClipEvent& event, GraphEvent::Kind kind) {
+                          if (event.name != name || kind == GraphEvent::Kind::end) return true;
+                          first = time;
+                          return false;
+                        });
+    return first;
+  }
+
+  [[nodiscard]] double end(const Log&, double) const noexcept override {
+    return std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  std::vector<const LoopedClip*> clips_;
+  const Hierarchy& nodes_;
+  Phase phase_;
+};
+
+/// The clip that an entry of a synced space means; null where it means something else, which is told.
+const LoopedClip* synced_clip(const std::string& name, const Place& place, Binder& binder) {
+  const Loop around{.mode = LoopMode::repeat};
+  for (const GraphPose& pose : binder.description().poses) {
+    if (pose.name != name) continue;
+    const auto* clip = std::get_if<ClipPose>(&pose.operation);
+    if (clip && clip->speed == 1 && clip->at == 0) return binder.clip(clip->clip, around, place);
+    binder.fault(place, "only clips at their own speed run in phase; \"" + name + "\" is none");
+    return nullptr;
+  }
+  return binder.clip(name, around, place);
+}
+
+}  // namespace
+
+std::unique_ptr<Operation> bound(const SpacePose& described, Binder& binder) {
+  const Place here = {"space"};
+  const auto at = [&](std::size_t entry) { return Place{"space", "poses", std::to_string(entry)}; };
+  if (described.entries.size() > most_blended) {
+    binder.fault(here, "a space takes " + std::to_string(most_blended) + " poses at most");
+    return nullptr;
+  }
+  std::vector<Number> by;
+  for (const GraphNumber& number : described.by) by.push_back(binder.number(number, {"space", "by"}));
+  std::vector<const Operation*> poses;
+  std::vector<const LoopedClip*> clips;
+  for (std::size_t i = 0; i < described.entries.size(); ++i) {
+    const std::string& name = described.entries[i].pose;
+    if (described.sync)
+      clips.push_back(synced_clip(name, at(i), binder));
+    else
+      poses.push_back(binder.pose(name, at(i)));
+  }
+  if (by.empty() || by.size() > 2) {
+    binder.fault({"space", "by"}, "a space is along one number or on a plane of two");
+    return nullptr;
+  }
+  std::optional<SpaceWeights> weights;
+  try {
+    weights.emplace(described, std::move(by));
+  } catch (const std::invalid_argument& problems) {
+    for (std::string& problem : problems_in(problems.what())) binder.fault({"space", "poses"}, std::move(problem));
+    return nullptr;
+  }
+  if (std::ranges::find(poses, nullptr) != poses.end() || std::ranges::find(clips, nullptr) != clips.end())
+    return nullptr;
+  std::unique_ptr<Operation> operation;
+  if (described.sync) {
+    std::vector<SyncClip> markers;
+    markers.reserve(clips.size());
+    for (const LoopedClip* clip : clips) markers.push_back(sync_clip(clip->clip, *described.sync));
+    try {
+      operation =
+          std::make_unique<SyncedSpace>(std::move(clips), binder.nodes(),
+                                        Phase(MarkerSync(std::move(markers)), *std::move(weights), binder.new_phase()));
+    } catch (const std::invalid_argument& problems) {
+      for (std::string& problem : problems_in(problems.what())) binder.fault({"space", "sync"}, std::move(problem));
+      return nullptr;
+    }
+  } else {
+    operation = std::make_unique<Space>(std::move(poses), *std::move(weights));
+  }
+  operation->set_rooms(described.entries.size());
+  return operation;
+}
+
+}  // namespace tweenfall::graphs

@@ -1,0 +1,125 @@
+#include "graph_support.h"
+
+#include <tweenfall/anim/marker_sync.h>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// Loops of different lengths with the same steps.
+std::shared_ptr<const std::vector<Clip>> gaits() {
+  std::vector<Clip> clips = {moving("walk", 4, LoopMode::repeat), moving("run", 5, LoopMode::repeat),
+                             moving("lean", 6, LoopMode::repeat)};
+  clips[0].events = {{0.2, 0.2, "left", ""}, {1.2, 1.2, "right", ""}};
+  clips[1].events = {{0.1, 0.1, "left", ""}, {0.9, 0.9, "right", ""}};
+  clips[2].events = {{0.5, 0.5, "left", ""}, {1.5, 1.5, "right", ""}};
+  return std::make_shared<const std::vector<Clip>>(std::move(clips));
+}
+
+GraphDescription along(const std::optional<std::string>& sync, double half_life = 0) {
+  return {.parameters = {{.name = "speed", .half_life = half_life}},
+          .poses = {
+              {"move",
+               SpacePose{.by = {ByParameter{"speed"}}, .entries = {{"walk", {1, 0}}, {"run", {4, 0}}}, .sync = sync}}}};
+}
+
+}  // namespace
+
+TEST_CASE("at the place of a pose a space shows that pose bit for bit, and beyond the ends the last") {
+  GraphPlayer player(graph_of(along({}), gaits()));
+  std::vector<Motion> walk(4), run(4);
+  Animation(limb(), *gaits(), {{.clip = 0}}).sample(0.7, walk);
+  Animation(limb(), *gaits(), {{.clip = 1}}).sample(0.7, run);
+  CHECK(same_bits(pose_at(player, 0.7), walk));
+  player.set("speed", 1);
+  CHECK(same_bits(pose_at(player, 0.7), walk));
+  player.set("speed", 4);
+  CHECK(same_bits(pose_at(player, 0.7), run));
+  player.set("speed", 9);
+  CHECK(same_bits(pose_at(player, 0.7), run));
+}
+
+TEST_CASE("a space on a line and on a plane has the exact rate of what it shows, the parameters moving") {
+  GraphPlayer line(graph_of(along({}, 0.2), gaits()));
+  line.seek(0.1);
+  line.set("speed", 3);
+  GraphDescription plane = {
+      .parameters = {{.name = "x", .half_life = 0.2}, {.name = "y", .half_life = 0.3}},
+      .poses = {{"move", SpacePose{.by = {ByParameter{"x"}, ByParameter{"y"}},
+                                   .entries = {{"walk", {0, 0}}, {"run", {2, 0}}, {"lean", {0, 2}}}}}}};
+  GraphPlayer both(graph_of(plane, gaits()));
+  both.seek(0.1);
+  both.set("x", 0.9);
+  both.set("y", 0.8);
+  for (const double time : {0.3, 0.44, 0.61, 0.87}) {
+    CHECK(rate_error(line, time) < 1e-6);
+    CHECK(rate_error(both, time) < 1e-6);
+  }
+}
+
+TEST_CASE("clips in phase run on with exact rates, whatever the frames and back") {
+  for (const double half_life : {0.0, 0.15}) {
+    GraphPlayer player(graph_of(along("*", half_life), gaits())), fine(graph_of(along("*", half_life), gaits()));
+    for (GraphPlayer* each : {&player, &fine}) {
+      for (const double time : {0.3, 0.8, 1.7}) {
+        while (each == &fine && each->time() + 0.021 < time) {
+          each->advance(0.021);
+          static_cast<void>(pose_at(*each, each->time()));
+        }
+        each->seek(time);
+        each->set("speed", time * 2);
+      }
+    }
+    for (const double time : {2.9, 0.55, 1.31, 0.1, 2.2}) CHECK(same_bits(pose_at(player, time), pose_at(fine, time)));
+    // Few times are so near to a key that a stencil reaches over it.
+    std::vector<double> errors;
+    for (int i = 0; i < 60; ++i) {
+      const double time = 0.011 + 0.0471 * i;
+      bool clear = true;
+      for (const double setting : {0.3, 0.8, 1.7}) clear = clear && std::abs(time - setting) > 1e-3;
+      if (clear) errors.push_back(rate_error(player, time));
+    }
+    std::ranges::sort(errors);
+    CHECK(errors[errors.size() * 9 / 10] < 2e-6);
+    MESSAGE("half of the rates within " << errors[errors.size() / 2] << ", nine of ten within "
+                                        << errors[errors.size() * 9 / 10]);
+  }
+}
+
+TEST_CASE("clips in phase step together: their markers fall at the same times, each told once") {
+  GraphPlayer player(graph_of(along("*"), gaits()));
+  player.set("speed", 2.5);
+  std::vector<GraphEvent> events;
+  for (double from = -1, to = 0.1; to < 8; from = to, to += 0.17)
+    for (const GraphEvent& event : player.events(from, to)) events.push_back(event);
+  REQUIRE(events.size() > 12);
+  REQUIRE(events.size() % 2 == 0);
+  for (std::size_t i = 0; i + 1 < events.size(); i += 2) {
+    CHECK(events[i].name == events[i + 1].name);
+    CHECK(near(events[i].time, events[i + 1].time, 1e-9));
+    CHECK(near(events[i].weight + events[i + 1].weight, 1.0, 1e-12));
+    if (i >= 2) CHECK(events[i].name != events[i - 2].name);
+  }
+}
+
+TEST_CASE("what is no space is refused with its place") {
+  const auto told_of = [](const SpacePose& space) {
+    std::string text;
+    for (const GraphFault& fault :
+         inspect({.parameters = {{.name = "v"}}, .poses = {{"s", space}, {"q", ClipPose{"walk", 0, 2}}}}, *limb(),
+                 *gaits())) {
+      for (const std::string& part : fault.place) text += "/" + part;
+      text += ": " + fault.message + "\n";
+    }
+    return text;
+  };
+  const GraphNumber v = ByParameter{"v"};
+  CHECK(told_of({.by = {v}, .entries = {{"walk", {1, 0}}}}).find("/poses/s/space/poses: ") == 0);
+  CHECK(told_of({.by = {v}, .entries = {{"walk", {1, 0}}, {"run", {1, 0}}}}).find("/poses/s/space/poses: ") == 0);
+  CHECK(told_of({.by = {}, .entries = {{"walk", {1, 0}}, {"run", {2, 0}}}}).find("/poses/s/space/by: ") == 0);
+  CHECK(told_of({.by = {v}, .entries = {{"walk", {1, 0}}, {"rn", {2, 0}}}})
+            .find("/poses/s/space/poses/1: there is no pose") == 0);
+  CHECK(told_of({.by = {v}, .entries = {{"walk", {1, 0}}, {"q", {2, 0}}}, .sync = ""})
+            .find("/poses/s/space/poses/1: only clips") == 0);
+}
