@@ -9,7 +9,7 @@ namespace tweenfall::graphs {
 
 namespace {
 
-constexpr double stops_a_second = 30;
+constexpr double stops_a_second = 480;
 
 std::variant<BlendLine, BlendPlane> space_of(const SpacePose& described) {
   if (described.by.size() == 2) {

@@ -32,7 +32,7 @@ class SpaceWeights {
 };
 
 /// It runs from the start of the state around it, with the first clip at its beginning. On the way it stops at every
-/// setting and, where the weights flow, thirty times a second: wherever it is asked from, it comes the same way.
+/// setting and, where the weights flow, 480 times a second: wherever it is asked from, it comes the same way.
 class Phase {
  public:
   /// @param number  among the phases of the graph
