@@ -128,7 +128,7 @@ TEST_CASE("the stroller stands, walks and waves as its inputs say, and stands ag
   for (double time = 0.9; time < 1.5; time += 0.05)
     most = std::max(most, (place_at(time, "figure/LeftFoot") - foot).norm());
   CHECK(most > 0.15);
-  CHECK(place_at(2.8, "figure/RightHand").y() > hand.y() + 0.3);
+  CHECK(place_at(2.2, "figure/RightHand").y() > hand.y() + 0.3);
   CHECK(near(place_at(5.9, "figure/LeftFoot"), foot, 1e-9));
   CHECK(near(place_at(5.9, "figure/RightHand"), hand, 1e-6));
 }
