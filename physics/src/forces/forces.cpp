@@ -3,6 +3,8 @@
 #include <tweenfall/curves/rotation.h>
 
 #include "forces/drive_law.h"
+#include "forces/flight.h"
+#include "forces/spring_pull.h"
 #include "step/keyed_step.h"
 
 namespace tweenfall::forces {
@@ -15,16 +17,6 @@ bool moves(const Body& body) {
   return !body.immovable() && !body.asleep;
 }
 
-/// A body as the forces see it: now, or where it would be at the end of the step.
-struct Glimpse {
-  Vec3 center, linear, angular;
-  Quat rotation;
-};
-
-Glimpse now(const Body& body) {
-  return {body.center, body.twist.linear, body.twist.angular, body.motion.pose.rotation};
-}
-
 Glimpse ahead(const Body& body, const Load& load, double dt) {
   if (body.has_target && body.immovable()) {
     const Vec3 arm = body.target.pose.rotation * body.mass.center;
@@ -35,31 +27,6 @@ Glimpse ahead(const Body& body, const Load& load, double dt) {
   const Vec3 angular = body.twist.angular;
   return {body.center + body.twist.linear * dt + load.acceleration * (0.5 * dt * dt),
           body.twist.linear + load.acceleration * dt, angular, exp_map(angular * dt) * body.motion.pose.rotation};
-}
-
-/// Force of a spring on its first end, and the arms to both ends.
-struct Pull {
-  Vec3 force, arm_a, arm_b;
-};
-
-Pull pull_of(const Spring& spring, const Body& body_a, const Glimpse& a, const Body* body_b, const Glimpse& b) {
-  Pull pull;
-  pull.arm_a = a.rotation * (spring.anchor_a - body_a.mass.center);
-  pull.arm_b = body_b ? Vec3(b.rotation * (spring.anchor_b - body_b->mass.center)) : Vec3(0, 0, 0);
-  const Vec3 end_a = a.center + pull.arm_a;
-  const Vec3 end_b = body_b ? Vec3(b.center + pull.arm_b) : spring.anchor_b;
-  const Vec3 between = end_b - end_a;
-  const double length = between.norm();
-  if (length == 0) {
-    pull.force = Vec3::Zero();
-    return pull;
-  }
-  const Vec3 direction = between / length;
-  const Vec3 velocity_a = a.linear + a.angular.cross(pull.arm_a);
-  const Vec3 velocity_b = body_b ? Vec3(b.linear + b.angular.cross(pull.arm_b)) : Vec3(0, 0, 0);
-  const double stretching = direction.dot(velocity_b - velocity_a);
-  pull.force = direction * (spring.stiffness * (length - spring.rest_length) + spring.damping * stretching);
-  return pull;
 }
 
 /// Bodies that are worth a part of their own.
@@ -90,9 +57,17 @@ const Body* find_body(const std::vector<Body>& bodies, const BodyId& id) {
   return body.alive && body.generation == id.generation ? &body : nullptr;
 }
 
+bool too_stiff(const Spring& spring, const std::vector<Body>& bodies, const std::vector<Load>& loads) {
+  const auto stiff = [&](const BodyId& end) {
+    return find_body(bodies, end) && loads[end.index].springiness > most_springiness;
+  };
+  return stiff(spring.a) || stiff(spring.b);
+}
+
 void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t> watched,
                   const std::vector<NumberedForce>& forces, const WorldSettings& settings, double time, double dt,
-                  const threads::Workers& workers, std::vector<Load>& loads, std::vector<step::SpringRow>& stiff) {
+                  const threads::Workers& workers, std::vector<Load>& loads, std::vector<step::SpringRow>& stiff,
+                  Flight& flight) {
   loads.resize(bodies.size());
   stiff.clear();
   const auto each_watched = [&](const auto& see) {
@@ -114,16 +89,12 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
   });
   for (const NumberedForce& entry : forces)
     if (const auto* spring = std::get_if<Spring>(&entry.force)) add_springiness(bodies, *spring, dt, loads);
-  const auto too_stiff = [&](const Spring& spring, const Body* b) {
-    return loads[spring.a.index].springiness > most_springiness ||
-           (b && loads[spring.b.index].springiness > most_springiness);
-  };
   for (const NumberedForce& entry : forces) {
     const auto* spring = std::get_if<Spring>(&entry.force);
     if (!spring) continue;
     const Body* a = find_body(bodies, spring->a);
     const Body* b = find_body(bodies, spring->b);
-    if (!a || (!b && spring->b != BodyId{}) || !too_stiff(*spring, b)) continue;
+    if (!a || (!b && spring->b != BodyId{}) || !too_stiff(*spring, bodies, loads)) continue;
     step::SpringRow row;
     row.a = spring->a.index;
     if (b) row.b = spring->b.index;
@@ -151,7 +122,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
         const Body* a = find_body(bodies, spring->a);
         const Body* b = find_body(bodies, spring->b);
         if (!a || (!b && spring->b != BodyId{})) continue;  // an end was removed: the spring hangs loose
-        if (too_stiff(*spring, b)) continue;
+        if (too_stiff(*spring, bodies, loads)) continue;
         const Glimpse at_a = at_end ? ahead(*a, loads[spring->a.index], dt) : now(*a);
         const Glimpse at_b = !b ? Glimpse{} : at_end ? ahead(*b, loads[spring->b.index], dt) : now(*b);
         const Pull pull = pull_of(*spring, *a, at_a, b, at_b);
@@ -174,7 +145,9 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
       }
     }
   };
-  if (!forces.empty()) {
+  if (Integrate* integrate = asking(settings.integrator)) {
+    flight.gather({bodies, forces, settings, time, dt}, watched, integrate, loads);
+  } else if (!forces.empty()) {
     add(false);
     if (settings.integrator == Integrator::exact_quadratic) add(true);
   }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "forces/integrators/integrators.h"
 #include "joints/validate.h"
 #include "saving/bytes.h"
 #include "saving/envelope.h"
@@ -224,9 +225,7 @@ void check_pairs(const WorldState& world) {
 void check(WorldState& world) {
   at("setting", [&] {
     state::validate(world.settings);
-    state::require(world.settings.integrator == Integrator::exact_quadratic ||
-                       world.settings.integrator == Integrator::semi_implicit_euler,
-                   "there is no such integrator");
+    state::require(forces::exists(world.settings.integrator), "there is no such integrator");
   });
   state::require(world.time >= 0 && std::isfinite(world.time), "a saved world has a bad time");
   check_bodies(world);

@@ -5,6 +5,7 @@
 #include "blocks/block_solver.h"
 #include "collision/passage.h"
 #include "contacts/found.h"
+#include "forces/flight.h"
 #include "forces/forces.h"
 #include "islands/free_islands.h"
 #include "islands/island_contents.h"
@@ -68,6 +69,7 @@ struct Workspace {
   std::vector<std::uint32_t> lingering;  ///< to be looked at once more, when it has come to rest
 
   std::vector<forces::Load> loads;
+  forces::Flight flight;  ///< of this step, where the integrator asks for forces
   std::vector<SpringRow> stiff_springs;
   std::vector<joints::JointLink> links;
   std::vector<Start> starts;

@@ -173,6 +173,7 @@ void World::Implementation::solve_islands(double dt) {
 
 void World::Implementation::advance_bodies(double dt) {
   solve_islands(dt);
+  const bool asks = forces::asking(settings.integrator) != nullptr;
   workers().ranges(watched.size(), step::worth_sharing, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = watched[k];
@@ -185,6 +186,8 @@ void World::Implementation::advance_bodies(double dt) {
       if (!body.asleep && !moved[i]) {
         if (body.drive.owner() == Owner::driven)
           forces::pull(body, loads[i], dt);
+        else if (asks)
+          flight.land(i, body, dt);
         else
           forces::fly(body, loads[i], settings.integrator, dt);
       }
@@ -319,7 +322,7 @@ void World::Implementation::step(double dt) {
   if (failed) check_bodies(0, time);
   wake_by_fields();
   do {
-    forces::gather_loads(bodies, watched, forces, settings, time, dt, workers(), loads, stiff_springs);
+    forces::gather_loads(bodies, watched, forces, settings, time, dt, workers(), loads, stiff_springs, flight);
     check_loads(time + dt);
     gather_links();
     find_constraints(dt);

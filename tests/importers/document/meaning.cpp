@@ -4,6 +4,8 @@
 #include <tweenfall/physics/stage/recording.h>
 
 #include <numbers>
+#include <string>
+#include <utility>
 
 using namespace tweenfall;
 using namespace tweenfall::test;
@@ -32,6 +34,20 @@ double turn(const Quat& q) {
 }
 
 }  // namespace
+
+TEST_CASE("each integrator has its word") {
+  const std::pair<const char*, Integrator> words[] = {{"exact-quadratic", Integrator::exact_quadratic},
+                                                      {"semi-implicit-euler", Integrator::semi_implicit_euler},
+                                                      {"explicit-euler", Integrator::explicit_euler},
+                                                      {"midpoint", Integrator::midpoint},
+                                                      {"trapezoid", Integrator::trapezoid},
+                                                      {"rk4", Integrator::rk4}};
+  for (const auto& word : words) {
+    const std::string text = R"({"tweenfall": 1, "world": {"integrator": ")" + std::string(word.first) + R"("}})";
+    CAPTURE(text);
+    CHECK(Document::parse(text, "words.json", {}).stage().world.integrator == word.second);
+  }
+}
 
 TEST_CASE("the lamp of the contract means what is said") {
   const Document document = good("lamp");

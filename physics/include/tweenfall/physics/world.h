@@ -29,10 +29,17 @@ namespace queries {
 class Inside;
 }
 
-/// How a free body's state goes through a step.
+/// How a free body's state goes through a step in which nothing touches it. All but the first two ask for forces and
+/// torques (gravity, drag, springs, fields, damping) at states of their own choosing, and know nothing that is
+/// implicit: what is damped or swings faster than their steps can follow grows, until `step` throws NotFinite. Contacts
+/// and joints work with the mean force that they find.
 enum class Integrator {
-  exact_quadratic,      ///< x += v h + a h^2/2: exact under constant force (the default)
-  semi_implicit_euler,  ///< v += a h, then x += v h
+  exact_quadratic,      ///< x += v h + a h^2/2: exact under constant force (the default); drag is of first order
+  semi_implicit_euler,  ///< v += a h, then x += v h; first order
+  explicit_euler,       ///< on by what there was at the start; first order
+  midpoint,             ///< by what there is halfway; second order
+  trapezoid,            ///< by the mean of both ends, Heun's; second order
+  rk4,                  ///< the classic Runge-Kutta method; fourth order
 };
 
 struct WorldSettings {

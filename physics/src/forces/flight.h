@@ -1,0 +1,51 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "forces/forces.h"
+#include "forces/integrators/integrators.h"
+#include "forces/spring_pull.h"
+
+namespace tweenfall::forces {
+
+/// What acts between contacts in a step.
+struct Acting {
+  const std::vector<state::Body>& bodies;
+  const std::vector<NumberedForce>& forces;
+  const WorldSettings& settings;
+  double time;  ///< at the start of the step, s
+  double dt;
+};
+
+/// Bodies that go through a step by an integrator which asks for forces at states of its own choosing.
+class Flight {
+ public:
+  /// Finds how they would go if nothing touched them.
+  /// @param loads  has the springiness; written: the mean acceleration and torque, for those that something touches
+  void gather(const Acting& acting, std::span<const std::uint32_t> watched, Integrate* integrate,
+              std::vector<Load>& loads);
+  /// Moves a body that nothing touched.
+  void land(std::uint32_t index, state::Body& body, double dt) const;
+
+ private:
+  static constexpr std::uint32_t nobody = 0xffffffffu;
+
+  struct Start {
+    std::uint32_t index = 0;
+    Vec3 momentum;  ///< angular, world axes
+  };
+
+  /// Gravity, drag, springs, fields and what the caller applied, of all of them at these states.
+  void find_rates(const Acting& acting, const std::vector<Load>& loads, double after, std::span<const Change> since,
+                  std::span<Change> rates);
+  void add_spring(const Acting& acting, const Spring& spring, double after, std::span<Change> rates) const;
+
+  std::vector<std::uint32_t> slots_;  ///< by body
+  std::vector<Start> starts_;
+  std::vector<Glimpse> glimpses_;
+  std::vector<Change> means_;
+  Room room_;
+};
+
+}  // namespace tweenfall::forces
