@@ -2,6 +2,10 @@
 
 #include <tweenfall/curves/number_text.h>
 
+#include <algorithm>
+#include <span>
+#include <string>
+
 #include "json/json_string.h"
 #include "recording/words.h"
 
@@ -43,7 +47,7 @@ void append_node(std::string& out, const NodeRecord& node) {
   out += "}";
 }
 
-/// A list with one value for each frame, null where the joint is gone.
+/// A list with one value for each frame, null where the joint is gone or has not come yet.
 template <class Append>
 void append_readings(std::string& out, const char* name, const JointRecord& joint, Append append) {
   ((out += ",\n   \"") += name) += "\": ";
@@ -55,8 +59,15 @@ void append_readings(std::string& out, const char* name, const JointRecord& join
   });
 }
 
+/// A joint that came by the name of one that had gone, to hold others, is told by its number, too.
+std::string told_name(const Recording& recording, const JointRecord& joint) {
+  const std::span<const JointRecord> before(recording.joints.data(), &joint);
+  const auto namesakes = std::ranges::count(before, joint.name, &JointRecord::name);
+  return namesakes == 0 ? joint.name : joint.name + " #" + std::to_string(namesakes + 1);
+}
+
 void append_joint(std::string& out, const Recording& recording, const JointRecord& joint) {
-  json::append_string(out, joint.name);
+  json::append_string(out, told_name(recording, joint));
   out += ": {\n   \"nodes\": [";
   if (joint.a != no_node) {
     json::append_string(out, recording.nodes[joint.a].name);
@@ -66,7 +77,8 @@ void append_joint(std::string& out, const Recording& recording, const JointRecor
   out += "]";
   append_readings(out, "force", joint, [&](const JointReading& reading) { append_vector(out, reading.force); });
   append_readings(out, "torque", joint, [&](const JointReading& reading) { append_vector(out, reading.torque); });
-  if (!joint.reading.empty() && joint.reading.front() && joint.reading.front()->coordinates > 0) {
+  const auto first = std::ranges::find_if(joint.reading, [](const auto& reading) { return reading.has_value(); });
+  if (first != joint.reading.end() && (*first)->coordinates > 0) {
     const auto append_coordinates = [&](const std::array<double, 3>& values, int count) {
       append_list(out, static_cast<std::size_t>(count), [&](std::size_t i) { append_number(out, values[i]); });
     };

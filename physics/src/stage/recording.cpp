@@ -46,8 +46,26 @@ void take_frame(const Stage& stage, std::vector<WorldMotion>& world, Recording& 
   }
 }
 
+/// Those that came later, and those that hold others by the name of one that has gone, have records of their own.
 void take_joints(const Stage& stage, Recording& recording) {
-  for (JointRecord& joint : recording.joints) joint.reading.push_back(stage.joint(joint.name));
+  const std::vector<JointEnds> joints = stage.joints();
+  const std::size_t frame = recording.times.size() - 1;
+  for (const JointEnds& joint : joints) {
+    const auto is_it = [&joint](const JointRecord& record) {
+      return record.name == joint.name && record.a == joint.a && record.b == joint.b;
+    };
+    // They keep their order, so that it is nearly always the next.
+    const auto place = static_cast<std::size_t>(&joint - joints.data());
+    auto record = recording.joints.begin() + static_cast<std::ptrdiff_t>(std::min(place, recording.joints.size()));
+    if (record == recording.joints.end() || !is_it(*record)) record = std::ranges::find_if(recording.joints, is_it);
+    if (record == recording.joints.end()) {
+      recording.joints.push_back({.name = joint.name, .a = joint.a, .b = joint.b, .reading = {}});
+      record = recording.joints.end() - 1;
+    }
+    record->reading.resize(frame);
+    record->reading.push_back(stage.joint(joint.name));
+  }
+  for (JointRecord& record : recording.joints) record.reading.resize(frame + 1);
 }
 
 /// @return whether there was room
@@ -96,8 +114,6 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
   Recording recording;
   recording.name = stage.description().name;
   std::vector<WorldMotion> world;
-  for (const JointDescription& joint : stage.description().joints)
-    recording.joints.push_back({.name = joint.name, .a = joint.a, .b = joint.b, .reading = {}});
   const double start = stage.time();
   double room = std::min(most_bytes, 256.0 * 1024 * 1024);
   const auto take = [&] {

@@ -163,6 +163,14 @@ std::optional<JointReading> Stage::joint(std::string_view name) const {
   return staging::joint_reading(inside().current(), name);
 }
 
+std::vector<JointEnds> Stage::joints() const {
+  const staging::StageState& state = inside().current();
+  std::vector<JointEnds> joints;
+  joints.reserve(state.joints->list.size());
+  for (const staging::StagedJoint& joint : state.joints->list) joints.push_back({joint.name, joint.a, joint.b});
+  return joints;
+}
+
 const StageDescription& Stage::description() const {
   return inside().description;
 }

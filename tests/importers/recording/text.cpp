@@ -24,6 +24,27 @@ std::uint64_t bits(double number) {
 
 }  // namespace
 
+TEST_CASE("a joint that comes late, or by another's name, is told with its coordinates and under a name of its own") {
+  Recording recording = example_recording();
+  const std::size_t frames = recording.times.size();
+  JointReading reading;
+  reading.coordinates = 1;
+  reading.position[0] = 0.5;
+  recording.joints = {{.name = "tie", .a = no_node, .b = 1, .reading = {}},
+                      {.name = "tie", .a = 0, .b = 1, .reading = {}}};
+  for (JointRecord& joint : recording.joints) joint.reading.resize(frames);
+  recording.joints[0].reading[0] = reading;
+  recording.joints[1].reading[frames - 1] = reading;
+  const nlohmann::json joints = nlohmann::json::parse(recording_json(recording))["joints"];
+  REQUIRE(joints.size() == 2);
+  CHECK(joints["tie"]["nodes"].size() == 1);
+  CHECK(joints["tie"]["position"][0][0] == 0.5);
+  CHECK(joints["tie"]["position"][frames - 1].is_null());
+  CHECK(joints["tie #2"]["nodes"].size() == 2);
+  CHECK(joints["tie #2"]["position"][0].is_null());
+  CHECK(joints["tie #2"]["position"][frames - 1][0] == 0.5);
+}
+
 TEST_CASE("a recording as JSON reads back to the same bits") {
   Recording recording = example_recording();
   recording.nodes[2].twist[3].linear = Vec3(-0.0, 5e-324, 1.7976931348623157e308);

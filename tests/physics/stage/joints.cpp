@@ -133,6 +133,45 @@ TEST_CASE("a joint that breaks is told with its bodies, once, and read no more")
   }
 }
 
+TEST_CASE("joints that are added while a recording runs are in it, from the frame on in which they are there") {
+  StageDescription stage;
+  stage.nodes = {ball_at("hook", Vec3(0, 2, 0)), ball_at("bob", Vec3(0, 1, 0), 2), ball_at("other", Vec3(3, 1, 0))};
+  stage.nodes[0].body->drive = Drive::keyed();
+  stage.nodes[1].body->drive = stage.nodes[2].body->drive = Drive::free();
+  Clip clip;
+  clip.name = "cues";
+  clip.duration = 1;
+  clip.events = {{0.25, 0.25, "tie", ""}, {0.5, 0.5, "untie", ""}, {0.75, 0.75, "tie other", ""}};
+  stage.clips = {clip};
+  stage.plays = {{.clip = 0}};
+  JointDescription string = joint_at(stage, "string", 0, 1, Vec3(0, 2, 0), DistanceJoint{0, 5});
+  JointDescription other = joint_at(stage, "string", 0, 2, Vec3(0, 2, 0), DistanceJoint{0, 5});
+  Stage run(stage);
+  run.on_event([&](const StageEvent& event) {
+    if (event.name == "tie") run.add_joint(string);
+    if (event.name == "untie") run.remove_joint("string");
+    if (event.name == "tie other") run.add_joint(other);
+  });
+  const Recording recording = record(run, 1, 100);
+  REQUIRE(recording.times.size() == 101);
+  REQUIRE(recording.joints.size() == 2);
+  const auto there = [&](std::size_t joint, std::size_t frame) {
+    return recording.joints[joint].reading[frame].has_value();
+  };
+  for (const JointRecord& joint : recording.joints) {
+    CHECK(joint.name == "string");
+    CHECK(joint.a == 0);
+    REQUIRE(joint.reading.size() == 101);
+  }
+  CHECK(recording.joints[0].b == 1);
+  CHECK(recording.joints[1].b == 2);
+  for (std::size_t frame = 0; frame <= 100; ++frame) {
+    CAPTURE(frame);
+    if (frame != 25 && frame != 50) CHECK(there(0, frame) == (frame > 25 && frame < 50));
+    if (frame != 75) CHECK(there(1, frame) == (frame > 75));
+  }
+}
+
 TEST_CASE("a joint ends at its instant, off the grid, and what it held flies as if it had ended there") {
   StageDescription described = hung();
   described.plays.clear();

@@ -26,14 +26,14 @@ struct NodeRecord {
 struct JointRecord {
   std::string name;
   NodeId a = no_node, b = no_node;                   ///< `no_node`: the world
-  std::vector<std::optional<JointReading>> reading;  ///< one per frame; nothing once it is gone
+  std::vector<std::optional<JointReading>> reading;  ///< one per frame; nothing before it came and once it is gone
 };
 
 struct Recording {
   std::string name;
   std::vector<double> times;  ///< s
   std::vector<NodeRecord> nodes;
-  std::vector<JointRecord> joints;  ///< in the description's order
+  std::vector<JointRecord> joints;  ///< in the description's order, then those that were added, as they came
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
   std::vector<UnfiredRule> unfired;  ///< rules that waited to the end in vain

@@ -32,16 +32,28 @@ class InsideStage;
 
 using NodeId = std::size_t;
 
-/// An event of a clip, a contact that began, what came into a sensor or left it, or the end of a joint, as `on_event`
-/// and recordings see it.
+/// An event of a clip, a contact that began, what came into a sensor or left it, the end of a joint, what physics
+/// cannot hold, or what a step is too short for, as `on_event` and recordings see it.
 struct StageEvent {
-  double time = 0;   ///< stage time, s; of a contact when the two met: told once it is known what it took
-  std::string name;  ///< the clip event's name, "contact", "entered", "left", "joint_broke", or "joint_ended" as its
-                     ///< `until` says
-  std::string data;  ///< JSON text given with a clip event
-  std::vector<NodeId> nodes;  ///< of a contact: the two; of a sensor: it and the body; of a joint: its bodies
-  double impulse = 0;         ///< of a contact: N s
-  std::string joint = {};     ///< of a joint: its name
+  double time = 0;  ///< stage time, s; of a contact when the two met: told once it is known what it took
+  /// The clip event's name, or one of these: "contact"; "entered" and "left"; "joint_broke", and "joint_ended" as its
+  /// `until` says; "overlap" of two bodies that lie deep in each other, and "joint_strained" of a joint that is open,
+  /// beyond a limit or short of its motor's speed, for a twentieth of a second; "vetoed" of a body that lies in
+  /// another and therefore stays on its path, as its rule says; "split limit" of a step with more instants than may
+  /// split it.
+  std::string name;
+  std::string data;  ///< JSON text: given with a clip event; {"depth": m}, of a joint {"gap": m}, {"beyond_limit": m or
+                     ///< rad} or {"missing_speed": m/s or rad/s}, {"splits": count}; else empty
+  std::vector<NodeId> nodes;  ///< of a contact, an overlap or a veto: the two; of a sensor: it and the body; of a
+                              ///< joint: its bodies
+  double impulse = 0;      ///< of a contact: N s
+  std::string joint = {};  ///< of a joint: its name
+};
+
+/// A joint that the stage has or had, and the nodes whose bodies it holds; `no_node`: the world.
+struct JointEnds {
+  std::string name;
+  NodeId a = no_node, b = no_node;
 };
 
 /// A rule that waited for one of its bodies in vain.
@@ -90,6 +102,9 @@ class Stage {
   /// How a joint stood at the end of the last step before or at `time()`; nothing once it is gone: it broke, it ended,
   /// or one of its bodies left. @throws std::invalid_argument with the nearest name
   [[nodiscard]] std::optional<JointReading> joint(std::string_view name) const;
+  /// The description's and those that were added until `time()`, in that order, also those that are gone; one that came
+  /// again by the name of one that had gone stands in its place.
+  [[nodiscard]] std::vector<JointEnds> joints() const;
   [[nodiscard]] Path path(NodeId node) const;  ///< where the animation wants the node
   [[nodiscard]] const StageDescription& description() const;
 
