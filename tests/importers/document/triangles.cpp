@@ -2,6 +2,9 @@
 
 #include <tweenfall/physics/stage/stage.h>
 
+#include <algorithm>
+#include <cmath>
+
 using namespace tweenfall;
 
 TEST_CASE("meshes, height fields and hulls of imported meshes are what the document says") {
@@ -32,6 +35,42 @@ TEST_CASE("meshes, height fields and hulls of imported meshes are what the docum
   CHECK(test::near(width(solid("pebble")), 0.5, 1e-6));
   CHECK(std::get<Hull>(solid("pebble")).convex.vertices().size() == 8);
   CHECK(test::near(volume(solid("pebble")), volume(solid("stone/rock")) / 8, 1e-9));
+}
+
+TEST_CASE("boxes and capsules fitted to an imported mesh lie where it does, and move with their offsets") {
+  const StageDescription stage = Document::read(test::data_folder() / "documents/good/fitted.json").stage();
+  const auto shape = [&](const std::string& name) -> const Shape& {
+    for (const NodeDescription& node : stage.nodes)
+      if (node.name == name) return node.body->shape;
+    throw std::logic_error("no node " + name);
+  };
+  // The mesh is a board of 0.2 by 1.4 by 0.4 m, turned by (2 -1 2, 2 2 -1, -1 2 2) / 3 and moved to its middle.
+  const Vec3 middle(0.5, 0.25, -0.3), length = Vec3(-1, 2, 2) / 3;
+  const auto is_board = [&](const Shape& board, const Vec3& at, const Vec3& along) {
+    Vec3 sizes = 2 * std::get<Box>(board.solid).half_extents;
+    int longest = 0;
+    sizes.maxCoeff(&longest);
+    CHECK(std::abs((board.offset.rotation * Vec3::Unit(longest)).dot(along)) > 1 - 1e-6);
+    std::sort(sizes.data(), sizes.data() + 3);
+    CHECK(test::near(sizes, Vec3(0.2, 0.4, 1.4), 1e-5));
+    CHECK(test::near(board.offset.position, at, 1e-5));
+  };
+  is_board(shape("wood/plank"), middle, length);
+  // A quarter turn about y takes x to -z and z to x.
+  const Vec3 turned(middle.z(), middle.y() + 2, -middle.x());
+  is_board(shape("moved"), turned, Vec3(length.z(), length.y(), -length.x()));
+  const Shape& round = shape("round");
+  const auto& capsule = std::get<Capsule>(round.solid);
+  CHECK(test::near(round.offset.position, middle, 1e-5));
+  CHECK(std::abs((round.offset.rotation * Vec3::UnitY()).dot(length)) > 1 - 1e-6);
+  CHECK(capsule.radius > 0.19);
+  CHECK(capsule.radius < 0.23);
+  const auto parts = std::get<Compound>(shape("pair").solid).parts();
+  REQUIRE(parts.size() == 3);
+  is_board(parts[0], middle, length);
+  CHECK(test::near(parts[1].offset.position, middle + Vec3(0, 1, 0), 1e-5));
+  CHECK(parts[2].offset.position == Vec3(0, 3, 0));
+  CHECK(std::get<Capsule>(parts[2].solid).half_height == 0.1);
 }
 
 TEST_CASE("what falls on the terrain sample comes to rest on it") {

@@ -55,12 +55,17 @@ std::uint64_t bits_of(const json::Value& list, Building& building) {
 }
 
 const Table<Body>& body_table() {
-  constexpr auto offset = [](Body& body) -> Pose& { return body.shape.offset; };
   constexpr auto velocity = [](Body& body) -> Vec3& { return body.twist.linear; };
   constexpr auto spin = [](Body& body) -> Vec3& { return body.twist.angular; };
-  const Meaning<Body> shape = {[](const json::Value& value, Body& body, Building& building) {
-    body.shape.solid = shapes::read(value, building);
-  }};
+  const Meaning<Body> shape = {
+      [](const json::Value& value, Body& body, Building& building) { body.shape = shapes::read(value, building); }};
+  // What is fitted to a mesh lies where that is, and is moved from there.
+  const Meaning<Body> offset = {[](const json::Value& value, Body& body, Building& building) {
+                                  Pose place;
+                                  offset_table().read(value, place, building);
+                                  shapes::put(body.shape, place);
+                                },
+                                "{}"};
   constexpr auto surface = [](Body& body) -> Vec3& { return body.surface_velocity.linear; };
   constexpr auto surface_spin = [](Body& body) -> Vec3& { return body.surface_velocity.angular; };
   const Meaning<Body> groups = {[](const json::Value& value, Body& body, Building& building) {
@@ -77,7 +82,7 @@ const Table<Body>& body_table() {
   static const Table<Body> table(
       "a body",
       {{"shape", shapes::form, "", shape, true},
-       part<Body>("offset", offset_table(), "of the shape on its node", offset),
+       {"offset", form_of(offset_table()), "of the shape on its node", offset},
        {"mass", bounded("a mass in kg, above 0", 0, true), "kg", member<Body>(&Body::mass), false, while_static},
        {"density", bounded("a density in kg/m^3, above 0", 0, true), "kg/m^3", member<Body>(&Body::density), false,
         while_static},

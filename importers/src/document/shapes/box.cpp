@@ -1,4 +1,6 @@
-#include "document/shapes/shapes.h"
+#include <tweenfall/physics/fitted_shapes.h>
+
+#include "document/shapes/fitted.h"
 
 namespace tweenfall::document::shapes {
 
@@ -9,14 +11,25 @@ const Form* sizes_form(FormStore& store, const ValueForms&) {
   return store.add(list_of(size, "a list of 3 sizes in m, from face to face", 3, 3));
 }
 
+const fields::Table<FittedFields<Box>>& box_table() {
+  static const fields::Table<FittedFields<Box>> table(
+      "a box",
+      {{"size", sizes_form, "from face to face, m", of_solid<Box>([](const json::Value& value, Box& box, Building&) {
+          if (const std::optional<Vec3> size = vector_of(value)) box.half_extents = *size / 2;
+        })},
+       mesh_row<Box>()});
+  return table;
+}
+
+const Form* box_form(FormStore& store, const ValueForms& values) {
+  return store.add(box_table().choosing_form(store, values));
+}
+
 }  // namespace
 
-SolidRow box() {
-  const fields::Meaning<Box> sizes = {[](const json::Value& value, Box& box, Building&) {
-    if (const std::optional<Vec3> size = vector_of(value)) box.half_extents = *size / 2;
-  }};
-  static const fields::Table<Box> table("a box", {{"size", sizes_form, "from face to face, m", sizes, true}});
-  return shape_of("box", table);
+ShapeRow box() {
+  return fitted_or_sized<Box>("box", "of a size, or the smallest around a mesh, where that is", box_table(),
+                              fields::FormOf::Make(box_form), box_around);
 }
 
 }  // namespace tweenfall::document::shapes

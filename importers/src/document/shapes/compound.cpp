@@ -6,15 +6,21 @@ namespace tweenfall::document::shapes {
 
 namespace {
 
-const fields::Table<Shape>& part_table() {
-  const fields::Meaning<Shape> shape = {
-      [](const json::Value& value, Shape& part, Building& building) { part.solid = read_single(value, building); }};
-  constexpr auto position = [](Shape& part) -> Vec3& { return part.offset.position; };
-  constexpr auto rotation = [](Shape& part) -> Quat& { return part.offset.rotation; };
-  static const fields::Table<Shape> table("a part",
-                                          {{"shape", single_form, "", shape, true},
-                                           {"position", &ValueForms::vector, "m", fields::member<Shape>(position)},
-                                           {"rotation", &ValueForms::rotation, "", fields::member<Shape>(rotation)}});
+struct PartFields {
+  Shape shape;
+  Pose place;
+};
+
+const fields::Table<PartFields>& part_table() {
+  using Part = PartFields;
+  const fields::Meaning<Part> shape = {
+      [](const json::Value& value, Part& part, Building& building) { part.shape = read_single(value, building); }};
+  constexpr auto position = [](Part& part) -> Vec3& { return part.place.position; };
+  constexpr auto rotation = [](Part& part) -> Quat& { return part.place.rotation; };
+  static const fields::Table<Part> table("a part",
+                                         {{"shape", single_form, "", shape, true},
+                                          {"position", &ValueForms::vector, "m", fields::member<Part>(position)},
+                                          {"rotation", &ValueForms::rotation, "", fields::member<Part>(rotation)}});
   return table;
 }
 
@@ -28,13 +34,14 @@ const Form* parts_form(FormStore& store, const ValueForms& values) {
 
 }  // namespace
 
-SolidRow compound() {
+ShapeRow compound() {
   const fields::Meaning<CompoundFields> parts = {
       [](const json::Value& value, CompoundFields& compound, Building& building) {
         for (const json::Value& item : value.items()) {
-          Shape part;
+          PartFields part;
           part_table().read(item, part, building);
-          compound.parts.push_back(part);
+          put(part.shape, part.place);
+          compound.parts.push_back(part.shape);
         }
       }};
   static const fields::Table<CompoundFields> table(

@@ -2,7 +2,7 @@
 
 namespace tweenfall::document::shapes {
 
-SolidRow cone() {
+ShapeRow cone() {
   const fields::Meaning<Cone> height = {
       [](const json::Value& value, Cone& cone, Building&) { cone.half_height = value.number() / 2; }};
   static const fields::Table<Cone> table("a cone", {{"radius", bounded("a radius in m, above 0", 0, true),

@@ -2,7 +2,7 @@
 
 namespace tweenfall::document::shapes {
 
-SolidRow cylinder() {
+ShapeRow cylinder() {
   const fields::Meaning<Cylinder> height = {
       [](const json::Value& value, Cylinder& cylinder, Building&) { cylinder.half_height = value.number() / 2; }};
   static const fields::Table<Cylinder> table(

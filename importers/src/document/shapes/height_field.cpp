@@ -26,7 +26,7 @@ const Form* spacing_form(FormStore& store, const ValueForms&) {
 
 }  // namespace
 
-SolidRow height_field() {
+ShapeRow height_field() {
   using Fields = FieldOfHeights;
   const fields::Meaning<Fields> heights = {[](const json::Value& value, Fields& field, Building& building) {
     for (const json::Value& row : value.items()) {

@@ -40,14 +40,14 @@ const Form* hull_form(FormStore& store, const ValueForms& values) {
 
 }  // namespace
 
-SolidRow hull() {
-  const auto read = [](const json::Value& value, Solid& solid, Building& building) {
+ShapeRow hull() {
+  const auto read = [](const json::Value& value, Shape& shape, Building& building) {
     HullFields given;
     hull_table().read(value, given, building);
     if (given.points.empty()) return;
     std::optional<Solid> made =
         hull_or_problem(given.place, building.problems, [&] { return hull_around(given.points); });
-    if (made) solid = std::move(*made);
+    if (made) shape.solid = std::move(*made);
   };
   return {"hull", fields::FormOf::Make(hull_form), "the smallest convex solid around points or a mesh", {read}};
 }

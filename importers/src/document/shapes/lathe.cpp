@@ -24,7 +24,7 @@ const Form* turned_profile_form(FormStore& store, const ValueForms& values) {
 
 }  // namespace
 
-SolidRow lathe() {
+ShapeRow lathe() {
   const fields::Meaning<LatheFields> profile = {[](const json::Value& value, LatheFields& lathe, Building&) {
     lathe.place = value;
     lathe.profile = points_2(value);

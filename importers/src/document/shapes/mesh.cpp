@@ -52,14 +52,14 @@ const Form* mesh_form(FormStore& store, const ValueForms& values) {
 
 }  // namespace
 
-SolidRow mesh() {
-  const auto read = [](const json::Value& place, Solid& solid, Building& building) {
+ShapeRow mesh() {
+  const auto read = [](const json::Value& place, Shape& shape, Building& building) {
     MeshFields given;
     mesh_table().read(place, given, building);
     if (!given.named && (given.written.positions.empty() || given.written.triangles.empty())) return;
     std::optional<Solid> made = solid_or_problem(
         place, building.problems, [&]() -> Solid { return TriangleMesh(given.named ? *given.named : given.written); });
-    if (made) solid = std::move(*made);
+    if (made) shape.solid = std::move(*made);
   };
   return {"mesh",
           fields::FormOf::Make(mesh_form),

@@ -2,7 +2,7 @@
 
 namespace tweenfall::document::shapes {
 
-SolidRow plane() {
+ShapeRow plane() {
   fields::Meaning<Plane> normal = fields::member<Plane>(&Plane::normal);
   normal.read = [](const json::Value& value, Plane& plane, Building& building) {
     if (const std::optional<Vec3> unit = axis_of(value, building.problems)) plane.normal = *unit;

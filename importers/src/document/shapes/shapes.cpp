@@ -10,20 +10,20 @@
 
 namespace tweenfall::document::shapes {
 
-#define TWEENFALL_SHAPE_DECLARED(name) SolidRow name();
+#define TWEENFALL_SHAPE_DECLARED(name) ShapeRow name();
 TWEENFALL_SHAPES(TWEENFALL_SHAPE_DECLARED)
 #undef TWEENFALL_SHAPE_DECLARED
 
 namespace {
 
-const fields::Table<Solid>& shape_table() {
+const fields::Table<Shape>& shape_table() {
 #define TWEENFALL_SHAPE_LISTED(name) name(),
-  static const fields::Table<Solid> table("a shape", {TWEENFALL_SHAPES(TWEENFALL_SHAPE_LISTED)});
+  static const fields::Table<Shape> table("a shape", {TWEENFALL_SHAPES(TWEENFALL_SHAPE_LISTED)});
   return table;
 }
 
-const fields::Table<Solid>& single_shape_table() {
-  static const fields::Table<Solid> table("a shape", {TWEENFALL_SINGLE_SHAPES(TWEENFALL_SHAPE_LISTED)});
+const fields::Table<Shape>& single_shape_table() {
+  static const fields::Table<Shape> table("a shape", {TWEENFALL_SINGLE_SHAPES(TWEENFALL_SHAPE_LISTED)});
 #undef TWEENFALL_SHAPE_LISTED
   return table;
 }
@@ -36,10 +36,10 @@ const Form* single_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(form));
 }
 
-Solid read_single(const json::Value& shape, Building& building) {
-  Solid solid;
-  single_shape_table().read(shape, solid, building);
-  return solid;
+Shape read_single(const json::Value& shape, Building& building) {
+  Shape read;
+  single_shape_table().read(shape, read, building);
+  return read;
 }
 
 const Form* form(FormStore& store, const ValueForms& values) {
@@ -48,10 +48,15 @@ const Form* form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(form));
 }
 
-Solid read(const json::Value& shape, Building& building) {
-  Solid solid;
-  shape_table().read(shape, solid, building);
-  return solid;
+Shape read(const json::Value& shape, Building& building) {
+  Shape read;
+  shape_table().read(shape, read, building);
+  return read;
+}
+
+void put(Shape& shape, const Pose& place) {
+  shape.offset.position = place.position + place.rotation * shape.offset.position;
+  shape.offset.rotation = place.rotation * shape.offset.rotation;
 }
 
 }  // namespace tweenfall::document::shapes

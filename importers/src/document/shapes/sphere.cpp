@@ -2,7 +2,7 @@
 
 namespace tweenfall::document::shapes {
 
-SolidRow sphere() {
+ShapeRow sphere() {
   static const fields::Table<Sphere> table("a sphere", {{"radius", bounded("a radius in m, above 0", 0, true), "m",
                                                          fields::member<Sphere>(&Sphere::radius), true}});
   return shape_of("sphere", table);

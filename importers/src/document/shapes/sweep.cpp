@@ -22,7 +22,7 @@ const Form* rail_form(FormStore& store, const ValueForms& values) {
 
 }  // namespace
 
-SolidRow sweep() {
+ShapeRow sweep() {
   using Fields = SweepFields;
   const fields::Meaning<Fields> profile = {
       [](const json::Value& value, Fields& sweep, Building&) { sweep.profile = points_2(value); }};

@@ -2,7 +2,7 @@
 
 namespace tweenfall::document::shapes {
 
-SolidRow tapered_capsule() {
+ShapeRow tapered_capsule() {
   using Fields = TaperedCapsule;
   const fields::Meaning<Fields> height = {
       [](const json::Value& value, Fields& capsule, Building&) { capsule.half_height = value.number() / 2; }};

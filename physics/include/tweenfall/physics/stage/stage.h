@@ -46,8 +46,8 @@ struct StageEvent {
                      ///< rad} or {"missing_speed": m/s or rad/s}, {"splits": count}; else empty
   std::vector<NodeId> nodes;  ///< of a contact, an overlap or a veto: the two; of a sensor: it and the body; of a
                               ///< joint: its bodies
-  double impulse = 0;      ///< of a contact: N s
-  std::string joint = {};  ///< of a joint: its name
+  double impulse = 0;         ///< of a contact: N s
+  std::string joint = {};     ///< of a joint: its name
 };
 
 /// A joint that the stage has or had, and the nodes whose bodies it holds; `no_node`: the world.
