@@ -38,6 +38,7 @@ double overlap_of(const StandingBody& a, const StandingBody& b) {
 std::vector<StartOverlap> overlaps_in(const StageState& state) {
   constexpr std::size_t most_told = 100, most_tried = 200'000;
   std::vector<StandingBody> bodies;
+  bodies.reserve(state.bodies.size());
   for (const StagedBody& body : state.bodies) {
     const Shape& shape = state.world.shape(body.id);
     const Pose pose = state.world.motion(body.id).pose;
@@ -45,13 +46,16 @@ std::vector<StartOverlap> overlaps_in(const StageState& state) {
                       !state.world.is_fixed(body.id) && state.world.owner(body.id) != Owner::keyed});
   }
   // Swept along x; a plane begins before all others.
-  std::ranges::stable_sort(bodies, {}, [](const StandingBody& body) { return body.room.low.x(); });
+  std::vector<const StandingBody*> swept;
+  swept.reserve(bodies.size());
+  for (const StandingBody& body : bodies) swept.push_back(&body);
+  std::ranges::stable_sort(swept, {}, [](const StandingBody* body) { return body->room.low.x(); });
   std::vector<StartOverlap> found;
   std::size_t tried = 0;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t k = i + 1; k < bodies.size() && bodies[k].room.low.x() <= bodies[i].room.high.x(); ++k) {
-      const StandingBody& first = bodies[bodies[i].moves ? i : k];
-      const StandingBody& second = bodies[bodies[i].moves ? k : i];
+  for (std::size_t i = 0; i < swept.size(); ++i)
+    for (std::size_t k = i + 1; k < swept.size() && swept[k]->room.low.x() <= swept[i]->room.high.x(); ++k) {
+      const StandingBody& first = *swept[swept[i]->moves ? i : k];
+      const StandingBody& second = *swept[swept[i]->moves ? k : i];
       if (++tried > most_tried || found.size() == most_told) return found;
       if (!first.moves || (first.room.low.array() > second.room.high.array()).any() ||
           (second.room.low.array() > first.room.high.array()).any() || !state.world.collides(first.id, second.id))
