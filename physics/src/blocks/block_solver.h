@@ -7,12 +7,12 @@
 #include "blocks/contact_blocks.h"
 #include "blocks/island_body.h"
 #include "blocks/island_holds.h"
-#include "blocks/rebound_reach.h"
 #include "forces/free_flight.h"
 #include "islands/island_contents.h"
 #include "islands/island_depth.h"
 #include "islands/island_energy.h"
 #include "joints/island_joints.h"
+#include "rebounds/rebound_reach.h"
 
 namespace tweenfall::blocks {
 

@@ -1,4 +1,4 @@
-#include "crowd/smooth_base.h"
+#include "compiling/smooth_base.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "crowd/encode.h"
+#include "compiling/encode.h"
 
 namespace tweenfall::crowd {
 

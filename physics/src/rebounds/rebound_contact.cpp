@@ -1,4 +1,4 @@
-#include "blocks/rebound_contact.h"
+#include "rebounds/rebound_contact.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "crowd/encode.h"
-#include "crowd/exact_pose.h"
+#include "compiling/encode.h"
+#include "compiling/exact_pose.h"
 
 namespace tweenfall::crowd {
 

@@ -1,6 +1,6 @@
 // All solvers and springs of chains: sizes from micrometers to thousands of kilometers, and no memory asked for.
 
-#include "anim/chain_support.h"
+#include "anim/chains/chain_support.h"
 #include "curves/counted_allocations.h"
 
 #include <tweenfall/anim/foot_placement.h>

@@ -1,4 +1,4 @@
-#include "blocks/rebound_ball.h"
+#include "rebounds/rebound_ball.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "compiling/exact_pose.h"
 #include "crowd/compiled_clip.h"
-#include "crowd/exact_pose.h"
 
 namespace tweenfall::crowd {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "blocks/contact_blocks.h"
-#include "blocks/rebound_ball.h"
-#include "blocks/rebound_contact.h"
+#include "rebounds/rebound_ball.h"
+#include "rebounds/rebound_contact.h"
 
 namespace tweenfall::blocks {
 

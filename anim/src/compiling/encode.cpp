@@ -1,11 +1,11 @@
-#include "crowd/encode.h"
+#include "compiling/encode.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
-#include "crowd/smooth_base.h"
+#include "compiling/smooth_base.h"
 
 namespace tweenfall::crowd {
 

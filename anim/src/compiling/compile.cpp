@@ -9,12 +9,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "crowd/choice.h"
+#include "compiling/choice.h"
+#include "compiling/encode.h"
+#include "compiling/exact_pose.h"
+#include "compiling/fit.h"
+#include "compiling/reach.h"
 #include "crowd/compiled_clip.h"
-#include "crowd/encode.h"
-#include "crowd/exact_pose.h"
-#include "crowd/fit.h"
-#include "crowd/reach.h"
 
 namespace tweenfall {
 

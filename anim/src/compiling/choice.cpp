@@ -1,4 +1,4 @@
-#include "crowd/choice.h"
+#include "compiling/choice.h"
 
 #include <algorithm>
 #include <limits>

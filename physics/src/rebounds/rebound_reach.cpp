@@ -1,4 +1,4 @@
-#include "blocks/rebound_reach.h"
+#include "rebounds/rebound_reach.h"
 
 namespace tweenfall::blocks {
 

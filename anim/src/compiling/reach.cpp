@@ -1,4 +1,4 @@
-#include "crowd/reach.h"
+#include "compiling/reach.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <optional>
 
-#include "crowd/fit.h"
+#include "compiling/fit.h"
 
 namespace tweenfall::crowd {
 

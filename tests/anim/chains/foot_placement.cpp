@@ -1,4 +1,4 @@
-#include "anim/chain_support.h"
+#include "anim/chains/chain_support.h"
 
 #include <tweenfall/anim/foot_placement.h>
 

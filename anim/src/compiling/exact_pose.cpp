@@ -1,4 +1,4 @@
-#include "crowd/exact_pose.h"
+#include "compiling/exact_pose.h"
 
 #include <stdexcept>
 

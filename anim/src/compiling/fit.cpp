@@ -1,4 +1,4 @@
-#include "crowd/fit.h"
+#include "compiling/fit.h"
 
 #include <algorithm>
 #include <cmath>
