@@ -134,7 +134,7 @@ TEST_CASE("patterns match as people expect") {
 }
 
 TEST_CASE("before a play starts its first frame holds, with the weight it has then") {
-  const auto fade = keyed_curve<double>({{.time = 1, .value = 0.0, .ease = Ease::linear()}, {.time = 2, .value = 1.0}});
+  const auto fade = keyed_curve<double>({{.time = 0, .value = 0.0, .ease = Ease::linear()}, {.time = 1, .value = 1.0}});
   Clip clip;
   clip.name = "up";
   clip.duration = 1;
@@ -205,10 +205,10 @@ TEST_CASE("a clip alone is followed whole, by the play that it has or from where
       CHECK(same(none.sample_node(node, time, Side::out, alone), fresh.sample_node(node, time)));
     }
   std::vector<double> starts;
-  none.for_each_play(alone, 2, [&](const Play& play) { starts.push_back(play.at); });
+  none.for_each_play(alone, 2, [&](const RunningPlay& play) { starts.push_back(play.at()); });
   CHECK(starts == std::vector<double>{2});
   starts.clear();
-  none.for_each_play(alone, 3, [&](const Play& play) { starts.push_back(play.at); });
+  none.for_each_play(alone, 3, [&](const RunningPlay& play) { starts.push_back(play.at()); });
   CHECK(starts.empty());
 }
 

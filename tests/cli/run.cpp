@@ -155,3 +155,21 @@ TEST_CASE("a recording is the same to the byte with any number of threads, asked
   folder.write("pile.json", pile.dump());
   CHECK(folder.run("run pile.json --until 1 --json").out == one);
 }
+
+TEST_CASE("inputs are given at their times, and their faults are told with their places") {
+  const Folder folder;
+  folder.write("thrown.json", thrown_document);
+  folder.write("inputs.json", R"({"tweenfall": 1, "inputs": [
+  {"at": 0.25, "speed": {"play": "throw", "speed": 2}}]})");
+  const Ran ran = folder.run("run thrown.json --inputs inputs.json --until 0.4 --fps 10 --json");
+  REQUIRE_MESSAGE(ran.code == 0, ran.err);
+  const json found = json::parse(ran.out);
+  CHECK(near(vec(found["nodes"]["ball"]["position"][4]), Vec3(3 * (0.25 + 2 * 0.15), 2, 0), 1e-12));
+  folder.write("wrong.json", R"({"tweenfall": 1, "inputs": [
+  {"at": 0.25, "speed": {"play": "thorw", "speed": 2}}]})");
+  const Ran wrong = folder.run("run thrown.json --inputs wrong.json");
+  CHECK(wrong.code == 1);
+  CHECK(wrong.err.find("wrong.json:2:34: error: there is no play \"thorw\"; did you mean \"throw\"?") !=
+        std::string::npos);
+  CHECK(folder.run("run thrown.json --inputs none.json").code == 1);
+}

@@ -1,6 +1,7 @@
 #include "support.h"
 
 #include <tweenfall/importers/document.h>
+#include <tweenfall/importers/inputs.h>
 #include <tweenfall/physics/stage/recording.h>
 
 #include <string>
@@ -131,4 +132,18 @@ TEST_CASE("the stroller stands, walks and waves as its inputs say, and stands ag
   CHECK(place_at(2.2, "figure/RightHand").y() > hand.y() + 0.3);
   CHECK(near(place_at(5.9, "figure/LeftFoot"), foot, 1e-9));
   CHECK(near(place_at(5.9, "figure/RightHand"), hand, 1e-6));
+}
+
+TEST_CASE("the crane hoists at the speed that its inputs ask for, and lets go where it reaches out") {
+  Stage stage = staged("crane"), asked = staged("crane");
+  const auto inputs =
+      read_inputs(std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/inputs/crane.json", asked.description());
+  REQUIRE(inputs.size() == 3);
+  stage.advance_to(1.4);
+  static_cast<void>(advance_with(asked, inputs, 1.4));
+  CHECK(place(stage, "crate").y() > place(asked, "crate").y() + 0.04);
+  // Its reach takes half a second longer than its two seconds, for its speed comes up within the first.
+  stage.advance_to(6);
+  REQUIRE(stage.handoffs().size() == 1);
+  CHECK(near(stage.handoffs()[0].time, 1.5 + 2.5, 1e-9));
 }

@@ -106,6 +106,7 @@ void add_run(CompiledClip& clip, const std::vector<FittedChannel>& fits, const F
 
 /// What a track that is relative gains, it gains within the rest pose.
 void add_climbs(CompiledClip& clip, const ExactPose& exact) {
+  if (exact.clip().loop.mode != LoopMode::repeat_offset) return;
   for (const pose::BoundClip::Entry& entry : exact.bound().entries()) {
     Vec3 gain = entry.gain, turn = entry.turn;
     if (gain == Vec3(0, 0, 0) && turn == Vec3(0, 0, 0)) continue;

@@ -1,4 +1,5 @@
 #include <tweenfall/anim/animation.h>
+#include <tweenfall/curves/nearest_name.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -57,24 +58,16 @@ bool passes(const std::vector<std::string>& mask, std::string_view node) {
   return mask.empty() || std::ranges::any_of(mask, [&](const std::string& pattern) { return matches(pattern, node); });
 }
 
-// A play as it runs by a clock that may not be the stage's.
+// A play as it runs, and what it drives.
 struct Running {
+  const RunningPlay& play;
   const BoundClip* clip;
   const std::vector<char>* masked = nullptr;  // null: the whole clip
   const std::vector<Parts>* below = nullptr;  // null: all of it or nothing, as the next says
   bool covered = false;
-  double at = 0, speed = 1;
-  const Curve<double>* weight = nullptr;  // null: 1
-  double weight_time = 0;
 
   [[nodiscard]] bool drives(std::uint32_t entry) const noexcept {
     return entry != BoundClip::no_entry && (!masked || masked->empty() || !(*masked)[entry]);
-  }
-  [[nodiscard]] ClipClock clock(double stage_time, Side side) const noexcept {
-    return clock_at(at, speed, clip->clip(), stage_time, side);
-  }
-  [[nodiscard]] Sample<double> weight_at(Side side) const noexcept {
-    return weight ? weight->sample(weight_time, side) : Sample<double>{1, 0, 0};
   }
   /// Before a play starts it has no say, save where nothing below it drives the part: there its first frame holds.
   [[nodiscard]] Parts parts(std::uint32_t entry, bool started) const noexcept {
@@ -85,12 +78,12 @@ struct Running {
   }
 };
 
-void lay_over(const Running& play, std::uint32_t entry, const Hierarchy& nodes, const ClipClock& clock,
+void lay_over(const Running& running, std::uint32_t entry, const Hierarchy& nodes, const ClipClock& clock,
               const Sample<double>& weight, Motion& motion) noexcept {
-  const Parts parts = play.parts(entry, clock.started);
+  const Parts parts = running.parts(entry, clock.started);
   if (parts == 0 || is_nothing(weight)) return;
   Motion over = motion;
-  play.clip->sample_entry(entry, nodes, clock, over);
+  running.clip->sample_entry(entry, nodes, clock, over);
   take(parts, is_whole(weight) ? over : mix(motion, over, weight.value, weight.rate), motion);
 }
 
@@ -168,49 +161,88 @@ void fade_weights(const WeightCurves& curves, const ClipClock& clock, const Samp
     fade(look[i], per_stage_second(curves[i].sample(clock.time, clock.side), clock.rate), weight);
 }
 
-// Calls `visit` with each play that runs, in order.
-template <class Clips, class Plays, class Visit>
-void for_each_running(std::span<const Play> plays, const Clips& clips, const Plays& bound, double stage_time,
-                      const ClockOverride& clock, const Visit& visit) {
-  if (clock.clip == ClockOverride::every_clip) {
-    const double weight_time = clock.timeline_at(stage_time);
-    for (std::size_t p = 0; p < plays.size(); ++p)
-      visit(Running{.clip = &clips[plays[p].clip],
-                    .masked = &bound[p].masked,
-                    .below = &bound[p].below,
-                    .at = clock.stage_at(plays[p].at),
-                    .speed = plays[p].speed,
-                    .weight = &plays[p].weight,
-                    .weight_time = weight_time});
-    return;
-  }
-  Running running{.clip = &clips[clock.clip]};
-  for (const Play& play : plays) {
-    if (play.clip != clock.clip) continue;
-    running.at = clock.stage_at(std::min(play.at, clock.starts_by));
-    running.speed = play.speed;
-    visit(running);
-    running.covered = true;
-  }
-  if (running.covered) return;
-  running.at = clock.stage_at(clock.starts_by);
-  visit(running);
+std::string name_of(const Player& player, std::span<const Clip> clips) {
+  return player.play().name.empty() ? clips[player.play().clip].name : player.play().name;
 }
 
 }  // namespace
 }  // namespace pose
 
 Animation::Animation(std::shared_ptr<const Hierarchy> nodes, std::vector<Clip> clips, std::vector<Play> plays)
-    : nodes_(std::move(nodes)),
-      clips_(std::make_shared<const std::vector<Clip>>(std::move(clips))),
-      plays_(std::make_shared<const std::vector<Play>>(std::move(plays))) {
+    : nodes_(std::move(nodes)), clips_(std::make_shared<const std::vector<Clip>>(std::move(clips))) {
   std::string problems;
-  for (std::size_t p = 0; p < plays_->size(); ++p)
-    if ((*plays_)[p].clip >= clips_->size())
-      problems += "\n  play " + std::to_string(p) + " names clip number " + std::to_string((*plays_)[p].clip) + " of " +
+  std::vector<Player> players, alone;
+  players.reserve(plays.size());
+  alone.reserve(clips_->size());
+  for (std::size_t p = 0; p < plays.size(); ++p) {
+    if (plays[p].clip >= clips_->size()) {
+      problems += "\n  play " + std::to_string(p) + " names clip number " + std::to_string(plays[p].clip) + " of " +
                   std::to_string(clips_->size());
+      continue;
+    }
+    const Clip& clip = (*clips_)[plays[p].clip];
+    const std::vector<std::string> wrong = problems_of(plays[p], clip);
+    for (const std::string& problem : wrong)
+      problems += "\n  play " + std::to_string(p) + " of clip \"" + clip.name + "\": " + problem;
+    if (wrong.empty()) players.emplace_back(plays[p], clip);
+  }
+  for (std::size_t c = 0; c < clips_->size(); ++c) alone.emplace_back(Play{.clip = c}, (*clips_)[c]);
+  players_ = std::make_shared<const std::vector<Player>>(std::move(players));
+  alone_ = std::make_shared<const std::vector<Player>>(std::move(alone));
   bind_clips(std::move(problems));
   bind_plays();
+}
+
+std::size_t Animation::player_named(std::string_view name) const {
+  std::optional<std::size_t> found;
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < players_->size(); ++p) {
+    names.push_back(pose::name_of((*players_)[p], *clips_));
+    if (names.back() != name) continue;
+    if (found) throw std::invalid_argument("several plays are called \"" + std::string(name) + "\"; give them names");
+    found = p;
+  }
+  if (found) return *found;
+  const std::string nearest = nearest_name(name, names);
+  throw std::invalid_argument("there is no play \"" + std::string(name) + "\"" +
+                              (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+}
+
+Animation Animation::with_change(const PlayChange& change) const {
+  Animation other = *this;
+  std::vector<Player> players = *players_;
+  const auto* start = std::get_if<playing::Start>(&change.action);
+  const auto has_name = [&](const Player& player) { return pose::name_of(player, *clips_) == change.play; };
+  const auto clip_named = [&](const std::string& name) {
+    std::vector<std::string> names;
+    for (std::size_t c = 0; c < clips_->size(); ++c) {
+      if ((*clips_)[c].name == name) return c;
+      names.push_back((*clips_)[c].name);
+    }
+    const std::string nearest = nearest_name(name, names);
+    throw std::invalid_argument("there is no clip \"" + name + "\"" +
+                                (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+  };
+  if (start && std::ranges::none_of(players, has_name)) {
+    // By the name of a clip that nothing plays yet, that.
+    const std::size_t clip = clip_named(start->clip.empty() ? change.play : start->clip);
+    Play play = play_of(*start, clip);
+    play.name = change.play;
+    play.at = change.time;
+    players.emplace_back(play, (*clips_)[clip]);
+  } else {
+    Player& player = players[player_named(change.play)];
+    const std::string& own = (*clips_)[player.play().clip].name;
+    if (start && !start->clip.empty() && clip_named(start->clip) != player.play().clip)
+      throw std::invalid_argument("the play \"" + change.play + "\" is of clip \"" + own +
+                                  "\"; start another by a name of its own");
+    player = player.changed((*clips_)[player.play().clip], change.time, change.action);
+  }
+  other.players_ = std::make_shared<const std::vector<Player>>(std::move(players));
+  // Graphs lie over what the plays have made of the nodes.
+  other.graphs_ = nullptr;
+  if (start) other.bind_plays();
+  return graphs_ ? other.with_graphs({graphs().begin(), graphs().end()}) : other;
 }
 
 Animation Animation::with_nodes(std::shared_ptr<const Hierarchy> nodes) const {
@@ -270,7 +302,8 @@ void Animation::bind_plays() {
   auto bound = std::make_shared<BoundPlays>();
   bound->animated.assign(nodes_->size(), 0);
   std::vector<Parts> below(nodes_->size(), 0);
-  for (const Play& play : *plays_) {
+  for (const Player& player : *players_) {
+    const Play& play = player.play();
     BoundPlays::OfPlay& of_play = bound->plays.emplace_back();
     for (const BoundClip::Entry& entry : bound_clips_->clips[play.clip].entries()) {
       const bool driven = pose::passes(play.mask, (*nodes_)[entry.node].name);
@@ -289,6 +322,47 @@ void Animation::bind_plays() {
   bound_plays_ = std::move(bound);
 }
 
+std::optional<RunningPlay> Animation::running(const ClockOverride& clock, std::size_t place) const noexcept {
+  if (clock.clip == ClockOverride::every_clip) {
+    const Player& player = (*players_)[place];
+    return RunningPlay{&player, &(*clips_)[player.play().clip], clock};
+  }
+  RunningPlay running{nullptr, &(*clips_)[clock.clip], clock, 0, true};
+  const auto follows = [&](const Player& player) {
+    return player.play().clip == clock.clip && !player.is_gone(clock.starts_by);
+  };
+  if (place < players_->size()) {
+    running.player = &(*players_)[place];
+    if (!follows(*running.player)) return std::nullopt;
+    running.lead = std::max(0.0, running.player->at() - clock.starts_by);
+    return running;
+  }
+  if (std::ranges::any_of(*players_, follows)) return std::nullopt;
+  running.player = &(*alone_)[clock.clip];
+  running.lead = -clock.starts_by;
+  return running;
+}
+
+// Calls `visit` with each play that has a say, in order.
+template <class Visit>
+void Animation::for_each_running(double stage_time, Side side, const ClockOverride& clock, const Visit& visit) const {
+  const bool alone = clock.clip != ClockOverride::every_clip;
+  bool covered = false;
+  const std::size_t count = running_count(clock);
+  for (std::size_t p = 0; p < count; ++p) {
+    const std::optional<RunningPlay> play = running(clock, p);
+    if (!play || (!alone && play->is_gone(stage_time, side))) continue;
+    pose::Running running{*play, &bound_clips_->clips[play->play().clip]};
+    if (!alone) {
+      running.masked = &bound_plays_->plays[p].masked;
+      running.below = &bound_plays_->plays[p].below;
+    }
+    running.covered = covered;
+    visit(running);
+    covered = true;
+  }
+}
+
 void Animation::sample(double stage_time, std::span<Motion> local, Side side,
                        const ClockOverride& own_clock) const noexcept {
   const bool by_graphs = graphs_ && own_clock.clip == ClockOverride::every_clip;
@@ -298,20 +372,18 @@ void Animation::sample(double stage_time, std::span<Motion> local, Side side,
     graphs_->sample(own_clock.timeline_at(stage_time), side, local.first(graphs_->nodes()));
     return;
   }
-  pose::for_each_running(*plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock,
-                         [&](const pose::Running& play) {
-                           const ClipClock clock = play.clock(stage_time, side);
-                           const Sample<double> weight = play.weight_at(side);
-                           const bool unmasked = !play.masked || play.masked->empty();
-                           if (unmasked && clock.started && pose::is_whole(weight)) {
-                             play.clip->sample(*nodes_, clock, local);
-                             return;
-                           }
-                           const auto& entries = play.clip->entries();
-                           for (std::uint32_t entry = 0; entry < entries.size(); ++entry)
-                             if (play.drives(entry))
-                               pose::lay_over(play, entry, *nodes_, clock, weight, local[entries[entry].node]);
-                         });
+  for_each_running(stage_time, side, own_clock, [&](const pose::Running& running) {
+    const ClipClock clock = running.play.clock(stage_time, side);
+    const Sample<double> weight = running.play.weight(stage_time, side);
+    const bool unmasked = !running.masked || running.masked->empty();
+    if (unmasked && clock.started && pose::is_whole(weight)) {
+      running.clip->sample(*nodes_, clock, local);
+      return;
+    }
+    const auto& entries = running.clip->entries();
+    for (std::uint32_t entry = 0; entry < entries.size(); ++entry)
+      if (running.drives(entry)) pose::lay_over(running, entry, *nodes_, clock, weight, local[entries[entry].node]);
+  });
 }
 
 Motion Animation::sample_node(std::size_t node, double stage_time, Side side,
@@ -319,12 +391,12 @@ Motion Animation::sample_node(std::size_t node, double stage_time, Side side,
   if (graphs_ && own_clock.clip == ClockOverride::every_clip && node < graphs_->nodes())
     return graphs_->sample_node(node, own_clock.timeline_at(stage_time), side);
   Motion motion = pose::at_rest_on((*nodes_)[node]);
-  pose::for_each_running(
-      *plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock, [&](const pose::Running& play) {
-        const std::uint32_t entry = play.clip->entry_of(node);
-        if (play.drives(entry) && play.clip->entries()[entry].parts)
-          pose::lay_over(play, entry, *nodes_, play.clock(stage_time, side), play.weight_at(side), motion);
-      });
+  for_each_running(stage_time, side, own_clock, [&](const pose::Running& running) {
+    const std::uint32_t entry = running.clip->entry_of(node);
+    if (running.drives(entry) && running.clip->entries()[entry].parts)
+      pose::lay_over(running, entry, *nodes_, running.play.clock(stage_time, side),
+                     running.play.weight(stage_time, side), motion);
+  });
   return motion;
 }
 
@@ -335,19 +407,18 @@ WorldMotion Animation::world(std::size_t node, double stage_time, Side side,
 
 NodeLook Animation::look(std::size_t node, double stage_time, Side side, const ClockOverride& own_clock) const {
   NodeLook look;
-  pose::for_each_running(*plays_, bound_clips_->clips, bound_plays_->plays, stage_time, own_clock,
-                         [&](const pose::Running& play) {
-                           const std::uint32_t index = play.clip->entry_of(node);
-                           if (!play.drives(index)) return;
-                           const BoundClip::Entry& entry = play.clip->entries()[index];
-                           if (!entry.has_color() && !entry.weights) return;
-                           const ClipClock clock = play.clock(stage_time, side);
-                           const Sample<double> weight = play.weight_at(side);
-                           if (entry.has_color() && (clock.started || !look.color))
-                             pose::fade_color(entry, clock, weight, (*nodes_)[node], look.color);
-                           if (entry.weights && (clock.started || look.weights.empty()))
-                             pose::fade_weights(*entry.weights, clock, weight, (*nodes_)[node], look.weights);
-                         });
+  for_each_running(stage_time, side, own_clock, [&](const pose::Running& running) {
+    const std::uint32_t index = running.clip->entry_of(node);
+    if (!running.drives(index)) return;
+    const BoundClip::Entry& entry = running.clip->entries()[index];
+    if (!entry.has_color() && !entry.weights) return;
+    const ClipClock clock = running.play.clock(stage_time, side);
+    const Sample<double> weight = running.play.weight(stage_time, side);
+    if (entry.has_color() && (clock.started || !look.color))
+      pose::fade_color(entry, clock, weight, (*nodes_)[node], look.color);
+    if (entry.weights && (clock.started || look.weights.empty()))
+      pose::fade_weights(*entry.weights, clock, weight, (*nodes_)[node], look.weights);
+  });
   return look;
 }
 
@@ -360,24 +431,14 @@ bool Animation::animates(std::size_t node) const noexcept {
   return animated[node] != 0;
 }
 
-Play Animation::play_under(const ClockOverride& clock, std::size_t index) const {
-  Play play = (*plays_)[index];
-  if (clock.clip != ClockOverride::every_clip) {
-    play.at = std::min(play.at, clock.starts_by);
-    play.weight = Curve<double>(1.0);
-    play.mask.clear();
-  }
-  play.at = clock.stage_at(play.at);
-  return play;
-}
-
-bool Animation::moved_by(std::size_t node, std::size_t play, bool unmasked) const noexcept {
-  const BoundClip& clip = bound_clips_->clips[(*plays_)[play].clip];
-  const std::vector<char>& masked = bound_plays_->plays[play].masked;
+bool Animation::moved_by(std::size_t node, std::size_t place, std::size_t of_clip, bool unmasked) const noexcept {
+  static const std::vector<char> all;
+  const BoundClip& clip = bound_clips_->clips[of_clip];
+  const std::vector<char>& masked = unmasked ? all : bound_plays_->plays[place].masked;
   for (std::size_t i = node; i != no_node; i = (*nodes_)[i].parent) {
     const std::uint32_t entry = clip.entry_of(i);
     if (entry == BoundClip::no_entry || !clip.entries()[entry].parts) continue;
-    if (unmasked || masked.empty() || !masked[entry]) return true;
+    if (masked.empty() || !masked[entry]) return true;
   }
   return false;
 }
@@ -385,14 +446,6 @@ bool Animation::moved_by(std::size_t node, std::size_t play, bool unmasked) cons
 bool Animation::has_tracks(std::size_t node) const noexcept {
   return std::ranges::any_of(bound_clips_->clips,
                              [&](const BoundClip& clip) { return clip.entry_of(node) != BoundClip::no_entry; });
-}
-
-bool Animation::clip_moves(std::size_t clip, std::size_t node) const noexcept {
-  const BoundClip& bound = bound_clips_->clips[clip];
-  for (std::size_t i = node; i != no_node; i = (*nodes_)[i].parent)
-    if (const std::uint32_t entry = bound.entry_of(i); entry != BoundClip::no_entry && bound.entries()[entry].parts)
-      return true;
-  return false;
 }
 
 bool matches(std::string_view pattern, std::string_view name) noexcept {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <deque>
 #include <optional>
+#include <tuple>
 
 namespace tweenfall::pose {
 namespace {
@@ -60,12 +61,12 @@ class BoundClip::Binding {
   }
 
   /// The angles become one rotation; what a loop gains is reckoned.
-  void complete(const Clip& clip, const Pose& rest, bool climbs) {
+  void complete(const Clip& clip, const Pose& rest) {
     if (angles_[0] || angles_[1] || angles_[2]) {
       turned_ = turned_by(angles_, rest.rotation);
       curves.rotation = &*turned_;
     }
-    if (!climbs || !std::isfinite(clip.duration)) return;
+    if (!std::isfinite(clip.duration)) return;
     if (const Curve<Vec3>* curve = curves.position)
       entry.gain = curve->value(clip.duration, Side::in) - curve->value(0.0);
     if (const Curve<Quat>* curve = curves.rotation)
@@ -129,10 +130,8 @@ BoundClip::BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& prob
   in_order.reserve(driven.size());
   for (Binding& node : driven) in_order.push_back(&node);
   std::ranges::sort(in_order, {}, [](const Binding* node) { return node->entry.node; });
-  const bool climbs = clip.loop.mode == LoopMode::repeat_offset;
-  finished_ = !climbs;
   for (Binding* node : in_order) {
-    node->complete(clip, nodes[node->entry.node].rest, climbs);
+    node->complete(clip, nodes[node->entry.node].rest);
     Entry& entry = node->entry;
     if (entry.relative || !node->numbers.empty()) finished_ = false;
     entry.first_number = static_cast<std::uint32_t>(numbers_.size());
@@ -146,14 +145,17 @@ BoundClip::BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& prob
 
 void BoundClip::sample(const Hierarchy& nodes, const ClipClock& clock, std::span<Motion> local) const noexcept {
   curves_.sample(clock.time, clock.side, clock.rate, local);
-  if (finished_) return;
-  for (const Entry& entry : entries_) finish(entry, nodes[entry.node].rest, clock, local[entry.node]);
+  if (finished_ && !clock.climbs) return;
+  for (std::uint32_t i = 0; i < entries_.size(); ++i) {
+    const std::size_t node = entries_[i].node;
+    finish(i, nodes[node].rest, clock, local[node]);
+  }
 }
 
 void BoundClip::sample_entry(std::uint32_t index, const Hierarchy& nodes, const ClipClock& clock,
                              Motion& motion) const noexcept {
   curves_.sample_one(index, clock.time, clock.side, clock.rate, motion);
-  if (!finished_) finish(entries_[index], nodes[entries_[index].node].rest, clock, motion);
+  if (!finished_ || clock.climbs) finish(index, nodes[entries_[index].node].rest, clock, motion);
 }
 
 void BoundClip::set_numbers(const Entry& entry, const Pose& rest, const ClipClock& clock,
@@ -174,18 +176,36 @@ void BoundClip::set_numbers(const Entry& entry, const Pose& rest, const ClipCloc
   }
 }
 
+// In a loop with offset each round goes on from where the one before ended.
+void BoundClip::climb(std::uint32_t index, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept {
+  const Entry& entry = entries_[index];
+  Vec3 gain = entry.gain, turn = entry.turn;
+  if (clock.from != 0 || clock.to != clip_->duration) {
+    Motion first, last;
+    for (const auto& [end, time, side] : {std::tuple(&first, clock.from, Side::out), {&last, clock.to, Side::in}}) {
+      curves_.sample_one(index, time, side, 0, *end);
+      ClipClock there;
+      there.time = time;
+      there.side = side;
+      if (entry.numbers) set_numbers(entry, rest, there, *end);
+    }
+    gain = last.pose.position - first.pose.position;
+    turn = log_map(last.pose.rotation * first.pose.rotation.conjugate());
+  }
+  if (entry.parts & position_part) motion.pose.position += clock.cycle * gain;
+  if (entry.parts & rotation_part) {
+    const Quat turned = exp_map(clock.cycle * turn);
+    motion.pose.rotation = turned * motion.pose.rotation;
+    motion.twist.angular = turned * motion.twist.angular;
+  }
+}
+
 // From what the curves say to the motion: a loop with offset goes on from where it was, and relative tracks compose
 // with the rest pose.
-void BoundClip::finish(const Entry& entry, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept {
+void BoundClip::finish(std::uint32_t index, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept {
+  const Entry& entry = entries_[index];
   if (entry.numbers) set_numbers(entry, rest, clock, motion);
-  if (clip_->loop.mode == LoopMode::repeat_offset && clock.cycle != 0) {
-    if (entry.parts & position_part) motion.pose.position += clock.cycle * entry.gain;
-    if (entry.parts & rotation_part) {
-      const Quat turned = exp_map(clock.cycle * entry.turn);
-      motion.pose.rotation = turned * motion.pose.rotation;
-      motion.twist.angular = turned * motion.twist.angular;
-    }
-  }
+  if (clock.climbs && clock.cycle != 0) climb(index, rest, clock, motion);
   if (entry.relative & position_part) {
     motion.pose.position = rest.position + rest.rotation * Vec3(rest.scale.cwiseProduct(motion.pose.position));
     motion.twist.linear = rest.rotation * Vec3(rest.scale.cwiseProduct(motion.twist.linear));

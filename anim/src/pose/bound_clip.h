@@ -65,14 +65,15 @@ class BoundClip {
   class Binding;
 
   void set_numbers(const Entry& entry, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept;
-  void finish(const Entry& entry, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept;
+  void finish(std::uint32_t entry, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept;
+  void climb(std::uint32_t entry, const Pose& rest, const ClipClock& clock, Motion& motion) const noexcept;
 
   const Clip* clip_;
   std::vector<Entry> entries_;           // in order of the nodes
   std::vector<std::uint32_t> entry_of_;  // by node
   MotionCurves curves_;                  // one thing for each entry
   std::vector<Number> numbers_;          // by entry
-  bool finished_ = true;                 // no entry is relative or has numbers, and no loop climbs
+  bool finished_ = true;                 // no entry is relative or has numbers
 };
 
 }  // namespace tweenfall::pose

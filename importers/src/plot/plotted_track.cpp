@@ -1,6 +1,7 @@
 #include "plot/plotted_track.h"
 
 #include <tweenfall/anim/component.h>
+#include <tweenfall/anim/player.h>
 #include <tweenfall/importers/recording_file.h>
 #include <tweenfall/importers/track_sample.h>
 
@@ -78,14 +79,20 @@ bool jumps(const TrackPoint& in, const TrackPoint& out) {
 /// Stage times at which a looping play starts over: there even a formula jumps.
 std::vector<double> seams(const Shown& shown, double from, double until) {
   std::vector<double> times;
-  if (!shown.play || shown.clip->loop.mode == LoopMode::once || !(shown.clip->duration > 0) || shown.play->speed == 0)
-    return times;
-  const double length = shown.clip->duration / std::abs(shown.play->speed);
-  for (double cycle = 1; times.size() < 1000; ++cycle) {
-    const double time = shown.play->at + cycle * length;
-    if (!(time < until)) break;
-    if (time > from) times.push_back(time);
-  }
+  if (!shown.play) return times;
+  const Loop loop = shown.play->loop.value_or(shown.clip->loop);
+  const double start = shown.play->from, end = shown.play->to.value_or(shown.clip->duration);
+  if (loop.mode == LoopMode::once || !(end > start)) return times;
+  Clip seam;
+  seam.duration = shown.clip->duration;
+  seam.loop = shown.clip->loop;
+  for (const double time : {start, end}) seam.events.push_back({.from = time, .to = time, .name = {}, .data = {}});
+  Player(*shown.play, *shown.clip).visit_events(seam, from, until, false, [&](FiredEvent&& event) {
+    const bool inside = event.time < until;
+    if (inside && event.time > shown.play->at && (times.empty() || times.back() != event.time))
+      times.push_back(event.time);
+    return inside && times.size() < 1000;
+  });
   return times;
 }
 

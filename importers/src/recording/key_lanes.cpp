@@ -1,5 +1,7 @@
 #include "recording/key_lanes.h"
 
+#include <tweenfall/anim/player.h>
+
 #include "recording/key_words.h"
 
 #include <algorithm>
@@ -51,11 +53,35 @@ struct Pass {
   std::uint32_t key;
 };
 
+/// Whether all of the clip is played by its own loop, at one speed.
+bool is_plain(const Play& play) {
+  return play.speed.is_constant() && play.from == 0 && !play.to && play.offset == 0 && !play.reverse && !play.loop;
+}
+
+/// The same of any play: keys are what its clock meets.
+bool add_met_passes(const Play& play, const Clip& clip, const std::vector<double>& keys, std::uint32_t first_key,
+                    double from, double until, std::vector<Pass>& out) {
+  Clip of_keys;
+  of_keys.duration = clip.duration;
+  of_keys.loop = clip.loop;
+  of_keys.events.reserve(keys.size());
+  for (std::size_t i = 0; i < keys.size(); ++i)
+    of_keys.events.push_back({.from = keys[i], .to = keys[i], .name = std::to_string(i), .data = {}});
+  bool is_cut = false;
+  Player(play, clip).visit_events(of_keys, from, until, true, [&](FiredEvent&& event) {
+    is_cut = out.size() >= most_keys;
+    if (!is_cut) out.push_back({event.time, first_key + static_cast<std::uint32_t>(std::stoul(event.name))});
+    return !is_cut;
+  });
+  return is_cut;
+}
+
 /// Adds the stage times at which `play` passes the clip times `keys`, which are numbered from `first_key` on.
 /// @return whether some times around were left out, because there are too many
 bool add_passes(const Play& play, const Clip& clip, const std::vector<double>& keys, std::uint32_t first_key,
                 double from, double until, std::vector<Pass>& out) {
-  const double speed = std::abs(play.speed), length = clip.duration;
+  if (!is_plain(play)) return add_met_passes(play, clip, keys, first_key, from, until, out);
+  const double pace = play.speed.at(0), speed = std::abs(pace), length = clip.duration;
   const auto outside = [&](double key) { return key < 0 || (std::isfinite(length) && key > length); };
   const auto inside = keys.size() - static_cast<std::size_t>(std::count_if(keys.begin(), keys.end(), outside));
   if (inside == 0 || speed == 0) return false;
@@ -69,7 +95,7 @@ bool add_passes(const Play& play, const Clip& clip, const std::vector<double>& k
   const double stride = std::max(1.0, std::ceil((last - first + 1) / room));
   for (double cycle = first; cycle <= last; cycle += stride) {
     const bool odd = std::fmod(cycle, 2) == 1;
-    const bool backwards = (play.speed < 0) != (clip.loop.mode == LoopMode::pingpong && odd);
+    const bool backwards = (pace < 0) != (clip.loop.mode == LoopMode::pingpong && odd);
     for (std::size_t i = 0; i < keys.size(); ++i) {
       if (outside(keys[i])) continue;
       const double passed =

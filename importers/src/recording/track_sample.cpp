@@ -23,7 +23,6 @@ std::vector<double> parts(const Quat& q) {
 }
 
 struct Sampler {
-  const Clip& clip;
   const ClipClock& clock;
   bool gains;
 
@@ -38,13 +37,13 @@ struct Sampler {
   TrackSample operator()(const Curve<T>& curve) const {
     if (!gains) return plain(curve);
     Sample<T> sample = curve.sample(clock.time, clock.side);
-    sample.value += clock.cycle * (curve.value(clip.duration, Side::in) - curve.value(0.0));
+    sample.value += clock.cycle * (curve.value(clock.to, Side::in) - curve.value(clock.from));
     return {parts(sample.value), parts(Rate<T>(sample.rate * clock.rate)), {}};
   }
   TrackSample operator()(const Curve<Quat>& curve) const {
     Sample<Quat> sample = curve.sample(clock.time, clock.side);
     if (gains) {
-      const Vec3 once = log_map(curve.value(clip.duration, Side::in) * curve.value(0.0).conjugate());
+      const Vec3 once = log_map(curve.value(clock.to, Side::in) * curve.value(clock.from).conjugate());
       const Quat turned = exp_map(Vec3(clock.cycle * once));
       sample.value = turned * sample.value;
       sample.rate = turned * sample.rate;
@@ -72,10 +71,10 @@ struct Sampler {
 
 }  // namespace track_samples
 
-TrackSample sample_track(const Clip& clip, const Track& track, const ClipClock& clock) {
-  const bool gains = clip.loop.mode == LoopMode::repeat_offset && clock.cycle != 0 && track.property != "scale" &&
-                     !track.property.starts_with("scale.");
-  return std::visit(track_samples::Sampler{clip, clock, gains}, track.curve);
+TrackSample sample_track(const Clip&, const Track& track, const ClipClock& clock) {
+  const bool gains =
+      clock.climbs && clock.cycle != 0 && track.property != "scale" && !track.property.starts_with("scale.");
+  return std::visit(track_samples::Sampler{clock, gains}, track.curve);
 }
 
 }  // namespace tweenfall

@@ -54,8 +54,9 @@ ClockOverride recovered_clock(const Animation& animation, const ClockOverride& b
   if (settings.clock == HandBack::Clock::restart) {
     double first = now;
     const bool alone = clock.clip != ClockOverride::every_clip;
-    for (const Play& play : animation.plays())
-      if (!alone || play.clip == clock.clip) first = std::min({first, play.at, alone ? clock.starts_by : play.at});
+    for (const Player& player : animation.players())
+      if (!alone || player.play().clip == clock.clip)
+        first = std::min({first, player.first_at(), alone ? clock.starts_by : player.first_at()});
     // All together: what overlapped still does.
     clock.timeline = first;
     clock.stage = time;

@@ -41,6 +41,9 @@ struct Maker {
     else
       state.world.collide(a, b);
   }
+  void operator()(const change::Ask& ask) const {
+    change_play(state, {.time = instant, .play = ask.play, .action = ask.action}, step, happenings);
+  }
 };
 
 }  // namespace
@@ -63,7 +66,7 @@ void make_change(StageState& state, const Command& command, double step, std::ve
 
 bool is_of_cast(const Change& change) {
   return std::holds_alternative<change::Arm>(change) || std::holds_alternative<change::Add>(change) ||
-         std::holds_alternative<change::Remove>(change);
+         std::holds_alternative<change::Remove>(change) || std::holds_alternative<change::Ask>(change);
 }
 
 }  // namespace tweenfall::staging

@@ -47,10 +47,15 @@ struct Ignore {
   std::size_t a = no_node, b = no_node;
   bool ignored = true;  ///< false: they meet again
 };
+/// A play is asked for something.
+struct Ask {
+  std::string play;
+  PlayAction action;
+};
 }  // namespace change
 
 using Change = std::variant<change::None, change::Release, change::Recover, change::Arm, change::Add, change::Remove,
-                            change::Push, change::Join, change::Part, change::Ignore>;
+                            change::Push, change::Join, change::Part, change::Ignore, change::Ask>;
 
 /// A change at an exact time. When it throws, it has changed nothing.
 struct Command {

@@ -1,4 +1,3 @@
-#include <tweenfall/anim/graph_player.h>
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/rotation.h>
 
@@ -16,23 +15,6 @@ namespace {
 
 /// Rules and jumps split a step at most so often; what is left then is handled at its end, and told.
 constexpr int most_splits = 1024;
-
-void report_events(const StageState& state, double from, double to, std::vector<Happening>& happenings) {
-  std::vector<FiredEvent> fired;
-  for (const Play& play : state.animation->plays()) {
-    const Clip& clip = state.animation->clips()[play.clip];
-    std::vector<FiredEvent> more = events_between(play, clip, std::max(from, 0.0), to, from < 0);
-    fired.insert(fired.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-  }
-  for (GraphEvent& event : state.animation->graph_events(from, to))
-    fired.push_back({event.time, std::move(event.name), std::move(event.data), event.clip});
-  std::ranges::stable_sort(fired, {}, &FiredEvent::time);
-  for (FiredEvent& event : fired) {
-    Happening& happening = happenings.emplace_back();
-    happening.time = event.time;
-    happening.what = StageEvent{.time = event.time, .name = event.name, .data = event.data, .nodes = {}};
-  }
-}
 
 /// The caller's changes that are due after `from`, in order of time.
 std::span<const Command> commands_after(std::span<const Command> commands, double from) {

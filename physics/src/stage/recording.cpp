@@ -107,6 +107,24 @@ void require_tellable(const Stage& stage) {
 }  // namespace staging
 
 Recording record(Stage& stage, double until, double fps, double most_bytes, bool details) {
+  return record(stage, until, fps, most_bytes, details, {});
+}
+
+std::span<const TimedInput> advance_with(Stage& stage, std::span<const TimedInput> inputs, double until) {
+  std::size_t given = 0;
+  for (; given < inputs.size() && inputs[given].time <= until; ++given) {
+    if (!(inputs[given].time >= stage.time()))
+      throw std::invalid_argument("an input at " + number_text(inputs[given].time) + " s is behind the stage's time, " +
+                                  number_text(stage.time()) + " s");
+    stage.advance_to(inputs[given].time);
+    stage.give(inputs[given].what);
+  }
+  stage.advance_to(until);
+  return inputs.subspan(given);
+}
+
+Recording record(Stage& stage, double until, double fps, double most_bytes, bool details,
+                 std::span<const TimedInput> inputs) {
   if (!(fps > 0) || !std::isfinite(fps))
     throw std::invalid_argument("frames per second must be above 0, not " + number_text(fps));
   if (!std::isfinite(until)) throw std::invalid_argument("a recording needs an end");
@@ -121,7 +139,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     staging::take_joints(stage, recording);
     if (details) details = staging::take_details(stage, recording, room);
   };
-  stage.advance(0);
+  inputs = advance_with(stage, inputs, stage.time());
   take();
   for (double frame = 1;; ++frame) {
     double time = start + frame / fps;
@@ -129,7 +147,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     const bool last = time >= until - 1e-9;
     if (last) time = std::max(until, stage.time());
     if (last && time <= stage.time()) break;
-    stage.advance_to(time);
+    inputs = advance_with(stage, inputs, time);
     staging::require_tellable(stage);
     take();
     if (last) break;

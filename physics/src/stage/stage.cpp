@@ -183,6 +183,27 @@ void Stage::recover(NodeId node, const HandBack& settings) {
   inside().command(staging::change::Recover{node, settings});
 }
 
+void Stage::ask(std::string_view play, PlayAction action) {
+  inside().command(staging::change::Ask{std::string(play), std::move(action)});
+}
+
+std::vector<TimedInput> Stage::inputs() const {
+  return inside().inputs();
+}
+
+void Stage::give(const Input& input) {
+  struct Giver {
+    Stage& stage;
+    void operator()(const input::Ask& ask) const { stage.ask(ask.play, ask.action); }
+    void operator()(const input::Release& release) const { stage.release(stage.node(release.body), release.settings); }
+    void operator()(const input::Recover& recover) const { stage.recover(stage.node(recover.body), recover.settings); }
+    void operator()(const input::Push& push) const {
+      stage.apply_impulse(stage.node(push.body), push.impulse, push.point);
+    }
+  };
+  std::visit(Giver{*this}, input);
+}
+
 void Stage::arm(Rule rule) {
   inside().command(staging::change::Arm{std::move(rule)});
 }

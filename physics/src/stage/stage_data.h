@@ -109,6 +109,7 @@ struct Tear {
 struct Jumps {
   std::vector<char> carriers;  ///< by node, of those there were: whether it or one below it has a body that can move
   std::vector<Clip> clips;     ///< for each clip one without tracks, whose events are its jumps
+  std::vector<Clip> seams;     ///< by player: the same of its loop, where that jumps
   std::vector<char> carries_body;  ///< by clip: whether it moves a body at all
 };
 
@@ -203,6 +204,12 @@ void require_node(const StageState& state, NodeId node);
 /// @throws std::invalid_argument for a node that has no body, too
 [[nodiscard]] std::size_t body_index(const StageState& state, NodeId node);
 
+// plays.cpp: what is played
+/// @throws std::invalid_argument for what cannot be; nothing has changed then
+void change_play(StageState& state, const PlayChange& change, double step, std::vector<Happening>& happenings);
+/// Tells what plays fire in (from, to], from the start on where `from` is below 0.
+void report_events(const StageState& state, double from, double to, std::vector<Happening>& happenings);
+
 // rules/unfired.cpp: what was waited for in vain
 [[nodiscard]] std::vector<UnfiredRule> unfired_rules(const StageState& state);
 
@@ -278,6 +285,8 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
 
 // rules/jumps.cpp: where paths are not continuous
 [[nodiscard]] std::shared_ptr<const Jumps> find_jumps(const StageState& state);
+/// The same jumps after the plays have changed.
+[[nodiscard]] std::shared_ptr<const Jumps> jumps_of_plays(const StageState& state);
 /// Whether a body that has come to this node is moved by tracks that moved none before.
 [[nodiscard]] bool carries_more(const StageState& state, NodeId node);
 /// First stage time in (from, to] at which some path may make its body jump; infinity for none.

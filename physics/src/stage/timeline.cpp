@@ -147,6 +147,23 @@ void Timeline::command(Change change) {
   if (!telling_) tell(true, now_);
 }
 
+std::vector<TimedInput> Timeline::inputs() const {
+  std::vector<TimedInput> inputs;
+  const auto name = [&](NodeId node) { return (*current().nodes)[node].name; };
+  for (const Command& command : commands_) {
+    if (command.time > now_) break;
+    const auto add = [&](Input what) { inputs.push_back({command.time, std::move(what)}); };
+    if (const auto* ask = std::get_if<change::Ask>(&command.change)) add(input::Ask{ask->play, ask->action});
+    if (const auto* release = std::get_if<change::Release>(&command.change))
+      add(input::Release{name(release->node), release->settings});
+    if (const auto* recover = std::get_if<change::Recover>(&command.change))
+      add(input::Recover{name(recover->node), recover->settings});
+    if (const auto* push = std::get_if<change::Push>(&command.change))
+      add(input::Push{name(push->node), push->impulse, push->point});
+  }
+  return inputs;
+}
+
 void Timeline::restart() {
   scene.forget();
   from_ = initial_;

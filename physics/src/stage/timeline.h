@@ -19,6 +19,9 @@ class Timeline {
   /// Makes a change at exactly `now`. When it throws, nothing has changed.
   void command(Change change);
 
+  /// Of the changes until `now`, those that are input.
+  [[nodiscard]] std::vector<TimedInput> inputs() const;
+
   [[nodiscard]] std::vector<std::byte> save() const;
   /// @throws std::invalid_argument; nothing has changed then
   void load(std::span<const std::byte> saved);

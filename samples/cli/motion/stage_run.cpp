@@ -70,7 +70,10 @@ void require_amount(const RunOptions& options) {
 }
 
 Recording run_stage(const StageDescription& description, const RunOptions& options) {
-  const double natural = natural_length(description), until = options.until.value_or(natural);
+  // What comes last has a while to be seen.
+  constexpr double after_input = 3;
+  const double last_input = options.inputs.empty() ? 0 : options.inputs.back().time + after_input;
+  const double natural = std::max(natural_length(description), last_input), until = options.until.value_or(natural);
   if (until / description.step > most_steps)
     throw UsageError(brief_text(until) + " s are " + brief_text(until / description.step) + " steps of " +
                      brief_text(description.step) + " s, above the " + brief_text(most_steps) +
@@ -87,7 +90,8 @@ Recording run_stage(const StageDescription& description, const RunOptions& optio
   const Progress progress("running " + options.file + " to " + brief_text(until) + " s");
   Stage stage = make_stage(description, options.file);
   try {
-    Recording recording = record(stage, until, fps, std::numeric_limits<double>::infinity(), options.details);
+    Recording recording =
+        record(stage, until, fps, std::numeric_limits<double>::infinity(), options.details, options.inputs);
     check_recording(recording);
     say_unfired(recording, options.file);
     return recording;

@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tweenfall::cli {
 
@@ -21,7 +22,8 @@ struct RunOptions {
   double usual_fps = 60;
   std::optional<double> limit;  ///< megabytes of recording
   double usual_limit = 512;
-  bool details = false;  ///< whether what the steps worked with is recorded, too
+  std::vector<TimedInput> inputs{};  ///< given on the way, in order of time
+  bool details = false;              ///< whether what the steps worked with is recorded, too
 };
 
 /// The options that say how much is recorded.

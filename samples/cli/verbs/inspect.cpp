@@ -111,7 +111,14 @@ std::string clips_table(const StageDescription& stage) {
     for (const Play& play : stage.plays) {
       if (play.clip != i) continue;
       plays += (plays.empty() ? "from " : ", from ") + brief_text(play.at) + " s";
-      if (play.speed != 1) plays += " at " + brief_text(play.speed) + " x";
+      if (!play.speed.is_constant())
+        plays += " at a speed that has keys";
+      else if (play.speed.at(0) != 1)
+        plays += " at " + brief_text(play.speed.at(0)) + " x";
+      if (play.from != 0 || play.to)
+        plays += ", " + brief_text(play.from) + " s to " + brief_text(play.to.value_or(clip.duration)) + " s of it";
+      if (play.reverse) plays += ", in reverse";
+      if (play.loop) plays += ", " + loop_text(*play.loop);
     }
     table.row({clip.name, brief_text(clip.duration), loop_text(clip.loop), std::to_string(clip.tracks.size()),
                std::to_string(keys), std::to_string(clip.events.size()), plays});

@@ -7,6 +7,7 @@
 #include "verbs/verbs.h"
 
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/importers/inputs.h>
 #include <tweenfall/importers/recording_file.h>
 #include <tweenfall/importers/shown_text.h>
 
@@ -19,6 +20,7 @@ namespace {
 struct RunFileOptions : RunOptions {
   std::optional<std::string> output;
   std::optional<double> threads;
+  std::optional<std::string> inputs_file;
   bool json = false;
 };
 
@@ -106,6 +108,7 @@ int run_file(const RunFileOptions& options) {
   choose_play(read, options.clip, options.file);
   if (options.threads) read.stage.world.threads = static_cast<int>(*options.threads);
   RunOptions run = options;
+  if (options.inputs_file) run.inputs = read_inputs(*options.inputs_file, read.stage);
   run.details = options.output && options.output->size() > 5 && options.output->ends_with(".html");
   const Recording recording = run_stage(read.stage, run);
   const bool to_stdout = options.json || options.output == "-";
@@ -129,6 +132,8 @@ Run declare_run(Arguments& arguments) {
   declare_amount(arguments, *options);
   arguments.text("-o,--output", "OUT", options->output,
                  "the recording: .json .csv .svg .html or .glb; - prints the JSON; without it a summary");
+  arguments.text("--inputs", "FILE", options->inputs_file,
+                 "timed inputs, JSON: what plays and bodies are asked for while it runs");
   arguments.number("--threads", "N", options->threads,
                    "threads that share a step of physics; not a bit of the recording depends on it");
   arguments.flag("--json", options->json, "print the recording as JSON");

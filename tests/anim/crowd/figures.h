@@ -120,7 +120,7 @@ inline double distance(const Animation& exact, const CrowdClip& clip, double sta
   std::vector<Motion> wanted(exact.nodes().size());
   exact.sample(stage_time, wanted);
   std::vector<CrowdGroup> pose(clip.groups());
-  clip.sample(clip.clock(exact.plays()[0].at, exact.plays()[0].speed, stage_time), pose);
+  clip.sample(clip.clock(exact.players()[0].at(), exact.players()[0].play().speed.at(0), stage_time), pose);
   return distance(exact.nodes(), wanted, pose, arm);
 }
 

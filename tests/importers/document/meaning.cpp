@@ -206,7 +206,7 @@ TEST_CASE("every field reaches the stage's description") {
     REQUIRE(stage.plays.size() == 3);
     CHECK(stage.plays[0].clip == 1);
     CHECK(stage.plays[1].at == 0.5);
-    CHECK(stage.plays[1].speed == -0.5);
+    CHECK(stage.plays[1].speed.at(0) == -0.5);
     CHECK(near(stage.plays[1].weight.value(0.25), 0.25, 1e-15));
     CHECK(stage.plays[1].mask == std::vector<std::string>{"ball", "tower/*"});
     CHECK(stage.plays[2].weight.value(7) == 0.25);

@@ -68,8 +68,8 @@ TEST_CASE("what is at home in few things of the document is told with the whole 
         "\"mass\"; it belongs in \"body\" of a node of \"nodes\" or in a ragdoll of \"ragdolls\" of \"world\"");
   CHECK(in_node("\"sphere\": {\"radius\": 1}") ==
         "\"sphere\"; it belongs in \"shape\" of \"body\" of a node of \"nodes\"");
-  CHECK(hint("{\"tweenfall\": 1, \"play\": [{\"clip\": \"c\", \"loop\": 1}]}") ==
-        "\"loop\"; it belongs in a clip of \"clips\"");
+  CHECK(hint("{\"tweenfall\": 1, \"play\": [{\"clip\": \"c\", \"tracks\": 1}]}") ==
+        "\"tracks\"; it belongs in a clip of \"clips\"");
 }
 
 TEST_CASE("misspelled fields are still told by the nearest, in the object itself before those inside of it") {

@@ -12,6 +12,7 @@
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/anim/play.h>
+#include <tweenfall/anim/player.h>
 
 #include <memory>
 #include <optional>
@@ -42,6 +43,11 @@ class Animation {
   /// The same clips and plays over other nodes. @throws as the constructor.
   [[nodiscard]] Animation with_nodes(std::shared_ptr<const Hierarchy> nodes) const;
 
+  /// The same after a play was asked for something: what the poses were before its time, they still are. A play that is
+  /// started by a name which none has lies over all others; it may be that of a clip.
+  /// @throws std::invalid_argument for what cannot be, unknown names with the nearest
+  [[nodiscard]] Animation with_change(const PlayChange& change) const;
+
   /// The same over the same nodes and more after them, none of which has a track: binds nothing, and takes no longer
   /// for more nodes.
   [[nodiscard]] Animation with_more_nodes(std::shared_ptr<const Hierarchy> nodes) const;
@@ -52,7 +58,9 @@ class Animation {
 
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return *nodes_; }
   [[nodiscard]] std::span<const Clip> clips() const noexcept { return *clips_; }
-  [[nodiscard]] std::span<const Play> plays() const noexcept { return *plays_; }
+  [[nodiscard]] std::span<const Player> players() const noexcept { return *players_; }
+  /// The player of that name. @throws std::invalid_argument with the nearest name, and where several have it
+  [[nodiscard]] std::size_t player_named(std::string_view name) const;
 
   // Whole poses
   /// Local motion of every node at a stage time. @param local  written, one per node, in order
@@ -89,38 +97,38 @@ class Animation {
   /// Whether some clip, played or not, has a track for the node itself.
   [[nodiscard]] bool has_tracks(std::size_t node) const noexcept;
 
-  /// Calls `visit(play)` for each play that runs under `clock`, told on the stage's time (its weight stays on the
-  /// timeline).
+  /// Calls `visit(const RunningPlay&)` for each play that runs under `clock`, told on the stage's time.
   /// @param node  only those that move this node or an ancestor; `no_node`: all
   template <class Visit>
   void for_each_play(const ClockOverride& clock, std::size_t node, Visit&& visit) const {
     const bool alone = clock.clip != ClockOverride::every_clip;
-    bool any = false;
-    for (std::size_t p = 0; p < plays_->size(); ++p) {
-      if (alone && (*plays_)[p].clip != clock.clip) continue;
-      any = true;
-      if (node != no_node && !moved_by(node, p, alone)) continue;
-      if (clock == ClockOverride{})
-        visit((*plays_)[p]);
-      else
-        visit(play_under(clock, p));
+    const std::size_t count = running_count(clock);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::optional<RunningPlay> play = running(clock, i);
+      if (play && (node == no_node || moved_by(node, i, play->play().clip, alone))) visit(*play);
     }
-    if (alone && !any && (node == no_node || clip_moves(clock.clip, node)))
-      visit(Play{.clip = clock.clip, .at = clock.stage_at(clock.starts_by)});
   }
 
  private:
   void bind_clips(std::string problems);
   void bind_plays();
-  [[nodiscard]] Play play_under(const ClockOverride& clock, std::size_t play) const;
-  [[nodiscard]] bool moved_by(std::size_t node, std::size_t play, bool unmasked) const noexcept;
-  [[nodiscard]] bool clip_moves(std::size_t clip, std::size_t node) const noexcept;
+  /// How many places there are for players that run under a clock: those of the stage, or of one clip those that play
+  /// it, and one more where there is none.
+  [[nodiscard]] std::size_t running_count(const ClockOverride& clock) const noexcept {
+    return players_->size() + (clock.clip != ClockOverride::every_clip ? 1 : 0);
+  }
+  /// Nothing where the player at this place does not run under the clock.
+  [[nodiscard]] std::optional<RunningPlay> running(const ClockOverride& clock, std::size_t place) const noexcept;
+  [[nodiscard]] bool moved_by(std::size_t node, std::size_t place, std::size_t clip, bool unmasked) const noexcept;
+  template <class Visit>
+  void for_each_running(double stage_time, Side side, const ClockOverride& clock, const Visit& visit) const;
 
   std::shared_ptr<const Hierarchy> nodes_;
   std::shared_ptr<const std::vector<Clip>> clips_;
-  std::shared_ptr<const std::vector<Play>> plays_;
-  struct BoundClips;  ///< every clip, bound to the nodes
-  struct BoundPlays;  ///< which of the nodes each play drives
+  std::shared_ptr<const std::vector<Player>> players_;
+  std::shared_ptr<const std::vector<Player>> alone_;  ///< of each clip one that begins it at 0
+  struct BoundClips;                                  ///< every clip, bound to the nodes
+  struct BoundPlays;                                  ///< which of the nodes each play drives
   std::shared_ptr<const BoundClips> bound_clips_;
   std::shared_ptr<const BoundPlays> bound_plays_;
   std::shared_ptr<graphs::GraphStack> graphs_;  ///< null for none

@@ -24,6 +24,8 @@ enum class LoopMode { once, repeat, repeat_offset, pingpong };
 struct Loop {
   LoopMode mode = LoopMode::once;
   double count = 0;  ///< number of plays, fractions allowed; 0 means without end (ignored for `once`)
+
+  bool operator==(const Loop&) const = default;
 };
 
 struct Clip {

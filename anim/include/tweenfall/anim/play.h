@@ -4,25 +4,86 @@
 ///
 /// A play has no state. Where its clock stands, how fast it runs and which events lie between two
 /// moments follow from the stage time alone, so a stage can be evaluated at any time in any order.
+///
+/// Before it starts, a play holds the first frame that it will show (where no play below drives the same), and after
+/// its end the last. What changes while it runs is a `Player`'s (player.h).
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/curves/curve.h>
+#include <tweenfall/curves/ease.h>
 
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace tweenfall {
 
+/// How fast a play runs, in clip seconds per stage second: one number, or a curve over the play's own time. The way
+/// that its clock has come is the curve's integral, and the curve itself is the exact rate.
+class PlaySpeed {
+ public:
+  PlaySpeed(double speed = 1) noexcept : constant_(speed) {}  // NOLINT(google-explicit-constructor): a number is one
+
+  /// @param speed  over seconds since the play's start; it holds its values outside its knots, and so does what is
+  /// before
+  /// @throws std::invalid_argument for a curve that has no end, or that does anything else outside its knots
+  explicit PlaySpeed(const Curve<double>& speed);
+
+  [[nodiscard]] bool is_constant() const noexcept { return !warp_; }
+  /// @param own  seconds since the play's start, here and below
+  [[nodiscard]] double at(double own, Side side = Side::out) const noexcept;
+  /// Clip seconds run since the start.
+  [[nodiscard]] double way(double own) const noexcept;
+  /// 1 where it runs forward just after `own` (or before, for `Side::in`), -1 backwards, 0 where it rests.
+  [[nodiscard]] int direction(double own, Side side = Side::out) const noexcept;
+  /// The same between one turn and the next. @param turn  how many turns lie before
+  [[nodiscard]] int direction_after(std::size_t turn) const noexcept;
+  /// The first direction that is none of rest; 0 for a play that never runs.
+  [[nodiscard]] int first_direction() const noexcept;
+  /// Times after 0 between which it runs one way or rests, in order; empty for a constant.
+  [[nodiscard]] std::span<const double> turns() const noexcept;
+  /// Greatest of either sign.
+  [[nodiscard]] double greatest() const noexcept;
+  /// The curve, where it was made of one.
+  [[nodiscard]] std::optional<Curve<double>> curve() const;
+
+ private:
+  struct Warp;
+  double constant_ = 1;
+  std::shared_ptr<const Warp> warp_;
+};
+
+/// A way from one weight to another.
+struct Fade {
+  double seconds = 0;  ///< >= 0
+  Ease ease = Ease::linear();
+
+  bool operator==(const Fade&) const = default;
+};
+
 /// One clip being played.
 struct Play {
-  std::size_t clip = 0;       ///< index of the clip
-  double at = 0;              ///< stage time at which clip time is `start` (0), s
-  double speed = 1;           ///< clip seconds per stage second; 0 pauses, negative runs backwards from the clip's end
-  Curve<double> weight{1.0};  ///< over stage time, 0 to 1; its rate enters the blend
+  std::size_t clip = 0;             ///< index of the clip
+  double at = 0;                    ///< stage time at which it starts, s
+  PlaySpeed speed = 1;              ///< over its own time; one that is negative at first starts at the end
+  Curve<double> weight{1.0};        ///< over its own time, seconds since `at`; 0 to 1; its rate enters the blend
   std::vector<std::string> mask{};  ///< names or patterns ("arm/*") of the nodes it drives; empty: all
+
+  std::string name{};          ///< by which it is changed while it runs; empty: the clip's
+  double from = 0;             ///< the section of the clip that is played, clip seconds
+  std::optional<double> to{};  ///< absent: the clip's end
+  double offset = 0;           ///< seconds of all rounds that lie behind when it starts; >= 0
+  bool reverse = false;        ///< each round from its end to its start
+  std::optional<Loop> loop{};  ///< absent: the clip's own
+  Fade fade_in{};              ///< of the weight, over stage seconds from the start
+  Fade fade_out{};             ///< the same to the end of the play, where it has one
 };
+
+/// What is wrong with a play of this clip, a sentence each; empty for nothing.
+[[nodiscard]] std::vector<std::string> problems_of(const Play& play, const Clip& clip);
 
 /// Plays that run by another clock than the stage's, as after a hand-back: all moved together, or one clip alone.
 struct ClockOverride {
@@ -43,14 +104,16 @@ struct ClockOverride {
 struct ClipClock {
   double time = 0;  ///< clip time after looping, s
   double rate = 0;  ///< d(clip time)/d(stage time); 0 before the start and after the end: a pose that holds is at rest
-  int cycle = 0;    ///< how many whole plays lie behind, from 0
+  int cycle = 0;    ///< how many whole rounds lie behind, from 0; what `climbs` gains counts them
   bool started = false;  ///< stage time has reached `at`
-  bool ended = false;    ///< all counted plays are over
+  bool ended = false;    ///< all counted rounds are over
   Side side =
       Side::out;  ///< the side on which to sample the tracks, so that a clock running backwards arrives from above
+  bool climbs = false;      ///< each round starts from where the one before ended
+  double from = 0, to = 0;  ///< the section of each round, clip seconds
 };
 
-/// The clock at a stage time. At a seam `Side::in` is the end of the play before, `Side::out` the start of the next.
+/// The clock at a stage time. At a seam `Side::in` is the end of the round before, `Side::out` the start of the next.
 [[nodiscard]] ClipClock clock_at(const Play& play, const Clip& clip, double stage_time, Side side = Side::out) noexcept;
 
 /// The same of a play of which only this matters: the stage time at which it starts, and its speed.
@@ -67,6 +130,10 @@ struct FiredEvent {
 
 /// Events in (from, to] of stage time, in order, each once, also across loops; [from, to] when
 /// `from_start` (a play's first advance), so that an event at 0 fires. Moments outside the plays are silent.
+///
+/// A clock fires what it comes to: running forward over (t0, t1] of the clip, backwards over [t1, t0), at rest nothing;
+/// where it first moves, what it stands on too. An interval begins and ends in pairs: it begins where the clock moves
+/// into it, and ends where that leaves it, or the play ends inside.
 /// @throws std::length_error naming the clip where a tiny loop makes more than a million of them.
 [[nodiscard]] std::vector<FiredEvent> events_between(const Play& play, const Clip& clip, double from, double to,
                                                      bool from_start = false);
@@ -81,7 +148,8 @@ struct FiredEvent {
                                                     bool from_start = false,
                                                     std::optional<std::string_view> name = std::nullopt);
 
-/// Stage time at which the play is over; infinity for an endless one.
+/// Stage time at which the play is over: where its clock first comes to an end of all its rounds. Infinity for an
+/// endless one.
 [[nodiscard]] double end_time(const Play& play, const Clip& clip) noexcept;
 
 }  // namespace tweenfall

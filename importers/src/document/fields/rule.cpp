@@ -122,12 +122,6 @@ const Table<Settle>& settle_table() {
   return table;
 }
 
-const Form* settle_form(FormStore& store, const ValueForms& values) {
-  Form form = settle_table().choosing_form(store, values);
-  form.what += ", in seconds";
-  return store.add(std::move(form));
-}
-
 // Why a field means nothing for a rule that gives to an owner, if it names one.
 auto useless_to(Owner owner, const std::string& why) {
   return [owner, why](const Read& rule) { return rule.to && rule.rule.to.owner() == owner ? why : std::string(); };
@@ -149,13 +143,7 @@ const Table<Read>& rule_table() {
   Row<Read> path = part<Read>("path", path_table(), "of a body that is taken back",
                               [](Read& rule) -> HandBack& { return rule.rule.hand_back; });
   path.useless = useless_to(Owner::free, "for a body that is let go; it follows none");
-  using Overlap = TakeOver::Overlap;
-  Row<Read> overlap = one_of<Read, Overlap>(
-      "overlap", "what becomes of overlap: \"push\", \"ignore\", \"rewind\" or \"veto\"",
-      {{"push", Overlap::push}, {"ignore", Overlap::ignore}, {"rewind", Overlap::rewind}, {"veto", Overlap::veto}},
-      "of a body that leaves its path in others: they are pushed apart, pass "
-      "through each other, it leaves from where it was clear, or stays",
-      [](Read& rule) -> Overlap& { return rule.rule.take_over.overlap; });
+  Row<Read> overlap = overlap_row<Read>([](Read& rule) -> TakeOver& { return rule.rule.take_over; });
   overlap.useless = useless_to(Owner::keyed, "for a keyed body; it has its path's place");
   static const Table<Read> table("a rule of the hand-off",
                                  {{"body", rule_bodies_form, "whom it is about", {read_rule_bodies}},
@@ -174,6 +162,24 @@ const Table<Read>& rule_table() {
 }
 
 }  // namespace
+
+const Form* path_form(FormStore& store, const ValueForms& values) {
+  return store.add(path_table().listing_form(store, values));
+}
+
+void read_path(const json::Value& value, HandBack& out, Building& building) {
+  path_table().read(value, out, building);
+}
+
+const Form* settle_form(FormStore& store, const ValueForms& values) {
+  Form form = settle_table().choosing_form(store, values);
+  form.what += ", in seconds";
+  return store.add(std::move(form));
+}
+
+void read_settle(const json::Value& value, Settle& settle, Building& building) {
+  settle_table().read(value, settle, building);
+}
 
 const Form* rule_form(FormStore& store, const ValueForms& values) {
   Form rule = rule_table().form(store, values);

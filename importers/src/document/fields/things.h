@@ -31,6 +31,10 @@ const Form* play_form(FormStore& store, const ValueForms& values);
 // Nothing for a clip that is not known, which was noted.
 [[nodiscard]] std::optional<Play> read_play(const json::Value& play, Building& building);
 
+// Seconds over which a weight comes or goes, and how.
+const Form* fade_form(FormStore& store, const ValueForms& values);
+[[nodiscard]] Fade read_fade(const json::Value& fade);
+
 const Form* world_form(FormStore& store, const ValueForms& values);
 void read_world(const json::Value& world, Building& building);
 [[nodiscard]] json::Value place_of_gravity(const json::Value& world);  // or the world, where it says none; and so below

@@ -30,7 +30,7 @@ bool judge_step(Building& building) {
 std::vector<double> fastest_plays(const StageDescription& stage) {
   std::vector<double> fastest(stage.clips.size(), 1);
   for (const Play& play : stage.plays)
-    if (play.clip < fastest.size()) fastest[play.clip] = std::max(fastest[play.clip], std::abs(play.speed));
+    if (play.clip < fastest.size()) fastest[play.clip] = std::max(fastest[play.clip], play.speed.greatest());
   return fastest;
 }
 
@@ -93,6 +93,12 @@ void judge_pace(Building& building) {
   const bool usual = judge_step(building);
   if (usual) judge_spins(building);
   const std::vector<double> fastest = fastest_plays(stage);
+  const json::Value list = usable(building.root, "play");
+  for (std::size_t i = 0; list && i < std::min(stage.plays.size(), list.items().size()); ++i) {
+    const Play& play = stage.plays[i];
+    const std::string fault = too_many_events(play, stage.clips[play.clip], stage.step + 1e-6);
+    if (!fault.empty()) building.problems.add(list.items()[i], fault);
+  }
   for (std::size_t i = 0; i < stage.clips.size(); ++i) {
     const Clip& clip = stage.clips[i];
     if (usual) judge_turns(building, clip, fastest[i]);

@@ -2,6 +2,7 @@
 
 #include <tweenfall/anim/component.h>
 #include <tweenfall/curves/barycentric.h>
+#include <tweenfall/curves/editing.h>
 #include <tweenfall/curves/functions.h>
 #include <tweenfall/curves/number_text.h>
 
@@ -323,16 +324,19 @@ std::optional<Curve<double>> read_plain_keys(const json::Value& keys, Problems& 
   return read_keys<double>(keys, times, reader_of<double>(number_of), {}, problems);
 }
 
-std::optional<Curve<double>> read_weight(const json::Value& keys, std::optional<double> fps, Problems& problems) {
-  const ClipTimes times(fps, {}, "the weight of a play runs in stage time, which has none");
+std::optional<Curve<double>> read_play_keys(const json::Value& keys, std::optional<double> fps, bool weight,
+                                            double from, Problems& problems) {
+  const ClipTimes times(fps, {}, "the keys of a play run on a clock that has none");
   KeyReader<double> reader = reader_of<double>(number_of);
-  reader.value = [&](const json::Value& value) -> std::optional<double> {
-    const std::optional<double> weight = number_of(value);
-    if (!weight || (*weight >= 0 && *weight <= 1)) return weight;
-    problems.add(value, "expected a weight from 0 to 1, found " + number_text(*weight));
-    return {};
-  };
-  return read_keys<double>(keys, times, reader, {}, problems);
+  if (weight)
+    reader.value = [&](const json::Value& value) -> std::optional<double> {
+      const std::optional<double> number = number_of(value);
+      if (!number || (*number >= 0 && *number <= 1)) return number;
+      problems.add(value, "expected a weight from 0 to 1, found " + number_text(*number));
+      return {};
+    };
+  const std::optional<Curve<double>> curve = read_keys<double>(keys, times, reader, {}, problems);
+  return curve && from != 0 ? std::optional(shifted(*curve, -from)) : curve;
 }
 
 }  // namespace tweenfall::document

@@ -20,8 +20,10 @@ namespace tweenfall::document {
 // Keys of one number in seconds of their own.
 [[nodiscard]] std::optional<Curve<double>> read_plain_keys(const json::Value& keys, Problems& problems);
 
-// Keys of one number in stage time, for weights of plays.
-[[nodiscard]] std::optional<Curve<double>> read_weight(const json::Value& keys, std::optional<double> fps,
-                                                       Problems& problems);
+// Keys of one number for plays.
+// @param weight  whether they are from 0 to 1
+// @param from    time that is 0 for the play, s
+[[nodiscard]] std::optional<Curve<double>> read_play_keys(const json::Value& keys, std::optional<double> fps,
+                                                          bool weight, double from, Problems& problems);
 
 }  // namespace tweenfall::document

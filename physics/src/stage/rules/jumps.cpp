@@ -20,9 +20,32 @@ bool differ(const Quat& a, const Quat& b) {
   return (hemisphere_aligned(a, b).coeffs() - b.coeffs()).squaredNorm() > 1e-18;
 }
 
-/// Clip times at which a curve is not continuous; 0 stands for the seam of a loop.
+/// Calls `visit(curve, accumulates)` with each curve of a clip that moves bodies: whether a loop with offset adds to
+/// it.
+template <class Visit>
+bool for_each_carrying(const StageState& state, const std::vector<char>& carriers, const Clip& clip,
+                       const Visit& visit) {
+  bool any = false;
+  for (const Track& track : clip.tracks) {
+    // What moves no body may jump as it likes: physics need not know.
+    const auto node = state.nodes->find(track.node);
+    if (!node || *node >= carriers.size() || !carriers[*node]) continue;
+    const auto component = component_named(track.property);
+    const Property property = component ? component->property : property_named(track.property);
+    if (property != Property::position && property != Property::rotation && property != Property::scale) continue;
+    any = true;
+    // A parent's scale moves its children.
+    const bool accumulates = property != Property::scale;
+    if (const auto* number = std::get_if<Curve<double>>(&track.curve)) visit(*number, accumulates);
+    if (const auto* vector = std::get_if<Curve<Vec3>>(&track.curve)) visit(*vector, accumulates);
+    if (const auto* rotation = std::get_if<Curve<Quat>>(&track.curve)) visit(*rotation, accumulates);
+  }
+  return any;
+}
+
+/// Clip times at which a curve is not continuous.
 template <class T>
-void collect(const Curve<T>& curve, const Clip& clip, bool accumulates, std::vector<ClipEvent>& jumps) {
+void collect(const Curve<T>& curve, const Clip& clip, std::vector<ClipEvent>& jumps) {
   const auto add = [&](double time) { jumps.push_back({.from = time, .to = time, .name = {}, .data = {}}); };
   for (const double knot : curve.knots())
     if (knot > 0 && knot < clip.duration && differ(curve.value(knot, Side::in), curve.value(knot, Side::out)))
@@ -39,10 +62,6 @@ void collect(const Curve<T>& curve, const Clip& clip, bool accumulates, std::vec
     for (int k = 0; plays(curve.rule_before(), k) && curve.start() - k * length > 0; ++k)
       add(curve.start() - k * length);
   }
-  const bool wraps = clip.loop.mode == LoopMode::repeat || (clip.loop.mode == LoopMode::repeat_offset && !accumulates);
-  if (wraps && std::isfinite(clip.duration) &&
-      differ(curve.value(clip.duration, Side::in), curve.value(0.0, Side::out)))
-    add(0);
 }
 
 /// By node: whether it or something below it has a body that can move.
@@ -57,20 +76,49 @@ std::vector<char> carriers(const StageState& state) {
   return carries;
 }
 
+/// By player, where its loop begins anew and some curve is elsewhere then.
+void add_seams(const StageState& state, Jumps& jumps) {
+  jumps.seams.clear();
+  for (const Player& player : state.animation->players()) {
+    const Play& play = player.play();
+    const Clip& clip = state.animation->clips()[play.clip];
+    const LoopMode mode = play.loop.value_or(clip.loop).mode;
+    const double from = play.from, to = play.to.value_or(clip.duration);
+    Clip seam;
+    seam.duration = clip.duration;
+    seam.loop = clip.loop;
+    bool any = false;
+    if ((mode == LoopMode::repeat || mode == LoopMode::repeat_offset) && std::isfinite(to) &&
+        jumps.carries_body[play.clip])
+      for_each_carrying(state, jumps.carriers, clip, [&](const auto& curve, bool accumulates) {
+        if (mode == LoopMode::repeat || !accumulates)
+          any = any || differ(curve.value(to, Side::in), curve.value(from, Side::out));
+      });
+    if (any) seam.events.push_back({.from = from, .to = from, .name = {}, .data = {}});
+    jumps.seams.push_back(std::move(seam));
+  }
+}
+
 /// First stage time in (from, to] at which the animation, as it runs by `clock`, may make a body jump.
 double first_jump_by(const StageState& state, const ClockOverride& clock, double from, double to) {
   double first = infinity;
   const auto consider = [&](double time) {
     if (time > from && time <= to) first = std::min(first, time);
   };
-  state.animation->for_each_play(clock, no_node, [&](const Play& play) {
-    if (!state.jumps->carries_body[play.clip]) return;
-    // Where a play begins it may replace what was below it.
-    consider(play.at);
-    for (const double knot : play.weight.knots())
-      if (play.weight.value(knot, Side::in) != play.weight.value(knot)) consider(clock.stage_at(knot));
-    if (const auto jump = first_event(play, state.jumps->clips[play.clip], from, to))
-      first = std::min(first, jump->time);
+  const std::span<const Player> players = state.animation->players();
+  state.animation->for_each_play(clock, no_node, [&](const RunningPlay& play) {
+    const std::size_t clip = play.play().clip;
+    if (!state.jumps->carries_body[clip]) return;
+    // Where a play begins it may replace what was below it, and where it is stopped give it free.
+    consider(play.at());
+    if (play.player->is_gone(play.player->end())) consider(play.end());
+    consider(play.first_weight_jump(from, to));
+    const auto look_at = [&](const Clip& jumps) {
+      if (const auto jump = play.first_event(jumps, from, to)) first = std::min(first, jump->time);
+    };
+    look_at(state.jumps->clips[clip]);
+    const auto place = static_cast<std::size_t>(play.player - players.data());
+    if (place < state.jumps->seams.size()) look_at(state.jumps->seams[place]);
   });
   if (clock == ClockOverride{})
     if (const auto instant = state.animation->first_graph_instant(from, to)) first = std::min(first, *instant);
@@ -86,32 +134,18 @@ std::shared_ptr<const Jumps> find_jumps(const StageState& state) {
     Clip shadow;
     shadow.duration = clip.duration;
     shadow.loop = clip.loop;
-    bool moves = false;
-    for (const Track& track : clip.tracks) {
-      // What moves no body may jump as it likes: physics need not know.
-      const auto node = state.nodes->find(track.node);
-      if (!node || !jumps->carriers[*node]) continue;
-      if (const auto component = component_named(track.property)) {
-        if (component->property == Property::color) continue;
-        if (const auto* curve = std::get_if<Curve<double>>(&track.curve))
-          collect(*curve, clip, component->property != Property::scale, shadow.events);
-        moves = true;
-        continue;
-      }
-      const Property property = property_named(track.property);
-      if (property == Property::position || property == Property::scale) {
-        // A parent's scale moves its children.
-        if (const auto* curve = std::get_if<Curve<Vec3>>(&track.curve))
-          collect(*curve, clip, property == Property::position, shadow.events);
-        moves = true;
-      } else if (property == Property::rotation) {
-        if (const auto* curve = std::get_if<Curve<Quat>>(&track.curve)) collect(*curve, clip, true, shadow.events);
-        moves = true;
-      }
-    }
+    const bool moves = for_each_carrying(state, jumps->carriers, clip,
+                                         [&](const auto& curve, bool) { collect(curve, clip, shadow.events); });
     jumps->clips.push_back(std::move(shadow));
     jumps->carries_body.push_back(moves);
   }
+  add_seams(state, *jumps);
+  return jumps;
+}
+
+std::shared_ptr<const Jumps> jumps_of_plays(const StageState& state) {
+  auto jumps = std::make_shared<Jumps>(*state.jumps);
+  add_seams(state, *jumps);
   return jumps;
 }
 

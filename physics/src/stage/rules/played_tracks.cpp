@@ -35,13 +35,15 @@ void for_each_played(const StageState& state, const StagedBody& body, std::span<
   const std::string& name = (*state.nodes)[body.node].name;
   const bool alone = clock.clip != ClockOverride::every_clip;
   const double time = std::max(0.0, state.handled);
-  state.animation->for_each_play(clock, no_node, [&](const Play& play) {
+  state.animation->for_each_play(clock, no_node, [&](const RunningPlay& running) {
+    if (!alone && running.is_gone(time)) return;
+    const Play& play = running.play();
     const auto track = std::ranges::find(tracks, play.clip, &PlayedTrack<T>::clip);
     if (track == tracks.end()) return;
     const auto names = [&](const std::string& pattern) { return matches(pattern, name); };
     if (!alone && !play.mask.empty() && std::ranges::none_of(play.mask, names)) return;
-    const ClipClock at = clock_at(play, state.animation->clips()[play.clip], time);
-    if (at.started) visit(track->curve->value(at.time, at.side), play.weight.value(clock.timeline_at(time)));
+    const ClipClock at = running.clock(time);
+    if (at.started) visit(track->curve->value(at.time, at.side), running.weight(time).value);
   });
 }
 

@@ -11,9 +11,8 @@ namespace {
 /// End of the last play that moves the node; infinity while one has no end, or when none does.
 double path_end(const Path& path) {
   double last = -infinity;
-  path.animation().for_each_play(path.clock(), path.node(), [&](const Play& play) {
-    last = std::max(last, end_time(play, path.animation().clips()[play.clip]));
-  });
+  path.animation().for_each_play(path.clock(), path.node(),
+                                 [&](const RunningPlay& play) { last = std::max(last, play.end()); });
   return last == -infinity ? infinity : last;
 }
 
@@ -102,9 +101,8 @@ std::optional<Cause> fires(const StageState& state, ArmedRule& armed, double fro
 double event_time(const Animation& animation, const ClockOverride& clock, const std::string& name, NodeId node,
                   double from, double to) {
   double first = infinity;
-  animation.for_each_play(clock, node, [&](const Play& play) {
-    const Clip& clip = animation.clips()[play.clip];
-    if (const auto event = first_event(play, clip, std::max(from, 0.0), to, from < 0, name))
+  animation.for_each_play(clock, node, [&](const RunningPlay& play) {
+    if (const auto event = play.first_event(*play.clip, std::max(from, 0.0), to, from < 0, name))
       first = std::min(first, event->time);
   });
   if (clock == ClockOverride{})

@@ -18,11 +18,10 @@ std::string five_digits(double value) {
 /// Whether a clip that counts has an event of this name. @param body  when given, only plays that move its node count
 bool has_event(const Animation& animation, const std::string& name, const StagedBody* body) {
   bool any = false;
-  animation.for_each_play(body ? body->path.clock() : ClockOverride{}, body ? body->node : no_node,
-                          [&](const Play& play) {
-                            const Clip& clip = animation.clips()[play.clip];
-                            any = any || std::ranges::find(clip.events, name, &ClipEvent::name) != clip.events.end();
-                          });
+  animation.for_each_play(
+      body ? body->path.clock() : ClockOverride{}, body ? body->node : no_node, [&](const RunningPlay& play) {
+        any = any || std::ranges::find(play.clip->events, name, &ClipEvent::name) != play.clip->events.end();
+      });
   return any;
 }
 

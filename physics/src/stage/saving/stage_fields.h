@@ -22,6 +22,8 @@ inline constexpr int last_of<HandBack::Clock> = static_cast<int>(HandBack::Clock
 template <>
 inline constexpr int last_of<HandBack::Anchor> = static_cast<int>(HandBack::Anchor::ground);
 template <>
+inline constexpr int last_of<LoopMode> = static_cast<int>(LoopMode::pingpong);
+template <>
 inline constexpr int last_of<Combine> = static_cast<int>(Combine::maximum);
 
 // Rules
@@ -165,6 +167,75 @@ void each_field(T& change, const Visit& visit) {
   auto& [a, b, ignored] = change;
   visit.places(a, b);
   visit(ignored);
+}
+
+template <Is<Ease> T, class Visit>
+void each_field(T& ease, const Visit& visit) {
+  std::string word = ease.name();
+  visit(word);
+  if constexpr (!std::is_const_v<T>) {
+    const std::optional<Ease> named = Ease::named(word);
+    if (!named) throw std::invalid_argument("a saved stage has an unknown ease \"" + word + "\"");
+    ease = *named;
+  }
+}
+
+template <Is<Loop> T, class Visit>
+void each_field(T& loop, const Visit& visit) {
+  auto& [mode, count] = loop;
+  visit(mode, count);
+}
+
+template <Is<Fade> T, class Visit>
+void each_field(T& fade, const Visit& visit) {
+  auto& [seconds, ease] = fade;
+  visit(seconds, ease);
+}
+
+template <Is<PlayKey> T, class Visit>
+void each_field(T& key, const Visit& visit) {
+  auto& [time, value, ease] = key;
+  visit(time, value, ease);
+}
+
+template <Is<playing::Start> T, class Visit>
+void each_field(T& start, const Visit& visit) {
+  auto& [clip, from, to, offset, reverse, loop, speed, weight, fade_in, fade_out, mask] = start;
+  visit(clip, from, to, offset, reverse, loop, speed, weight, fade_in, fade_out, mask);
+}
+
+template <class T, class Visit>
+requires Is<T, playing::Stop> || Is<T, playing::FadeTo>
+void each_field(T& fade, const Visit& visit) {
+  if constexpr (Is<T, playing::FadeTo>) visit(fade.weight);
+  bool says_how = fade.ease.has_value();
+  Ease ease = fade.ease.value_or(Ease::linear());
+  visit(fade.seconds, says_how, ease);
+  if constexpr (!std::is_const_v<T>) fade.ease = says_how ? std::optional(ease) : std::nullopt;
+}
+
+template <Is<playing::Weigh> T, class Visit>
+void each_field(T& weigh, const Visit& visit) {
+  auto& [weight] = weigh;
+  visit(weight);
+}
+
+template <Is<playing::SetSpeed> T, class Visit>
+void each_field(T& set, const Visit& visit) {
+  auto& [speed, seconds] = set;
+  visit(speed, seconds);
+}
+
+template <Is<playing::Seek> T, class Visit>
+void each_field(T& seek, const Visit& visit) {
+  auto& [time, events] = seek;
+  visit(time, events);
+}
+
+template <Is<staging::change::Ask> T, class Visit>
+void each_field(T& ask, const Visit& visit) {
+  auto& [play, action] = ask;
+  visit(play, action);
 }
 
 template <Is<staging::Command> T, class Visit>

@@ -49,6 +49,15 @@ struct Recording {
 [[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes = 1024.0 * 1024 * 1024,
                                bool details = false);
 
+/// The same while inputs are given, each at its time. @param inputs  in order of time
+/// @throws std::invalid_argument for an input that is behind the stage's time or the one before it, and as the stage
+[[nodiscard]] Recording record(Stage& stage, double until, double fps, double most_bytes, bool details,
+                               std::span<const TimedInput> inputs);
+
+/// Advances a stage to `until`, giving it the inputs that are due by then. @return those that are still to come
+/// @throws as `record`
+std::span<const TimedInput> advance_with(Stage& stage, std::span<const TimedInput> inputs, double until);
+
 /// A time at which the stage has shown what it has: the end of its plays or its last timed hand-off, and a while for
 /// bodies to come to rest; 4 s of what has no end or
 /// lasts longer than an hour, 600 s at most. Plays of clips that do not exist do not count.

@@ -14,6 +14,7 @@
 #include <tweenfall/physics/handoff/path.h>
 #include <tweenfall/physics/handoff/rule.h>
 #include <tweenfall/physics/stage/description.h>
+#include <tweenfall/physics/stage/input.h>
 
 #include <cstddef>
 #include <functional>
@@ -112,6 +113,19 @@ class Stage {
   void release(NodeId node, const TakeOver& settings = {});
   void recover(NodeId node, const HandBack& settings = {});
   void arm(Rule rule);
+
+  // Plays, at exactly `time()`; going back finds it again
+  /// Starts, stops, fades, weighs, re-speeds or seeks a play: see `PlayAction`. Keyed bodies follow their paths across.
+  /// @param play  its name, else that of its clip
+  /// @throws std::invalid_argument for what cannot be, unknown names with the nearest; nothing has changed then
+  void ask(std::string_view play, PlayAction action);
+
+  // Outside input as values
+  /// What plays, bodies and impulses were asked for until now, each with its time: given again at these to a stage of
+  /// the same description, it runs to the same bits.
+  [[nodiscard]] std::vector<TimedInput> inputs() const;
+  /// One of these, at exactly `time()`. @throws as the functions that it stands for
+  void give(const Input& input);
 
   // Changing the cast while it runs
   NodeId add(const NodeDescription& node);

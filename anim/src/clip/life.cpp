@@ -1,0 +1,201 @@
+#include "clip/life.h"
+
+#include <tweenfall/curves/keys.h>
+
+#include <utility>
+
+namespace tweenfall {
+
+namespace clips {
+namespace {
+
+/// Of a loop with more counted rounds, an even number is left out of the reckoning, so that no digits are lost to it.
+constexpr double most_counted = 0x1p30;
+
+std::optional<Curve<double>> ramp(const Fade& fade, double from, double to) {
+  if (!(fade.seconds > 0)) return {};
+  return keyed_curve<double>({{.time = 0, .value = from, .ease = fade.ease}, {.time = fade.seconds, .value = to}});
+}
+
+/// The product of two numbers that change.
+Sample<double> times(const Sample<double>& a, const Sample<double>& b) noexcept {
+  return {a.value * b.value, a.rate * b.value + a.value * b.rate,
+          a.acceleration * b.value + 2 * a.rate * b.rate + a.value * b.acceleration};
+}
+
+void count_rounds(Rounds& rounds, double count, bool backwards) noexcept {
+  if (rounds.mode == LoopMode::once) {
+    rounds.total = rounds.length;
+  } else {
+    if (backwards && count > most_counted) rounds.left_out = 2 * std::floor(count / 2);
+    rounds.counted = count - rounds.left_out;
+    rounds.total = count > 0 ? rounds.length * rounds.counted : infinity;
+  }
+  rounds.low = !std::isfinite(rounds.total) ? -infinity : rounds.left_out > 0 ? -rounds.left_out * rounds.length : 0;
+}
+
+}  // namespace
+
+Rounds rounds_of(const Play& play, const Clip& clip) noexcept {
+  const Loop loop = play.loop.value_or(clip.loop);
+  Rounds rounds{.from = play.from,
+                .length = play.to.value_or(clip.duration) - play.from,
+                .mode = loop.mode,
+                .reverse = play.reverse};
+  count_rounds(rounds, loop.count, play.speed.first_direction() < 0);
+  return rounds;
+}
+
+Rounds rounds_of(const Clip& clip, bool backwards) noexcept {
+  Rounds rounds{.length = clip.duration, .mode = clip.loop.mode};
+  count_rounds(rounds, clip.loop.count, backwards);
+  return rounds;
+}
+
+Course::Course(const Rounds& all, const PlaySpeed& pace, double start, double offset) noexcept
+    : rounds(all), speed(pace), at(start), speed_from(start) {
+  const double round = std::isfinite(rounds.length) ? rounds.length : 0;
+  const double last = std::isfinite(rounds.total) ? rounds.total : round;
+  set_origin(at, speed.first_direction() < 0 ? last - offset : offset);
+  find_end();
+}
+
+void Course::set_origin(double time, double at_phase) noexcept {
+  origin = time;
+  origin_phase = at_phase;
+  way_at_origin = speed.is_constant() ? 0 : speed.way(time - speed_from);
+}
+
+void Course::find_end() noexcept {
+  end = first_move = infinity;
+  const double begins = begin();
+  const std::span<const double> turns = speed.turns();
+  auto next = static_cast<std::size_t>(std::ranges::upper_bound(turns, begins - speed_from) - turns.begin());
+  for (double start = begins;; ++next) {
+    const bool last = next == turns.size();
+    const int direction = speed.direction_after(next);
+    const double finish = last ? infinity : speed_from + turns[next];
+    if (direction != 0) {
+      first_move = std::min(first_move, start);
+      const double bound = direction > 0 ? rounds.total : rounds.low;
+      const double reached = last ? direction * infinity : phase(finish);
+      if (std::isfinite(bound) && direction * (reached - bound) >= 0) {
+        Stretch stretch{.from = start, .to = finish, .turn = finish, .direction = direction};
+        stretch.phase_from = phase(start);
+        end = direction * (stretch.phase_from - bound) >= 0 ? start : time_of(bound, stretch);
+        end_phase = bound;
+        return;
+      }
+    }
+    if (last) return;
+    start = finish;
+  }
+}
+
+double Course::time_of(double wanted, const Stretch& stretch) const noexcept {
+  if (speed.is_constant()) return std::clamp(origin + (wanted - origin_phase) / speed.at(0), stretch.from, stretch.to);
+  const std::span<const double> turns = speed.turns();
+  const double last_turn = speed_from + turns.back();
+  if (stretch.from >= last_turn) {
+    const double steady = speed.at(turns.back());
+    return std::clamp(last_turn + (wanted - phase(last_turn)) / steady, stretch.from, stretch.to);
+  }
+  // The first time at which it has come so far; the bounds are those of the speed's turns, whatever is asked for, so
+  // that an event has one time.
+  double early = stretch.from, late = stretch.turn;
+  if (stretch.direction * (phase(early) - wanted) >= 0) late = early;
+  while (early < late) {
+    const double middle = early + (late - early) / 2;
+    if (middle <= early || middle >= late) break;
+    (stretch.direction * (phase(middle) - wanted) >= 0 ? late : early) = middle;
+  }
+  return std::clamp(late, stretch.from, stretch.to);
+}
+
+ClipClock Course::clock(double time, Side side) const noexcept {
+  ClipClock clock;
+  clock.started = side == Side::out ? time >= at : time > at;
+  clock.climbs = rounds.mode == LoopMode::repeat_offset;
+  clock.from = rounds.from;
+  clock.to = rounds.from + rounds.length;
+  const bool steady = speed.is_constant();
+  int direction = !clock.started ? speed.first_direction()
+                  : steady       ? speed.first_direction()
+                                 : speed.direction(time - speed_from, side);
+  bool backwards = direction < 0;
+  double at_phase = clock.started ? phase(time) : phase(at);
+  const bool finite = std::isfinite(rounds.total);
+
+  // Which end of the phase the clock comes from and goes to; a clock at rest belongs to what it shows.
+  if (clock.started && steady) {
+    const bool below = (side == Side::in) != backwards;
+    const bool past_end = below ? at_phase > rounds.total : at_phase >= rounds.total;
+    const bool past_start = below ? at_phase <= rounds.low : at_phase < rounds.low;
+    clock.ended = direction > 0 ? past_end : direction < 0 && finite && past_start;
+  } else if (clock.started && (side == Side::out ? time >= end : time > end)) {
+    clock.ended = true;
+    at_phase = end_phase;
+    backwards = end_phase == rounds.low && !(end_phase == rounds.total && direction > 0);
+  }
+  const bool running = clock.started && direction != 0 && !clock.ended;
+  const bool from_below = (side == Side::in) != backwards;
+  at_phase = std::clamp(at_phase, rounds.low, rounds.total);
+
+  double inside = at_phase;
+  bool flip = rounds.reverse;
+  if (rounds.loops()) {
+    double round = std::floor(at_phase / rounds.length);
+    const bool at_seam = at_phase == round * rounds.length;
+    const bool at_very_end = finite && at_phase >= rounds.total;
+    const bool arriving = from_below && running && (round > -rounds.left_out || !finite);
+    if (at_seam && (arriving || (at_very_end && round > -rounds.left_out))) round -= 1;
+    inside = at_phase - round * rounds.length;
+    if (at_very_end && rounds.counted > 0) {
+      round = std::ceil(rounds.counted) - 1;
+      inside = (rounds.counted - round) * rounds.length;
+    }
+    inside = std::clamp(inside, 0.0, rounds.length);
+    flip = rounds.is_flipped(round);
+    const double whole = std::clamp(round + rounds.left_out, -2e9, 2e9);
+    clock.cycle = static_cast<int>(clock.climbs && rounds.reverse ? -whole : whole);
+  }
+  if (rounds.length == 0) inside = 0;
+  clock.time = rounds.from + (flip ? rounds.length - inside : inside);
+  if (running) {
+    const double pace = speed.at(time - speed_from, side);
+    clock.rate = flip ? -pace : pace;
+    clock.side = from_below != flip ? Side::in : Side::out;
+  } else {
+    clock.side = clock.ended && backwards == flip ? Side::in : Side::out;
+  }
+  return clock;
+}
+
+}  // namespace clips
+
+Player::Life::Life(const Play& played, const Clip& clip, double start)
+    : Course(clips::rounds_of(played, clip), played.speed, start, played.offset),
+      play(played),
+      given(std::make_shared<const Play>(played)),
+      weight_from(start) {
+  rise = clips::ramp(play.fade_in, 0, 1);
+  fall = clips::ramp(play.fade_out, 1, 0);
+}
+
+Player::Life::~Life() {
+  // One after another, so that no number of changes can exhaust the stack.
+  std::shared_ptr<Life> next = std::move(before);
+  while (next && next.use_count() == 1) next = std::exchange(next->before, nullptr);
+}
+
+Sample<double> Player::Life::weight(double time, Side side) const noexcept {
+  if (is_gone(time, side)) return {0, 0, 0};
+  Sample<double> weight = play.weight.sample(time - weight_from, side);
+  if (fades_in && rise && time - at <= play.fade_in.seconds)
+    weight = clips::times(weight, rise->sample(time - at, side));
+  if (fall && std::isfinite(end) && time >= end - play.fade_out.seconds)
+    weight = clips::times(weight, fall->sample(time - (end - play.fade_out.seconds), side));
+  return weight;
+}
+
+}  // namespace tweenfall

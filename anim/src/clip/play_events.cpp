@@ -1,0 +1,276 @@
+#include <tweenfall/curves/number_text.h>
+
+#include "clip/life.h"
+
+#include <stdexcept>
+
+namespace tweenfall {
+
+namespace clips {
+namespace {
+
+/// More events than this between two moments are an error and no list.
+constexpr double most_events = 1'000'000;
+
+/// Where an interval lies in the section that is played, from its start; nothing where it does not.
+struct Inside {
+  double from, to;
+};
+std::optional<Inside> clipped(const Rounds& rounds, const ClipEvent& event) {
+  const double from = std::max(event.from - rounds.from, 0.0), to = std::min(event.to - rounds.from, rounds.length);
+  return from < to ? std::optional(Inside{from, to}) : std::nullopt;
+}
+/// The phases in which an interval lies in one round, the lower first.
+Inside phases_of(const Rounds& rounds, double round, const Inside& interval) {
+  const double a = rounds.phase_of(round, interval.from), b = rounds.phase_of(round, interval.to);
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// Where a moment does.
+std::optional<double> place_of(const Rounds& rounds, const ClipEvent& event) {
+  const double inside = event.from - rounds.from;
+  return inside >= 0 && inside <= rounds.length ? std::optional(inside) : std::nullopt;
+}
+
+struct Span {
+  double first = 0, last = -1;
+};
+/// The rounds that may hold phases from `low` to `high`.
+Span rounds_between(const Rounds& rounds, double low, double high) {
+  if (!rounds.loops()) return {0, 0};
+  Span span{std::floor(low / rounds.length) - 1, std::floor(high / rounds.length) + 1};
+  if (std::isfinite(rounds.total)) {
+    const double ending = std::ceil(rounds.total / rounds.length) - 1;
+    span.first = std::max(span.first, -rounds.left_out);
+    span.last = std::min(span.last, rounds.left_out > 0 ? ending : std::max(0.0, ending));
+  }
+  return span;
+}
+
+/// The events of one stretch of one play, as its clock meets them.
+class StretchWalk {
+ public:
+  StretchWalk(const Rounds& rounds, const Clip& clip, std::size_t index, const Stretch& stretch)
+      : rounds_(rounds), clip_(clip), index_(index), stretch_(stretch) {}
+
+  template <class TimeOf>
+  void tell_round(double round, const TimeOf& time_of, std::vector<FiredEvent>& fired) const {
+    const bool up = stretch_.direction > 0;
+    const auto fire = [&](double phase, const ClipEvent& event, FiredEvent::Kind kind) {
+      fired.push_back({time_of(phase), event.name, event.data, index_, kind});
+    };
+    for (const ClipEvent& event : clip_.events) {
+      if (!event.is_interval()) {
+        if (const std::optional<double> place = place_of(rounds_, event))
+          if (const double phase = rounds_.phase_of(round, *place); meets(round, phase))
+            fire(phase, event, FiredEvent::Kind::moment);
+        continue;
+      }
+      const std::optional<Inside> inside = clipped(rounds_, event);
+      if (!inside) continue;
+      const auto [low, high] = phases_of(rounds_, round, *inside);
+      const double entry = up ? low : high, exit = up ? high : low;
+      if (is_between(entry, true)) fire(entry, event, FiredEvent::Kind::begin);
+      if (is_between(exit, false)) fire(exit, event, FiredEvent::Kind::end);
+    }
+  }
+
+ private:
+  /// Whether the stretch comes to a phase: its beginning counts or its end does.
+  [[nodiscard]] bool is_between(double phase, bool with_beginning) const {
+    const double from = stretch_.direction * stretch_.phase_from, to = stretch_.direction * stretch_.phase_to;
+    const double at = stretch_.direction * phase;
+    return with_beginning ? from <= at && at < to : from < at && at <= to;
+  }
+  [[nodiscard]] bool meets(double round, double phase) const {
+    const bool begins_here = stretch_.first && phase == stretch_.phase_from;
+    if (rounds_.loops() && begins_here) {
+      // At a seam, that of the round into which it moves.
+      const double place = phase / rounds_.length;
+      return round == (stretch_.direction > 0 ? std::floor(place) : std::ceil(place) - 1);
+    }
+    // At the turn of a ping-pong the clip is in one place once, not twice.
+    const bool turn = rounds_.loops() && rounds_.mode == LoopMode::pingpong && phase == round * rounds_.length;
+    if (turn && !(std::isfinite(rounds_.total) && round == -rounds_.left_out)) return false;
+    return begins_here || is_between(phase, false);
+  }
+
+  const Rounds& rounds_;
+  const Clip& clip_;
+  std::size_t index_;
+  const Stretch& stretch_;
+};
+
+/// Why a clip cannot tell its events.
+std::string refusal(const Play& play, const Clip& clip, const std::string& stretch) {
+  const Rounds rounds = rounds_of(play, clip);
+  const bool around = rounds.mode != LoopMode::once;
+  return "clip \"" + clip.name + "\" " +
+         (around ? "goes around every " + number_text(rounds.length / play.speed.greatest()) + " s and " : "") +
+         "has more than a million events " + stretch + ": " + (around ? "lengthen its loop or " : "") +
+         "leave out its events";
+}
+
+}  // namespace
+
+std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip, double phase) {
+  std::vector<OpenInterval> open;
+  const Span span = rounds_between(rounds, phase, phase);
+  for (double round = span.first; round <= span.last; ++round)
+    for (std::size_t i = 0; i < clip.events.size(); ++i) {
+      if (!clip.events[i].is_interval()) continue;
+      const std::optional<Inside> inside = clipped(rounds, clip.events[i]);
+      if (!inside) continue;
+      const auto [low, high] = phases_of(rounds, round, *inside);
+      if (low < phase && phase < high) open.push_back({i, round});
+    }
+  return open;
+}
+
+std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, std::size_t index, double from,
+                                       double to, double time) {
+  std::vector<std::pair<double, FiredEvent>> passed;
+  const double direction = to < from ? -1 : 1;
+  const Span span = rounds_between(rounds, std::min(from, to), std::max(from, to));
+  for (double round = span.first; round <= span.last; ++round)
+    for (const ClipEvent& event : clip.events) {
+      const std::optional<double> place = event.is_interval() ? std::nullopt : place_of(rounds, event);
+      if (!place) continue;
+      const double phase = rounds.phase_of(round, *place);
+      if (direction * phase > direction * from && direction * phase <= direction * to)
+        passed.push_back({direction * phase, {time, event.name, event.data, index, FiredEvent::Kind::moment}});
+    }
+  std::ranges::stable_sort(passed, {}, &std::pair<double, FiredEvent>::first);
+  std::vector<FiredEvent> events;
+  events.reserve(passed.size());
+  for (auto& [phase, event] : passed) events.push_back(std::move(event));
+  return events;
+}
+
+}  // namespace clips
+
+void Player::visit_events(const Clip& clip, double from, double to, bool from_start,
+                          const std::function<bool(FiredEvent&&)>& visit) const {
+  if (clip.events.empty() && latest_->told.empty() && !latest_->before) return;
+  // Each life tells what is its own: from where it took over, until where the next did.
+  std::vector<const Life*> lives;
+  for (const Life* life = latest_.get(); life; life = life->before.get()) {
+    if (life->since <= to) lives.push_back(life);
+    if (life->since < from) break;
+  }
+  bool goes_on = true;
+  const auto tell = [&](FiredEvent&& event) {
+    const bool inside = event.time <= to && (event.time > from || (from_start && event.time == from));
+    if (inside) goes_on = visit(std::move(event));
+    return goes_on;
+  };
+  const auto tell_all = [&](std::vector<FiredEvent> events) {
+    for (FiredEvent& event : events)
+      if (!tell(std::move(event))) return;
+  };
+  std::vector<FiredEvent> fired;
+  for (std::size_t i = lives.size(); i-- > 0 && goes_on;) {
+    const Life& life = *lives[i];
+    const double last = i > 0 ? lives[i - 1]->since : clips::infinity;
+    const std::size_t index = life.play.clip;
+    const clips::Rounds& rounds = life.rounds;
+    tell_all(life.told);
+    if (!goes_on || clip.events.empty()) continue;
+    const auto tell_open = [&](double phase, double time, FiredEvent::Kind kind) {
+      for (const clips::OpenInterval& open : clips::open_intervals(rounds, clip, phase)) {
+        const ClipEvent& event = clip.events[open.event];
+        if (!tell({time, event.name, event.data, index, kind})) return;
+      }
+    };
+    life.visit_stretches(from, to, std::min(last, life.stopped), [&](const clips::Stretch& stretch) {
+      if (stretch.first && life.over() > stretch.from)
+        tell_open(stretch.phase_from, stretch.from, FiredEvent::Kind::begin);
+      const clips::StretchWalk walk(rounds, clip, index, stretch);
+      const auto phase_at = [&](double time) {
+        return time <= stretch.from ? stretch.phase_from : time >= stretch.to ? stretch.phase_to : life.phase(time);
+      };
+      const double a = phase_at(from), b = phase_at(to);
+      const clips::Span span = clips::rounds_between(rounds, std::min(a, b), std::max(a, b));
+      for (double passed = 0; goes_on && passed <= span.last - span.first; ++passed) {
+        fired.clear();
+        walk.tell_round(
+            stretch.direction < 0 ? span.last - passed : span.first + passed,
+            [&](double phase) { return life.time_of(phase, stretch); }, fired);
+        std::ranges::stable_sort(fired, {}, &FiredEvent::time);
+        tell_all(std::move(fired));
+      }
+      return goes_on;
+    });
+    // What is open when it is over ends then.
+    const double over = life.over();
+    const bool ends_here = over > life.since || (over == life.since && over == life.stopped && over < life.end);
+    if (goes_on && ends_here && over <= last && over >= from && over <= to && life.has_moved(over))
+      tell_open(life.held_phase(over), over, FiredEvent::Kind::end);
+  }
+}
+
+std::vector<FiredEvent> Player::events_between(const Clip& clip, double from, double to, bool from_start) const {
+  double bound = 0;
+  for (const Life* life = latest_.get(); life; life = life->before.get()) {
+    if (life->begin() <= to && !clip.events.empty()) {
+      const double begin = std::max(from, life->begin());
+      const clips::Rounds& rounds = life->rounds;
+      const double way = std::min(to - begin, life->over() - life->begin()) * life->play.speed.greatest();
+      const double rounds_met = rounds.loops() ? std::max(0.0, way) / rounds.length + 3 : 1;
+      const double counted =
+          std::isfinite(rounds.total) && rounds.loops() ? (rounds.total - rounds.low) / rounds.length + 1 : rounds_met;
+      bound += 2 * std::min(rounds_met, life->play.speed.is_constant() ? counted : rounds_met) *
+               static_cast<double>(clip.events.size());
+    }
+    if (bound > clips::most_events)
+      throw std::length_error(
+          clips::refusal(life->play, clip, "from " + number_text(from) + " s to " + number_text(to) + " s"));
+    if (life->since < from) break;
+  }
+  std::vector<FiredEvent> fired;
+  visit_events(clip, from, to, from_start, [&](FiredEvent&& event) {
+    fired.push_back(std::move(event));
+    return true;
+  });
+  std::ranges::stable_sort(fired, {}, &FiredEvent::time);
+  return fired;
+}
+
+std::optional<FiredEvent> Player::first_event(const Clip& clip, double from, double to, bool from_start,
+                                              std::optional<std::string_view> name) const {
+  std::optional<FiredEvent> first;
+  const bool told = latest_->before || !latest_->told.empty();
+  if (name && !told && std::ranges::find(clip.events, *name, &ClipEvent::name) == clip.events.end()) return first;
+  visit_events(clip, from, to, from_start, [&](FiredEvent&& event) {
+    if (event.kind == FiredEvent::Kind::end || (name && event.name != *name)) return true;
+    first = std::move(event);
+    return false;
+  });
+  return first;
+}
+
+std::vector<FiredEvent> events_between(const Play& play, const Clip& clip, double from, double to, bool from_start) {
+  return Player(play, clip).events_between(clip, from, to, from_start);
+}
+
+std::optional<FiredEvent> first_event(const Play& play, const Clip& clip, double from, double to, bool from_start,
+                                      std::optional<std::string_view> name) {
+  return Player(play, clip).first_event(clip, from, to, from_start, name);
+}
+
+std::string too_many_events(const Play& play, const Clip& clip, double seconds) {
+  const double speed = play.speed.greatest();
+  if (clip.events.empty() || speed == 0) return {};
+  double plays = 1;
+  if (const clips::Rounds rounds = clips::rounds_of(play, clip); rounds.loops()) {
+    // The stretch may lie anywhere: it touches a round more at each end, as many are looked at beside these, and far
+    // from the start the number of the first is rounded.
+    plays = 1.001 * seconds * speed / rounds.length + 4;
+    if (const double count = play.loop.value_or(clip.loop).count; count > 0 && play.speed.is_constant())
+      plays = std::min(plays, std::ceil(count) + 1);
+  }
+  if (2 * plays * static_cast<double>(clip.events.size()) <= clips::most_events) return {};
+  return clips::refusal(play, clip, "within " + brief_text(seconds) + " s");
+}
+
+}  // namespace tweenfall

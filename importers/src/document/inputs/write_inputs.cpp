@@ -1,0 +1,201 @@
+#include <tweenfall/curves/number_text.h>
+#include <tweenfall/importers/inputs.h>
+
+#include "document/read/values.h"
+#include "json/json_string.h"
+
+#include <cmath>
+#include <utility>
+
+namespace tweenfall {
+
+namespace document::inputs {
+namespace {
+
+std::string string_text(std::string_view text) {
+  std::string out;
+  json::append_string(out, text);
+  return out;
+}
+
+/// Degrees that are read as these radians, to the bit where some are.
+double degrees_of(double angle) {
+  const double near = degrees(angle);
+  for (const double towards : {HUGE_VAL, -HUGE_VAL})
+    for (double each = near, left = 4; left > 0; --left, each = std::nextafter(each, towards))
+      if (radians(each) == angle) return each;
+  return near;
+}
+
+/// The fields of one object; what means nothing is left out.
+class Fields {
+ public:
+  void add(const std::string& name, const std::string& json) {
+    text_ += (text_.empty() ? "" : ", ") + string_text(name) + ": " + json;
+  }
+  void add(const std::string& name, double number, double standard) {
+    if (number != standard) add(name, number_text(number));
+  }
+  [[nodiscard]] std::string object() const { return "{" + text_ + "}"; }
+
+ private:
+  std::string text_;
+};
+
+std::string vector_text(const Vec3& v) {
+  return "[" + number_text(v[0]) + ", " + number_text(v[1]) + ", " + number_text(v[2]) + "]";
+}
+
+std::string keys_text(const PlayKeys& keys) {
+  if (keys.size() == 1 && keys.front().time == 0) return number_text(keys.front().value);
+  std::string text;
+  for (const PlayKey& key : keys) {
+    text += (text.empty() ? "[" : ", [") + number_text(key.time) + ", " + number_text(key.value);
+    text += (key.ease == PlayKey{}.ease ? "" : ", " + string_text(key.ease.name())) + "]";
+  }
+  return "[" + text + "]";
+}
+
+std::string fade_text(const Fade& fade) {
+  if (fade.ease == Fade{}.ease) return number_text(fade.seconds);
+  return "{\"seconds\": " + number_text(fade.seconds) + ", \"ease\": " + string_text(fade.ease.name()) + "}";
+}
+
+const char* loop_word(LoopMode mode) {
+  constexpr const char* words[] = {"once", "repeat", "repeat-offset", "pingpong"};
+  return words[static_cast<int>(mode)];
+}
+
+using Said = std::pair<const char*, std::string>;
+
+struct OfAction {
+  const std::string& play;
+
+  Said operator()(const playing::Start& start) const {
+    Fields fields = named();
+    if (start.clip.empty()) return {"start", fields.object()};
+    const playing::Start usual{};
+    fields.add("clip", string_text(start.clip));
+    fields.add("from", start.from, 0);
+    if (start.to) fields.add("to", number_text(*start.to));
+    fields.add("offset", start.offset, 0);
+    if (start.reverse) fields.add("direction", "\"reverse\"");
+    if (start.loop) {
+      fields.add("loop", string_text(loop_word(start.loop->mode)));
+      fields.add("count", start.loop->count, 0);
+    }
+    if (!(start.speed == usual.speed)) fields.add("speed", keys_text(start.speed));
+    if (!(start.weight == usual.weight)) fields.add("weight", keys_text(start.weight));
+    if (!(start.fade_in == usual.fade_in)) fields.add("fade_in", fade_text(start.fade_in));
+    if (!(start.fade_out == usual.fade_out)) fields.add("fade_out", fade_text(start.fade_out));
+    std::string mask;
+    for (const std::string& name : start.mask) mask += (mask.empty() ? "" : ", ") + string_text(name);
+    if (!mask.empty()) fields.add("mask", "[" + mask + "]");
+    return {"start", fields.object()};
+  }
+  Said operator()(const playing::Stop& stop) const {
+    Fields fields = named();
+    fields.add("seconds", stop.seconds, 0);
+    if (stop.ease) fields.add("ease", string_text(stop.ease->name()));
+    return {"stop", fields.object()};
+  }
+  Said operator()(const playing::FadeTo& fade) const {
+    Fields fields = named();
+    fields.add("weight", number_text(fade.weight));
+    fields.add("seconds", fade.seconds, 0);
+    if (fade.ease) fields.add("ease", string_text(fade.ease->name()));
+    return {"fade", fields.object()};
+  }
+  Said operator()(const playing::Weigh& weigh) const {
+    Fields fields = named();
+    fields.add("weight", keys_text(weigh.weight));
+    return {"weigh", fields.object()};
+  }
+  Said operator()(const playing::SetSpeed& set) const {
+    Fields fields = named();
+    fields.add("speed", keys_text(set.speed));
+    fields.add("seconds", set.seconds, 0);
+    return {"speed", fields.object()};
+  }
+  Said operator()(const playing::Seek& seek) const {
+    Fields fields = named();
+    fields.add("to", number_text(seek.time));
+    if (seek.events) fields.add("events", "true");
+    return {"seek", fields.object()};
+  }
+
+ private:
+  [[nodiscard]] Fields named() const {
+    Fields fields;
+    fields.add("play", string_text(play));
+    return fields;
+  }
+};
+
+std::string velocity_text(const TakeOver& settings) {
+  Fields fields;
+  if (settings.velocity == TakeOver::Velocity::average) fields.add("average", number_text(settings.average_over));
+  if (settings.velocity == TakeOver::Velocity::step) fields.add("source", "\"step\"");
+  if (settings.velocity == TakeOver::Velocity::zero) fields.add("source", "\"zero\"");
+  fields.add("scale", settings.scale, 1);
+  Fields added;
+  const Twist& add = settings.add;
+  if (!add.linear.isZero(0)) added.add("linear", vector_text(add.linear));
+  if (!add.angular.isZero(0))
+    added.add("angular",
+              vector_text(Vec3(degrees_of(add.angular[0]), degrees_of(add.angular[1]), degrees_of(add.angular[2]))));
+  if (added.object() != "{}") fields.add("add", added.object());
+  return fields.object();
+}
+
+struct OfInput {
+  Said operator()(const input::Ask& ask) const { return std::visit(OfAction{ask.play}, ask.action); }
+  Said operator()(const input::Release& release) const {
+    Fields fields;
+    fields.add("body", string_text(release.body));
+    if (const std::string velocity = velocity_text(release.settings); velocity != "{}")
+      fields.add("velocity", velocity);
+    constexpr const char* words[] = {"push", "ignore", "rewind", "veto"};
+    if (release.settings.overlap != TakeOver{}.overlap)
+      fields.add("overlap", string_text(words[static_cast<int>(release.settings.overlap)]));
+    return {"release", fields.object()};
+  }
+  Said operator()(const input::Recover& recover) const {
+    Fields fields, path;
+    const HandBack& settings = recover.settings;
+    constexpr const char* clocks[] = {"run", "hold", "restart"};
+    constexpr const char* anchors[] = {"keep", "here", "ground"};
+    constexpr const char* settles[] = {"quintic", "half_life", "dead_blend"};
+    fields.add("body", string_text(recover.body));
+    if (!settings.clip.empty()) path.add("clip", string_text(settings.clip));
+    if (settings.clock != HandBack{}.clock) path.add("time", string_text(clocks[static_cast<int>(settings.clock)]));
+    if (settings.anchor != HandBack{}.anchor)
+      path.add("anchor", string_text(anchors[static_cast<int>(settings.anchor)]));
+    if (path.object() != "{}") fields.add("path", path.object());
+    fields.add("settle", "{" + string_text(settles[static_cast<int>(settings.settle.kind)]) + ": " +
+                             number_text(settings.settle.seconds) + "}");
+    return {"recover", fields.object()};
+  }
+  Said operator()(const input::Push& push) const {
+    Fields fields;
+    fields.add("body", string_text(push.body));
+    fields.add("impulse", vector_text(push.impulse));
+    fields.add("point", vector_text(push.point));
+    return {"push", fields.object()};
+  }
+};
+
+}  // namespace
+}  // namespace document::inputs
+
+std::string inputs_json(std::span<const TimedInput> inputs) {
+  std::string rows;
+  for (const TimedInput& input : inputs) {
+    const auto [word, said] = std::visit(document::inputs::OfInput{}, input.what);
+    rows += (rows.empty() ? "\n    " : ",\n    ") + std::string("{\"at\": ") + number_text(input.time) + ", " +
+            document::inputs::string_text(word) + ": " + said + "}";
+  }
+  return "{\n  \"tweenfall\": 1,\n  \"inputs\": [" + rows + (rows.empty() ? "" : "\n  ") + "]\n}\n";
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,43 @@
+#pragma once
+
+/// Outside input as values: what is asked of a stage from outside, each at its exact time, so that it can be kept and
+/// given again. The same inputs at the same times give the same bits.
+
+#include <tweenfall/anim/player.h>
+#include <tweenfall/physics/handoff/rule.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tweenfall {
+
+namespace input {
+/// A play is asked for something.
+struct Ask {
+  std::string play;  ///< its name, else that of its clip
+  PlayAction action;
+};
+struct Release {
+  std::string body;
+  TakeOver settings = {};
+};
+struct Recover {
+  std::string body;
+  HandBack settings = {};
+};
+struct Push {
+  std::string body;
+  Vec3 impulse{0, 0, 0};  ///< N s
+  Vec3 point{0, 0, 0};    ///< world, m
+};
+}  // namespace input
+
+using Input = std::variant<input::Ask, input::Release, input::Recover, input::Push>;
+
+struct TimedInput {
+  double time = 0;  ///< stage time, s
+  Input what;
+};
+
+}  // namespace tweenfall

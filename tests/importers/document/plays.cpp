@@ -1,0 +1,143 @@
+// Plays in documents: sections, loops, fades, keys of weight and speed; and files of timed inputs.
+
+#include "importers/document/document_files.h"
+
+#include <tweenfall/importers/inputs.h>
+#include <tweenfall/physics/stage/recording.h>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+std::string with_play(const std::string& play) {
+  return R"({"tweenfall": 1, "fps": 10,
+ "nodes": {"ball": {"body": {"shape": {"sphere": {"radius": 0.1}}}}},
+ "clips": {"walk": {"tracks": {"ball.position": [[0, [0, 0, 0], "linear"], [4, [4, 0, 0]]]}},
+           "wave": {"tracks": {"ball.rotation": {"axis": "z", "keys": [[0, 0], [1, 90]]}}}},
+ "play": [)" +
+         play + "]}";
+}
+
+Play play_of(const std::string& text) {
+  return parsed(with_play(text)).stage().plays.at(0);
+}
+
+std::string play_faults(const std::string& text) {
+  return faults_of(with_play(text), "p.json", {});
+}
+
+StageDescription walking() {
+  return parsed(with_play(R"({"clip": "walk"})")).stage();
+}
+
+std::string input_faults(const std::string& rows) {
+  try {
+    (void)parse_inputs("{\"tweenfall\": 1, \"inputs\": [\n" + rows + "]}", "i.json", walking());
+  } catch (const DocumentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+bool fault_says(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("a play says its section, its rounds and its fades") {
+  const Play play = play_of(R"({"name": "stroll", "clip": "walk", "at": "5f", "from": "25%", "to": "30f", "offset": 0.5,
+      "direction": "reverse", "loop": "pingpong", "count": 2.5, "fade_in": 0.2,
+      "fade_out": {"seconds": 0.3, "ease": "sine-in-out"}})");
+  CHECK(play.name == "stroll");
+  CHECK(play.at == 0.5);
+  CHECK(play.from == 1);
+  CHECK(play.to == 3);
+  CHECK(play.offset == 0.5);
+  CHECK(play.reverse);
+  CHECK(play.loop == Loop{LoopMode::pingpong, 2.5});
+  CHECK(play.fade_in.seconds == 0.2);
+  CHECK(play.fade_out.ease.name() == "sine-in-out");
+  CHECK(play_of(R"({"clip": "walk", "count": 3})").loop == Loop{LoopMode::repeat, 3});
+  CHECK(play_of(R"({"clip": "walk", "loop": {"mode": "repeat", "count": 2}})").loop == Loop{LoopMode::repeat, 2});
+}
+
+TEST_CASE("keys of weight and speed run on the play's own time, unless they say the stage's") {
+  const Play own = play_of(R"({"clip": "walk", "at": 2, "weight": [[0, 0, "linear"], [1, 1]],
+                              "speed": [[0, 0, "linear"], [2, 2]]})");
+  CHECK(own.weight.value(0.5) == 0.5);
+  CHECK(near(end_time(own, walking().clips[0]), 2 + 3, 1e-12));  // 2 m by 2 s, then 2 m at 2 m/s
+  CHECK(own.speed.at(1) == 1);
+  const Play stage =
+      play_of(R"({"clip": "walk", "at": 2, "weight": {"clock": "stage", "keys": [[2, 0, "linear"], [3, 1]]}})");
+  CHECK(near(stage.weight.value(0.5), 0.5, 1e-15));
+}
+
+TEST_CASE("what is wrong with a play is told at its place") {
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "to": 5})"), "its section reaches to 5 s, and the clip to 4 s"));
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "from": 3, "to": 2})"), "not after its start"));
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "fadein": 1})"), "did you mean \"fade_in\"?"));
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "fade_in": -1})"), "p.json:"));
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "loop": "once", "count": 2})"), "\"count\" means nothing"));
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "speed": [[0, 1], [0, 2]]})"), "key times must increase"));
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "weight": [[0, 2]]})"), "expected a weight from 0 to 1"));
+  CHECK(fault_says(play_faults(R"({"name": "a", "clip": "walk"}, {"name": "a", "clip": "wave"})"),
+                   "another play is called"));
+  CHECK(fault_says(play_faults(R"({"clip": "walk", "weight": {"clock": "stag", "keys": [[0, 1]]}})"),
+                   "did you mean \"stage\"?"));
+}
+
+TEST_CASE("inputs are read with their settings, and written so that the same are read") {
+  const std::string text = R"({"tweenfall": 1, "inputs": [
+    {"at": 0.5, "start": {"play": "wave", "fade_in": 0.2}},
+    {"at": 0.5, "speed": {"play": "walk", "speed": 1.5, "seconds": 0.3}},
+    {"at": 0.7, "speed": {"play": "walk", "speed": [[0, 1.5, "quad-in"], [1, 0.1]]}},
+    {"at": 1, "fade": {"play": "wave", "weight": 0.25, "seconds": 0.1, "ease": "sine-in-out"}},
+    {"at": 1, "weigh": {"play": "wave", "weight": [[0, 0.25], [1, 1]]}},
+    {"at": 1.1, "seek": {"play": "walk", "to": 3, "events": true}},
+    {"at": 1.2, "stop": {"play": "wave", "seconds": 0.1}},
+    {"at": 1.3, "start": {"play": "again", "clip": "walk", "from": 1, "to": 3, "direction": "reverse", "loop": "repeat", "count": 2, "mask": "ball"}},
+    {"at": 2, "release": {"body": "ball", "velocity": {"scale": 0.5, "add": {"linear": [0, 1, 0], "angular": [0, 0, 33.3]}}, "overlap": "ignore"}},
+    {"at": 2, "push": {"body": "ball", "impulse": [0, 0.1, 0], "point": [0, 0, 0]}},
+    {"at": 3, "recover": {"body": "ball", "path": {"time": "hold", "anchor": "here"}, "settle": {"half_life": 0.1}}}]})";
+  const StageDescription stage = walking();
+  const std::vector<TimedInput> inputs = parse_inputs(text, "i.json", stage);
+  REQUIRE(inputs.size() == 11);
+  const auto& speed = std::get<playing::SetSpeed>(std::get<input::Ask>(inputs[2].what).action);
+  CHECK(speed.speed == PlayKeys{{0, 1.5, Ease::named("quad-in").value()}, {1, 0.1}});
+  const auto& start = std::get<playing::Start>(std::get<input::Ask>(inputs[7].what).action);
+  CHECK(start.clip == "walk");
+  CHECK(start.reverse);
+  CHECK(std::get<input::Release>(inputs[8].what).settings.scale == 0.5);
+  CHECK(std::get<input::Recover>(inputs[10].what).settings.clock == HandBack::Clock::hold);
+  const std::string once = inputs_json(inputs);
+  const std::vector<TimedInput> again = parse_inputs(once, "i.json", stage);
+  CHECK(inputs_json(again) == once);
+  // They do the same, to the bit.
+  Stage first(stage), second(stage);
+  static_cast<void>(advance_with(first, inputs, 4));
+  static_cast<void>(advance_with(second, again, 4));
+  CHECK(first.state_hash() == second.state_hash());
+  CHECK(inputs_json(first.inputs()) == once);
+}
+
+TEST_CASE("faults of inputs are told at their places") {
+  CHECK(fault_says(input_faults(R"({"at": 1, "stop": {"play": "wlak"}})"),
+                   "i.json:2:28: error: there is no play \"wlak\"; did you mean \"walk\"?"));
+  CHECK(fault_says(input_faults(R"({"at": 1, "stop": {"play": "walk"}}, {"at": 0.5, "stop": {"play": "walk"}})"),
+                   "times do not go back; 0.5 s is before the input before it, at 1 s"));
+  CHECK(fault_says(input_faults(R"({"at": 1, "stop": {"play": "walk", "secnds": 1}})"), "did you mean \"seconds\"?"));
+  CHECK(fault_says(input_faults(R"({"at": 1, "stopp": {"play": "walk"}})"), "did you mean \"stop\"?"));
+  CHECK(fault_says(input_faults(R"({"at": 1})"), "\"start\", \"stop\""));
+  CHECK(fault_says(input_faults(R"({"at": 1, "stop": {"play": "walk"}, "seek": {"play": "walk", "to": 1}})"),
+                   "give one of them"));
+  CHECK(fault_says(input_faults(R"({"at": 1, "push": {"body": "bal", "impulse": [0, 0, 0], "point": [0, 0, 0]}})"),
+                   "did you mean \"ball\"?"));
+  CHECK(
+      fault_says(input_faults(R"({"at": 1, "fade": {"play": "walk", "weight": 2}})"), "expected a weight from 0 to 1"));
+  CHECK(fault_says(input_faults(R"({"at": -1, "stop": {"play": "walk"}})"), "i.json:2"));
+  // What is started is known from then on.
+  CHECK(input_faults(R"({"at": 1, "start": {"play": "w", "clip": "wave"}}, {"at": 2, "stop": {"play": "w"}})").empty());
+  CHECK(fault_says(input_faults(R"({"at": 1, "start": {"play": "w", "clip": "wav"}})"), "there is no clip \"wav\""));
+}
