@@ -161,9 +161,9 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
 
 /// Those of one key in their order. There are thousands of keys, and of most islands' contacts only few.
 void ContactBlocks::sort_by_key() {
-  constexpr std::size_t few = 256;
+  constexpr std::size_t few_contacts = 256;
   sorted_.resize(keys_.size());
-  if (keys_.size() <= few) {
+  if (keys_.size() <= few_contacts) {
     std::iota(sorted_.begin(), sorted_.end(), std::uint32_t{0});
     std::sort(sorted_.begin(), sorted_.end(), [this](std::uint32_t left, std::uint32_t right) {
       return keys_[left] != keys_[right] ? keys_[left] < keys_[right] : left < right;
