@@ -35,7 +35,7 @@ void follow(const NodeSpring& spring, NodeSpringState& state, double time, const
   using namespace chains;
   const Hierarchy& nodes = spring.nodes();
   const auto world_at = [&](double t) {
-    pose_at(t, scratch);
+    pose_at(t, scratch.first(nodes.size()));
     return nodes.world_motion(spring.node(), [&](std::size_t i) -> const Motion& { return scratch[i]; }).motion;
   };
   const Vec3 none(0, 0, 0);

@@ -122,6 +122,7 @@ const Table<Started>& start_table() {
                                                                    {"pingpong", LoopMode::pingpong}};
   const auto loop_form = [](FormStore& store, const ValueForms&) -> const Form* {
     std::vector<std::string> words;
+    words.reserve(loops.size());
     for (const auto& [word, mode] : loops) words.push_back(word);
     return store.add(words_of("a way to loop", words));
   };
