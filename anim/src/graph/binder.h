@@ -3,8 +3,8 @@
 // What operations are given while they are made: the poses, clips, parameters and joints that they name, each found or
 // told to be missing.
 
-#include "graph/number.h"
-#include "graph/operation.h"
+#include "operations/number.h"
+#include "operations/operation.h"
 #include "pose/bound_clip.h"
 
 #include <map>

@@ -2,8 +2,8 @@
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
 
-#include "graph/course.h"
 #include "graph/log_bytes.h"
+#include "machine/course.h"
 
 #include <algorithm>
 #include <cmath>

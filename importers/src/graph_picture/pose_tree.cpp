@@ -1,4 +1,4 @@
-#include "plot/pose_tree.h"
+#include "graph_picture/pose_tree.h"
 
 #include "plot/label_rows.h"
 

@@ -1,4 +1,4 @@
-#include "plot/graph_boxes.h"
+#include "graph_picture/graph_boxes.h"
 
 #include "plot/label_rows.h"
 

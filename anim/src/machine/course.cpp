@@ -1,4 +1,4 @@
-#include "graph/course.h"
+#include "machine/course.h"
 
 #include <algorithm>
 

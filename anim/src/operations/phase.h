@@ -5,7 +5,7 @@
 #include <tweenfall/anim/blend_space.h>
 #include <tweenfall/anim/marker_sync.h>
 
-#include "graph/number.h"
+#include "operations/number.h"
 
 #include <functional>
 #include <variant>

@@ -2,7 +2,7 @@
 
 // A machine: its states, the way between them, and what shows of it.
 
-#include "graph/condition.h"
+#include "machine/condition.h"
 
 namespace tweenfall::graphs {
 

@@ -1,4 +1,4 @@
-#include "graph/condition.h"
+#include "machine/condition.h"
 
 #include <tweenfall/curves/calculus.h>
 #include <tweenfall/curves/number_text.h>

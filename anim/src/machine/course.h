@@ -2,7 +2,7 @@
 
 // The course of a graph: what follows from what came in, instant by instant.
 
-#include "graph/machine.h"
+#include "machine/machine.h"
 
 namespace tweenfall::graphs {
 

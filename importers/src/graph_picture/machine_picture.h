@@ -4,7 +4,7 @@
 
 #include <tweenfall/anim/graph.h>
 
-#include "plot/graph_boxes.h"
+#include "graph_picture/graph_boxes.h"
 
 namespace tweenfall::plotting {
 

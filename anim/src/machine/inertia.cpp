@@ -1,4 +1,4 @@
-#include "graph/inertia.h"
+#include "machine/inertia.h"
 
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/curves/settle.h>

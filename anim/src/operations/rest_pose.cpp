@@ -1,4 +1,4 @@
-#include "graph/operation.h"
+#include "operations/operation.h"
 
 #include <algorithm>
 

@@ -1,8 +1,8 @@
-#include "graph/machine.h"
+#include "machine/machine.h"
 
 #include <tweenfall/anim/blend.h>
 
-#include "graph/inertia.h"
+#include "machine/inertia.h"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include <tweenfall/anim/marker_sync.h>
 
 #include "graph/binder.h"
-#include "graph/phase.h"
+#include "operations/phase.h"
 
 #include <algorithm>
 #include <array>

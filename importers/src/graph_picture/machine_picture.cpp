@@ -1,4 +1,4 @@
-#include "plot/machine_picture.h"
+#include "graph_picture/machine_picture.h"
 
 #include <tweenfall/curves/elementary.h>
 

@@ -1,7 +1,7 @@
 #include <tweenfall/importers/graph_plot.h>
 
-#include "plot/machine_picture.h"
-#include "plot/pose_tree.h"
+#include "graph_picture/machine_picture.h"
+#include "graph_picture/pose_tree.h"
 
 #include <algorithm>
 

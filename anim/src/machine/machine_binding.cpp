@@ -1,7 +1,7 @@
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
 
-#include "graph/machine.h"
+#include "machine/machine.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "graph/phase.h"
+#include "operations/phase.h"
 
 #include <algorithm>
 #include <array>
