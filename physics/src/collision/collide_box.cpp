@@ -19,6 +19,29 @@ struct Separation {
   int first = 0, second = 0;  ///< axes of a and of b that are meant
 };
 
+Vec3 support(const Box& box, const Placed& at, const Vec3& direction) {
+  Vec3 point = at.center;
+  for (int i = 0; i < 3; ++i) {
+    const double side = at.axes.col(i).dot(direction) < 0 ? -1 : 1;
+    point += side * box.half_extents[i] * at.axes.col(i);
+  }
+  return point;
+}
+
+/// Whether what a face of one comes to is all that there is: apart, the other's nearest corner lies over the face, and
+/// nothing is nearer; overlapping, no other face is a shorter way out for that corner, so that no direction is one for
+/// the whole.
+/// @param out  the face's normal
+bool is_all(const Box& one, const Placed& at_one, int axis, double gap, const Box& other, const Placed& at_other,
+            const Vec3& out) {
+  const Vec3 corner = at_one.axes.transpose() * (support(other, at_other, -out) - at_one.center);
+  const double most = std::min(0.0, gap);
+  if (one.half_extents[axis] < -gap) return false;
+  for (int i = 0; i < 3; ++i)
+    if (i != axis && std::abs(corner[i]) - one.half_extents[i] > most) return false;
+  return true;
+}
+
 /// The axis along which the boxes are farthest apart, or overlap least. Near ties go to a's faces, then b's, then to
 /// edges, so that the choice does not change from step to step; but what one axis tells apart by more than the margin
 /// is apart. Source: Gottschalk, Lin, Manocha, OBBTree, SIGGRAPH 1996.
@@ -36,6 +59,7 @@ Separation widest(const Box& a, const Placed& at_a, const Box& b, const Placed& 
     if (gap > best.gap + (i == 0 ? 0 : 0.1 * preference) || (gap > margin && gap > best.gap))
       best = {gap, at_a.axes.col(i) * (in_a[i] < 0 ? -1.0 : 1.0), Separation::face_a, i, 0};
   }
+  const Separation first = best;
   Separation other;
   for (int i = 0; i < 3; ++i) {
     const double gap = std::abs(in_b[i]) - b.half_extents[i] - reach.col(i).dot(a.half_extents);
@@ -44,6 +68,10 @@ Separation widest(const Box& a, const Placed& at_a, const Box& b, const Placed& 
   }
   if (other.gap > best.gap + preference || (other.gap > margin && other.gap > best.gap)) best = other;
   if (best.gap > margin) return best;
+  // Mostly a corner of one lies over a face of the other, and there no edge tells more.
+  if (is_all(a, at_a, first.first, first.gap, b, at_b, first.normal) ||
+      is_all(b, at_b, other.second, other.gap, a, at_a, -other.normal))
+    return best;
   Separation edge;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -58,15 +86,6 @@ Separation widest(const Box& a, const Placed& at_a, const Box& b, const Placed& 
     }
   if (edge.gap > best.gap + 2 * preference) best = edge;
   return best;
-}
-
-Vec3 support(const Box& box, const Placed& at, const Vec3& direction) {
-  Vec3 point = at.center;
-  for (int i = 0; i < 3; ++i) {
-    const double side = at.axes.col(i).dot(direction) < 0 ? -1 : 1;
-    point += side * box.half_extents[i] * at.axes.col(i);
-  }
-  return point;
 }
 
 struct ClipVertex {

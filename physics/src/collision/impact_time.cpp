@@ -56,6 +56,43 @@ double swing_speed(const Course& course) {
   return spin * body.radius;
 }
 
+namespace {
+
+/// How a gap along a direction may change while two shapes go on their ways.
+struct GapAlong {
+  const Course &a, &b;
+  Vec3 direction;
+  /// No point leaves the chord of its way along the direction by more than an eighth of this times the square of the
+  /// time, m/s^2.
+  double bent = 0;
+
+  GapAlong(const Course& first, const Course& second, const Vec3& along) : a(first), b(second), direction(along) {
+    bent = std::abs(direction.dot(a.acceleration - b.acceleration)) + a.angular.norm() * swing_speed(a) +
+           b.angular.norm() * swing_speed(b);
+  }
+  /// The gap at a time, by no more than its rounding too small; -infinity where it is not known, m.
+  [[nodiscard]] double at(double time) const {
+    const shapes::Placed at_a = shapes::place(*a.shape, a.at(time).node(*a.body)),
+                         at_b = shapes::place(*b.shape, b.at(time).node(*b.body));
+    const double rounding = 1e-14 * (at_a.center.norm() + at_b.center.norm());
+    return direction.dot(at_b.center - at_a.center) - shapes::support_along(a.shape->solid, at_a.axes, direction) -
+           shapes::support_along(b.shape->solid, at_b.axes, -direction) - rounding;
+  }
+};
+
+/// For how long of a stretch of time a gap stays open that is `gap` at its beginning and `end` at its end.
+/// @return parts of the stretch: 1 for all of it
+double open_for(double gap, double end, double bent, double stretch) {
+  // It is no less than gap + (end - gap) x - bow x (1 - x).
+  const double bow = 0.5 * bent * stretch * stretch;
+  const double falls = gap - end + bow;
+  if (!(falls > 0)) return 1;
+  const double square = falls * falls - 4 * bow * gap;
+  return square < 0 ? 1 : std::min(1.0, 2 * gap / (falls + std::sqrt(square)));
+}
+
+}  // namespace
+
 bool stay_apart(const Course& a, const Course& b, const Vec3& direction, double gap, double from, double dt) {
   const double left = dt - from;
   const Vec3 speed = a.linear - b.linear, gain = a.acceleration - b.acceleration;
@@ -63,22 +100,17 @@ bool stay_apart(const Course& a, const Course& b, const Vec3& direction, double 
   const double swing_a = swing_speed(a), swing_b = swing_speed(b);
   if (gap > 2 * hair + std::max(0.0, closing + swing_a + swing_b) * left) return true;
   if (swing_a + swing_b == 0) return false;
-  // No point leaves the chord of its way by more than an eighth of its greatest acceleration times the square of the
-  // time: what is apart by more than that at both ends is so between them.
-  const double bent = std::abs(direction.dot(gain)) + a.angular.norm() * swing_a + b.angular.norm() * swing_b;
-  const double least = 2 * hair + 0.125 * bent * left * left;
-  if (!(gap > least)) return false;
-  const shapes::Placed end_a = shapes::place(*a.shape, a.at(dt).node(*a.body)),
-                       end_b = shapes::place(*b.shape, b.at(dt).node(*b.body));
-  const double rounding = 1e-14 * (end_a.center.norm() + end_b.center.norm());
-  return direction.dot(end_b.center - end_a.center) - shapes::support_along(a.shape->solid, end_a.axes, direction) -
-             shapes::support_along(b.shape->solid, end_b.axes, -direction) >
-         least + rounding;
+  // What is apart by more than it bends at both ends is so between them.
+  const GapAlong along(a, b, direction);
+  const double least = 2 * hair + 0.125 * along.bent * left * left;
+  return gap > least && along.at(dt) > least;
 }
 
 std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
   const double swing = swing_speed(a) + swing_speed(b);
   double time = 0;
+  // How far to look ahead: first to the end, then to where the gap should have closed.
+  double stretch = dt;
   const Vec3 last = a.linear - b.linear + (a.acceleration - b.acceleration) * dt;
   for (int i = 0; i < most_advances; ++i) {
     const Vec3 now = a.linear - b.linear + (a.acceleration - b.acceleration) * time;
@@ -88,9 +120,21 @@ std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
                                            shapes::place(*b.shape, b.at(time).node(*b.body)), reachable);
     if (gap <= hair) return time;
     const double closing = std::max(normal.dot(now), normal.dot(last)) + swing;
-    if (!(closing > 0) || stay_apart(a, b, normal, gap, time, dt)) return std::nullopt;
     // Half a hair past the gap, so that the end comes after finitely many advances.
-    time += (gap - 0.5 * hair) / closing;
+    const double open = gap - 0.5 * hair, left = dt - time;
+    if (!(closing > 0) || open > closing * left) return std::nullopt;
+    double advance = open / closing;
+    stretch = std::min(stretch, left);
+    const GapAlong along(a, b, normal);
+    const double end = along.at(time + stretch);
+    if (std::isfinite(end) && stretch > advance) {
+      const double share = open_for(open, end - 0.5 * hair, along.bent, stretch);
+      if (share == 1 && stretch == left) return std::nullopt;
+      advance = std::max(advance, share * stretch);
+      const double closed = 2 * gap * stretch / (gap - end);
+      stretch = closed > 0 ? closed : dt;
+    }
+    time += advance;
     if (time > dt) return std::nullopt;
   }
   return time;

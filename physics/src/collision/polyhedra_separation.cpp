@@ -34,6 +34,34 @@ FaceGap widest_face(const Polyhedron& one, const Polyhedron& other, double tie, 
   return best;
 }
 
+/// Whether what a face comes to with a vertex is all that there is: apart, the vertex lies over the face, and nothing
+/// is nearer; overlapping, no other face is a shorter way out for the vertex, so that no direction is one for the
+/// whole.
+bool is_all(const Polyhedron& one, const Polyhedron& other, const FaceGap& told) {
+  const Vec3& normal = one.faces[told.face].normal;
+  const Vec3 place = other.vertices[told.vertex] - std::max(0.0, told.gap) * normal;
+  const double most = std::min(0.0, told.gap);
+  for (std::uint32_t i = 0; i < one.faces.size(); ++i)
+    if (i != told.face && one.faces[i].normal.dot(place) - one.faces[i].offset > most) return false;
+  return true;
+}
+
+/// What the face comes to that looks most against a direction.
+FaceGap gap_of_opposite(const Polyhedron& one, const Polyhedron& other, const Vec3& normal) {
+  FaceGap told;
+  double least = 2;
+  for (std::uint32_t i = 0; i < one.faces.size(); ++i) {
+    const double along = one.faces[i].normal.dot(normal);
+    if (along >= least) continue;
+    least = along;
+    told.face = i;
+  }
+  const ConvexHull::Face& face = one.faces[told.face];
+  told.vertex = other.farthest(-face.normal, 0);
+  told.gap = face.normal.dot(other.vertices[told.vertex]) - face.offset;
+  return told;
+}
+
 using EdgeList = std::array<std::uint16_t, 3 * ConvexHull::most_vertices>;
 
 /// Edges that reach farther than `level` along a direction.
@@ -96,11 +124,16 @@ PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, doub
     best = {PolyhedraSeparation::Kind::face_b, face_b.gap, -b.faces[face_b.face].normal, face_b.face, face_b.vertex};
   if (best.gap > margin) return best;
 
+  // Mostly a corner of one lies over a face of the other, and there no edge tells more.
+  const bool by_a = best.kind == PolyhedraSeparation::Kind::face_a;
+  if (by_a ? is_all(a, b, face_a) || is_all(b, a, gap_of_opposite(b, a, best.normal))
+           : is_all(b, a, face_b) || is_all(a, b, gap_of_opposite(a, b, -best.normal)))
+    return best;
+
   // Far apart, a face tells well enough by how much; near, only edges that come near each other can do better.
   if (std::isinf(reach) && best.gap > 0.1 * size) return best;
   const double room = 2 * std::max(0.0, -best.gap) + preference + (std::isinf(reach) ? size : reach);
-  const bool of_a = best.kind == PolyhedraSeparation::Kind::face_a;
-  const double top_a = of_a ? a.faces[best.first].offset : -b.faces[best.first].offset - best.gap;
+  const double top_a = by_a ? a.faces[best.first].offset : -b.faces[best.first].offset - best.gap;
   EdgeList list_a, list_b;
   const Vec3 normal = best.normal;
   try_edges(best, a, b, edges_beyond(a, normal, top_a - room, list_a),

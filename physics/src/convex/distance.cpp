@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace tweenfall::convex {
 
@@ -17,8 +19,8 @@ struct SimplexPoint {
 /// The smallest simplex found so far that has the place nearest to the origin.
 class NearestSimplex {
  public:
-  /// The place nearest to the origin; the points that it does not lie between are let go.
-  Vec3 reduce() {
+  /// The place nearest to the origin.
+  const Vec3& find_nearest() {
     // The newest point is one of them: without it the place would be where it was.
     const int newest = count_ - 1;
     best_ = {};
@@ -26,9 +28,10 @@ class NearestSimplex {
     for (int i = 0; i < newest; ++i) try_segment(i, newest);
     for (int i = 0; i < newest; ++i)
       for (int k = i + 1; k < newest; ++k) try_triangle(i, k, newest);
-    keep(best_);
     return best_.place;
   }
+  /// Lets the points go that it does not lie between.
+  void reduce() { keep(best_); }
 
   /// Of a tetrahedron.
   [[nodiscard]] bool holds_origin() const {
@@ -111,11 +114,52 @@ class NearestSimplex {
   Candidate best_;
 };
 
+/// Where what of a solid is nearest to a box lies over a face of it, there is no nearer way; and what is farther than
+/// `enough` from one is so far apart.
+/// @return the normal out of the box; nothing where no face tells
+std::optional<Nearness> over_a_face(const Core& box, Core& other, double enough, double touching) {
+  const Vec3 between = box.turn.transpose() * (other.shift - box.shift);
+  double most = touching;
+  int axis = -1;
+  Vec3 nearest;
+  for (int i = 0; i < 3; ++i) {
+    // Its middle is no nearer to the face than what of it is nearest.
+    if (!(std::abs(between[i]) - box.half[i] > most)) continue;
+    const double side = between[i] < 0 ? -1 : 1;
+    const Vec3 place = other.support(box.turn.col(i) * -side);
+    const double height = side * box.turn.col(i).dot(place - box.shift) - box.half[i];
+    if (!(height > most)) continue;
+    most = height;
+    axis = i;
+    nearest = place;
+  }
+  if (axis < 0) return std::nullopt;
+  if (!(most > enough)) {
+    const Vec3 local = box.turn.transpose() * (nearest - box.shift);
+    for (int i = 0; i < 3; ++i)
+      if (i != axis && !(std::abs(local[i]) <= box.half[i])) return std::nullopt;
+  }
+  Nearness nearness;
+  nearness.distance = most;
+  nearness.normal = box.turn.col(axis) * (between[axis] < 0 ? -1.0 : 1.0);
+  nearness.on_b = nearest;
+  nearness.on_a = nearest - most * nearness.normal;
+  return nearness;
+}
+
 }  // namespace
 
 Nearness nearness_of(Core& a, Core& b, double enough) {
   const double extent = a.reach + b.reach + (a.shift - b.shift).norm();
   const double rounding = 4e-16 * extent, touching = 1e-9 * std::min(a.reach + a.radius, b.reach + b.radius);
+  if (a.kind == Core::Kind::box)
+    if (const std::optional<Nearness> over = over_a_face(a, b, enough, touching)) return *over;
+  if (b.kind == Core::Kind::box)
+    if (std::optional<Nearness> over = over_a_face(b, a, enough, touching)) {
+      over->normal = -over->normal;
+      std::swap(over->on_a, over->on_b);
+      return *over;
+    }
   NearestSimplex simplex;
   Vec3 nearest = a.shift - b.shift;
   if (!(nearest.squaredNorm() > 0)) nearest = Vec3(1, 0, 0);
@@ -136,14 +180,15 @@ Nearness nearness_of(Core& a, Core& b, double enough) {
     }
     if (i > 0 && (length - lowest <= 1e-13 * length + rounding || simplex.has(point.apart))) break;
     simplex.add(point);
-    if (simplex.holds_origin()) return {};
-    const NearestSimplex before = simplex;
-    const Vec3 next = simplex.reduce();
+    // What lies all beyond a plane holds it not, however flat the tetrahedron and the rounding of its sides.
+    if (!(lowest > rounding) && simplex.holds_origin()) return {};
+    const Vec3& next = simplex.find_nearest();
     if (!(next.squaredNorm() < square)) {
-      if (i > 0) simplex = before;
+      if (i == 0) simplex.reduce();
       break;
     }
     nearest = next;
+    simplex.reduce();
     square = nearest.squaredNorm();
     if (!(square > touching * touching)) return {};
   }

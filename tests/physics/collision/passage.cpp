@@ -3,6 +3,7 @@
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/physics/contact.h>
 
+#include "collision/collide_pairs.h"
 #include "support.h"
 
 using namespace tweenfall;
@@ -84,6 +85,39 @@ TEST_CASE("what a direction tells apart neither touches nor meets within the ste
   CHECK(told > 10000);
   CHECK(told_again > 8000);
   CHECK(met > 1000);
+}
+
+TEST_CASE("until they are said to meet no bodies touch, then they do, and those that never meet never touch") {
+  test::Random random(77);
+  constexpr int looks = 100;
+  std::size_t met = 0, missed = 0, short_of = 0;
+  for (int i = 0; i < 8000; ++i) {
+    const std::array<Solid, 5> solids{Sphere{0.4}, Box{Vec3(0.3, 0.5, 0.2)}, Capsule{0.2, 0.4}, random_hull(random),
+                                      Cylinder{0.3, 0.4}};
+    const state::Body a = body_of(solids[random.bits() % 5], random);
+    const state::Body b = body_of(solids[random.bits() % 5], random);
+    forces::Load load;
+    load.acceleration = random.vector(random.unit() < 0.5 ? 0 : 200);
+    const collision::Course at_a = collision::course_of(a, load, frame), at_b = collision::course_of(b, {}, frame);
+    const auto gap_at = [&](double time) {
+      const shapes::Placed placed_a = shapes::place(a.shape, at_a.at(time).node(a));
+      const shapes::Placed placed_b = shapes::place(b.shape, at_b.at(time).node(b));
+      return collision::gap_between(a.shape, placed_a, b.shape, placed_b, 10).width;
+    };
+    if (gap_at(0) < near_enough) continue;
+    const std::optional<double> time = collision::impact_time(at_a, at_b, frame);
+    CAPTURE(i);
+    const double end = time.value_or(frame);
+    double least = 1;
+    for (int k = 0; k <= looks; ++k) least = std::min(least, gap_at(end * k / looks));
+    CHECK(least >= (time ? 0 : 0.4 * collision::hair));
+    // Where the nearest places change all the way the search may end before them.
+    if (time && gap_at(*time) > collision::hair) ++short_of;
+    ++(time ? met : missed);
+  }
+  CHECK(met > 120);
+  CHECK(missed > 400);
+  CHECK(short_of <= met / 50);
 }
 
 TEST_CASE("boxes that a face of either tells apart by more than the margin do not touch, however little more") {
