@@ -2,6 +2,8 @@
 
 #include <tweenfall/curves/rotation.h>
 
+#include <algorithm>
+#include <array>
 #include <functional>
 
 #include "step/keyed_step.h"
@@ -19,6 +21,20 @@ constexpr double most_turn = 3;
 Vec3 turn_rate(const Vec3& turn, const Vec3& angular) {
   if (turn.cross(angular) == Vec3::Zero() || !(turn.squaredNorm() < most_turn * most_turn)) return angular;
   return right_jacobian_inverse(-turn) * angular;
+}
+
+constexpr std::size_t numbers = 12;
+constexpr std::array<std::uint8_t, numbers> are_places{1, 1, 1, 0, 0, 0, 1, 1, 1, 0, 0, 0};
+
+Change change_of(std::span<const double> state, std::size_t body) {
+  const double* const at = state.data() + body * numbers;
+  return {Vec3(at[0], at[1], at[2]), Vec3(at[3], at[4], at[5]), Vec3(at[6], at[7], at[8]), Vec3(at[9], at[10], at[11])};
+}
+
+void put(const Change& change, std::span<double> state, std::size_t body) {
+  double* at = state.data() + body * numbers;
+  for (const Vec3* part : {&change.center, &change.linear, &change.turn, &change.momentum})
+    for (int i = 0; i < 3; ++i) *at++ = (*part)[i];
 }
 
 /// What an integrator does not move: on its path, or at rest.
@@ -43,38 +59,84 @@ void Flight::gather(const Acting& acting, std::span<const std::uint32_t> watched
     slots_[i] = static_cast<std::uint32_t>(starts_.size());
     starts_.push_back({i, body.world_inertia(body.motion.pose.rotation) * body.twist.angular});
   }
-  glimpses_.resize(starts_.size());
-  means_.resize(starts_.size());
-  const auto rates_of = [&](double after, std::span<const Change> since, std::span<Change> rates) {
+  const std::size_t count = starts_.size();
+  glimpses_.resize(count);
+  rates_.resize(count);
+  means_.resize(count * numbers);
+  sizes_.resize(count * numbers);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Body& body = acting.bodies[starts_[k].index];
+    put({Vec3::Constant(body.center.norm()), Vec3::Constant(body.twist.linear.norm()), Vec3::Ones(),
+         Vec3::Constant(starts_[k].momentum.norm())},
+        sizes_, k);
+  }
+  tie(acting, loads);
+  const auto rates_of = [&](double after, std::span<const double> since, std::span<double> rates) {
     find_rates(acting, loads, after, since, rates);
   };
-  integrate(std::ref(rates_of), acting.dt, room_, means_);
-  for (std::size_t k = 0; k < starts_.size(); ++k) {
+  integrate({std::ref(rates_of), numbers, 3, are_places, sizes_, ties_, turns_}, acting.dt, room_, means_);
+  for (std::size_t k = 0; k < count; ++k) {
     Load& load = loads[starts_[k].index];
-    load.acceleration = load.end_acceleration = means_[k].linear;
-    load.torque = means_[k].momentum;
+    const Change mean = change_of(means_, k);
+    load.acceleration = load.end_acceleration = mean.linear;
+    load.torque = mean.momentum;
     load.drag = load.angular_drag = load.angular_damping = 0;
   }
 }
 
+void Flight::tie(const Acting& acting, const std::vector<Load>& loads) {
+  const auto count = static_cast<std::uint32_t>(starts_.size());
+  ties_.resize(count);
+  turns_.assign(count, 0);
+  for (std::uint32_t k = 0; k < count; ++k) ties_[k] = k;
+  const auto root = [&](std::uint32_t k) {
+    while (ties_[k] != k) k = ties_[k] = ties_[ties_[k]];
+    return k;
+  };
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> both;
+  for (const NumberedForce& entry : acting.forces) {
+    const auto* spring = std::get_if<Spring>(&entry.force);
+    if (!spring || !find_body(acting.bodies, spring->a) || !find_body(acting.bodies, spring->b)) continue;
+    const std::uint32_t a = slots_[spring->a.index], b = slots_[spring->b.index];
+    if (a == nobody || b == nobody || a == b || too_stiff(*spring, acting.bodies, loads)) continue;
+    const auto [less, more] = std::minmax({root(a), root(b)});
+    ties_[more] = less;
+    both.emplace_back(std::max(a, b), std::min(a, b));
+  }
+  for (std::uint32_t k = 0; k < count; ++k) ties_[k] = root(k);
+  std::sort(both.begin(), both.end());
+  std::vector<char> taken;
+  for (auto tied = both.cbegin(); tied != both.cend();) {
+    const std::uint32_t later = tied->first;
+    taken.clear();
+    for (; tied != both.cend() && tied->first == later; ++tied) {
+      const std::uint32_t turn = turns_[tied->second];
+      if (turn >= taken.size()) taken.resize(turn + std::size_t{1}, 0);
+      taken[turn] = 1;
+    }
+    turns_[later] = static_cast<std::uint32_t>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
+  }
+}
+
 void Flight::find_rates(const Acting& acting, const std::vector<Load>& loads, double after,
-                        std::span<const Change> since, std::span<Change> rates) {
+                        std::span<const double> since, std::span<double> rates) {
   for (std::size_t k = 0; k < starts_.size(); ++k) {
     const Body& body = acting.bodies[starts_[k].index];
-    const Vec3 momentum = starts_[k].momentum + since[k].momentum;
+    const Change changed = change_of(since, k);
+    const Vec3 momentum = starts_[k].momentum + changed.momentum;
     Glimpse& at = glimpses_[k];
-    at.center = body.center + since[k].center;
-    at.linear = body.twist.linear + since[k].linear;
-    at.rotation = exp_map(since[k].turn) * body.motion.pose.rotation;
+    at.center = body.center + changed.center;
+    at.linear = body.twist.linear + changed.linear;
+    at.rotation = exp_map(changed.turn) * body.motion.pose.rotation;
     at.angular = at.rotation * (body.inverse_inertia * (at.rotation.conjugate() * momentum));
-    rates[k].center = at.linear;
-    rates[k].linear = acting.settings.gravity + body.force / body.mass.mass - body.linear_damping * at.linear;
-    rates[k].turn = turn_rate(since[k].turn, at.angular);
-    rates[k].momentum = body.torque - body.angular_damping * momentum;
+    rates_[k].center = at.linear;
+    rates_[k].linear = acting.settings.gravity + body.force / body.mass.mass - body.linear_damping * at.linear;
+    rates_[k].turn = turn_rate(changed.turn, at.angular);
+    rates_[k].momentum = body.torque - body.angular_damping * momentum;
   }
   for (const NumberedForce& entry : acting.forces) {
     if (const auto* spring = std::get_if<Spring>(&entry.force)) {
-      if (!too_stiff(*spring, acting.bodies, loads)) add_spring(acting, *spring, after, rates);
+      if (!too_stiff(*spring, acting.bodies, loads)) add_spring(acting, *spring, after);
       continue;
     }
     const auto* drag = std::get_if<Drag>(&entry.force);
@@ -83,16 +145,17 @@ void Flight::find_rates(const Acting& acting, const std::vector<Load>& loads, do
       const double mass = acting.bodies[starts_[k].index].mass.mass;
       const Glimpse& at = glimpses_[k];
       if (drag) {
-        rates[k].linear -= (drag->linear + drag->quadratic * at.linear.norm()) / mass * at.linear;
-        rates[k].momentum -= drag->angular * at.angular;
+        rates_[k].linear -= (drag->linear + drag->quadratic * at.linear.norm()) / mass * at.linear;
+        rates_[k].momentum -= drag->angular * at.angular;
       } else if (field) {
-        rates[k].linear += (*field)(mass, at.center, at.linear, acting.time + after) / mass;
+        rates_[k].linear += (*field)(mass, at.center, at.linear, acting.time + after) / mass;
       }
     }
   }
+  for (std::size_t k = 0; k < starts_.size(); ++k) put(rates_[k], rates, k);
 }
 
-void Flight::add_spring(const Acting& acting, const Spring& spring, double after, std::span<Change> rates) const {
+void Flight::add_spring(const Acting& acting, const Spring& spring, double after) {
   const Body* a = find_body(acting.bodies, spring.a);
   const Body* b = find_body(acting.bodies, spring.b);
   if (!a || (!b && spring.b != BodyId{})) return;  // an end was removed: the spring hangs loose
@@ -102,7 +165,7 @@ void Flight::add_spring(const Acting& acting, const Spring& spring, double after
   const Pull pull = pull_of(spring, *a, glimpse(*a, spring.a.index), b, b ? glimpse(*b, spring.b.index) : Glimpse{});
   const auto apply = [&](const Body& body, std::uint32_t index, const Vec3& force, const Vec3& arm) {
     if (slots_[index] == nobody) return;
-    Change& rate = rates[slots_[index]];
+    Change& rate = rates_[slots_[index]];
     rate.linear += force / body.mass.mass;
     rate.momentum += arm.cross(force);
   };
@@ -112,7 +175,7 @@ void Flight::add_spring(const Acting& acting, const Spring& spring, double after
 
 void Flight::land(std::uint32_t index, Body& body, double dt) const {
   const std::uint32_t slot = slots_[index];
-  const Change& mean = means_[slot];
+  const Change mean = change_of(means_, slot);
   body.center += dt * mean.center;
   body.twist.linear += dt * mean.linear;
   Quat rotation = exp_map(dt * mean.turn) * body.motion.pose.rotation;

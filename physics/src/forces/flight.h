@@ -18,6 +18,14 @@ struct Acting {
   double dt;
 };
 
+/// How a body goes on, apart from contacts: per second, or altogether. A state has twelve numbers for each.
+struct Change {
+  Vec3 center{0, 0, 0};    ///< of its center of mass
+  Vec3 linear{0, 0, 0};    ///< of its velocity
+  Vec3 turn{0, 0, 0};      ///< rotation vector, world axes, since the start of the step
+  Vec3 momentum{0, 0, 0};  ///< of its angular momentum, world axes
+};
+
 /// Bodies that go through a step by an integrator which asks for forces at states of its own choosing.
 class Flight {
  public:
@@ -37,14 +45,18 @@ class Flight {
   };
 
   /// Gravity, drag, springs, fields and what the caller applied, of all of them at these states.
-  void find_rates(const Acting& acting, const std::vector<Load>& loads, double after, std::span<const Change> since,
-                  std::span<Change> rates);
-  void add_spring(const Acting& acting, const Spring& spring, double after, std::span<Change> rates) const;
+  void find_rates(const Acting& acting, const std::vector<Load>& loads, double after, std::span<const double> since,
+                  std::span<double> rates);
+  void add_spring(const Acting& acting, const Spring& spring, double after);
+  /// Which bodies springs tie together.
+  void tie(const Acting& acting, const std::vector<Load>& loads);
 
   std::vector<std::uint32_t> slots_;  ///< by body
   std::vector<Start> starts_;
   std::vector<Glimpse> glimpses_;
-  std::vector<Change> means_;
+  std::vector<Change> rates_;
+  std::vector<double> means_, sizes_;
+  std::vector<std::uint32_t> ties_, turns_;  ///< by start
   Room room_;
 };
 

@@ -87,8 +87,9 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     load.drag = body.linear_damping;
     load.angular_damping = body.angular_damping;
   });
-  for (const NumberedForce& entry : forces)
-    if (const auto* spring = std::get_if<Spring>(&entry.force)) add_springiness(bodies, *spring, dt, loads);
+  if (!implicit(settings.integrator))
+    for (const NumberedForce& entry : forces)
+      if (const auto* spring = std::get_if<Spring>(&entry.force)) add_springiness(bodies, *spring, dt, loads);
   for (const NumberedForce& entry : forces) {
     const auto* spring = std::get_if<Spring>(&entry.force);
     if (!spring) continue;

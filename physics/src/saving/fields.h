@@ -319,8 +319,10 @@ void each_field(T& overlap, const Visit& visit) {
 
 template <Is<WorldSettings> T, class Visit>
 void each_field(T& settings, const Visit& visit) {
-  auto& [gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed, threads] = settings;
+  auto& [gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed, solver, separation, collision,
+         broad_phase, threads] = settings;
   visit(gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed);
+  visit.rarely(solver, separation, collision, broad_phase);
   leads_to_nothing(threads);
 }
 

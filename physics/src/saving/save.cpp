@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "forces/integrators/integrators.h"
 #include "joints/validate.h"
 #include "saving/bytes.h"
 #include "saving/envelope.h"
@@ -223,10 +222,7 @@ void check_pairs(const WorldState& world) {
 
 /// Sets what follows from the rest, too.
 void check(WorldState& world) {
-  at("setting", [&] {
-    state::validate(world.settings);
-    state::require(forces::exists(world.settings.integrator), "there is no such integrator");
-  });
+  at("setting", [&] { state::validate(world.settings); });
   state::require(world.time >= 0 && std::isfinite(world.time), "a saved world has a bad time");
   check_bodies(world);
   std::uint64_t least = 0;

@@ -53,7 +53,7 @@ class Walk {
   /// Numbers that are hardly ever other than 0: where all are, a hash leaves them out.
   template <class... T>
   void rarely(T&... numbers) const {
-    if (tool_.skips_zeros && ((numbers == 0) && ...)) return;
+    if (tool_.skips_zeros && ((numbers == T{}) && ...)) return;
     (one(numbers), ...);
   }
 

@@ -2,6 +2,7 @@
 
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/rotation.h>
+#include <tweenfall/physics/strategies.h>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "forces/integrators/integrators.h"
 #include "shapes/compound.h"
 #include "shapes/turned.h"
 #include "state/countable.h"
@@ -102,6 +104,11 @@ void validate(const WorldSettings& settings) {
           "threads must be 0 to 256, but are " + std::to_string(settings.threads));
   require(settings.push_out_speed >= 0,
           "push-out speed must not be negative, but is " + number_text(settings.push_out_speed));
+  require(forces::exists(settings.integrator), "there is no such integrator");
+  require(settings.solver <= ContactSolver::iterative, "there is no such solver");
+  require(settings.separation <= Parting::soft, "there is no such way to take overlap apart");
+  require(settings.collision <= Detection::ahead, "there is no such way to find that bodies meet");
+  require(settings.broad_phase <= PairSearch::tree, "there is no such way to find pairs");
 }
 
 void validate_surface(const Body& body) {

@@ -199,9 +199,9 @@ TEST_CASE("bytes that are no saved world are refused in words, and change nothin
   seal(bytes);
   refused(bytes, "a saved world has a bad setting: iterations must be at least 1, but are 0");
   bytes = good;
-  put(bytes, header + 56, 1ull << 60);
+  put(bytes, header + 60, 1ull << 60);
   seal(bytes);
-  refused(bytes, "a saved world is wrong at byte 64 of its contents: it tells of more than there is room for");
+  refused(bytes, "a saved world is wrong at byte 68 of its contents: it tells of more than there is room for");
   CHECK(world.state_hash() == hash);
   world.load(good);
   CHECK(world.save() == good);

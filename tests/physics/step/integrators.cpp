@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "physics/scene.h"
 
@@ -19,12 +22,15 @@ struct Method {
   Integrator integrator;
   double order;
 };
-constexpr std::array<Method, 6> methods{{{"exact-quadratic", Integrator::exact_quadratic, 2},
+constexpr std::array<Method, 9> methods{{{"exact-quadratic", Integrator::exact_quadratic, 2},
                                          {"semi-implicit-euler", Integrator::semi_implicit_euler, 1},
                                          {"explicit-euler", Integrator::explicit_euler, 1},
                                          {"midpoint", Integrator::midpoint, 2},
                                          {"trapezoid", Integrator::trapezoid, 2},
-                                         {"rk4", Integrator::rk4, 4}}};
+                                         {"rk4", Integrator::rk4, 4},
+                                         {"verlet", Integrator::verlet, 2},
+                                         {"backward-euler", Integrator::backward_euler, 1},
+                                         {"implicit-trapezoid", Integrator::implicit_trapezoid, 2}}};
 
 /// By how many powers of two an error falls when the step is halved.
 double order_of(double coarse, double fine) {
@@ -198,6 +204,163 @@ TEST_CASE("by every integrator a spring gives its two ends opposite momenta, wha
     }
     CHECK(touched);
   }
+}
+
+namespace {
+
+/// A body of 2 kg on a spring of 32 N/m about the origin: place and speed along x after so many steps, from 1 m.
+std::array<double, 2> swung(Integrator integrator, double dt, int steps) {
+  World world(without_gravity(integrator));
+  BodySettings settings;
+  settings.mass = 2;
+  settings.motion.pose.position = Vec3(1, 0, 0);
+  const BodyId body = world.add(settings);
+  world.add_force(Spring{.a = body, .stiffness = 32});
+  for (int i = 0; i < steps; ++i) world.step(dt);
+  return {world.motion(body).pose.position.x(), world.twist(body).linear.x()};
+}
+
+/// J, of that body.
+double swing_energy(const std::array<double, 2>& state) {
+  return 16 * state[0] * state[0] + state[1] * state[1];
+}
+
+/// A top of equal moments 2 kg m^2 and 1 about its own y, without torque: it turns about its momentum at L / 2, and
+/// about its own y by what is left.
+double top_error(Integrator integrator, int steps) {
+  World world(without_gravity(integrator));
+  BodySettings settings;
+  settings.shape.solid = Cylinder{1, std::sqrt(3.5)};
+  settings.mass = 1;
+  settings.motion.twist.angular = Vec3(0.4, 2, -0.7);
+  const BodyId body = world.add(settings);
+  const Mat3 inertia = world.mass(body).inertia;
+  const Vec3 momentum = inertia * settings.motion.twist.angular;
+  for (int i = 0; i < steps; ++i) world.step(1.0 / steps);
+  const Quat exact = exp_map(momentum / inertia(0, 0)) * exp_map(Vec3(0, 2 - momentum.y() / inertia(0, 0), 0));
+  return log_map(world.motion(body).pose.rotation * exact.conjugate()).norm();
+}
+
+}  // namespace
+
+TEST_CASE("on a spring explicit Euler gains (1 + h^2 w^2) a step, backward Euler loses it, and others neither") {
+  const double dt = 0.01, share = 1 + dt * dt * 16, start = 16;
+  for (const int steps : {1, 10, 1000}) {
+    CAPTURE(steps);
+    const double grown = std::pow(share, steps);
+    CHECK(near(swing_energy(swung(Integrator::explicit_euler, dt, steps)) / start / grown, 1, 1e-12));
+    CHECK(near(swing_energy(swung(Integrator::backward_euler, dt, steps)) / start * grown, 1, 1e-12));
+    CHECK(near(swing_energy(swung(Integrator::implicit_trapezoid, dt, steps)) / start, 1, 1e-12));
+    // What they keep instead is told in closed form: Hairer, Lubich and Wanner, Geometric Numerical Integration.
+    const std::array<double, 2> verlet = swung(Integrator::verlet, dt, steps);
+    CHECK(near(swing_energy(verlet) - 16 * verlet[0] * verlet[0] * 4 * dt * dt, start * (1 - 4 * dt * dt), 1e-11));
+    const std::array<double, 2> euler = swung(Integrator::semi_implicit_euler, dt, steps);
+    CHECK(near(swing_energy(euler) - 16 * dt * euler[0] * euler[1], start, 1e-11));
+  }
+}
+
+TEST_CASE("backward Euler and the implicit trapezoid are their closed forms on springs of any stiffness") {
+  for (const double stiffness : {1.0, 32.0, 1e5, 1e9, 1e14}) {
+    CAPTURE(stiffness);
+    const double dt = 0.02, damping = 3, mass = 2;
+    std::array<double, 2> backward{1, 5}, trapezoid{1, 5};
+    std::array<World, 2> worlds{World(without_gravity(Integrator::backward_euler)),
+                                World(without_gravity(Integrator::implicit_trapezoid))};
+    std::array<BodyId, 2> bodies;
+    for (std::size_t i = 0; i < 2; ++i) {
+      BodySettings settings;
+      settings.mass = mass;
+      settings.motion.pose.position = Vec3(1, 0, 0);
+      settings.motion.twist.linear = Vec3(5, 0, 0);
+      bodies[i] = worlds[i].add(settings);
+      worlds[i].add_force(Spring{.a = bodies[i], .stiffness = stiffness, .damping = damping});
+    }
+    for (int step = 0; step < 5; ++step) {
+      const double pull = dt * stiffness / mass, slowing = dt * damping / mass;
+      backward[1] = (backward[1] - pull * backward[0]) / (1 + slowing + dt * pull);
+      backward[0] += dt * backward[1];
+      const double before = trapezoid[1];
+      trapezoid[1] = ((1 - 0.5 * slowing - 0.25 * dt * pull) * before - pull * trapezoid[0]) /
+                     (1 + 0.5 * slowing + 0.25 * dt * pull);
+      trapezoid[0] += 0.5 * dt * (before + trapezoid[1]);
+      const double fast = std::sqrt(stiffness / mass);
+      for (World& world : worlds) world.step(dt);
+      CHECK(near(worlds[0].motion(bodies[0]).pose.position.x(), backward[0], 1e-12));
+      CHECK(near(worlds[0].twist(bodies[0]).linear.x(), backward[1], 1e-12 * (1 + fast)));
+      CHECK(near(worlds[1].motion(bodies[1]).pose.position.x(), trapezoid[0], 1e-11));
+      CHECK(near(worlds[1].twist(bodies[1]).linear.x(), trapezoid[1], 1e-11 * (1 + fast)));
+    }
+  }
+}
+
+TEST_CASE("a chain of balls on stiff springs hangs still by backward Euler, each stretched by what hangs below it") {
+  WorldSettings settings;
+  settings.integrator = Integrator::backward_euler;
+  settings.sleep_after = never;
+  World world(settings);
+  const int count = 12;
+  const double stiffness = 1e6;
+  std::vector<BodyId> balls;
+  for (int i = 0; i < count; ++i) {
+    BodySettings ball;
+    ball.shape.solid = Sphere{0.05};
+    ball.mass = 1;
+    ball.motion.pose.position = Vec3(0.1 * (i + 1), 0, 0);
+    balls.push_back(world.add(ball));
+    Spring spring{.a = balls.back(), .rest_length = 0.1, .stiffness = stiffness, .damping = 100};
+    if (i > 0) spring.b = balls[static_cast<std::size_t>(i) - 1];
+    world.add_force(spring);
+    if (i > 0) world.ignore(balls.back(), spring.b);
+  }
+  world.add_force(Drag{.linear = 2});
+  for (int i = 0; i < 1200; ++i) world.step(1.0 / 60);
+  double hung = 0;
+  for (int i = 0; i < count; ++i) {
+    hung -= 0.1 + (count - i) * 9.81 / stiffness;
+    CHECK(near(world.motion(balls[static_cast<std::size_t>(i)]).pose.position.y(), hung, 1e-7));
+    CHECK(world.twist(balls[static_cast<std::size_t>(i)]).linear.norm() < 1e-5);
+  }
+}
+
+TEST_CASE("a top without torque turns as its closed form, nearer by each integrator's order") {
+  for (const Method& method : methods) {
+    // These two turn bodies in a way of their own.
+    if (method.integrator == Integrator::exact_quadratic || method.integrator == Integrator::semi_implicit_euler)
+      continue;
+    CAPTURE(method.name);
+    const double coarse = top_error(method.integrator, 40), fine = top_error(method.integrator, 80);
+    CAPTURE(coarse);
+    CHECK(coarse < 0.1);
+    CHECK(order_of(coarse, fine) > method.order - 0.1);
+  }
+}
+
+TEST_CASE("what is far away changes no bit of what backward Euler does") {
+  std::array<std::uint64_t, 2> hashes{};
+  for (const bool more : {false, true}) {
+    World world(without_gravity(Integrator::backward_euler));
+    std::array<BodyId, 2> pair;
+    for (std::size_t i = 0; i < 2; ++i) {
+      BodySettings box;
+      box.shape.solid = Box{Vec3(0.1, 0.2, 0.3)};
+      box.motion.pose.position = Vec3(static_cast<double>(i), 0, 0);
+      box.motion.twist.angular = Vec3(1, 2, 3);
+      pair[i] = world.add(box);
+    }
+    world.add_force(Spring{pair[0], pair[1], Vec3(0.1, 0, 0), Vec3(0, 0.1, 0), 0.5, 1e6, 3});
+    if (more) {
+      BodySettings ball;
+      ball.motion.pose.position = Vec3(100, 0, 0);
+      const BodyId far = world.add(ball);
+      world.add_force(Spring{.a = far, .anchor_b = Vec3(100, 1, 0), .rest_length = 0.2, .stiffness = 1e5});
+    }
+    for (int i = 0; i < 30; ++i) world.step(0.01);
+    for (const BodyId body : pair)
+      for (const double part : {world.motion(body).pose.position.x(), world.twist(body).linear.y(),
+                                world.twist(body).angular.z(), world.motion(body).pose.rotation.w()})
+        hashes[more ? 1 : 0] = hashes[more ? 1 : 0] * 31 + std::bit_cast<std::uint64_t>(part);
+  }
+  CHECK(hashes[0] == hashes[1]);
 }
 
 TEST_CASE("balls bounce and boxes rest by rk4 as they do by the usual integrator") {

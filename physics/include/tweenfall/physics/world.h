@@ -29,10 +29,17 @@ namespace queries {
 class Inside;
 }
 
+// Of these `strategies.h` tells the words; {} is the usual one.
+enum class ContactSolver : std::uint8_t;
+enum class Parting : std::uint8_t;
+enum class Detection : std::uint8_t;
+enum class PairSearch : std::uint8_t;
+
 /// How a free body's state goes through a step in which nothing touches it. All but the first two ask for forces and
-/// torques (gravity, drag, springs, fields, damping) at states of their own choosing, and know nothing that is
-/// implicit: what is damped or swings faster than their steps can follow grows, until `step` throws NotFinite. Contacts
-/// and joints work with the mean force that they find.
+/// torques (gravity, drag, springs, fields, damping) at states of their own choosing. Of these all but the last two
+/// know nothing that is implicit: what is damped or swings faster than their steps can follow grows, until `step`
+/// throws NotFinite. The last two take what is of any stiffness as it will be at the end of the step, by Newton's
+/// method. Contacts and joints work with the mean force that they find.
 enum class Integrator {
   exact_quadratic,      ///< x += v h + a h^2/2: exact under constant force (the default); drag is of first order
   semi_implicit_euler,  ///< v += a h, then x += v h; first order
@@ -40,6 +47,9 @@ enum class Integrator {
   midpoint,             ///< by what there is halfway; second order
   trapezoid,            ///< by the mean of both ends, Heun's; second order
   rk4,                  ///< the classic Runge-Kutta method; fourth order
+  verlet,               ///< velocity Verlet: places by the speed halfway; second order, and a swing keeps its energy
+  backward_euler,       ///< on by what there will be at the end; first order, and a swing dies away
+  implicit_trapezoid,   ///< by the mean of the start and what will be at the end; second order, keeps a swing's energy
 };
 
 struct WorldSettings {
@@ -49,6 +59,10 @@ struct WorldSettings {
   double sleep_speed = 0.02;    ///< m/s (and rad/s times size) below which a body counts as still
   double sleep_after = 0.5;     ///< s of stillness after which a body sleeps; infinity: never
   double push_out_speed = 0.5;  ///< greatest speed at which overlap is taken apart, m/s
+  ContactSolver solver{};       ///< how the contacts of an island are met
+  Parting separation{};         ///< how overlap is taken apart
+  Detection collision{};        ///< when bodies are found to meet
+  PairSearch broad_phase{};     ///< how pairs are found that may meet
   int threads = 0;              ///< that share a step, 0 to 256; 0 and 1: the one that calls. No bit depends on it
 };
 

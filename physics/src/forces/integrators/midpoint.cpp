@@ -3,9 +3,9 @@
 namespace tweenfall::forces {
 
 /// Second order: by what there is in the middle of the step.
-void midpoint(const Rates& rates, double dt, Room& room, std::span<Change> means) {
+void midpoint(const Flow& flow, double dt, Room& room, std::span<double> means) {
   constexpr Tableau<2> tableau{{{{0, 0}, {0.5, 0}}}, {0, 1}};
-  runge_kutta(tableau, rates, dt, room, means);
+  runge_kutta(tableau, flow, dt, room, means);
 }
 
 }  // namespace tweenfall::forces

@@ -3,9 +3,9 @@
 namespace tweenfall::forces {
 
 /// Fourth order, the classic one.
-void rk4(const Rates& rates, double dt, Room& room, std::span<Change> means) {
+void rk4(const Flow& flow, double dt, Room& room, std::span<double> means) {
   constexpr Tableau<4> tableau{{{{0, 0, 0, 0}, {0.5, 0, 0, 0}, {0, 0.5, 0, 0}, {0, 0, 1, 0}}}, {1, 2, 2, 1}, 6};
-  runge_kutta(tableau, rates, dt, room, means);
+  runge_kutta(tableau, flow, dt, room, means);
 }
 
 }  // namespace tweenfall::forces

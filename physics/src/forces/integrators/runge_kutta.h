@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "forces/integrators/integrators.h"
@@ -17,28 +18,24 @@ struct Tableau {
 /// Source: Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.1; on turns after Munthe-Kaas,
 /// High order Runge-Kutta methods on manifolds, Applied Numerical Mathematics 29, 1999.
 template <std::size_t Stages>
-void runge_kutta(const Tableau<Stages>& tableau, const Rates& rates, double dt, Room& room, std::span<Change> means) {
+void runge_kutta(const Tableau<Stages>& tableau, const Flow& flow, double dt, Room& room, std::span<double> means) {
   room.resize(Stages + 1);
-  for (std::vector<Change>& list : room) list.resize(means.size());
-  std::vector<Change>& since = room[Stages];
+  for (std::vector<double>& list : room) list.resize(means.size());
+  std::vector<double>& since = room[Stages];
   for (std::size_t stage = 0; stage < Stages; ++stage) {
     double after = 0;
-    for (Change& change : since) change = {};
+    std::fill(since.begin(), since.end(), 0.0);
     for (std::size_t known = 0; known < stage; ++known) {
       const double part = tableau.parts[stage][known];
       if (part == 0) continue;
       after += part * dt;
-      for (std::size_t i = 0; i < since.size(); ++i) since[i].add(part * dt, room[known][i]);
+      advance(since, part * dt, room[known]);
     }
-    rates(after, since, room[stage]);
+    flow.rates(after, since, room[stage]);
   }
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    means[i] = {};
-    for (std::size_t stage = 0; stage < Stages; ++stage) means[i].add(tableau.weights[stage], room[stage][i]);
-    Change mean;
-    mean.add(1 / tableau.sum, means[i]);
-    means[i] = mean;
-  }
+  std::fill(means.begin(), means.end(), 0.0);
+  for (std::size_t stage = 0; stage < Stages; ++stage) advance(means, tableau.weights[stage], room[stage]);
+  for (double& mean : means) mean *= 1 / tableau.sum;
 }
 
 }  // namespace tweenfall::forces

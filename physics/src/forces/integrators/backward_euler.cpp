@@ -1,0 +1,14 @@
+#include <algorithm>
+
+#include "forces/integrators/implicit.h"
+
+namespace tweenfall::forces {
+
+/// First order: on by what there will be at the end. What swings loses energy, and nothing is too stiff.
+void backward_euler(const Flow& flow, double dt, Room& room, std::span<double> means) {
+  room.resize(1);
+  room[0].assign(means.size(), 0.0);
+  meet_the_end(flow, dt, 1, room[0], means);
+}
+
+}  // namespace tweenfall::forces

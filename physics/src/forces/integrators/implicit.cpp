@@ -1,0 +1,252 @@
+#include "forces/integrators/implicit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "small/extrapolation.h"
+
+namespace tweenfall::forces {
+
+namespace {
+
+/// Blocks that are tied together and solved for together; more of them are solved for one by one, over and over.
+constexpr std::size_t most_together = 32;
+/// Steps toward the end, at most: of those that are solved for together, and one by one.
+constexpr int most_newton = 40, most_over_and_over = 300;
+/// As often the slopes are found anew.
+constexpr int most_slopes = 12;
+/// Parts of a state that are rounding.
+constexpr double rounding = 1e-15;
+/// Steps in which nothing gets better, so that nothing will.
+constexpr int most_idle_together = 3, most_idle_apart = 24;
+/// A step that makes things worse is halved so often.
+constexpr int most_halvings = 12;
+
+/// A square system, by Gauss's elimination with partial pivoting.
+class Elimination {
+ public:
+  std::vector<double> entries;  ///< row by row; replaced by the factors
+
+  void factor(std::size_t size) {
+    size_ = size;
+    rows_.resize(size);
+    for (std::size_t column = 0; column < size; ++column) {
+      std::size_t pivot = column;
+      for (std::size_t row = column + 1; row < size; ++row)
+        if (std::abs(at(row, column)) > std::abs(at(pivot, column))) pivot = row;
+      rows_[column] = pivot;
+      if (pivot != column)
+        for (std::size_t k = 0; k < size; ++k) std::swap(at(pivot, k), at(column, k));
+      if (at(column, column) == 0) continue;
+      for (std::size_t row = column + 1; row < size; ++row) {
+        const double share = at(row, column) /= at(column, column);
+        if (share == 0) continue;
+        for (std::size_t k = column + 1; k < size; ++k) at(row, k) -= share * at(column, k);
+      }
+    }
+  }
+  /// In place; what the system tells nothing of becomes 0.
+  void solve(std::span<double> values) const {
+    for (std::size_t row = 0; row < size_; ++row) std::swap(values[row], values[rows_[row]]);
+    for (std::size_t row = 0; row < size_; ++row)
+      for (std::size_t k = row + 1; k < size_; ++k) values[k] -= at(k, row) * values[row];
+    for (std::size_t row = size_; row-- > 0;) {
+      for (std::size_t k = row + 1; k < size_; ++k) values[row] -= at(row, k) * values[k];
+      values[row] = at(row, row) == 0 ? 0 : values[row] / at(row, row);
+    }
+  }
+
+ private:
+  double& at(std::size_t row, std::size_t column) { return entries[row * size_ + column]; }
+  [[nodiscard]] double at(std::size_t row, std::size_t column) const { return entries[row * size_ + column]; }
+
+  std::size_t size_ = 0;
+  std::vector<std::size_t> rows_;
+};
+
+/// Blocks that are solved for together.
+struct Unit {
+  std::vector<std::size_t> blocks;
+  Elimination slopes;
+};
+
+/// Blocks that are tied together: one unit, or each of them one.
+struct Tied {
+  std::vector<Unit> units;
+  std::vector<std::size_t> blocks;
+  small::Extrapolation extrapolation;
+  std::vector<double> from, to;
+  double before = std::numeric_limits<double>::infinity();  ///< how far off it was before the last step
+  double least = before;
+  int idle = 0, halvings = 0;
+  bool done = false;
+
+  [[nodiscard]] bool together() const { return units.size() == 1; }
+};
+
+class Meeting {
+ public:
+  Meeting(const Flow& flow, double dt, double share, std::span<const double> known)
+      : flow_(flow), dt_(dt), share_(share), known_(known), now_(known.size()), best_(now_), off_(now_), since_(now_) {
+    std::map<std::uint32_t, std::size_t> numbers;
+    for (std::size_t block = 0; block < flow.ties.size(); ++block) {
+      const auto [found, added] = numbers.try_emplace(flow.ties[block], tied_.size());
+      if (added) tied_.emplace_back();
+      tied_[found->second].blocks.push_back(block);
+    }
+    for (Tied& tied : tied_) {
+      const bool together = tied.blocks.size() <= most_together;
+      tied.units.resize(together ? 1 : tied.blocks.size());
+      for (std::size_t k = 0; k < tied.blocks.size(); ++k)
+        tied.units[together ? 0 : k].blocks.push_back(tied.blocks[k]);
+      tied.extrapolation.begin(tied.blocks.size() * flow.block);
+    }
+  }
+
+  const std::vector<double>& meet() {
+    bool left = !tied_.empty();
+    for (int step = 0; left && step < most_over_and_over; ++step) {
+      find_off(now_, off_);
+      if (step < most_slopes) find_slopes();
+      left = false;
+      for (Tied& tied : tied_) {
+        if (tied.done) continue;
+        go_on(tied, step);
+        left = left || !tied.done;
+      }
+    }
+    return best_;
+  }
+
+ private:
+  /// By how much the end misses what leads there.
+  void find_off(std::span<const double> rates, std::vector<double>& off) {
+    for (std::size_t i = 0; i < rates.size(); ++i) since_[i] = dt_ * rates[i];
+    flow_.rates(dt_, since_, off);
+    for (std::size_t i = 0; i < rates.size(); ++i) off[i] = known_[i] + share_ * off[i] - rates[i];
+  }
+
+  /// Of the numbers of each unit, by differences: exact where forces are linear. The blocks of a unit take turns, and
+  /// so do units that act on each other.
+  void find_slopes() {
+    const std::size_t n = flow_.block;
+    std::vector<double> there(now_.size()), aside(now_.size());
+    bool left = true;
+    for (std::uint32_t turn = 0; left; ++turn) {
+      left = false;
+      for (std::size_t column = 0; column < n; ++column) {
+        there = now_;
+        each_in_turn(turn, [&](Unit& unit, std::size_t place) {
+          const std::size_t i = unit.blocks[place] * n + column;
+          // So much that it is more than rounding, and so little that curves look straight.
+          there[i] += 1e-7 * flow_.sizes[i] / std::abs(dt_) + 1e-4 * std::abs(now_[i]) + 1e-9;
+          left = true;
+        });
+        if (!left) break;
+        find_off(there, aside);
+        each_in_turn(turn, [&](Unit& unit, std::size_t place) {
+          const std::size_t width = unit.blocks.size() * n, i = unit.blocks[place] * n + column;
+          unit.slopes.entries.resize(width * width);
+          for (std::size_t row = 0; row < width; ++row) {
+            const std::size_t k = unit.blocks[row / n] * n + row % n;
+            unit.slopes.entries[row * width + place * n + column] = (off_[k] - aside[k]) / (there[i] - now_[i]);
+          }
+        });
+      }
+    }
+    for (Tied& tied : tied_)
+      if (!tied.done)
+        for (Unit& unit : tied.units) unit.slopes.factor(unit.blocks.size() * n);
+  }
+
+  template <class See>
+  void each_in_turn(std::uint32_t turn, const See& see) {
+    for (Tied& tied : tied_) {
+      if (tied.done) continue;
+      if (tied.together() && turn < tied.blocks.size()) see(tied.units[0], turn);
+      if (tied.together()) continue;
+      for (Unit& unit : tied.units)
+        if (flow_.turns[unit.blocks[0]] == turn) see(unit, std::size_t{0});
+    }
+  }
+
+  void go_on(Tied& tied, int step) {
+    const std::size_t n = flow_.block;
+    tied.from.clear();
+    tied.to.clear();
+    double most = 0;
+    for (const Unit& unit : tied.units) {
+      std::vector<double> change;
+      change.reserve(unit.blocks.size() * n);
+      for (const std::size_t block : unit.blocks)
+        for (std::size_t k = 0; k < n; ++k) change.push_back(off_[block * n + k]);
+      unit.slopes.solve(change);
+      for (std::size_t k = 0; k < change.size(); ++k) {
+        const std::size_t at = unit.blocks[k / n] * n, i = at + k % n, first = k - k % flow_.kind;
+        double size = 0;
+        for (std::size_t beside = first; beside < first + flow_.kind; ++beside)
+          size = std::max(size, std::abs(dt_ * (now_[at + beside % n] + change[beside])));
+        size += flow_.sizes[i];
+        // Beyond all numbers, or none, counts as much.
+        const double share = change[k] == 0 ? 0 : std::abs(dt_ * change[k]) / size;
+        most = share < 1e300 ? std::max(most, share) : 1e300;
+        tied.from.push_back(now_[i]);
+        tied.to.push_back(now_[i] + change[k]);
+      }
+    }
+    const bool together = tied.together();
+    const int bored = together ? most_idle_together : most_idle_apart;
+    if (together && most > tied.before && tied.halvings < most_halvings) {
+      // It went too far.
+      ++tied.halvings;
+      put(tied, [&](std::size_t k) { return 0.5 * (now_at(tied, k) + best_at(tied, k)); });
+      return;
+    }
+    tied.halvings = 0;
+    tied.before = most;
+    tied.idle = most < 0.5 * tied.least ? 0 : tied.idle + 1;
+    if (most <= tied.least || step == 0) {
+      tied.least = most;
+      for (std::size_t k = 0; k < tied.from.size(); ++k) best_[index(tied, k)] = tied.from[k];
+    }
+    tied.done = !(most > rounding) || tied.idle > bored || (together && step >= most_newton);
+    if (tied.done && tied.least > 0 && most <= tied.least) {
+      for (std::size_t k = 0; k < tied.to.size(); ++k) best_[index(tied, k)] = tied.to[k];
+      return;
+    }
+    if (together) {
+      put(tied, [&](std::size_t k) { return tied.to[k]; });
+      return;
+    }
+    const std::vector<double>& next = tied.extrapolation.next(tied.from, tied.to);
+    put(tied, [&](std::size_t k) { return next[k]; });
+  }
+
+  [[nodiscard]] std::size_t index(const Tied& tied, std::size_t k) const {
+    return tied.blocks[k / flow_.block] * flow_.block + k % flow_.block;
+  }
+  [[nodiscard]] double now_at(const Tied& tied, std::size_t k) const { return now_[index(tied, k)]; }
+  [[nodiscard]] double best_at(const Tied& tied, std::size_t k) const { return best_[index(tied, k)]; }
+  template <class Value>
+  void put(const Tied& tied, const Value& value) {
+    for (std::size_t k = 0; k < tied.blocks.size() * flow_.block; ++k) now_[index(tied, k)] = value(k);
+  }
+
+  const Flow& flow_;
+  double dt_, share_;
+  std::span<const double> known_;
+  std::vector<double> now_, best_, off_, since_;
+  std::vector<Tied> tied_;
+};
+
+}  // namespace
+
+void meet_the_end(const Flow& flow, double dt, double share, std::span<const double> known, std::span<double> means) {
+  Meeting meeting(flow, dt, share, known);
+  const std::vector<double>& met = meeting.meet();
+  std::copy(met.begin(), met.end(), means.begin());
+}
+
+}  // namespace tweenfall::forces
