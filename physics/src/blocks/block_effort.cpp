@@ -64,8 +64,8 @@ bool unlike(const islands::IslandContents& island, const std::vector<Body>& bodi
     for (const std::uint32_t index : {contact->a, contact->b}) {
       const Body& body = bodies[index];
       if (body.immovable()) continue;
-      least = std::min(least, body.mass.mass);
-      greatest = std::max(greatest, body.mass.mass);
+      least = std::min(least, body.mass().mass);
+      greatest = std::max(greatest, body.mass().mass);
     }
   return greatest > most * least;
 }
@@ -154,7 +154,8 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     for (const Body* body : {&a, &b}) {
       if (drives(*body)) return std::nullopt;
       if (body->immovable()) continue;
-      if (body->drive.owner() == Owner::driven || body->turned || body->twist.angular.norm() * h > followable_of_small)
+      if (body->drive.owner() == Owner::driven || body->makeup->turned ||
+          body->twist.angular.norm() * h > followable_of_small)
         return std::nullopt;
     }
     const contacts::Closing closing =

@@ -27,11 +27,11 @@ Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec
   const Vec3 spin = back * angular;
   const Vec3 turning = back * torque;
   const auto rate = [&](const Vec3& at) -> Vec3 {
-    return body.inverse_inertia * (turning - at.cross(body.mass.inertia * at));
+    return body.inverse_inertia() * (turning - at.cross(body.mass().inertia * at));
   };
   Vec3 next = spin + h * rate(spin + 0.5 * h * rate(spin));
   if (torque == Vec3::Zero())
-    next = forces::bounded_spin(body.mass.inertia, 0.5 * spin.dot(body.mass.inertia * spin), next);
+    next = forces::bounded_spin(body.mass().inertia, 0.5 * spin.dot(body.mass().inertia * spin), next);
   return rotation * next;
 }
 
@@ -61,7 +61,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
     BodyLanes& velocity = velocities_.emplace_back();
     island_of_.push_back(number);
     entry.index = index;
-    entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
+    entry.round = body.spherical() && std::holds_alternative<Sphere>(body.shape().solid);
     entry.movable = pace.movable = !body.immovable() && !body.asleep;
     entry.conveys = body.conveys;
     if (body.conveys) entry.surface = body.surface();
@@ -70,21 +70,22 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
     entry.rotation = entry.start_rotation = body.motion.pose.rotation;
     if (entry.movable) {
       const Load& load = loads[index];
-      entry.inverse_mass = 1 / body.mass.mass;
+      entry.inverse_mass = 1 / body.mass().mass;
       entry.drag = load.drag;
-      entry.isotropic = body.spherical;
-      entry.inverse_moment = body.spherical ? body.inverse_inertia(0, 0) : 0;
+      entry.isotropic = body.spherical();
+      entry.inverse_moment = body.spherical() ? body.inverse_inertia()(0, 0) : 0;
       entry.inverse_inertia =
-          body.spherical ? body.inverse_inertia : body.world_inverse_inertia(body.motion.pose.rotation);
-      pace.mass = body.mass.mass;
-      pace.moment = body.mass.inertia(0, 0);
+          body.spherical() ? body.inverse_inertia() : body.world_inverse_inertia(body.motion.pose.rotation);
+      pace.mass = body.mass().mass;
+      pace.moment = body.mass().inertia(0, 0);
       set(pace.acceleration, integrator == Integrator::exact_quadratic
                                  ? Vec3(0.5 * (load.acceleration + load.end_acceleration))
                                  : load.acceleration);
-      pace.even = body.spherical && load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
+      pace.even =
+          body.spherical() && load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
       pace.steady = pace.even && !(load.drag > 0);
       pace.unturned = pace.steady && entry.round;
-      if (!body.spherical) uneven_.push_back(places_[index]);
+      if (!body.spherical()) uneven_.push_back(places_[index]);
       set(velocity.linear, body.twist.linear);
       set(velocity.angular, body.twist.angular);
     } else if (body.immovable()) {
@@ -212,7 +213,7 @@ void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
   any_stale_ = false;
   for (IslandBody& entry : bodies_) {
     entry.stale = !entry.round && entry.turned > (entry.led == step::not_led ? turned_enough_ : 0);
-    if (!joints_.empty() && entry.movable && !bodies[entry.index].spherical)
+    if (!joints_.empty() && entry.movable && !bodies[entry.index].spherical())
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
     if (!entry.stale) continue;
     entry.turned = 0;
@@ -276,7 +277,7 @@ void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
     if (!bodies_[i].jointed || !bodies_[i].movable) continue;
     BodyLanes& velocity = velocities_[i];
     const double gained = (linear_of(velocity) - linear_of(starts_[i])).norm();
-    if (gained * h <= farthest * bodies[bodies_[i].index].radius && angular_of(velocity).norm() * h <= farthest_turn)
+    if (gained * h <= farthest * bodies[bodies_[i].index].radius() && angular_of(velocity).norm() * h <= farthest_turn)
       continue;
     wild = true;
     velocity = starts_[i];

@@ -22,7 +22,7 @@ constexpr int most_advances = 48;
 Pose Prediction::node(const Body& body) const {
   Pose pose = body.motion.pose;
   pose.rotation = rotation;
-  pose.position = center - rotation * body.mass.center;
+  pose.position = center - rotation * body.mass().center;
   return pose;
 }
 
@@ -38,22 +38,22 @@ Prediction Course::at(double time) const {
 Course course_of(const Body& body, const forces::Load& load, double dt) {
   if (body.immovable() || body.asleep) {
     const step::KeyedCourse course = body.immovable() ? step::keyed_course(body, dt) : step::KeyedCourse{};
-    return {&body, &body.shape, course.mean.linear - 0.5 * course.gain.linear, course.mean.angular,
+    return {&body, &body.shape(), course.mean.linear - 0.5 * course.gain.linear, course.mean.angular,
             course.gain.linear / dt};
   }
   // A drive may be stiff enough to take the body anywhere within the step.
   if (body.drive.owner() == Owner::driven)
-    return {&body, &body.shape, load.pulled.linear, load.pulled.angular, Vec3::Zero()};
-  return {&body, &body.shape, body.twist.linear, body.twist.angular, load.acceleration};
+    return {&body, &body.shape(), load.pulled.linear, load.pulled.angular, Vec3::Zero()};
+  return {&body, &body.shape(), body.twist.linear, body.twist.angular, load.acceleration};
 }
 
 double swing_speed(const Course& course) {
   const Body& body = *course.body;
   const double spin = course.angular.norm();
-  if (spin == 0 || std::isinf(body.radius)) return 0;
+  if (spin == 0 || std::isinf(body.radius())) return 0;
   // A ball's surface stays where it is when it spins about its center.
-  if (std::holds_alternative<Sphere>(body.shape.solid)) return 0;
-  return spin * body.radius;
+  if (std::holds_alternative<Sphere>(body.shape().solid)) return 0;
+  return spin * body.radius();
 }
 
 namespace {

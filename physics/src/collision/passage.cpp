@@ -38,7 +38,7 @@ std::optional<Vec3> face_along(const Passage& passage, const Vec3& normal) {
 }  // namespace
 
 Passage passage_of(const state::Body& body, const forces::Load& load, double dt) {
-  Passage passage{&body, shapes::place(body.shape, body.motion.pose), course_of(body, load, dt)};
+  Passage passage{&body, shapes::place(body.shape(), body.motion.pose), course_of(body, load, dt)};
   passage.spin = passage.course.angular.norm();
   passage.swing = swing_speed(passage.course);
   return passage;
@@ -65,7 +65,7 @@ double gap_along(const Passage& a, const Passage& b, const Vec3& direction) {
 bool stay_apart(const Passage& a, const Passage& b, const Vec3& direction, double gap, double near_enough, double dt) {
   const double rounding = 1e-14 * (a.placed.center.norm() + b.placed.center.norm());
   if (!(gap > 1.000001 * near_enough + rounding)) return false;
-  if ((std::isinf(a.body->radius) && a.spin > 0) || (std::isinf(b.body->radius) && b.spin > 0)) return false;
+  if ((std::isinf(a.body->radius()) && a.spin > 0) || (std::isinf(b.body->radius()) && b.spin > 0)) return false;
   return stay_apart(a.course, b.course, direction, gap - rounding, 0, dt);
 }
 

@@ -10,8 +10,8 @@ namespace {
 double rolling_radius(const collision::Passage& way, const collision::Prediction& at, const Vec3& position,
                       const Vec3& out) {
   const state::Body& body = *way.body;
-  if (body.roundness > 0) return body.roundness;
-  if (!body.turned) return 0;
+  if (body.makeup->roundness > 0) return body.makeup->roundness;
+  if (!body.makeup->turned) return 0;
   const shapes::Placed placed = shapes::place(*way.course.shape, at.node(body));
   const Mat3 into = placed.axes.transpose();
   return shapes::rolling_radius(way.course.shape->solid, into * (position - placed.center), into * out);

@@ -23,7 +23,7 @@ constexpr std::size_t worth_a_part = 64;
 
 /// Of a compound; none of any other body, which is one itself.
 std::span<const Shape> parts_of(const state::Body& body) {
-  const auto* compound = std::get_if<Compound>(&body.shape.solid);
+  const auto* compound = std::get_if<Compound>(&body.shape().solid);
   return compound ? compound->parts() : std::span<const Shape>();
 }
 
@@ -153,13 +153,14 @@ void World::Implementation::finish_contact(contacts::ContactConstraint& constrai
                                            const state::ContactMemory* memory) const {
   const state::Body& a = bodies[constraint.a];
   const state::Body& b = bodies[constraint.b];
-  constraint.friction = contacts::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
-  constraint.restitution =
-      contacts::combined_restitution(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
-  constraint.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
-  constraint.spinning_friction = std::max(a.spinning_friction, b.spinning_friction);
+  constraint.friction = contacts::combined_friction(a.makeup->friction, a.makeup->friction_combine, b.makeup->friction,
+                                                    b.makeup->friction_combine);
+  constraint.restitution = contacts::combined_restitution(a.makeup->restitution, a.makeup->restitution_combine,
+                                                          b.makeup->restitution, b.makeup->restitution_combine);
+  constraint.rolling_friction = std::max(a.makeup->rolling_friction, b.makeup->rolling_friction);
+  constraint.spinning_friction = std::max(a.makeup->spinning_friction, b.makeup->spinning_friction);
   constraint.began = !(memory && memory->touching);
-  if (memory) contacts::inherit(constraint, *memory, 0.05 * std::min(a.radius, b.radius));
+  if (memory) contacts::inherit(constraint, *memory, 0.05 * std::min(a.radius(), b.radius()));
 }
 
 void World::Implementation::find_contacts_of_parts(const contacts::PairInContact& pair, contacts::PairMemories known,
@@ -229,7 +230,7 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
     pair.a = index_a;
     pair.b = index_b;
     const std::size_t before = part.contacts.size();
-    if (surfaces::surface_of(a.shape.solid) || surfaces::surface_of(b.shape.solid)) {
+    if (surfaces::surface_of(a.shape().solid) || surfaces::surface_of(b.shape().solid)) {
       find_contacts_with_surface(pair, memories_of[i], dt, part);
     } else if (contacts::parts_of(a).empty() && contacts::parts_of(b).empty()) {
       const collision::Passage& way_a = passages[index_a];

@@ -40,7 +40,7 @@ class SurfaceContacts {
         surface_is_a_(surface_is_a),
         dt_(dt),
         swing_(way.swing +
-               way_surface.spin * ((way.body->center - way_surface.body->center).norm() + way.body->radius)) {}
+               way_surface.spin * ((way.body->center - way_surface.body->center).norm() + way.body->radius())) {}
 
   /// No place of the solid comes farther against the surface in the step, m.
   [[nodiscard]] double way() const {
@@ -102,7 +102,7 @@ class SurfaceContacts {
     const std::size_t known = std::min(places.size(), taken.size());
     for (;;) {
       std::size_t best = most, from = 0;
-      double least = 0.3 * way_.body->radius;
+      double least = 0.3 * way_.body->radius();
       for (std::size_t i = 0; i < count_; ++i)
         for (std::size_t k = 0; k < known; ++k) {
           if (numbered[i] || taken[k]) continue;
@@ -206,10 +206,10 @@ class SurfaceContacts {
 void World::Implementation::find_contacts_with_surface(const contacts::PairInContact& pair,
                                                        contacts::PairMemories known, double dt,
                                                        contacts::FoundPart& part) const {
-  const bool surface_is_a = surfaces::surface_of(bodies[pair.a].shape.solid) != nullptr;
+  const bool surface_is_a = surfaces::surface_of(bodies[pair.a].shape().solid) != nullptr;
   const collision::Passage& way_surface = passages[surface_is_a ? pair.a : pair.b];
   const collision::Passage& whole = passages[surface_is_a ? pair.b : pair.a];
-  const surfaces::Surface& surface = *surfaces::surface_of(way_surface.body->shape.solid);
+  const surfaces::Surface& surface = *surfaces::surface_of(way_surface.body->shape().solid);
   const std::span<const std::uint32_t> all = memories.sorted().subspan(known.first, known.count);
   const std::size_t before = part.contacts.size();
   const auto find = [&](const collision::Passage& way, std::uint32_t number) {
@@ -231,7 +231,7 @@ void World::Implementation::find_contacts_with_surface(const contacts::PairInCon
       part.contacts.add() = contact;
     }
   };
-  if (const auto* compound = std::get_if<Compound>(&whole.body->shape.solid)) {
+  if (const auto* compound = std::get_if<Compound>(&whole.body->shape().solid)) {
     for (std::uint32_t i = 0; i < compound->parts().size(); ++i)
       find(collision::passage_of_part(whole, compound->parts()[i]), i);
   } else {

@@ -45,7 +45,7 @@ bool take_up(const state::ContactMemory& memory, const Body& a, const Body& b, d
              ContactConstraint& contact) {
   const FoundManifold& found = memory.found;
   if (!found.holds || !memory.touching || a.placed || b.placed) return false;
-  const double size = std::min(a.radius, b.radius);
+  const double size = std::min(a.radius(), b.radius());
   const Quat& rotation_a = a.motion.pose.rotation;
   const Quat& rotation_b = b.motion.pose.rotation;
   const Vec3 between = rotation_a.conjugate() * Vec3(b.center - a.center);

@@ -28,15 +28,15 @@ void World::Implementation::sense() {
   for (const std::uint32_t index : sensors) {
     const state::Body& sensor = bodies[index];
     if (!here[index].shape) continue;
-    const bool endless = is_scenery(sensor.shape.solid);
+    const bool endless = is_scenery(sensor.shape().solid);
     const auto counts = [&](std::uint32_t other) {
       const state::Body& body = bodies[other];
-      if (other == index || body.sensor || (sensor.fixed && body.fixed)) return false;
-      if (endless && is_scenery(body.shape.solid)) return false;
+      if (other == index || body.sensor() || (sensor.fixed && body.fixed)) return false;
+      if (endless && is_scenery(body.shape().solid)) return false;
       return (sensor.groups & body.collides_with) != 0 && (body.groups & sensor.collides_with) != 0 &&
              !ignored.contains(index, other);
     };
-    for (const std::uint32_t other : here.overlapping(sensor.shape, sensor.motion.pose, counts))
+    for (const std::uint32_t other : here.overlapping(sensor.shape(), sensor.motion.pose, counts))
       next_overlaps.push_back({{index, sensor.generation}, {other, bodies[other].generation}, false});
   }
   // Both by index; a body that came in the place of another is another.

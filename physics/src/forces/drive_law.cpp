@@ -11,10 +11,10 @@ using state::Body;
 
 DriveLaw drive_law(const Body& body, const Vec3& center, const Quat& rotation, double h, double target_ahead) {
   const double w = 2 * std::numbers::pi * body.drive.hz;
-  const Vec3 arm = body.target.pose.rotation * body.mass.center;
-  const Twist twist = shifted(body.target.twist, arm);
-  Vec3 target = body.target.pose.position + arm;
-  Quat target_rotation = body.target.pose.rotation;
+  const Vec3 arm = body.target().pose.rotation * body.mass().center;
+  const Twist twist = shifted(body.target().twist, arm);
+  Vec3 target = body.target().pose.position + arm;
+  Quat target_rotation = body.target().pose.rotation;
   if (target_ahead > 0) {
     target -= twist.linear * target_ahead;
     target_rotation = exp_map(-twist.angular * target_ahead) * target_rotation;
@@ -31,7 +31,7 @@ DriveLaw drive_law(const Body& body, const Vec3& center, const Quat& rotation, d
 Twist pulled(const Body& body, const Load& load, Integrator integrator, double dt, bool& saturated) {
   const DriveLaw law = drive_law(body, body.center, body.motion.pose.rotation, dt, 0);
   const Vec3 unpulled = accelerated(body.twist.linear, load, integrator, dt);
-  Vec3 impulse = body.mass.mass * ((unpulled + law.linear) / (1 + law.stiffness) - unpulled);
+  Vec3 impulse = body.mass().mass * ((unpulled + law.linear) / (1 + law.stiffness) - unpulled);
   const double most = body.drive.max_force * dt;
   saturated = impulse.norm() > most;
   if (saturated) impulse *= most / impulse.norm();
@@ -45,7 +45,7 @@ Twist pulled(const Body& body, const Load& load, Integrator integrator, double d
     saturated = true;
     change *= most_turning / turning;
   }
-  return {unpulled + impulse / body.mass.mass, spun + change};
+  return {unpulled + impulse / body.mass().mass, spun + change};
 }
 
 void pull(Body& body, const Load& load, double dt) {

@@ -128,11 +128,12 @@ void Flight::find_rates(const Acting& acting, const std::vector<Load>& loads, do
     at.center = body.center + changed.center;
     at.linear = body.twist.linear + changed.linear;
     at.rotation = exp_map(changed.turn) * body.motion.pose.rotation;
-    at.angular = at.rotation * (body.inverse_inertia * (at.rotation.conjugate() * momentum));
+    at.angular = at.rotation * (body.inverse_inertia() * (at.rotation.conjugate() * momentum));
     rates_[k].center = at.linear;
-    rates_[k].linear = acting.settings.gravity + body.force / body.mass.mass - body.linear_damping * at.linear;
+    rates_[k].linear =
+        acting.settings.gravity + body.force / body.mass().mass - body.makeup->linear_damping * at.linear;
     rates_[k].turn = turn_rate(changed.turn, at.angular);
-    rates_[k].momentum = body.torque - body.angular_damping * momentum;
+    rates_[k].momentum = body.torque - body.makeup->angular_damping * momentum;
   }
   for (const NumberedForce& entry : acting.forces) {
     if (const auto* spring = std::get_if<Spring>(&entry.force)) {
@@ -142,7 +143,7 @@ void Flight::find_rates(const Acting& acting, const std::vector<Load>& loads, do
     const auto* drag = std::get_if<Drag>(&entry.force);
     const auto* field = std::get_if<Field>(&entry.force);
     for (std::size_t k = 0; k < starts_.size(); ++k) {
-      const double mass = acting.bodies[starts_[k].index].mass.mass;
+      const double mass = acting.bodies[starts_[k].index].mass().mass;
       const Glimpse& at = glimpses_[k];
       if (drag) {
         rates_[k].linear -= (drag->linear + drag->quadratic * at.linear.norm()) / mass * at.linear;
@@ -166,7 +167,7 @@ void Flight::add_spring(const Acting& acting, const Spring& spring, double after
   const auto apply = [&](const Body& body, std::uint32_t index, const Vec3& force, const Vec3& arm) {
     if (slots_[index] == nobody) return;
     Change& rate = rates_[slots_[index]];
-    rate.linear += force / body.mass.mass;
+    rate.linear += force / body.mass().mass;
     rate.momentum += arm.cross(force);
   };
   apply(*a, spring.a.index, pull.force, pull.arm_a);

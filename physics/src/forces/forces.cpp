@@ -19,9 +19,9 @@ bool moves(const Body& body) {
 
 Glimpse ahead(const Body& body, const Load& load, double dt) {
   if (body.has_target && body.immovable()) {
-    const Vec3 arm = body.target.pose.rotation * body.mass.center;
-    const Twist twist = shifted(body.target.twist, arm);
-    return {body.target.pose.position + arm, twist.linear, twist.angular, body.target.pose.rotation};
+    const Vec3 arm = body.target().pose.rotation * body.mass().center;
+    const Twist twist = shifted(body.target().twist, arm);
+    return {body.target().pose.position + arm, twist.linear, twist.angular, body.target().pose.rotation};
   }
   if (!moves(body)) return {body.center, Vec3::Zero(), Vec3::Zero(), body.motion.pose.rotation};
   const Vec3 angular = body.twist.angular;
@@ -41,7 +41,7 @@ void add_springiness(const std::vector<Body>& bodies, const Spring& spring, doub
   if (!a || (!b && spring.b != BodyId{})) return;
   const auto inverse_mass = [](const Body& body, const Vec3& anchor) {
     if (!moves(body)) return 0.0;
-    return 1 / body.mass.mass + (anchor - body.mass.center).squaredNorm() * body.inverse_inertia.norm();
+    return 1 / body.mass().mass + (anchor - body.mass().center).squaredNorm() * body.inverse_inertia().norm();
   };
   const double stiffness = spring.stiffness * dt * dt + spring.damping * dt;
   const double felt = inverse_mass(*a, spring.anchor_a) + (b ? inverse_mass(*b, spring.anchor_b) : 0);
@@ -81,11 +81,11 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     load = {};
     if (body.immovable()) load.acceleration = load.end_acceleration = step::keyed_course(body, dt).gain.linear / dt;
     if (!moves(body)) return;
-    load.acceleration = settings.gravity + body.force / body.mass.mass;
+    load.acceleration = settings.gravity + body.force / body.mass().mass;
     load.end_acceleration = load.acceleration;
     load.torque = body.torque;
-    load.drag = body.linear_damping;
-    load.angular_damping = body.angular_damping;
+    load.drag = body.makeup->linear_damping;
+    load.angular_damping = body.makeup->angular_damping;
   });
   if (!implicit(settings.integrator))
     for (const NumberedForce& entry : forces)
@@ -99,8 +99,8 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     step::SpringRow row;
     row.a = spring->a.index;
     if (b) row.b = spring->b.index;
-    row.local_a = spring->anchor_a - a->mass.center;
-    row.local_b = b ? Vec3(spring->anchor_b - b->mass.center) : spring->anchor_b;
+    row.local_a = spring->anchor_a - a->mass().center;
+    row.local_b = b ? Vec3(spring->anchor_b - b->mass().center) : spring->anchor_b;
     row.rest_length = spring->rest_length;
     row.stiffness = spring->stiffness;
     row.damping = spring->damping;
@@ -116,7 +116,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
         for (const std::uint32_t i : watched) {
           if (!moves(bodies[i])) continue;
           const double speed = bodies[i].twist.linear.norm();
-          loads[i].drag += (drag->linear + drag->quadratic * speed) / bodies[i].mass.mass;
+          loads[i].drag += (drag->linear + drag->quadratic * speed) / bodies[i].mass().mass;
           loads[i].angular_drag += drag->angular;
         }
       } else if (const auto* spring = std::get_if<Spring>(&entry.force)) {
@@ -130,7 +130,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
         const auto apply = [&](const Body& body, std::size_t index, const Vec3& force, const Vec3& arm) {
           if (!moves(body)) return;
           Load& load = loads[index];
-          (at_end ? load.end_acceleration : load.acceleration) += force / body.mass.mass;
+          (at_end ? load.end_acceleration : load.acceleration) += force / body.mass().mass;
           load.torque += torque_share * arm.cross(force);
         };
         apply(*a, spring->a.index, pull.force, pull.arm_a);
@@ -139,7 +139,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
         for (const std::uint32_t i : watched) {
           if (!moves(bodies[i])) continue;
           const Glimpse at = at_end ? ahead(bodies[i], loads[i], dt) : now(bodies[i]);
-          const double mass = bodies[i].mass.mass;
+          const double mass = bodies[i].mass().mass;
           const Vec3 force = (*field)(mass, at.center, at.linear, at_end ? time + dt : time);
           (at_end ? loads[i].end_acceleration : loads[i].acceleration) += force / mass;
         }

@@ -33,7 +33,7 @@ class Tumbling {
  public:
   Tumbling(const Body& body, const Vec3& torque) : body_(body), torque_(torque), steady_(torque == Vec3::Zero()) {}
 
-  [[nodiscard]] Vec3 angular(const Vec3& momentum) const { return body_.inverse_inertia * momentum; }
+  [[nodiscard]] Vec3 angular(const Vec3& momentum) const { return body_.inverse_inertia() * momentum; }
 
   /// Through `h` seconds from a rotation.
   [[nodiscard]] Tumble through(double h, const Quat& rotation, const Vec3& momentum) const {
@@ -89,12 +89,12 @@ Vec3 bounded_spin(const Mat3& inertia, double most, const Vec3& angular) {
 
 Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
   const bool steady = load.torque == Vec3::Zero();
-  if (body.spherical && steady && !(load.angular_drag > 0 || load.angular_damping > 0)) {
+  if (body.spherical() && steady && !(load.angular_drag > 0 || load.angular_damping > 0)) {
     Spin spin{exp_map(start.angular * dt) * start.rotation, start.angular};
     spin.rotation.normalize();
     return spin;
   }
-  const Mat3& inertia = body.mass.inertia;
+  const Mat3& inertia = body.mass().inertia;
   Vec3 momentum = inertia * (start.rotation.conjugate() * start.angular);  // in the body's axes, as all until its end
   if (load.angular_drag > 0 || load.angular_damping > 0) {
     const Mat3 slowed =
@@ -103,7 +103,7 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
   }
   const Tumbling tumbling(body, load.torque);
   const Vec3 first = tumbling.angular(momentum);
-  if (body.spherical && steady) {
+  if (body.spherical() && steady) {
     Spin spin{start.rotation, start.rotation * first};
     spin.rotation = exp_map(spin.angular * dt) * start.rotation;
     spin.rotation.normalize();

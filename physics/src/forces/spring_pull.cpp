@@ -10,8 +10,8 @@ Glimpse now(const Body& body) {
 
 Pull pull_of(const Spring& spring, const Body& body_a, const Glimpse& a, const Body* body_b, const Glimpse& b) {
   Pull pull;
-  pull.arm_a = a.rotation * (spring.anchor_a - body_a.mass.center);
-  pull.arm_b = body_b ? Vec3(b.rotation * (spring.anchor_b - body_b->mass.center)) : Vec3(0, 0, 0);
+  pull.arm_a = a.rotation * (spring.anchor_a - body_a.mass().center);
+  pull.arm_b = body_b ? Vec3(b.rotation * (spring.anchor_b - body_b->mass().center)) : Vec3(0, 0, 0);
   const Vec3 end_a = a.center + pull.arm_a;
   const Vec3 end_b = body_b ? Vec3(b.center + pull.arm_b) : spring.anchor_b;
   const Vec3 between = end_b - end_a;

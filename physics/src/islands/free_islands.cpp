@@ -33,7 +33,7 @@ bool rubbed(const contacts::ContactConstraint& contact) {
 
 /// A ball that no contact turns unless it rubs.
 bool slick(const Body& body) {
-  return body.spherical && std::holds_alternative<Sphere>(body.shape.solid) && body.mass.center == Vec3::Zero();
+  return body.spherical() && std::holds_alternative<Sphere>(body.shape().solid) && body.mass().center == Vec3::Zero();
 }
 
 /// Whether a load changes the momentum of bodies against each other.
@@ -111,16 +111,16 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
     for (const Member& member : group) {
       const Body& body = bodies[member.index];
       const FreeStart& at = state_of(member);
-      whole.mass += body.mass.mass;
-      whole.center += body.mass.mass * at.center;
-      whole.velocity += body.mass.mass * at.twist.linear;
+      whole.mass += body.mass().mass;
+      whole.center += body.mass().mass * at.center;
+      whole.velocity += body.mass().mass * at.twist.linear;
     }
     whole.center /= whole.mass;
     whole.velocity /= whole.mass;
     for (const Member& member : group) {
       const Body& body = bodies[member.index];
       const FreeStart& at = state_of(member);
-      const Vec3 orbit = body.mass.mass * (at.center - whole.center).cross(at.twist.linear - whole.velocity);
+      const Vec3 orbit = body.mass().mass * (at.center - whole.center).cross(at.twist.linear - whole.velocity);
       whole.momentum += orbit;
       whole.size += orbit.norm();
       if (!member.gripped) continue;
@@ -155,7 +155,7 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
   for (const Member& member : group) {
     const Body& body = bodies[member.index];
     const Vec3 arm = arm_of(body);
-    inertia += body.mass.mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+    inertia += body.mass().mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
     if (member.gripped) inertia += body.world_inertia(body.motion.pose.rotation);
   }
   const Mat3 solvable = inertia + hardly * inertia.trace() * Mat3::Identity();
@@ -175,7 +175,7 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
   for (const Member& member : group) {
     const Body& body = bodies[member.index];
     const Twist twist = besides(member);
-    energy += 0.5 * body.mass.mass * twist.linear.squaredNorm();
+    energy += 0.5 * body.mass().mass * twist.linear.squaredNorm();
     if (member.gripped)
       energy += 0.5 * twist.angular.dot(body.world_inertia(body.motion.pose.rotation) * twist.angular);
   }

@@ -10,13 +10,13 @@ namespace tweenfall::islands {
 namespace {
 
 Mat3 inertia_of(const state::Body& body, const Quat& rotation) {
-  return body.spherical ? body.mass.inertia : body.world_inertia(rotation);
+  return body.spherical() ? body.mass().inertia : body.world_inertia(rotation);
 }
 
 }  // namespace
 
 void IslandEnergy::add(const state::Body& body, const forces::Load& load, const BodyCourse& course) {
-  const double mass = body.mass.mass;
+  const double mass = body.mass().mass;
   const Vec3 force = 0.5 * mass * (load.acceleration + load.end_acceleration);
   limit += 0.5 * mass * course.start.linear.squaredNorm() +
            0.5 * course.start.angular.dot(inertia_of(body, course.start_rotation) * course.start.angular) +

@@ -130,9 +130,9 @@ void IslandJoints::write(Entry& entry, const std::vector<state::Body>& bodies, c
   };
   const IslandBody& a = island[entry.a];
   const IslandBody& b = island[entry.b];
-  const Vec3 mass_center_a = entry.a == 0 ? Vec3(0, 0, 0) : bodies[a.index].mass.center;
+  const Vec3 mass_center_a = entry.a == 0 ? Vec3(0, 0, 0) : bodies[a.index].mass().center;
   Placement at = placement_of(entry.joint->settings, a.center, a.rotation, mass_center_a, b.center, b.rotation,
-                              bodies[b.index].mass.center);
+                              bodies[b.index].mass().center);
   at.twist_a = followed(velocities[entry.a]);
   at.twist_b = followed(velocities[entry.b]);
   entry.inverse_mass_a = a.inverse_mass;

@@ -17,10 +17,10 @@ Placement place(const state::Joint& joint, const std::vector<state::Body>& bodie
   const state::Body& b = bodies[settings.b.index];
   if (settings.a == BodyId{})
     return placement_of(settings, Vec3(0, 0, 0), Quat(1, 0, 0, 0), Vec3(0, 0, 0), b.center, b.motion.pose.rotation,
-                        b.mass.center);
+                        b.mass().center);
   const state::Body& a = bodies[settings.a.index];
-  return placement_of(settings, a.center, a.motion.pose.rotation, a.mass.center, b.center, b.motion.pose.rotation,
-                      b.mass.center);
+  return placement_of(settings, a.center, a.motion.pose.rotation, a.mass().center, b.center, b.motion.pose.rotation,
+                      b.mass().center);
 }
 
 /// How far the frames are apart in what the kind holds together, or beyond what it allows, m.
@@ -114,8 +114,9 @@ void World::Implementation::end_links(double dt) {
   broken.clear();
   for (const joints::JointLink& link : links) {
     const state::Joint& joint = *link.joint;
-    if (link.a != joints::JointLink::world && bodies[link.a].immovable()) bodies[link.a].reaction -= joint.force * dt;
-    if (bodies[link.b].immovable()) bodies[link.b].reaction += joint.force * dt;
+    if (link.a != joints::JointLink::world && bodies[link.a].immovable())
+      bodies[link.a].extra.own().reaction -= joint.force * dt;
+    if (bodies[link.b].immovable()) bodies[link.b].extra.own().reaction += joint.force * dt;
     if (!(joint.force.norm() > joint.settings.break_force) && !(joint.torque.norm() > joint.settings.break_torque))
       continue;
     const auto index = static_cast<std::uint32_t>(link.joint - joints.data());
@@ -134,8 +135,8 @@ JointId World::add_joint(const JointSettings& settings) {
     if (settings.a == settings.b) throw std::invalid_argument("a joint needs two bodies, but both are the same");
   }
   for (const BodyId& end : {settings.a, settings.b})
-    if (end != BodyId{} && is_scenery(world.at(end).shape.solid))
-      throw std::invalid_argument(std::string("a body with ") + kind_name(world.at(end).shape.solid) +
+    if (end != BodyId{} && is_scenery(world.at(end).shape().solid))
+      throw std::invalid_argument(std::string("a body with ") + kind_name(world.at(end).shape().solid) +
                                   " takes no joint: join to the world instead");
   if (auto* pulley = std::get_if<PulleyJoint>(&joint.settings.kind); pulley && !pulley->length) {
     pulley->length = 0;

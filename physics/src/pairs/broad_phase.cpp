@@ -77,8 +77,8 @@ BroadPhase::Look BroadPhase::look_at(const Body& body, std::uint32_t index, cons
   Entry& entry = entries_[index];
   Look look;
   // What may meet nobody needs no box.
-  if (body.sensor || body.groups == 0 || body.collides_with == 0) return look;
-  look.kind = std::isinf(body.radius) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
+  if (body.sensor() || body.groups == 0 || body.collides_with == 0) return look;
+  look.kind = std::isinf(body.radius()) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
   entry.stirs = body.stirs();
   entry.displaces = body.displaces();
   entry.pairs = 0;
@@ -200,7 +200,7 @@ void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std
   fresh_.clear();
   for (const std::uint32_t index : planes_) {
     const Entry& entry = entries_[index];
-    const Shape& shape = bodies[index].shape;
+    const Shape& shape = bodies[index].shape();
     const auto& plane = std::get<Plane>(shape.solid);
     const shapes::Placed placed = shapes::place(shape, bodies[index].motion.pose);
     const Vec3 normal = placed.axes * plane.normal;

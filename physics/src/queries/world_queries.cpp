@@ -63,7 +63,7 @@ std::vector<BodyDetail> body_details(const World& asked) {
   islands.reset(bodies.size());
   const auto moves = [&](const BodyId& id) {
     const state::Body* body = forces::find_body(bodies, id);
-    return body && !body->immovable() && !body->sensor;
+    return body && !body->immovable() && !body->sensor();
   };
   const auto tie = [&](const BodyId& a, const BodyId& b) {
     if (moves(a) && moves(b)) islands.join(a.index, b.index);
@@ -83,7 +83,7 @@ std::vector<BodyDetail> body_details(const World& asked) {
       detail.island = {first, bodies[first].generation};
     }
     const Bounds* const box = world.broad_phase.box(i);
-    detail.box = box ? *box : bounds(body.shape, body.motion.pose);
+    detail.box = box ? *box : bounds(body.shape(), body.motion.pose);
     details.push_back(detail);
   }
   return details;

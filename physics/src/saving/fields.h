@@ -12,10 +12,12 @@ namespace tweenfall::saving {
 
 using state::Body;
 using state::ContactMemory;
+using state::Extra;
 using state::FoundManifold;
 using state::IgnoredPairs;
 using state::Joint;
 using state::KeptImpulses;
+using state::Makeup;
 using state::PointMemory;
 using state::WorldState;
 
@@ -120,19 +122,32 @@ void each_field(T& properties, const Visit& visit) {
   follows_from_others(center, inertia);
 }
 
+template <Is<Makeup> T, class Visit>
+void each_field(T& makeup, const Visit& visit) {
+  auto& [shape, mass, inverse_inertia, radius, roundness, linear_damping, angular_damping, friction, restitution,
+         rolling_friction, spinning_friction, friction_combine, restitution_combine, sensor, spherical, turned] =
+      makeup;
+  visit(linear_damping, angular_damping, mass, friction, restitution, rolling_friction, spinning_friction,
+        friction_combine, restitution_combine, sensor, shape);
+  follows_from_others(inverse_inertia, radius, roundness, spherical, turned);
+}
+
+template <Is<Extra> T, class Visit>
+void each_field(T& extra, const Visit& visit) {
+  auto& [target, reaction, surface_velocity] = extra;
+  visit(target, reaction, surface_velocity);
+}
+
 template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [alive, fixed, asleep, placed, has_target, led, turned, saturated, spherical, generation, drive, still_for,
-         center, twist, motion, force, torque, radius, roundness, linear_damping, angular_damping, mass,
-         inverse_inertia, friction, restitution, rolling_friction, spinning_friction, friction_combine,
-         restitution_combine, sensor, conveys, surface_velocity, groups, collides_with, shape, target, reaction] = body;
+  auto& [alive, fixed, asleep, placed, has_target, led, saturated, conveys, generation, drive, still_for, center, twist,
+         motion, force, torque, groups, collides_with, makeup, extra] = body;
   visit(alive, generation);
   if (!alive) return;  // its place and number alone matter
-  visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion, force, torque, linear_damping,
-        angular_damping, mass, friction, restitution, rolling_friction, spinning_friction, friction_combine,
-        restitution_combine, sensor, surface_velocity, groups, collides_with, shape, target, reaction);
+  visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion, force, torque, groups,
+        collides_with, makeup, extra);
   visit.rarely(saturated);
-  follows_from_others(conveys, turned, spherical, radius, roundness, inverse_inertia);
+  follows_from_others(conveys);
 }
 
 template <Is<Drag> T, class Visit>

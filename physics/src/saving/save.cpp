@@ -11,6 +11,7 @@
 #include "saving/envelope.h"
 #include "state/checks.h"
 #include "state/countable.h"
+#include "state/makeups.h"
 #include "state/world_data.h"
 #include "surfaces/surface.h"
 
@@ -19,7 +20,7 @@ namespace tweenfall {
 namespace saving {
 namespace {
 
-constexpr Envelope world_envelope{"world", 4};
+constexpr Envelope world_envelope{"world", 5};
 
 bool unit(const Quat& rotation) {
   return std::abs(rotation.norm() - 1) <= 1e-9;
@@ -34,20 +35,24 @@ void require_numbers(const Vec3& value, const char* name) {
 }
 
 /// Sets what follows from the rest, too.
-void check(Body& body) {
-  state::validate_surface(body);
-  body.conveys = state::conveys(body.surface_velocity);
+void check(Body& body, state::Makeups& makeups) {
+  Makeup makeup = *body.makeup;
+  const Extra& extra = body.extra.value();
+  state::validate_surface(makeup);
+  state::validate_surface(extra.surface_velocity);
+  body.conveys = state::conveys(extra.surface_velocity);
   state::validate(body.drive);
-  state::require(unit(body.shape.offset.rotation), "rotation of a shape must be a unit quaternion");
-  const std::optional<double> mass = body.mass.mass;
-  body.mass = {};
-  state::give_mass(body, mass, 0);
-  for (const Motion& motion : {body.motion, body.target}) {
+  state::require(unit(makeup.shape.offset.rotation), "rotation of a shape must be a unit quaternion");
+  const std::optional<double> mass = makeup.mass.mass;
+  makeup.mass = {};
+  state::give_mass(makeup, body.immovable(), mass, 0);
+  body.makeup = makeups.share(makeup);
+  for (const Motion& motion : {body.motion, extra.target}) {
     static_cast<void>(state::checked(motion));
     state::require(unit(motion.pose.rotation), "rotation of a body must be a unit quaternion");
   }
   state::require(body.finite(), "its place and velocity must be finite and at most 1e30");
-  state::require(body.force.allFinite() && body.torque.allFinite() && body.reaction.allFinite(),
+  state::require(body.force.allFinite() && body.torque.allFinite() && extra.reaction.allFinite(),
                  "its forces must be finite");
   state::require_amount(body.still_for, "time of stillness");
 }
@@ -113,13 +118,14 @@ bool in_order(const PartPair& pair, const PartPair* before) {
 
 void check_bodies(WorldState& world) {
   std::vector<char> free(world.bodies.size(), 0);
+  state::Makeups makeups;
   for (std::size_t i = 0; i < world.bodies.size(); ++i) {
     if (!world.bodies[i].alive) {
       free[i] = 1;
       continue;
     }
-    at("body " + std::to_string(i), [&] { check(world.bodies[i]); });
-    if (world.bodies[i].sensor) world.sensors.push_back(static_cast<std::uint32_t>(i));
+    at("body " + std::to_string(i), [&] { check(world.bodies[i], makeups); });
+    if (world.bodies[i].sensor()) world.sensors.push_back(static_cast<std::uint32_t>(i));
   }
   for (const std::uint32_t index : world.unused) {
     state::require(index < free.size() && free[index] != 0, "a saved world has a bad list of free places");
@@ -173,7 +179,7 @@ void check_pairs(const WorldState& world) {
   PartPair before{};
   bool first = true;
   const auto has_part = [&](std::uint32_t body, std::uint32_t part) {
-    const Solid& solid = world.bodies[body].shape.solid;
+    const Solid& solid = world.bodies[body].shape().solid;
     const auto* compound = std::get_if<Compound>(&solid);
     return surfaces::surface_of(solid) ? part < 64 : part < (compound ? compound->parts().size() : 1);
   };

@@ -87,6 +87,23 @@ class Walk {
         if (!has) value.reset();
       }
       if (has) one(*value);
+    } else if constexpr (std::is_same_v<Value, std::shared_ptr<const Makeup>>) {
+      if constexpr (std::is_const_v<T>) {
+        one(*value);
+      } else {
+        const auto read = std::make_shared<Makeup>();
+        one(*read);
+        value = read;
+      }
+    } else if constexpr (std::is_same_v<Value, state::Boxed<Extra>>) {
+      bool has = value.has_value();
+      tool_.number(has);
+      if constexpr (std::is_const_v<T>) {
+        if (has) one(value.value());
+      } else {
+        if (has) one(value.own());
+        if (!has) value.reset();
+      }
     } else if constexpr (IsVariant<Value>::value) {
       tool_.choice(value);
     } else if constexpr (std::is_same_v<Value, std::string>) {

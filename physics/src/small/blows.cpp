@@ -75,7 +75,7 @@ bool World::Implementation::hands_on_blows(const islands::IslandContents& island
     for (const std::uint32_t index : {contact->a, contact->b}) {
       const state::Body& body = bodies[index];
       if (body.displaces() || body.conveys || body.drive.owner() == Owner::driven ||
-          surfaces::surface_of(body.shape.solid))
+          surfaces::surface_of(body.shape().solid))
         return false;
     }
   return true;

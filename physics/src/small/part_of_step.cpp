@@ -35,7 +35,7 @@ void inherit(const ContactConstraint& before, ContactConstraint& next) {
 
 collision::Passage way_of(const state::Body& body, std::uint32_t part, const forces::Load& load, double dt) {
   const collision::Passage whole = collision::passage_of(body, load, dt);
-  const auto* compound = std::get_if<Compound>(&body.shape.solid);
+  const auto* compound = std::get_if<Compound>(&body.shape().solid);
   return compound ? collision::passage_of_part(whole, compound->parts()[part]) : whole;
 }
 

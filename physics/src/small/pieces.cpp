@@ -26,7 +26,7 @@ constexpr int most_pieces = 600;
 constexpr int least_sub_steps = 8;
 
 bool round(const Body& body) {
-  return std::holds_alternative<Sphere>(body.shape.solid);
+  return std::holds_alternative<Sphere>(body.shape().solid);
 }
 
 /// By how much the bodies of a contact may turn in a step, against each other and by the blow that they give each
@@ -37,7 +37,7 @@ double turn_of(const ContactConstraint& contact, const std::vector<Body>& bodies
   double size = std::numeric_limits<double>::infinity(), turn = 0;
   for (const Body* body : {&a, &b}) {
     if (body->immovable() || round(*body)) continue;
-    size = std::min(size, body->radius);
+    size = std::min(size, body->radius());
     turn += body->twist.angular.norm();
   }
   if (std::isinf(size)) return 0;
@@ -56,7 +56,7 @@ int World::Implementation::pieces_of(const islands::IslandContents& island, doub
     turn = std::max(turn, small::turn_of(*contact, bodies, dt));
     for (const std::uint32_t index : {contact->a, contact->b})
       if (bodies[index].displaces() || bodies[index].drive.owner() == Owner::driven ||
-          surfaces::surface_of(bodies[index].shape.solid))
+          surfaces::surface_of(bodies[index].shape().solid))
         return 1;
   }
   if (!(turn > small::much)) return 1;

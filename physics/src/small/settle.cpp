@@ -101,7 +101,7 @@ bool Solver::extrapolates(const std::vector<state::Body>& bodies, Springs spring
   for (std::size_t i = 1; i < contacts_.size(); ++i) {
     const SolvedContact &one = contacts_[i - 1], &other = contacts_[i];
     if (one.a == other.a && one.b == other.b &&
-        (surfaces::surface_of(bodies[one.a].shape.solid) || surfaces::surface_of(bodies[one.b].shape.solid)))
+        (surfaces::surface_of(bodies[one.a].shape().solid) || surfaces::surface_of(bodies[one.b].shape().solid)))
       return false;
   }
   // Between two that go their own ways no impulse is enough.

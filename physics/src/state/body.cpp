@@ -3,25 +3,25 @@
 namespace tweenfall::state {
 
 Mat3 Body::world_inertia(const Quat& rotation) const {
-  if (spherical) return mass.inertia;
+  if (spherical()) return mass().inertia;
   const Mat3 axes = rotation.toRotationMatrix();
-  return axes * mass.inertia * axes.transpose();
+  return axes * mass().inertia * axes.transpose();
 }
 
 Mat3 Body::world_inverse_inertia(const Quat& rotation) const {
-  if (spherical) return inverse_inertia;
+  if (spherical()) return inverse_inertia();
   const Mat3 axes = rotation.toRotationMatrix();
-  return axes * inverse_inertia * axes.transpose();
+  return axes * inverse_inertia() * axes.transpose();
 }
 
 void Body::follow_motion() {
-  const Vec3 arm = motion.pose.rotation * mass.center;
+  const Vec3 arm = motion.pose.rotation * mass().center;
   center = motion.pose.position + arm;
   twist = shifted(motion.twist, arm);
 }
 
 void Body::follow_center(const Quat& rotation) {
-  const Vec3 arm = rotation * mass.center;
+  const Vec3 arm = rotation * mass().center;
   motion.pose.rotation = rotation;
   motion.pose.position = center - arm;
   motion.twist = shifted(twist, -arm);

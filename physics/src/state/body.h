@@ -2,40 +2,22 @@
 
 #include <tweenfall/physics/world.h>
 
+#include <memory>
+
+#include "state/boxed.h"
 #include "state/countable.h"
 
 namespace tweenfall::state {
 
-/// Everything the world knows about one body. Plain values: a copy of it steps to the same bits.
-struct Body {
-  // What every look at it begins with, side by side
-  bool alive = false;
-  bool fixed = false;
-  bool asleep = false;
-  bool placed = true;       ///< added or moved by the caller since the last step: what sleeps beside it wakes
-  bool has_target = false;  ///< a target was set since the last step
-  bool led = false;         ///< driven, and its target moved
-  bool turned = false;      ///< what it rolls with depends on where it is touched; of a compound, too
-  bool saturated = false;   ///< its drive was at its limit in the last step
-  bool spherical = false;   ///< the same moment about every axis: spin feels no gyroscopic torque
-  std::uint32_t generation = 0;
-  Drive drive;
-  double still_for = 0;  ///< s
-
-  // State
-  Vec3 center{0, 0, 0};  ///< center of mass, world
-  Twist twist;           ///< at the center of mass
-  Motion motion;         ///< of the node's origin, exactly as told while keyed
-  Vec3 force{0, 0, 0};   ///< accumulated for the next step, N
-  Vec3 torque{0, 0, 0};  ///< N m
-
-  // Fixed when added
-  double radius = 0;     ///< farthest point from the center of mass, m; infinite for a plane
-  double roundness = 0;  ///< radius with which the surface rolls: of a ball or a capsule, m
-  double linear_damping = 0;
-  double angular_damping = 0;
+/// What a body is from when it is added until it is removed.
+struct Makeup {
+  Shape shape;
   MassProperties mass;                  ///< kept while keyed; the solver masks it
   Mat3 inverse_inertia = Mat3::Zero();  ///< node axes
+  double radius = 0;                    ///< farthest point from the center of mass, m; infinite for a plane
+  double roundness = 0;                 ///< radius with which the surface rolls: of a ball or a capsule, m
+  double linear_damping = 0;
+  double angular_damping = 0;
   double friction = 0;
   double restitution = 0;
   double rolling_friction = 0;
@@ -43,21 +25,62 @@ struct Body {
   Combine friction_combine = Combine::usual;
   Combine restitution_combine = Combine::usual;
   bool sensor = false;
-  bool conveys = false;      ///< its surface moves
-  Twist surface_velocity;    ///< at the center of mass, node axes
-  std::uint64_t groups = 1;  ///< as the caller last said, and so `collides_with`
-  std::uint64_t collides_with = ~std::uint64_t{0};
-  Shape shape;
+  bool spherical = false;  ///< the same moment about every axis: spin feels no gyroscopic torque
+  bool turned = false;     ///< what it rolls with depends on where it is touched; of a compound, too
+};
 
+/// That of nobody.
+[[nodiscard]] const std::shared_ptr<const Makeup>& no_makeup();
+
+/// What only those bodies have that are led somewhere, bear others without moving, or have a surface that moves.
+struct Extra {
   Motion target;           ///< of the node's origin at the end of the step
   Vec3 reaction{0, 0, 0};  ///< N s
+  Twist surface_velocity;  ///< at the center of mass, node axes
+};
+
+/// Everything the world knows about one body. Plain values: a copy of it steps to the same bits. What bodies that are
+/// alike have in common stands in `makeup`, and what only few have in `extra`.
+struct Body {
+  bool alive = false;
+  bool fixed = false;
+  bool asleep = false;
+  bool placed = true;       ///< added or moved by the caller since the last step: what sleeps beside it wakes
+  bool has_target = false;  ///< a target was set since the last step
+  bool led = false;         ///< driven, and its target moved
+  bool saturated = false;   ///< its drive was at its limit in the last step
+  bool conveys = false;     ///< its surface moves
+  std::uint32_t generation = 0;
+  Drive drive;
+  double still_for = 0;  ///< s
+
+  Vec3 center{0, 0, 0};  ///< center of mass, world
+  Twist twist;           ///< at the center of mass
+  Motion motion;         ///< of the node's origin, exactly as told while keyed
+  Vec3 force{0, 0, 0};   ///< accumulated for the next step, N
+  Vec3 torque{0, 0, 0};  ///< N m
+
+  std::uint64_t groups = 1;  ///< as the caller last said, and so `collides_with`
+  std::uint64_t collides_with = ~std::uint64_t{0};
+  std::shared_ptr<const Makeup> makeup = no_makeup();  ///< never null
+  Boxed<Extra> extra;                                  ///< of all that do not move by themselves alone
+
+  [[nodiscard]] const Shape& shape() const { return makeup->shape; }
+  [[nodiscard]] const MassProperties& mass() const { return makeup->mass; }
+  [[nodiscard]] const Mat3& inverse_inertia() const { return makeup->inverse_inertia; }
+  [[nodiscard]] double radius() const { return makeup->radius; }
+  [[nodiscard]] bool spherical() const { return makeup->spherical; }
+  [[nodiscard]] bool sensor() const { return makeup->sensor; }
+  /// Of the node's origin at the end of the step.
+  [[nodiscard]] const Motion& target() const { return extra.value().target; }
+  [[nodiscard]] Motion& target() { return extra.own().target; }
 
   [[nodiscard]] bool immovable() const { return fixed || drive.owner() == Owner::keyed; }
   /// On its way to another place in this step.
   [[nodiscard]] bool displaces() const {
     return has_target && !fixed &&
-           (target.pose.position != motion.pose.position ||
-            target.pose.rotation.coeffs() != motion.pose.rotation.coeffs());
+           (target().pose.position != motion.pose.position ||
+            target().pose.rotation.coeffs() != motion.pose.rotation.coeffs());
   }
   /// May change what touches it.
   [[nodiscard]] bool stirs() const { return placed || (immovable() ? displaces() : !asleep); }
@@ -71,7 +94,8 @@ struct Body {
 
   /// How the surface moves against the body, at the center of mass, world axes.
   [[nodiscard]] Twist surface() const {
-    return {motion.pose.rotation * surface_velocity.linear, motion.pose.rotation * surface_velocity.angular};
+    const Twist& own = extra.value().surface_velocity;
+    return {motion.pose.rotation * own.linear, motion.pose.rotation * own.angular};
   }
 
   /// Sets center and twist at the center of mass from the node's motion.

@@ -111,7 +111,7 @@ void validate(const WorldSettings& settings) {
   require(settings.broad_phase <= PairSearch::tree, "there is no such way to find pairs");
 }
 
-void validate_surface(const Body& body) {
+void validate_surface(const Makeup& body) {
   require_amount(body.friction, "friction");
   require(body.restitution >= 0 && body.restitution <= 1,
           "restitution must lie in 0 to 1, but is " + number_text(body.restitution));
@@ -119,13 +119,16 @@ void validate_surface(const Body& body) {
   require_amount(body.spinning_friction, "spinning friction");
   require(body.friction_combine <= Combine::maximum && body.restitution_combine <= Combine::maximum,
           "there is no such rule to combine frictions or restitutions");
-  require_finite(body.surface_velocity.linear, "velocity of a surface");
-  require_finite(body.surface_velocity.angular, "angular velocity of a surface");
   require_amount(body.linear_damping, "linear damping");
   require_amount(body.angular_damping, "angular damping");
 }
 
-void give_mass(Body& body, const std::optional<double>& given, double density) {
+void validate_surface(const Twist& velocity) {
+  require_finite(velocity.linear, "velocity of a surface");
+  require_finite(velocity.angular, "angular velocity of a surface");
+}
+
+void give_mass(Makeup& body, bool immovable, const std::optional<double>& given, double density) {
   tweenfall::validate(body.shape.solid);
   Pose& offset = body.shape.offset;
   const double turn = offset.rotation.norm();
@@ -136,8 +139,7 @@ void give_mass(Body& body, const std::optional<double>& given, double density) {
   const Solid& solid = body.shape.solid;
   const bool endless = std::holds_alternative<Plane>(solid);
   if (is_scenery(solid)) {
-    require(body.immovable(),
-            std::string("a body with ") + kind_name(solid) + " must be fixed or keyed: it has no mass");
+    require(immovable, std::string("a body with ") + kind_name(solid) + " must be fixed or keyed: it has no mass");
     body.mass.center = offset.position;
   } else {
     const double mass = given ? *given : density * volume(solid);

@@ -19,7 +19,8 @@ void validate(const WorldSettings& settings);
 void validate(const Force& force);
 void validate(const Drive& drive);
 /// Friction, restitution and damping.
-void validate_surface(const Body& body);
+void validate_surface(const Makeup& body);
+void validate_surface(const Twist& velocity);
 
 [[nodiscard]] inline bool conveys(const Twist& surface) {
   return surface.linear != Vec3::Zero() || surface.angular != Vec3::Zero();
@@ -29,7 +30,8 @@ void validate_surface(const Body& body);
 [[nodiscard]] Motion checked(Motion motion);
 
 /// Sets what follows from a body's shape and mass: mass properties, radius, roundness. A plane has none.
+/// @param immovable  fixed or keyed
 /// @param given  kg; absent: density times volume
-void give_mass(Body& body, const std::optional<double>& given, double density);
+void give_mass(Makeup& body, bool immovable, const std::optional<double>& given, double density);
 
 }  // namespace tweenfall::state

@@ -16,6 +16,13 @@ namespace tweenfall {
 namespace state {
 namespace {
 
+/// From here on, until it is told otherwise, it is led nowhere else.
+void stay(Body& body) {
+  if (body.drive.owner() == Owner::free && !body.fixed && !body.extra.has_value()) return;
+  body.target() = body.motion;
+  body.target().twist = {};
+}
+
 void clear_work(Body& body) {
   body.force = Vec3::Zero();
   body.torque = Vec3::Zero();
@@ -123,32 +130,34 @@ BodyId World::add(const BodySettings& settings) {
   Implementation& world = changing();
   state::validate(settings.drive);
   state::Body body;
-  body.shape = settings.shape;
   body.fixed = settings.fixed;
   body.drive = settings.drive;
-  body.friction = settings.friction;
-  body.restitution = settings.restitution;
-  body.rolling_friction = settings.rolling_friction;
-  body.spinning_friction = settings.spinning_friction;
-  body.friction_combine = settings.friction_combine;
-  body.restitution_combine = settings.restitution_combine;
-  body.surface_velocity = settings.surface_velocity;
-  body.conveys = state::conveys(settings.surface_velocity);
-  body.sensor = settings.sensor;
   body.groups = settings.groups;
   body.collides_with = settings.collides_with;
-  body.linear_damping = settings.linear_damping;
-  body.angular_damping = settings.angular_damping;
-  state::validate_surface(body);
-  state::give_mass(body, settings.mass, settings.density);
+  state::Makeup makeup;
+  makeup.shape = settings.shape;
+  makeup.friction = settings.friction;
+  makeup.restitution = settings.restitution;
+  makeup.rolling_friction = settings.rolling_friction;
+  makeup.spinning_friction = settings.spinning_friction;
+  makeup.friction_combine = settings.friction_combine;
+  makeup.restitution_combine = settings.restitution_combine;
+  makeup.sensor = settings.sensor;
+  makeup.linear_damping = settings.linear_damping;
+  makeup.angular_damping = settings.angular_damping;
+  state::validate_surface(makeup);
+  state::validate_surface(settings.surface_velocity);
+  state::give_mass(makeup, body.immovable(), settings.mass, settings.density);
+  body.makeup = world.makeups.share(makeup);
+  body.conveys = state::conveys(settings.surface_velocity);
+  if (body.conveys) body.extra.own().surface_velocity = settings.surface_velocity;
   body.motion = state::checked(settings.motion);
   if (body.fixed) {
     body.motion.twist = {};
     body.motion.scale_rate = Vec3::Zero();
   }
   body.follow_motion();
-  body.target = body.motion;
-  body.target.twist = {};
+  state::stay(body);
   body.alive = true;
 
   std::uint32_t index = 0;
@@ -162,7 +171,7 @@ BodyId World::add(const BodySettings& settings) {
     world.bodies[index] = body;
   }
   world.note(index);
-  if (body.sensor) world.sensors.insert(std::lower_bound(world.sensors.begin(), world.sensors.end(), index), index);
+  if (body.sensor()) world.sensors.insert(std::lower_bound(world.sensors.begin(), world.sensors.end(), index), index);
   return {index, world.bodies[index].generation};
 }
 
@@ -178,7 +187,7 @@ void World::remove(BodyId id) {
   }
   world.remove_joints_of(id.index);
   world.drop_contacts(id.index);
-  if (body.sensor) std::erase(world.sensors, id.index);
+  if (body.sensor()) std::erase(world.sensors, id.index);
   body.alive = false;
   ++body.generation;
   world.broad_phase.remove(id.index);
@@ -207,10 +216,10 @@ Twist World::twist(BodyId id) const {
   return inside().at(id).twist;
 }
 const MassProperties& World::mass(BodyId id) const {
-  return inside().at(id).mass;
+  return inside().at(id).mass();
 }
 const Shape& World::shape(BodyId id) const {
-  return inside().at(id).shape;
+  return inside().at(id).shape();
 }
 Owner World::owner(BodyId id) const {
   return inside().at(id).drive.owner();
@@ -222,7 +231,7 @@ bool World::is_fixed(BodyId id) const {
   return inside().at(id).fixed;
 }
 bool World::is_sensor(BodyId id) const {
-  return inside().at(id).sensor;
+  return inside().at(id).sensor();
 }
 double World::still_for(BodyId id) const {
   return inside().at(id).still_for;
@@ -235,7 +244,7 @@ bool World::saturated(BodyId body) const {
   return inside().at(body).saturated;
 }
 Vec3 World::reaction(BodyId id) const {
-  return inside().at(id).reaction;
+  return inside().at(id).extra.value().reaction;
 }
 double World::time() const noexcept {
   return implementation_ ? implementation_->time : 0;
@@ -246,7 +255,7 @@ double World::kinetic_energy() const {
   for (const state::Body& body : inside().bodies) {
     if (!body.alive || body.immovable()) continue;
     const Vec3 momentum = body.world_inertia(body.motion.pose.rotation) * body.twist.angular;
-    sum += 0.5 * body.mass.mass * body.twist.linear.squaredNorm() + 0.5 * body.twist.angular.dot(momentum);
+    sum += 0.5 * body.mass().mass * body.twist.linear.squaredNorm() + 0.5 * body.twist.angular.dot(momentum);
   }
   return sum;
 }
@@ -267,8 +276,7 @@ void World::set_motion(BodyId id, const Motion& motion) {
     body.motion.scale_rate = Vec3::Zero();
   }
   body.has_target = false;
-  body.target = body.motion;
-  body.target.twist = {};
+  state::stay(body);
   body.follow_motion();
 }
 
@@ -278,8 +286,8 @@ void World::set_drive(BodyId id, const Drive& drive) {
   state::validate(drive);
   if (body.drive == drive) return;
   state::require(
-      drive.owner() == Owner::keyed || body.fixed || body.mass.mass > 0,
-      std::string("a body with ") + kind_name(body.shape.solid) + " must stay fixed or keyed: it has no mass");
+      drive.owner() == Owner::keyed || body.fixed || body.mass().mass > 0,
+      std::string("a body with ") + kind_name(body.shape().solid) + " must stay fixed or keyed: it has no mass");
   const Owner before = body.drive.owner();
   body.drive = drive;
   if (before == drive.owner() && before != Owner::driven) return;  // only numbers that this owner does not read
@@ -290,8 +298,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
   body.saturated = false;
   state::clear_work(body);
   world.note(id.index);
-  body.target = body.motion;
-  body.target.twist = {};
+  state::stay(body);
   body.motion.scale_rate = drive.owner() == Owner::keyed ? body.motion.scale_rate : Vec3(0, 0, 0);
   world.forget_impulses(id.index);
   body.placed = true;
@@ -306,31 +313,33 @@ void World::set_target(BodyId id, const Motion& end_of_step) {
   state::require(!body.fixed, "a fixed body takes no target: it never moves");
   state::require(body.drive.owner() != Owner::free,
                  "a free body takes no target: only keyed and driven bodies have one");
-  const Pose before = body.target.pose;
-  body.target = state::checked(end_of_step);
+  const Motion wanted = state::checked(end_of_step);
+  Motion& target = body.target();
+  const Pose before = target.pose;
+  target = wanted;
   body.has_target = true;
   world.note(id.index);
   if (body.drive.owner() != Owner::driven) return;
-  body.led = body.led || body.target.pose.position != before.position ||
-             body.target.pose.rotation.coeffs() != before.rotation.coeffs() ||
-             body.target.twist.linear != Vec3::Zero() || body.target.twist.angular != Vec3::Zero();
+  body.led = body.led || target.pose.position != before.position ||
+             target.pose.rotation.coeffs() != before.rotation.coeffs() || target.twist.linear != Vec3::Zero() ||
+             target.twist.angular != Vec3::Zero();
   if (body.led) world.wake(id.index);
 }
 
 void World::set_surface_velocity(BodyId id, const Twist& velocity) {
   Implementation& world = changing();
   state::Body& body = world.at(id);
-  state::require_finite(velocity.linear, "velocity of a surface");
-  state::require_finite(velocity.angular, "angular velocity of a surface");
-  if (body.surface_velocity.linear == velocity.linear && body.surface_velocity.angular == velocity.angular) return;
-  body.surface_velocity = velocity;
+  state::validate_surface(velocity);
+  const Twist& before = body.extra.value().surface_velocity;
+  if (before.linear == velocity.linear && before.angular == velocity.angular) return;
+  body.extra.own().surface_velocity = velocity;
   body.conveys = state::conveys(velocity);
   world.wake_neighbors(id.index);
   world.wake(id.index);
 }
 
 Twist World::surface_velocity(BodyId id) const {
-  return inside().at(id).surface_velocity;
+  return inside().at(id).extra.value().surface_velocity;
 }
 
 void World::set_groups(BodyId id, std::uint64_t groups, std::uint64_t collides_with) {
@@ -403,7 +412,7 @@ void World::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {
   state::require_finite(point, "point");
   if (body.immovable()) return;
   Twist twist = body.twist;
-  twist.linear += impulse / body.mass.mass;
+  twist.linear += impulse / body.mass().mass;
   twist.angular += body.world_inverse_inertia(body.motion.pose.rotation) * (point - body.center).cross(impulse);
   const Twist at_origin = shifted(twist, body.motion.pose.position - body.center);
   state::require(

@@ -31,26 +31,26 @@ Pose pose_then(const Start& start, const collision::Course& course, const Vec3& 
 
 void World::Implementation::hold_before_surfaces() {
   for (const contacts::ContactConstraint* contact : active) {
-    const bool surface_is_a = surfaces::surface_of(bodies[contact->a].shape.solid) != nullptr;
+    const bool surface_is_a = surfaces::surface_of(bodies[contact->a].shape().solid) != nullptr;
     const state::Body& ground = bodies[surface_is_a ? contact->a : contact->b];
-    const surfaces::Surface* surface = surfaces::surface_of(ground.shape.solid);
+    const surfaces::Surface* surface = surfaces::surface_of(ground.shape().solid);
     if (!surface) continue;
     const std::uint32_t index = surface_is_a ? contact->b : contact->a;
     state::Body& body = bodies[index];
-    const auto* compound = std::get_if<Compound>(&body.shape.solid);
-    const Shape& part = compound ? compound->parts()[surface_is_a ? contact->part_b : contact->part_a] : body.shape;
+    const auto* compound = std::get_if<Compound>(&body.shape().solid);
+    const Shape& part = compound ? compound->parts()[surface_is_a ? contact->part_b : contact->part_a] : body.shape();
     const double met = contact->impact_time;
-    const Pose then = step::pose_then(starts[index], passages[index].course, body.mass.center, met);
+    const Pose then = step::pose_then(starts[index], passages[index].course, body.mass().center, met);
     const std::uint32_t ground_index = surface_is_a ? contact->a : contact->b;
     const collision::Course& ground_course = passages[ground_index].course;
     const bool ground_stands = ground_course.linear == Vec3::Zero() && ground_course.angular == Vec3::Zero();
     const Pose ground_then = ground_stands
                                  ? ground.motion.pose
-                                 : step::pose_then(starts[ground_index], ground_course, ground.mass.center, met);
+                                 : step::pose_then(starts[ground_index], ground_course, ground.mass().center, met);
     const Vec3 middle = surfaces::middle_of(part.solid);
     const auto middle_at = [&](const Pose& pose, const Pose& ground_pose) {
       const shapes::Placed placed = shapes::place(part, pose);
-      return surfaces::seen_from(shapes::place(ground.shape, ground_pose),
+      return surfaces::seen_from(shapes::place(ground.shape(), ground_pose),
                                  {placed.center + placed.axes * middle, Mat3::Identity()})
           .center;
     };
@@ -63,12 +63,13 @@ void World::Implementation::hold_before_surfaces() {
     const std::optional<RayHit> hit = queries::first_on_surface(*surface, here, {from, way / length, length});
     if (!hit) continue;
     // Back to where it first touches, or its middle to just before the surface.
-    const shapes::Placed now = shapes::place(ground.shape, ground.motion.pose);
+    const shapes::Placed now = shapes::place(ground.shape(), ground.motion.pose);
     const Vec3 back = now.axes * way;
     Pose start = body.motion.pose;
     start.position -= back;
     double share = 0.999 * hit->distance / length;
-    const std::optional<ShapeHit> touched = queries::first_on_way(part, start, back, ground.shape, ground.motion.pose);
+    const std::optional<ShapeHit> touched =
+        queries::first_on_way(part, start, back, ground.shape(), ground.motion.pose);
     if (touched && !touched->inside) share = std::min(share, touched->fraction);
     body.center -= (1 - share) * back;
     body.follow_center(Quat(body.motion.pose.rotation));

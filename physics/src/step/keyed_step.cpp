@@ -69,10 +69,10 @@ Twist KeyedCourse::mean_between(double from, double to, double dt) const {
 KeyedCourse keyed_course(const state::Body& body, double dt) {
   KeyedCourse course;
   if (body.fixed || !body.has_target) return course;
-  const Vec3 arm = body.target.pose.rotation * body.mass.center;
-  const Vec3 end = body.target.pose.position + arm;
-  const Twist twist = shifted(body.target.twist, arm);
-  const Vec3 turn = log_map(body.target.pose.rotation * body.motion.pose.rotation.conjugate());
+  const Vec3 arm = body.target().pose.rotation * body.mass().center;
+  const Vec3 end = body.target().pose.position + arm;
+  const Twist twist = shifted(body.target().twist, arm);
+  const Vec3 turn = log_map(body.target().pose.rotation * body.motion.pose.rotation.conjugate());
   const double size = end.norm() + body.center.norm();
   fit(end - body.center, body.twist.linear, twist.linear, size, dt, course.mean.linear, course.gain.linear,
       course.bow.linear);
@@ -97,14 +97,14 @@ SlipOfRider slip_of_rider(const LedBody& led, const Vec3& arm, const Rider& ride
 void arrive(state::Body& body) {
   if (body.fixed) return;
   if (body.has_target) {
-    body.motion = body.target;
+    body.motion = body.target();
   } else {
     body.motion.twist = {};
     body.motion.scale_rate = Vec3::Zero();
   }
   body.has_target = false;
-  body.target = body.motion;
-  body.target.twist = {};
+  body.target() = body.motion;
+  body.target().twist = {};
   body.follow_motion();
 }
 

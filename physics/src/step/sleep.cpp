@@ -18,10 +18,10 @@ constexpr double rounding = 1e-14;
 
 /// Whether a body is slow and has hardly moved: what is taken out of an overlap moves without a speed.
 bool still(const state::Body& body, const Start& start, double speed, double dt) {
-  if (!(body.twist.linear.norm() < speed && body.twist.angular.norm() * body.radius < speed)) return false;
+  if (!(body.twist.linear.norm() < speed && body.twist.angular.norm() * body.radius() < speed)) return false;
   const double turn = 2 * (body.motion.pose.rotation * start.rotation.conjugate()).vec().norm();
   return (body.center - start.center).norm() <= speed * dt + rounding * body.center.norm() &&
-         turn * body.radius <= speed * dt + rounding * body.radius;
+         turn * body.radius() <= speed * dt + rounding * body.radius();
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<contacts::Contact
     const Body& body = bodies[index];
     SolverBody entry;
     entry.index = index;
-    entry.round = body.spherical && std::holds_alternative<Sphere>(body.shape.solid);
+    entry.round = body.spherical() && std::holds_alternative<Sphere>(body.shape().solid);
     entry.movable = !body.immovable() && !body.asleep;
     entry.conveys = body.conveys;
     if (body.conveys) entry.surface = body.surface();
@@ -60,9 +60,9 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<contacts::Contact
     entry.turn = Quat::Identity();
     entry.drive_impulse = entry.drive_angular_impulse = Vec3::Zero();
     if (entry.movable) {
-      heaviest_ = std::max(heaviest_, body.mass.mass);
-      lightest_ = std::min(lightest_, body.mass.mass);
-      entry.inverse_mass = 1 / body.mass.mass;
+      heaviest_ = std::max(heaviest_, body.mass().mass);
+      lightest_ = std::min(lightest_, body.mass().mass);
+      entry.inverse_mass = 1 / body.mass().mass;
       entry.inverse_inertia = body.world_inverse_inertia(body.motion.pose.rotation);
       entry.linear = body.twist.linear;
       entry.angular = body.twist.angular;
@@ -157,7 +157,7 @@ void Solver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<L
     const double given = 1 / (1 + law.stiffness);
     entry.linear = given * (entry.linear + law.linear);
     entry.angular = given * (entry.angular + law.angular);
-    entry.inverse_mass = given / body.mass.mass;
+    entry.inverse_mass = given / body.mass().mass;
     entry.inverse_inertia *= given;
   }
 }
@@ -416,7 +416,7 @@ void Solver::end_sub_step(double h) {
 void Solver::bound_spins(const std::vector<Body>& bodies, double h) {
   for (SolverBody& entry : bodies_) {
     const Body& body = bodies[entry.index];
-    if (!entry.movable || entry.pulled || body.spherical || !(entry.angular.norm() * h > 1)) continue;
+    if (!entry.movable || entry.pulled || body.spherical() || !(entry.angular.norm() * h > 1)) continue;
     const double energy = 0.5 * entry.angular.dot(entry.inverse_inertia.inverse() * entry.angular);
     entry.angular = forces::bounded_spin(body.world_inertia(entry.rotation), energy, entry.angular);
   }

@@ -12,6 +12,7 @@
 #include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
 #include "queries/lazy_scene.h"
+#include "state/makeups.h"
 #include "step/solver.h"
 #include "threads/workers.h"
 
@@ -98,6 +99,7 @@ struct Workspace {
   std::vector<Solvers> solvers;  ///< one for each thread
   std::vector<std::uint32_t> islands_by_size;
   std::vector<char> moved;   ///< by a solver in this step
+  state::Makeups makeups;    ///< of the bodies that were added last
   queries::LazyScene scene;  ///< of the bodies between two changes
 
   void note(std::uint32_t body);  ///< the next step looks at this body

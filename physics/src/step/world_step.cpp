@@ -193,7 +193,7 @@ void World::Implementation::advance_bodies(double dt) {
       }
       body.force = Vec3::Zero();
       body.torque = Vec3::Zero();
-      if (body.drive.owner() == Owner::driven) body.target.twist = {};
+      if (body.drive.owner() == Owner::driven) body.target().twist = {};
       body.has_target = false;
     }
   });
@@ -257,8 +257,8 @@ void World::Implementation::report() {
   for (std::uint32_t i = 0; i < active.size(); ++i) {
     const contacts::ContactConstraint& constraint = *active[i];
     const step::Outcome& outcome = outcomes[i];
-    if (bodies[constraint.a].immovable()) bodies[constraint.a].reaction -= outcome.total;
-    if (bodies[constraint.b].immovable()) bodies[constraint.b].reaction += outcome.total;
+    if (bodies[constraint.a].immovable()) bodies[constraint.a].extra.own().reaction -= outcome.total;
+    if (bodies[constraint.b].immovable()) bodies[constraint.b].extra.own().reaction += outcome.total;
     keep_before(constraint);
     remembered.push_back(outcome.place);
     if (outcome.touching) told.push_back({i, true});

@@ -83,7 +83,7 @@ class Approach {
     velocity_ = way_surface.placed.axes.transpose() * velocity;
     acceleration_ = way_surface.placed.axes.transpose() * acceleration;
     // A turning surface moves what is far from its middle fast; how far the solid comes within the step.
-    const double away = (way.body->center - way_surface.body->center).norm() + way.body->radius +
+    const double away = (way.body->center - way_surface.body->center).norm() + way.body->radius() +
                         (velocity.norm() + acceleration.norm() * dt) * dt;
     swing_ = way.swing + way_surface.spin * away;
   }

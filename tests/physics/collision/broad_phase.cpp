@@ -32,12 +32,14 @@ struct Crowd {
       loads.resize(index + 1);
     }
     state::Body body;
-    body.shape.solid = solid;
+    state::Makeup makeup;
+    makeup.shape.solid = solid;
     body.alive = true;
-    body.radius = std::holds_alternative<Plane>(solid)
-                      ? std::numeric_limits<double>::infinity()
-                      : 0.5 * (bounds(body.shape, {}).high - bounds(body.shape, {}).low).norm();
-    if (const auto* sphere = std::get_if<Sphere>(&solid)) body.radius = body.roundness = sphere->radius;
+    makeup.radius = std::holds_alternative<Plane>(solid)
+                        ? std::numeric_limits<double>::infinity()
+                        : 0.5 * (bounds(makeup.shape, {}).high - bounds(makeup.shape, {}).low).norm();
+    if (const auto* sphere = std::get_if<Sphere>(&solid)) makeup.radius = makeup.roundness = sphere->radius;
+    body.makeup = std::make_shared<const state::Makeup>(makeup);
     body.motion.pose.position = at;
     body.motion.pose.rotation = random.rotation();
     body.follow_motion();
@@ -64,7 +66,7 @@ struct Crowd {
       state::Body& body = bodies[i];
       if (body.placed || body.has_target) told.push_back(i);
       body.placed = false;
-      if (body.has_target) body.motion.pose = body.target.pose;
+      if (body.has_target) body.motion.pose = body.target().pose;
       body.has_target = false;
       if (!body.immovable() && !body.asleep) {
         body.motion.pose.position += body.twist.linear * dt;
@@ -119,9 +121,9 @@ struct Crowd {
       state::Body& body = bodies[i];
       if (body.fixed || !body.immovable() || random.unit() < 0.5) continue;
       body.has_target = true;
-      body.target = body.motion;
-      if (random.unit() < 0.8) body.target.pose.position += random.vector(0.5);
-      if (random.unit() < 0.5) body.target.pose.rotation = random.rotation();
+      body.target() = body.motion;
+      if (random.unit() < 0.8) body.target().pose.position += random.vector(0.5);
+      if (random.unit() < 0.5) body.target().pose.rotation = random.rotation();
       told.push_back(i);
     }
   }
@@ -137,9 +139,9 @@ struct Crowd {
 
   [[nodiscard]] bool near(const state::Body& a, const forces::Load& load_a, const state::Body& b,
                           const forces::Load& load_b) const {
-    if (std::holds_alternative<Plane>(b.shape.solid)) return near(b, load_b, a, load_a);
+    if (std::holds_alternative<Plane>(b.shape().solid)) return near(b, load_b, a, load_a);
     const Bounds box = pairs::swept_bounds(b, load_b, 0.5 * margin, dt);
-    const auto* plane = std::get_if<Plane>(&a.shape.solid);
+    const auto* plane = std::get_if<Plane>(&a.shape().solid);
     if (!plane) {
       const Bounds other = pairs::swept_bounds(a, load_a, 0.5 * margin, dt);
       return (other.low.array() <= box.high.array()).all() && (box.low.array() <= other.high.array()).all();
@@ -253,18 +255,20 @@ TEST_CASE("nothing leaves its swept bounds within the step, cubes that spin and 
     crowd.put(0, solids[i % 4], crowd.random.vector(3));
     state::Body& body = crowd.bodies[0];
     body.fixed = false;
-    body.spherical = i % 4 < 2;
+    state::Makeup makeup = *body.makeup;
+    makeup.spherical = i % 4 < 2;
+    body.makeup = std::make_shared<const state::Makeup>(makeup);
     body.twist = {crowd.random.vector(30), crowd.random.vector(60)};
     crowd.loads[0].acceleration = crowd.random.vector(100);
     if (body.immovable()) {
       body.has_target = true;
-      body.target.pose.position = body.motion.pose.position + crowd.random.vector(1);
-      body.target.pose.rotation = crowd.random.rotation();
+      body.target().pose.position = body.motion.pose.position + crowd.random.vector(1);
+      body.target().pose.rotation = crowd.random.rotation();
     }
     const Bounds swept = pairs::swept_bounds(body, crowd.loads[0], 1e-9, dt);
     const collision::Course course = collision::course_of(body, crowd.loads[0], dt);
     for (int k = 0; k <= 20; ++k) {
-      const Bounds at = bounds(body.shape, course.at(k * dt / 20).node(body));
+      const Bounds at = bounds(body.shape(), course.at(k * dt / 20).node(body));
       CAPTURE(i);
       CAPTURE(k);
       CHECK(pairs::contains(swept, at));

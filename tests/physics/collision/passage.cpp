@@ -23,12 +23,14 @@ Hull random_hull(test::Random& random) {
 state::Body body_of(const Solid& solid, test::Random& random) {
   state::Body body;
   body.alive = true;
-  body.shape.solid = solid;
+  state::Makeup makeup;
+  makeup.shape.solid = solid;
   const bool plane = std::holds_alternative<Plane>(solid);
   body.fixed = plane;
-  if (!plane) body.mass = mass_properties(body.shape, 1);
-  body.radius = plane ? std::numeric_limits<double>::infinity()
-                      : 1e-9 + (bounds(body.shape, {}).high - bounds(body.shape, {}).low).norm();
+  if (!plane) makeup.mass = mass_properties(makeup.shape, 1);
+  makeup.radius = plane ? std::numeric_limits<double>::infinity()
+                        : 1e-9 + (bounds(makeup.shape, {}).high - bounds(makeup.shape, {}).low).norm();
+  body.makeup = std::make_shared<const state::Makeup>(makeup);
   body.motion.pose.position = random.vector(0.8);
   body.motion.pose.rotation = random.rotation();
   const double fast = std::pow(10, random.between(-3, 1.5));
@@ -53,7 +55,7 @@ TEST_CASE("what a direction tells apart neither touches nor meets within the ste
     for (int step = 0; step < 8; ++step) {
       const collision::Passage at_a = collision::passage_of(a, a.fixed ? forces::Load{} : load, frame),
                                at_b = collision::passage_of(b, {}, frame);
-      const Manifold manifold = collide(a.shape, a.motion.pose, b.shape, b.motion.pose, near_enough);
+      const Manifold manifold = collide(a.shape(), a.motion.pose, b.shape(), b.motion.pose, near_enough);
       const bool meets = manifold.count > 0 || collision::impact_time(at_a.course, at_b.course, frame);
       if (meets) ++met;
       CAPTURE(i);
@@ -100,9 +102,9 @@ TEST_CASE("until they are said to meet no bodies touch, then they do, and those 
     load.acceleration = random.vector(random.unit() < 0.5 ? 0 : 200);
     const collision::Course at_a = collision::course_of(a, load, frame), at_b = collision::course_of(b, {}, frame);
     const auto gap_at = [&](double time) {
-      const shapes::Placed placed_a = shapes::place(a.shape, at_a.at(time).node(a));
-      const shapes::Placed placed_b = shapes::place(b.shape, at_b.at(time).node(b));
-      return collision::gap_between(a.shape, placed_a, b.shape, placed_b, 10).width;
+      const shapes::Placed placed_a = shapes::place(a.shape(), at_a.at(time).node(a));
+      const shapes::Placed placed_b = shapes::place(b.shape(), at_b.at(time).node(b));
+      return collision::gap_between(a.shape(), placed_a, b.shape(), placed_b, 10).width;
     };
     if (gap_at(0) < near_enough) continue;
     const std::optional<double> time = collision::impact_time(at_a, at_b, frame);
