@@ -41,7 +41,10 @@ TEST_CASE("each integrator has its word") {
                                                       {"explicit-euler", Integrator::explicit_euler},
                                                       {"midpoint", Integrator::midpoint},
                                                       {"trapezoid", Integrator::trapezoid},
-                                                      {"rk4", Integrator::rk4}};
+                                                      {"rk4", Integrator::rk4},
+                                                      {"verlet", Integrator::verlet},
+                                                      {"backward-euler", Integrator::backward_euler},
+                                                      {"implicit-trapezoid", Integrator::implicit_trapezoid}};
   for (const auto& word : words) {
     const std::string text = R"({"tweenfall": 1, "world": {"integrator": ")" + std::string(word.first) + R"("}})";
     CAPTURE(text);
