@@ -8,7 +8,6 @@ namespace tweenfall {
 namespace chains {
 namespace {
 
-constexpr std::size_t most_feet = 8;
 constexpr double steepest = 0.1;  // of the normal along up
 
 // What a foot is to do: how much higher the ground is than the floor, and how its sole is to lie.
@@ -73,9 +72,9 @@ FootPlacement::FootPlacement(const Hierarchy& nodes, const FootPlacementSettings
       softness_(settings.softness) {
   chains::Problems problems("foot placement");
   pelvis_ = problems.node(nodes, settings.pelvis, "pelvis");
-  problems.require(!settings.feet.empty() && settings.feet.size() <= chains::most_feet,
+  problems.require(!settings.feet.empty() && settings.feet.size() <= most_feet_placed,
                    "it has " + std::to_string(settings.feet.size()) + " feet; it needs from 1 to " +
-                       std::to_string(chains::most_feet));
+                       std::to_string(most_feet_placed));
   problems.require_finite(up_, "up");
   problems.require(up_.squaredNorm() > 0, "up is zero");
   problems.require_in(lowest_, 0, 1e300, "lowest");
@@ -118,7 +117,7 @@ void place_feet(const FootPlacement& placement, const GroundAt& ground, const Sa
   const Hierarchy& nodes = placement.nodes();
   const Arrow up{placement.up(), Vec3(0, 0, 0)};
   const std::size_t count = placement.feet().size();
-  Step steps[most_feet];
+  Step steps[most_feet_placed];
   for (std::size_t i = 0; i < count; ++i) {
     const Dual own = i < weights.size() ? number(weights[i]) : Dual(1);
     steps[i] = step_of(placement, i, ground, number(floor), number(weight) * own, pose);

@@ -49,6 +49,7 @@ Binder::Binder(const GraphDescription& description, const Hierarchy& nodes, std:
   for (std::size_t i = 0; i < description.poses.size(); ++i)
     if (std::holds_alternative<MachinePose>(description.poses[i].operation)) compiled_->machine_poses.push_back(i);
   compiled_->machines.resize(compiled_->machine_poses.size());
+  compiled_->moved.resize(nodes.size());
 }
 
 void Binder::bind_all() {
@@ -205,21 +206,32 @@ Number Binder::number(const GraphNumber& number, const Place& place) {
   return found ? Number(description_, *found) : Number();
 }
 
+std::size_t Binder::node(const std::string& name, const Place& place) {
+  if (const auto found = nodes_.find(name)) return *found;
+  fault(place, "there is no node " + quoted(name) + nearest_of(name, names_of(nodes_.nodes())));
+  return no_node;
+}
+
 JointMask Binder::mask(const std::vector<MaskPart>& parts, const Place& place) {
-  if (parts.empty()) return {};
-  try {
-    return JointMask(nodes_, parts);
-  } catch (const std::invalid_argument& problems) {
-    std::string text = problems.what();
-    const std::size_t list = text.find('\n');
-    fault(place, list == std::string::npos ? text : text.substr(text.find_first_not_of("\n ", list)));
-    return {};
-  }
+  JointMask mask;
+  if (!parts.empty()) attempt(place, [&] { mask = JointMask(nodes_, parts); });
+  return mask;
 }
 
 std::size_t Binder::machine_number() const noexcept {
   return static_cast<std::size_t>(std::ranges::find(compiled_->machine_poses, making_.back()) -
                                   compiled_->machine_poses.begin());
+}
+
+// Each line is a problem, or, below a line that says what they are about, each that is indented.
+void Binder::fault_each(const Place& place, const std::string& lines) {
+  const bool headed = lines.find("\n ") != std::string::npos;
+  for (std::size_t at = 0; at < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', at), lines.size());
+    const std::size_t begin = lines.find_first_not_of(' ', at);
+    if (begin < end && (!headed || begin > at)) fault(place, lines.substr(begin, end - begin));
+    at = end + 1;
+  }
 }
 
 void Binder::fault(const Place& place, std::string message) {

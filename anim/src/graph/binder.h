@@ -30,7 +30,8 @@ struct Graph::Compiled {
   std::vector<const graphs::Operation*> machines;  // as they stand among the poses
   std::vector<std::size_t> machine_poses;          // the pose that each is
   const graphs::Operation* output = nullptr;
-  std::size_t phases = 0;  // of clips that run in phase
+  std::size_t phases = 0;   // of clips that run in phase
+  std::vector<char> moved;  // by node: whether an operation moves it
 };
 
 }  // namespace tweenfall
@@ -57,12 +58,28 @@ class Binder {
   [[nodiscard]] const LoopedClip* clip(const std::string& name, const std::optional<Loop>& loop, const Place& place);
   [[nodiscard]] std::optional<std::size_t> parameter(const std::string& name, const Place& place);
   [[nodiscard]] Number number(const GraphNumber& number, const Place& place);
+  /// `no_node` where there is none, which is told.
+  [[nodiscard]] std::size_t node(const std::string& name, const Place& place);
+  /// An operation moves it.
+  void moves(std::size_t node) { compiled_->moved[node] = 1; }
   [[nodiscard]] JointMask mask(const std::vector<MaskPart>& parts, const Place& place);
   [[nodiscard]] std::size_t machine_number() const noexcept;
   [[nodiscard]] std::size_t new_phase() noexcept { return compiled_->phases++; }
   void fault(const Place& place, std::string message);
+  /// Does what may throw. @returns whether it did not; each problem that it lists is told
+  template <class Make>
+  bool attempt(const Place& place, const Make& make) {
+    try {
+      make();
+      return true;
+    } catch (const std::invalid_argument& problems) {
+      fault_each(place, problems.what());
+      return false;
+    }
+  }
 
  private:
+  void fault_each(const Place& place, const std::string& lines);
   void bind_parameters();
   void bind_inputs();
   const Operation* bind_pose(std::size_t index);

@@ -25,30 +25,6 @@ std::string in_words(const GraphCondition& condition) {
   return {};
 }
 
-struct OperationWords {
-  std::string operator()(const RestPose&) const { return "what lies below"; }
-  std::string operator()(const ClipPose& pose) const {
-    std::string words = "clip";
-    if (pose.speed != 1) words += " at " + brief_text(pose.speed) + " x";
-    if (pose.at != 0) words += " after " + brief_text(pose.at) + " s";
-    constexpr const char* modes[] = {", once", ", repeat", ", repeat-offset", ", pingpong"};
-    if (pose.loop) words += modes[static_cast<int>(pose.loop->mode)];
-    if (pose.loop && pose.loop->count > 0) words += " x " + brief_text(pose.loop->count);
-    return words;
-  }
-  std::string operator()(const BlendPose&) const { return "blend"; }
-  std::string operator()(const LayersPose&) const { return "layers"; }
-  std::string operator()(const SpacePose& pose) const {
-    std::string words = "space";
-    for (const GraphNumber& number : pose.by) {
-      const auto* parameter = std::get_if<ByParameter>(&number);
-      words += (&number == &pose.by.front() ? " by " : ", ") + (parameter ? parameter->name : "keys");
-    }
-    return words + (pose.sync ? ", in phase" : "");
-  }
-  std::string operator()(const MachinePose&) const { return "machine"; }
-};
-
 }  // namespace
 }  // namespace graphs
 
@@ -72,10 +48,6 @@ std::string words_of(const GraphChange& change) {
       return "dead blend " + seconds;
   }
   return {};
-}
-
-std::string words_of(const PoseOperation& operation) {
-  return std::visit(graphs::OperationWords{}, operation);
 }
 
 }  // namespace tweenfall

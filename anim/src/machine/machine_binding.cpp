@@ -2,6 +2,7 @@
 #include <tweenfall/curves/number_text.h>
 
 #include "machine/machine.h"
+#include "operations/account.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,6 +106,17 @@ std::optional<std::size_t> restless(const std::vector<Machine::Transition>& tran
 }
 
 }  // namespace
+
+void tell(const MachinePose& pose, Account& account) {
+  account.words = "machine";
+  account.tell(pose.start);
+  for (const MachinePose::State& state : pose.states) {
+    account.pose(state.pose, state.name);
+    account.tell(state.name);
+  }
+  for (const GraphTransition& transition : pose.transitions)
+    account.tell(transition.from, transition.to, transition.when, transition.change);
+}
 
 std::unique_ptr<Operation> bound(const MachinePose& described, Binder& binder) {
   MachineBinder parts(described, binder);

@@ -2,6 +2,7 @@
 #include <tweenfall/curves/number_text.h>
 
 #include "graph/binder.h"
+#include "operations/account.h"
 
 #include <array>
 #include <cmath>
@@ -53,6 +54,14 @@ class Blended : public Operation {
 };
 
 }  // namespace
+
+void tell(const BlendPose& pose, Account& account) {
+  account.words = "blend";
+  for (const BlendPose::Part& part : pose.parts) {
+    account.pose(part.pose, words_of(part.weight));
+    account.tell(part.weight);
+  }
+}
 
 std::unique_ptr<Operation> bound(const BlendPose& described, Binder& binder) {
   std::vector<Blended::Part> parts;

@@ -1,6 +1,8 @@
 #include <tweenfall/anim/play.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "graph/binder.h"
+#include "operations/account.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +52,17 @@ class PlayedClip : public Operation {
 };
 
 }  // namespace
+
+void tell(const ClipPose& pose, Account& account) {
+  account.words = "clip";
+  if (pose.speed != 1) account.words += " at " + brief_text(pose.speed) + " x";
+  if (pose.at != 0) account.words += " after " + brief_text(pose.at) + " s";
+  constexpr const char* modes[] = {", once", ", repeat", ", repeat-offset", ", pingpong"};
+  if (pose.loop) account.words += modes[static_cast<int>(pose.loop->mode)];
+  if (pose.loop && pose.loop->count > 0) account.words += " x " + brief_text(pose.loop->count);
+  account.clip(pose.clip);
+  account.tell(pose.at, pose.speed, pose.loop);
+}
 
 std::unique_ptr<Operation> bound(const ClipPose& described, Binder& binder) {
   const LoopedClip* clip = binder.clip(described.clip, described.loop, {"clip"});

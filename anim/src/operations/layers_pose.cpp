@@ -2,6 +2,7 @@
 #include <tweenfall/curves/number_text.h>
 
 #include "graph/binder.h"
+#include "operations/account.h"
 
 #include <algorithm>
 
@@ -69,6 +70,17 @@ class Layered : public Operation {
 };
 
 }  // namespace
+
+void tell(const LayersPose& pose, Account& account) {
+  account.words = "layers";
+  account.pose(pose.base, "base");
+  for (const LayersPose::Layer& layer : pose.layers) {
+    const bool plain = std::holds_alternative<double>(layer.weight) && std::get<double>(layer.weight) == 1;
+    account.pose(layer.pose, std::string(layer.adds ? "add" : "over") + (plain ? "" : " " + words_of(layer.weight)));
+    account.pose(layer.reference, "reference");
+    account.tell(layer.adds, layer.weight, layer.mask);
+  }
+}
 
 std::unique_ptr<Operation> bound(const LayersPose& described, Binder& binder) {
   bool whole = true;

@@ -74,13 +74,34 @@ class Operation {
 };
 
 class Binder;
+class Account;
 
-// One file each
+// One file each: the operation, made; and what it says of itself.
 [[nodiscard]] std::unique_ptr<Operation> bound(const ClipPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const RestPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const BlendPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const LayersPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const SpacePose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const MachinePose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const TwoBonePose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const LookAtPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const ReachPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const FeetPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const MirrorPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const RetargetPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const RootMotionPose& pose, Binder& binder);
+void tell(const ClipPose& pose, Account& account);
+void tell(const RestPose& pose, Account& account);
+void tell(const BlendPose& pose, Account& account);
+void tell(const LayersPose& pose, Account& account);
+void tell(const SpacePose& pose, Account& account);
+void tell(const MachinePose& pose, Account& account);
+void tell(const TwoBonePose& pose, Account& account);
+void tell(const LookAtPose& pose, Account& account);
+void tell(const ReachPose& pose, Account& account);
+void tell(const FeetPose& pose, Account& account);
+void tell(const MirrorPose& pose, Account& account);
+void tell(const RetargetPose& pose, Account& account);
+void tell(const RootMotionPose& pose, Account& account);
 
 }  // namespace tweenfall::graphs

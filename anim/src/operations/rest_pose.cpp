@@ -1,3 +1,4 @@
+#include "operations/account.h"
 #include "operations/operation.h"
 
 #include <algorithm>
@@ -14,6 +15,10 @@ class Below : public Operation {
 };
 
 }  // namespace
+
+void tell(const RestPose&, Account& account) {
+  account.words = "what lies below";
+}
 
 std::unique_ptr<Operation> bound(const RestPose&, Binder&) {
   return std::make_unique<Below>();

@@ -1,8 +1,10 @@
 #include <tweenfall/anim/blend.h>
 #include <tweenfall/anim/blend_space.h>
 #include <tweenfall/anim/marker_sync.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "graph/binder.h"
+#include "operations/account.h"
 #include "operations/phase.h"
 
 #include <algorithm>
@@ -12,18 +14,6 @@
 namespace tweenfall::graphs {
 
 namespace {
-
-std::vector<std::string> problems_in(const std::string& text) {
-  std::vector<std::string> problems;
-  std::size_t at = text.find('\n');
-  if (at == std::string::npos) return {text};
-  while (at != std::string::npos) {
-    const std::size_t begin = text.find_first_not_of("\n ", at);
-    at = text.find('\n', begin == std::string::npos ? text.size() : begin);
-    if (begin != std::string::npos) problems.push_back(text.substr(begin, at == std::string::npos ? at : at - begin));
-  }
-  return problems;
-}
 
 class Space : public Operation {
  public:
@@ -144,6 +134,19 @@ const LoopedClip* synced_clip(const std::string& name, const Place& place, Binde
 
 }  // namespace
 
+void tell(const SpacePose& pose, Account& account) {
+  account.words = "space";
+  for (const GraphNumber& number : pose.by)
+    account.words += (&number == &pose.by.front() ? " by " : ", ") + words_of(number);
+  if (pose.sync) account.words += ", in phase";
+  for (const SpacePose::Entry& entry : pose.entries) {
+    const std::string x = brief_text(entry.place.x());
+    account.pose(entry.pose, pose.by.size() == 2 ? x + ", " + brief_text(entry.place.y()) : x);
+    account.tell(entry.place);
+  }
+  account.tell(pose.by, pose.sync);
+}
+
 std::unique_ptr<Operation> bound(const SpacePose& described, Binder& binder) {
   const Place here = {"space"};
   const auto at = [&](std::size_t entry) { return Place{"space", "poses", std::to_string(entry)}; };
@@ -167,12 +170,7 @@ std::unique_ptr<Operation> bound(const SpacePose& described, Binder& binder) {
     return nullptr;
   }
   std::optional<SpaceWeights> weights;
-  try {
-    weights.emplace(described, std::move(by));
-  } catch (const std::invalid_argument& problems) {
-    for (std::string& problem : problems_in(problems.what())) binder.fault({"space", "poses"}, std::move(problem));
-    return nullptr;
-  }
+  if (!binder.attempt({"space", "poses"}, [&] { weights.emplace(described, std::move(by)); })) return nullptr;
   if (std::ranges::find(poses, nullptr) != poses.end() || std::ranges::find(clips, nullptr) != clips.end())
     return nullptr;
   std::unique_ptr<Operation> operation;
@@ -180,14 +178,12 @@ std::unique_ptr<Operation> bound(const SpacePose& described, Binder& binder) {
     std::vector<SyncClip> markers;
     markers.reserve(clips.size());
     for (const LoopedClip* clip : clips) markers.push_back(sync_clip(clip->clip, *described.sync));
-    try {
+    const bool fits = binder.attempt({"space", "sync"}, [&] {
       operation =
           std::make_unique<SyncedSpace>(std::move(clips), binder.nodes(),
                                         Phase(MarkerSync(std::move(markers)), *std::move(weights), binder.new_phase()));
-    } catch (const std::invalid_argument& problems) {
-      for (std::string& problem : problems_in(problems.what())) binder.fault({"space", "sync"}, std::move(problem));
-      return nullptr;
-    }
+    });
+    if (!fits) return nullptr;
   } else {
     operation = std::make_unique<Space>(std::move(poses), *std::move(weights));
   }

@@ -69,7 +69,9 @@ class FootPlacement {
   double lowest_, highest_, evenness_, tilt_, softness_;
 };
 
-/// Puts the feet on the ground. @throws nothing, and allocates nothing; at most eight feet are placed
+inline constexpr std::size_t most_feet_placed = 8;
+
+/// Puts the feet on the ground. @throws nothing, and allocates nothing; at most `most_feet_placed` feet are placed
 ///
 /// @param floor    height along up of the floor that the script walks on, m
 /// @param weight   0 leaves the pose as it is, bit for bit; 1 places

@@ -8,6 +8,9 @@
 /// the pose at any time follows, value and rate.
 
 #include <tweenfall/anim/clip.h>
+#include <tweenfall/anim/graph_figure.h>
+#include <tweenfall/anim/graph_number.h>
+#include <tweenfall/anim/graph_reach.h>
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/anim/joint_mask.h>
 #include <tweenfall/curves/curve.h>
@@ -31,12 +34,6 @@ struct GraphParameter {
   double half_life = 0;                  ///< s; in which poses come half way to a value that was set; 0: at once
   std::optional<Curve<double>> curve{};  ///< its value over the graph's time; nobody then sets it
 };
-
-/// A number of an operation: constant, keyed over the graph's time, or a parameter.
-struct ByParameter {
-  std::string name;
-};
-using GraphNumber = std::variant<double, Curve<double>, ByParameter>;
 
 // The operations. Where one asks for a pose, it is told the name of another of the graph, or of a clip.
 
@@ -136,7 +133,9 @@ struct MachinePose {
   std::vector<GraphTransition> transitions;  ///< the first that may be taken is
 };
 
-using PoseOperation = std::variant<ClipPose, RestPose, BlendPose, LayersPose, SpacePose, MachinePose>;
+/// Those that change a pose, which is the one that they name as their `base`, stand in headers of their own.
+using PoseOperation = std::variant<ClipPose, RestPose, BlendPose, LayersPose, SpacePose, MachinePose, TwoBonePose,
+                                   LookAtPose, ReachPose, FeetPose, MirrorPose, RetargetPose, RootMotionPose>;
 
 struct GraphPose {
   std::string name;
@@ -211,7 +210,7 @@ class Graph {
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return *nodes_; }
   [[nodiscard]] std::span<const Clip> clips() const noexcept { return *clips_; }
 
-  /// Whether some clip of the graph has a track for the node's position, rotation or scale.
+  /// Whether some clip of the graph has a track for the node's position, rotation or scale, or an operation moves it.
   [[nodiscard]] bool moves(std::size_t node) const noexcept;
 
   struct Compiled;  ///< private to the library

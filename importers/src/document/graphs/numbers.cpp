@@ -19,6 +19,41 @@ GraphNumber read_number(const json::Value& value, Building& building) {
   return 1.0;
 }
 
+const Form* place_form(FormStore& store, const ValueForms& values) {
+  Form fixed;
+  fixed.kind = Form::Kind::tuple;
+  fixed.what = "a place: [x, y, z], each a number, keys, or {\"parameter\": name}";
+  Form number;
+  number.kind = Form::Kind::number;
+  number.what = "a number";
+  const Form* one = number_form(std::move(number)).in(store, values);
+  fixed.parts = {one, one, one};
+  fixed.fewest = 3;
+  const Form* numbers = store.add(std::move(fixed));
+  Form at_node = object_of("a place at a node: {\"node\", \"at\"}",
+                           {{"node", values.name, "in whose space the place is told", true},
+                            {"at", numbers, "m; absent: the node itself", false, "[0,0,0]"}});
+  at_node.on_one_line = true;
+  return store.add(choice_of("a node's name, a place in the world [x, y, z], or {\"node\", \"at\"}",
+                             {values.name, numbers, store.add(std::move(at_node))}));
+}
+
+GraphPlace read_place(const json::Value& value, Building& building) {
+  GraphPlace place;
+  if (value.is(json::Value::Kind::text)) place.node = value.text();
+  const bool at_node = value.is(json::Value::Kind::object);
+  if (at_node) place.node = text_in(value, "node");
+  const json::Value numbers = at_node ? usable(value, "at") : value;
+  if (!numbers || numbers.items().size() != 3) return place;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!numbers.items()[i].is(json::Value::Kind::faulty)) place.at[i] = read_number(numbers.items()[i], building);
+  return place;
+}
+
+Form share_form() {
+  return bounded("a weight from 0 to 1", 0, false, 1);
+}
+
 const Form* setting_form(FormStore& store, const ValueForms& values) {
   return store.add(choice_of("a number, true or false", {values.number, values.boolean}));
 }

@@ -16,19 +16,12 @@ Form only_true() {
   return yes;
 }
 
-Form layer_weight() {
-  return bounded("a weight from 0 to 1", 0, false, 1);
-}
-
 const fields::Table<LayersPose::Layer>& layer_table() {
   using Layer = LayersPose::Layer;
   const auto over = [](const json::Value& value, Layer& layer, Building&) { layer.pose = value.text(); };
   const auto add = [](const json::Value& value, Layer& layer, Building&) {
     layer.pose = value.text();
     layer.adds = true;
-  };
-  const auto weight = [](const json::Value& value, Layer& layer, Building& building) {
-    layer.weight = read_number(value, building);
   };
   const auto mask = [](const json::Value& value, Layer& layer, Building& building) {
     layer.mask = read_mask(value, building);
@@ -38,7 +31,7 @@ const fields::Table<LayersPose::Layer>& layer_table() {
                   {"add", &ValueForms::name, "a pose whose difference to its reference is added", {add}},
                   {"reference", &ValueForms::name, "of what is added; absent: what lies below the graph",
                    fields::member<Layer>(&Layer::reference)},
-                  {"weight", number_form(layer_weight()), "how much of it", {weight, "1"}},
+                  number_row<Layer>("weight", share_form(), "how much of it", "1", &Layer::weight),
                   {"mask", mask_form, "the joints that it reaches; absent: all", {mask}}});
   return table;
 }
@@ -74,15 +67,20 @@ void read_layers(const json::Value& value, GraphPose& pose, Building& building) 
     layer_table().read(layer, as<LayersPose>(pose).layers.emplace_back(), building);
 }
 
-std::vector<OperationWord> words() {
-  return {clip_word(), rest_word(), blend_word(), layers_word(), space_word(), machine_word()};
+const std::vector<OperationWord>& words() {
+  static const std::vector<OperationWord> all = {
+      clip_word(),    rest_word(),  blend_word(), layers_word(), space_word(),    machine_word(),    two_bone_word(),
+      look_at_word(), reach_word(), feet_word(),  mirror_word(), retarget_word(), root_motion_word()};
+  return all;
 }
 
 const fields::Table<GraphPose>& pose_table() {
   static const fields::Table<GraphPose> table("a pose", [] {
-    std::vector<Row<GraphPose>> rows;
-    for (OperationWord& word : words())
-      for (Row<GraphPose>& row : word.rows) rows.push_back(std::move(row));
+    const auto nothing = [](const json::Value&, GraphPose&, Building&) {};  // it is read when the operation is known
+    std::vector<Row<GraphPose>> rows = {
+        {"base", &ValueForms::name, "the pose that is changed; absent: what lies below the graph", {nothing}}};
+    for (const OperationWord& word : words())
+      for (const Row<GraphPose>& row : word.rows) rows.push_back(row);
     return rows;
   }());
   return table;
@@ -129,28 +127,38 @@ OperationWord blend_word() {
 }
 
 OperationWord layers_word() {
-  const auto base = [](const json::Value& value, GraphPose& pose, Building&) {
-    as<LayersPose>(pose).base = value.text();
-  };
-  return {{{"base", &ValueForms::name, "of layers: what lies under them; absent: what lies below the graph", {base}},
-           {"layers", layers_form, "poses over each other", {read_layers}}}};
+  return {{{"layers", layers_form, "poses over each other, the base at the bottom", {read_layers}}}, true};
 }
 
 const Form* pose_form(FormStore& store, const ValueForms& values) {
   Form pose = pose_table().form(store, values);
-  pose.what += ": {\"clip\"}, {\"rest\"}, {\"blend\"}, {\"layers\"}, {\"space\"} or {\"machine\"}";
-  pose.together = {exactly_one({"clip", "rest", "blend", "layers", "space", "machine"}),
-                   {Together::Rule::first_needs_second, {"speed", "clip"}},
-                   {Together::Rule::first_needs_second, {"at", "clip"}},
-                   {Together::Rule::first_needs_second, {"loop", "clip"}},
-                   {Together::Rule::first_needs_second, {"count", "loop"}},
-                   {Together::Rule::first_needs_second, {"base", "layers"}}};
+  pose.what += ": ";
+  std::vector<std::string> names;
+  std::vector<Together> rules;
+  for (const OperationWord& word : words()) {
+    const std::string& name = word.rows.front().name;
+    const bool first = names.empty(), last = names.size() + 1 == words().size();
+    pose.what += (first ? "{" : last ? " or {" : ", {") + json::in_quotes(name) + "}";
+    names.push_back(name);
+    for (std::size_t i = 1; i < word.rows.size(); ++i)
+      rules.push_back({Together::Rule::first_needs_second, {word.rows[i].name, name}});
+    if (!word.has_base) rules.push_back(at_most_one({"base", name}));
+  }
+  rules.push_back({Together::Rule::first_needs_second, {"count", "loop"}});
+  pose.together = {exactly_one(std::move(names))};
+  for (Together& rule : rules) pose.together.push_back(std::move(rule));
   pose.definition = "graph pose";
   return store.add(std::move(pose));
 }
 
 void read_pose(const json::Value& value, GraphPose& pose, Building& building) {
   pose_table().read(value, pose, building);
+  const std::string base = text_in(value, "base");
+  std::visit(
+      [&](auto& operation) {
+        if constexpr (requires { operation.base; }) operation.base = base;
+      },
+      pose.operation);
 }
 
 }  // namespace tweenfall::document::graphs

@@ -1,0 +1,45 @@
+#pragma once
+
+/// Operations of a graph on whole figures. Each changes the pose that it names as its `base` (none: what lies below the
+/// graph) by a weight: 0 leaves the base bit for bit, 1 changes it wholly.
+
+#include <tweenfall/anim/graph_number.h>
+#include <tweenfall/anim/mirror.h>
+#include <tweenfall/anim/retarget.h>
+#include <tweenfall/anim/root_motion.h>
+
+#include <string>
+#include <vector>
+
+namespace tweenfall {
+
+/// What the left side does, the right side does, and the other way about, as `Mirror`.
+struct MirrorPose {
+  std::string base{};
+  std::vector<MirrorPair> pairs{};  ///< none: the usual ways of naming sides that the figure uses
+  Vec3 normal{1, 0, 0};             ///< of the mirror plane, in the figure's space
+  std::string figure{};             ///< a node: it and all below it are mirrored, in its parent's space; empty: all
+  GraphNumber weight = 1.0;
+};
+
+/// A figure takes over what another one does, as `Retarget`. A figure is a node and all below it.
+struct RetargetPose {
+  std::string base{};
+  std::string source, target;  ///< nodes
+  std::vector<RetargetPair> pairs;
+  double scale = 0;  ///< of ways; 0: the ratio of the hip heights
+  Vec3 up{0, 1, 0};  ///< in the space of the source's parent
+  GraphNumber weight = 1.0;
+};
+
+/// What carries a figure through the world is taken out of its pose, as by `RootMotion`, and carries another node, or
+/// none: then the figure goes on the spot.
+struct RootMotionPose {
+  std::string base{};
+  std::string node;
+  RootParts parts = {};
+  std::string onto{};  ///< a node above it, which is carried instead; empty: none
+  GraphNumber weight = 1.0;
+};
+
+}  // namespace tweenfall

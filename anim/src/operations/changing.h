@@ -1,0 +1,63 @@
+#pragma once
+
+// What operations that change a pose have in common: the pose, and how much they change it.
+
+#include "graph/binder.h"
+
+#include <algorithm>
+
+namespace tweenfall::graphs {
+
+/// The pose that is changed, or what lies below the graph, and by how much.
+struct Changed {
+  const Operation* base = nullptr;  // null: what lies below the graph
+  Number weight{};
+  bool whole = true;  // false where something was told to be wrong
+};
+
+class Changing : public Operation {
+ public:
+  explicit Changing(Changed changed) : changed_(std::move(changed)) {}
+
+  void pose(const Log& log, const Moment& moment, const Scratch& scratch,
+            std::span<Motion> out) const noexcept override {
+    show_base(log, moment, scratch, out);
+    const Sample<double> weight = as_share(changed_.weight.sample(log, moment.time, moment.side));
+    if (!is_nothing(weight)) change(log, moment, weight, scratch, out);
+  }
+
+  [[nodiscard]] std::vector<const Operation*> operands() const override {
+    return changed_.base ? std::vector{changed_.base} : std::vector<const Operation*>();
+  }
+
+ protected:
+  /// @param weight  some
+  virtual void change(const Log& log, const Moment& moment, const Sample<double>& weight, const Scratch& scratch,
+                      std::span<Motion> pose) const noexcept = 0;
+
+  void show_base(const Log& log, const Moment& moment, const Scratch& scratch, std::span<Motion> out) const noexcept {
+    if (changed_.base)
+      changed_.base->pose(log, moment, scratch, out);
+    else
+      std::ranges::copy(scratch.below, out.begin());
+  }
+  [[nodiscard]] const Number& weight() const noexcept { return changed_.weight; }
+
+ private:
+  Changed changed_;
+};
+
+/// A weight from 0 to 1.
+[[nodiscard]] Number bound_share(const GraphNumber& weight, const Place& place, Binder& binder);
+
+/// @param word  of the operation in documents, where its weight is said
+template <class Described>
+[[nodiscard]] Changed bound_change(const Described& described, const char* word, Binder& binder) {
+  Changed changed;
+  if (!described.base.empty()) changed.base = binder.pose(described.base, {"base"});
+  changed.whole = described.base.empty() || changed.base;
+  changed.weight = bound_share(described.weight, {word, "weight"}, binder);
+  return changed;
+}
+
+}  // namespace tweenfall::graphs

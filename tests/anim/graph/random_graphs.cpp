@@ -1,0 +1,142 @@
+// Graphs made at random of all operations: rates against differences of high order, and memory asked for.
+
+#include "curves/counted_allocations.h"
+#include "figure_support.h"
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// Poses each made of those before it.
+class RandomGraph {
+ public:
+  explicit RandomGraph(std::uint64_t seed) : random_(seed) {}
+
+  GraphDescription make(int poses) {
+    GraphDescription graph = {.parameters = {{.name = "reach", .start = 0.2, .half_life = 0.3},
+                                             {.name = "weight", .start = 0.4, .half_life = 0.25}},
+                              .poses = {},
+                              .inputs = {{0.1, "reach", 0.6}, {0.1, "weight", 0.9}, {1.6, "weight", 0.2}}};
+    names_ = {"walk", "idle", "dance"};
+    for (int i = 0; i < poses; ++i) {
+      GraphPose pose{"p" + std::to_string(i), operation(i % kinds)};
+      names_.push_back(pose.name);
+      graph.poses.push_back(std::move(pose));
+    }
+    return graph;
+  }
+  static constexpr int kinds = 11;
+
+ private:
+  std::string pose() { return names_[names_.size() - 1 - random_.bits() % 3]; }
+  GraphNumber weight() {
+    const double constant = random_.between(0.2, 1);
+    switch (random_.bits() % 3) {
+      case 0:
+        return constant;
+      case 1:
+        return keyed_curve<double>({{.time = 0, .value = constant}, {.time = 4, .value = 0.1, .ease = Ease::smooth()}});
+      default:
+        return ByParameter{"weight"};
+    }
+  }
+  PoseOperation operation(int kind) {
+    const std::string base = pose();
+    GraphNumber share = weight();
+    const auto over = [&](auto made) {
+      made.base = base;
+      return PoseOperation(std::move(made));
+    };
+    switch (kind) {
+      case 0:
+        return over(grip(share));
+      case 1:
+        return over(look(share));
+      case 2:
+        return over(curl(share, ChainMethod::fabrik));
+      case 3:
+        return over(curl(share, ChainMethod::ccd));
+      case 4:
+        return over(stand(share));
+      case 5:
+        return over(mirrored(share));
+      case 6:
+        return over(taken_over(share));
+      case 7:
+        return over(on_the_spot(share));
+      case 8:
+        return over(on_the_spot(share, "hips"));
+      case 9:
+        return BlendPose{{{base, 0.7}, {pose(), share}}};
+      default:
+        return LayersPose{.base = base,
+                          .layers = {{.pose = pose(), .weight = share, .mask = {{.joints = "spine", .below = true}}},
+                                     {.pose = "dance", .adds = true, .reference = "idle", .weight = 0.3}}};
+    }
+  }
+
+  Random random_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace
+
+TEST_CASE("graphs of any operations have the exact rates of what they show") {
+  std::vector<double> errors;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    CAPTURE(seed);
+    GraphPlayer player(figure_graph(RandomGraph(seed).make(RandomGraph::kinds)));
+    for (const double time : {0.31, 0.87, 1.27, 2.21, 3.36}) {
+      const double error = worst_rate([&](double t) { return shown(player, t); }, time, 1e-3);
+      CAPTURE(time);
+      CHECK(error < 1e-2);
+      errors.push_back(error);
+    }
+  }
+  // A limit or a stretch that begins within the eight points of the differences is seen in them, not in the rates.
+  std::ranges::sort(errors);
+  CHECK(errors[errors.size() * 8 / 10] < 1e-6);
+  MESSAGE("rates: half within " << errors[errors.size() / 2] << ", nine of ten within "
+                                << errors[errors.size() * 9 / 10] << ", all within " << errors.back());
+}
+
+TEST_CASE("a graph of any operations asks for no memory while it is evaluated") {
+  GraphPlayer player(figure_graph(RandomGraph(3).make(2 * RandomGraph::kinds)));
+  player.seek(5);
+  std::vector<Motion> pose(player.graph().nodes().size());
+  player.pose(pose);
+  const std::size_t before = allocations();
+  for (int frame = 0; frame < 50; ++frame) {
+    player.seek(5 - 0.1 * frame);
+    player.pose(pose);
+    player.pose(pose, Side::in);
+  }
+  CHECK(allocations() == before);
+}
+
+TEST_CASE("a machine with blends, layers and clips in phase asks for no memory while what happened is known") {
+  const GraphDescription described = {
+      .parameters = {{.name = "speed", .half_life = 0.1}},
+      .poses = {{"pace",
+                 SpacePose{.by = {ByParameter{"speed"}}, .entries = {{"walk", {0, 0}}, {"idle", {1, 0}}}, .sync = ""}},
+                {"legs",
+                 MachinePose{.start = "pace",
+                             .states = {{"pace", "pace"}, {"dance", "dance"}},
+                             .transitions = {{{"pace"},
+                                              "dance",
+                                              {{GraphCondition::Kind::event, "go"}},
+                                              {GraphChange::Kind::quintic, 0.4}},
+                                             {{"dance"}, "pace", {{GraphCondition::Kind::time_in_state, "", 0.7}}}}}}},
+      .inputs = {{0.4, "speed", 1}, {0.9, "go"}}};
+  GraphPlayer player(figure_graph(described));
+  player.seek(3);
+  std::vector<Motion> pose(player.graph().nodes().size());
+  player.pose(pose);
+  const std::size_t before = allocations();
+  for (int frame = 0; frame <= 180; ++frame) {
+    player.seek(frame / 60.0);
+    player.pose(pose);
+  }
+  CHECK(allocations() == before);
+}

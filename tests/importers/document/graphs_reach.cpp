@@ -1,0 +1,129 @@
+// Operations of graphs that reach, look, stand, mirror and take over, in documents: what they mean, and their faults.
+
+#include "importers/document/document_files.h"
+
+#include <tweenfall/physics/stage/stage.h>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+template <class Operation>
+const Operation& operation_of(const GraphDescription& graph, const std::string& name) {
+  for (const GraphPose& pose : graph.poses)
+    if (pose.name == name) return std::get<Operation>(pose.operation);
+  throw std::invalid_argument("there is no pose " + name);
+}
+
+std::string reach_faults(const std::string& pose) {
+  return faults_of(
+      "{\"tweenfall\": 1, \"nodes\": {\"a\": {}, \"b\": {\"parent\": \"a\", \"position\": [0, 1, 0]}, "
+      "\"c\": {\"parent\": \"b\", \"position\": [0, 1, 0.1]}, \"d\": {}},\n\"graphs\": {\"g\": {\"poses\": {\"p\": " +
+          pose + "}}}}",
+      "g.json", {});
+}
+
+bool tells(const std::string& pose, const std::string& words) {
+  const std::string told = reach_faults(pose);
+  CAPTURE(told);
+  return told.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("operations of a document mean what the same operations mean in C++") {
+  const Document document = Document::read(data_folder() / "documents/good/graph_reach.json");
+  const GraphDescription& graph = document.stage().graphs.at(0);
+  const auto& feet = operation_of<FeetPose>(graph, "on");
+  CHECK(feet.base == "walk");
+  CHECK(feet.feet.at(0).ankle_height == 0.05);
+  CHECK(feet.feet.at(1).axis == Vec3(1, 0, 0));
+  CHECK(std::get<ByParameter>(feet.feet.at(1).weight).name == "grip");
+  CHECK(near(feet.tilt, 30 * degree, 1e-15));
+  CHECK(std::get<double>(feet.floor) == 0.1);
+  CHECK(feet.ground.columns == 3);
+  CHECK(feet.ground.heights == std::vector<double>{0, 0.1, 0, 0.2, 0.1, 0});
+  CHECK(feet.ground.spacing_z == 3);
+  CHECK(feet.ground.middle == Vec3(0, -0.1, 0));
+  const auto& kick = operation_of<TwoBonePose>(graph, "kick");
+  CHECK(kick.target.node == "ball");
+  CHECK(std::get<ByParameter>(kick.target.at[1]).name == "x");
+  CHECK(std::get<double>(kick.target.at[2]) == -0.1);
+  CHECK(kick.pole->node.empty());
+  CHECK(std::get<double>(kick.pole->at[2]) == 5);
+  CHECK(kick.axis == Vec3(-1, 0, 0));
+  const auto& gaze = operation_of<LookAtPose>(graph, "gaze");
+  CHECK(gaze.joints.at(0).share == 0.3);
+  CHECK(gaze.joints.at(1).node == "head");
+  CHECK(gaze.upright == Vec3(0, 1, 0));
+  CHECK(near(gaze.limit, 80 * degree, 1e-15));
+  CHECK(gaze.ease == 0.2);
+  CHECK(std::get<Curve<double>>(gaze.weight).value(0.5) == 0.5);
+  const auto& lean = operation_of<ReachPose>(graph, "lean");
+  CHECK(near(std::get<HingeLimit>(lean.joints.at(1).limit).low, -20 * degree, 1e-15));
+  CHECK(lean.method == ChainMethod::ccd);
+  CHECK(lean.sweeps == 4);
+  CHECK(near(std::get<ConeLimit>(operation_of<ReachPose>(graph, "bend").joints.at(0).limit).swing, 40 * degree, 1e-15));
+  CHECK(operation_of<MirrorPose>(graph, "flip").figure == "hips");
+  CHECK(operation_of<MirrorPose>(graph, "sides").pairs.at(0).right == "*.R");
+  const auto& twin = operation_of<RetargetPose>(graph, "twin");
+  CHECK(twin.pairs.at(0).moves);
+  CHECK(twin.pairs.at(1).target == "other/spine");
+  CHECK(twin.scale == 0.5);
+  const auto& still = operation_of<RootMotionPose>(graph, "still");
+  CHECK(still.parts.vertical);
+  CHECK(still.parts.horizontal);
+  CHECK(still.parts.turn == RootParts::Turn::all);
+  CHECK(Document::parse(document.text(), "again.json", {}).stage().graphs.size() == 1);
+  CHECK(fingerprint(Document::parse(document.text(), "again.json", {}).stage().graphs[0]) == fingerprint(graph));
+}
+
+TEST_CASE("on a stage a leg that reaches for a ball is there, and its joints count as animated") {
+  Stage stage(parsed(R"({"tweenfall": 1,
+    "nodes": {"thigh": {"position": [0, 1, 0]}, "shin": {"parent": "thigh", "position": [0, -0.5, 0.05]},
+              "foot": {"parent": "shin", "position": [0, -0.5, -0.05]}, "ball": {"position": [0, 0.3, 0.4]},
+              "sole": {"parent": "foot", "body": {"shape": {"sphere": {"radius": 0.05}}, "mass": 1}}},
+    "clips": {"roll": {"tracks": {"ball.position": [[0, [0, 0.3, 0.4], "smooth"], [1, [0.2, 0.4, 0.5]]]}}},
+    "graphs": {"g": {"poses": {"p": {"base": "roll", "two_bone": {"start": "thigh", "middle": "shin", "end": "foot", "target": "ball"}}}}}})")
+                  .stage());
+  CHECK(stage.owner(4) == Owner::keyed);
+  for (const double time : {0.0, 0.4, 0.8}) {
+    stage.seek(time);
+    CHECK((stage.world(2).motion.pose.position - stage.world(3).motion.pose.position).norm() < 1e-12);
+    CHECK((stage.world(2).motion.twist.linear - stage.world(3).motion.twist.linear).norm() < 1e-10);
+  }
+}
+
+TEST_CASE("faults of operations are told with their places") {
+  const std::string bones = "\"start\": \"a\", \"middle\": \"b\", \"end\": \"c\"";
+  CHECK(reach_faults("{\"two_bone\": {" + bones + ", \"target\": \"d\"}}").empty());
+  CHECK(tells("{\"two_bone\": {" + bones + ", \"target\": \"e\"}}", "(at /graphs/g/poses/p/two_bone/target)"));
+  CHECK(tells("{\"two_bone\": {" + bones + ", \"target\": [1, 2]}}", "/two_bone/target"));
+  CHECK(tells("{\"two_bone\": {" + bones + ", \"target\": [1, 2, {\"parameter\": \"z\"}]}}",
+              "there is no parameter \"z\""));
+  CHECK(tells("{\"two_bone\": {" + bones + "}}", "\"target\""));
+  CHECK(tells("{\"two_bone\": {\"start\": \"a\", \"middle\": \"c\", \"end\": \"b\", \"target\": \"d\"}}", "below"));
+  CHECK(tells("{\"two_bone\": {" + bones + ", \"target\": \"d\", \"softness\": 0.7}}", "a softness from 0 to 0.5"));
+  CHECK(tells("{\"base\": \"q\", \"look_at\": {\"joints\": [\"a\"], \"target\": \"d\"}}", "no pose or clip \"q\""));
+  CHECK(tells("{\"base\": \"q\", \"rest\": true}", "\"base\""));
+  CHECK(tells("{\"base\": \"q\"}", "\"two_bone\""));
+  CHECK(tells("{\"look_at\": {\"joints\": [\"a\"], \"target\": \"d\", \"wieght\": 1}}", "did you mean \"weight\""));
+  CHECK(tells("{\"look_at\": {\"joints\": [], \"target\": \"d\"}}", "/look_at/joints"));
+  CHECK(tells("{\"look_at\": {\"joints\": [\"a\"], \"target\": \"c\"}}", "carried by what turns toward it"));
+  CHECK(tells("{\"reach\": {\"joints\": [\"a\"], \"target\": \"d\"}}", "a chain has two joints at least"));
+  CHECK(
+      tells("{\"reach\": {\"joints\": [\"a\", {\"node\": \"b\", \"hinge\": {\"limits\": [30, -30]}}, \"c\"], "
+            "\"target\": \"d\"}}",
+            "/graphs/g/poses/p/reach"));
+  CHECK(tells("{\"reach\": {\"joints\": [\"a\", \"b\", \"cc\"], \"target\": \"d\"}}",
+              "(at /graphs/g/poses/p/reach/joints/2)"));
+  CHECK(tells("{\"feet\": {\"pelvis\": \"a\", \"legs\": [{" + bones + "}], \"ground\": \"d\"}}",
+              "feet are placed on a node whose body is a \"height_field\""));
+  CHECK(tells("{\"feet\": {\"pelvis\": \"a\", \"legs\": [{" + bones + "}], \"ground\": \"dd\"}}",
+              "there is no node \"dd\""));
+  CHECK(tells("{\"mirror\": {\"pairs\": [[\"*.L\", \"*.R\"]]}}", "/graphs/g/poses/p/mirror"));
+  CHECK(tells("{\"retarget\": {\"source\": \"a\", \"target\": \"d\", \"pairs\": [[\"x\", \"d\"]]}}",
+              "no joint is named \"x\""));
+  CHECK(tells("{\"root_motion\": {\"node\": \"b\", \"onto\": \"d\"}}", "does not carry"));
+}
