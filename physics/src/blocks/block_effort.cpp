@@ -21,9 +21,10 @@ constexpr std::size_t few = 128;
 constexpr std::uint32_t deep_of_few = 20, deep_of_many = 50;
 constexpr int sub_steps_of_few = 24, fewest_of_few = 14;
 constexpr int sub_steps_of_many = 10, fewest_of_many = 5;
-/// Of so few contacts they are those of `Solver`, with many passes in each.
+/// Of so few contacts fewer sub-steps will do, with several passes in each; of a single one they are those of `Solver`,
+/// with as many passes as it takes.
 constexpr std::size_t small = 8;
-constexpr int sub_steps_of_small = 8;
+constexpr int sub_steps_of_one = 8, sub_steps_of_small = 4;
 /// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s. Whoever takes
 /// short steps wants to be nearer.
 constexpr double longest_of_jointed = 1.0 / 180, long_step = 1.0 / 100;
@@ -43,7 +44,8 @@ constexpr int passes_of_meeting = 2;
 
 /// Even numbers: islands with the same are solved together.
 int sub_steps_of_depth(std::uint32_t depth) {
-  const std::uint32_t steps = (std::min(depth, deep_of_few) * (sub_steps_of_few - fewest_of_few)) / deep_of_few;
+  const std::uint32_t deep = std::min(depth, deep_of_few);
+  const std::uint32_t steps = deep * deep * (sub_steps_of_few - fewest_of_few) / (deep_of_few * deep_of_few);
   return fewest_of_few + static_cast<int>((steps + 1) / 2 * 2);
 }
 
@@ -141,12 +143,13 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
                                                                 const std::vector<forces::Load>& loads,
                                                                 const WorldSettings& settings, double dt) const {
   Effort effort;
-  effort.sub_steps = sub_steps_of_small;
+  effort.single = island.contacts.size() == 1;
+  effort.sub_steps = effort.single ? sub_steps_of_one : sub_steps_of_small;
   effort.softening = std::max(1, settings.iterations / 5);
   effort.relaxing = std::max(1, 2 * settings.iterations / 5);
   effort.rebound_passes = settings.iterations;
   effort.turned_enough = turned_enough_of_small;
-  const double h = dt / sub_steps_of_small;
+  const double h = dt / effort.sub_steps;
   bool meets = false;
   for (ContactConstraint* contact : island.contacts) {
     if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return std::nullopt;

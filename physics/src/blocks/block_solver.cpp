@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "step/softness.h"
 
@@ -18,6 +19,9 @@ namespace {
 
 /// Up to this turn in a sub-step a pressed body's spin changes by itself as two evaluations of Euler's equations say.
 constexpr double slow_turn = 0.05;
+
+/// A change of velocity that no longer matters, m/s.
+constexpr double settled = 1e-11;
 
 constexpr BodyLag pressed_still = {{0, 0, 0, 1}};
 
@@ -399,7 +403,13 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   joints_.build(island.joints, places_, bodies_, h, dt);
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
   const double giving = effort.giving * softness.giving;
-  PassRule soft{all(softness.rate), all(softness.speed), all(1 - giving), all(1 - giving), all(1 / h)};
+  PassRule soft{all(softness.rate), all(softness.speed), all(1 - giving), all(1 - giving), all(1 / h), all(settled)};
+  PassRule hard{.inverse_h = all(1 / h), .enough = all(settled)};
+  int softening = effort.softening, relaxing = effort.relaxing;
+  if (effort.single) {
+    soft.passes = std::exchange(softening, 1);
+    hard.passes = std::exchange(relaxing, 1);
+  }
   for (int sub_step = 0; sub_step < sub_steps; ++sub_step) {
     begin_sub_step(bodies, loads, dt, sub_steps, sub_step);
     prepare_again(bodies);
@@ -409,8 +419,8 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
     if (bouncy_) find_rebounds(h);
     // Joints have the last word: what a contact then lacks, the next sub-step gives.
-    for (int k = 0; k < effort.softening; ++k) {
-      soft.note = k + 1 == effort.softening;
+    for (int k = 0; k < softening; ++k) {
+      soft.note = k + 1 == softening;
       holds_.solve(bodies, bodies_, contacts_, velocities_);
       by_color([&](const Rows& some) { kernels.solve(some, soft); });
       joints_.solve(velocities_, true, k % 2 != 0);
@@ -420,9 +430,9 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     joints_.move(velocities_);
     end_sub_step(h);
     end_lead();
-    for (int k = 0; k < effort.relaxing; ++k) {
+    for (int k = 0; k < relaxing; ++k) {
       holds_.solve(bodies, bodies_, contacts_, velocities_);
-      const PassRule hard{.inverse_h = all(1 / h), .sum_up = k + 1 == effort.relaxing};
+      hard.sum_up = k + 1 == relaxing;
       by_color([&](const Rows& some) { kernels.solve(some, hard); });
       joints_.solve(velocities_, false, k % 2 == 0);
     }

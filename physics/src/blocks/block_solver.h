@@ -31,6 +31,7 @@ class BlockSolver {
     double turned_enough = 0;  ///< rows are prepared again when a body has turned by so much, rad
     bool heap = false;         ///< many press on each other
     bool alone = false;        ///< not together with others
+    bool single = false;       ///< one contact: all passes over it are made at once, and no more than change anything
 
     bool operator==(const Effort&) const = default;
   };

@@ -96,13 +96,15 @@ struct MeetingRow {
   Lanes pull, tremble, restitution;
 };
 
-/// How an overlapping contact gives way in a pass: the same in all lanes.
+/// How an overlapping contact gives way in a pass, or in several: the same in all lanes.
 struct PassRule {
   Lanes rate = all(0);       ///< share of the overlap that is taken apart, 1/s
   Lanes speed = all(0);      ///< at most, m/s
   Lanes firm = all(1);       ///< share of the speed error met
   Lanes keeping = all(1);    ///< share of the impulse kept
   Lanes inverse_h = all(0);  ///< of the sub-step, 1/s
+  Lanes enough = all(0);     ///< of several passes, a change of velocity that no longer matters, m/s
+  int passes = 1;            ///< more than one only where no two lanes share a movable body
   bool note = false;         ///< notes what is pressed and held
   bool sum_up = false;       ///< adds the impulses to the totals
 };
@@ -141,7 +143,7 @@ struct Rows {
 struct Kernels {
   /// Gaps of the sub-step, and the impulses of the one before applied again.
   void (*warm_start)(const Rows& rows);
-  /// One pass over all blocks: friction on the circular cone, then the normals.
+  /// Passes over each of the blocks: friction on the circular cone, then the normals.
   void (*solve)(const Rows& rows, const PassRule& rule);
   /// Takes out of the lags of what is pressed what a contact holds: along the normal, or all of it.
   void (*hold)(const Rows& rows);

@@ -86,6 +86,35 @@ struct RowWork {
     }
   }
 
+  /// Looks on while rows change: of a single pass nothing is asked.
+  struct Unwatched {
+    TWEENFALL_LANES Number keep(const Number& next, const Number&) const { return next; }
+    TWEENFALL_LANES void note(const Number&, const Number&) const {}
+  };
+  /// Of several passes, what has settled stays as it is.
+  struct Watched {
+    Number enough;
+    Which stirs, changed;
+
+    TWEENFALL_LANES explicit Watched(const PassRule& rule) : enough(rule.enough) {
+      const Number zero(0.0);
+      stirs = zero >= zero;
+      changed = zero > zero;
+    }
+    TWEENFALL_LANES Number keep(const Number& next, const Number& before) const { return select(stirs, next, before); }
+    /// @param change  of an impulse
+    /// @param mass  what a unit of speed takes
+    TWEENFALL_LANES void note(const Number& change, const Number& mass) {
+      changed = changed | (greater(change, -change) > enough * mass);
+    }
+    /// After a pass. @return whether there is anything left to do
+    TWEENFALL_LANES bool goes_on() {
+      stirs = stirs & changed;
+      changed = enough > enough;
+      return stirs.any();
+    }
+  };
+
   template <bool even>
   TWEENFALL_LANES static void warm_start_block(const Rows& rows, ContactBlock& block) {
     const Vector turned_a = angular(rows.displacements, block.a), turned_b = angular(rows.displacements, block.b);
@@ -118,10 +147,10 @@ struct RowWork {
     put_back(pair, rows.velocities, block);
   }
 
-  template <bool even>
+  template <bool even, class Watch>
   TWEENFALL_LANES static void solve_friction(Pair& pair, const ContactBlock& block, const InertiaRow* inertia,
                                              const Number& inverse_mass, FrictionRow& row, const DriftRow* drift,
-                                             const Number& limit) {
+                                             const Number& limit, Watch& watch) {
     Number slip1 = pair.slip1 + (dot(row.first_b, pair.angular_b) - dot(row.first_a, pair.angular_a));
     Number slip2 = pair.slip2 + (dot(row.second_b, pair.angular_b) - dot(row.second_a, pair.angular_a));
     if (drift) {
@@ -142,8 +171,12 @@ struct RowWork {
       next1 = select(outside, share * edge1, next1);
       next2 = select(outside, share * edge2, next2);
     }
+    next1 = watch.keep(next1, first);
+    next2 = watch.keep(next2, second);
     const Number change1 = next1 - first;
     const Number change2 = next2 - second;
+    watch.note(change1, row.firm);
+    watch.note(change2, row.firm);
     next1.put(row.first);
     next2.put(row.second);
     pair.dragged1 = pair.dragged1 + change1;
@@ -154,13 +187,14 @@ struct RowWork {
                change1 * row.first_b + change2 * row.second_b);
   }
 
-  template <bool even>
+  template <bool even, class Watch>
   TWEENFALL_LANES static void solve_twist(Pair& pair, ContactBlock& block, const InertiaRow* inertia,
-                                          const DriftRow* drift, const Number& limit) {
+                                          const DriftRow* drift, const Number& limit, Watch& watch) {
     Number speed = dot(block.normal, pair.angular_b - pair.angular_a);
     if (drift) speed = speed + drift->twist;
     const Number twist = block.twist;
-    const Number next = greater(-limit, lesser(limit, twist - block.twist_mass * speed));
+    const Number next = watch.keep(greater(-limit, lesser(limit, twist - block.twist_mass * speed)), twist);
+    watch.note(next - twist, block.twist_mass);
     const Vector change = (next - twist) * block.normal;
     next.put(block.twist);
     turn<even>(pair, block, inertia, change, change);
@@ -198,9 +232,9 @@ struct RowWork {
     return greater(zero, keeping * impulse - firm * mass * (speed - wanted));
   }
 
-  template <bool even>
-  TWEENFALL_LANES static void solve_block(const Rows& rows, ContactBlock& block, const PassRule& rule) {
-    Pair pair = pair_of(rows.velocities, block);
+  template <bool even, class Watch>
+  TWEENFALL_LANES static void pass_over(const Rows& rows, ContactBlock& block, const PassRule& rule, Pair& pair,
+                                        Watch& watch) {
     PointRow* points = rows.points + block.point;
     FrictionRow* frictions = rows.frictions + block.friction;
     const DriftRow* drifts = block.drifts ? rows.drifts + block.friction : nullptr;
@@ -214,25 +248,43 @@ struct RowWork {
         twisting = twisting + impulse * points[i].lever;
       }
       const Number coefficient = block.coefficient;
-      solve_twist<even>(pair, block, inertia, drifts, coefficient * twisting);
-      solve_friction<even>(pair, block, inertia, inverse_mass, frictions[0], drifts, coefficient * pressing);
+      solve_twist<even>(pair, block, inertia, drifts, coefficient * twisting, watch);
+      solve_friction<even>(pair, block, inertia, inverse_mass, frictions[0], drifts, coefficient * pressing, watch);
     } else {
       for (int i = 0; i < block.frictions; ++i)
         solve_friction<even>(pair, block, inertia, inverse_mass, frictions[i], drifts ? drifts + i : nullptr,
-                             Number(block.coefficient) * points[i].impulse);
+                             Number(block.coefficient) * points[i].impulse, watch);
     }
     for (int i = 0; i < block.points; ++i) {
       PointRow& point = points[i];
       const Vector turn_a = point.turn_a, turn_b = point.turn_b;
       const Number impulse = point.impulse;
       const Number speed = pair.along + (dot(turn_b, pair.angular_b) - dot(turn_a, pair.angular_a));
-      const Number next = next_normal(point.gap, impulse, point.mass, block.hard, speed, rule);
+      const Number next = watch.keep(next_normal(point.gap, impulse, point.mass, block.hard, speed, rule), impulse);
       const Number change = next - impulse;
+      watch.note(change, point.mass);
       next.put(point.impulse);
       pair.pushed = pair.pushed + change;
       pair.along = pair.along + inverse_mass * change;
       turn<even>(pair, block, inertia, change * turn_a, change * turn_b);
     }
+  }
+
+  template <bool even>
+  TWEENFALL_LANES static void solve_block(const Rows& rows, ContactBlock& block, const PassRule& rule) {
+    Pair pair = pair_of(rows.velocities, block);
+    if (rule.passes == 1) {
+      Unwatched watch;
+      pass_over<even>(rows, block, rule, pair, watch);
+    } else {
+      Watched watch(rule);
+      for (int k = 0; k < rule.passes; ++k) {
+        pass_over<even>(rows, block, rule, pair, watch);
+        if (!watch.goes_on()) break;
+      }
+    }
+    PointRow* points = rows.points + block.point;
+    FrictionRow* frictions = rows.frictions + block.friction;
     put_back(pair, rows.velocities, block);
     if (rule.note) note_grip(points, frictions, block);
     if (!rule.sum_up) return;
@@ -256,35 +308,70 @@ struct RowWork {
     put_angular(angular(rows.velocities, block.b) - Number(block.spin_b) * turn, rows.velocities, block.to_b);
   }
 
-  TWEENFALL_LANES static void solve_balls(const Rows& rows, BallBlock& block, const PassRule& rule) {
-    const Vector linear_a = linear(rows.velocities, block.a), linear_b = linear(rows.velocities, block.b);
-    const Vector angular_a = angular(rows.velocities, block.a), angular_b = angular(rows.velocities, block.b);
-    const Vector normal = block.normal, before = block.friction;
-    const Number impulse_before = block.impulse;
-    const Vector relative = linear_b - linear_a;
+  /// Two balls in each lane.
+  struct Balls {
+    Vector linear_a, angular_a, linear_b, angular_b, friction;
+    Number impulse;
+  };
+  template <class Watch>
+  TWEENFALL_LANES static void pass_over(const BallBlock& block, const PassRule& rule, Balls& balls, Watch& watch) {
+    const Vector normal = block.normal, before = balls.friction;
+    const Number impulse_before = balls.impulse;
+    const Vector relative = balls.linear_b - balls.linear_a;
     const Number along = dot(normal, relative);
-    const Vector slip =
-        relative - along * normal - cross(Number(block.arm_a) * angular_a + Number(block.arm_b) * angular_b, normal);
+    const Vector slip = relative - along * normal -
+                        cross(Number(block.arm_a) * balls.angular_a + Number(block.arm_b) * balls.angular_b, normal);
     // What would stop the slip points against it: brought back to the cone's edge it opposes the slip exactly.
     Vector friction = before - Number(block.slip_mass) * slip;
     const Number limit = Number(block.coefficient) * impulse_before;
     const Number square = dot(friction, friction), most = limit * limit;
     const Which outside = square > most;
     if (outside.any()) friction = select(outside, limit / root(square), Number(1.0)) * friction;
-    const Number next = next_normal(block.gap, impulse_before, block.mass, block.hard, along, rule);
+    friction = {watch.keep(friction.x, before.x), watch.keep(friction.y, before.y), watch.keep(friction.z, before.z)};
+    const Number next =
+        watch.keep(next_normal(block.gap, impulse_before, block.mass, block.hard, along, rule), impulse_before);
     const Vector dragged = friction - before;
+    watch.note(next - impulse_before, block.mass);
+    watch.note(dragged.x, block.slip_mass);
+    watch.note(dragged.y, block.slip_mass);
+    watch.note(dragged.z, block.slip_mass);
     const Vector impulse = (next - impulse_before) * normal + dragged;
     const Vector turn = cross(normal, dragged);
-    friction.put(block.friction);
-    next.put(block.impulse);
-    put_linear(linear_a - Number(block.inverse_mass_a) * impulse, rows.velocities, block.to_a);
-    put_angular(angular_a - Number(block.spin_a) * turn, rows.velocities, block.to_a);
-    put_linear(linear_b + Number(block.inverse_mass_b) * impulse, rows.velocities, block.to_b);
-    put_angular(angular_b - Number(block.spin_b) * turn, rows.velocities, block.to_b);
-    if (rule.note) (next > Number(0.0)).put(block.pressed);
+    balls.friction = friction;
+    balls.impulse = next;
+    balls.linear_a = balls.linear_a - Number(block.inverse_mass_a) * impulse;
+    balls.angular_a = balls.angular_a - Number(block.spin_a) * turn;
+    balls.linear_b = balls.linear_b + Number(block.inverse_mass_b) * impulse;
+    balls.angular_b = balls.angular_b - Number(block.spin_b) * turn;
+  }
+
+  TWEENFALL_LANES static void solve_balls(const Rows& rows, BallBlock& block, const PassRule& rule) {
+    Balls balls{linear(rows.velocities, block.a),
+                angular(rows.velocities, block.a),
+                linear(rows.velocities, block.b),
+                angular(rows.velocities, block.b),
+                block.friction,
+                block.impulse};
+    if (rule.passes == 1) {
+      Unwatched watch;
+      pass_over(block, rule, balls, watch);
+    } else {
+      Watched watch(rule);
+      for (int k = 0; k < rule.passes; ++k) {
+        pass_over(block, rule, balls, watch);
+        if (!watch.goes_on()) break;
+      }
+    }
+    balls.friction.put(block.friction);
+    balls.impulse.put(block.impulse);
+    put_linear(balls.linear_a, rows.velocities, block.to_a);
+    put_angular(balls.angular_a, rows.velocities, block.to_a);
+    put_linear(balls.linear_b, rows.velocities, block.to_b);
+    put_angular(balls.angular_b, rows.velocities, block.to_b);
+    if (rule.note) (balls.impulse > Number(0.0)).put(block.pressed);
     if (!rule.sum_up) return;
-    (next + block.total).put(block.total);
-    (friction + block.total_friction).put(block.total_friction);
+    (balls.impulse + block.total).put(block.total);
+    (balls.friction + block.total_friction).put(block.total_friction);
   }
 
   TWEENFALL_LANES static Which which_of(const std::int8_t* lanes) {

@@ -86,6 +86,8 @@ void BlockSolver::move_by(const Rebound& rebound, const Contact& contact) {
     if (turning == Vec3::Zero()) return;
     for (int i = 0; i < 3; ++i) displacement.angular[i] += turning[i];
     if (!body.round) body.turned += turning.norm();
+    // Its rows are prepared again whether or not another body turns that is solved at the same time.
+    any_stale_ = any_stale_ || body.turned > turned_enough_;
     body.rotation = exp_map(turning) * body.rotation;
     body.rotation.normalize();
   };

@@ -126,3 +126,45 @@ TEST_CASE("what a small island does depends on none of those that are solved bes
     }
   }
 }
+
+TEST_CASE("what tumbles and bounces a little goes the same way by itself and beside others of its kind") {
+  constexpr int each = 8;
+  struct Drops {
+    World world;
+    std::vector<BodyId> bodies;
+
+    Drops(int from, int to) {
+      world.add({.shape = {Box{{5000, 1, 500}}}, .fixed = true, .motion = {.pose = {.position = {0, -1, 0}}}});
+      for (int group = from; group < to; ++group) {
+        test::Random random(static_cast<unsigned>(100 + group));
+        for (int i = 0; i < each; ++i) {
+          BodySettings body{.restitution = 0.1};
+          if (i % 2 == 0)
+            body.shape.solid = Box{Vec3(0.25, 0.2, 0.3)};
+          else
+            body.shape.solid = Capsule{0.15, 0.2};
+          const Vec3 aside = random.vector(0.1), velocity = random.vector(2), spin = random.vector(6);
+          body.motion.pose.position = Vec3(20.0 * group + 0.3 * (i % 3), 0.7 + 0.6 * i, 0.3 * (i % 2)) + aside;
+          body.motion.pose.rotation = random.rotation();
+          body.motion.twist = {velocity, spin};
+          bodies.push_back(world.add(body));
+        }
+      }
+    }
+  };
+  constexpr int groups = 40;
+  Drops all(0, groups);
+  for (int step = 0; step < 150; ++step) all.world.step(1.0 / 60);
+  for (int group = 0; group < groups; ++group) {
+    CAPTURE(group);
+    Drops one(group, group + 1);
+    for (int step = 0; step < 150; ++step) one.world.step(1.0 / 60);
+    for (std::size_t i = 0; i < one.bodies.size(); ++i) {
+      const Motion its = one.world.motion(one.bodies[i]);
+      const Motion beside = all.world.motion(all.bodies[each * static_cast<std::size_t>(group) + i]);
+      CHECK(its.pose.position == beside.pose.position);
+      CHECK(its.pose.rotation.coeffs() == beside.pose.rotation.coeffs());
+      CHECK(its.twist.angular == beside.twist.angular);
+    }
+  }
+}
