@@ -31,12 +31,12 @@ TEST_CASE("every question about every curve of the museum has a finite answer th
     CHECK(std::isfinite(r.low));
     CHECK(std::isfinite(r.high));
     double seen_low = curve.value(from), seen_high = seen_low, sum = 0;
-    constexpr int count = 20000;
-    for (int i = 0; i < count; ++i) {
-      const double v = curve.value(from + (to - from) * (i + 0.5) / count);
+    constexpr int samples = 20000;
+    for (int i = 0; i < samples; ++i) {
+      const double v = curve.value(from + (to - from) * (i + 0.5) / samples);
       seen_low = std::min(seen_low, v);
       seen_high = std::max(seen_high, v);
-      sum += v / count;
+      sum += v / samples;
     }
     CHECK(seen_low >= r.low - slack);
     CHECK(seen_high <= r.high + slack);
