@@ -7,8 +7,12 @@ cd "$source_folder"
 # Tests about the source and the page, which say the same under every compiler.
 about_source='^(headers|layering|page$)'
 
-# Long runs of worlds, whose code shorter tests run too; each takes half a minute or more under sanitizers.
-long_when_sanitized='^physics/(step/(small_islands|riders)|state/(saving|copies)|stage/saving)$'
+# What is about numbers over long runs, whose code shorter tests run too; each takes ten seconds to a minute under
+# sanitizers.
+long_when_sanitized='^(anim/crowd/(clip|size)'
+long_when_sanitized+='|importers/document/(contact_scenarios|hostile_physics)'
+long_when_sanitized+='|physics/(collision/(oracle|triangle_contacts)|stage/(blows|saving)|state/(copies|saving)'
+long_when_sanitized+='|step/(energy|impact|momentum|riders|small_islands)))$'
 
 # run_stages NAME...: each by its function stage_NAME, up to the first that fails.
 run_stages() {
