@@ -41,88 +41,110 @@ Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec
 
 }  // namespace
 
-void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
-                         std::span<const islands::IslandContents> islands, Integrator integrator, double dt) {
-  for (const IslandBody& body : bodies_)
-    if (body.index < places_.size()) places_[body.index] = 0;
-  bodies_.assign(1, {});
-  bodies_[0].index = 0xffffffffu;
-  paces_.assign(1, {});
-  velocities_.assign(1, {});
+/// Gives all bodies of islands their places.
+void BlockSolver::number(std::span<const islands::IslandContents> islands) {
+  for (const std::uint32_t index : indices_)
+    if (index < places_.size()) places_[index] = 0;
+  indices_.assign(1, 0xffffffffu);
   island_of_.assign(1, 0);
   std::uint32_t number = 0;
-  uneven_.clear();
-  rebounds_.clear();
-  led_.clear();
-  bouncy_ = conveyed_ = any_stale_ = false;
-  rebounds_.clear();  // of the island before
   const auto add = [&](std::uint32_t index) {
     if (places_[index] != 0) return;
-    places_[index] = static_cast<std::uint32_t>(bodies_.size());
-    const Body& body = bodies[index];
-    IslandBody& entry = bodies_.emplace_back();
-    BodyPace& pace = paces_.emplace_back();
-    BodyLanes& velocity = velocities_.emplace_back();
+    places_[index] = static_cast<std::uint32_t>(indices_.size());
+    indices_.push_back(index);
     island_of_.push_back(number);
-    entry.index = index;
-    entry.round = body.spherical() && std::holds_alternative<Sphere>(body.shape().solid);
-    entry.movable = pace.movable = !body.immovable() && !body.asleep;
-    entry.conveys = body.conveys;
-    if (body.conveys) entry.surface = body.surface();
-    conveyed_ = conveyed_ || body.conveys;
-    entry.center = entry.start_center = body.center;
-    entry.rotation = entry.start_rotation = body.motion.pose.rotation;
-    if (entry.movable) {
-      const Load& load = loads[index];
-      entry.inverse_mass = 1 / body.mass().mass;
-      entry.drag = load.drag;
-      entry.isotropic = body.spherical();
-      entry.inverse_moment = body.spherical() ? body.inverse_inertia()(0, 0) : 0;
-      entry.inverse_inertia =
-          body.spherical() ? body.inverse_inertia() : body.world_inverse_inertia(body.motion.pose.rotation);
-      pace.mass = body.mass().mass;
-      pace.moment = body.mass().inertia(0, 0);
-      set(pace.acceleration, integrator == Integrator::exact_quadratic
-                                 ? Vec3(0.5 * (load.acceleration + load.end_acceleration))
-                                 : load.acceleration);
-      pace.even =
-          body.spherical() && load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
-      pace.steady = pace.even && !(load.drag > 0);
-      pace.unturned = pace.steady && entry.round;
-      if (!body.spherical()) uneven_.push_back(places_[index]);
-      set(velocity.linear, body.twist.linear);
-      set(velocity.angular, body.twist.angular);
-    } else if (body.immovable()) {
-      const step::KeyedCourse course = step::keyed_course(body, dt);
-      if (course.still()) return;
-      entry.led = static_cast<std::uint32_t>(led_.size());
-      const Twist start = course.velocity(0, dt);
-      led_.push_back({places_[index], course, start, start});
-      set(velocity.linear, start.linear);
-      set(velocity.angular, start.angular);
-    }
   };
   for (const islands::IslandContents& island : islands) {
     for (const ContactConstraint* contact : island.contacts) {
       add(contact->a);
       add(contact->b);
-      bouncy_ = bouncy_ || contact->restitution > 0;
     }
     for (const joints::JointLink* link : island.joints)
-      for (const std::uint32_t end : {link->a, link->b}) {
-        if (end == joints::JointLink::world) continue;
-        add(end);
-        bodies_[places_[end]].jointed = true;
-      }
+      for (const std::uint32_t end : {link->a, link->b})
+        if (end != joints::JointLink::world) add(end);
     for (const step::SpringRow* spring : island.springs)
       for (const std::uint32_t end : {spring->a, spring->b})
         if (end != step::SpringRow::world) add(end);
     ++number;
   }
-  starts_.resize(bodies_.size());
-  lags_.assign(bodies_.size(), {});
-  sub_starts_.resize(bodies_.size());
-  displacements_.assign(bodies_.size(), {});
+}
+
+void BlockSolver::take(std::size_t place, const Body& body, const Load& load, Integrator integrator) {
+  IslandBody& entry = bodies_[place] = {};
+  BodyPace& pace = paces_[place] = {};
+  BodyLanes& velocity = velocities_[place] = {};
+  displacements_[place] = {};
+  lags_[place] = {};
+  Traits& traits = traits_[place] = {};
+  entry.index = indices_[place];
+  entry.round = body.spherical() && std::holds_alternative<Sphere>(body.shape().solid);
+  entry.movable = pace.movable = !body.immovable() && !body.asleep;
+  entry.conveys = body.conveys;
+  if (body.conveys) {
+    entry.surface = body.surface();
+    traits.conveys = true;
+  }
+  entry.center = entry.start_center = body.center;
+  entry.rotation = entry.start_rotation = body.motion.pose.rotation;
+  traits.immovable = body.immovable();
+  if (!entry.movable) return;
+  entry.inverse_mass = 1 / body.mass().mass;
+  entry.drag = load.drag;
+  entry.isotropic = body.spherical();
+  entry.inverse_moment = body.spherical() ? body.inverse_inertia()(0, 0) : 0;
+  entry.inverse_inertia =
+      body.spherical() ? body.inverse_inertia() : body.world_inverse_inertia(body.motion.pose.rotation);
+  pace.mass = body.mass().mass;
+  pace.moment = body.mass().inertia(0, 0);
+  set(pace.acceleration, integrator == Integrator::exact_quadratic
+                             ? Vec3(0.5 * (load.acceleration + load.end_acceleration))
+                             : load.acceleration);
+  pace.even = body.spherical() && load.torque == Vec3::Zero() && !(load.angular_drag > 0 || load.angular_damping > 0);
+  pace.steady = pace.even && !(load.drag > 0);
+  pace.unturned = pace.steady && entry.round;
+  traits.uneven = !body.spherical();
+  set(velocity.linear, body.twist.linear);
+  set(velocity.angular, body.twist.angular);
+}
+
+void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
+                         std::span<const islands::IslandContents> islands, Integrator integrator, double dt) {
+  number(islands);
+  const std::size_t count = indices_.size();
+  bodies_.resize(count);
+  paces_.resize(count);
+  velocities_.resize(count);
+  displacements_.resize(count);
+  lags_.resize(count);
+  starts_.resize(count);
+  sub_starts_.resize(count);
+  traits_.resize(count);
+  bodies_[0] = {};
+  bodies_[0].index = indices_[0];
+  paces_[0] = {};
+  velocities_[0] = displacements_[0] = {};
+  lags_[0] = {};
+  each_body([&](std::size_t i) { take(i, bodies[indices_[i]], loads[indices_[i]], integrator); });
+  uneven_.clear();
+  rebounds_.clear();  // of the island before
+  led_.clear();
+  bouncy_ = conveyed_ = any_stale_ = false;
+  for (std::uint32_t i = 1; i < count; ++i) {
+    conveyed_ = conveyed_ || traits_[i].conveys;
+    if (traits_[i].uneven) uneven_.push_back(i);
+    if (!traits_[i].immovable) continue;
+    const step::KeyedCourse course = step::keyed_course(bodies[indices_[i]], dt);
+    if (course.still()) continue;
+    bodies_[i].led = static_cast<std::uint32_t>(led_.size());
+    const Twist start = course.velocity(0, dt);
+    led_.push_back({i, course, start, start});
+    set(velocities_[i].linear, start.linear);
+    set(velocities_[i].angular, start.angular);
+  }
+  for (const islands::IslandContents& island : islands)
+    for (const joints::JointLink* link : island.joints)
+      for (const std::uint32_t end : {link->a, link->b})
+        if (end != joints::JointLink::world) bodies_[places_[end]].jointed = true;
 }
 
 /// @param trembling  in a heap what presses down passes on to all sides: what it makes of so much time is a tremble in
@@ -130,6 +152,7 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
 void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const std::vector<Load>& loads,
                           double trembling, double dt) {
   closings_.resize(contacts.size());
+  marks_.resize(contacts.size());
   work_.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       ContactConstraint& contact = *contacts[i];
@@ -141,10 +164,13 @@ void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const st
                      trembling * std::max(loads[contact.a].acceleration.norm(), loads[contact.b].acceleration.norm()));
       contacts::foresee(contact, {linear_of(velocities_[a]), angular_of(velocities_[a])},
                         {linear_of(velocities_[b]), angular_of(velocities_[b])}, closings_[i], dt);
+      marks_[i] = {contact.impact, contact.restitution > 0, false};
     }
   });
-  for (const ContactConstraint* contact : contacts)
-    if (contact->impact) paces_[places_[contact->a]].impact = paces_[places_[contact->b]].impact = true;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    bouncy_ = bouncy_ || marks_[i].springs_back;
+    if (marks_[i].impact) paces_[places_[contacts[i]->a]].impact = paces_[places_[contacts[i]->b]].impact = true;
+  }
 }
 
 void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, double dt,
@@ -395,7 +421,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   holds_.gather(island, bodies, places_, bodies_, h);
   for (std::size_t i = 1; i < bodies_.size(); ++i)
     if (bodies_[i].held || bodies_[i].jointed) paces_[i].steady = paces_[i].unturned = false;
-  contacts_.build(contacts, places_, bodies_, closings_, h);
+  contacts_.build(contacts, places_, bodies_, closings_, h, work_);
   velocities_.resize(contacts_.room);
   lags_.resize(contacts_.room);
   holds_.gather(contacts_, h);
@@ -449,11 +475,18 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   holds_.store();
   joints_.end_step(bodies, bodies_, velocities_);
   // Also a body that only the last pass reached has momentum from it.
-  for (const ContactConstraint* contact : contacts)
-    for (int i = 0; i < contact->count; ++i)
-      if (contact->points[static_cast<std::size_t>(i)].total_normal > 0 ||
-          contact->points[static_cast<std::size_t>(i)].total_friction != Vec3::Zero())
-        paces_[places_[contact->a]].touched = paces_[places_[contact->b]].touched = true;
+  work_.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto pushed = [](const contacts::PointConstraint& point) {
+        return point.total_normal > 0 || point.total_friction != Vec3::Zero();
+      };
+      const std::span<const contacts::PointConstraint> points = contacts[i]->points;
+      const auto of_it = points.first(static_cast<std::size_t>(contacts[i]->count));
+      marks_[i].pushed = std::any_of(of_it.begin(), of_it.end(), pushed);
+    }
+  });
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (marks_[i].pushed) paces_[contacts_.ends[i].a].touched = paces_[contacts_.ends[i].b].touched = true;
   each_body([&](std::size_t i) {
     IslandBody& entry = bodies_[i];
     if (!entry.movable || !paces_[i].touched) return;

@@ -62,6 +62,14 @@ class BlockSolver {
     double speed_before = 0;    ///< m/s
   };
 
+  /// What is found of a body, or of a contact, by whichever thread gets to it, and then looked at in order.
+  struct Traits {
+    bool conveys = false, uneven = false, immovable = false;
+  };
+  struct Marks {
+    bool impact = false, springs_back = false, pushed = false;
+  };
+
   [[nodiscard]] std::optional<Effort> effort_of_small(const islands::IslandContents& island,
                                                       const std::vector<state::Body>& bodies,
                                                       const std::vector<forces::Load>& loads,
@@ -71,6 +79,8 @@ class BlockSolver {
                                                       const WorldSettings& settings, double dt);
   void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
               std::span<const islands::IslandContents> islands, Integrator integrator, double dt);
+  void number(std::span<const islands::IslandContents> islands);
+  void take(std::size_t place, const state::Body& body, const forces::Load& load, Integrator integrator);
   void foresee(std::span<contacts::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads,
                double trembling, double dt);
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
@@ -109,6 +119,7 @@ class BlockSolver {
 
   // Rebound
   void find_rebounds(double h);
+  void find_rebounds(const Rows& rows, std::size_t first, double h, std::vector<Rebound>& found);
   void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes);
   template <class Contact>
   void move_by(const Rebound& rebound, const Contact& contact);
@@ -119,9 +130,12 @@ class BlockSolver {
   static constexpr std::size_t worth_a_part = 48;
   static constexpr std::size_t blocks_worth_a_part = 24;
 
-  threads::Workers work_;              ///< within the island that is being solved
-  std::vector<std::uint32_t> places_;  ///< from a body's index into bodies_; 0 for none
-  std::vector<IslandBody> bodies_;     ///< the first is nobody: that of empty lanes
+  threads::Workers work_;               ///< within the island that is being solved
+  std::vector<std::uint32_t> places_;   ///< from a body's index into bodies_; 0 for none
+  std::vector<std::uint32_t> indices_;  ///< by place: of the bodies
+  std::vector<Traits> traits_;          ///< by place
+  std::vector<Marks> marks_;            ///< of the contacts
+  std::vector<IslandBody> bodies_;      ///< the first is nobody: that of empty lanes
   std::vector<BodyPace> paces_;
   std::vector<BodyLanes> velocities_, starts_, displacements_;
   std::vector<step::LedBody> led_;  ///< of bodies_
@@ -144,6 +158,7 @@ class BlockSolver {
   bool any_stale_ = false;               ///< a body has turned since its rows were prepared
   std::vector<std::uint32_t> meetings_;  ///< lanes
   std::vector<Rebound> rebounds_;
+  std::vector<std::vector<Rebound>> rebound_parts_;  ///< of parts of the blocks, in order
   ReboundReach reach_;
 };
 

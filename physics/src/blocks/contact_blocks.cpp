@@ -98,25 +98,66 @@ void each_lane(const std::vector<ContactBlocks::Origin>& origins, const threads:
 }  // namespace
 
 void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
-                          const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings,
-                          double h) {
+                          const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h,
+                          const threads::Workers& work) {
+  find_keys(contacts, places, bodies, work);
+  sort_by_key();
+  drifting_ =
+      std::ranges::any_of(bodies, [](const IslandBody& body) { return body.conveys || body.led != step::not_led; });
+  room = static_cast<std::uint32_t>(bodies.size());
+  lay_out();
+  find_phases();
+  constexpr std::size_t worth_a_part = 16;
+  work.ranges(fillings_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Filling& filling = fillings_[i];
+      for (std::uint32_t lane = 0; lane < filling.count; ++lane) {
+        const std::uint32_t number = sorted_[filling.first + lane];
+        if (filling.of_balls)
+          fill_ball(filling.index, static_cast<int>(lane), *contacts[number], bodies, ends[number], closings[number],
+                    h);
+        else
+          fill(filling.index, static_cast<int>(lane), *contacts[number], bodies, ends[number], closings[number], h);
+      }
+      const auto to_nobody = [&filling](auto& block) {
+        for (std::uint32_t* to : {block.to_a, block.to_b})
+          for (int lane = 0; lane < lane_count; ++lane)
+            if (to[lane] == 0) to[lane] = filling.room;
+      };
+      if (filling.of_balls)
+        to_nobody(balls[filling.index]);
+      else
+        to_nobody(blocks[filling.index]);
+    }
+  });
+}
+
+void ContactBlocks::find_keys(std::span<ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
+                              const std::vector<IslandBody>& bodies, const threads::Workers& work) {
+  constexpr std::size_t worth_a_part = 64;
+  ends.resize(contacts.size());
+  work.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const ContactConstraint& contact = *contacts[i];
+      const std::uint32_t place_a = places[contact.a], place_b = places[contact.b];
+      const IslandBody &a = bodies[place_a], &b = bodies[place_b];
+      ends[i] = {place_a, place_b, kind_of(contact, a, b), a.movable, b.movable};
+    }
+  });
   coloring_.reset(bodies.size());
   keys_.clear();
   keys_.reserve(contacts.size());
-  for (const ContactConstraint* contact : contacts) {
-    const std::uint32_t place_a = places[contact->a], place_b = places[contact->b];
-    const IslandBody &a = bodies[place_a], &b = bodies[place_b];
-    const std::uint32_t color = coloring_.color(place_a, a.movable, place_b, b.movable);
-    keys_.push_back(color * kinds + kind_of(*contact, a, b));
-  }
-  sort_by_key();
+  for (const Ends& one : ends)
+    keys_.push_back(coloring_.color(one.a, one.a_moves, one.b, one.b_moves) * kinds + one.kind);
+}
+
+/// Opens all blocks and balls, and says what is to be filled in.
+void ContactBlocks::lay_out() {
   blocks.clear();
   balls.clear();
   points.clear();
   frictions.clear();
   drifts.clear();
-  drifting_ =
-      std::ranges::any_of(bodies, [](const IslandBody& body) { return body.conveys || body.led != step::not_led; });
   inertias.clear();
   meetings.clear();
   ball_meetings.clear();
@@ -124,8 +165,7 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
   ball_origins.clear();
   color_blocks_.clear();
   color_balls_.clear();
-  room = static_cast<std::uint32_t>(bodies.size());
-  std::size_t next = 0;
+  fillings_.clear();
   std::uint32_t colors = 0;
   const auto open_colors = [&](std::uint32_t end) {
     for (; colors < end; ++colors) {
@@ -136,27 +176,22 @@ void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const st
       ball_pairs = balls.size();
     }
   };
-  while (next < sorted_.size()) {
+  for (std::uint32_t next = 0; next < sorted_.size();) {
     const std::uint32_t key = keys_[sorted_[next]], color = key / kinds, kind = key % kinds;
     open_colors(color + 1);
     open(kind);
-    const std::size_t width = color >= Coloring::none ? 1 : lane_count;
-    for (int lane = 0; lane < static_cast<int>(width) && next < sorted_.size() && keys_[sorted_[next]] == key;
-         ++next, ++lane) {
-      ContactConstraint& contact = *contacts[sorted_[next]];
-      const contacts::Closing& closing = closings[sorted_[next]];
-      if (kind == ball_kind)
-        fill_ball(lane, contact, places, bodies, closing, h);
-      else
-        fill(lane, contact, places, bodies, closing, h);
+    const std::uint32_t most = color >= Coloring::none ? 1 : lane_count;
+    Filling filling{kind == ball_kind, 0, next, 0, room};
+    filling.index = static_cast<std::uint32_t>((filling.of_balls ? balls.size() : blocks.size()) - 1);
+    while (filling.count < most && next < sorted_.size() && keys_[sorted_[next]] == key) {
+      ++next;
+      ++filling.count;
     }
-    if (kind == ball_kind)
-      close(balls.back());
-    else
-      close(blocks.back());
+    fillings_.push_back(filling);
+    // Where all lanes have two movable bodies nothing is left over.
+    if (filling.count < lane_count || color >= Coloring::half) ++room;
   }
   open_colors(Coloring::none + 1);
-  find_phases();
 }
 
 /// Those of one key in their order. There are thousands of keys, and of most islands' contacts only few.
@@ -174,18 +209,6 @@ void ContactBlocks::sort_by_key() {
   for (const std::uint32_t key : keys_) ++counts_[key + 1];
   for (std::size_t i = 1; i < counts_.size(); ++i) counts_[i] += counts_[i - 1];
   for (std::uint32_t i = 0; i < keys_.size(); ++i) sorted_[counts_[keys_[i]]++] = i;
-}
-
-template <class Block>
-void ContactBlocks::close(Block& block) {
-  bool any = false;
-  for (std::uint32_t* to : {block.to_a, block.to_b})
-    for (int lane = 0; lane < lane_count; ++lane) {
-      if (to[lane] != 0) continue;
-      to[lane] = room;
-      any = true;
-    }
-  if (any) ++room;
 }
 
 void ContactBlocks::find_phases() {
@@ -228,11 +251,12 @@ void ContactBlocks::open(std::uint32_t kind) {
   inertias.emplace_back();
 }
 
-void ContactBlocks::fill_ball(int lane, ContactConstraint& contact, const std::vector<std::uint32_t>& places,
-                              const std::vector<IslandBody>& bodies, const contacts::Closing& closing, double h) {
-  BallBlock& block = balls.back();
-  const IslandBody& a = bodies[block.a[lane] = places[contact.a]];
-  const IslandBody& b = bodies[block.b[lane] = places[contact.b]];
+void ContactBlocks::fill_ball(std::size_t ball, int lane, ContactConstraint& contact,
+                              const std::vector<IslandBody>& bodies, const Ends& own, const contacts::Closing& closing,
+                              double h) {
+  BallBlock& block = balls[ball];
+  const IslandBody& a = bodies[block.a[lane] = own.a];
+  const IslandBody& b = bodies[block.b[lane] = own.b];
   if (a.movable) block.to_a[lane] = block.a[lane];
   if (b.movable) block.to_b[lane] = block.b[lane];
   const Vec3& normal = contact.manifold.normal;
@@ -255,18 +279,18 @@ void ContactBlocks::fill_ball(int lane, ContactConstraint& contact, const std::v
   block.base[lane] = point.start_gap;
   block.impulse[lane] = ratio * point.kept_normal;
   put(block.friction, lane, ratio * (point.kept_friction - normal * normal.dot(point.kept_friction)));
-  put(ball_meetings.back(), lane, closing, contact.restitution);
-  ball_origins.back()[static_cast<std::size_t>(lane)] = &contact;
+  put(ball_meetings[ball], lane, closing, contact.restitution);
+  ball_origins[ball][static_cast<std::size_t>(lane)] = &contact;
 }
 
-void ContactBlocks::fill(int lane, ContactConstraint& contact, const std::vector<std::uint32_t>& places,
-                         const std::vector<IslandBody>& bodies, const contacts::Closing& closing, double h) {
-  ContactBlock& block = blocks.back();
-  const IslandBody& a = bodies[block.a[lane] = places[contact.a]];
-  const IslandBody& b = bodies[block.b[lane] = places[contact.b]];
+void ContactBlocks::fill(std::size_t index, int lane, ContactConstraint& contact, const std::vector<IslandBody>& bodies,
+                         const Ends& own, const contacts::Closing& closing, double h) {
+  ContactBlock& block = blocks[index];
+  const IslandBody& a = bodies[block.a[lane] = own.a];
+  const IslandBody& b = bodies[block.b[lane] = own.b];
   if (a.movable) block.to_a[lane] = block.a[lane];
   if (b.movable) block.to_b[lane] = block.b[lane];
-  origins.back()[static_cast<std::size_t>(lane)] = &contact;
+  origins[index][static_cast<std::size_t>(lane)] = &contact;
   const Vec3& normal = contact.manifold.normal;
   const step::Tangents along = step::tangents_of(normal);
   put(block.normal, lane, normal);
@@ -279,7 +303,7 @@ void ContactBlocks::fill(int lane, ContactConstraint& contact, const std::vector
   block.inverse_moment_a[lane] = a.inverse_moment;
   block.inverse_moment_b[lane] = b.inverse_moment;
   block.coefficient[lane] = contact.friction;
-  put(meetings.back(), lane, closing, contact.restitution);
+  put(meetings[index], lane, closing, contact.restitution);
   block.hard[lane] = contact.impact || a.pulled || b.pulled ? -1 : 0;
   const double ratio = contact.kept_step > h ? h / contact.kept_step : 1;
   block.twist[lane] = block.central() ? ratio * contact.kept_twist : 0;
@@ -299,7 +323,7 @@ void ContactBlocks::fill(int lane, ContactConstraint& contact, const std::vector
     frictions[block.friction].first[lane] = ratio * along.first.dot(friction);
     frictions[block.friction].second[lane] = ratio * along.second.dot(friction);
   }
-  prepare(blocks.size() - 1, lane, bodies, nullptr);
+  prepare(index, lane, bodies, nullptr);
 }
 
 void ContactBlocks::prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a,

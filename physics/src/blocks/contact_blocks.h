@@ -24,7 +24,8 @@ class ContactBlocks {
   /// @param places    from a body's index to its place in `bodies`
   /// @param closings  of the contacts
   void build(std::span<contacts::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
-             const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h);
+             const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h,
+             const threads::Workers& work);
   /// Tells the rows of one contact how its bodies lie now.
   void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
   /// In a sub-step with bodies that are led: what their riders' slip lacks.
@@ -48,6 +49,12 @@ class ContactBlocks {
                              : balls[i - blocks.size()].impulse[lane % lane_count];
   }
 
+  /// The places of a contact's bodies, and the kind of its block.
+  struct Ends {
+    std::uint32_t a, b, kind;
+    bool a_moves, b_moves;
+  };
+  std::vector<Ends> ends;  ///< of the contacts, in their order
   std::vector<ContactBlock> blocks;
   std::vector<BallBlock> balls;
   std::size_t pairs = 0, ball_pairs = 0;  ///< those of two movable bodies come first
@@ -69,21 +76,29 @@ class ContactBlocks {
   std::uint32_t room = 0;  ///< of bodies, and after them of what is written and not read
 
  private:
+  /// Which contacts a block or ball gets, and where what nobody reads is written.
+  struct Filling {
+    bool of_balls;
+    std::uint32_t index, first, count, room;  ///< `first` in `sorted_`
+  };
+
   void sort_by_key();
+  void find_keys(std::span<contacts::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
+                 const std::vector<IslandBody>& bodies, const threads::Workers& work);
+  void lay_out();
   void open(std::uint32_t kind);
-  template <class Block>
-  void close(Block& block);
   void find_phases();
-  void fill(int lane, contacts::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
-            const std::vector<IslandBody>& bodies, const contacts::Closing& closing, double h);
-  void fill_ball(int lane, contacts::ContactConstraint& contact, const std::vector<std::uint32_t>& places,
-                 const std::vector<IslandBody>& bodies, const contacts::Closing& closing, double h);
+  void fill(std::size_t block, int lane, contacts::ContactConstraint& contact, const std::vector<IslandBody>& bodies,
+            const Ends& own, const contacts::Closing& closing, double h);
+  void fill_ball(std::size_t ball, int lane, contacts::ContactConstraint& contact,
+                 const std::vector<IslandBody>& bodies, const Ends& own, const contacts::Closing& closing, double h);
 
   void prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a, const IslandBody& b,
                      const Vec3& arm_a, const Vec3& arm_b);
 
   bool drifting_ = false;  ///< some surface moves, or something is led
   Coloring coloring_;
+  std::vector<Filling> fillings_;
   std::vector<std::uint32_t> keys_, counts_, sorted_;
   std::vector<std::size_t> color_blocks_, color_balls_;  ///< by color: where its blocks begin
 };

@@ -32,21 +32,21 @@ void inherit(ContactConstraint& constraint, const state::ContactMemory& old, dou
   static_cast<state::KeptImpulses&>(constraint) = old.kept;
   std::array<bool, 4> given{}, taken{};
   const auto hand_on = [&](std::size_t from, std::size_t to) {
-    constraint.points[to].kept_normal = old.points[from].kept_normal;
-    constraint.points[to].kept_friction = old.points[from].kept_friction;
+    constraint.points[to].kept_normal = old.point(from).kept_normal;
+    constraint.points[to].kept_friction = old.point(from).kept_friction;
     given[from] = taken[to] = true;
   };
   const auto count = static_cast<std::size_t>(constraint.count);
   const auto old_count = static_cast<std::size_t>(old.count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t k = 0; k < old_count; ++k)
-      if (!given[k] && !taken[i] && old.points[k].feature == constraint.points[i].feature) hand_on(k, i);
+      if (!given[k] && !taken[i] && old.point(k).feature == constraint.points[i].feature) hand_on(k, i);
   for (std::size_t i = 0; i < count; ++i) {
     if (taken[i]) continue;
     std::size_t best = old_count;
     double least = nearby;
     for (std::size_t k = 0; k < old_count; ++k) {
-      const double away = (old.points[k].arm_b - constraint.points[i].start_arm_b).norm();
+      const double away = (old.point(k).arm_b - constraint.points[i].start_arm_b).norm();
       if (given[k] || away >= least) continue;
       least = away;
       best = k;
@@ -90,34 +90,13 @@ bool World::Implementation::find_manifold(contacts::ContactConstraint& constrain
 }
 
 bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
+  find_memories(pairs);
   ++look;
   looked_at.resize(bodies.size(), 0);
   looked_for.clear();
-  pair_memories.clear();
   contact_counts.assign(bodies.size(), 0);
-  const std::span<const std::uint32_t> remembered_before = memories.sorted();
-  std::size_t next = 0;
-  /// Of memories before the pair, which are near nothing that stirs, all is kept.
-  const auto memory_of = [&](const pairs::Pair& pair) {
-    for (; next < remembered_before.size(); ++next) {
-      const state::ContactMemory& memory = memories[remembered_before[next]];
-      const pairs::Pair its(memory.a, memory.b);
-      if (its > pair) break;
-      if (its == pair) {
-        contacts::PairMemories its_own{static_cast<std::uint32_t>(next), 0};
-        for (; next < remembered_before.size() && memories[remembered_before[next]].a == pair.first &&
-               memories[remembered_before[next]].b == pair.second;
-             ++next)
-          ++its_own.count;
-        return its_own;
-      }
-      if (!bodies[memory.a].stirs() && !bodies[memory.b].stirs()) retained.push_back(remembered_before[next]);
-    }
-    return contacts::PairMemories{};
-  };
   bool crowded = false;
   for (const pairs::Pair& pair : pairs) {
-    pair_memories.push_back(memory_of(pair));
     for (const std::uint32_t index : {pair.first, pair.second}) {
       if (looked_at[index] == look) continue;
       looked_at[index] = look;
@@ -128,8 +107,54 @@ bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
     ++contact_counts[pair.first];
     ++contact_counts[pair.second];
   }
-  memory_of({std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max()});
   return crowded;
+}
+
+/// Fills in `pair_memories`. Of memories of no pair, those that are near nothing that stirs are retained.
+void World::Implementation::find_memories(std::span<const pairs::Pair> pairs) {
+  const std::span<const std::uint32_t> sorted = memories.sorted();
+  const auto pair_at = [&](std::size_t number) {
+    const state::ContactMemory& memory = memories[sorted[number]];
+    return pairs::Pair(memory.a, memory.b);
+  };
+  const auto first_of = [&](const pairs::Pair& pair) {
+    std::size_t low = 0, high = sorted.size();
+    while (low < high) {
+      const std::size_t middle = (low + high) / 2;
+      if (pair_at(middle) < pair)
+        low = middle + 1;
+      else
+        high = middle;
+    }
+    return low;
+  };
+  pair_memories.resize(pairs.size());
+  const threads::Workers work = workers();
+  const std::size_t parts = std::max<std::size_t>(1, work.range_count(pairs.size(), contacts::worth_a_part));
+  retained_parts.resize(std::max(retained_parts.size(), parts));
+  for (std::vector<std::uint32_t>& part : retained_parts) part.clear();
+  const auto find = [&](std::size_t part, std::size_t begin, std::size_t end) {
+    std::size_t next = begin == 0 ? 0 : first_of(pairs[begin]);
+    const std::size_t stop = end == pairs.size() ? sorted.size() : first_of(pairs[end]);
+    const auto retain = [&] {
+      const auto [a, b] = pair_at(next);
+      if (!bodies[a].stirs() && !bodies[b].stirs()) retained_parts[part].push_back(sorted[next]);
+      ++next;
+    };
+    for (std::size_t i = begin; i < end; ++i) {
+      while (next < stop && pair_at(next) < pairs[i]) retain();
+      contacts::PairMemories own{static_cast<std::uint32_t>(next), 0};
+      for (; next < stop && pair_at(next) == pairs[i]; ++next) ++own.count;
+      pair_memories[i] = own;
+    }
+    while (next < stop) retain();
+  };
+  if (pairs.empty())
+    find(0, 0, 0);
+  else
+    work.numbered_ranges(pairs.size(), contacts::worth_a_part, find);
+  for (const std::vector<std::uint32_t>& part : retained_parts)
+    retained.insert(retained.end(), part.begin(), part.end());
 }
 
 void World::Implementation::find_contact(const contacts::PairInContact& pair, const collision::Passage& way_a,

@@ -179,7 +179,7 @@ class SurfaceContacts {
   }
   [[nodiscard]] Vec3 place_of(const state::ContactMemory& memory) const {
     Vec3 sum(0, 0, 0);
-    for (int i = 0; i < memory.count; ++i) sum += memory.points[static_cast<std::size_t>(i)].arm_b;
+    for (int i = 0; i < memory.count; ++i) sum += memory.point(static_cast<std::size_t>(i)).arm_b;
     sum /= memory.count;
     if (surface_is_a_) return sum;
     // About where both were in the step before.

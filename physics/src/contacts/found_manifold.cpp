@@ -43,7 +43,7 @@ FoundManifold found_manifold(const ContactConstraint& contact, const step::Start
 
 bool take_up(const state::ContactMemory& memory, const Body& a, const Body& b, double swing, double dt,
              ContactConstraint& contact) {
-  const FoundManifold& found = memory.found;
+  const FoundManifold& found = memory.found();
   if (!found.holds || !memory.touching || a.placed || b.placed) return false;
   const double size = std::min(a.radius(), b.radius());
   const Quat& rotation_a = a.motion.pose.rotation;
@@ -58,7 +58,7 @@ bool take_up(const state::ContactMemory& memory, const Body& a, const Body& b, d
   for (std::size_t i = 0; i < static_cast<std::size_t>(memory.count); ++i) {
     PointConstraint& point = contact.points[i];
     point = {};
-    point.feature = memory.points[i].feature;
+    point.feature = memory.point(i).feature;
     point.start_arm_a = axes_a * found.points[i].anchor_a;
     point.start_arm_b = axes_b * found.points[i].anchor_b;
     const Vec3 apart = (b.center + point.start_arm_b) - (a.center + point.start_arm_a);

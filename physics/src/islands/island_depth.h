@@ -19,6 +19,10 @@ class IslandDepth {
                                  const std::vector<state::Body>& bodies);
 
  private:
+  struct Ends {
+    std::uint32_t a, b;
+  };
+  std::vector<Ends> ends_;             ///< of the contacts
   std::vector<std::uint32_t> levels_;  ///< by body; only of what the contacts touch
 };
 

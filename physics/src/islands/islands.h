@@ -11,6 +11,11 @@ class Islands {
   void reset(std::size_t count);
   void join(std::uint32_t a, std::uint32_t b);
   [[nodiscard]] std::uint32_t of(std::uint32_t body);  ///< the smallest index of its island
+  /// The same, by several threads at once.
+  [[nodiscard]] std::uint32_t root(std::uint32_t body) const {
+    while (parent_[body] != body) body = parent_[body];
+    return body;
+  }
 
  private:
   std::vector<std::uint32_t> parent_;

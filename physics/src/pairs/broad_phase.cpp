@@ -1,6 +1,7 @@
 #include "pairs/broad_phase.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "shapes/placed.h"
@@ -22,7 +23,7 @@ constexpr std::size_t few_neighbors = 6, many_neighbors = 16;
 /// More pairs of boxes than this for each body are a crowd.
 constexpr std::size_t kept_in_crowd = 64, found_in_crowd = 16;
 /// Bodies that are worth a part of their own.
-constexpr std::size_t worth_a_part = 128;
+constexpr std::size_t worth_a_part = 128, worth_a_look = 32;
 /// Boxes end here: a difference of any two is still a number.
 constexpr double end_of_space = 1e100;
 
@@ -107,17 +108,18 @@ void BroadPhase::follow(const Look& look, std::uint32_t index) {
   renew(index);
 }
 
-/// Adds to `fresh_` the pairs of a renewed body. @return false when they become more than `most`
-bool BroadPhase::look_around(std::uint32_t index, const PairFilter& filter, std::size_t most) {
+/// Adds to `fresh` the pairs of a renewed body. @return false when they become more than `most`
+bool BroadPhase::look_around(std::uint32_t index, const PairFilter& filter, std::size_t most,
+                             std::vector<Pair>& fresh) {
   Entry& entry = entries_[index];
-  const std::size_t before = fresh_.size();
+  const std::size_t before = fresh.size();
   std::size_t neighbors = 0;
   const auto see = [&](std::uint32_t other) {
     ++neighbors;
     // Of two that are renewed the smaller one finds the pair.
-    if (other == index || (entries_[other].renewed && other < index) || fresh_.size() >= most) return;
+    if (other == index || (entries_[other].renewed && other < index) || fresh.size() >= most) return;
     if (!filter.lets(index, other)) return;
-    fresh_.emplace_back(std::min(index, other), std::max(index, other));
+    fresh.emplace_back(std::min(index, other), std::max(index, other));
   };
   const Bounds& box = tree_of(entry.kind).of(index);
   movable_.visit(box, see);
@@ -130,14 +132,24 @@ bool BroadPhase::look_around(std::uint32_t index, const PairFilter& filter, std:
 }
 
 /// Brings `kept_` up to date, or finds that there are too many.
-void BroadPhase::keep_pairs(const PairFilter& filter) {
+void BroadPhase::keep_pairs(const PairFilter& filter, const threads::Workers& work) {
   const std::size_t most = 4096 + kept_in_crowd * movable_.size();
+  fresh_parts_.resize(std::max(fresh_parts_.size(), work.range_count(renewed_.size(), worth_a_look)));
+  for (std::vector<Pair>& part : fresh_parts_) part.clear();
+  std::atomic<bool> too_many = false;
+  work.numbered_ranges(renewed_.size(), worth_a_look, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !too_many; ++i) {
+      const Kind kind = entries_[renewed_[i]].kind;
+      if (kind != Kind::movable && kind != Kind::immovable) continue;
+      if (!look_around(renewed_[i], filter, most, fresh_parts_[part])) too_many = true;
+    }
+  });
+  std::size_t count = 0;
+  for (const std::vector<Pair>& part : fresh_parts_) count += part.size();
+  crowded_ = too_many || count >= most;
   fresh_.clear();
-  for (const std::uint32_t index : renewed_) {
-    const Kind kind = entries_[index].kind;
-    crowded_ = (kind == Kind::movable || kind == Kind::immovable) && !look_around(index, filter, most);
-    if (crowded_) break;
-  }
+  if (!crowded_)
+    for (const std::vector<Pair>& part : fresh_parts_) fresh_.insert(fresh_.end(), part.begin(), part.end());
   if (!crowded_ && !renewed_.empty()) {
     std::sort(fresh_.begin(), fresh_.end());
     std::erase_if(kept_,
@@ -235,7 +247,7 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
   for (std::size_t i = 0; i < changed.size(); ++i) follow(looks_[i], changed[i]);
   movable_.settle();
   immovable_.settle();
-  if (!crowded_) keep_pairs(filter);
+  if (!crowded_) keep_pairs(filter, work);
   pairs_.clear();
   if (crowded_) {
     choose_in_crowd(changed, filter);

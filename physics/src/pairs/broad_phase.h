@@ -62,8 +62,8 @@ class BroadPhase {
   void follow(const Look& look, std::uint32_t index);
   void renew(std::uint32_t index);
   BoundsTree& tree_of(Kind kind) { return kind == Kind::movable ? movable_ : immovable_; }
-  void keep_pairs(const PairFilter& filter);
-  bool look_around(std::uint32_t index, const PairFilter& filter, std::size_t most);
+  void keep_pairs(const PairFilter& filter, const threads::Workers& work);
+  bool look_around(std::uint32_t index, const PairFilter& filter, std::size_t most, std::vector<Pair>& fresh);
   bool counts(std::uint32_t a, std::uint32_t b);
   void choose_among_kept();
   void choose_in_crowd(std::span<const std::uint32_t> changed, const PairFilter& filter);
@@ -77,6 +77,7 @@ class BroadPhase {
   std::vector<std::uint32_t> renewed_;
   std::vector<Pair> kept_;  ///< whose boxes with room to spare meet, sorted; of no use in a crowd
   std::vector<Pair> fresh_, merged_;
+  std::vector<std::vector<Pair>> fresh_parts_;  ///< of what is renewed
   std::vector<std::uint32_t> near_;
   bool crowded_ = false;  ///< too many pairs to keep
   std::vector<Pair> pairs_;

@@ -27,12 +27,31 @@ double kinetic(const BodyPace& pace, const BodyLanes& velocity) {
 }  // namespace
 
 void BlockSolver::find_rebounds(double h) {
-  rebounds_.clear();
+  const Rows all = rows();
+  const std::size_t blocks = contacts_.blocks.size();
   meetings_.resize(contacts_.size() * lane_count);
-  const std::size_t count = fastest_kernels().find_meetings(rows(), starts_.data(), h, meetings_.data());
+  rebound_parts_.resize(std::max(rebound_parts_.size(), work_.range_count(contacts_.size(), blocks_worth_a_part)));
+  for (std::vector<Rebound>& part : rebound_parts_) part.clear();
+  work_.numbered_ranges(
+      contacts_.size(), blocks_worth_a_part, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        if (begin < blocks)
+          find_rebounds(part_of(all, false, begin, std::min(end, blocks)), begin, h, rebound_parts_[part]);
+        const std::size_t first = std::max(begin, blocks);
+        if (first < end)
+          find_rebounds(part_of(all, true, first - blocks, end - blocks), first, h, rebound_parts_[part]);
+      });
+  rebounds_.clear();
+  for (const std::vector<Rebound>& part : rebound_parts_) rebounds_.insert(rebounds_.end(), part.begin(), part.end());
+}
+
+/// @param first  how many blocks and balls come before these rows
+void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, std::vector<Rebound>& found) {
+  std::uint32_t* meetings = meetings_.data() + first * lane_count;
+  const std::size_t count = fastest_kernels().find_meetings(rows, starts_.data(), h, meetings);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t index = meetings_[i] / lane_count;
-    const int lane = static_cast<int>(meetings_[i] % lane_count);
+    const std::uint32_t at = meetings[i] + static_cast<std::uint32_t>(first * lane_count);
+    const std::size_t index = at / lane_count;
+    const int lane = static_cast<int>(at % lane_count);
     contacts::ContactConstraint& contact = *contacts_.origin(index)[static_cast<std::size_t>(lane)];
     const bool ball = index >= contacts_.blocks.size();
     const std::size_t ball_index = index - contacts_.blocks.size();
@@ -46,8 +65,7 @@ void BlockSolver::find_rebounds(double h) {
       const double back = contact.restitution * speed;
       const double speed_at_end = back - meeting.pull[lane] * left;
       if (back <= 0 || speed_at_end <= 0) return;
-      rebounds_.push_back(
-          {meetings_[i], k, speed_at_end, left * (back - 0.5 * meeting.pull[lane] * left) / speed_at_end});
+      found.push_back({at, k, speed_at_end, left * (back - 0.5 * meeting.pull[lane] * left) / speed_at_end});
     };
     if (ball) {
       const BallBlock& block = contacts_.balls[ball_index];

@@ -189,10 +189,9 @@ void each_field(T& point, const Visit& visit) {
 template <Is<FoundManifold> T, class Visit>
 void each_field(T& found, const Visit& visit) {
   auto& [holds, turn, between, normal, points] = found;
-  visit(holds);
-  if (!holds) return;
   visit(turn, between, normal);
   for (auto& point : points) visit(point);
+  follows_from_others(holds);  // it is told of where it does
 }
 
 /// The number of points that an array of them has room for, whatever it is told.
@@ -202,10 +201,19 @@ void each_field(T& found, const Visit& visit) {
 
 template <Is<ContactMemory> T, class Visit>
 void each_field(T& memory, const Visit& visit) {
-  auto& [a, b, part_a, part_b, count, touching, gone, kept, points, found] = memory;
+  auto& [a, b, part_a, part_b, count, touching, gone, kept, first, more] = memory;
   visit.rarely(part_a, part_b);
-  visit(a, b, count, kept, found, touching);
-  for (std::size_t i = 0; i < within_four(count); ++i) visit(points[i]);
+  visit(a, b, count, kept, touching);
+  if (count > 0) visit(first);
+  for (std::size_t i = 1; i < within_four(count); ++i) visit(memory.point(i));
+  bool holds = memory.found().holds;
+  visit(holds);
+  if constexpr (std::is_const_v<T>) {
+    if (holds) visit(more.value().found);
+  } else if (holds) {
+    more.own().found.holds = true;
+    visit(more.own().found);
+  }
   leads_to_nothing(gone);  // those that are gone are not told of
 }
 

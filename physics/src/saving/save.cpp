@@ -20,7 +20,7 @@ namespace tweenfall {
 namespace saving {
 namespace {
 
-constexpr Envelope world_envelope{"world", 5};
+constexpr Envelope world_envelope{"world", 6};
 
 bool unit(const Quat& rotation) {
   return std::abs(rotation.norm() - 1) <= 1e-9;
@@ -72,7 +72,7 @@ void check(const FoundManifold& found) {
 void check(const ContactMemory& memory) {
   state::require(memory.count >= 1 && memory.count <= 4, "it must have 1 to 4 points");
   for (std::size_t i = 0; i < within_four(memory.count); ++i) {
-    const PointMemory& point = memory.points[i];
+    const PointMemory& point = memory.point(i);
     require_numbers(point.arm_b, "arm of a point");
     require_number(point.kept_normal, "impulse of a point");
     require_numbers(point.kept_friction, "friction of a point");
@@ -83,7 +83,7 @@ void check(const ContactMemory& memory) {
   state::require(memory.kept.kept_step >= 0 && memory.kept.passed_over >= 0, "its times must not be negative");
   require_number(memory.kept.kept_twist, "twisting impulse");
   require_number(memory.kept.passed_over, "time passed over");
-  check(memory.found);
+  check(memory.found());
 }
 
 void check(const Contact& contact) {

@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "state/boxed.h"
+
 namespace tweenfall::state {
 
 /// What the next step needs of a contact's point.
@@ -40,6 +42,12 @@ struct FoundManifold {
   std::array<Point, 4> points{};
 };
 
+/// What the next step needs of a pair that touches at more than one point, or flat.
+struct MoreOfContact {
+  std::array<PointMemory, 3> points{};  ///< from the second on
+  FoundManifold found;
+};
+
 /// What the next step needs of a pair in contact.
 struct ContactMemory {
   std::uint32_t a = 0, b = 0;            ///< indices of the bodies, a < b
@@ -48,9 +56,13 @@ struct ContactMemory {
   bool touching = false;  ///< an impulse passed or the shapes overlap
   bool gone = false;      ///< a body of it has left since
   KeptImpulses kept;
-  // Last what most pairs have little of.
-  std::array<PointMemory, 4> points{};
-  FoundManifold found;
+  PointMemory first;
+  Boxed<MoreOfContact> more;
+
+  /// The i-th of `count`.
+  [[nodiscard]] const PointMemory& point(std::size_t i) const { return i == 0 ? first : more.value().points[i - 1]; }
+  [[nodiscard]] PointMemory& point(std::size_t i) { return i == 0 ? first : more.own().points[i - 1]; }
+  [[nodiscard]] const FoundManifold& found() const { return more.value().found; }
 };
 
 /// The memories of all contacts of the last step: each keeps its place while its pair is in contact.

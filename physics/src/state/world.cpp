@@ -82,9 +82,9 @@ void World::Implementation::forget_impulses(std::uint32_t index) {
     state::ContactMemory& memory = memories[place];
     memory.kept.kept_rolling = Vec3::Zero();
     memory.kept.kept_twist = memory.kept.kept_spin = 0;
-    for (state::PointMemory& point : memory.points) {
-      point.kept_normal = 0;
-      point.kept_friction = Vec3::Zero();
+    for (std::size_t i = 0; i < static_cast<std::size_t>(memory.count); ++i) {
+      memory.point(i).kept_normal = 0;
+      memory.point(i).kept_friction = Vec3::Zero();
     }
   }
 }

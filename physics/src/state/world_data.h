@@ -53,6 +53,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// Which memories the pairs of the broad phase have, and which of the others are kept; @return whether two bodies of
   /// a pair may each have as many contacts as a body can
   bool recall(std::span<const pairs::Pair> pairs);
+  void find_memories(std::span<const pairs::Pair> pairs);
   void find_part(std::span<const pairs::Pair> pairs, std::span<const contacts::PairMemories> memories_of, bool crowded,
                  double dt, contacts::FoundPart& part);
   /// The contact of two bodies, or of two of their parts, if there is one.
@@ -90,6 +91,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void let_sleep(double dt);
   void remember_contacts();
   void report();
+  void tell_ended();
   void sense();
 };
 

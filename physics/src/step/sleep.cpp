@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +16,8 @@ constexpr double driven_share = 1e-3;
 constexpr double pulling_share = 0.1;
 /// Displacements of this part of a place are rounding.
 constexpr double rounding = 1e-14;
+/// Bodies that are worth a part of their own.
+constexpr std::size_t worth_sharing_sleep = 128;
 
 /// Whether a body is slow and has hardly moved: what is taken out of an overlap moves without a speed.
 bool still(const state::Body& body, const Start& start, double speed, double dt) {
@@ -88,21 +91,29 @@ void World::Implementation::let_sleep(double dt) {
   // Per island the shortest stillness counts.
   stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
   drowsy.clear();
-  failed = false;
-  for (const std::uint32_t i : watched) {
-    state::Body& body = bodies[i];
-    failed = failed || !body.finite();
-    if (body.immovable()) continue;
-    if (!body.asleep) {
+  std::atomic<bool> all_finite = true;
+  workers().ranges(watched.size(), step::worth_sharing_sleep, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = watched[k];
+      state::Body& body = bodies[i];
+      if (!body.finite()) all_finite = false;
+      if (body.immovable()) continue;
+      if (body.asleep) {
+        body.still_for += dt;
+        continue;
+      }
       const bool driven = body.drive.owner() == Owner::driven;
       const double speed = settings.sleep_speed * (driven ? step::driven_share : 1);
-      bool still = !carried[islands.of(i)] && !starts[i].led && step::still(body, starts[i], speed, dt);
+      bool still = !carried[islands.root(i)] && !starts[i].led && step::still(body, starts[i], speed, dt);
       if (flags[i] && !moved[i])
         still = still && loads[i].acceleration.norm() * settings.sleep_after < step::pulling_share * speed;
       body.still_for = still ? body.still_for + dt : 0;
-    } else {
-      body.still_for += dt;
     }
+  });
+  failed = !all_finite;
+  for (const std::uint32_t i : watched) {
+    const state::Body& body = bodies[i];
+    if (body.immovable()) continue;
     double& shortest = stillness[islands.of(i)];
     shortest = std::min(shortest, body.still_for);
     if (!body.asleep && body.still_for >= settings.sleep_after) drowsy.push_back(i);

@@ -30,6 +30,7 @@ struct Start {
 struct Outcome {
   std::uint32_t place = 0;  ///< of its memory
   bool touching = false;
+  bool borne = false;   ///< by a body that does not move
   double normal = 0;    ///< N s
   double approach = 0;  ///< m/s
   Vec3 total{0, 0, 0};  ///< on the second body, N s
@@ -75,13 +76,15 @@ struct Workspace {
   std::vector<joints::JointLink> links;
   std::vector<Start> starts;
   pairs::BroadPhase broad_phase;
-  std::vector<contacts::FoundPart> found;            ///< of all pairs, in their order
-  std::vector<contacts::ContactConstraint*> active;  ///< in `found`: contacts near something that stirs
-  std::vector<std::uint32_t> retained;               ///< memories of contacts between bodies at rest, by pair
+  std::vector<contacts::FoundPart> found;                  ///< of all pairs, in their order
+  std::vector<contacts::ContactConstraint*> active;        ///< in `found`: contacts near something that stirs
+  std::vector<std::uint32_t> retained;                     ///< memories of contacts between bodies at rest, by pair
+  std::vector<std::vector<std::uint32_t>> retained_parts;  ///< of the pairs, in order
   std::vector<std::uint32_t> remembered;
   std::vector<Outcome> outcomes;  ///< of `active`
   std::vector<Told> told;
   std::vector<Contact> next_contacts;
+  std::vector<std::vector<EndedContact>> ended_parts;  ///< of `next_contacts`, in order
   std::vector<SensorOverlap> next_overlaps;
   std::vector<collision::Passage> passages;  ///< by body
   std::vector<std::uint64_t> looked_at;      ///< by body: the look that its passage is of

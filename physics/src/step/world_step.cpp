@@ -31,7 +31,7 @@ void remember(const contacts::ContactConstraint& constraint, bool touching, stat
   memory.count = constraint.count;
   for (std::size_t i = 0; i < static_cast<std::size_t>(constraint.count); ++i) {
     const contacts::PointConstraint& point = constraint.points[i];
-    memory.points[i] = {point.feature, point.start_arm_b, point.kept_normal, point.kept_friction};
+    memory.point(i) = {point.feature, point.start_arm_b, point.kept_normal, point.kept_friction};
   }
   memory.kept = constraint;
   memory.touching = touching;
@@ -201,10 +201,15 @@ void World::Implementation::advance_bodies(double dt) {
 
 void World::Implementation::remember_contacts() {
   outcomes.resize(active.size());
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    const std::uint32_t memory = active[i]->memory;
-    outcomes[i].place = memory != state::ContactMemories::nowhere ? memory : memories.take();
-  }
+  const auto keep = [this](const contacts::ContactConstraint& constraint, const step::Outcome& outcome) {
+    state::ContactMemory& memory = memories[outcome.place];
+    step::remember(constraint, outcome.touching, memory);
+    if (constraint.memory == state::ContactMemories::nowhere || constraint.kept) return;
+    if (constraint.impact_time == 0 && contacts::keeps_manifold(constraint))
+      memory.more.own().found = contacts::found_manifold(constraint, starts[constraint.a], starts[constraint.b]);
+    else if (memory.found().holds)
+      memory.more.own().found = {};
+  };
   workers().ranges(active.size(), step::worth_sharing, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const contacts::ContactConstraint& constraint = *active[k];
@@ -224,15 +229,16 @@ void World::Implementation::remember_contacts() {
       outcome.total = total;
       outcome.approach = approach;
       outcome.touching = normal > 0 || overlap;
-      step::remember(constraint, outcome.touching, memories[outcome.place]);
-      if (constraint.memory == state::ContactMemories::nowhere || constraint.kept) continue;
-      state::FoundManifold& manifold = memories[outcome.place].found;
-      if (constraint.impact_time == 0 && contacts::keeps_manifold(constraint))
-        manifold = contacts::found_manifold(constraint, starts[constraint.a], starts[constraint.b]);
-      else if (manifold.holds)
-        manifold = {};
+      outcome.borne = bodies[constraint.a].immovable() || bodies[constraint.b].immovable();
+      outcome.place = constraint.memory;
+      if (constraint.memory != state::ContactMemories::nowhere) keep(constraint, outcome);
     }
   });
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    if (outcomes[k].place != state::ContactMemories::nowhere) continue;
+    outcomes[k].place = memories.take();
+    keep(*active[k], outcomes[k]);
+  }
 }
 
 void World::Implementation::report() {
@@ -255,11 +261,13 @@ void World::Implementation::report() {
     }
   };
   for (std::uint32_t i = 0; i < active.size(); ++i) {
-    const contacts::ContactConstraint& constraint = *active[i];
     const step::Outcome& outcome = outcomes[i];
-    if (bodies[constraint.a].immovable()) bodies[constraint.a].extra.own().reaction -= outcome.total;
-    if (bodies[constraint.b].immovable()) bodies[constraint.b].extra.own().reaction += outcome.total;
-    keep_before(constraint);
+    if (outcome.borne) {
+      state::Body &a = bodies[active[i]->a], &b = bodies[active[i]->b];
+      if (a.immovable()) a.extra.own().reaction -= outcome.total;
+      if (b.immovable()) b.extra.own().reaction += outcome.total;
+    }
+    if (next_retained < retained.size()) keep_before(*active[i]);
     remembered.push_back(outcome.place);
     if (outcome.touching) told.push_back({i, true});
   }
@@ -292,20 +300,31 @@ void World::Implementation::report() {
     }
   });
   std::swap(contacts, next_contacts);
-  // Both by pair; bodies that left meanwhile took theirs along.
+  tell_ended();
+}
+
+/// Both lists of contacts are by pair; bodies that left meanwhile took theirs along.
+void World::Implementation::tell_ended() {
   ended.clear();
   std::swap(ended, gone_contacts);
-  auto still = contacts.cbegin();
-  std::optional<pairs::Pair> told_ended;
+  const threads::Workers work = workers();
   const auto pair_of = [](const Contact& contact) { return pairs::Pair(contact.a.index, contact.b.index); };
-  for (const Contact& before : next_contacts) {
-    while (still != contacts.cend() && pair_of(*still) < pair_of(before)) ++still;
-    if (still != contacts.cend() && pair_of(*still) == pair_of(before)) continue;
-    // Of several parts that touched, all have let go.
-    if (told_ended == pair_of(before)) continue;
-    ended.push_back({before.a, before.b});
-    told_ended = pair_of(before);
-  }
+  const std::vector<Contact>& before = next_contacts;
+  ended_parts.resize(std::max(ended_parts.size(), work.range_count(before.size(), step::worth_sharing)));
+  for (std::vector<EndedContact>& part : ended_parts) part.clear();
+  work.numbered_ranges(before.size(), step::worth_sharing, [&](std::size_t part, std::size_t first, std::size_t end) {
+    auto still = std::lower_bound(contacts.cbegin(), contacts.cend(), pair_of(before[first]),
+                                  [&](const Contact& one, const pairs::Pair& pair) { return pair_of(one) < pair; });
+    for (std::size_t i = first; i < end; ++i) {
+      const pairs::Pair pair = pair_of(before[i]);
+      // Of several parts that touched, all have let go.
+      if (i > 0 && pair_of(before[i - 1]) == pair) continue;
+      while (still != contacts.cend() && pair_of(*still) < pair) ++still;
+      if (still != contacts.cend() && pair_of(*still) == pair) continue;
+      ended_parts[part].push_back({before[i].a, before[i].b});
+    }
+  });
+  for (const std::vector<EndedContact>& part : ended_parts) ended.insert(ended.end(), part.begin(), part.end());
 }
 
 void World::Implementation::step(double dt) {

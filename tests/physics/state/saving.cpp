@@ -173,7 +173,7 @@ TEST_CASE("bytes that are no saved world are refused in words, and change nothin
   refused(bytes, "these bytes are no saved world: they do not begin with \"tweenfall world\"");
   bytes = good;
   put(bytes, 16, 7, 4);
-  refused(bytes, "this saved world is of version 7; only version 5 can be read");
+  refused(bytes, "this saved world is of version 7; only version 6 can be read");
   bytes = good;
   bytes.pop_back();
   refused(bytes, "a saved world should have " + std::to_string(good.size() - header) +
