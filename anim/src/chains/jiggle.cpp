@@ -153,64 +153,123 @@ JiggleState JiggleChain::at_rest(double time) const {
   return state;
 }
 
+namespace chains {
+namespace {
+
+// A chain on its way: at a point of the grid, and then at a time after it.
+class Swinging {
+ public:
+  Swinging(const JiggleChain& chain, JiggleState& state, const PoseAt& pose_at, std::span<Motion> scratch) noexcept
+      : chain_(chain),
+        state_(state),
+        pose_at_(pose_at),
+        from_(scratch.first(chain.nodes().size())),
+        to_(scratch.subspan(chain.nodes().size())) {}
+
+  /// To the last point of the grid up to `time`.
+  void go_to(double time) noexcept {
+    const SpringFollower& spring = chain_.spring();
+    const std::size_t count = chain_.joints().size();
+    const auto rest = [&] {
+      state_.offsets.assign(count, Vec3(0, 0, 0));
+      state_.rates.assign(count, Vec3(0, 0, 0));
+      pose_at_(spring.time_of(state_.step), from_);
+    };
+    if (state_.offsets.size() != count || state_.rates.size() != count) {
+      state_.step = spring.step_at(time);
+      rest();
+    } else {
+      pose_at_(spring.time_of(state_.step), from_);
+    }
+    advance_to(spring, state_.step, time, rest, [&](std::int64_t step) {
+      pose_at_(spring.time_of(step + 1), to_);
+      Walk before(chain_, from_), after(chain_, to_);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Arrow offset{state_.offsets[i], state_.rates[i]};
+        const Arrow next = held(carried(spring.of_step(), offset, pushed(before, after, offset)), after);
+        state_.offsets[i] = next.v;
+        state_.rates[i] = next.d;
+        if (i + 1 == count) break;
+        before.swing(offset);
+        before.go_on();
+        after.swing(next);
+        after.go_on();
+      }
+      std::swap(from_, to_);
+    });
+  }
+
+  /// Calls `visit(joint, offset)` in order with where each tail is at `time`, seen from where the script has it, those
+  /// before having swung.
+  template <class Visit>
+  void at(double time, const Visit& visit) noexcept {
+    const SpringFollower& spring = chain_.spring();
+    const std::size_t count = chain_.joints().size();
+    pose_at_(spring.time_of(state_.step + 1), to_);
+    const SpringShares shares = spring.shares(seconds_into(spring, state_.step, time));
+    Walk before(chain_, from_), after(chain_, to_);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Arrow offset{state_.offsets[i], state_.rates[i]};
+      const Forcing push = pushed(before, after, offset);
+      if (i + 1 < count) {
+        before.swing(offset);
+        before.go_on();
+        after.swing(held(carried(spring.of_step(), offset, push), after));
+        after.go_on();
+      }
+      visit(i, carried(shares, offset, push));
+    }
+  }
+
+ private:
+  [[nodiscard]] Forcing pushed(const Walk& before, const Walk& after, const Arrow& offset) const noexcept {
+    const SpringSettings& settings = chain_.spring().settings();
+    Forcing push = forcing(before.tail(), after.tail(), 1 / settings.steps_per_second, settings.gravity);
+    pull_back(push, chain_.spring(), before, after, offset);
+    return push;
+  }
+
+  const JiggleChain& chain_;
+  JiggleState& state_;
+  const PoseAt& pose_at_;
+  std::span<Motion> from_, to_;
+};
+
+}  // namespace
+}  // namespace chains
+
 void jiggle(const JiggleChain& chain, JiggleState& state, double time, const PoseAt& pose_at,
             const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept {
   using namespace chains;
-  const SpringFollower& spring = chain.spring();
-  const std::size_t count = chain.joints().size();
-  const double h = 1 / spring.settings().steps_per_second;
-  std::span<Motion> from = scratch.first(chain.nodes().size()), to = scratch.subspan(chain.nodes().size());
-  const auto rest = [&] {
-    state.offsets.assign(count, Vec3(0, 0, 0));
-    state.rates.assign(count, Vec3(0, 0, 0));
-    pose_at(spring.time_of(state.step), from);
-  };
-  if (state.offsets.size() != count || state.rates.size() != count) {
-    state.step = spring.step_at(time);
-    rest();
-  } else {
-    pose_at(spring.time_of(state.step), from);
-  }
-
-  const auto pushed = [&](const Walk& before, const Walk& after, const Arrow& offset) {
-    Forcing push = forcing(before.tail(), after.tail(), h, spring.settings().gravity);
-    pull_back(push, spring, before, after, offset);
-    return push;
-  };
-  advance_to(spring, state.step, time, rest, [&](std::int64_t step) {
-    pose_at(spring.time_of(step + 1), to);
-    Walk before(chain, from), after(chain, to);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Arrow offset{state.offsets[i], state.rates[i]};
-      const Arrow next = held(carried(spring.of_step(), offset, pushed(before, after, offset)), after);
-      state.offsets[i] = next.v;
-      state.rates[i] = next.d;
-      if (i + 1 == count) break;
-      before.swing(offset);
-      before.go_on();
-      after.swing(next);
-      after.go_on();
-    }
-    std::swap(from, to);
-  });
+  Swinging swinging(chain, state, pose_at, scratch);
+  swinging.go_to(time);
   if (is_nothing(weight)) return;
-
-  pose_at(spring.time_of(state.step + 1), to);
-  const SpringShares shares = spring.shares(seconds_into(spring, state.step, time));
-  Walk before(chain, from), after(chain, to), now(chain, pose);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Arrow offset{state.offsets[i], state.rates[i]};
-    const Forcing push = pushed(before, after, offset);
-    const Turning local = now.swing(carried(shares, offset, push));
-    if (i + 1 < count) {
-      before.swing(offset);
-      before.go_on();
-      after.swing(held(carried(spring.of_step(), offset, push), after));
-      after.go_on();
-      now.go_on();
-    }
+  Walk now(chain, pose);
+  swinging.at(time, [&](std::size_t i, const Arrow& offset) {
+    const Turning local = now.swing(offset);
+    if (i + 1 < chain.joints().size()) now.go_on();
     turn_to(pose[chain.joints()[i]], local, weight);
-  }
+  });
+}
+
+void begin_anew(const JiggleChain& chain, JiggleState& state, double time, const PoseAt& pose_at,
+                std::span<Motion> scratch, std::span<const Motion> before, std::span<const Motion> after) noexcept {
+  using namespace chains;
+  Swinging swinging(chain, state, pose_at, scratch);
+  swinging.go_to(time);
+  Walk arrives(chain, before), leaves(chain, after);
+  swinging.at(time, [&](std::size_t i, const Arrow& offset) {
+    const Arrow left = held(arrives.tail() + offset - leaves.tail(), leaves);
+    if (i + 1 < chain.joints().size()) {
+      arrives.swing(offset);
+      arrives.go_on();
+      leaves.swing(left);
+      leaves.go_on();
+    }
+    state.offsets[i] = left.v;
+    state.rates[i] = left.d;
+  });
+  state.step = 0;
 }
 
 }  // namespace tweenfall

@@ -2,6 +2,7 @@
 
 #include "chains/problems.h"
 #include "chains/spring_forcing.h"
+#include "chains/state_bytes.h"
 
 namespace tweenfall {
 namespace chains {
@@ -30,27 +31,58 @@ NodeSpringState NodeSpring::at_rest(double time) const noexcept {
   return state;
 }
 
-void follow(const NodeSpring& spring, NodeSpringState& state, double time, const PoseAt& pose_at,
-            const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept {
-  using namespace chains;
+namespace chains {
+namespace {
+
+/// How far the springs are from where the script has their node.
+struct Away {
+  Arrow place, turn;
+};
+
+Away away_at(const NodeSpring& spring, NodeSpringState& state, double time, const PoseAt& pose_at,
+             std::span<Motion> scratch) noexcept {
   const Hierarchy& nodes = spring.nodes();
   const auto world_at = [&](double t) {
     pose_at(t, scratch.first(nodes.size()));
     return nodes.world_motion(spring.node(), [&](std::size_t i) -> const Motion& { return scratch[i]; }).motion;
   };
   const Vec3 none(0, 0, 0);
-  Arrow place, turn;
+  Away away;
   if (spring.position())
-    place = offset_at(*spring.position(), state.position, time, world_at, [&](const Motion& from, const Motion& to) {
-      const SpringSettings& settings = spring.position()->settings();
-      return forcing(position_of(from), position_of(to), 1 / settings.steps_per_second, settings.gravity);
-    });
+    away.place =
+        offset_at(*spring.position(), state.position, time, world_at, [&](const Motion& from, const Motion& to) {
+          const SpringSettings& settings = spring.position()->settings();
+          return forcing(position_of(from), position_of(to), 1 / settings.steps_per_second, settings.gravity);
+        });
   if (spring.rotation())
-    turn = offset_at(*spring.rotation(), state.rotation, time, world_at, [&](const Motion& from, const Motion& to) {
-      const Vec3 way = log_map(to.pose.rotation * from.pose.rotation.conjugate());
-      return forcing(Arrow{none, from.twist.angular}, Arrow{way, to.twist.angular},
-                     1 / spring.rotation()->settings().steps_per_second, none);
-    });
+    away.turn =
+        offset_at(*spring.rotation(), state.rotation, time, world_at, [&](const Motion& from, const Motion& to) {
+          const Vec3 way = log_map(to.pose.rotation * from.pose.rotation.conjugate());
+          return forcing(Arrow{none, from.twist.angular}, Arrow{way, to.twist.angular},
+                         1 / spring.rotation()->settings().steps_per_second, none);
+        });
+  return away;
+}
+
+}  // namespace
+}  // namespace chains
+
+std::vector<std::byte> NodeSpringState::bytes() const {
+  std::vector<std::byte> bytes = position.bytes();
+  for (const std::byte byte : rotation.bytes()) bytes.push_back(byte);
+  return bytes;
+}
+
+NodeSpringState NodeSpringState::from_bytes(std::span<const std::byte> bytes) {
+  chains::StateReader{bytes, "node spring state"}.require_size(112);
+  return {SpringState::from_bytes(bytes.first(56)), SpringState::from_bytes(bytes.subspan(56))};
+}
+
+void follow(const NodeSpring& spring, NodeSpringState& state, double time, const PoseAt& pose_at,
+            const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept {
+  using namespace chains;
+  const Hierarchy& nodes = spring.nodes();
+  const auto [place, turn] = away_at(spring, state, time, pose_at, scratch);
   if (is_nothing(weight)) return;
 
   const WorldMotion parent = above(nodes, spring.node(), pose);
@@ -65,6 +97,23 @@ void follow(const NodeSpring& spring, NodeSpringState& state, double time, const
     const Turning outer = rotation_of(parent.motion);
     turn_to(motion, chains::inverse(outer) * exp_turn(turn) * outer * rotation_of(motion), weight);
   }
+}
+
+NodeSpringState begun_anew(const NodeSpring& spring, NodeSpringState state, double time, const PoseAt& pose_at,
+                           std::span<Motion> scratch, std::span<const Motion> before,
+                           std::span<const Motion> after) noexcept {
+  using namespace chains;
+  const auto [place, turn] = away_at(spring, state, time, pose_at, scratch);
+  const auto world_in = [&](std::span<const Motion> pose) {
+    return spring.nodes().world_motion(spring.node(), [&](std::size_t i) -> const Motion& { return pose[i]; }).motion;
+  };
+  const Motion from = world_in(before), to = world_in(after);
+  const Arrow way = place + position_of(from) - position_of(to);
+  const Arrow left = log_turn(exp_turn(turn) * rotation_of(from) * chains::inverse(rotation_of(to)));
+  NodeSpringState anew;
+  if (spring.position()) anew.position = {0, way.v, way.d};
+  if (spring.rotation()) anew.rotation = {0, left.v, left.d};
+  return anew;
 }
 
 }  // namespace tweenfall

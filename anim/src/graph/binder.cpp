@@ -79,7 +79,7 @@ void Binder::bind_parameters() {
   for (const GraphParameter& parameter : description_.parameters) {
     const Place place = {"parameters", parameter.name};
     if (!names.insert(parameter.name).second) fault(place, "two parameters are named " + quoted(parameter.name));
-    if (!std::isfinite(parameter.start)) fault(place, "a parameter starts as a finite number");
+    if (!(std::abs(parameter.start) <= largest_parameter)) fault(place, "a parameter starts as a number up to 1e15");
     if (!(parameter.half_life >= 0) || !std::isfinite(parameter.half_life))
       fault({"parameters", parameter.name, "half_life"},
             "a half-life is 0 s or more; it is " + number_text(parameter.half_life) + " s");
@@ -100,7 +100,7 @@ void Binder::bind_inputs() {
       if (known) fault(place, "the parameter " + quoted(input.name) + " is set to a value; give one");
       continue;
     }
-    if (!std::isfinite(*input.value)) fault(place, "a parameter is set to a finite number");
+    if (!(std::abs(*input.value) <= largest_parameter)) fault(place, "a parameter is set to a number up to 1e15");
     if (!known)
       fault(place,
             "there is no parameter " + quoted(input.name) + nearest_of(input.name, names_of(description_.parameters)));

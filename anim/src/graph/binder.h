@@ -31,6 +31,7 @@ struct Graph::Compiled {
   std::vector<std::size_t> machine_poses;          // the pose that each is
   const graphs::Operation* output = nullptr;
   std::size_t phases = 0;   // of clips that run in phase
+  std::size_t swings = 0;   // operations with springs
   std::vector<char> moved;  // by node: whether an operation moves it
 };
 
@@ -65,6 +66,7 @@ class Binder {
   [[nodiscard]] JointMask mask(const std::vector<MaskPart>& parts, const Place& place);
   [[nodiscard]] std::size_t machine_number() const noexcept;
   [[nodiscard]] std::size_t new_phase() noexcept { return compiled_->phases++; }
+  [[nodiscard]] std::size_t new_swing() noexcept { return compiled_->swings++; }
   void fault(const Place& place, std::string message);
   /// Does what may throw. @returns whether it did not; each problem that it lists is told
   template <class Make>

@@ -48,7 +48,8 @@ std::size_t parameter_named(const GraphDescription& description, std::string_vie
 
 GraphPlayer::GraphPlayer(std::shared_ptr<const Graph> graph, PoseBelow below)
     : graph_(std::move(graph)), run_(std::make_unique<Run>()) {
-  run_->log = graphs::fresh_log(graph_->description(), machines(), graph_->compiled().phases);
+  run_->log =
+      graphs::fresh_log(graph_->description(), machines(), graph_->compiled().phases, graph_->compiled().swings);
   run_->room.resize(graphs::rooms_of(*graph_) * graph_->nodes().size());
   run_->below = std::move(below);
   if (!run_->below)
@@ -70,8 +71,8 @@ void GraphPlayer::set(std::string_view name, double value) {
   const std::size_t parameter = graphs::parameter_named(graph_->description(), name);
   if (graph_->description().parameters[parameter].curve)
     throw std::invalid_argument("the parameter \"" + std::string(name) + "\" has keys, and is not set");
-  if (!std::isfinite(value))
-    throw std::invalid_argument("the parameter \"" + std::string(name) + "\" is set to a finite number, not to " +
+  if (!(std::abs(value) <= graphs::largest_parameter))
+    throw std::invalid_argument("the parameter \"" + std::string(name) + "\" is set to a number up to 1e15, not to " +
                                 number_text(value));
   graphs::forget_after(run_->log, graph_->description(), run_->time);
   graphs::set(run_->log, graph_->description(), parameter, run_->time, value, false);
@@ -124,7 +125,7 @@ void GraphPlayer::evaluate(double time, std::span<Motion> local, Side side) noex
   const std::size_t nodes = graph_->nodes().size();
   const std::span<Motion> below(run_->room.data(), nodes);
   run_->below(time, side, below);
-  graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes}, local);
+  graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes, &run_->below}, local);
 }
 
 Sample<double> GraphPlayer::parameter(std::string_view name) const {
@@ -187,7 +188,8 @@ std::vector<std::byte> GraphPlayer::save() const {
 }
 
 void GraphPlayer::load(std::span<const std::byte> saved) {
-  graphs::SavedLog read = graphs::log_of(saved, graph_->description(), machines(), graph_->compiled().phases);
+  graphs::SavedLog read =
+      graphs::log_of(saved, graph_->description(), machines(), graph_->compiled().phases, graph_->compiled().swings);
   graphs::make_known(read.log, *graph_, read.time, run_->below, run_->room);
   run_->log = std::move(read.log);
   run_->time = read.time;

@@ -34,9 +34,10 @@ void follow(std::vector<Setting>& settings, double half_life, std::size_t from) 
 
 }  // namespace
 
-Log fresh_log(const GraphDescription& description, std::size_t machines, std::size_t phases) {
+Log fresh_log(const GraphDescription& description, std::size_t machines, std::size_t phases, std::size_t swings) {
   Log log;
   log.marks.resize(phases);
+  log.swings.resize(swings);
   log.passages.resize(machines);
   for (const GraphParameter& parameter : description.parameters)
     log.settings.push_back({{.time = 0, .value = parameter.start, .given = true}});
@@ -70,6 +71,13 @@ void forget_after(Log& log, const GraphDescription& description, double time) {
     if (std::erase_if(log.settings[p], is_late) > 0) follow(log.settings[p], description.parameters[p].half_life, 1);
   std::erase_if(log.sent, is_late);
   for (auto& marks : log.marks) marks.fill({});
+  for (SwingMemory& memory : log.swings)
+    for (SwingCourse& course : memory.courses) {
+      for (SwingMark& mark : course.latest)
+        if (mark.instant >= time) mark.time = mark.instant = -1;
+      while (course.marked > 0 && course.markers[course.marked - 1].instant >= time) --course.marked;
+      if (course.start >= time) course.start = -1;
+    }
   if (log.known < time) return;
   const auto follows = [&](const auto& each) { return each.time >= time; };
   for (std::vector<Passage>& passages : log.passages) std::erase_if(passages, follows);
@@ -80,14 +88,51 @@ void forget_after(Log& log, const GraphDescription& description, double time) {
 double value_of(const Log& log, const GraphDescription& description, std::size_t parameter, double time,
                 Side side) noexcept {
   if (const auto& curve = description.parameters[parameter].curve) return curve->sample(time, side).value;
-  return setting_at(log.settings[parameter], time, side).value;
+  const Sight sight = seen(log, time, side);
+  return setting_at(log.settings[parameter], sight.time, sight.side).value;
 }
 
 Sample<double> sample_of(const Log& log, const GraphDescription& description, std::size_t parameter, double time,
                          Side side) noexcept {
   const GraphParameter& described = description.parameters[parameter];
   if (described.curve) return described.curve->sample(time, side);
-  return sample_of(setting_at(log.settings[parameter], time, side), described.half_life, time);
+  const Sight sight = seen(log, time, side);
+  return sample_of(setting_at(log.settings[parameter], sight.time, sight.side), described.half_life, time);
+}
+
+namespace {
+
+template <class List>
+double last_in(const List& list, double time, bool with, double least) noexcept {
+  const auto is_before = [&](const auto& each) { return each.time < time || (with && each.time == time); };
+  const auto end = std::ranges::partition_point(list, is_before);
+  return end == list.begin() ? least : std::max(least, std::prev(end)->time);
+}
+
+template <class List>
+double next_in(const List& list, double after) noexcept {
+  const auto is_past = [&](const auto& each) { return each.time <= after; };
+  const auto next = std::ranges::partition_point(list, is_past);
+  return next == list.end() ? std::numeric_limits<double>::infinity() : next->time;
+}
+
+}  // namespace
+
+double last_instant(const Log& log, double start, double time, Side side) noexcept {
+  const Sight sight = seen(log, time, side);
+  double last = start;
+  for (const std::vector<Setting>& settings : log.settings)
+    last = last_in(settings, sight.time, sight.side == Side::out, last);
+  for (const std::vector<Passage>& passages : log.passages)
+    last = last_in(passages, sight.time, sight.side == Side::out, last);
+  return last;
+}
+
+double next_instant(const Log& log, double after) noexcept {
+  double next = std::numeric_limits<double>::infinity();
+  for (const std::vector<Setting>& settings : log.settings) next = std::min(next, next_in(settings, after));
+  for (const std::vector<Passage>& passages : log.passages) next = std::min(next, next_in(passages, after));
+  return next;
 }
 
 }  // namespace tweenfall::graphs

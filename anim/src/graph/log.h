@@ -4,15 +4,21 @@
 
 #include <tweenfall/anim/graph.h>
 #include <tweenfall/anim/graph_player.h>
+#include <tweenfall/anim/jiggle.h>
 #include <tweenfall/curves/pose.h>
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace tweenfall::graphs {
+
+/// What a parameter may be: beyond it, what follows it could be at no finite place or speed.
+inline constexpr double largest_parameter = 1e15;
 
 /// A parameter was set. Poses see `value`, and an offset to it that dies away.
 struct Setting {
@@ -41,8 +47,30 @@ struct Passage : GraphPassage {
 
 /// How far a phase has come; see `Phase`.
 struct PhaseMark {
-  static constexpr std::size_t kept = 4;
+  static constexpr std::size_t kept = 8;
   double start = -1, time = -1, phase = 0;
+};
+
+/// How far springs have come, on the clock that began at an instant; see `Swing`.
+using SwingState = std::variant<NodeSpringState, JiggleState>;
+struct SwingMark {
+  double instant = -1, time = -1;  // s; below 0: nothing is marked
+  SwingState state{};
+};
+/// The springs of one operation since the state around it was entered.
+struct SwingCourse {
+  double start = -1;
+  std::size_t asked = 0;  // when it was asked for last: the one that was longest ago makes room
+  std::array<SwingMark, 4> latest{};
+  std::size_t oldest = 0;               // of these
+  std::array<SwingMark, 16> markers{};  // each `gap` seconds or more after the one before, the first `marked` of them
+  std::size_t marked = 0;
+  double gap = 0.5;
+};
+struct SwingMemory {
+  std::array<SwingCourse, 4> courses{};
+  std::size_t asked = 0;
+  bool prepared = false;  // the states of all marks have their size
 };
 
 struct Log {
@@ -52,11 +80,31 @@ struct Log {
   std::vector<GraphStop> stops;
   /// By phase of the graph: where to go on from, so that not all its way is gone again. Says nothing new.
   mutable std::vector<std::array<PhaseMark, PhaseMark::kept>> marks;
+  /// By operation with springs: where to go on from. Says nothing new.
+  mutable std::vector<SwingMemory> swings;
+  /// What comes later is not seen: poses go on as if nothing happened. Springs look a little ahead so.
+  mutable double until = std::numeric_limits<double>::infinity();
   double known = -1;  // all that happens until then, and at that time, is known; below 0: nothing is
 };
 
+/// The time at which what happened is looked up for a pose at a time.
+struct Sight {
+  double time;
+  Side side;
+};
+[[nodiscard]] inline Sight seen(const Log& log, double time, Side side) noexcept {
+  return time > log.until ? Sight{log.until, Side::out} : Sight{time, side};
+}
+
+/// The latest instant after `start` and before `time` (at it too, where it leaves) at which something came in or a
+/// machine passed to another state; `start` where there is none.
+[[nodiscard]] double last_instant(const Log& log, double start, double time, Side side) noexcept;
+/// The first one after a time; infinity where there is none.
+[[nodiscard]] double next_instant(const Log& log, double after) noexcept;
+
 /// A log in which nothing has happened yet but what the description gives.
-[[nodiscard]] Log fresh_log(const GraphDescription& description, std::size_t machines, std::size_t phases);
+[[nodiscard]] Log fresh_log(const GraphDescription& description, std::size_t machines, std::size_t phases,
+                            std::size_t swings);
 
 /// Puts it in, in order; of equal times behind those that are there.
 void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value, bool given);

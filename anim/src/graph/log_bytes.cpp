@@ -1,7 +1,9 @@
 #include "graph/log_bytes.h"
 
 #include "graph/digest.h"
+#include "graph/swing_course.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <stdexcept>
@@ -10,7 +12,7 @@ namespace tweenfall::graphs {
 
 namespace {
 
-constexpr std::uint64_t kind_of_file = 0x3148504152474654;  // "TFGRAPH1", the first letter lowest
+constexpr std::uint64_t kind_of_file = 0x3248504152474654;  // "TFGRAPH2", the first letter lowest
 
 class Writer {
  public:
@@ -21,6 +23,10 @@ class Writer {
   void text(std::string_view text) {
     number(std::uint64_t{text.size()});
     for (const char letter : text) bytes_.push_back(static_cast<std::byte>(letter));
+  }
+  void part(std::span<const std::byte> part) {
+    number(std::uint64_t{part.size()});
+    bytes_.insert(bytes_.end(), part.begin(), part.end());
   }
   [[nodiscard]] std::vector<std::byte> take() { return std::move(bytes_); }
 
@@ -48,6 +54,7 @@ class Reader {
     for (const std::byte letter : next(number())) out += static_cast<char>(letter);
     return out;
   }
+  std::span<const std::byte> part() { return next(number()); }
   [[nodiscard]] std::size_t left() const noexcept { return bytes_.size(); }
   [[noreturn]] static void refuse(const std::string& why) {
     throw std::invalid_argument("these bytes are no saved graph: " + why);
@@ -67,6 +74,43 @@ std::uint64_t checksum(std::span<const std::byte> bytes) noexcept {
   Digest digest;
   for (const std::byte byte : bytes) digest.byte(std::to_integer<std::uint8_t>(byte));
   return digest.value();
+}
+
+// Of each course the mark that has come the furthest, so that nothing of its way is gone again.
+void write_swings(const SwingMemory& memory, double time, Writer& out) {
+  std::vector<const SwingCourse*> courses;
+  for (const SwingCourse& course : memory.courses)
+    if (course.start >= 0 && furthest_mark(course, time, time)) courses.push_back(&course);
+  std::ranges::sort(courses, {}, &SwingCourse::start);
+  out.number(std::uint64_t{courses.size()});
+  for (const SwingCourse* course : courses) {
+    const SwingMark& mark = *furthest_mark(*course, time, time);
+    out.number(course->start);
+    out.number(mark.instant);
+    out.number(mark.time);
+    out.number(std::uint64_t{mark.state.index()});
+    out.part(std::visit([](const auto& state) { return state.bytes(); }, mark.state));
+  }
+}
+
+void read_swings(SwingMemory& memory, double time, Reader& reader) {
+  const std::uint64_t count = reader.number();
+  if (count > memory.courses.size()) Reader::refuse("they have more springs than there are");
+  for (std::uint64_t i = 0; i < count; ++i) {
+    SwingCourse& course = memory.courses[i];
+    course.start = reader.real();
+    SwingMark& mark = course.latest.front();
+    mark.instant = reader.real();
+    mark.time = reader.real();
+    if (!(course.start >= 0 && course.start <= mark.instant && mark.instant <= mark.time && mark.time <= time))
+      Reader::refuse("its springs are not in order of time");
+    course.oldest = 1;
+    const std::uint64_t kind = reader.number();
+    if (kind == 0)
+      mark.state = NodeSpringState::from_bytes(reader.part());
+    else
+      mark.state = JiggleState::from_bytes(reader.part());
+  }
 }
 
 }  // namespace
@@ -94,6 +138,7 @@ std::vector<std::byte> bytes_of(const Log& log, const GraphDescription& descript
     out.number(each.time);
     out.text(each.event);
   }
+  for (const SwingMemory& memory : log.swings) write_swings(memory, time, out);
   std::vector<std::byte> bytes = out.take();
   Writer end;
   end.number(checksum(bytes));
@@ -102,14 +147,14 @@ std::vector<std::byte> bytes_of(const Log& log, const GraphDescription& descript
 }
 
 SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& description, std::size_t machines,
-                std::size_t phases) {
+                std::size_t phases, std::size_t swings) {
   if (bytes.size() < 32) Reader::refuse("they end too soon");
   Reader reader(bytes.first(bytes.size() - 8));
   if (reader.number() != kind_of_file) Reader::refuse("they begin as none does");
   if (Reader(bytes.last(8)).number() != checksum(bytes.first(bytes.size() - 8)))
     Reader::refuse("their checksum does not fit");
   if (reader.number() != fingerprint(description)) Reader::refuse("they are of another graph");
-  SavedLog saved{fresh_log(description, machines, phases), reader.real()};
+  SavedLog saved{fresh_log(description, machines, phases, swings), reader.real()};
   if (saved.time < 0) Reader::refuse("its time is before 0 s");
   const auto time_after = [&](double last) {
     const double read = reader.real();
@@ -122,7 +167,9 @@ SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& descri
     double at = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
       at = time_after(at);
-      set(saved.log, description, p, at, reader.real(), false);
+      const double value = reader.real();
+      if (std::abs(value) > largest_parameter) Reader::refuse("a parameter was set beyond 1e15");
+      set(saved.log, description, p, at, value, false);
     }
   }
   const std::uint64_t count = reader.number();
@@ -131,6 +178,7 @@ SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& descri
     at = time_after(at);
     send(saved.log, at, reader.text(), false);
   }
+  for (SwingMemory& memory : saved.log.swings) read_swings(memory, saved.time, reader);
   if (reader.left() > 0) Reader::refuse("something follows their end");
   return saved;
 }

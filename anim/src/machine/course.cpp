@@ -83,7 +83,7 @@ class Course {
       const std::span<Motion> in = room_.first(nodes), out = room_.subspan(nodes, nodes);
       below_(time, Side::in, in);
       below_(time, Side::out, out);
-      machine.measure(log_, passage, in, out, room_.data() + 2 * nodes);
+      machine.measure(log_, passage, in, out, &below_, room_.data() + 2 * nodes);
     }
     log_.passages[number].push_back(std::move(passage));
   }

@@ -80,7 +80,8 @@ void Machine::show(const Log& log, std::span<const Passage> passages, const Mome
 }
 
 void Machine::pose(const Log& log, const Moment& moment, const Scratch& scratch, std::span<Motion> out) const noexcept {
-  show(log, until(log.passages[number_], moment.time, moment.side), moment, scratch, out);
+  const Sight sight = seen(log, moment.time, moment.side);
+  show(log, until(log.passages[number_], sight.time, sight.side), moment, scratch, out);
 }
 
 std::vector<GraphActivity> Machine::activity(const Log& log, double time) const {
@@ -194,13 +195,13 @@ Passage Machine::passage(const Log& log, std::size_t index, double time) const {
 }
 
 void Machine::measure(const Log& log, Passage& passage, std::span<const Motion> below_in,
-                      std::span<const Motion> below_out, Motion* free) const {
+                      std::span<const Motion> below_out, const PoseBelow* below, Motion* free) const {
   const std::size_t nodes = below_in.size();
   const std::span<Motion> shown(free, nodes), next(free + nodes, nodes);
   Motion* const rest = free + 2 * nodes;
   const double time = passage.time;
-  show(log, until(log.passages[number_], time, Side::in), {time, Side::in, time}, {below_in, rest}, shown);
-  states_[passage.state]->pose(log, {time, Side::out, time}, {below_out, rest}, next);
+  show(log, until(log.passages[number_], time, Side::in), {time, Side::in, time}, {below_in, rest, below}, shown);
+  states_[passage.state]->pose(log, {time, Side::out, time}, {below_out, rest, below}, next);
   passage.offsets = offsets_of(passage.change, shown, next);
 }
 

@@ -38,9 +38,9 @@ class Machine : public Operation {
   /// The passage by which a transition leads on. Where its difference settles, that is still to be measured.
   [[nodiscard]] Passage passage(const Log& log, std::size_t transition, double time) const;
   /// Measures it, before the passage is in the log. @param below_in, below_out  what lies below the graph, as it
-  /// arrives and leaves  @param free  `rooms() + 2` poses
+  /// arrives and leaves, and at any time  @param free  `rooms() + 2` poses
   void measure(const Log& log, Passage& passage, std::span<const Motion> below_in, std::span<const Motion> below_out,
-               Motion* free) const;
+               const PoseBelow* below, Motion* free) const;
 
  private:
   void show(const Log& log, std::span<const Passage> passages, const Moment& moment, const Scratch& scratch,

@@ -35,6 +35,14 @@ class Number {
     if (!description_) return never;
     const std::vector<Setting>& settings = log.settings[parameter_];
     const auto next = std::ranges::upper_bound(settings, after, {}, &Setting::time);
+    return next == settings.end() || next->time > log.until ? never : next->time;
+  }
+  /// The first setting that is not seen; infinity for none.
+  [[nodiscard]] double first_unseen(const Log& log) const noexcept {
+    constexpr double never = std::numeric_limits<double>::infinity();
+    if (!description_ || log.until == never) return never;
+    const std::vector<Setting>& settings = log.settings[parameter_];
+    const auto next = std::ranges::upper_bound(settings, log.until, {}, &Setting::time);
     return next == settings.end() ? never : next->time;
   }
 

@@ -28,9 +28,10 @@ struct Moment {
 struct Scratch {
   std::span<const Motion> below;
   Motion* free;
+  const PoseBelow* source;  // gives what lies below at any time
 
   [[nodiscard]] std::span<Motion> pose() const noexcept { return {free, below.size()}; }
-  [[nodiscard]] Scratch rest() const noexcept { return {below, free + below.size()}; }
+  [[nodiscard]] Scratch rest() const noexcept { return {below, free + below.size(), source}; }
 };
 
 /// A stretch of time in which a pose shows: what happens at `from` counts only where the stretch begins with it.
@@ -90,6 +91,8 @@ class Account;
 [[nodiscard]] std::unique_ptr<Operation> bound(const MirrorPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const RetargetPose& pose, Binder& binder);
 [[nodiscard]] std::unique_ptr<Operation> bound(const RootMotionPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const SpringPose& pose, Binder& binder);
+[[nodiscard]] std::unique_ptr<Operation> bound(const JigglePose& pose, Binder& binder);
 void tell(const ClipPose& pose, Account& account);
 void tell(const RestPose& pose, Account& account);
 void tell(const BlendPose& pose, Account& account);
@@ -103,5 +106,7 @@ void tell(const FeetPose& pose, Account& account);
 void tell(const MirrorPose& pose, Account& account);
 void tell(const RetargetPose& pose, Account& account);
 void tell(const RootMotionPose& pose, Account& account);
+void tell(const SpringPose& pose, Account& account);
+void tell(const JigglePose& pose, Account& account);
 
 }  // namespace tweenfall::graphs

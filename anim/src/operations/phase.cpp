@@ -44,6 +44,12 @@ double SpaceWeights::next_setting(const Log& log, double after) const noexcept {
   return next;
 }
 
+double SpaceWeights::first_unseen(const Log& log) const noexcept {
+  double first = std::numeric_limits<double>::infinity();
+  for (const Number& number : by_) first = std::min(first, number.first_unseen(log));
+  return first;
+}
+
 bool SpaceWeights::flows() const noexcept {
   return std::ranges::any_of(by_, [](const Number& number) { return number.flows(); });
 }
@@ -77,16 +83,28 @@ double Phase::advanced(const Log& log, double phase, double from, double to) con
 double Phase::at(const Log& log, double start, double time) const noexcept {
   std::array<PhaseMark, PhaseMark::kept>& marks = log.marks[number_];
   PhaseMark here{start, start, sync_.phase_at(0, 0)};
+  // Beyond what is seen, what is marked counts only where nothing was set in between.
+  const double sure = weights_.first_unseen(log);
   for (const PhaseMark& mark : marks)
-    if (mark.start == start && mark.time <= time && mark.time > here.time) here = mark;
+    if (mark.start == start && mark.time <= time && mark.time > here.time && mark.time < sure) here = mark;
   const double began = here.time;
   for (double stop = next_stop(log, start, here.time); stop < time; stop = next_stop(log, start, here.time))
     here = {start, stop, advanced(log, here.phase, here.time, stop)};
-  if (here.time > began) {
-    // The mark of this start moves on; else the one that was least far takes its place.
-    auto oldest = std::ranges::find(marks, start, &PhaseMark::start);
-    if (oldest == marks.end()) oldest = std::ranges::min_element(marks, {}, &PhaseMark::time);
-    *oldest = here;
+  if (here.time > began && here.time < sure) {
+    // The marks of this start move on, half of all at most, for who looks ahead comes back; else the one that was least
+    // far takes its place.
+    const auto least = [](auto& found, PhaseMark& mark) {
+      if (!found || mark.time < found->time) found = &mark;
+    };
+    PhaseMark *own = nullptr, *any = nullptr;
+    std::size_t count = 0;
+    for (PhaseMark& mark : marks) {
+      least(any, mark);
+      if (mark.start != start) continue;
+      least(own, mark);
+      ++count;
+    }
+    *(count < PhaseMark::kept / 2 ? any : own) = here;
   }
   return time > here.time ? advanced(log, here.phase, here.time, time) : here.phase;
 }

@@ -21,6 +21,8 @@ class SpaceWeights {
 
   /// The first time after `after` at which a parameter is set; infinity for none.
   [[nodiscard]] double next_setting(const Log& log, double after) const noexcept;
+  /// The first setting that is not seen; infinity for none.
+  [[nodiscard]] double first_unseen(const Log& log) const noexcept;
   /// Whether they may change between settings.
   [[nodiscard]] bool flows() const noexcept;
   [[nodiscard]] std::size_t size() const noexcept { return size_; }

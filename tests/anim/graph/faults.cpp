@@ -66,6 +66,14 @@ TEST_CASE("numbers that are none, or out of their range, are refused") {
         "/parameters/x/half_life: a half-life is 0 s or more; it is -1 s\n");
   CHECK(faults_of({.poses = {{"a", RestPose{}}}, .inputs = {{-1, "x", 2}, {1, "jump"}}}) ==
         "/inputs/0: an input comes at 0 s or later; this one at -1 s\n/inputs/0: there is no parameter \"x\"\n");
+  CHECK(
+      faults_of(
+          {.parameters = {{.name = "x", .start = 1e308}}, .poses = {{"a", RestPose{}}}, .inputs = {{1, "x", -2e15}}}) ==
+      "/parameters/x: a parameter starts as a number up to 1e15\n/inputs/0: a parameter is set to a number up to "
+      "1e15\n");
+  CHECK(faults_of({.parameters = {{.name = "x", .start = 1e15, .half_life = 1e-3}},
+                   .poses = {{"a", RestPose{}}},
+                   .inputs = {{1, "x", -1e15}}}) == "");
   const auto changing = [](const GraphChange& change) {
     return GraphDescription{
         .poses = {{"a", MachinePose{"one", {{"one", "idle"}, {"two", "walk"}}, {{{"one"}, "two", {}, change}}}}}};

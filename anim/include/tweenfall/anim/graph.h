@@ -11,6 +11,7 @@
 #include <tweenfall/anim/graph_figure.h>
 #include <tweenfall/anim/graph_number.h>
 #include <tweenfall/anim/graph_reach.h>
+#include <tweenfall/anim/graph_swing.h>
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/anim/joint_mask.h>
 #include <tweenfall/curves/curve.h>
@@ -134,8 +135,9 @@ struct MachinePose {
 };
 
 /// Those that change a pose, which is the one that they name as their `base`, stand in headers of their own.
-using PoseOperation = std::variant<ClipPose, RestPose, BlendPose, LayersPose, SpacePose, MachinePose, TwoBonePose,
-                                   LookAtPose, ReachPose, FeetPose, MirrorPose, RetargetPose, RootMotionPose>;
+using PoseOperation =
+    std::variant<ClipPose, RestPose, BlendPose, LayersPose, SpacePose, MachinePose, TwoBonePose, LookAtPose, ReachPose,
+                 FeetPose, MirrorPose, RetargetPose, RootMotionPose, SpringPose, JigglePose>;
 
 struct GraphPose {
   std::string name;

@@ -72,4 +72,11 @@ class JiggleChain {
 void jiggle(const JiggleChain& chain, JiggleState& state, double time, const PoseAt& pose_at,
             const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept;
 
+/// The same chain at `time`, on a clock that begins anew there: its tails go on from where they are, with their
+/// velocities, whatever the script does at that time. The state becomes that at 0 s of the new clock.
+///
+/// @param before, after  what the script gives for `time`, as it arrives and as it leaves
+void begin_anew(const JiggleChain& chain, JiggleState& state, double time, const PoseAt& pose_at,
+                std::span<Motion> scratch, std::span<const Motion> before, std::span<const Motion> after) noexcept;
+
 }  // namespace tweenfall

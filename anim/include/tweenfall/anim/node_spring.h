@@ -21,6 +21,10 @@ struct NodeSpringState {
   SpringState position, rotation;
 
   bool operator==(const NodeSpringState&) const = default;
+  /// 112 bytes, those of both springs.
+  [[nodiscard]] std::vector<std::byte> bytes() const;
+  /// @throws std::invalid_argument for bytes that are no such state
+  [[nodiscard]] static NodeSpringState from_bytes(std::span<const std::byte> bytes);
 };
 
 class NodeSpring {
@@ -50,5 +54,14 @@ class NodeSpring {
 /// @param pose     what the script gives for `time`; the node's motion in it is changed
 void follow(const NodeSpring& spring, NodeSpringState& state, double time, const PoseAt& pose_at,
             const Sample<double>& weight, std::span<Motion> scratch, std::span<Motion> pose) noexcept;
+
+/// The same springs at `time`, on a clock that begins anew there: the place and rotation that they show, and their
+/// velocities, go on from where they are, whatever the script does at that time.
+///
+/// @param before, after  what the script gives for `time`, as it arrives and as it leaves
+/// @return their state at 0 s of the new clock
+[[nodiscard]] NodeSpringState begun_anew(const NodeSpring& spring, NodeSpringState state, double time,
+                                         const PoseAt& pose_at, std::span<Motion> scratch,
+                                         std::span<const Motion> before, std::span<const Motion> after) noexcept;
 
 }  // namespace tweenfall

@@ -1,0 +1,59 @@
+#include <tweenfall/anim/node_spring.h>
+
+#include "operations/account.h"
+#include "swinging/swing.h"
+
+namespace tweenfall::graphs {
+
+namespace {
+
+class SpringyNode : public Swing<NodeSpringState> {
+ public:
+  SpringyNode(Changed changed, std::size_t number, NodeSpring spring)
+      : Swing(std::move(changed), number), spring_(std::move(spring)) {}
+
+ protected:
+  void rest(NodeSpringState& state) const noexcept override { state = {}; }
+  void show(NodeSpringState& state, double time, const PoseAt& pose_at, const Sample<double>& weight,
+            std::span<Motion> scratch, std::span<Motion> pose) const noexcept override {
+    follow(spring_, state, time, pose_at, weight, scratch, pose);
+  }
+  void begin_again(NodeSpringState& state, double time, const PoseAt& pose_at, std::span<Motion> scratch,
+                   std::span<const Motion> before, std::span<const Motion> after) const noexcept override {
+    state = begun_anew(spring_, state, time, pose_at, scratch, before, after);
+  }
+
+ private:
+  NodeSpring spring_;
+};
+
+void tell(const SpringSettings& spring, Account& account) {
+  account.tell(spring.hz, spring.damping, spring.gravity, spring.steps_per_second);
+}
+
+}  // namespace
+
+void tell(const SpringPose& pose, Account& account) {
+  account.words = pose.node + " on a spring" + share_in_words(pose.weight);
+  account.pose(pose.base, "base");
+  account.tell(pose.node, pose.position.has_value(), pose.rotation.has_value(), pose.weight);
+  if (pose.position) tell(*pose.position, account);
+  if (pose.rotation) tell(*pose.rotation, account);
+}
+
+std::unique_ptr<Operation> bound(const SpringPose& described, Binder& binder) {
+  Changed changed = bound_change(described, "spring", binder);
+  const std::size_t node = binder.node(described.node, {"spring", "node"});
+  if (node == no_node) return nullptr;
+  std::optional<NodeSpring> spring;
+  binder.attempt({"spring"}, [&] {
+    spring.emplace(binder.nodes(), NodeSpringSettings{node, described.position, described.rotation});
+  });
+  if (!spring || !changed.whole) return nullptr;
+  binder.moves(node);
+  auto operation = std::make_unique<SpringyNode>(std::move(changed), binder.new_swing(), *std::move(spring));
+  operation->set_rooms(SpringyNode::own_rooms);
+  return operation;
+}
+
+}  // namespace tweenfall::graphs

@@ -1,0 +1,254 @@
+// Springs in graphs: as they are alone, the same at every frame rate, through every instant without a jump, and kept.
+
+#include "figure_support.h"
+
+#include <tweenfall/anim/jiggle.h>
+#include <tweenfall/anim/node_spring.h>
+#include <tweenfall/curves/spring_response.h>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+using Kind = GraphCondition::Kind;
+
+/// A head on springs and a tail that swings over a base that a parameter makes jump and a machine settle.
+GraphDescription lively() {
+  return {.parameters = {{.name = "jump"}, {.name = "lean", .half_life = 0.2}},
+          .poses = {{"mix", BlendPose{{{"walk", ByParameter{"jump"}}, {"idle", 0.5}}}},
+                    {"body", MachinePose{.start = "mix",
+                                         .states = {{"mix", "mix"}, {"dance", "dance"}},
+                                         .transitions = {{{"mix"}, "dance", {{Kind::event, "go"}}, {.seconds = 0}},
+                                                         {{"dance"},
+                                                          "mix",
+                                                          {{Kind::time_in_state, "", 0.61}},
+                                                          {GraphChange::Kind::quintic, 0.2}}}}},
+                    {"head", SpringPose{.base = "body",
+                                        .node = "head",
+                                        .position = SpringSettings{.hz = 3, .damping = 0.3, .gravity = {0, -3, 0}},
+                                        .rotation = SpringSettings{.hz = 2, .damping = 0.2, .steps_per_second = 90}}},
+                    {"tail", JigglePose{.base = "head",
+                                        .joints = {"tail 1", "tail 2", "tail 3", "tail 4"},
+                                        .spring = {.hz = 2, .damping = 0.2, .gravity = {0, -5, 0}},
+                                        .weight = 1.0}}}};
+}
+
+const std::vector<GraphInput> some_inputs = {{0.4031, "jump", 0.8}, {0.9, "go", {}},  {1.307, "lean", 1},
+                                             {1.31, "jump", 0.1},   {2.2, "jump", 1}, {2.2, "go", {}}};
+
+void give(GraphPlayer& player, const GraphInput& input) {
+  if (input.value)
+    player.set(input.name, *input.value);
+  else
+    player.send(input.name);
+}
+
+/// Which sixth of a second a time is; -1 for none.
+int frame_of_sixth(double time) {
+  for (int i = 0; i <= 20; ++i)
+    if (time == i / 6.0) return i;
+  return -1;
+}
+
+Motion world_motion(const std::vector<Motion>& pose, const char* name) {
+  return world_of_node(*figures(), *figures()->find(name), pose).motion;
+}
+
+}  // namespace
+
+TEST_CASE("springs in a graph do as the springs alone, bit for bit") {
+  const SpringSettings place{.hz = 3, .damping = 0.3, .gravity = {0, -3, 0}}, turn{.hz = 2, .damping = 0.2};
+  const NodeSpring spring(*figures(), {"head", place, turn});
+  const JiggleChain chain(*figures(),
+                          {.joints = {"tail 1", "tail 2", "tail 3", "tail 4"}, .spring = place, .limit = 1});
+  GraphPlayer walking(figure_graph({.poses = {{"walk", ClipPose{"walk"}}}}));
+  const PoseAt pose_at = [&](double time, std::span<Motion> out) { walking.pose_at(time, out); };
+  const auto keys = keyed_curve<double>({{.time = 0, .value = 0.2}, {.time = 6, .value = 0.9}});
+  const GraphNumber weights[] = {0., 1., 0.35, keys};
+  for (const GraphNumber& weight : weights) {
+    GraphPlayer springy(figure_graph(
+        {.poses = {{"s",
+                    SpringPose{
+                        .base = "walk", .node = "head", .position = place, .rotation = turn, .weight = weight}}}})),
+        swinging(figure_graph({.poses = {{"s", JigglePose{.base = "walk",
+                                                          .joints = {"tail 1", "tail 2", "tail 3", "tail 4"},
+                                                          .spring = place,
+                                                          .limit = 1,
+                                                          .weight = weight}}}}));
+    NodeSpringState state = spring.at_rest(0);
+    JiggleState swing = chain.at_rest(0);
+    std::vector<Motion> scratch(2 * figures()->size());
+    for (const double time : {0.0, 0.004, 0.1, 0.37, 1.13, 2.4, 5.03}) {
+      CAPTURE(time);
+      Sample<double> now{1, 0, 0};
+      if (const double* constant = std::get_if<double>(&weight)) now.value = *constant;
+      if (weight.index() == 1) now = keys.sample(time);
+      std::vector<Motion> expected = shown(walking, time), tail = expected;
+      follow(spring, state, time, pose_at, now, scratch, expected);
+      jiggle(chain, swing, time, pose_at, now, scratch, tail);
+      CHECK(same_bits(shown(springy, time), expected));
+      CHECK(same_bits(shown(swinging, time), tail));
+    }
+  }
+}
+
+TEST_CASE("springs come the same way at 30, 60 and 144 frames a second, forwards and back, given or put in") {
+  GraphDescription given = lively();
+  given.inputs = some_inputs;
+  std::vector<std::vector<Motion>> at_common;  // every sixth of a second
+  GraphPlayer all(figure_graph(given));
+  for (int i = 0; i <= 20; ++i) at_common.push_back(shown(all, i / 6.0));
+  for (const int rate : {30, 60, 144}) {
+    CAPTURE(rate);
+    GraphPlayer player(figure_graph(lively()));
+    std::size_t next = 0;
+    std::vector<std::pair<double, std::vector<Motion>>> seen;
+    for (int frame = 0; frame <= rate * 20 / 6; ++frame) {
+      const double time = static_cast<double>(frame) / rate;
+      while (next < some_inputs.size() && some_inputs[next].time <= time) {
+        // What shows until just before is seen without what comes.
+        for (const double before : {some_inputs[next].time - 0.003, some_inputs[next].time - 1e-7})
+          if (before > player.time()) seen.emplace_back(before, shown(player, before));
+        player.seek(std::max(player.time(), some_inputs[next].time));
+        give(player, some_inputs[next++]);
+      }
+      player.seek(time);
+      seen.emplace_back(time, shown(player, time));
+    }
+    for (const auto& [time, pose] : seen) {
+      CAPTURE(time);
+      CHECK(same_bits(shown(all, time), pose));
+      if (frame_of_sixth(time) >= 0) CHECK(same_bits(at_common[static_cast<std::size_t>(frame_of_sixth(time))], pose));
+    }
+    for (std::size_t i = seen.size(); i-- > 0;) CHECK(same_bits(shown(player, seen[i].first), seen[i].second));
+  }
+}
+
+TEST_CASE("no instant makes what a spring holds jump, in place or in velocity") {
+  GraphDescription given = lively();
+  given.inputs = some_inputs;
+  GraphPlayer player(figure_graph(given));
+  player.seek(4);
+  std::vector<double> instants;
+  for (const GraphInput& input : some_inputs) instants.push_back(input.time);
+  for (const GraphPassage& passage : player.passages(0)) instants.push_back(passage.time);
+  REQUIRE(instants.size() > 9);
+  GraphDescription without = given;
+  without.output = "body";
+  GraphPlayer base(figure_graph(without));
+  double jump = 0;
+  for (const double instant : instants) {
+    if (instant == 0) continue;
+    CAPTURE(instant);
+    const std::vector<Motion> before = shown(player, instant, Side::in), after = shown(player, instant);
+    jump = std::max(jump, (world_motion(shown(base, instant, Side::in), "head").pose.position -
+                           world_motion(shown(base, instant), "head").pose.position)
+                              .norm());
+    const Motion head = world_motion(before, "head"), later = world_motion(after, "head");
+    CHECK(near(head.pose.position, later.pose.position, 1e-12));
+    CHECK(near(head.pose.rotation, later.pose.rotation, 1e-12));
+    CHECK(near(head.twist.linear, later.twist.linear, 1e-9));
+    CHECK(near(head.twist.angular, later.twist.angular, 1e-9));
+    if (instant > 0.1) CHECK(head.twist.linear.norm() > 1e-3);
+  }
+  CHECK(jump > 0.005);  // of the base
+}
+
+TEST_CASE("a spring whose target jumps at an instant goes there as the closed form says") {
+  // The base jumps from rest to a place of its own, which no clip moves.
+  std::vector<Clip> clips(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    clips[i] = {.name = i == 0 ? "a" : "b", .duration = 9};
+    const Vec3 place(0.5 * static_cast<double>(i), 1, 0);
+    clips[i].tracks.push_back({"hips", "position", keyed_curve<Vec3>({{.time = 0, .value = place}})});
+  }
+  const double instant = 0.41234, hz = 1.7, damping = 0.35, w = 2 * pi * hz;
+  const GraphDescription described = {
+      .parameters = {{.name = "there"}},
+      .poses = {{"target", LayersPose{.base = "a", .layers = {{.pose = "b", .weight = ByParameter{"there"}}}}},
+                {"spring",
+                 SpringPose{
+                     .base = "target", .node = "hips", .position = SpringSettings{.hz = hz, .damping = damping}}}},
+      .inputs = {{instant, "there", 1}}};
+  GraphPlayer player(
+      std::make_shared<const Graph>(figures(), std::make_shared<const std::vector<Clip>>(clips), described));
+  for (const double time : {0.2, 0.41234, 0.42, 0.6, 1.0, 1.77, 3.3}) {
+    CAPTURE(time);
+    const SpringResponse response = spring_response(w * std::max(0.0, time - instant), damping);
+    const std::vector<Motion> pose = shown(player, time);
+    const double expected = time < instant ? 0 : 0.5 * (1 - response.displaced);
+    CHECK(near(pose[0].pose.position, Vec3(expected, 1, 0), 1e-12));
+    CHECK(near(pose[0].twist.linear, Vec3(time < instant ? 0 : 0.5 * w * response.struck, 0, 0), 1e-11));
+  }
+}
+
+TEST_CASE("a graph with springs is saved and loaded with their state, and goes on to the same bits") {
+  const auto graph = figure_graph(lively());
+  GraphPlayer player(graph), other(graph);
+  for (const GraphInput& input : some_inputs) {
+    player.seek(input.time);
+    give(player, input);
+  }
+  player.seek(2.71);
+  static_cast<void>(shown(player, 2.71));
+  const std::vector<std::byte> saved = player.save();
+  other.load(saved);
+  CHECK(other.save() == saved);
+  for (const double time : {2.71, 2.72, 4.0, 1.1}) CHECK(same_bits(shown(other, time), shown(player, time)));
+  GraphPlayer victim(graph);
+  for (std::size_t cut = 0; cut < saved.size(); cut += 7)
+    CHECK_THROWS_AS(victim.load(std::span(saved).first(cut)), std::invalid_argument);
+  for (std::size_t i = 0; i < saved.size(); i += 3) {
+    std::vector<std::byte> flipped = saved;
+    flipped[i] ^= std::byte{0x10};
+    CHECK_THROWS_AS(victim.load(flipped), std::invalid_argument);
+  }
+}
+
+TEST_CASE("the state of a node's springs goes to bytes and back") {
+  const NodeSpringState state{{7, {1, 2, 3}, {4, 5, 6}}, {-9, {0.1, 0.2, 0.3}, {-1, -2, -3}}};
+  CHECK(state.bytes().size() == 112);
+  CHECK(NodeSpringState::from_bytes(state.bytes()) == state);
+  std::vector<std::byte> bytes = state.bytes();
+  bytes.pop_back();
+  CHECK_THROWS_AS((void)NodeSpringState::from_bytes(bytes), std::invalid_argument);
+}
+
+TEST_CASE("a spring begins at rest with the state that shows it, each time it is entered") {
+  GraphDescription described = lively();
+  described.poses[2].operation =
+      SpringPose{.base = "walk", .node = "head", .position = SpringSettings{.hz = 2, .damping = 0.1}};
+  described.poses[3].operation =
+      MachinePose{.start = "still",
+                  .states = {{"still", "idle"}, {"springy", "head"}},
+                  .transitions = {{{"still"}, "springy", {{Kind::above, "lean", 0.5}}, {.seconds = 0}},
+                                  {{"springy"}, "still", {{Kind::below, "lean", 0.5}}, {.seconds = 0}}}};
+  described.inputs = {{0.5, "lean", 1}, {1.5, "lean", 0}, {2.5, "lean", 1}};
+  GraphPlayer player(figure_graph(described));
+  std::vector<Motion> walk(figures()->size());
+  for (const double entered : {0.5, 2.5})
+    for (const double since : {0.0, 0.05, 0.7}) {
+      GraphPlayer alone(figure_graph({.poses = {{"s", described.poses[2].operation}}}));
+      CHECK(difference_of(shown(player, entered + since), shown(alone, since)) < 1e-12);
+    }
+}
+
+TEST_CASE("springs that are not there are refused with their place") {
+  const auto told = [](const PoseOperation& operation) {
+    std::string text;
+    for (const GraphFault& fault : inspect({.poses = {{"p", operation}}}, *figures(), *figure_clips())) {
+      for (const std::string& part : fault.place) text += "/" + part;
+      text += ": " + fault.message + "\n";
+    }
+    return text;
+  };
+  CHECK(told(SpringPose{.node = "haed", .position = SpringSettings{}}) ==
+        "/poses/p/spring/node: there is no node \"haed\"; did you mean \"head\"?\n");
+  CHECK(told(SpringPose{.node = "head"}).find("neither a position nor a rotation") != std::string::npos);
+  CHECK(told(SpringPose{.node = "head", .position = SpringSettings{.hz = -1}}).find("/poses/p/spring: ") == 0);
+  CHECK(told(JigglePose{.joints = {"tail 1"}}).find("/poses/p/jiggle: ") == 0);
+  CHECK(told(JigglePose{.joints = {"tail 1", "tial 2"}}) ==
+        "/poses/p/jiggle/joints/1: there is no node \"tial 2\"; did you mean \"tail 2\"?\n");
+  CHECK(told(JigglePose{.joints = {"tail 1", "head"}}).find("must be below") != std::string::npos);
+}
