@@ -86,6 +86,21 @@ bool has_hub(const islands::IslandContents& island, const std::vector<Body>& bod
   return false;
 }
 
+/// Whether a jointed island holds what acts on all that is solved with it: rebounds, drives, springs, what is led.
+bool is_apart(const islands::IslandContents& island, const std::vector<Body>& bodies) {
+  const auto acts = [&](std::uint32_t index) {
+    return drives(bodies[index]) || bodies[index].drive.owner() == Owner::driven;
+  };
+  if (!island.springs.empty()) return true;
+  for (const ContactConstraint* contact : island.contacts)
+    if (contact->restitution > 0 || contact->rolling_friction > 0 || contact->spinning_friction > 0 ||
+        acts(contact->a) || acts(contact->b))
+      return true;
+  return std::any_of(island.joints.begin(), island.joints.end(), [&](const joints::JointLink* link) {
+    return acts(link->b) || (link->a != joints::JointLink::world && acts(link->a));
+  });
+}
+
 }  // namespace
 
 std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::IslandContents& island,
@@ -114,8 +129,9 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
   effort.rebound_passes = std::max(1, settings.iterations / 4);
   effort.turned_enough = turned_enough;
   effort.heap = island.contacts.size() > few;
-  effort.alone = effort.heap || !island.joints.empty();
+  effort.alone = effort.heap;
   if (!island.joints.empty()) {
+    effort.alone = effort.alone || is_apart(island, bodies);
     effort.giving = giving_of_jointed;
     const int fewest = dt > long_step ? fewest_of_jointed : fewest_of_jointed_in_short;
     effort.sub_steps = std::max(

@@ -281,19 +281,20 @@ void BlockSolver::find_lags() {
 /// tremble. What hangs on something is held as by a contact. A joint that is slack holds nothing.
 void BlockSolver::find_lags_of_jointed() {
   for (IslandBody& body : bodies_) body.jointed = false;
-  bool free = !joints_.find_held(bodies_);
-  double mass = 0;
-  Vec3 gained = Vec3::Zero();
-  for (std::size_t i = 1; i < bodies_.size() && free; ++i) {
-    if (!bodies_[i].jointed) continue;
-    free = bodies_[i].movable && lags_[i].lanes[3] == 0 && !bodies_[i].held;
-    mass += paces_[i].mass;
-    gained += paces_[i].mass * (linear_of(velocities_[i]) - linear_of(starts_[i]));
+  jointed_.assign(island_of_.back() + std::size_t{1}, {});
+  joints_.find_held(bodies_, [this](std::uint32_t place) { jointed_[island_of_[place]].free = false; });
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    if (!bodies_[i].jointed || !bodies_[i].movable) continue;
+    JointedFlight& its = jointed_[island_of_[i]];
+    its.free = its.free && lags_[i].lanes[3] == 0 && !bodies_[i].held;
+    its.mass += paces_[i].mass;
+    its.gained += paces_[i].mass * (linear_of(velocities_[i]) - linear_of(starts_[i]));
   }
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     if (!bodies_[i].jointed || !bodies_[i].movable) continue;
+    const JointedFlight& its = jointed_[island_of_[i]];
     lags_[i] = pressed_still;
-    if (free) set(lags_[i].lanes, -0.5 / mass * gained);
+    if (its.free) set(lags_[i].lanes, -0.5 / its.mass * its.gained);
   }
 }
 
@@ -302,6 +303,7 @@ void BlockSolver::find_lags_of_jointed() {
 void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
   constexpr double farthest_turn = 2;  // rad
   constexpr double farthest = 100;     // of the body's size
+  jointed_.assign(island_of_.back() + std::size_t{1}, {});
   bool wild = false;
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     if (!bodies_[i].jointed || !bodies_[i].movable) continue;
@@ -309,13 +311,13 @@ void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
     const double gained = (linear_of(velocity) - linear_of(starts_[i])).norm();
     if (gained * h <= farthest * bodies[bodies_[i].index].radius() && angular_of(velocity).norm() * h <= farthest_turn)
       continue;
-    wild = true;
+    wild = jointed_[island_of_[i]].wild = true;
     velocity = starts_[i];
     Vec3 angular = angular_of(velocity);
     const double turn = angular.norm() * h;
     if (turn > farthest_turn) set(velocity.angular, angular * (0.5 * farthest_turn / turn));
   }
-  if (wild) joints_.forget();
+  if (wild) joints_.forget(bodies_, [this](std::uint32_t place) { return jointed_[island_of_[place]].wild; });
 }
 
 void BlockSolver::end_sub_step(double h) {
@@ -410,7 +412,10 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     listed_.clear();
     for (const islands::IslandContents& one : islands)
       listed_.insert(listed_.end(), one.contacts.begin(), one.contacts.end());
-    island = {listed_, {}, {}};
+    listed_joints_.clear();
+    for (const islands::IslandContents& one : islands)
+      listed_joints_.insert(listed_joints_.end(), one.joints.begin(), one.joints.end());
+    island = {listed_, {}, listed_joints_};
   }
   const std::span<ContactConstraint* const> contacts = island.contacts;
   const int sub_steps = effort.sub_steps;

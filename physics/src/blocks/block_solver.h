@@ -69,6 +69,13 @@ class BlockSolver {
   struct Marks {
     bool impact = false, springs_back = false, pushed = false;
   };
+  /// What joints hold together in an island.
+  struct JointedFlight {
+    bool free = true;      ///< it flies
+    bool wild = false;     ///< something moves further than can be followed
+    double mass = 0;       ///< kg
+    Vec3 gained{0, 0, 0};  ///< kg m/s
+  };
 
   [[nodiscard]] std::optional<Effort> effort_of_small(const islands::IslandContents& island,
                                                       const std::vector<state::Body>& bodies,
@@ -146,6 +153,8 @@ class BlockSolver {
   std::vector<islands::IslandEnergy> energies_;       ///< of them
   std::vector<double> shares_;                        ///< of the rebound, that they let through
   std::vector<contacts::ContactConstraint*> listed_;  ///< contacts of all of them
+  std::vector<joints::JointLink*> listed_joints_;     ///< and joints
+  std::vector<JointedFlight> jointed_;                ///< what joints hold together in each of them
   std::vector<std::uint32_t> uneven_;        ///< places of movable bodies with different moments about their axes
   std::vector<contacts::Closing> closings_;  ///< of the contacts
   ContactBlocks contacts_;

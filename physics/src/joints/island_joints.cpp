@@ -354,17 +354,6 @@ void IslandJoints::solve(std::vector<BodyLanes>& velocities, bool moving, bool b
     solve(figures_[backward ? figure_count_ - 1 - i : i], velocities, moving);
 }
 
-bool IslandJoints::find_held(std::vector<IslandBody>& island) const {
-  bool anchored = false;
-  for (const Entry& entry : joints_) {
-    const auto end = entry.rows.impulses.begin() + static_cast<std::ptrdiff_t>(entry.rows.count);
-    if (std::all_of(entry.rows.impulses.begin(), end, [](double impulse) { return impulse == 0; })) continue;
-    island[entry.a].jointed = island[entry.b].jointed = true;
-    anchored = anchored || entry.a == 0;
-  }
-  return anchored;
-}
-
 void IslandJoints::move(const std::vector<BodyLanes>& velocities) {
   for (Entry& entry : joints_) {
     // What pressed against a bound is there now.
@@ -392,10 +381,6 @@ void IslandJoints::add_up() {
       entry.push += push;
       entry.turn += impulse * entry.rows.rows[i].direction.turn_b - entry.arm_b.cross(push);
     }
-}
-
-void IslandJoints::forget() {
-  for (Entry& entry : joints_) entry.rows.impulses.fill(0);
 }
 
 void IslandJoints::store() {

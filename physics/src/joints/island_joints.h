@@ -31,14 +31,27 @@ class IslandJoints {
   /// One pass over all joints, forward or backward.
   /// @param moving  errors are being taken apart
   void solve(std::vector<blocks::BodyLanes>& velocities, bool moving, bool backward);
-  /// Marks the bodies that a joint acts on in this sub-step. @return whether one of those joints ends in the world
-  bool find_held(std::vector<blocks::IslandBody>& island) const;
+  /// Marks the bodies that a joint acts on in this sub-step. Calls `anchored(place)` for those on which one acts that
+  /// ends in something that nothing moves.
+  template <class Anchored>
+  void find_held(std::vector<blocks::IslandBody>& island, const Anchored& anchored) const {
+    for (const Entry& entry : joints_) {
+      if (!entry.acts()) continue;
+      island[entry.a].jointed = island[entry.b].jointed = true;
+      if (!moves(island, entry.a)) anchored(entry.b);
+      if (!moves(island, entry.b)) anchored(entry.a);
+    }
+  }
   /// The bodies move with these velocities.
   void move(const std::vector<blocks::BodyLanes>& velocities);
   /// Adds up what the sub-step did.
   void add_up();
-  /// Begins the next sub-step without impulses.
-  void forget();
+  /// Begins the next sub-step without impulses of joints on bodies for which `wild(place)` holds.
+  template <class Wild>
+  void forget(const std::vector<blocks::IslandBody>& island, const Wild& wild) {
+    for (Entry& entry : joints_)
+      if (wild(moves(island, entry.a) ? entry.a : entry.b)) entry.rows.impulses.fill(0);
+  }
   /// Gives impulses, forces and torques back to the joints, takes what is left of errors away by moving the bodies, and
   /// gives them velocities that fit the places where the step ends.
   void end_step(const std::vector<state::Body>& bodies, std::vector<blocks::IslandBody>& island,
@@ -53,7 +66,16 @@ class IslandJoints {
     Vec3 axis_a{0, 0, 0}, axis_b{0, 0, 0};  ///< x axes of the frames
     Vec3 push{0, 0, 0}, turn{0, 0, 0};      ///< on b in the step so far, N s and N m s
     JointRows rows;
+
+    [[nodiscard]] bool acts() const {
+      for (std::size_t i = 0; i < rows.count; ++i)
+        if (rows.impulses[i] != 0) return true;
+      return false;
+    }
   };
+  [[nodiscard]] static bool moves(const std::vector<blocks::IslandBody>& island, std::uint32_t place) {
+    return place != 0 && island[place].movable;
+  }
   /// Joints that hang together.
   struct Figure {
     JointSystem system;

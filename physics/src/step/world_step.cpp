@@ -18,7 +18,8 @@ namespace {
 
 /// Bodies, or contacts, that are worth more than one thread.
 constexpr std::size_t worth_sharing = 128;
-/// Contacts of islands that are solved together: more of them would not stay in a processor's nearest memory.
+/// Contacts and joints of islands that are solved together: more of them would not stay in a processor's nearest
+/// memory.
 constexpr std::size_t worth_a_batch = 256;
 /// Contacts of an island that are worth dividing it.
 constexpr std::size_t worth_dividing = 256;
@@ -101,7 +102,7 @@ step::Batch& step::Solvers::put_by(const islands::IslandContents& island, const 
     batch = batches.end() - 1;
   }
   batch->islands.push_back(island);
-  batch->contacts += island.contacts.size();
+  batch->size += island.contacts.size() + island.joints.size();
   return *batch;
 }
 
@@ -109,7 +110,7 @@ void step::Solvers::solve(Batch& batch, std::vector<state::Body>& bodies, const 
                           const WorldSettings& settings, double dt, std::vector<char>& moved) {
   if (!batch.islands.empty()) many.solve(bodies, loads, batch.islands, batch.effort, settings, dt, moved);
   batch.islands.clear();
-  batch.contacts = 0;
+  batch.size = 0;
 }
 
 void World::Implementation::solve_islands(double dt) {
@@ -150,7 +151,7 @@ void World::Implementation::solve_islands(double dt) {
       by.few.solve(bodies, loads, contents.contacts, contents.springs, settings, dt, moved);
     else if (effort->alone)
       by.many.solve(bodies, loads, std::span(&contents, 1), *effort, settings, dt, moved, within);
-    else if (step::Batch& batch = by.put_by(contents, *effort); batch.contacts >= step::worth_a_batch)
+    else if (step::Batch& batch = by.put_by(contents, *effort); batch.size >= step::worth_a_batch)
       by.solve(batch, bodies, loads, settings, dt, moved);
   };
   std::size_t divided = 0;
