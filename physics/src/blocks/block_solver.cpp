@@ -308,8 +308,9 @@ void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
   for (std::size_t i = 1; i < bodies_.size(); ++i) {
     if (!bodies_[i].jointed || !bodies_[i].movable) continue;
     BodyLanes& velocity = velocities_[i];
-    const double gained = (linear_of(velocity) - linear_of(starts_[i])).norm();
-    if (gained * h <= farthest * bodies[bodies_[i].index].radius() && angular_of(velocity).norm() * h <= farthest_turn)
+    const double gained = (linear_of(velocity) - linear_of(starts_[i])).squaredNorm() * h * h;
+    const double reach = farthest * bodies[bodies_[i].index].radius();
+    if (gained <= reach * reach && angular_of(velocity).squaredNorm() * h * h <= farthest_turn * farthest_turn)
       continue;
     wild = jointed_[island_of_[i]].wild = true;
     velocity = starts_[i];
@@ -317,7 +318,7 @@ void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
     const double turn = angular.norm() * h;
     if (turn > farthest_turn) set(velocity.angular, angular * (0.5 * farthest_turn / turn));
   }
-  if (wild) joints_.forget(bodies_, [this](std::uint32_t place) { return jointed_[island_of_[place]].wild; });
+  if (wild) joints_.forget([this](std::uint32_t place) { return jointed_[island_of_[place]].wild; });
 }
 
 void BlockSolver::end_sub_step(double h) {
@@ -472,7 +473,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       joints_.solve(velocities_, false, true);
     }
     if (!joints_.empty()) tame_jointed(bodies, h);
-    joints_.add_up();
+    joints_.end_sub_step();
     holds_.add_up();
     bound_spins(bodies, h);
   }

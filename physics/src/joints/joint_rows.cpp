@@ -44,17 +44,26 @@ void JointRows::begin(const Masses& masses, double h, double rate, double dt, do
   dt_ = dt;
   far_ = reach_of_blow + 2 * turn;
   together = count = 0;
+  point = errors_only_ = false;
 }
 
-Row& JointRows::add(const Direction& direction) {
+void JointRows::errors_only() {
+  far_ = 0;
+  errors_only_ = true;
+}
+
+Row& JointRows::add() {
   Row& row = rows[count++];
-  row.direction = direction;
-  row.spin_a = masses_.inverse_inertia_a * direction.turn_a;
-  row.spin_b = masses_.inverse_inertia_b * direction.turn_b;
   row.compliance = row.left = 0;
   row.low = -std::numeric_limits<double>::infinity();
   row.high = std::numeric_limits<double>::infinity();
   parts[count - 1] = Part::in;
+  return row;
+}
+
+Row& JointRows::add(const Direction& direction) {
+  Row& row = add();
+  row.direction = direction;
   return row;
 }
 
@@ -72,26 +81,11 @@ void JointRows::idle(std::size_t many) {
   }
 }
 
-bool JointRows::keep_passed() {
-  bool passed = false;
-  for (std::size_t i = together; i < count; ++i) {
-    const bool its = parts[i] != Part::idle && rows[i].left != 0;
-    parts[i] = its ? Part::in : Part::idle;
-    passed = passed || its;
-  }
-  return passed;
-}
-
 /// Toward where the error is 0.
-void JointRows::draw_near(Row& row, double error) {
-  const double fastest = row.direction.linear_b == Vec3::Zero() ? fastest_turn : fastest_approach;
+void JointRows::draw_near(Row& row, double error, bool angular) {
+  const double fastest = angular ? fastest_turn : fastest_approach;
   row.wanted += std::clamp(-rate_ * error, -fastest, fastest);
   row.left = std::clamp(-error, -fastest * dt_, fastest * dt_);
-}
-
-void JointRows::hold_only() {
-  impulses.fill(0);
-  for (std::size_t i = together; i < count; ++i) parts[i] = Part::idle;
 }
 
 /// What moves straight for a sub-step leaves its arc: half of the bend brings it back onto it, and the other half is
@@ -100,7 +94,7 @@ void JointRows::hold_only() {
 void JointRows::hold(const Direction& direction, double error, double bend) {
   Row& row = add(direction);
   row.wanted = row.wanted_after = -0.5 * h_ * bend;
-  draw_near(row, error);
+  draw_near(row, error, direction.linear_b == Vec3::Zero());
   ++together;
 }
 
@@ -121,9 +115,21 @@ void JointRows::hold_square(const Placement& at, const Vec3& axis_a, const Vec3&
 }
 
 void JointRows::hold_point(const Placement& at) {
+  point = count == 0;
   const Vec3 gap = at.gap();
   const Vec3 bend = at.gap_bend();
-  for (int i = 0; i < 3; ++i) hold(apart(at, Vec3::Unit(i)), gap[i], bend[i]);
+  if (!point) {
+    for (int i = 0; i < 3; ++i) hold(apart(at, Vec3::Unit(i)), gap[i], bend[i]);
+    return;
+  }
+  arm_a_ = at.arm_a;
+  arm_b_ = at.arm_b;
+  for (int i = 0; i < 3; ++i) {
+    Row& row = add();
+    row.wanted = row.wanted_after = -0.5 * h_ * bend[i];
+    draw_near(row, gap[i], false);
+  }
+  together = count;
 }
 
 void JointRows::hold_rotation(const Placement& at) {
@@ -150,7 +156,7 @@ void JointRows::bound(const Direction& direction, double position, const Limits*
     } else {
       Row& row = add(low ? direction : -direction);
       row.wanted = row.wanted_after = gap > 0 ? -gap / h_ : 0;
-      if (gap < 0) draw_near(row, gap);
+      if (gap < 0) draw_near(row, gap, angular);
       if (gap > -far_beyond) row.left = 0;
     }
     rows[count - 1].low = 0;
@@ -159,7 +165,7 @@ void JointRows::bound(const Direction& direction, double position, const Limits*
 }
 
 void JointRows::drive(const Direction& direction, double position, const Motor* motor) {
-  if (!motor) {
+  if (!motor || errors_only_) {
     idle();
   } else if (motor->position) {
     draw(direction, position - *motor->position, motor->speed, motor->hz, motor->zeta, motor->max_force);
@@ -173,6 +179,7 @@ void JointRows::drive(const Direction& direction, double position, const Motor* 
 }
 
 void JointRows::draw(const Direction& direction, double error, double speed, double hz, double zeta, double most) {
+  if (errors_only_) return idle();
   Row& row = add(direction);
   // Source: Catto, Soft Constraints, GDC 2011: an implicit spring on the mass that the row moves.
   const double turn = 2 * std::numbers::pi * hz * h_;
@@ -191,29 +198,37 @@ void JointRows::draw(const Direction& direction, double error, double speed, dou
 
 void JointRows::spring(const Direction& direction, double error, double stiffness, double damping) {
   const double firmness = h_ * (damping + h_ * stiffness);
-  if (!(firmness > 0)) return idle();
+  if (!(firmness > 0) || errors_only_) return idle();
   Row& row = add(direction);
   row.compliance = 1 / firmness;
   row.wanted = row.wanted_after = -stiffness / (damping + h_ * stiffness) * error;
 }
 
-double JointRows::coupling(const Row& first, const Row& second) const {
-  return masses_.inverse_mass_a * first.direction.linear_a.dot(second.direction.linear_a) +
-         first.direction.turn_a.dot(second.spin_a) +
-         masses_.inverse_mass_b * first.direction.linear_b.dot(second.direction.linear_b) +
-         first.direction.turn_b.dot(second.spin_b);
+double JointRows::coupling(const Direction& first, const Direction& second) const {
+  return masses_.inverse_mass_a * first.linear_a.dot(second.linear_a) +
+         first.turn_a.dot(masses_.inverse_inertia_a * second.turn_a) +
+         masses_.inverse_mass_b * first.linear_b.dot(second.linear_b) +
+         first.turn_b.dot(masses_.inverse_inertia_b * second.turn_b);
+}
+
+Direction JointRows::direction_of(std::size_t row) const {
+  if (!point || row >= 3) return rows[row].direction;
+  const Vec3 axis = Vec3::Unit(static_cast<Vec3::Index>(row));
+  return {axis, arm_a_.cross(axis), axis, arm_b_.cross(axis)};
 }
 
 double JointRows::held_inverse_mass() const {
-  const Row& row = rows[count - 1];
+  const Direction row = direction_of(count - 1);
   const double whole = coupling(row, row);
+  std::array<Direction, most_rows> held;
+  for (std::size_t i = 0; i < together; ++i) held[i] = direction_of(i);
   std::array<std::array<double, most_rows>, most_rows> factor{};
   std::array<double, most_rows> along{};
   double left = whole;
   for (std::size_t i = 0; i < together; ++i) {
-    double sum = coupling(rows[i], row);
+    double sum = coupling(held[i], row);
     for (std::size_t k = 0; k <= i; ++k) {
-      double entry = coupling(rows[i], rows[k]);
+      double entry = coupling(held[i], held[k]);
       const double own = entry;
       for (std::size_t n = 0; n < k; ++n) entry -= factor[i][n] * factor[k][n];
       if (k < i) {

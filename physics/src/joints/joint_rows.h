@@ -31,12 +31,11 @@ constexpr double give = 1e-8;
 
 struct Row {
   Direction direction;
-  Vec3 spin_a{0, 0, 0}, spin_b{0, 0, 0};  ///< angular velocity by a unit of impulse
-  double wanted = 0;                      ///< speed while errors are taken apart
-  double wanted_after = 0;                ///< and once the bodies have moved
-  double left = 0;                        ///< of its error when the step is over: how far it goes there, m or rad
-  double compliance = 0;                  ///< speed that a soft row lets go for a unit of impulse; 0 for a hard one
-  double low = 0, high = 0;               ///< of the impulse, N s or N m s
+  double wanted = 0;         ///< speed while errors are taken apart
+  double wanted_after = 0;   ///< and once the bodies have moved
+  double left = 0;           ///< of its error when the step is over: how far it goes there, m or rad
+  double compliance = 0;     ///< speed that a soft row lets go for a unit of impulse; 0 for a hard one
+  double low = 0, high = 0;  ///< of the impulse, N s or N m s
 };
 
 enum class Part : char {
@@ -59,6 +58,8 @@ class JointRows {
   /// @param dt    length of the step, s
   /// @param turn  how far the bodies turn against each other in the sub-step as they move, rad
   void begin(const Masses& masses, double h, double rate, double dt, double turn);
+  /// For errors alone: leaves out what drives, and bounds that are not passed.
+  void errors_only();
 
   // What holds; all of them before any that bounds
   /// @param bend  how the error accelerates when both bodies go on as they move
@@ -81,29 +82,29 @@ class JointRows {
 
   /// Lets the impulse of a coming row begin with a share of what it was.
   void keep_of_next(std::size_t ahead, double share) { impulses[count + ahead] *= share; }
-  /// Leaves out all that bounds or drives, but what is passed: for errors, not for speeds. @return whether some is
-  bool keep_passed();
-  /// Leaves out all that bounds or drives.
-  void hold_only();
-  [[nodiscard]] const Masses& masses() const { return masses_; }
 
   std::array<double, most_rows> impulses{};  ///< of the sub-step, N s or N m s
   std::array<Part, most_rows> parts{};
   std::array<Row, most_rows> rows;  ///< those that are idle hold nothing
   std::size_t together = 0, count = 0;
+  bool point = false;  ///< the first three hold a point: their directions are known by the arms, and not written
 
  private:
+  Row& add();
   Row& add(const Direction& direction);
   /// Says whether the row that was added last takes part, by the impulse that it has.
   void place_last();
-  [[nodiscard]] double coupling(const Row& first, const Row& second) const;
+  [[nodiscard]] double coupling(const Direction& first, const Direction& second) const;
   /// What the last row added moves while the joint holds: speed by a unit of impulse; 0 for nothing.
   [[nodiscard]] double held_inverse_mass() const;
 
-  void draw_near(Row& row, double error);
+  void draw_near(Row& row, double error, bool angular);
+  [[nodiscard]] Direction direction_of(std::size_t row) const;
 
   Masses masses_;
+  Vec3 arm_a_{0, 0, 0}, arm_b_{0, 0, 0};  ///< of the point
   double h_ = 0, rate_ = 0, dt_ = 0, far_ = 0;
+  bool errors_only_ = false;
 };
 
 }  // namespace tweenfall::joints

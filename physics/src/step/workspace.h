@@ -46,7 +46,7 @@ struct Told {
 struct Batch {
   blocks::BlockSolver::Effort effort;
   std::vector<islands::IslandContents> islands;
-  std::size_t size = 0;  ///< contacts and joints of all of them
+  std::size_t size = 0;  ///< contacts of all of them, and a part of their joints
 };
 
 struct Solvers {

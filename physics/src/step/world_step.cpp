@@ -18,8 +18,8 @@ namespace {
 
 /// Bodies, or contacts, that are worth more than one thread.
 constexpr std::size_t worth_sharing = 128;
-/// Contacts and joints of islands that are solved together: more of them would not stay in a processor's nearest
-/// memory.
+/// Contacts of islands that are solved together, and a part of their joints: more of them would not stay in a
+/// processor's nearest memory.
 constexpr std::size_t worth_a_batch = 256;
 /// Contacts of an island that are worth dividing it.
 constexpr std::size_t worth_dividing = 256;
@@ -102,7 +102,7 @@ step::Batch& step::Solvers::put_by(const islands::IslandContents& island, const 
     batch = batches.end() - 1;
   }
   batch->islands.push_back(island);
-  batch->size += island.contacts.size() + island.joints.size();
+  batch->size += island.contacts.size() + island.joints.size() / 4;
   return *batch;
 }
 

@@ -74,6 +74,11 @@ void bound_swing(const SwingTwistJoint& kind, state::Joint& joint, const Placeme
   const double twist_part = relative.w() * relative.w() + relative.x() * relative.x();
   const double swing_part = relative.y() * relative.y() + relative.z() * relative.z();
   if (inside > 0 && 4 * swing_part < inside * inside * twist_part) return rows.idle(4);
+  if (rows.far() == 0) {
+    const double across_y = (relative.y() * relative.w() - relative.z() * relative.x()) / y;
+    const double across_z = (relative.z() * relative.w() + relative.y() * relative.x()) / z;
+    if (4 * (across_y * across_y + across_z * across_z) < twist_part * twist_part) return rows.idle(4);
+  }
   const Swing swing = swing_of(relative);
   // The ellipse (s_y / y)^2 + (s_z / z)^2 = 1, and the distance to it to first order.
   const Vec3 scaled(0, swing.vector.y() / y, swing.vector.z() / z);

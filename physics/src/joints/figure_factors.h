@@ -1,0 +1,476 @@
+#pragma once
+
+/// What is done with rows of figures: their speeds and impulses, and the factors of all that are in.
+
+#include "blocks/registers.h"
+#include "joints/figure_lanes.h"
+#include "joints/joint_rows.h"
+
+namespace tweenfall::joints {
+
+using blocks::any_of;
+using blocks::BodyLanes;
+using blocks::Eight;
+using blocks::EightMasks;
+using blocks::Four;
+using blocks::FourMasks;
+using blocks::gather;
+using blocks::Halves;
+using blocks::lane_count;
+using blocks::Lanes;
+using blocks::Lanes3;
+using blocks::scatter;
+using blocks::Two;
+using blocks::TwoMasks;
+using blocks::Wide;
+using blocks::Wide3;
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+/// Keeps g++ from finding what comes of several comparisons at once: of eight numbers it does so one by one.
+template <class Register>
+TWEENFALL_LANES void stay(Register&) {}
+#if defined(__x86_64__) || defined(__i386__)
+TWEENFALL_LANES void stay(Eight& numbers) {
+  asm("" : "+m"(numbers));
+}
+#endif
+
+/// Whether some bit is set.
+template <class Register, class Bits>
+TWEENFALL_LANES bool any_bit(const Register& numbers, Bits bits) {
+  __builtin_memcpy(&bits, &numbers, sizeof bits);
+  return any_of(bits);
+}
+TWEENFALL_LANES bool any_bit(const Two& numbers) {
+  return any_bit(numbers, TwoMasks{});
+}
+TWEENFALL_LANES bool any_bit(const Four& numbers) {
+  return any_bit(numbers, FourMasks{});
+}
+TWEENFALL_LANES bool any_bit(const Eight& numbers) {
+  return any_bit(numbers, EightMasks{});
+}
+template <class Half>
+TWEENFALL_LANES bool any_bit(const Halves<Half>& numbers) {
+  return any_bit(numbers.low) || any_bit(numbers.high);
+}
+
+constexpr std::uint32_t rows_of_joint = FigureJoint::most_rows;
+
+/// In registers of one kind. Conditions are 1 or 0 in each lane: products of them are found faster than what comes of
+/// several comparisons.
+template <class Register>
+struct FigureFactors {
+  using Number = Wide<Register>;
+  using Vector = Wide3<Register>;
+  using Which = typename Number::Which;
+
+  struct Ends {
+    Vector linear_a, angular_a, linear_b, angular_b;
+  };
+  /// Impulses of a joint's rows together.
+  struct Sum {
+    Vector push_a, twist_a, push_b, twist_b;
+  };
+
+  TWEENFALL_LANES static Number nothing() { return Number(0.0); }
+  TWEENFALL_LANES static Vector no_vector() { return {nothing(), nothing(), nothing()}; }
+  TWEENFALL_LANES static Number one_if(const Which& which) {
+    Number ones = select(which, Number(1.0), nothing());
+    stay(ones.of);
+    return ones;
+  }
+  TWEENFALL_LANES static bool any(const Number& ones) { return any_bit(ones.of); }
+  TWEENFALL_LANES static Number size_of(const Number& value) { return greater(value, -value); }
+  TWEENFALL_LANES static FigureRow* rows_of(const Figures& figures, std::uint32_t place) {
+    return figures.rows + rows_of_joint * place;
+  }
+  TWEENFALL_LANES static bool is_point(const FigureJoint& joint, std::uint32_t row) { return joint.point && row < 3; }
+
+  // Velocities
+
+  /// Where the velocity of a body in each lane is; `nobody` where there is none.
+  TWEENFALL_LANES static void find(const Figures& figures, std::uint32_t body, BodyLanes& nobody, double** rows) {
+    for (int lane = 0; lane < lane_count; ++lane)
+      rows[lane] =
+          lane < figures.used ? figures.velocities[figures.places[lane_count * body + lane]].linear : nobody.linear;
+  }
+  TWEENFALL_LANES static void read(Figures& figures) {
+    BodyLanes nobody;
+    for (std::uint32_t i = 0; i < figures.body_count; ++i) {
+      double* rows[lane_count];
+      find(figures, i, nobody, rows);
+      Vector linear, angular;
+      Number rest;
+      gather(rows, linear.x.of, linear.y.of, linear.z.of, rest.of);
+      for (double*& row : rows) row += 4;
+      gather(rows, angular.x.of, angular.y.of, angular.z.of, rest.of);
+      linear.put(figures.bodies[i].linear);
+      angular.put(figures.bodies[i].angular);
+    }
+  }
+  /// Adding 0 makes every 0 a positive one, whatever the other lanes have.
+  TWEENFALL_LANES static void write(const Figures& figures) {
+    BodyLanes nobody;
+    for (std::uint32_t i = 0; i < figures.body_count; ++i) {
+      const FigureBody& body = figures.bodies[i];
+      if (!body.moves) continue;
+      double* rows[lane_count];
+      find(figures, i, nobody, rows);
+      const Vector linear = Vector(body.linear) + no_vector(), angular = Vector(body.angular) + no_vector();
+      scatter(linear.x.of, linear.y.of, linear.z.of, nothing().of, rows);
+      for (double*& row : rows) row += 4;
+      scatter(angular.x.of, angular.y.of, angular.z.of, nothing().of, rows);
+    }
+  }
+
+  TWEENFALL_LANES static Ends ends_of(const Figures& figures, const FigureJoint& joint) {
+    const FigureBody &a = figures.bodies[joint.a], &b = figures.bodies[joint.b];
+    return {a.linear, a.angular, b.linear, b.angular};
+  }
+  TWEENFALL_LANES static Vector point_speed(const FigureJoint& joint, const Ends& ends) {
+    return (ends.linear_b + cross(ends.angular_b, Vector(joint.arm_b))) -
+           (ends.linear_a + cross(ends.angular_a, Vector(joint.arm_a)));
+  }
+  TWEENFALL_LANES static Number speed_of(const FigureRow& row, bool turning, const Ends& ends) {
+    const Number turn = dot(row.turn_b, ends.angular_b) - dot(row.turn_a, ends.angular_a);
+    if (turning) return turn;
+    return (dot(row.linear_b, ends.linear_b) - dot(row.linear_a, ends.linear_a)) + turn;
+  }
+  TWEENFALL_LANES static Number lack_of(const FigureRow& row, const Number& speed, bool moving) {
+    return (Number(moving ? row.wanted : row.wanted_after) - Number(row.compliance) * row.impulse) - speed;
+  }
+
+  TWEENFALL_LANES static Sum sum_of_point(const FigureJoint& joint, const Vector& impulse) {
+    return {impulse, cross(Vector(joint.arm_a), impulse), impulse, cross(Vector(joint.arm_b), impulse)};
+  }
+  TWEENFALL_LANES static void add(const FigureRow& row, bool turning, const Number& impulse, Sum& sum) {
+    if (!turning) {
+      sum.push_a = sum.push_a + impulse * row.linear_a;
+      sum.push_b = sum.push_b + impulse * row.linear_b;
+    }
+    sum.twist_a = sum.twist_a + impulse * row.turn_a;
+    sum.twist_b = sum.twist_b + impulse * row.turn_b;
+  }
+  TWEENFALL_LANES static void give_to(Figures& figures, const FigureJoint& joint, const Sum& sum) {
+    FigureBody &a = figures.bodies[joint.a], &b = figures.bodies[joint.b];
+    if (a.moves) {
+      (Vector(a.linear) - Number(a.inverse_mass) * sum.push_a).put(a.linear);
+      (Vector(a.angular) - a.inverse_inertia * sum.twist_a).put(a.angular);
+    }
+    if (b.moves) {
+      (Vector(b.linear) + Number(b.inverse_mass) * sum.push_b).put(b.linear);
+      (Vector(b.angular) + b.inverse_inertia * sum.twist_b).put(b.angular);
+    }
+  }
+  /// One row by itself.
+  TWEENFALL_LANES static void apply(Figures& figures, const FigureJoint& joint, std::uint32_t row, const FigureRow& its,
+                                    const Number& impulse) {
+    Sum sum{no_vector(), no_vector(), no_vector(), no_vector()};
+    if (is_point(joint, row))
+      sum = sum_of_point(
+          joint, {row == 0 ? impulse : nothing(), row == 1 ? impulse : nothing(), row == 2 ? impulse : nothing()});
+    else
+      add(its, joint.turning[row], impulse, sum);
+    give_to(figures, joint, sum);
+  }
+
+  // Factors
+
+  TWEENFALL_LANES static Vector turn_of_point(const Vector& arm, std::uint32_t axis) {
+    if (axis == 0) return {nothing(), arm.z, -arm.y};
+    if (axis == 1) return {-arm.z, nothing(), arm.x};
+    return {arm.y, -arm.x, nothing()};
+  }
+  TWEENFALL_LANES static Vector turn_of(const FigureJoint& joint, const FigureRow* rows, std::uint32_t row, bool by_b) {
+    if (is_point(joint, row)) return turn_of_point(by_b ? joint.arm_b : joint.arm_a, row);
+    return by_b ? rows[row].turn_b : rows[row].turn_a;
+  }
+  TWEENFALL_LANES static const Lanes& part_of_vector(const Lanes3& vector, std::uint32_t axis) {
+    return axis == 0 ? vector.x : axis == 1 ? vector.y : vector.z;
+  }
+  /// Adds what the pushes of two rows do through a mass.
+  TWEENFALL_LANES static Number with_push(const Number& sum, const Number& mass, const FigureJoint& joint1,
+                                          const FigureRow* rows1, std::uint32_t row1, bool by_b1,
+                                          const FigureJoint& joint2, const FigureRow* rows2, std::uint32_t row2,
+                                          bool by_b2) {
+    const bool point1 = is_point(joint1, row1), point2 = is_point(joint2, row2);
+    if (point1 && point2) return row1 == row2 ? sum + mass : sum;
+    if ((!point1 && joint1.turning[row1]) || (!point2 && joint2.turning[row2])) return sum;
+    const Lanes3& linear1 = by_b1 ? rows1[row1].linear_b : rows1[row1].linear_a;
+    const Lanes3& linear2 = by_b2 ? rows2[row2].linear_b : rows2[row2].linear_a;
+    if (point1) return sum + mass * part_of_vector(linear2, row1);
+    if (point2) return sum + mass * part_of_vector(linear1, row2);
+    return sum + mass * dot(linear1, Vector(linear2));
+  }
+
+  TWEENFALL_LANES static void lay_out(Figures& figures) {
+    std::uint32_t value = 0, block = 0;
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      FigureJoint& joint = figures.joints[place];
+      const FigureRow* rows = rows_of(figures, place);
+      std::uint8_t count = joint.holds;
+      for (std::uint8_t row = 0; row < count; ++row) joint.slots[row] = row;
+      for (std::uint8_t row = joint.holds; row < joint.count; ++row)
+        if (any(rows[row].in)) joint.slots[count++] = row;
+      joint.in_count = count;
+      joint.value = value;
+      joint.diagonal = block;
+      value += count;
+      block += std::uint32_t{count} * count;
+    }
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place)
+      for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
+        figures.links[n].block = block;
+        block += std::uint32_t{figures.joints[figures.links[n].place].in_count} * figures.joints[place].in_count;
+      }
+  }
+
+  /// How an impulse along one row changes the speed that another sees through a body that both hold.
+  TWEENFALL_LANES static void share(const Figures& figures, std::uint32_t place, bool by_b, const Vector* spins,
+                                    std::uint32_t later, bool later_by_b, Lanes* block, bool first) {
+    const FigureJoint &own = figures.joints[place], &other = figures.joints[later];
+    const FigureRow *rows = rows_of(figures, place), *others = rows_of(figures, later);
+    const Number mass = figures.bodies[by_b ? own.b : own.a].inverse_mass;
+    const bool opposite = by_b != later_by_b;
+    const std::uint32_t count = own.in_count, points = own.point ? 3 : 0;
+    for (std::uint32_t i = 0; i < other.in_count; ++i) {
+      const std::uint32_t row = other.slots[i];
+      const bool of_point = is_point(other, row), firm = row < other.holds;
+      const Vector turn = turn_of(other, others, row, later_by_b);
+      const auto put = [&](std::uint32_t k, Number sum) __attribute__((always_inline)) {
+        if (opposite) sum = -sum;
+        if (!firm) sum = sum * others[row].in;
+        if (!first) sum = Number(block[i * count + k]) + sum;
+        sum.put(block[i * count + k]);
+      };
+      if (points != 0) {
+        Number sums[3] = {dot(turn, spins[0]), dot(turn, spins[1]), dot(turn, spins[2])};
+        if (of_point) {
+          sums[row] = sums[row] + mass;
+        } else if (!other.turning[row]) {
+          const Vector push = mass * Vector(later_by_b ? others[row].linear_b : others[row].linear_a);
+          sums[0] = sums[0] + push.x;
+          sums[1] = sums[1] + push.y;
+          sums[2] = sums[2] + push.z;
+        }
+        put(0, sums[0]);
+        put(1, sums[1]);
+        put(2, sums[2]);
+      }
+      for (std::uint32_t k = points; k < count; ++k) {
+        const std::uint32_t slot = own.slots[k];
+        const Number sum = with_push(dot(turn, spins[k]), mass, other, others, row, later_by_b, own, rows, slot, by_b);
+        put(k, slot < own.holds ? sum : sum * rows[slot].in);
+      }
+    }
+  }
+
+  TWEENFALL_LANES static void fill(Figures& figures, std::uint32_t place) {
+    FigureJoint& joint = figures.joints[place];
+    FigureRow* rows = rows_of(figures, place);
+    const FigureBody &a = figures.bodies[joint.a], &b = figures.bodies[joint.b];
+    const std::uint32_t count = joint.in_count;
+    Vector turns_a[rows_of_joint], turns_b[rows_of_joint], spins_a[rows_of_joint], spins_b[rows_of_joint];
+    for (std::uint32_t i = 0; i < count; ++i) {
+      turns_a[i] = turn_of(joint, rows, joint.slots[i], false);
+      turns_b[i] = turn_of(joint, rows, joint.slots[i], true);
+      spins_a[i] = a.inverse_inertia * turns_a[i];
+      spins_b[i] = b.inverse_inertia * turns_b[i];
+    }
+    Lanes* diagonal = figures.blocks + joint.diagonal;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      FigureRow& row = rows[joint.slots[i]];
+      for (std::uint32_t k = 0; k <= i; ++k) {
+        Number sum = dot(turns_a[i], spins_a[k]) + dot(turns_b[i], spins_b[k]);
+        sum = with_push(sum, a.inverse_mass, joint, rows, joint.slots[i], false, joint, rows, joint.slots[k], false);
+        sum = with_push(sum, b.inverse_mass, joint, rows, joint.slots[i], true, joint, rows, joint.slots[k], true);
+        if (k < i) {
+          if (joint.slots[i] >= joint.holds) sum = sum * row.in;
+          if (joint.slots[k] >= joint.holds) sum = sum * rows[joint.slots[k]].in;
+          sum.put(diagonal[i * count + k]);
+          continue;
+        }
+        // What is not in wants nothing, and gets it.
+        const Number out = Number(1.0) - Number(row.in);
+        const Number inverse = row.in * sum + out;
+        inverse.put(row.inverse);
+        (row.in * (inverse + Number(row.reserve) * inverse + row.compliance) + out).put(diagonal[i * count + i]);
+      }
+    }
+    for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
+      const FigureLink& link = figures.links[n];
+      const FigureJoint& other = figures.joints[link.place];
+      Lanes* block = figures.blocks + link.block;
+      bool first = true;
+      for (const bool by_b : {false, true})
+        for (const bool later_by_b : {false, true}) {
+          const std::uint32_t body = by_b ? joint.b : joint.a;
+          if (body != (later_by_b ? other.b : other.a) || !figures.bodies[body].moves) continue;
+          share(figures, place, by_b, by_b ? spins_b : spins_a, link.place, later_by_b, block, first);
+          first = false;
+        }
+      if (!first) continue;
+      for (std::uint32_t i = 0; i < count * other.in_count; ++i) nothing().put(block[i]);
+    }
+  }
+
+  TWEENFALL_LANES static void factor_diagonal(Figures& figures, std::uint32_t place) {
+    const FigureJoint& joint = figures.joints[place];
+    const FigureRow* rows = rows_of(figures, place);
+    const std::uint32_t count = joint.in_count;
+    Lanes* block = figures.blocks + joint.diagonal;
+    for (std::uint32_t i = 0; i < count; ++i)
+      for (std::uint32_t k = 0; k <= i; ++k) {
+        Number sum = block[i * count + k];
+        for (std::uint32_t m = 0; m < k; ++m) sum = sum - Number(block[i * count + m]) * Number(block[k * count + m]);
+        if (k < i) {
+          (sum * block[k * count + k]).put(block[i * count + k]);
+          continue;
+        }
+        const Which news = sum > Number(new_enough) * rows[joint.slots[i]].inverse;
+        const Number root_of_sum = root(select(news, sum, Number(1.0)));
+        const Number its = select(news, Number(1.0) / root_of_sum, nothing());
+        its.put(block[i * count + i]);
+        figures.silent = figures.silent || any(Number(1.0) - one_if(its > nothing()));
+      }
+  }
+
+  /// Takes what the place does to those after it out of them. @param known  rows of the joint, or 0 for any number:
+  /// those of most joints' points are known to the compiler
+  template <std::uint32_t known>
+  TWEENFALL_LANES static void eliminate(Figures& figures, std::uint32_t place) {
+    const FigureJoint& joint = figures.joints[place];
+    const std::uint32_t columns = known != 0 ? known : joint.in_count;
+    if (columns == 0) return;
+    const Lanes* diagonal = figures.blocks + joint.diagonal;
+    const std::uint32_t begin = figures.firsts[place], end = figures.firsts[place + 1];
+    for (std::uint32_t n = begin; n < end; ++n) {
+      Lanes* block = figures.blocks + figures.links[n].block;
+      for (std::uint32_t i = 0; i < figures.joints[figures.links[n].place].in_count; ++i)
+        solve_lower(diagonal, block + i * columns, columns);
+    }
+    for (std::uint32_t n = begin; n < end; ++n) {
+      const std::uint32_t column = figures.links[n].place;
+      const Lanes* right = figures.blocks + figures.links[n].block;
+      const std::uint32_t others = figures.joints[column].in_count;
+      std::uint32_t target = figures.firsts[column];
+      for (std::uint32_t p = n; p < end; ++p) {
+        const Lanes* left = figures.blocks + figures.links[p].block;
+        Lanes* into = figures.blocks + figures.joints[column].diagonal;
+        if (p > n) {
+          while (figures.links[target].place != figures.links[p].place) ++target;
+          into = figures.blocks + figures.links[target].block;
+        }
+        const std::uint32_t rows = figures.joints[figures.links[p].place].in_count;
+        for (std::uint32_t i = 0; i < rows; ++i) {
+          const std::uint32_t end_of_row = p == n ? i + 1 : others;
+          for (std::uint32_t k = 0; k < end_of_row; ++k) {
+            Number sum = Number(left[i * columns]) * Number(right[k * columns]);
+            for (std::uint32_t m = 1; m < columns; ++m)
+              sum = sum + Number(left[i * columns + m]) * Number(right[k * columns + m]);
+            (Number(into[i * others + k]) - sum).put(into[i * others + k]);
+          }
+        }
+      }
+    }
+  }
+
+  TWEENFALL_LANES static void factor(Figures& figures) {
+    if (!figures.stale) return;
+    figures.stale = figures.silent = false;
+    lay_out(figures);
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) fill(figures, place);
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      factor_diagonal(figures, place);
+      if (figures.joints[place].in_count == 3)
+        eliminate<3>(figures, place);
+      else
+        eliminate<0>(figures, place);
+    }
+  }
+
+  /// lower x = values
+  TWEENFALL_LANES static void solve_lower(const Lanes* lower, Lanes* values, std::uint32_t rows) {
+    for (std::uint32_t i = 0; i < rows; ++i) {
+      Number sum = values[i];
+      for (std::uint32_t k = 0; k < i; ++k) sum = sum - Number(lower[i * rows + k]) * Number(values[k]);
+      (sum * lower[i * rows + i]).put(values[i]);
+    }
+  }
+  /// lower^T x = values
+  TWEENFALL_LANES static void solve_upper(const Lanes* lower, Lanes* values, std::uint32_t rows) {
+    for (std::uint32_t i = rows; i-- > 0;) {
+      Number sum = values[i];
+      for (std::uint32_t k = i + 1; k < rows; ++k) sum = sum - Number(lower[k * rows + i]) * Number(values[k]);
+      (sum * lower[i * rows + i]).put(values[i]);
+    }
+  }
+  template <std::uint32_t known>
+  TWEENFALL_LANES static void solve_down(Figures& figures, std::uint32_t place) {
+    const FigureJoint& joint = figures.joints[place];
+    const std::uint32_t columns = known != 0 ? known : joint.in_count;
+    Lanes* own = figures.values + joint.value;
+    solve_lower(figures.blocks + joint.diagonal, own, columns);
+    for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
+      const FigureJoint& other = figures.joints[figures.links[n].place];
+      const Lanes* block = figures.blocks + figures.links[n].block;
+      Lanes* its = figures.values + other.value;
+      const std::uint32_t rows = other.in_count;
+      for (std::uint32_t i = 0; i < rows; ++i) {
+        Number sum = its[i];
+        for (std::uint32_t k = 0; k < columns; ++k) sum = sum - Number(block[i * columns + k]) * Number(own[k]);
+        sum.put(its[i]);
+      }
+    }
+  }
+  template <std::uint32_t known>
+  TWEENFALL_LANES static void solve_up(Figures& figures, std::uint32_t place) {
+    const FigureJoint& joint = figures.joints[place];
+    const std::uint32_t columns = known != 0 ? known : joint.in_count;
+    Lanes* own = figures.values + joint.value;
+    for (std::uint32_t n = figures.firsts[place]; n < figures.firsts[place + 1]; ++n) {
+      const FigureJoint& other = figures.joints[figures.links[n].place];
+      const Lanes* block = figures.blocks + figures.links[n].block;
+      const Lanes* its = figures.values + other.value;
+      const std::uint32_t rows = other.in_count;
+      for (std::uint32_t k = 0; k < columns; ++k) {
+        Number sum = own[k];
+        for (std::uint32_t i = 0; i < rows; ++i) sum = sum - Number(block[i * columns + k]) * Number(its[i]);
+        sum.put(own[k]);
+      }
+    }
+    solve_upper(figures.blocks + joint.diagonal, own, columns);
+  }
+  TWEENFALL_LANES static void solve_values(Figures& figures) {
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place)
+      if (figures.joints[place].in_count == 3)
+        solve_down<3>(figures, place);
+      else
+        solve_down<0>(figures, place);
+    for (std::uint32_t place = figures.joint_count; place-- > 0;)
+      if (figures.joints[place].in_count == 3)
+        solve_up<3>(figures, place);
+      else
+        solve_up<0>(figures, place);
+  }
+  /// The impulses that came out, on the bodies.
+  TWEENFALL_LANES static void give_values(Figures& figures) {
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      const FigureRow* rows = rows_of(figures, place);
+      const Lanes* values = figures.values + joint.value;
+      Sum sum{no_vector(), no_vector(), no_vector(), no_vector()};
+      if (joint.point) sum = sum_of_point(joint, {values[0], values[1], values[2]});
+      for (std::uint32_t i = joint.point ? 3 : 0; i < joint.in_count; ++i)
+        add(rows[joint.slots[i]], joint.turning[joint.slots[i]], values[i], sum);
+      give_to(figures, joint, sum);
+    }
+  }
+};
+
+#pragma GCC diagnostic pop
+
+}  // namespace tweenfall::joints

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "blocks/island_body.h"
+#include "joints/figure_lanes.h"
+#include "joints/figure_plan.h"
+#include "joints/joint_rows.h"
+
+namespace tweenfall::joints {
+
+/// Up to eight figures of one shape: as many joints of the same kinds, hanging together in the same way, one figure in
+/// each lane. What a lane does depends on none of the others.
+class FigureGroup {
+ public:
+  /// What tells the shapes of figures apart.
+  using Shape = std::vector<std::uint32_t>;
+
+  /// Begins with one figure. @param whole  no other figure has any of its bodies
+  void begin(const FigurePlan& plan, const Shape& shape, bool whole);
+  /// Takes a figure along. @return false if it has another shape, or there is no lane left
+  [[nodiscard]] bool take(const FigurePlan& plan, const Shape& shape);
+  /// Bodies of the group at the ends of each joint, with what moves and the kind of the joint.
+  /// @param kinds  by the members' joint
+  /// @param local  room: by place, 0 between calls
+  static void find_shape(const FigurePlan& plan, std::span<const std::uint32_t> kinds,
+                         std::vector<std::uint32_t>& local, Shape& shape);
+
+  [[nodiscard]] int lanes() const { return lanes_.used; }
+  [[nodiscard]] std::uint32_t size() const { return lanes_.joint_count; }
+  [[nodiscard]] std::uint32_t body_count() const { return lanes_.body_count; }
+  /// Which joint it is.
+  [[nodiscard]] std::uint32_t joint(std::uint32_t place, int lane) const {
+    return joint_of_[at(place) + static_cast<std::size_t>(lane)];
+  }
+  /// Which place in the island.
+  [[nodiscard]] std::uint32_t body(std::uint32_t number, int lane) const {
+    return places_[at(number) + static_cast<std::size_t>(lane)];
+  }
+  /// Some place of the figure that moves.
+  [[nodiscard]] std::uint32_t moving_body(int lane) const;
+  [[nodiscard]] const FigureBody& body(std::uint32_t number) const { return bodies_[number]; }
+
+  void load_bodies(const std::vector<blocks::IslandBody>& island);
+  /// The rows of a joint; once all of those that changed are loaded, `end_load`.
+  void load(std::uint32_t place, int lane, const JointRows& rows, const Vec3& arm_a, const Vec3& arm_b);
+  void end_load();
+  /// Impulses of the rows that were loaded, by row of the joint.
+  void unload(std::uint32_t place, int lane, std::array<double, most_rows>& impulses) const;
+  [[nodiscard]] bool acts(std::uint32_t place, int lane) const;
+  /// Begins the next sub-step without impulses.
+  void forget(int lane);
+  [[nodiscard]] Vec3 push(std::uint32_t place, int lane) const { return blocks::lane_of(joints_[place].push, lane); }
+  [[nodiscard]] Vec3 turn(std::uint32_t place, int lane) const { return blocks::lane_of(joints_[place].turn, lane); }
+
+  [[nodiscard]] Figures& figures() { return lanes_; }
+  [[nodiscard]] Figures& figures(std::vector<blocks::BodyLanes>& velocities) {
+    lanes_.velocities = velocities.data();
+    return lanes_;
+  }
+
+ private:
+  [[nodiscard]] static std::size_t at(std::uint32_t number) { return std::size_t{blocks::lane_count} * number; }
+  void add(const FigurePlan& plan);
+
+  Figures lanes_;
+  Shape shape_;
+  bool whole_ = true;
+  std::vector<FigureBody> bodies_;
+  std::vector<FigureJoint> joints_;
+  std::vector<FigureRow> rows_;
+  std::vector<std::uint32_t> firsts_;
+  std::vector<FigureLink> links_;
+  std::vector<blocks::Lanes> blocks_, values_;
+  std::vector<std::uint32_t> places_, joint_of_;
+  std::vector<std::array<std::uint8_t, blocks::lane_count>> counts_, holds_;  ///< rows that each lane has
+  std::vector<std::array<std::uint8_t, blocks::lane_count>> slots_;           ///< of each row, in the lane's joint
+  std::vector<std::uint8_t> pushing_;  ///< of each row, the lanes in which it pushes along, bit by bit
+};
+
+}  // namespace tweenfall::joints

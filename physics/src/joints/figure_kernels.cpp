@@ -1,0 +1,326 @@
+#include <array>
+
+#include "joints/figure_factors.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+namespace tweenfall::joints {
+
+namespace {
+
+/// So often rows change places between those in and those beside, before those that bound stay where they are.
+constexpr int most_rounds = 4;
+/// What is passed by less than this is not, m/s or rad/s.
+constexpr double passable = 1e-10;
+
+/// How what is in and what is beside change places, in registers of one kind.
+template <class Register>
+struct FigureWork : FigureFactors<Register> {
+  using Factors = FigureFactors<Register>;
+  using Number = typename Factors::Number;
+  using Vector = typename Factors::Vector;
+  using Ends = typename Factors::Ends;
+  using Sum = typename Factors::Sum;
+  using Factors::add;
+  using Factors::any;
+  using Factors::apply;
+  using Factors::ends_of;
+  using Factors::factor;
+  using Factors::give_to;
+  using Factors::give_values;
+  using Factors::lack_of;
+  using Factors::no_vector;
+  using Factors::nothing;
+  using Factors::one_if;
+  using Factors::point_speed;
+  using Factors::read;
+  using Factors::rows_of;
+  using Factors::size_of;
+  using Factors::solve_values;
+  using Factors::speed_of;
+  using Factors::sum_of_point;
+  using Factors::write;
+
+  // Rounds
+
+  /// What says nothing new has no impulse.
+  TWEENFALL_LANES static void drop_silent(Figures& figures, const Number& live) {
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      FigureRow* rows = rows_of(figures, place);
+      for (std::uint32_t i = 0; i < joint.in_count; ++i) {
+        const Number its = figures.blocks[joint.diagonal + i * joint.in_count + i];
+        FigureRow& row = rows[joint.slots[i]];
+        const Number dropped = live * select(its > nothing(), nothing(), row.impulse);
+        if (!any(one_if(size_of(dropped) > nothing()))) continue;
+        apply(figures, joint, joint.slots[i], row, -dropped);
+        (Number(row.impulse) - dropped).put(row.impulse);
+      }
+    }
+  }
+
+  TWEENFALL_LANES static Number wanted_of(const FigureRow& row, const Number& speed, bool moving) {
+    return lack_of(row, speed, moving) - (Number(give) * row.inverse) * row.impulse;
+  }
+
+  /// Solves all rows that are in, of some lanes, for the speeds that they want. @return lanes in which one has bounds
+  TWEENFALL_LANES static Number solve_in(Figures& figures, const Number& live, bool moving) {
+    if (figures.silent) drop_silent(figures, live);
+    Number bounded = nothing();
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      const FigureRow* rows = rows_of(figures, place);
+      Lanes* values = figures.values + joint.value;
+      const Ends ends = ends_of(figures, joint);
+      if (joint.point) {
+        const Vector speed = point_speed(joint, ends);
+        (live * wanted_of(rows[0], speed.x, moving)).put(values[0]);
+        (live * wanted_of(rows[1], speed.y, moving)).put(values[1]);
+        (live * wanted_of(rows[2], speed.z, moving)).put(values[2]);
+      }
+      for (std::uint32_t i = joint.point ? 3 : 0; i < joint.in_count; ++i) {
+        const std::uint32_t slot = joint.slots[i];
+        const FigureRow& row = rows[slot];
+        const Number value = live * wanted_of(row, speed_of(row, joint.turning[slot], ends), moving);
+        if (slot < joint.holds) {
+          value.put(values[i]);
+        } else {
+          (value * row.in).put(values[i]);
+          bounded = greater(bounded, row.in * Number(row.bounded));
+        }
+      }
+    }
+    solve_values(figures);
+    give_values(figures);
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      FigureRow* rows = rows_of(figures, place);
+      for (std::uint32_t i = 0; i < joint.in_count; ++i) {
+        FigureRow& row = rows[joint.slots[i]];
+        (Number(row.impulse) + figures.values[joint.value + i]).put(row.impulse);
+      }
+    }
+    return bounded;
+  }
+
+  /// Lets in what is beside and would be passed. @return lanes in which anything came in
+  TWEENFALL_LANES static Number admit(Figures& figures, const Number& live, bool moving) {
+    Number changed = nothing();
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      FigureRow* rows = rows_of(figures, place);
+      if (joint.holds == joint.count) continue;
+      const Ends ends = ends_of(figures, joint);
+      for (std::uint32_t i = joint.holds; i < joint.count; ++i) {
+        FigureRow& row = rows[i];
+        const Number rest = lack_of(row, speed_of(row, joint.turning[i], ends), moving);
+        const Number up = one_if(rest > Number(passable)) * one_if(row.impulse < Number(row.high));
+        const Number down = one_if(rest < Number(-passable)) * one_if(row.impulse > Number(row.low));
+        const Number enters = live * (Number(row.present) - Number(row.in)) * (up + down);
+        (Number(row.in) + enters).put(row.in);
+        changed = greater(changed, enters);
+      }
+    }
+    figures.stale = figures.stale || any(changed);
+    return changed;
+  }
+
+  /// Takes out what came to lie beyond its bound, or at it. @param all  also what did not
+  TWEENFALL_LANES static Number dismiss(Figures& figures, const Number& live, bool everything) {
+    Number changed = nothing();
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      FigureRow* rows = rows_of(figures, place);
+      for (std::uint32_t i = joint.holds; i < joint.count; ++i) {
+        FigureRow& row = rows[i];
+        const Number impulse = row.impulse;
+        Number leaves = live * row.in * Number(row.bounded);
+        if (!everything)
+          leaves = leaves * (Number(1.0) - one_if(impulse >= row.low) * one_if(Number(row.high) >= impulse));
+        if (!any(leaves)) continue;
+        const Number within = lesser(greater(impulse, row.low), row.high);
+        const Number change = select(leaves > nothing(), within - impulse, nothing());
+        apply(figures, joint, i, row, change);
+        select(leaves > nothing(), within, impulse).put(row.impulse);
+        (Number(row.in) - leaves).put(row.in);
+        changed = greater(changed, leaves);
+      }
+    }
+    figures.stale = figures.stale || any(changed);
+    return changed;
+  }
+
+  TWEENFALL_LANES static Number used_of(const Figures& figures) {
+    Lanes used;
+    for (int lane = 0; lane < lane_count; ++lane) used[lane] = lane < figures.used ? 1 : 0;
+    return used;
+  }
+
+  TWEENFALL_LANES static void solve(Figures& figures, bool moving) {
+    read(figures);
+    Number live = used_of(figures);
+    Number again = live;
+    admit(figures, live, moving);
+    bool finished = false;
+    for (int round = 0;; ++round) {
+      factor(figures);
+      const Number bounded = solve_in(figures, again, moving);
+      if (finished) break;
+      Number changed;
+      if (round == most_rounds) {
+        // What holds has the last word.
+        changed = again = dismiss(figures, live, true);
+        finished = true;
+      } else {
+        changed = dismiss(figures, live, false);
+        changed = greater(changed, admit(figures, live, moving));
+        again = moving ? changed : greater(changed, live * bounded);
+        finished = !any(changed);
+      }
+      if (!any(again)) break;
+      live = changed;
+    }
+    write(figures);
+  }
+
+  TWEENFALL_LANES static void warm_start(Figures& figures) {
+    read(figures);
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      const FigureRow* rows = rows_of(figures, place);
+      Sum sum{no_vector(), no_vector(), no_vector(), no_vector()};
+      if (joint.point) sum = sum_of_point(joint, {rows[0].impulse, rows[1].impulse, rows[2].impulse});
+      for (std::uint32_t i = joint.point ? 3 : 0; i < joint.count; ++i)
+        add(rows[i], joint.turning[i], rows[i].impulse, sum);
+      give_to(figures, joint, sum);
+    }
+    write(figures);
+  }
+
+  TWEENFALL_LANES static void moved(Figures& figures) {
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      FigureRow* rows = rows_of(figures, place);
+      for (std::uint32_t i = joint.holds; i < joint.count; ++i) {
+        FigureRow& row = rows[i];
+        const Number there = one_if(row.low >= nothing()) * one_if(row.impulse > nothing()) *
+                             one_if(row.wanted < nothing()) * (Number(1.0) - one_if(row.compliance > nothing())) *
+                             Number(row.bounded);
+        select(there > nothing(), nothing(), row.wanted_after).put(row.wanted_after);
+      }
+    }
+  }
+
+  TWEENFALL_LANES static void close(Figures& figures, bool of_what_holds, const Lanes& live, Lanes& widest) {
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      FigureRow* rows = rows_of(figures, place);
+      for (std::uint32_t i = joint.holds; i < joint.count; ++i) {
+        FigureRow& row = rows[i];
+        const Number its = of_what_holds ? nothing() : Number(row.present) * one_if(size_of(row.left) > nothing());
+        select(row.bounded > nothing(), its, row.in).put(row.in);
+        figures.stale = true;
+      }
+    }
+    factor(figures);
+    Number most = nothing();
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      const FigureRow* rows = rows_of(figures, place);
+      for (std::uint32_t i = 0; i < joint.in_count; ++i) {
+        const FigureRow& row = rows[joint.slots[i]];
+        const Number left = row.left * Number(row.in);
+        most = greater(most, size_of(left));
+        (left * live).put(figures.values[joint.value + i]);
+      }
+    }
+    most.put(widest);
+    solve_values(figures);
+    for (std::uint32_t i = 0; i < figures.body_count; ++i) {
+      no_vector().put(figures.bodies[i].linear);
+      no_vector().put(figures.bodies[i].angular);
+    }
+    give_values(figures);
+  }
+
+  TWEENFALL_LANES static void hold_only(Figures& figures) {
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      FigureRow* rows = rows_of(figures, place);
+      for (std::uint32_t i = 0; i < joint.count; ++i) {
+        FigureRow& row = rows[i];
+        nothing().put(row.impulse);
+        if (i >= joint.holds) {
+          const Number held = Number(1.0) - Number(row.bounded);
+          figures.stale = figures.stale || any(row.in * Number(row.bounded));
+          (row.in * held).put(row.in);
+          (row.present * held).put(row.present);
+        }
+        nothing().put(row.wanted_after);
+      }
+    }
+  }
+
+  TWEENFALL_LANES static void add_up(Figures& figures) {
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      FigureJoint& joint = figures.joints[place];
+      const FigureRow* rows = rows_of(figures, place);
+      Vector push = no_vector(), turn = no_vector();
+      for (std::uint32_t i = joint.point ? 3 : 0; i < joint.count; ++i) {
+        const Number impulse = rows[i].impulse;
+        if (!joint.turning[i]) push = push + impulse * rows[i].linear_b;
+        turn = turn + impulse * rows[i].turn_b;
+      }
+      turn = turn - cross(Vector(joint.arm_b), push);
+      // What holds the point pushes there.
+      if (joint.point) push = push + Vector(rows[0].impulse, rows[1].impulse, rows[2].impulse);
+      (Vector(joint.push) + push).put(joint.push);
+      (Vector(joint.turn) + turn).put(joint.turn);
+    }
+  }
+};
+
+/// With pointers of its own, which nothing that is written to lanes can change.
+#define TWEENFALL_FIGURE_KERNEL(name, Numbers, target, work, Given, given) \
+  target void work##_##name Given {                                        \
+    Figures own = figures;                                                 \
+    FigureWork<Numbers>::work given;                                       \
+    figures.stale = own.stale;                                             \
+    figures.silent = own.silent;                                           \
+  }
+#define TWEENFALL_FIGURE_KERNELS(name, Numbers, target)                                                  \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, warm_start, (Figures & figures), (own))                 \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, solve, (Figures & figures, bool moving), (own, moving)) \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, moved, (Figures & figures), (own))                      \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, close,                                                  \
+                          (Figures & figures, bool of_what_holds, const Lanes& live, Lanes& widest),     \
+                          (own, of_what_holds, live, widest))                                            \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, hold_only, (Figures & figures), (own))                  \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, add_up, (Figures & figures), (own))                     \
+  constexpr FigureKernels name = {warm_start_##name, solve_##name,     moved_##name,                     \
+                                  close_##name,      hold_only_##name, add_up_##name};
+
+TWEENFALL_FIGURE_KERNELS(plain_figures, Halves<Halves<Two>>, )
+#if defined(__x86_64__) || defined(__i386__)
+TWEENFALL_FIGURE_KERNELS(avx2_figures, Halves<Four>, [[gnu::target("avx2")]])
+TWEENFALL_FIGURE_KERNELS(avx512_figures, Eight, [[gnu::target("avx512f,avx512vl,avx512dq")]])
+#endif
+
+}  // namespace
+
+std::span<const FigureKernels* const> possible_figure_kernels() {
+#if defined(__x86_64__) || defined(__i386__)
+  static constexpr std::array all = {&plain_figures, &avx2_figures, &avx512_figures};
+  return std::span(all).first(blocks::possible_kernels().size());
+#else
+  static constexpr std::array all = {&plain_figures};
+  return all;
+#endif
+}
+
+const FigureKernels& fastest_figure_kernels() {
+  static const FigureKernels& fastest = *possible_figure_kernels().back();
+  return fastest;
+}
+
+}  // namespace tweenfall::joints
