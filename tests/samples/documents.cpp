@@ -1,5 +1,6 @@
 #include "support.h"
 
+#include <tweenfall/anim/graph_player.h>
 #include <tweenfall/importers/document.h>
 #include <tweenfall/importers/inputs.h>
 #include <tweenfall/physics/stage/recording.h>
@@ -146,4 +147,21 @@ TEST_CASE("the crane hoists at the speed that its inputs ask for, and lets go wh
   stage.advance_to(6);
   REQUIRE(stage.handoffs().size() == 1);
   CHECK(near(stage.handoffs()[0].time, 1.5 + 2.5, 1e-9));
+}
+
+TEST_CASE("the stroller walks on, greets and halts again when its inputs say so") {
+  Stage stage = staged("stroller");
+  const auto inputs =
+      read_inputs(std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/inputs/stroller.json", stage.description());
+  REQUIRE(inputs.size() == 4);
+  static_cast<void>(advance_with(stage, inputs, 4.3));
+  const Vec3 hand = place(stage, "figure/RightHand");
+  const GraphPlayer before = stage.graph("figure");
+  CHECK(before.passages(0).back().state == 0);
+  static_cast<void>(advance_with(stage, std::span(inputs).first(2), 5.6));
+  CHECK(stage.graph("figure").passages(0).back().state == 1);
+  CHECK(stage.graph("figure").passages(0).back().time == 4.4);
+  CHECK(place(stage, "figure/RightHand").y() > hand.y() + 0.3);
+  static_cast<void>(advance_with(stage, std::span(inputs).subspan(2), 8));
+  CHECK(stage.graph("figure").passages(0).back().state == 0);
 }

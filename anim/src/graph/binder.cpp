@@ -1,5 +1,6 @@
 #include "graph/binder.h"
 
+#include <tweenfall/anim/clip_jumps.h>
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
 
@@ -55,6 +56,7 @@ Binder::Binder(const GraphDescription& description, const Hierarchy& nodes, std:
 void Binder::bind_all() {
   bind_parameters();
   bind_inputs();
+  bind_reactions();
   std::set<std::string> names;
   for (std::size_t i = 0; i < description_.poses.size(); ++i) {
     const std::string& name = description_.poses[i].name;
@@ -85,6 +87,7 @@ void Binder::bind_parameters() {
             "a half-life is 0 s or more; it is " + number_text(parameter.half_life) + " s");
     if (parameter.curve && parameter.half_life != 0)
       fault({"parameters", parameter.name, "half_life"}, "a half-life means nothing for a parameter that has keys");
+    if (parameter.curve) keep_jumps_of(*parameter.curve);
   }
 }
 
@@ -107,6 +110,33 @@ void Binder::bind_inputs() {
     else if (description_.parameters[found].curve)
       fault(place, "the parameter " + quoted(input.name) + " has keys, and is not set");
   }
+}
+
+void Binder::bind_reactions() {
+  for (std::size_t i = 0; i < description_.reactions.size(); ++i) {
+    const GraphReaction& reaction = description_.reactions[i];
+    const Place place = {"on", std::to_string(i)};
+    if (reaction.event.empty()) fault(place, "an event has a name");
+    const std::size_t found = number_of(description_.parameters, reaction.name);
+    const bool known = found < description_.parameters.size();
+    compiled_->reacting.push_back(reaction.value && known ? std::optional(found) : std::nullopt);
+    if (!reaction.value && known)
+      fault(place, "the parameter " + quoted(reaction.name) + " is set to a value; give one");
+    if (!reaction.value && reaction.name.empty()) fault(place, "an event that is sent has a name");
+    if (!reaction.value) continue;
+    if (!std::isfinite(*reaction.value)) fault(place, "a parameter is set to a finite number");
+    if (!known)
+      fault(place, "there is no parameter " + quoted(reaction.name) +
+                       nearest_of(reaction.name, names_of(description_.parameters)));
+    else if (description_.parameters[found].curve)
+      fault(place, "the parameter " + quoted(reaction.name) + " has keys, and is not set");
+  }
+}
+
+void Binder::keep_jumps_of(const Curve<double>& curve) {
+  const std::span<const double> knots = curve.knots();
+  if (!knots.empty() && std::isfinite(first_jump(curve, knots.front() - 1, knots.back() + 1 + curve.duration())))
+    compiled_->jumping.push_back(curve);
 }
 
 const Operation* Binder::bind_pose(std::size_t index) {
@@ -186,6 +216,11 @@ const LoopedClip* Binder::clip(const std::string& name, const std::optional<Loop
   std::string problems;
   made.bound.emplace(made.clip, nodes_, problems);
   if (!problems.empty()) fault(place, "the clip does not fit its nodes:" + problems);
+  made.jumps.duration = made.clip.duration;
+  made.jumps.loop = made.clip.loop;
+  std::vector<double> jumps = jumps_of(made.clip);
+  if (jumps_at_seam(made.clip, made.clip.loop.mode, 0, made.clip.duration)) jumps.insert(jumps.begin(), 0);
+  for (const double time : jumps) made.jumps.events.push_back({.from = time, .to = time, .name = {}, .data = {}});
   return &made;
 }
 
@@ -201,7 +236,10 @@ Number Binder::number(const GraphNumber& number, const Place& place) {
     if (!std::isfinite(*constant)) fault(place, "this is not a finite number");
     return Number(*constant);
   }
-  if (const auto* curve = std::get_if<Curve<double>>(&number)) return Number(*curve);
+  if (const auto* curve = std::get_if<Curve<double>>(&number)) {
+    keep_jumps_of(*curve);
+    return Number(*curve);
+  }
   const std::optional<std::size_t> found = parameter(std::get<ByParameter>(number).name, place);
   return found ? Number(description_, *found) : Number();
 }

@@ -20,6 +20,7 @@ struct LoopedClip {
   std::size_t number;
   Clip clip;
   std::optional<pose::BoundClip> bound{};
+  Clip jumps{};  // without tracks; its events are where the clip and its loop jump
 };
 
 }  // namespace graphs
@@ -30,9 +31,11 @@ struct Graph::Compiled {
   std::vector<const graphs::Operation*> machines;  // as they stand among the poses
   std::vector<std::size_t> machine_poses;          // the pose that each is
   const graphs::Operation* output = nullptr;
-  std::size_t phases = 0;   // of clips that run in phase
-  std::size_t swings = 0;   // operations with springs
-  std::vector<char> moved;  // by node: whether an operation moves it
+  std::size_t phases = 0;                            // of clips that run in phase
+  std::size_t swings = 0;                            // operations with springs
+  std::vector<char> moved;                           // by node: whether an operation moves it
+  std::vector<Curve<double>> jumping;                // numbers over the graph's time that jump
+  std::vector<std::optional<std::size_t>> reacting;  // by reaction: the parameter that it sets
 };
 
 }  // namespace tweenfall
@@ -84,6 +87,8 @@ class Binder {
   void fault_each(const Place& place, const std::string& lines);
   void bind_parameters();
   void bind_inputs();
+  void bind_reactions();
+  void keep_jumps_of(const Curve<double>& curve);
   const Operation* bind_pose(std::size_t index);
   const Operation* add(std::unique_ptr<Operation> operation);
 

@@ -31,7 +31,7 @@ Graph::Graph(std::shared_ptr<const Hierarchy> nodes, std::shared_ptr<const std::
 Graph::~Graph() = default;
 
 bool Graph::moves(std::size_t node) const noexcept {
-  if (compiled_->moved[node]) return true;
+  if (node < compiled_->moved.size() && compiled_->moved[node]) return true;
   return std::ranges::any_of(compiled_->clips, [&](const auto& clip) {
     const std::uint32_t entry = clip->bound->entry_of(node);
     return entry != pose::BoundClip::no_entry && clip->bound->entries()[entry].parts != 0;

@@ -1,3 +1,4 @@
+#include <tweenfall/anim/clip_jumps.h>
 #include <tweenfall/anim/graph_player.h>
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
@@ -13,7 +14,7 @@ namespace tweenfall {
 struct GraphPlayer::Run {
   graphs::Log log;
   double time = 0;
-  PoseBelow below;
+  GraphGround ground;
   std::vector<Motion> room;
 };
 
@@ -46,17 +47,30 @@ std::size_t parameter_named(const GraphDescription& description, std::string_vie
 }  // namespace
 }  // namespace graphs
 
-GraphPlayer::GraphPlayer(std::shared_ptr<const Graph> graph, PoseBelow below)
+GraphPlayer::GraphPlayer(std::shared_ptr<const Graph> graph, GraphGround ground)
     : graph_(std::move(graph)), run_(std::make_unique<Run>()) {
   run_->log =
       graphs::fresh_log(graph_->description(), machines(), graph_->compiled().phases, graph_->compiled().swings);
+  lie_on(std::move(ground));
+  know(0);
+}
+
+GraphPlayer::GraphPlayer(const GraphPlayer& other, GraphGround ground, double from)
+    : graph_(other.graph_), run_(std::make_unique<Run>()) {
+  run_->log = other.run_->log;
+  run_->time = other.run_->time;
+  lie_on(std::move(ground));
+  graphs::forget_course(run_->log, graph_->description(), from);
+  know(run_->time);
+}
+
+void GraphPlayer::lie_on(GraphGround ground) {
   run_->room.resize(graphs::rooms_of(*graph_) * graph_->nodes().size());
-  run_->below = std::move(below);
-  if (!run_->below)
-    run_->below = [graph = graph_.get()](double, Side, std::span<Motion> out) {
+  run_->ground = std::move(ground);
+  if (!run_->ground.pose)
+    run_->ground.pose = [graph = graph_.get()](double, Side, std::span<Motion> out) {
       graphs::write_at_rest(graph->nodes(), out);
     };
-  know(0);
 }
 
 GraphPlayer::~GraphPlayer() = default;
@@ -64,7 +78,7 @@ GraphPlayer::GraphPlayer(GraphPlayer&&) noexcept = default;
 GraphPlayer& GraphPlayer::operator=(GraphPlayer&&) noexcept = default;
 
 void GraphPlayer::know(double time) {
-  if (run_->log.known < time) graphs::make_known(run_->log, *graph_, time, run_->below, run_->room);
+  if (run_->log.known < time) graphs::make_known(run_->log, *graph_, time, run_->ground, run_->room);
 }
 
 void GraphPlayer::set(std::string_view name, double value) {
@@ -75,25 +89,44 @@ void GraphPlayer::set(std::string_view name, double value) {
     throw std::invalid_argument("the parameter \"" + std::string(name) + "\" is set to a number up to 1e15, not to " +
                                 number_text(value));
   graphs::forget_after(run_->log, graph_->description(), run_->time);
-  graphs::set(run_->log, graph_->description(), parameter, run_->time, value, false);
+  graphs::set(run_->log, graph_->description(), parameter, run_->time, value, graphs::Origin::outside);
   know(run_->time);
 }
 
 void GraphPlayer::send(std::string_view event) {
   graphs::forget_after(run_->log, graph_->description(), run_->time);
-  graphs::send(run_->log, run_->time, event, false);
+  graphs::send(run_->log, run_->time, event, graphs::Origin::outside);
   know(run_->time);
 }
 
-std::vector<GraphInput> GraphPlayer::inputs() const {
+namespace graphs {
+namespace {
+
+/// @param counts  by where it came from
+template <class Counts>
+std::vector<GraphInput> inputs_of(const Log& log, const GraphDescription& description, const Counts& counts) {
   std::vector<GraphInput> inputs;
-  for (std::size_t p = 0; p < run_->log.settings.size(); ++p)
-    for (std::size_t i = 1; i < run_->log.settings[p].size(); ++i)
-      inputs.push_back(
-          {run_->log.settings[p][i].time, graph_->description().parameters[p].name, run_->log.settings[p][i].value});
-  for (const graphs::Sending& each : run_->log.sent) inputs.push_back({each.time, each.event, std::nullopt});
+  for (std::size_t p = 0; p < log.settings.size(); ++p)
+    for (std::size_t i = 1; i < log.settings[p].size(); ++i)
+      if (const Setting& each = log.settings[p][i]; counts(each.origin))
+        inputs.push_back({each.time, description.parameters[p].name, each.value});
+  for (const Sending& each : log.sent)
+    if (counts(each.origin)) inputs.push_back({each.time, each.event, std::nullopt});
   std::ranges::stable_sort(inputs, {}, &GraphInput::time);
   return inputs;
+}
+
+}  // namespace
+}  // namespace graphs
+
+std::vector<GraphInput> GraphPlayer::inputs() const {
+  return graphs::inputs_of(run_->log, graph_->description(),
+                           [](graphs::Origin origin) { return origin != graphs::Origin::event; });
+}
+
+std::vector<GraphInput> GraphPlayer::own_inputs() const {
+  return graphs::inputs_of(run_->log, graph_->description(),
+                           [](graphs::Origin origin) { return origin == graphs::Origin::outside; });
 }
 
 void GraphPlayer::advance(double dt) {
@@ -124,8 +157,9 @@ void GraphPlayer::pose_at(double time, std::span<Motion> local, Side side) {
 void GraphPlayer::evaluate(double time, std::span<Motion> local, Side side) noexcept {
   const std::size_t nodes = graph_->nodes().size();
   const std::span<Motion> below(run_->room.data(), nodes);
-  run_->below(time, side, below);
-  graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes, &run_->below}, local);
+  run_->ground.pose(time, side, below);
+  graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes, &run_->ground.pose},
+                                  local);
 }
 
 Sample<double> GraphPlayer::parameter(std::string_view name) const {
@@ -152,9 +186,18 @@ std::optional<double> GraphPlayer::first_instant(double from, double to) {
     const auto next = std::ranges::upper_bound(list, from, {}, time);
     if (next != list.end() && std::invoke(time, *next) <= first.value_or(to)) first = std::invoke(time, *next);
   };
-  for (const std::vector<graphs::Setting>& settings : run_->log.settings) meet(settings, &graphs::Setting::time);
-  for (const std::vector<graphs::Passage>& passages : run_->log.passages) meet(passages, &graphs::Passage::time);
+  for (const graphs::Record<graphs::Setting>& settings : run_->log.settings) meet(settings, &graphs::Setting::time);
+  for (const graphs::Record<graphs::Passage>& passages : run_->log.passages) meet(passages, &graphs::Passage::time);
+  if (const auto jump = graph_->compiled().output->next_jump(run_->log, 0, from, first.value_or(to))) first = jump;
+  for (const Curve<double>& curve : graph_->compiled().jumping)
+    if (const double jump = first_jump(curve, from, first.value_or(to)); std::isfinite(jump)) first = jump;
   return first;
+}
+
+std::optional<double> GraphPlayer::first_event(std::string_view name, double from, double to) {
+  for (const GraphEvent& event : events(from, to))
+    if (event.name == name && event.kind != GraphEvent::Kind::end) return event.time;
+  return std::nullopt;
 }
 
 std::size_t GraphPlayer::machines() const noexcept {
@@ -190,7 +233,7 @@ std::vector<std::byte> GraphPlayer::save() const {
 void GraphPlayer::load(std::span<const std::byte> saved) {
   graphs::SavedLog read =
       graphs::log_of(saved, graph_->description(), machines(), graph_->compiled().phases, graph_->compiled().swings);
-  graphs::make_known(read.log, *graph_, read.time, run_->below, run_->room);
+  graphs::make_known(read.log, *graph_, read.time, run_->ground, run_->room);
   run_->log = std::move(read.log);
   run_->time = read.time;
 }

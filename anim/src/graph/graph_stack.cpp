@@ -6,17 +6,75 @@ namespace tweenfall::graphs {
 
 GraphStack::GraphStack(const std::shared_ptr<const Hierarchy>& nodes,
                        const std::shared_ptr<const std::vector<Clip>>& clips,
-                       std::vector<GraphDescription> descriptions, PoseBelow plays)
-    : descriptions_(std::move(descriptions)), nodes_(nodes->size()) {
-  players_.reserve(descriptions_.size());  // each is asked by the next
-  PoseBelow below = std::move(plays);
-  for (const GraphDescription& description : descriptions_) {
-    players_.emplace_back(std::make_shared<const Graph>(nodes, clips, description), below);
-    below = [player = &players_.back()](double time, Side side, std::span<Motion> out) {
-      player->pose_at(time, out, side);
-    };
-  }
+                       std::vector<GraphDescription> descriptions, GraphGround plays)
+    : descriptions_(std::make_shared<const std::vector<GraphDescription>>(std::move(descriptions))),
+      nodes_(nodes->size()),
+      plays_(std::move(plays)) {
+  players_.reserve(descriptions_->size());  // each is asked by the next
+  for (std::size_t i = 0; i < descriptions_->size(); ++i)
+    players_.emplace_back(std::make_shared<const Graph>(nodes, clips, (*descriptions_)[i]), over(i));
   for (Kept& kept : kept_) kept.local.resize(nodes_);
+}
+
+GraphStack::GraphStack(GraphStack& other, GraphGround plays, double from)
+    : descriptions_(other.descriptions_), nodes_(other.nodes_), plays_(std::move(plays)) {
+  const std::lock_guard guard(other.lock_);
+  players_.reserve(other.players_.size());
+  for (std::size_t i = 0; i < other.players_.size(); ++i) players_.emplace_back(other.players_[i], over(i), from);
+  for (Kept& kept : kept_) kept.local.resize(nodes_);
+}
+
+GraphGround GraphStack::over(std::size_t graph) {
+  if (graph == 0) return plays_;
+  GraphPlayer& player = players_[graph - 1];
+  const auto pose = [&player](double time, Side side, std::span<Motion> out) { player.pose_at(time, out, side); };
+  const auto next_event = [&player, below = over(graph - 1).next_event](std::string_view name, double after,
+                                                                        double until) {
+    std::optional<double> first = player.first_event(name, after, until);
+    if (below)
+      if (const auto next = below(name, after, first.value_or(until))) first = next;
+    return first;
+  };
+  return {pose, next_event};
+}
+
+void GraphStack::put(std::size_t graph, const GraphInput& input) {
+  GraphPlayer& player = players_[graph];
+  player.seek(input.time);
+  if (input.value)
+    player.set(input.name, *input.value);
+  else
+    player.send(input.name);
+  // Those above lie on another ground from then on.
+  for (std::size_t i = graph + 1; i < players_.size(); ++i) players_[i] = GraphPlayer(players_[i], over(i), input.time);
+  forget_kept();
+}
+
+void GraphStack::put_all_of(GraphStack& others) {
+  const std::lock_guard guard(others.lock_);
+  for (std::size_t i = 0; i < players_.size(); ++i)
+    for (const GraphInput& input : others.players_[i].own_inputs()) put(i, input);
+}
+
+void GraphStack::forget_kept() {
+  for (Kept& kept : kept_) kept.time = -1;
+}
+
+GraphPlayer GraphStack::player(const std::shared_ptr<GraphStack>& stack, std::size_t graph, double time) {
+  const GraphGround ground = stack->over(graph);
+  GraphGround locked{.pose = [stack, ground](double at, Side side, std::span<Motion> out) {
+    const std::lock_guard guard(stack->lock_);
+    ground.pose(at, side, out);
+  }};
+  if (ground.next_event)
+    locked.next_event = [stack, ground](std::string_view name, double after, double until) {
+      const std::lock_guard guard(stack->lock_);
+      return ground.next_event(name, after, until);
+    };
+  const std::lock_guard guard(stack->lock_);
+  GraphPlayer player(stack->players_[graph], std::move(locked), infinite_time);
+  player.seek(time);
+  return player;
 }
 
 bool GraphStack::moves(std::size_t node) const noexcept {

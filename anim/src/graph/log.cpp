@@ -9,7 +9,7 @@ namespace tweenfall::graphs {
 
 namespace {
 
-const Setting& setting_at(const std::vector<Setting>& settings, double time, Side side) noexcept {
+const Setting& setting_at(const Record<Setting>& settings, double time, Side side) noexcept {
   const auto later = [&](double t, const Setting& each) { return side == Side::out ? t < each.time : t <= each.time; };
   const auto next = std::upper_bound(settings.begin(), settings.end(), time, later);
   return next == settings.begin() ? settings.front() : *std::prev(next);
@@ -23,13 +23,57 @@ Sample<double> sample_of(const Setting& setting, double half_life, double time) 
 }
 
 // What is seen goes on from where it is, in value and rate, whatever it follows from there.
-void follow(std::vector<Setting>& settings, double half_life, std::size_t from) {
-  if (half_life == 0) return;
-  for (std::size_t i = std::max<std::size_t>(from, 1); i < settings.size(); ++i) {
-    const Sample<double> before = sample_of(settings[i - 1], half_life, settings[i].time);
-    settings[i].offset = before.value - settings[i].value;
-    settings[i].rate = before.rate;
+void add(Record<Setting>& settings, double half_life, Setting setting) {
+  setting.offset = setting.rate = 0;
+  if (half_life != 0 && !settings.empty()) {
+    const Sample<double> before = sample_of(settings.back(), half_life, setting.time);
+    setting.offset = before.value - setting.value;
+    setting.rate = before.rate;
   }
+  settings.push_back(setting);
+}
+
+// Where phases and springs have come until `time` does not hang on what is later.
+void forget_marks(Log& log, double time) noexcept {
+  for (auto& marks : log.marks)
+    for (PhaseMark& mark : marks)
+      if (mark.time > time) mark = {};
+  for (SwingMemory& memory : log.swings)
+    for (SwingCourse& course : memory.courses) {
+      for (SwingMark& mark : course.latest)
+        if (mark.instant >= time) mark.time = mark.instant = -1;
+      while (course.marked > 0 && course.markers[course.marked - 1].instant >= time) --course.marked;
+      if (course.start >= time) course.start = -1;
+    }
+}
+
+/// Index of the first entry of which `is_late` holds; only of those whose time is `time` or later it may.
+template <class T, class Late>
+std::size_t first_late(const Record<T>& list, double time, const Late& is_late) {
+  const auto from = std::ranges::lower_bound(list, time, {}, &T::time);
+  return static_cast<std::size_t>(std::find_if(from, list.end(), is_late) - list.begin());
+}
+
+/// @param is_late  holds of none before `time`
+template <class Late>
+void forget(Log& log, const GraphDescription& description, double time, const Late& is_late) {
+  for (std::size_t p = 0; p < log.settings.size(); ++p) {
+    Record<Setting>& settings = log.settings[p];
+    const std::size_t first = first_late(settings, time, is_late);
+    if (first == settings.size()) continue;
+    for (const Setting& each : settings.take_from(first))
+      if (!is_late(each)) add(settings, description.parameters[p].half_life, each);
+  }
+  if (const std::size_t first = first_late(log.sent, time, is_late); first < log.sent.size())
+    for (Sending& each : log.sent.take_from(first))
+      if (!is_late(each)) log.sent.push_back(std::move(each));
+  forget_marks(log, time);
+  if (log.known < time) return;
+  for (Record<Passage>& passages : log.passages)
+    passages.truncate(
+        static_cast<std::size_t>(std::ranges::lower_bound(passages, time, {}, &Passage::time) - passages.begin()));
+  std::erase_if(log.stops, [&](const GraphStop& stop) { return stop.time >= time; });
+  log.known = time > 0 ? std::nextafter(time, -1.0) : -1;
 }
 
 }  // namespace
@@ -40,49 +84,45 @@ Log fresh_log(const GraphDescription& description, std::size_t machines, std::si
   log.swings.resize(swings);
   log.passages.resize(machines);
   for (const GraphParameter& parameter : description.parameters)
-    log.settings.push_back({{.time = 0, .value = parameter.start, .given = true}});
+    log.settings.emplace_back().push_back({.time = 0, .value = parameter.start, .origin = Origin::description});
   for (const GraphInput& input : description.inputs) {
     if (!input.value) {
-      send(log, input.time, input.name, true);
+      send(log, input.time, input.name, Origin::description);
       continue;
     }
     for (std::size_t p = 0; p < description.parameters.size(); ++p)
-      if (description.parameters[p].name == input.name) set(log, description, p, input.time, *input.value, true);
+      if (description.parameters[p].name == input.name)
+        set(log, description, p, input.time, *input.value, Origin::description);
   }
   return log;
 }
 
-void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value, bool given) {
-  std::vector<Setting>& settings = log.settings[parameter];
+void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value,
+         Origin origin) {
+  forget_marks(log, time);
+  Record<Setting>& settings = log.settings[parameter];
   const auto place = std::ranges::upper_bound(settings, time, {}, &Setting::time);
-  const auto index = static_cast<std::size_t>(place - settings.begin());
-  settings.insert(place, {.time = time, .value = value, .given = given});
-  follow(settings, description.parameters[parameter].half_life, index);
+  const double half_life = description.parameters[parameter].half_life;
+  const std::vector<Setting> later = settings.take_from(static_cast<std::size_t>(place - settings.begin()));
+  add(settings, half_life, {.time = time, .value = value, .origin = origin});
+  for (const Setting& each : later) add(settings, half_life, each);
 }
 
-void send(Log& log, double time, std::string_view event, bool given) {
+void send(Log& log, double time, std::string_view event, Origin origin) {
   const auto place = std::ranges::upper_bound(log.sent, time, {}, &Sending::time);
-  log.sent.insert(place, {time, std::string(event), given});
+  std::vector<Sending> later = log.sent.take_from(static_cast<std::size_t>(place - log.sent.begin()));
+  log.sent.push_back({time, std::string(event), origin});
+  for (Sending& each : later) log.sent.push_back(std::move(each));
+}
+
+void forget_course(Log& log, const GraphDescription& description, double time) {
+  forget(log, description, time, [&](const auto& each) { return each.time >= time && each.origin == Origin::event; });
 }
 
 void forget_after(Log& log, const GraphDescription& description, double time) {
-  const auto is_late = [&](const auto& each) { return each.time > time && !each.given; };
-  for (std::size_t p = 0; p < log.settings.size(); ++p)
-    if (std::erase_if(log.settings[p], is_late) > 0) follow(log.settings[p], description.parameters[p].half_life, 1);
-  std::erase_if(log.sent, is_late);
-  for (auto& marks : log.marks) marks.fill({});
-  for (SwingMemory& memory : log.swings)
-    for (SwingCourse& course : memory.courses) {
-      for (SwingMark& mark : course.latest)
-        if (mark.instant >= time) mark.time = mark.instant = -1;
-      while (course.marked > 0 && course.markers[course.marked - 1].instant >= time) --course.marked;
-      if (course.start >= time) course.start = -1;
-    }
-  if (log.known < time) return;
-  const auto follows = [&](const auto& each) { return each.time >= time; };
-  for (std::vector<Passage>& passages : log.passages) std::erase_if(passages, follows);
-  std::erase_if(log.stops, follows);
-  log.known = time > 0 ? std::nextafter(time, -1.0) : -1;
+  forget(log, description, time, [&](const auto& each) {
+    return (each.time >= time && each.origin == Origin::event) || (each.time > time && each.origin == Origin::outside);
+  });
 }
 
 double value_of(const Log& log, const GraphDescription& description, std::size_t parameter, double time,
@@ -121,17 +161,17 @@ double next_in(const List& list, double after) noexcept {
 double last_instant(const Log& log, double start, double time, Side side) noexcept {
   const Sight sight = seen(log, time, side);
   double last = start;
-  for (const std::vector<Setting>& settings : log.settings)
+  for (const Record<Setting>& settings : log.settings)
     last = last_in(settings, sight.time, sight.side == Side::out, last);
-  for (const std::vector<Passage>& passages : log.passages)
+  for (const Record<Passage>& passages : log.passages)
     last = last_in(passages, sight.time, sight.side == Side::out, last);
   return last;
 }
 
 double next_instant(const Log& log, double after) noexcept {
   double next = std::numeric_limits<double>::infinity();
-  for (const std::vector<Setting>& settings : log.settings) next = std::min(next, next_in(settings, after));
-  for (const std::vector<Passage>& passages : log.passages) next = std::min(next, next_in(passages, after));
+  for (const Record<Setting>& settings : log.settings) next = std::min(next, next_in(settings, after));
+  for (const Record<Passage>& passages : log.passages) next = std::min(next, next_in(passages, after));
   return next;
 }
 

@@ -7,9 +7,12 @@
 #include <tweenfall/anim/jiggle.h>
 #include <tweenfall/curves/pose.h>
 
+#include "graph/record.h"
+
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -20,17 +23,24 @@ namespace tweenfall::graphs {
 /// What a parameter may be: beyond it, what follows it could be at no finite place or speed.
 inline constexpr double largest_parameter = 1e15;
 
+/// Where something that came in came from.
+enum class Origin {
+  description,  // known beforehand
+  outside,
+  event,  // of a clip, to which the graph reacts: it follows from the others
+};
+
 /// A parameter was set. Poses see `value`, and an offset to it that dies away.
 struct Setting {
-  double time, value;
-  bool given = false;           // by the description
+  double time = 0, value = 0;
+  Origin origin = Origin::outside;
   double offset = 0, rate = 0;  // at `time`
 };
 
 struct Sending {
-  double time;
+  double time = 0;
   std::string event;
-  bool given = false;
+  Origin origin = Origin::outside;
 };
 
 /// How far a node's motion was from where the new state has it, when that was entered.
@@ -42,7 +52,7 @@ struct Offset {
 
 struct Passage : GraphPassage {
   GraphChange change = {};
-  std::vector<Offset> offsets = {};  // one per node, where the difference settles
+  std::shared_ptr<const std::vector<Offset>> offsets = {};  // one per node, where the difference settles; else null
 };
 
 /// How far a phase has come; see `Phase`.
@@ -74,9 +84,9 @@ struct SwingMemory {
 };
 
 struct Log {
-  std::vector<std::vector<Setting>> settings;  // by parameter, in order of time
-  std::vector<Sending> sent;                   // in order of time
-  std::vector<std::vector<Passage>> passages;  // by machine, in order of time
+  std::vector<Record<Setting>> settings;  // by parameter, in order of time
+  Record<Sending> sent;                   // in order of time
+  std::vector<Record<Passage>> passages;  // by machine, in order of time
   std::vector<GraphStop> stops;
   /// By phase of the graph: where to go on from, so that not all its way is gone again. Says nothing new.
   mutable std::vector<std::array<PhaseMark, PhaseMark::kept>> marks;
@@ -107,10 +117,13 @@ struct Sight {
                             std::size_t swings);
 
 /// Puts it in, in order; of equal times behind those that are there.
-void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value, bool given);
-void send(Log& log, double time, std::string_view event, bool given);
+void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value,
+         Origin origin);
+void send(Log& log, double time, std::string_view event, Origin origin);
 
-/// Forgets what came in after `time` but was not given, and what follows from anything at `time` or later.
+/// Forgets what follows from anything at `time` or later.
+void forget_course(Log& log, const GraphDescription& description, double time);
+/// The same, and what came from outside after `time`.
 void forget_after(Log& log, const GraphDescription& description, double time);
 
 /// What a parameter was set to.

@@ -120,21 +120,21 @@ std::vector<std::byte> bytes_of(const Log& log, const GraphDescription& descript
   out.number(kind_of_file);
   out.number(fingerprint(description));
   out.number(time);
-  for (const std::vector<Setting>& settings : log.settings) {
+  for (const Record<Setting>& settings : log.settings) {
     std::uint64_t own = 0;
-    for (const Setting& each : settings) own += !each.given;
+    for (const Setting& each : settings) own += each.origin == Origin::outside;
     out.number(own);
     for (const Setting& each : settings) {
-      if (each.given) continue;
+      if (each.origin != Origin::outside) continue;
       out.number(each.time);
       out.number(each.value);
     }
   }
   std::uint64_t own = 0;
-  for (const Sending& each : log.sent) own += !each.given;
+  for (const Sending& each : log.sent) own += each.origin == Origin::outside;
   out.number(own);
   for (const Sending& each : log.sent) {
-    if (each.given) continue;
+    if (each.origin != Origin::outside) continue;
     out.number(each.time);
     out.text(each.event);
   }
@@ -169,14 +169,14 @@ SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& descri
       at = time_after(at);
       const double value = reader.real();
       if (std::abs(value) > largest_parameter) Reader::refuse("a parameter was set beyond 1e15");
-      set(saved.log, description, p, at, value, false);
+      set(saved.log, description, p, at, value, Origin::outside);
     }
   }
   const std::uint64_t count = reader.number();
   double at = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
     at = time_after(at);
-    send(saved.log, at, reader.text(), false);
+    send(saved.log, at, reader.text(), Origin::outside);
   }
   for (SwingMemory& memory : saved.log.swings) read_swings(memory, saved.time, reader);
   if (reader.left() > 0) Reader::refuse("something follows their end");
@@ -186,7 +186,7 @@ SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& descri
 std::uint64_t hash_of(const Log& log, double time) noexcept {
   Digest digest;
   digest.number(time);
-  for (const std::vector<Setting>& settings : log.settings)
+  for (const Record<Setting>& settings : log.settings)
     for (const Setting& each : settings) {
       if (each.time > time) break;
       digest.number(each.time);
@@ -197,13 +197,14 @@ std::uint64_t hash_of(const Log& log, double time) noexcept {
     digest.number(each.time);
     digest.text(each.event);
   }
-  for (const std::vector<Passage>& passages : log.passages)
+  for (const Record<Passage>& passages : log.passages)
     for (const Passage& each : passages) {
       if (each.time > time) break;
       digest.number(each.time);
       digest.number(std::uint64_t{each.state});
       digest.number(std::uint64_t{each.transition});
-      for (const Offset& offset : each.offsets)
+      if (!each.offsets) continue;
+      for (const Offset& offset : *each.offsets)
         for (const Vec3* part :
              {&offset.position, &offset.velocity, &offset.turn, &offset.turn_rate, &offset.scale, &offset.scale_rate})
           for (int i = 0; i < 3; ++i) digest.number((*part)[i]);

@@ -8,8 +8,8 @@ namespace {
 
 class Course {
  public:
-  Course(Log& log, const Graph& graph, const PoseBelow& below, std::span<Motion> room)
-      : log_(log), graph_(graph), below_(below), room_(room) {}
+  Course(Log& log, const Graph& graph, const GraphGround& ground, std::span<Motion> room)
+      : log_(log), graph_(graph), ground_(ground), room_(room), taken_(log.passages.size(), 0) {}
 
   void run(double until) {
     if (log_.known < 0) {
@@ -34,29 +34,80 @@ class Course {
     const auto meet = [&](double time) {
       if (time > log_.known && time <= first.value_or(until)) first = time;
     };
-    for (const std::vector<Setting>& settings : log_.settings)
+    for (const Record<Setting>& settings : log_.settings)
       if (const auto next = std::ranges::upper_bound(settings, log_.known, {}, &Setting::time); next != settings.end())
         meet(next->time);
     if (const auto next = std::ranges::upper_bound(log_.sent, log_.known, {}, &Sending::time); next != log_.sent.end())
       meet(next->time);
     for (const Operation* machine : graph_.compiled().machines)
       if (const auto next = as_machine(*machine).next_instant(log_, log_.known, first.value_or(until))) meet(*next);
+    for (const GraphReaction& reaction : graph_.description().reactions)
+      if (const auto next = next_event(reaction.event, log_.known, first.value_or(until))) meet(*next);
     return first;
   }
 
+  /// The first in (after, until] of a clip, in the graph or below it.
+  [[nodiscard]] std::optional<double> next_event(const std::string& name, double after, double until) const {
+    std::optional<double> first = graph_.compiled().output->next_event(log_, name, 0, after, until);
+    if (ground_.next_event)
+      if (const auto below = ground_.next_event(name, after, first.value_or(until))) first = below;
+    return first;
+  }
+
+  /// Whether it happens at a time in a clip that shows.
+  [[nodiscard]] bool happens(const std::string& name, double time) const {
+    const double before = std::nextafter(time, -1.0);
+    if (ground_.next_event && ground_.next_event(name, before, time)) return true;
+    if (!graph_.compiled().output->next_event(log_, name, 0, before, time)) return false;
+    std::vector<GraphEvent> events;
+    graph_.compiled().output->events(log_, {before, time, 0}, events);
+    return std::ranges::any_of(events, [&](const GraphEvent& event) {
+      return event.name == name && event.kind != GraphEvent::Kind::end && event.weight > 0;
+    });
+  }
+
+  // A state that is entered may begin on an event, to which the graph reacts, too: on and on, but each time anew.
   void happen(double time) {
-    for (std::size_t m = 0; m < graph_.compiled().machines.size(); ++m) happen(m, time);
+    const std::vector<GraphReaction>& reactions = graph_.description().reactions;
+    std::vector<char> reacted(reactions.size(), 0);
+    std::ranges::fill(taken_, 0);
+    std::size_t told =
+        static_cast<std::size_t>(std::ranges::lower_bound(log_.sent, time, {}, &Sending::time) - log_.sent.begin());
+    static_cast<void>(react(time, reacted));
+    do {
+      for (std::size_t m = 0; m < graph_.compiled().machines.size(); ++m) happen(m, time, told);
+      while (told < log_.sent.size() && log_.sent[told].time == time) ++told;
+    } while (react(time, reacted));
     log_.known = time;
   }
 
+  /// Whether the graph reacted to an event to which it had not.
+  bool react(double time, std::vector<char>& reacted) {
+    const std::vector<GraphReaction>& reactions = graph_.description().reactions;
+    bool any = false;
+    for (std::size_t i = 0; i < reactions.size(); ++i) {
+      const GraphReaction& reaction = reactions[i];
+      if (reacted[i] || !happens(reaction.event, time)) continue;
+      reacted[i] = 1;
+      any = true;
+      if (reaction.value)
+        set(log_, graph_.description(), *graph_.compiled().reacting[i], time, *reaction.value, Origin::event);
+      else
+        send(log_, time, reaction.name, Origin::event);
+    }
+    return any;
+  }
+
   // Events of clips and what needs none come first, then what was sent, each through one transition.
-  void happen(std::size_t number, double time) {
+  // @param told  the first of those that were sent which it has not been told yet
+  void happen(std::size_t number, double time, std::size_t told) {
     const Machine& machine = as_machine(*graph_.compiled().machines[number]);
-    std::size_t taken = 0;
+    if (taken_[number] >= most_transitions_at_once) return;
     const auto take = [&](std::size_t transition) {
       const bool full = log_.passages[number].size() >= most_passages;
       if (!full) pass(machine, number, transition, time);
-      if (!full && ++taken < most_transitions_at_once) return true;
+      if (!full && ++taken_[number] < most_transitions_at_once) return true;
+      taken_[number] = most_transitions_at_once;
       log_.stops.push_back({time, number});
       return false;
     };
@@ -68,9 +119,8 @@ class Course {
       }
     };
     if (!settle_down()) return;
-    auto event = std::ranges::lower_bound(log_.sent, time, {}, &Sending::time);
-    for (; event != log_.sent.end() && event->time == time; ++event) {
-      const std::size_t transition = machine.transition_at(log_, time, event->event);
+    for (; told < log_.sent.size() && log_.sent[told].time == time; ++told) {
+      const std::size_t transition = machine.transition_at(log_, time, log_.sent[told].event);
       if (transition == GraphPassage::no_transition) continue;
       if (!take(transition) || !settle_down()) return;
     }
@@ -81,23 +131,24 @@ class Course {
     if (passage.settles) {
       const std::size_t nodes = graph_.nodes().size();
       const std::span<Motion> in = room_.first(nodes), out = room_.subspan(nodes, nodes);
-      below_(time, Side::in, in);
-      below_(time, Side::out, out);
-      machine.measure(log_, passage, in, out, &below_, room_.data() + 2 * nodes);
+      ground_.pose(time, Side::in, in);
+      ground_.pose(time, Side::out, out);
+      machine.measure(log_, passage, in, out, &ground_.pose, room_.data() + 2 * nodes);
     }
     log_.passages[number].push_back(std::move(passage));
   }
 
   Log& log_;
   const Graph& graph_;
-  const PoseBelow& below_;
+  const GraphGround& ground_;
   std::span<Motion> room_;
+  std::vector<std::size_t> taken_;  // by machine: transitions at this instant
 };
 
 }  // namespace
 
-void make_known(Log& log, const Graph& graph, double until, const PoseBelow& below, std::span<Motion> room) {
-  Course(log, graph, below, room).run(until);
+void make_known(Log& log, const Graph& graph, double until, const GraphGround& ground, std::span<Motion> room) {
+  Course(log, graph, ground, room).run(until);
 }
 
 std::size_t rooms_of(const Graph& graph) noexcept {

@@ -10,7 +10,7 @@ namespace tweenfall::graphs {
 inline constexpr std::size_t most_passages = 1'000'000;
 
 /// Makes known what happens until a time. @param room  `rooms_of` poses
-void make_known(Log& log, const Graph& graph, double until, const PoseBelow& below, std::span<Motion> room);
+void make_known(Log& log, const Graph& graph, double until, const GraphGround& ground, std::span<Motion> room);
 
 /// Poses that a graph is evaluated in.
 [[nodiscard]] std::size_t rooms_of(const Graph& graph) noexcept;

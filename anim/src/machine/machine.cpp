@@ -29,13 +29,13 @@ Sample<double> progress(const GraphChange& change, double since, Side side) noex
 }
 
 /// The passages that show at a time, the latest first, down to one that covers all before it.
-std::size_t shown_at(std::span<const Passage> passages, double time, Side side, ShownPassages& shown) noexcept {
+std::size_t shown_at(const Passages& passages, double time, Side side, ShownPassages& shown) noexcept {
   std::size_t count = 0;
-  for (std::size_t i = passages.size(); i-- > 0 && count < shown.size();) {
+  for (std::size_t i = passages.count; i-- > 0 && count < shown.size();) {
     const Passage& passage = passages[i];
     // What was left in no time never showed.
-    if (i + 1 < passages.size() && passages[i + 1].time == passage.time) continue;
-    const bool first = passages.front().time == passage.time;
+    if (i + 1 < passages.count && passages[i + 1].time == passage.time) continue;
+    const bool first = passages[0].time == passage.time;
     const Sample<double> weight =
         first || passage.settles ? Sample<double>{1, 0, 0} : progress(passage.change, time - passage.time, side);
     if (is_nothing(weight)) continue;
@@ -46,10 +46,10 @@ std::size_t shown_at(std::span<const Passage> passages, double time, Side side, 
 }
 
 /// Those that there were before a time, or at it.
-std::span<const Passage> until(const std::vector<Passage>& passages, double time, Side side) noexcept {
+Passages until(const Record<Passage>& passages, double time, Side side) noexcept {
   const auto later = [&](double t, const Passage& each) { return side == Side::out ? t < each.time : t <= each.time; };
   const auto next = std::upper_bound(passages.begin(), passages.end(), time, later);
-  return {passages.data(), std::max<std::size_t>(1, static_cast<std::size_t>(next - passages.begin()))};
+  return {&passages, std::max<std::size_t>(1, static_cast<std::size_t>(next - passages.begin()))};
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ Machine::Machine(const GraphDescription& description, std::size_t number, std::v
       transitions_(std::move(transitions)),
       start_(start) {}
 
-void Machine::show(const Log& log, std::span<const Passage> passages, const Moment& moment, const Scratch& scratch,
+void Machine::show(const Log& log, const Passages& passages, const Moment& moment, const Scratch& scratch,
                    std::span<Motion> out) const noexcept {
   ShownPassages shown;
   const std::size_t count = shown_at(passages, moment.time, moment.side, shown);
@@ -73,8 +73,8 @@ void Machine::show(const Log& log, std::span<const Passage> passages, const Mome
     const Moment own{moment.time, moment.side, passage.time};
     states_[passage.state]->pose(log, own, lowest ? scratch : scratch.rest(), motions);
     const double since = moment.time - passage.time;
-    if (!passage.offsets.empty() && since < settling_time(passage.change))
-      settle(passage.change, passage.offsets, since, motions);
+    if (passage.offsets && since < settling_time(passage.change))
+      settle(passage.change, *passage.offsets, since, motions);
     if (!lowest) cross_fade(out, motions, shown[i].weight, out);
   }
 }
@@ -86,7 +86,7 @@ void Machine::pose(const Log& log, const Moment& moment, const Scratch& scratch,
 
 std::vector<GraphActivity> Machine::activity(const Log& log, double time) const {
   ShownPassages shown;
-  const std::span<const Passage> passages = until(log.passages[number_], time, Side::out);
+  const Passages passages = until(log.passages[number_], time, Side::out);
   const std::size_t count = shown_at(passages, time, Side::out, shown);
   std::vector<GraphActivity> out;
   Sample<double> left{1, 0, 0};  // what those above leave
@@ -94,7 +94,7 @@ std::vector<GraphActivity> Machine::activity(const Log& log, double time) const 
     const Passage& passage = *shown[i].passage;
     const Sample<double>& weight = shown[i].weight;
     const double since = time - passage.time;
-    const bool settles = !passage.offsets.empty() && since < settling_time(passage.change);
+    const bool settles = passage.offsets && since < settling_time(passage.change);
     out.push_back({.state = passage.state,
                    .since = passage.time,
                    .weight = {left.value * weight.value, left.rate * weight.value + left.value * weight.rate, 0},
@@ -110,7 +110,7 @@ namespace {
 /// Calls `visit(passage, from, to)` with each stretch in (from, to] in which a state was the latest, until it returns
 /// false. The instant at which it was entered is its own too.
 template <class Visit>
-void for_each_stretch(const std::vector<Passage>& passages, double from, double to, const Visit& visit) {
+void for_each_stretch(const Record<Passage>& passages, double from, double to, const Visit& visit) {
   auto passage = std::ranges::upper_bound(passages, from, {}, &Passage::time);
   if (passage != passages.begin()) --passage;
   while (passage != passages.begin() && std::prev(passage)->time == passage->time) --passage;
@@ -147,10 +147,27 @@ double Machine::end(const Log& log, double) const noexcept {
   return states_[current(log).state]->end(log, current(log).time);
 }
 
+std::optional<double> Machine::next_jump(const Log& log, double, double after, double until) const {
+  // Of all that show at the start of the stretch, fading ones too, and that come to show in it.
+  const Record<Passage>& all = log.passages[number_];
+  const Passages before = tweenfall::graphs::until(all, after, Side::out);
+  ShownPassages shown;
+  const std::size_t count = shown_at(before, after, Side::out, shown);
+  const double since = count > 0 ? shown[count - 1].passage->time : all.front().time;
+  std::optional<double> first;
+  for (auto passage = std::ranges::lower_bound(all, since, {}, &Passage::time);
+       passage != all.end() && passage->time <= first.value_or(until); ++passage)
+    if (const auto next = states_[passage->state]->next_jump(log, passage->time, std::max(after, passage->time),
+                                                             first.value_or(until)))
+      first = next;
+  return first;
+}
+
 void Machine::begin(Log& log) const {
   Passage first;
   first.state = start_;
-  log.passages[number_] = {first};
+  log.passages[number_].truncate(0);
+  log.passages[number_].push_back(first);
 }
 
 std::optional<double> Machine::next_instant(const Log& log, double after, double until) const {
@@ -185,7 +202,7 @@ Passage Machine::passage(const Log& log, std::size_t index, double time) const {
   passage.transition = index;
   passage.change = transition.change;
   ShownPassages shown;
-  const std::vector<Passage>& passages = log.passages[number_];
+  const Record<Passage>& passages = log.passages[number_];
   if (passages.front().time == time) return passage;  // nothing has shown
   const std::size_t count = shown_at(until(passages, time, Side::in), time, Side::in, shown);
   const bool fades = transition.change.kind == GraphChange::Kind::fade;
@@ -202,7 +219,7 @@ void Machine::measure(const Log& log, Passage& passage, std::span<const Motion> 
   const double time = passage.time;
   show(log, until(log.passages[number_], time, Side::in), {time, Side::in, time}, {below_in, rest, below}, shown);
   states_[passage.state]->pose(log, {time, Side::out, time}, {below_out, rest, below}, next);
-  passage.offsets = offsets_of(passage.change, shown, next);
+  passage.offsets = std::make_shared<const std::vector<Offset>>(offsets_of(passage.change, shown, next));
 }
 
 }  // namespace tweenfall::graphs

@@ -6,6 +6,14 @@
 
 namespace tweenfall::graphs {
 
+/// The first so many of a machine's.
+struct Passages {
+  const Record<Passage>* list;
+  std::size_t count;
+
+  [[nodiscard]] const Passage& operator[](std::size_t i) const noexcept { return (*list)[i]; }
+};
+
 class Machine : public Operation {
  public:
   struct Transition {
@@ -25,6 +33,8 @@ class Machine : public Operation {
   [[nodiscard]] std::optional<double> next_event(const Log& log, std::string_view name, double start, double after,
                                                  double until) const override;
   [[nodiscard]] double end(const Log& log, double start) const noexcept override;
+  [[nodiscard]] std::optional<double> next_jump(const Log& log, double start, double after,
+                                                double until) const override;
   [[nodiscard]] std::vector<GraphActivity> activity(const Log& log, double time) const;
 
   // What happens
@@ -43,7 +53,7 @@ class Machine : public Operation {
                const PoseBelow* below, Motion* free) const;
 
  private:
-  void show(const Log& log, std::span<const Passage> passages, const Moment& moment, const Scratch& scratch,
+  void show(const Log& log, const Passages& passages, const Moment& moment, const Scratch& scratch,
             std::span<Motion> out) const noexcept;
   [[nodiscard]] const Passage& current(const Log& log) const noexcept { return log.passages[number_].back(); }
   [[nodiscard]] Standing standing(const Log& log) const noexcept {

@@ -90,6 +90,7 @@ class Fingerprint {
       all.tell(each.name, each.operation.index(), account_of(each.operation).value());
     all.add(graph.output);
     for (const GraphInput& each : graph.inputs) all.tell(each.time, each.name, each.value);
+    for (const GraphReaction& each : graph.reactions) all.tell(each.event, each.name, each.value);
     return all.value();
   }
 };

@@ -14,7 +14,12 @@ namespace {
 class PlayedClip : public Operation {
  public:
   PlayedClip(const ClipPose& described, const LoopedClip& clip, const Hierarchy& nodes)
-      : clip_(*clip.bound), number_(clip.number), nodes_(nodes), at_(described.at), speed_(described.speed) {}
+      : clip_(*clip.bound),
+        jumps_(clip.jumps),
+        number_(clip.number),
+        nodes_(nodes),
+        at_(described.at),
+        speed_(described.speed) {}
 
   void pose(const Log&, const Moment& moment, const Scratch& scratch, std::span<Motion> out) const noexcept override {
     std::ranges::copy(scratch.below, out.begin());
@@ -34,6 +39,12 @@ class PlayedClip : public Operation {
     return std::nullopt;
   }
 
+  [[nodiscard]] std::optional<double> next_jump(const Log&, double start, double after, double until) const override {
+    if (jumps_.events.empty()) return std::nullopt;
+    if (const auto jump = first_event(play(start), jumps_, after, until)) return jump->time;
+    return std::nullopt;
+  }
+
   [[nodiscard]] double end(const Log&, double start) const noexcept override {
     return end_time(play(start), clip_.clip());
   }
@@ -46,6 +57,7 @@ class PlayedClip : public Operation {
   }
 
   const pose::BoundClip& clip_;
+  const Clip& jumps_;
   std::size_t number_;
   const Hierarchy& nodes_;
   double at_, speed_;

@@ -33,7 +33,7 @@ class Number {
   [[nodiscard]] double next_setting(const Log& log, double after) const noexcept {
     constexpr double never = std::numeric_limits<double>::infinity();
     if (!description_) return never;
-    const std::vector<Setting>& settings = log.settings[parameter_];
+    const Record<Setting>& settings = log.settings[parameter_];
     const auto next = std::ranges::upper_bound(settings, after, {}, &Setting::time);
     return next == settings.end() || next->time > log.until ? never : next->time;
   }
@@ -41,7 +41,7 @@ class Number {
   [[nodiscard]] double first_unseen(const Log& log) const noexcept {
     constexpr double never = std::numeric_limits<double>::infinity();
     if (!description_ || log.until == never) return never;
-    const std::vector<Setting>& settings = log.settings[parameter_];
+    const Record<Setting>& settings = log.settings[parameter_];
     const auto next = std::ranges::upper_bound(settings, log.until, {}, &Setting::time);
     return next == settings.end() ? never : next->time;
   }

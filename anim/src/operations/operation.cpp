@@ -22,6 +22,13 @@ std::optional<double> Operation::next_event(const Log& log, std::string_view nam
   return first;
 }
 
+std::optional<double> Operation::next_jump(const Log& log, double start, double after, double until) const {
+  std::optional<double> first;
+  for (const Operation* pose : operands())
+    if (const std::optional<double> next = pose->next_jump(log, start, after, first.value_or(until))) first = next;
+  return first;
+}
+
 double Operation::end(const Log& log, double start) const noexcept {
   double latest = 0;
   for (const Operation* pose : operands()) latest = std::max(latest, pose->end(log, start));

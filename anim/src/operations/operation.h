@@ -63,6 +63,10 @@ class Operation {
   [[nodiscard]] virtual std::optional<double> next_event(const Log& log, std::string_view name, double start,
                                                          double after, double until) const;
 
+  /// The first time in (after, until] at which a clip in it, shown or not, makes its pose jump: where its loop begins
+  /// anew, or its tracks jump.
+  [[nodiscard]] virtual std::optional<double> next_jump(const Log& log, double start, double after, double until) const;
+
   /// When all clips have ended; 0 where there are none.
   [[nodiscard]] virtual double end(const Log& log, double start) const noexcept;
 

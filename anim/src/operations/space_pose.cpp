@@ -109,6 +109,19 @@ class SyncedSpace : public Operation {
     return first;
   }
 
+  [[nodiscard]] std::optional<double> next_jump(const Log& log, double start, double after,
+                                                double until) const override {
+    std::optional<double> first;
+    for (std::size_t i = 0; i < clips_.size(); ++i)
+      phase_.each_event(log, i, clips_[i]->jumps, start, after, first.value_or(until),
+                        [&](double time, const ClipEvent&, GraphEvent::Kind) {
+                          if (!(time > after)) return true;
+                          first = time;
+                          return false;
+                        });
+    return first;
+  }
+
   [[nodiscard]] double end(const Log&, double) const noexcept override {
     return std::numeric_limits<double>::infinity();
   }

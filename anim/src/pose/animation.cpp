@@ -242,7 +242,10 @@ Animation Animation::with_change(const PlayChange& change) const {
   // Graphs lie over what the plays have made of the nodes.
   other.graphs_ = nullptr;
   if (start) other.bind_plays();
-  return graphs_ ? other.with_graphs({graphs().begin(), graphs().end()}) : other;
+  if (!graphs_) return other;
+  other.graphs_ = std::make_shared<graphs::GraphStack>(*graphs_, graphs::ground_of(other), change.time);
+  if (start) other.bind_plays();
+  return other;
 }
 
 Animation Animation::with_nodes(std::shared_ptr<const Hierarchy> nodes) const {
@@ -251,43 +254,16 @@ Animation Animation::with_nodes(std::shared_ptr<const Hierarchy> nodes) const {
   other.graphs_ = nullptr;
   other.bind_clips({});
   other.bind_plays();
-  return graphs_ ? other.with_graphs({graphs().begin(), graphs().end()}) : other;
+  if (!graphs_) return other;
+  other = other.with_graphs({graphs().begin(), graphs().end()});
+  other.graphs_->put_all_of(*graphs_);
+  return other;
 }
 
 Animation Animation::with_more_nodes(std::shared_ptr<const Hierarchy> nodes) const {
   Animation other = *this;
   other.nodes_ = std::move(nodes);
   return other;
-}
-
-Animation Animation::with_graphs(std::vector<GraphDescription> graphs) const {
-  Animation other = *this;
-  other.graphs_ = nullptr;
-  if (!graphs.empty())
-    other.graphs_ = std::make_shared<graphs::GraphStack>(
-        nodes_, clips_, std::move(graphs),
-        [plays = other](double time, Side side, std::span<Motion> out) { plays.sample(time, out, side); });
-  other.bind_plays();
-  return other;
-}
-
-std::span<const GraphDescription> Animation::graphs() const noexcept {
-  if (!graphs_) return {};
-  return graphs_->descriptions();
-}
-
-std::vector<GraphEvent> Animation::graph_events(double from, double to) const {
-  if (!graphs_) return {};
-  return graphs_->events(from, to);
-}
-
-std::optional<double> Animation::first_graph_event(std::string_view name, std::size_t node, double from,
-                                                   double to) const {
-  return graphs_ ? graphs_->first_event(name, node, from, to) : std::nullopt;
-}
-
-std::optional<double> Animation::first_graph_instant(double from, double to) const {
-  return graphs_ ? graphs_->first_instant(from, to) : std::nullopt;
 }
 
 void Animation::bind_clips(std::string problems) {

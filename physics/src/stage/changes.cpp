@@ -44,6 +44,9 @@ struct Maker {
   void operator()(const change::Ask& ask) const {
     change_play(state, {.time = instant, .play = ask.play, .action = ask.action}, step, happenings);
   }
+  void operator()(const change::Tell& tell) const {
+    tell_graph(state, tell.graph, {.time = instant, .name = tell.name, .value = tell.value}, step, happenings);
+  }
 };
 
 }  // namespace
@@ -66,7 +69,8 @@ void make_change(StageState& state, const Command& command, double step, std::ve
 
 bool is_of_cast(const Change& change) {
   return std::holds_alternative<change::Arm>(change) || std::holds_alternative<change::Add>(change) ||
-         std::holds_alternative<change::Remove>(change) || std::holds_alternative<change::Ask>(change);
+         std::holds_alternative<change::Remove>(change) || std::holds_alternative<change::Ask>(change) ||
+         std::holds_alternative<change::Tell>(change);
 }
 
 }  // namespace tweenfall::staging

@@ -4,6 +4,7 @@
 
 #include <tweenfall/physics/stage/description.h>
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -52,10 +53,16 @@ struct Ask {
   std::string play;
   PlayAction action;
 };
+/// A graph is told something.
+struct Tell {
+  std::string graph;
+  std::string name;               ///< of a parameter, or of an event
+  std::optional<double> value{};  ///< none: the event is sent
+};
 }  // namespace change
 
 using Change = std::variant<change::None, change::Release, change::Recover, change::Arm, change::Add, change::Remove,
-                            change::Push, change::Join, change::Part, change::Ignore, change::Ask>;
+                            change::Push, change::Join, change::Part, change::Ignore, change::Ask, change::Tell>;
 
 /// A change at an exact time. When it throws, it has changed nothing.
 struct Command {

@@ -33,16 +33,52 @@ void report_events(const StageState& state, double from, double to, std::vector<
   tell(std::move(fired), happenings);
 }
 
-void change_play(StageState& state, const PlayChange& change, double step, std::vector<Happening>& happenings) {
-  state.animation = std::make_shared<const Animation>(state.animation->with_change(change));
-  for (StagedBody& body : state.bodies) body.path = body.path.rebound(state.animation);
+namespace {
+
+/// What graphs tell at an instant that has been handled, for what they lie on or what came in has changed there.
+std::vector<FiredEvent> news_of_graphs(const Animation& before, const Animation& after, double instant) {
+  const double earlier = std::nextafter(instant, -infinity);
+  std::vector<GraphEvent> told = before.graph_events(earlier, instant);
+  std::vector<FiredEvent> news;
+  for (GraphEvent& event : after.graph_events(earlier, instant)) {
+    const auto twin = std::ranges::find_if(told, [&](const GraphEvent& each) {
+      return each.name == event.name && each.data == event.data && each.clip == event.clip && each.kind == event.kind;
+    });
+    if (twin != told.end())
+      told.erase(twin);
+    else
+      news.push_back({event.time, std::move(event.name), std::move(event.data), event.clip});
+  }
+  return news;
+}
+
+/// From an instant on, which has been handled, the animation is another.
+/// @param news  what it tells at that very time: rules wait for it, too
+void change_animation(StageState& state, Animation animation, double instant, std::vector<FiredEvent> news, double step,
+                      std::vector<Happening>& happenings) {
+  const auto next = std::make_shared<const Animation>(std::move(animation));
+  for (FiredEvent& event : news_of_graphs(*state.animation, *next, instant)) news.push_back(std::move(event));
+  state.animation = next;
+  for (StagedBody& body : state.bodies) body.path = body.path.rebound(next);
   state.jumps = jumps_of_plays(state);
   state.jumped = true;
-  // What it fires at its own instant, which has been handled: told now, and rules wait for it, too.
-  const Player& player = state.animation->players()[state.animation->player_named(change.play)];
-  tell(player.events_of_change(state.animation->clips()[player.play().clip]), happenings);
-  fire_rules(state, std::nextafter(change.time, -infinity), step, happenings);
+  tell(std::move(news), happenings);
+  fire_rules(state, std::nextafter(instant, -infinity), step, happenings);
   follow_played_tracks(state, step, happenings);
+}
+
+}  // namespace
+
+void change_play(StageState& state, const PlayChange& change, double step, std::vector<Happening>& happenings) {
+  Animation changed = state.animation->with_change(change);
+  const Player& player = changed.players()[changed.player_named(change.play)];
+  std::vector<FiredEvent> news = player.events_of_change(changed.clips()[player.play().clip]);
+  change_animation(state, std::move(changed), change.time, std::move(news), step, happenings);
+}
+
+void tell_graph(StageState& state, const std::string& graph, const GraphInput& input, double step,
+                std::vector<Happening>& happenings) {
+  change_animation(state, state.animation->with_input(graph, input), input.time, {}, step, happenings);
 }
 
 }  // namespace tweenfall::staging

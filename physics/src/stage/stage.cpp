@@ -1,3 +1,4 @@
+#include <tweenfall/anim/graph_player.h>
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
 
@@ -187,6 +188,18 @@ void Stage::ask(std::string_view play, PlayAction action) {
   inside().command(staging::change::Ask{std::string(play), std::move(action)});
 }
 
+void Stage::set(std::string_view graph, std::string_view parameter, double value) {
+  inside().command(staging::change::Tell{std::string(graph), std::string(parameter), value});
+}
+
+void Stage::send(std::string_view graph, std::string_view event) {
+  inside().command(staging::change::Tell{std::string(graph), std::string(event), std::nullopt});
+}
+
+GraphPlayer Stage::graph(std::string_view name) const {
+  return inside().current().animation->graph(name, time());
+}
+
 std::vector<TimedInput> Stage::inputs() const {
   return inside().inputs();
 }
@@ -200,6 +213,8 @@ void Stage::give(const Input& input) {
     void operator()(const input::Push& push) const {
       stage.apply_impulse(stage.node(push.body), push.impulse, push.point);
     }
+    void operator()(const input::Set& set) const { stage.set(set.graph, set.parameter, set.value); }
+    void operator()(const input::Send& send) const { stage.send(send.graph, send.event); }
   };
   std::visit(Giver{*this}, input);
 }

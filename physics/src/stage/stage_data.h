@@ -207,6 +207,10 @@ void require_node(const StageState& state, NodeId node);
 // plays.cpp: what is played
 /// @throws std::invalid_argument for what cannot be; nothing has changed then
 void change_play(StageState& state, const PlayChange& change, double step, std::vector<Happening>& happenings);
+/// Something comes in to a graph, at the input's time.
+/// @throws std::invalid_argument for what cannot be; nothing has changed then
+void tell_graph(StageState& state, const std::string& graph, const GraphInput& input, double step,
+                std::vector<Happening>& happenings);
 /// Tells what plays fire in (from, to], from the start on where `from` is below 0.
 void report_events(const StageState& state, double from, double to, std::vector<Happening>& happenings);
 

@@ -154,6 +154,12 @@ std::vector<TimedInput> Timeline::inputs() const {
     if (command.time > now_) break;
     const auto add = [&](Input what) { inputs.push_back({command.time, std::move(what)}); };
     if (const auto* ask = std::get_if<change::Ask>(&command.change)) add(input::Ask{ask->play, ask->action});
+    if (const auto* tell = std::get_if<change::Tell>(&command.change)) {
+      if (tell->value)
+        add(input::Set{tell->graph, tell->name, *tell->value});
+      else
+        add(input::Send{tell->graph, tell->name});
+    }
     if (const auto* release = std::get_if<change::Release>(&command.change))
       add(input::Release{name(release->node), release->settings});
     if (const auto* recover = std::get_if<change::Recover>(&command.change))

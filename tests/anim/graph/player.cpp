@@ -211,7 +211,7 @@ TEST_CASE("what lies below a graph shows where its clips do nothing") {
     motion.twist.linear = {1, 2, 3};
     return motion;
   }();
-  GraphPlayer player(graph, [&](double, Side, std::span<Motion> out) { std::ranges::fill(out, high); });
+  GraphPlayer player(graph, {.pose = [&](double, Side, std::span<Motion> out) { std::ranges::fill(out, high); }});
   const std::vector<Motion> pose = pose_at(player, 0.3);
   CHECK(pose[3].pose.position == high.pose.position);
   CHECK(pose[3].twist.linear == high.twist.linear);

@@ -2,6 +2,7 @@
 
 #include "importers/document/document_files.h"
 
+#include <tweenfall/anim/graph_player.h>
 #include <tweenfall/importers/inputs.h>
 #include <tweenfall/physics/stage/recording.h>
 
@@ -140,4 +141,85 @@ TEST_CASE("faults of inputs are told at their places") {
   // What is started is known from then on.
   CHECK(input_faults(R"({"at": 1, "start": {"play": "w", "clip": "wave"}}, {"at": 2, "stop": {"play": "w"}})").empty());
   CHECK(fault_says(input_faults(R"({"at": 1, "start": {"play": "w", "clip": "wav"}})"), "there is no clip \"wav\""));
+}
+
+TEST_CASE("a seek beyond what is played is told at its place, whatever the play was asked for before") {
+  CHECK(input_faults(R"({"at": 1, "seek": {"play": "walk", "to": 4}})").empty());
+  CHECK(fault_says(input_faults(R"({"at": 1, "seek": {"play": "walk", "to": 4.5}})"),
+                   "i.json:2:42: error: \"walk\" has no time 4.5 s in what is played of it, 0 s to 4 s"));
+  CHECK(fault_says(input_faults(R"({"at": 1, "start": {"play": "walk", "from": 1, "to": 2}},
+{"at": 1.5, "seek": {"play": "walk", "to": 3}})"),
+                   "i.json:3:44: error: \"walk\" has no time 3 s in what is played of it, 1 s to 2 s"));
+  CHECK(fault_says(input_faults(R"({"at": 1, "start": {"play": "walk", "from": 1, "to": 9}})"),
+                   "i.json:2:20: error: a play of clip \"walk\": its section reaches to 9 s, and the clip to 4 s"));
+  CHECK(fault_says(input_faults(R"({"at": 1, "speed": {"play": "walk", "speed": [[0, 1], [1, 2]], "seconds": 1}})"),
+                   "a speed of keys says by them how it goes there"));
+}
+
+namespace {
+
+StageDescription with_graphs(const std::string& graphs) {
+  return parsed(R"({"tweenfall": 1, "nodes": {"hip": {}}, "clips": {
+    "walk": {"tracks": {"hip.position": [[0, [0, 0, 0]], [1, [1, 0, 0]]]}, "events": [[0.5, "step"]]}},
+  "graphs": {)" +
+                graphs + "}}")
+      .stage();
+}
+const char* const figure = R"("figure": {"parameters": {"speed": 0, "armed": false, "wind": [[0, 0], [1, 1]]},
+    "poses": {"stand": {"rest": true}, "all": {"machine": {"start": "stand", "states": {"stand": "stand", "walk": "walk"},
+      "transitions": [{"to": "walk", "when": {"event": "go"}}]}}},
+    "on": [["step", "speed", 2], ["step", "halt"]]})";
+
+std::string graph_input_faults(const std::string& rows, const std::string& graphs) {
+  try {
+    (void)parse_inputs("{\"tweenfall\": 1, \"inputs\": [\n" + rows + "]}", "i.json", with_graphs(graphs));
+  } catch (const DocumentError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("inputs set parameters of graphs and send them events, and are written so that the same are read") {
+  const StageDescription stage = with_graphs(figure);
+  CHECK(stage.graphs[0].reactions == std::vector<GraphReaction>{{"step", "speed", 2}, {"step", "halt"}});
+  const std::vector<TimedInput> inputs = parse_inputs(R"({"tweenfall": 1, "inputs": [
+    {"at": 0.1, "set": {"parameter": "speed", "value": 0.3}},
+    {"at": 0.2, "set": {"graph": "figure", "parameter": "armed", "value": true}},
+    {"at": 0.3, "send": {"event": "go"}}]})",
+                                                      "i.json", stage);
+  REQUIRE(inputs.size() == 3);
+  CHECK(std::get<input::Set>(inputs[0].what).graph == "figure");
+  CHECK(std::get<input::Set>(inputs[1].what).value == 1);
+  CHECK(std::get<input::Send>(inputs[2].what).event == "go");
+  const std::string once = inputs_json(inputs);
+  CHECK(inputs_json(parse_inputs(once, "i.json", stage)) == once);
+  Stage first(stage), second(stage);
+  static_cast<void>(advance_with(first, inputs, 2));
+  CHECK(inputs_json(first.inputs()) == once);
+  static_cast<void>(advance_with(second, parse_inputs(once, "i.json", stage), 2));
+  CHECK(first.graph("figure").hash() == second.graph("figure").hash());
+  CHECK(first.graph("figure").parameter("speed").value == 2);  // since its step at 0.8 s
+}
+
+TEST_CASE("names in inputs of graphs that mean nothing are told with the nearest") {
+  const auto says = [](const std::string& rows, const std::string& part, const std::string& graphs = figure) {
+    const std::string faults = graph_input_faults(rows, graphs);
+    CAPTURE(faults);
+    CHECK(fault_says(faults, part));
+  };
+  says(R"({"at": 1, "set": {"parameter": "sped", "value": 1}})",
+       "i.json:2:32: error: there is no parameter \"sped\"; did you mean \"speed\"?");
+  says(R"({"at": 1, "set": {"graph": "figrue", "parameter": "speed", "value": 1}})",
+       "i.json:2:28: error: there is no graph \"figrue\"; did you mean \"figure\"?");
+  says(R"({"at": 1, "set": {"parameter": "wind", "value": 1}})",
+       "i.json:2:32: error: the parameter \"wind\" has keys, and is not set");
+  says(R"({"at": 1, "send": {"event": "og"}})",
+       "i.json:2:29: error: nothing in the graph \"figure\" waits for \"og\"; did you mean \"go\"?");
+  says(R"({"at": 1, "set": {"parameter": "speed", "value": "fast"}})", "a number, true or false");
+  says(R"({"at": 1, "set": {"parameter": "speed"}})", "value");
+  says(R"({"at": 1, "send": {"event": "go"}})", "i.json:2:19: error: the stage has no graph", "");
+  says(R"({"at": 1, "send": {"event": "go"}})", "the stage has several graphs, \"a\", \"b\"; say which \"graph\"",
+       R"("a": {"poses": {"stand": {"rest": true}}}, "b": {"poses": {"stand": {"rest": true}}})");
 }

@@ -24,6 +24,8 @@ namespace tweenfall {
 
 struct GraphDescription;
 struct GraphEvent;
+struct GraphInput;
+class GraphPlayer;
 namespace graphs {
 class GraphStack;
 }
@@ -56,6 +58,10 @@ class Animation {
   /// @throws std::invalid_argument listing all faults of the first that has any.
   [[nodiscard]] Animation with_graphs(std::vector<GraphDescription> graphs) const;
 
+  /// The same after something came in to a graph: what the poses were before its time, they still are.
+  /// @throws std::invalid_argument for what cannot be, unknown names with the nearest
+  [[nodiscard]] Animation with_input(std::string_view graph, const GraphInput& input) const;
+
   [[nodiscard]] const Hierarchy& nodes() const noexcept { return *nodes_; }
   [[nodiscard]] std::span<const Clip> clips() const noexcept { return *clips_; }
   [[nodiscard]] std::span<const Player> players() const noexcept { return *players_; }
@@ -87,7 +93,11 @@ class Animation {
   /// The first of a name, ends of intervals left out. @param node  only of graphs that move this node; `no_node`: all
   [[nodiscard]] std::optional<double> first_graph_event(std::string_view name, std::size_t node, double from,
                                                         double to) const;
-  /// The first time in (from, to] at which something came in to a graph, or a machine passed to another state.
+  /// A graph as it is at a time, to look into: what is set on it comes to nobody else.
+  /// @throws std::invalid_argument with the nearest name
+  [[nodiscard]] GraphPlayer graph(std::string_view name, double time) const;
+  /// The first time in (from, to] at which something came in to a graph, a machine passed to another state, or what a
+  /// graph shows jumps.
   [[nodiscard]] std::optional<double> first_graph_instant(double from, double to) const;
 
   // Plays
@@ -110,6 +120,7 @@ class Animation {
   }
 
  private:
+  [[nodiscard]] std::size_t graph_named(std::string_view name) const;
   void bind_clips(std::string problems);
   void bind_plays();
   /// How many places there are for players that run under a clock: those of the stage, or of one clip those that play

@@ -153,12 +153,23 @@ struct GraphInput {
   bool operator==(const GraphInput&) const = default;
 };
 
+/// What an event of a clip does, whether the clip shows in the graph or lies below it: it sets a parameter or, without
+/// a value, sends another event, at its exact instant. However often it happens at one instant, it does so once.
+struct GraphReaction {
+  std::string event;
+  std::string name;
+  std::optional<double> value{};
+
+  bool operator==(const GraphReaction&) const = default;
+};
+
 struct GraphDescription {
   std::string name;
   std::vector<GraphParameter> parameters;
   std::vector<GraphPose> poses;
   std::string output;                   ///< the pose that shows; empty: the last
   std::vector<GraphInput> inputs = {};  ///< those that are known beforehand
+  std::vector<GraphReaction> reactions = {};
 };
 
 /// A pose or clip that an operation names, and for what, in a word or two.

@@ -7,7 +7,7 @@
 ///
 /// At one instant all parameters that are set hold first; then the events of the instant are told, those of clips
 /// before those that were sent, each in order, and each may lead a machine through one transition. An event that leads
-/// nowhere is lost.
+/// nowhere is lost. What the description has the graph do on events of clips is done before either.
 
 #include <tweenfall/anim/graph.h>
 #include <tweenfall/curves/pose.h>
@@ -63,11 +63,20 @@ struct GraphStop {
 /// Writes what lies below a graph at a time: one motion per node, in order. Must not throw.
 using PoseBelow = std::function<void(double time, Side side, std::span<Motion> out)>;
 
+/// What a graph lies on.
+struct GraphGround {
+  PoseBelow pose{};  ///< none: the nodes at rest
+  /// The first time in (after, until] at which an event of that name happens below, its beginning for an interval;
+  /// none: nothing happens there.
+  std::function<std::optional<double>(std::string_view name, double after, double until)> next_event{};
+};
+
 class GraphPlayer {
  public:
   /// Stands at 0. The description's inputs are given; further ones come by `set` and `send`.
-  /// @param below  what the graph lies on; none: the nodes at rest
-  explicit GraphPlayer(std::shared_ptr<const Graph> graph, PoseBelow below = {});
+  explicit GraphPlayer(std::shared_ptr<const Graph> graph, GraphGround ground = {});
+  /// Another with the same past, on a ground that may be another one from a time on.
+  GraphPlayer(const GraphPlayer& other, GraphGround ground, double from);
   ~GraphPlayer();
   GraphPlayer(GraphPlayer&&) noexcept;
   GraphPlayer& operator=(GraphPlayer&&) noexcept;
@@ -76,7 +85,9 @@ class GraphPlayer {
   /// @throws std::invalid_argument with the nearest name, for a parameter that has a curve, or a value not finite
   void set(std::string_view parameter, double value);
   void send(std::string_view event);
-  [[nodiscard]] std::vector<GraphInput> inputs() const;  ///< all of them, in order of time
+  [[nodiscard]] std::vector<GraphInput> inputs() const;  ///< all that came in, in order of time
+  /// Those of them that the description did not give.
+  [[nodiscard]] std::vector<GraphInput> own_inputs() const;
 
   // Time
   /// @throws std::invalid_argument when dt is negative or not finite
@@ -96,7 +107,11 @@ class GraphPlayer {
   /// @throws std::length_error where a tiny loop makes more than a million of them.
   [[nodiscard]] std::vector<GraphEvent> events(double from, double to);
 
-  /// The first time in (from, to] at which something came in or a machine passed to another state.
+  /// The first of a name in (from, to], ends of intervals left out.
+  [[nodiscard]] std::optional<double> first_event(std::string_view name, double from, double to);
+
+  /// The first time in (from, to] at which something came in, a machine passed to another state, or what shows jumps: a
+  /// clip where its loop begins anew or its tracks jump, a number where its keys do.
   [[nodiscard]] std::optional<double> first_instant(double from, double to);
 
   // Looking inside. Machines are counted as they stand among the graph's poses, from 0.
@@ -122,6 +137,7 @@ class GraphPlayer {
 
  private:
   void know(double time);
+  void lie_on(GraphGround ground);
   void evaluate(double time, std::span<Motion> local, Side side) noexcept;
 
   struct Run;

@@ -5,7 +5,9 @@
 ///     {"tweenfall": 1, "inputs": [
 ///       {"at": 0.5, "start": {"play": "wave", "fade_in": 0.2}},
 ///       {"at": 1.2, "speed": {"play": "walk", "speed": 1.5, "seconds": 0.3}},
-///       {"at": 2, "push": {"body": "ball", "impulse": [0, 2, 0]}}]}
+///       {"at": 1.5, "set": {"graph": "figure", "parameter": "speed", "value": 2}},
+///       {"at": 1.8, "send": {"graph": "figure", "event": "jump"}},
+///       {"at": 2, "push": {"body": "ball", "impulse": [0, 2, 0], "point": [0, 1, 0]}}]}
 
 #include <tweenfall/importers/document.h>
 #include <tweenfall/physics/stage/input.h>
@@ -18,7 +20,7 @@
 
 namespace tweenfall {
 
-/// @param stage  whose plays and bodies the inputs name
+/// @param stage  whose plays, graphs and bodies the inputs name
 /// @throws DocumentError with all problems
 [[nodiscard]] std::vector<TimedInput> read_inputs(const std::filesystem::path& file, const StageDescription& stage);
 /// @param name  stands for the file in problems

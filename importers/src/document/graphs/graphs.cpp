@@ -73,6 +73,30 @@ void read_inputs(const json::Value& value, GraphDescription& graph, Building& bu
   }
 }
 
+// What it does on events of clips
+
+const Form* reactions_form(FormStore& store, const ValueForms& values) {
+  Form reaction;
+  reaction.kind = Form::Kind::tuple;
+  reaction.what = "a reaction: [event of a clip, parameter, value] or [event of a clip, event]";
+  reaction.parts = {values.name, values.name, setting_form(store, values)};
+  reaction.fewest = 2;
+  reaction.on_one_line = true;
+  Form list = list_of(store.add(std::move(reaction)), "a list of reactions", 0);
+  list.one_a_line = true;
+  return store.add(std::move(list));
+}
+
+void read_reactions(const json::Value& value, GraphDescription& graph, Building&) {
+  for (const json::Value& item : value.items()) {
+    GraphReaction& reaction = graph.reactions.emplace_back();
+    if (item.items().size() < 2) continue;
+    reaction.event = item.items()[0].text();
+    reaction.name = item.items()[1].text();
+    if (item.items().size() > 2) reaction.value = read_setting(item.items()[2]);
+  }
+}
+
 // The whole
 
 const Form* poses_form(FormStore& store, const ValueForms& values) {
@@ -93,11 +117,13 @@ void read_poses(const json::Value& value, GraphDescription& graph, Building& bui
 
 const Table<GraphDescription>& graph_table() {
   static const Table<GraphDescription> table(
-      "a graph", {{"parameters", parameters_form, "numbers that come from outside", {read_parameters, "{}"}},
-                  {"poses", poses_form, "made of clips and of each other", {read_poses}, true},
-                  {"output", &ValueForms::name, "the pose that shows; absent: the last",
-                   fields::member<GraphDescription>(&GraphDescription::output)},
-                  {"inputs", inputs_form, "parameters that are set and events that are sent", {read_inputs, "[]"}}});
+      "a graph",
+      {{"parameters", parameters_form, "numbers that come from outside", {read_parameters, "{}"}},
+       {"poses", poses_form, "made of clips and of each other", {read_poses}, true},
+       {"output", &ValueForms::name, "the pose that shows; absent: the last",
+        fields::member<GraphDescription>(&GraphDescription::output)},
+       {"inputs", inputs_form, "parameters that are set and events that are sent", {read_inputs, "[]"}},
+       {"on", reactions_form, "events of clips that set parameters or send events", {read_reactions, "[]"}}});
   return table;
 }
 

@@ -1,287 +1,39 @@
+#include <tweenfall/anim/player.h>
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/inputs.h>
 #include <tweenfall/importers/whole_file.h>
 
 #include "document/content.h"
-#include "document/fields/rule.h"
 #include "document/fields/things.h"
+#include "document/inputs/input_tables.h"
 #include "document/read/clip_times.h"
 #include "document/read/values.h"
 #include "document/report/check.h"
 #include "document/report/suggestion.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fstream>
+#include <map>
+#include <set>
 
 namespace tweenfall {
 
 namespace document::inputs {
 namespace {
 
-using Kind = json::Value::Kind;
-using fields::Meaning;
-using fields::Row;
 using fields::Table;
-
-/// A play asked for something.
-template <class Action>
-struct Asked {
-  std::string play;
-  Action action{};
-  json::Value place{};  // of the play's name
-};
-
-// Values
-
-const Form* keys_form(FormStore& store, const ValueForms& values, const std::string& what) {
-  Form row;
-  row.kind = Form::Kind::tuple;
-  row.what = "a key: [seconds, value] or [seconds, value, ease]";
-  row.parts = {values.number, values.number, values.ease};
-  row.fewest = 2;
-  row.on_one_line = true;
-  const Form* keys = store.add(list_of(store.add(std::move(row)), "a list of keys over seconds from then on"));
-  return store.add(choice_of(what + ": a number, or keys over seconds from then on", {values.number, keys}));
-}
-const Form* weight_form(FormStore& store, const ValueForms& values) {
-  return keys_form(store, values, "a weight from 0 to 1");
-}
-const Form* speed_form(FormStore& store, const ValueForms& values) {
-  return keys_form(store, values, "a speed");
-}
-
-PlayKeys read_keys(const json::Value& value, bool weight, Building& building) {
-  if (value.is(Kind::number)) {
-    if (weight && !(value.number() >= 0 && value.number() <= 1))
-      building.problems.add(value, "expected a weight from 0 to 1, found " + number_text(value.number()));
-    return {{0, value.number()}};
-  }
-  PlayKeys keys;
-  for (const json::Value& item : value.items()) {
-    const KeyParts parts = key_parts(item);
-    if (!parts.time || !parts.value) continue;
-    PlayKey key{parts.time.number(), parts.value.number()};
-    if (parts.ease)
-      if (const std::optional<Ease> ease = Ease::named(parts.ease.text())) key.ease = *ease;
-    if (weight && !(key.value >= 0 && key.value <= 1))
-      building.problems.add(parts.value, "expected a weight from 0 to 1, found " + number_text(key.value));
-    if (!keys.empty() && !(key.time > keys.back().time))
-      building.problems.add(parts.time, "key times must increase; " + number_text(key.time) +
-                                            " s is not after the key before it, " + number_text(keys.back().time) +
-                                            " s");
-    keys.push_back(key);
-  }
-  return keys;
-}
-
-template <class Thing, class Access>
-Meaning<Thing> keys_of(bool weight, Access access) {
-  return {[weight, access](const json::Value& value, Thing& thing, Building& building) {
-            std::invoke(access, thing) = read_keys(value, weight, building);
-          },
-          "1"};
-}
-
-template <class Thing>
-Row<Thing> play_row() {
-  const auto read = [](const json::Value& value, Thing& thing, Building&) {
-    thing.play = value.text();
-    thing.place = value;
-  };
-  return {"play", &ValueForms::name, "its name, else that of its clip", {read}, true};
-}
-
-template <class Thing, class Access>
-Row<Thing> ease_row(Access access) {
-  const auto read = [access](const json::Value& value, Thing& thing, Building&) {
-    std::invoke(access, thing) = Ease::named(value.text());
-  };
-  return {"ease", &ValueForms::ease, "absent: value and rate go on, and it comes to rest", {read}};
-}
-
-// Plays
-
-using Started = Asked<playing::Start>;
-
-const Table<Started>& start_table() {
-  const auto of = [](auto member) {
-    return [member](Started & start) -> auto& {
-      return start.action.*member;
-    };
-  };
-  const auto fade = [](Fade playing::Start::*member) {
-    return Meaning<Started>{[member](const json::Value& value, Started& start, Building&) {
-                              start.action.*member = fields::read_fade(value);
-                            },
-                            "0"};
-  };
-  static const std::vector<std::pair<std::string, LoopMode>> loops{{"once", LoopMode::once},
-                                                                   {"repeat", LoopMode::repeat},
-                                                                   {"repeat-offset", LoopMode::repeat_offset},
-                                                                   {"pingpong", LoopMode::pingpong}};
-  const auto loop_form = [](FormStore& store, const ValueForms&) -> const Form* {
-    std::vector<std::string> words;
-    words.reserve(loops.size());
-    for (const auto& [word, mode] : loops) words.push_back(word);
-    return store.add(words_of("a way to loop", words));
-  };
-  const auto read_loop = [](const json::Value& value, Started& start, Building&) {
-    for (const auto& [word, mode] : loops)
-      if (value.text() == word) start.action.loop = Loop{mode, 0};
-  };
-  const auto read_count = [](const json::Value& value, Started& start, Building&) {
-    Loop loop = start.action.loop.value_or(Loop{LoopMode::repeat, 0});
-    loop.count = value.number();
-    start.action.loop = loop;
-  };
-  const auto read_to = [](const json::Value& value, Started& start, Building&) { start.action.to = value.number(); };
-  const auto read_mask = [](const json::Value& value, Started& start, Building&) {
-    start.action.mask = names_of(value);
-  };
-  const auto mask_form = [](FormStore& store, const ValueForms& values) -> const Form* {
-    return store.add(choice_of("a name, a pattern (\"arm/*\"), or a list of them",
-                               {values.name, store.add(list_of(values.name, "a list of names or patterns"))}));
-  };
-  static const Table<Started> table(
-      "a start",
-      {play_row<Started>(),
-       {"clip", &ValueForms::name, "of a play that there is not yet; absent: as it is given, or of that name",
-        fields::member<Started>(of(&playing::Start::clip))},
-       {"from", &ValueForms::not_negative, "clip time", fields::member<Started>(of(&playing::Start::from))},
-       {"to", &ValueForms::positive, "clip time", {read_to}},
-       {"offset", &ValueForms::not_negative, "s", fields::member<Started>(of(&playing::Start::offset))},
-       fields::one_of<Started, bool>("direction", "a direction", {{"forward", false}, {"reverse", true}}, "",
-                                     of(&playing::Start::reverse)),
-       {"loop", fields::FormOf::Make(loop_form), "absent: as the clip says", {read_loop}},
-       {"count", &ValueForms::positive, "number of rounds", {read_count}},
-       {"speed", speed_form, "", keys_of<Started>(false, of(&playing::Start::speed))},
-       {"weight", weight_form, "", keys_of<Started>(true, of(&playing::Start::weight))},
-       {"fade_in", fields::fade_form, "", fade(&playing::Start::fade_in)},
-       {"fade_out", fields::fade_form, "", fade(&playing::Start::fade_out)},
-       {"mask", fields::FormOf::Make(mask_form), "nodes it drives; absent: all", {read_mask}}});
-  return table;
-}
-
-const Table<Asked<playing::Stop>>& stop_table() {
-  using Stop = Asked<playing::Stop>;
-  static const Table<Stop> table("a stop",
-                                 {play_row<Stop>(),
-                                  {"seconds", &ValueForms::not_negative, "of fading",
-                                   fields::member<Stop>([](Stop& stop) -> double& { return stop.action.seconds; })},
-                                  ease_row<Stop>([](Stop & stop) -> auto& { return stop.action.ease; })});
-  return table;
-}
-
-const Table<Asked<playing::FadeTo>>& fade_table() {
-  using FadeTo = Asked<playing::FadeTo>;
-  static const Table<FadeTo> table(
-      "a fade", {play_row<FadeTo>(),
-                 {"weight", bounded("a weight from 0 to 1", 0, false, 1), "to which it goes",
-                  fields::member<FadeTo>([](FadeTo& fade) -> double& { return fade.action.weight; }), true},
-                 {"seconds", &ValueForms::not_negative, "",
-                  fields::member<FadeTo>([](FadeTo& fade) -> double& { return fade.action.seconds; })},
-                 ease_row<FadeTo>([](FadeTo & fade) -> auto& { return fade.action.ease; })});
-  return table;
-}
-
-const Table<Asked<playing::Weigh>>& weigh_table() {
-  using Weigh = Asked<playing::Weigh>;
-  static const Table<Weigh> table("a weight", {play_row<Weigh>(),
-                                               {"weight", weight_form, "",
-                                                keys_of<Weigh>(
-                                                    true, [](Weigh & weigh) -> auto& { return weigh.action.weight; }),
-                                                true}});
-  return table;
-}
-
-const Table<Asked<playing::SetSpeed>>& speed_table() {
-  using SetSpeed = Asked<playing::SetSpeed>;
-  static const Table<SetSpeed> table(
-      "a speed", {play_row<SetSpeed>(),
-                  {"speed", speed_form, "",
-                   keys_of<SetSpeed>(
-                       false, [](SetSpeed & set) -> auto& { return set.action.speed; }),
-                   true},
-                  {"seconds", &ValueForms::not_negative, "in which it goes there",
-                   fields::member<SetSpeed>([](SetSpeed& set) -> double& { return set.action.seconds; })}});
-  return table;
-}
-
-const Table<Asked<playing::Seek>>& seek_table() {
-  using Seek = Asked<playing::Seek>;
-  static const Table<Seek> table("a seek",
-                                 {play_row<Seek>(),
-                                  {"to", &ValueForms::not_negative, "clip time",
-                                   fields::member<Seek>([](Seek& seek) -> double& { return seek.action.time; }), true},
-                                  {"events", &ValueForms::boolean, "whether what lies between fires",
-                                   fields::member<Seek>([](Seek& seek) -> bool& { return seek.action.events; })}});
-  return table;
-}
-
-// Bodies
-
-template <class Settings>
-struct OfBody {
-  Settings input{};
-  json::Value place{};  // of the body's name
-};
-
-template <class Thing>
-Row<Thing> body_row() {
-  const auto read = [](const json::Value& value, Thing& thing, Building&) {
-    thing.input.body = value.text();
-    thing.place = value;
-  };
-  return {"body", &ValueForms::name, "a node's name", {read}, true};
-}
-
-const Table<OfBody<input::Release>>& release_table() {
-  using Release = OfBody<input::Release>;
-  const auto velocity = [](const json::Value& value, Release& release, Building& building) {
-    fields::read_take_over(value, release.input.settings, building);
-  };
-  static const Table<Release> table(
-      "a release",
-      {body_row<Release>(),
-       {"velocity", fields::take_over_form, "", {velocity, "\"curve\""}},
-       fields::overlap_row<Release>([](Release& release) -> TakeOver& { return release.input.settings; })});
-  return table;
-}
-
-const Table<OfBody<input::Recover>>& recover_table() {
-  using Recover = OfBody<input::Recover>;
-  const auto path = [](const json::Value& value, Recover& recover, Building& building) {
-    fields::read_path(value, recover.input.settings, building);
-  };
-  const auto settle = [](const json::Value& value, Recover& recover, Building& building) {
-    fields::read_settle(value, recover.input.settings.settle, building);
-  };
-  static const Table<Recover> table("a recovery", {body_row<Recover>(),
-                                                   {"path", fields::path_form, "", {path, "{}"}},
-                                                   {"settle", fields::settle_form, "", {settle}}});
-  return table;
-}
-
-const Table<OfBody<input::Push>>& push_table() {
-  using Push = OfBody<input::Push>;
-  static const Table<Push> table("a push",
-                                 {body_row<Push>(),
-                                  {"impulse", &ValueForms::vector, "N s",
-                                   fields::member<Push>([](Push& push) -> Vec3& { return push.input.impulse; }), true},
-                                  {"point", &ValueForms::vector, "where, in the world, m",
-                                   fields::member<Push>([](Push& push) -> Vec3& { return push.input.point; }), true}});
-  return table;
-}
-
-// One input
 
 /// The inputs as they are read, one after another.
 class Reader {
  public:
   explicit Reader(Building& building) : building_(building) {
-    for (const Play& play : building.stage.plays)
-      plays_.push_back(play.name.empty() ? building.stage.clips[play.clip].name : play.name);
+    for (const Play& play : building.stage.plays) {
+      const Clip& clip = building.stage.clips[play.clip];
+      const std::string& name = play.name.empty() ? clip.name : play.name;
+      if (!plays(name)) plays_.push_back(name);
+      const bool first = players_.emplace(name, Played{Player(play, clip), play.clip}).second;
+      if (!first) shared_.insert(name);
+    }
   }
 
   void read(const json::Value& value) {
@@ -295,6 +47,7 @@ class Reader {
                                      " s is before the input before it, at " + number_text(last_) + " s");
     last_ = std::max(last_, *time);
     time_ = *time;
+    problems_before_ = building_.problems.size();
     if (const json::Value start = usable(value, "start")) read_start(start);
     ask<playing::Stop>(usable(value, "stop"), stop_table());
     ask<playing::FadeTo>(usable(value, "fade"), fade_table());
@@ -304,6 +57,8 @@ class Reader {
     give<input::Release>(usable(value, "release"), release_table());
     give<input::Recover>(usable(value, "recover"), recover_table());
     give<input::Push>(usable(value, "push"), push_table());
+    tell<input::Set>(usable(value, "set"), set_table());
+    tell<input::Send>(usable(value, "send"), send_table());
   }
 
   std::vector<TimedInput> inputs;
@@ -333,6 +88,30 @@ class Reader {
     if (says_how && start.action.clip.empty()) start.action.clip = clip_of(start.play);
     if (!runs) plays_.push_back(start.play);
     inputs.push_back({time_, input::Ask{start.play, start.action}});
+    play_on(start.play, start.action, value);
+  }
+
+  /// Does with the play what the stage will do; what that refuses is a fault of `place`.
+  void play_on(const std::string& name, const PlayAction& action, const json::Value& place) {
+    if (building_.problems.size() != problems_before_) return;
+    if (shared_.count(name) != 0) {
+      building_.problems.add(place, "several plays are called " + json::in_quotes(name) + "; give them names");
+      return;
+    }
+    try {
+      if (const auto found = players_.find(name); found != players_.end()) {
+        Played& played = found->second;
+        played.player = played.player.changed(building_.stage.clips[played.clip], time_, action);
+        return;
+      }
+      const auto& start = std::get<playing::Start>(action);
+      const std::size_t clip = building_.clips.at(start.clip.empty() ? name : start.clip);
+      Play play = tweenfall::play_of(start, clip);
+      play.at = time_;
+      players_.emplace(name, Played{Player(play, building_.stage.clips[clip]), clip});
+    } catch (const std::invalid_argument& fault) {
+      building_.problems.add(place, fault.what());
+    }
   }
 
   [[nodiscard]] std::string clip_of(const std::string& play) const {
@@ -350,6 +129,8 @@ class Reader {
       building_.problems.add(asked.place,
                              "there is no play " + json::in_quotes(asked.play) + suggestion(asked.play, plays_));
     inputs.push_back({time_, input::Ask{asked.play, asked.action}});
+    const json::Value to = usable(value, "to");
+    play_on(asked.play, asked.action, to ? to : value);
   }
 
   template <class What>
@@ -361,9 +142,74 @@ class Reader {
     inputs.push_back({time_, of.input});
   }
 
+  template <class What>
+  void tell(const json::Value& value, const Table<OfGraph<What>>& table) {
+    if (!value) return;
+    OfGraph<What> of;
+    table.read(value, of, building_);
+    if (const GraphDescription* graph = graph_called(of.graph, value)) {
+      of.input.graph = graph->name;
+      if (of.name) look_up(*graph, of.input, of.name);
+    }
+    inputs.push_back({time_, of.input});
+  }
+
+  /// Null where there is none, which is told. @param place  of its name; none: it is the only one
+  const GraphDescription* graph_called(const json::Value& place, const json::Value& whole) {
+    const std::vector<GraphDescription>& graphs = building_.stage.graphs;
+    std::vector<std::string> names;
+    for (const GraphDescription& graph : graphs) {
+      if (place ? graph.name == place.text() : graphs.size() == 1) return &graph;
+      names.push_back(graph.name);
+    }
+    if (place)
+      building_.problems.add(place,
+                             "there is no graph " + json::in_quotes(place.text()) + suggestion(place.text(), names));
+    else if (graphs.empty())
+      building_.problems.add(whole, "the stage has no graph");
+    else
+      building_.problems.add(whole, "the stage has several graphs, " + listed(names) + "; say which \"graph\"");
+    return nullptr;
+  }
+
+  void look_up(const GraphDescription& graph, const input::Set& set, const json::Value& place) {
+    std::vector<std::string> names;
+    for (const GraphParameter& parameter : graph.parameters) {
+      if (parameter.name == set.parameter) {
+        if (parameter.curve)
+          building_.problems.add(place,
+                                 "the parameter " + json::in_quotes(set.parameter) + " has keys, and is not set");
+        return;
+      }
+      names.push_back(parameter.name);
+    }
+    building_.problems.add(
+        place, "there is no parameter " + json::in_quotes(set.parameter) + suggestion(set.parameter, names));
+  }
+
+  void look_up(const GraphDescription& graph, const input::Send& send, const json::Value& place) {
+    std::vector<std::string> names;
+    for (const GraphPose& pose : graph.poses)
+      if (const auto* machine = std::get_if<MachinePose>(&pose.operation))
+        for (const GraphTransition& transition : machine->transitions)
+          for (const GraphCondition& condition : transition.when)
+            if (condition.kind == GraphCondition::Kind::event) names.push_back(condition.name);
+    if (std::find(names.begin(), names.end(), send.event) == names.end())
+      building_.problems.add(place, "nothing in the graph " + json::in_quotes(graph.name) + " waits for " +
+                                        json::in_quotes(send.event) + suggestion(send.event, names));
+  }
+
+  struct Played {
+    Player player;
+    std::size_t clip;
+  };
+
   Building& building_;
   std::vector<std::string> plays_;
+  std::map<std::string, Played> players_;
+  std::set<std::string> shared_;  // names that several plays have
   double last_ = 0, time_ = 0;
+  std::size_t problems_before_ = 0;
 };
 
 struct InputGrammar {
@@ -387,6 +233,8 @@ struct InputGrammar {
     add("release", release_table(), "a body is let go");
     add("recover", recover_table(), "it follows its path again");
     add("push", push_table(), "an impulse");
+    add("set", set_table(), "a parameter of a graph is another number, true or false");
+    add("send", send_table(), "an event comes to a graph");
     std::string what = "an input: {\"at\"} and one of ";
     for (const std::string& name : names) what += (name == names.front() ? "" : ", ") + json::in_quotes(name);
     Form input = object_of(what, std::move(fields));

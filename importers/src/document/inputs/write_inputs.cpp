@@ -183,6 +183,19 @@ struct OfInput {
     fields.add("point", vector_text(push.point));
     return {"push", fields.object()};
   }
+  Said operator()(const input::Set& set) const {
+    Fields fields;
+    fields.add("graph", string_text(set.graph));
+    fields.add("parameter", string_text(set.parameter));
+    fields.add("value", number_text(set.value));
+    return {"set", fields.object()};
+  }
+  Said operator()(const input::Send& send) const {
+    Fields fields;
+    fields.add("graph", string_text(send.graph));
+    fields.add("event", string_text(send.event));
+    return {"send", fields.object()};
+  }
 };
 
 }  // namespace

@@ -1,8 +1,6 @@
-#include <tweenfall/anim/component.h>
-#include <tweenfall/curves/rotation.h>
+#include <tweenfall/anim/clip_jumps.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "stage/stage_data.h"
 
@@ -10,58 +8,21 @@ namespace tweenfall::staging {
 
 namespace {
 
-bool differ(double a, double b) {
-  return (a - b) * (a - b) > 1e-18 * (1 + a * a);
-}
-bool differ(const Vec3& a, const Vec3& b) {
-  return (a - b).squaredNorm() > 1e-18 * (1 + a.squaredNorm());
-}
-bool differ(const Quat& a, const Quat& b) {
-  return (hemisphere_aligned(a, b).coeffs() - b.coeffs()).squaredNorm() > 1e-18;
+/// Whether a track moves a body: what moves none may jump as it likes, for physics need not know.
+TrackFilter carrying(const StageState& state, const std::vector<char>& carriers) {
+  return [&nodes = *state.nodes, &carriers](const Track& track) {
+    const auto node = nodes.find(track.node);
+    return node && *node < carriers.size() && carriers[*node];
+  };
 }
 
-/// Calls `visit(curve, accumulates)` with each curve of a clip that moves bodies: whether a loop with offset adds to
-/// it.
-template <class Visit>
-bool for_each_carrying(const StageState& state, const std::vector<char>& carriers, const Clip& clip,
-                       const Visit& visit) {
-  bool any = false;
-  for (const Track& track : clip.tracks) {
-    // What moves no body may jump as it likes: physics need not know.
-    const auto node = state.nodes->find(track.node);
-    if (!node || *node >= carriers.size() || !carriers[*node]) continue;
-    const auto component = component_named(track.property);
-    const Property property = component ? component->property : property_named(track.property);
-    if (property != Property::position && property != Property::rotation && property != Property::scale) continue;
-    any = true;
-    // A parent's scale moves its children.
-    const bool accumulates = property != Property::scale;
-    if (const auto* number = std::get_if<Curve<double>>(&track.curve)) visit(*number, accumulates);
-    if (const auto* vector = std::get_if<Curve<Vec3>>(&track.curve)) visit(*vector, accumulates);
-    if (const auto* rotation = std::get_if<Curve<Quat>>(&track.curve)) visit(*rotation, accumulates);
-  }
-  return any;
-}
-
-/// Clip times at which a curve is not continuous.
-template <class T>
-void collect(const Curve<T>& curve, const Clip& clip, std::vector<ClipEvent>& jumps) {
-  const auto add = [&](double time) { jumps.push_back({.from = time, .to = time, .name = {}, .data = {}}); };
-  for (const double knot : curve.knots())
-    if (knot > 0 && knot < clip.duration && differ(curve.value(knot, Side::in), curve.value(knot, Side::out)))
-      add(knot);
-  // A track that repeats within its clip jumps at each of its own seams.
-  const double length = curve.duration();
-  if (std::isfinite(length) && length > 0 && differ(curve.value(curve.end(), Side::in), curve.value(curve.start()))) {
-    constexpr int most = 1000;
-    const auto plays = [](const auto& rule, int k) {
-      return rule.rule == Outside::repeat && k < most && (rule.plays == 0 || k < rule.plays);
-    };
-    for (int k = 0; plays(curve.rule_after(), k) && curve.end() + k * length < clip.duration; ++k)
-      add(curve.end() + k * length);
-    for (int k = 0; plays(curve.rule_before(), k) && curve.start() - k * length > 0; ++k)
-      add(curve.start() - k * length);
-  }
+/// A clip without tracks whose events are these.
+Clip shadow_of(const Clip& clip, const std::vector<double>& times) {
+  Clip shadow;
+  shadow.duration = clip.duration;
+  shadow.loop = clip.loop;
+  for (const double time : times) shadow.events.push_back({.from = time, .to = time, .name = {}, .data = {}});
+  return shadow;
 }
 
 /// By node: whether it or something below it has a body that can move.
@@ -82,20 +43,10 @@ void add_seams(const StageState& state, Jumps& jumps) {
   for (const Player& player : state.animation->players()) {
     const Play& play = player.play();
     const Clip& clip = state.animation->clips()[play.clip];
-    const LoopMode mode = play.loop.value_or(clip.loop).mode;
     const double from = play.from, to = play.to.value_or(clip.duration);
-    Clip seam;
-    seam.duration = clip.duration;
-    seam.loop = clip.loop;
-    bool any = false;
-    if ((mode == LoopMode::repeat || mode == LoopMode::repeat_offset) && std::isfinite(to) &&
-        jumps.carries_body[play.clip])
-      for_each_carrying(state, jumps.carriers, clip, [&](const auto& curve, bool accumulates) {
-        if (mode == LoopMode::repeat || !accumulates)
-          any = any || differ(curve.value(to, Side::in), curve.value(from, Side::out));
-      });
-    if (any) seam.events.push_back({.from = from, .to = from, .name = {}, .data = {}});
-    jumps.seams.push_back(std::move(seam));
+    const bool jumps_there = jumps.carries_body[play.clip] && jumps_at_seam(clip, play.loop.value_or(clip.loop).mode,
+                                                                            from, to, carrying(state, jumps.carriers));
+    jumps.seams.push_back(shadow_of(clip, jumps_there ? std::vector{from} : std::vector<double>()));
   }
 }
 
@@ -131,13 +82,10 @@ std::shared_ptr<const Jumps> find_jumps(const StageState& state) {
   auto jumps = std::make_shared<Jumps>();
   jumps->carriers = carriers(state);
   for (const Clip& clip : state.animation->clips()) {
-    Clip shadow;
-    shadow.duration = clip.duration;
-    shadow.loop = clip.loop;
-    const bool moves = for_each_carrying(state, jumps->carriers, clip,
-                                         [&](const auto& curve, bool) { collect(curve, clip, shadow.events); });
-    jumps->clips.push_back(std::move(shadow));
-    jumps->carries_body.push_back(moves);
+    const TrackFilter counts = carrying(state, jumps->carriers);
+    jumps->clips.push_back(shadow_of(clip, jumps_of(clip, counts)));
+    jumps->carries_body.push_back(
+        std::ranges::any_of(clip.tracks, [&](const Track& track) { return moves_its_node(track) && counts(track); }));
   }
   add_seams(state, *jumps);
   return jumps;

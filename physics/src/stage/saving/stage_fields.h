@@ -238,6 +238,12 @@ void each_field(T& ask, const Visit& visit) {
   visit(play, action);
 }
 
+template <Is<staging::change::Tell> T, class Visit>
+void each_field(T& tell, const Visit& visit) {
+  auto& [graph, name, value] = tell;
+  visit(graph, name, value);
+}
+
 template <Is<staging::Command> T, class Visit>
 void each_field(T& command, const Visit& visit) {
   auto& [time, change] = command;

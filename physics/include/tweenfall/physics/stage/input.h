@@ -31,9 +31,20 @@ struct Push {
   Vec3 impulse{0, 0, 0};  ///< N s
   Vec3 point{0, 0, 0};    ///< world, m
 };
+/// A parameter of a graph is set.
+struct Set {
+  std::string graph;
+  std::string parameter;
+  double value = 0;  ///< of a flag: 0 or 1
+};
+/// An event is sent to a graph.
+struct Send {
+  std::string graph;
+  std::string event;
+};
 }  // namespace input
 
-using Input = std::variant<input::Ask, input::Release, input::Recover, input::Push>;
+using Input = std::variant<input::Ask, input::Release, input::Recover, input::Push, input::Set, input::Send>;
 
 struct TimedInput {
   double time = 0;  ///< stage time, s

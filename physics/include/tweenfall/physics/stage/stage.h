@@ -27,6 +27,7 @@
 
 namespace tweenfall {
 
+class GraphPlayer;
 namespace queries {
 class InsideStage;
 }
@@ -120,9 +121,20 @@ class Stage {
   /// @throws std::invalid_argument for what cannot be, unknown names with the nearest; nothing has changed then
   void ask(std::string_view play, PlayAction action);
 
+  // Graphs, the same
+  /// A parameter is what it is set to from now on; of a flag 0 or 1.
+  /// @throws std::invalid_argument with the nearest name, for a parameter that has keys, or a value not finite
+  void set(std::string_view graph, std::string_view parameter, double value);
+  /// An event that nothing waits for is lost. @throws std::invalid_argument with the nearest graph
+  void send(std::string_view graph, std::string_view event);
+  /// A graph as it is now, to look into: states, transitions, parameters, events. What is set on it is not of the
+  /// stage.
+  /// @throws std::invalid_argument with the nearest name
+  [[nodiscard]] GraphPlayer graph(std::string_view name) const;
+
   // Outside input as values
-  /// What plays, bodies and impulses were asked for until now, each with its time: given again at these to a stage of
-  /// the same description, it runs to the same bits.
+  /// What plays, graphs, bodies and impulses were asked for until now, each with its time: given again at these to a
+  /// stage of the same description, it runs to the same bits.
   [[nodiscard]] std::vector<TimedInput> inputs() const;
   /// One of these, at exactly `time()`. @throws as the functions that it stands for
   void give(const Input& input);

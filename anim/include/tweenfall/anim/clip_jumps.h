@@ -1,0 +1,29 @@
+#pragma once
+
+/// Where clips are not continuous: what follows them must not take a jump for a movement.
+
+#include <tweenfall/anim/clip.h>
+
+#include <functional>
+#include <vector>
+
+namespace tweenfall {
+
+/// Whether a track counts; none: all do.
+using TrackFilter = std::function<bool(const Track&)>;
+
+/// Whether the track moves its node: its position, rotation or scale, or a number of them.
+[[nodiscard]] bool moves_its_node(const Track& track);
+
+/// Clip times inside the clip at which what moves a node jumps, in order.
+[[nodiscard]] std::vector<double> jumps_of(const Clip& clip, const TrackFilter& counts = {});
+
+/// Whether something that moves a node is elsewhere where a loop begins anew.
+/// @param from, to  the section that is played, clip seconds
+[[nodiscard]] bool jumps_at_seam(const Clip& clip, LoopMode mode, double from, double to,
+                                 const TrackFilter& counts = {});
+
+/// Times in (from, to] at which a number over time jumps: the first of them; infinity for none.
+[[nodiscard]] double first_jump(const Curve<double>& curve, double from, double to);
+
+}  // namespace tweenfall

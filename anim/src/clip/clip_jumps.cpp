@@ -1,0 +1,108 @@
+#include <tweenfall/anim/clip_jumps.h>
+#include <tweenfall/anim/component.h>
+#include <tweenfall/curves/rotation.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tweenfall {
+
+namespace clips {
+namespace {
+
+bool differ(double a, double b) {
+  return (a - b) * (a - b) > 1e-18 * (1 + a * a);
+}
+bool differ(const Vec3& a, const Vec3& b) {
+  return (a - b).squaredNorm() > 1e-18 * (1 + a.squaredNorm());
+}
+bool differ(const Quat& a, const Quat& b) {
+  return (hemisphere_aligned(a, b).coeffs() - b.coeffs()).squaredNorm() > 1e-18;
+}
+
+Property property_of(const Track& track) {
+  const auto component = component_named(track.property);
+  return component ? component->property : property_named(track.property);
+}
+
+/// Calls `visit(curve, accumulates)` with each curve that moves its node: whether a loop with offset adds to it.
+template <class Visit>
+void for_each_moving(const Clip& clip, const TrackFilter& counts, const Visit& visit) {
+  for (const Track& track : clip.tracks) {
+    if (!moves_its_node(track) || (counts && !counts(track))) continue;
+    // A parent's scale moves its children.
+    const bool accumulates = property_of(track) != Property::scale;
+    if (const auto* number = std::get_if<Curve<double>>(&track.curve)) visit(*number, accumulates);
+    if (const auto* vector = std::get_if<Curve<Vec3>>(&track.curve)) visit(*vector, accumulates);
+    if (const auto* rotation = std::get_if<Curve<Quat>>(&track.curve)) visit(*rotation, accumulates);
+  }
+}
+
+/// Times inside (0, duration) at which a curve jumps.
+template <class T>
+void collect(const Curve<T>& curve, double duration, std::vector<double>& jumps) {
+  for (const double knot : curve.knots())
+    if (knot > 0 && knot < duration && differ(curve.value(knot, Side::in), curve.value(knot, Side::out)))
+      jumps.push_back(knot);
+  // A track that repeats within its clip jumps at each of its own seams.
+  const double length = curve.duration();
+  if (std::isfinite(length) && length > 0 && differ(curve.value(curve.end(), Side::in), curve.value(curve.start()))) {
+    constexpr int most = 1000;
+    const auto plays = [](const auto& rule, int k) {
+      return rule.rule == Outside::repeat && k < most && (rule.plays == 0 || k < rule.plays);
+    };
+    for (int k = 0; plays(curve.rule_after(), k) && curve.end() + k * length < duration; ++k)
+      jumps.push_back(curve.end() + k * length);
+    for (int k = 0; plays(curve.rule_before(), k) && curve.start() - k * length > 0; ++k)
+      jumps.push_back(curve.start() - k * length);
+  }
+}
+
+}  // namespace
+}  // namespace clips
+
+bool moves_its_node(const Track& track) {
+  const Property property = clips::property_of(track);
+  return property == Property::position || property == Property::rotation || property == Property::scale;
+}
+
+std::vector<double> jumps_of(const Clip& clip, const TrackFilter& counts) {
+  std::vector<double> jumps;
+  clips::for_each_moving(clip, counts, [&](const auto& curve, bool) { clips::collect(curve, clip.duration, jumps); });
+  std::ranges::sort(jumps);
+  jumps.erase(std::unique(jumps.begin(), jumps.end()), jumps.end());
+  return jumps;
+}
+
+bool jumps_at_seam(const Clip& clip, LoopMode mode, double from, double to, const TrackFilter& counts) {
+  if ((mode != LoopMode::repeat && mode != LoopMode::repeat_offset) || !std::isfinite(to)) return false;
+  bool any = false;
+  clips::for_each_moving(clip, counts, [&](const auto& curve, bool accumulates) {
+    if (mode == LoopMode::repeat || !accumulates)
+      any = any || clips::differ(curve.value(to, Side::in), curve.value(from, Side::out));
+  });
+  return any;
+}
+
+double first_jump(const Curve<double>& curve, double from, double to) {
+  double first = std::numeric_limits<double>::infinity();
+  const auto meet = [&](double time) {
+    if (time > from && time <= to && time < first && clips::differ(curve.value(time, Side::in), curve.value(time)))
+      first = time;
+  };
+  const double length = curve.duration();
+  const bool around = std::isfinite(length) && length > 0;
+  const auto rounds_to = [&](double time) { return std::floor((time - curve.start()) / length); };
+  for (const double knot : curve.knots()) {
+    meet(knot);
+    // Where a curve repeats, so do its jumps.
+    if (around && curve.after() != Outside::hold && to > curve.end())
+      for (double round = std::max(0.0, rounds_to(from) - 1), last = rounds_to(to);
+           round <= last && round * length + knot < first; ++round)
+        meet(knot + round * length);
+  }
+  return first;
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,49 @@
+#pragma once
+
+// What may be asked of a stage, and how each is read; a table of fields for each.
+
+#include <tweenfall/physics/stage/input.h>
+
+#include "document/fields/table.h"
+
+#include <string>
+
+namespace tweenfall::document::inputs {
+
+/// A play asked for something.
+template <class Action>
+struct Asked {
+  std::string play;
+  Action action{};
+  json::Value place{};  // of the play's name
+};
+
+/// Something for a body.
+template <class Settings>
+struct OfBody {
+  Settings input{};
+  json::Value place{};  // of the body's name
+};
+
+/// Something for a graph.
+template <class Settings>
+struct OfGraph {
+  Settings input{};
+  json::Value graph{}, name{};  // the places of both names
+};
+
+using Started = Asked<playing::Start>;
+
+[[nodiscard]] const fields::Table<Started>& start_table();
+[[nodiscard]] const fields::Table<Asked<playing::Stop>>& stop_table();
+[[nodiscard]] const fields::Table<Asked<playing::FadeTo>>& fade_table();
+[[nodiscard]] const fields::Table<Asked<playing::Weigh>>& weigh_table();
+[[nodiscard]] const fields::Table<Asked<playing::SetSpeed>>& speed_table();
+[[nodiscard]] const fields::Table<Asked<playing::Seek>>& seek_table();
+[[nodiscard]] const fields::Table<OfBody<input::Release>>& release_table();
+[[nodiscard]] const fields::Table<OfBody<input::Recover>>& recover_table();
+[[nodiscard]] const fields::Table<OfBody<input::Push>>& push_table();
+[[nodiscard]] const fields::Table<OfGraph<input::Set>>& set_table();
+[[nodiscard]] const fields::Table<OfGraph<input::Send>>& send_table();
+
+}  // namespace tweenfall::document::inputs
