@@ -285,8 +285,8 @@ void World::Implementation::find_constraints(double dt) {
   retained.clear();
   memories.tidy();
   const threads::Workers work = workers();
-  const std::vector<pairs::Pair>& pairs =
-      broad_phase.find(bodies, watched, loads, {bodies, ignored}, contacts::near_enough, dt, work);
+  const std::vector<pairs::Pair>& pairs = broad_phase.find(bodies, watched, loads, {bodies, ignored},
+                                                           contacts::near_enough, dt, work, settings.broad_phase);
   const bool crowded = recall(pairs);
   passages.resize(bodies.size());
   work.ranges(looked_for.size(), contacts::worth_a_part, [&](std::size_t begin, std::size_t end) {

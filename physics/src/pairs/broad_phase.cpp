@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "pairs/searches/searches.h"
 #include "shapes/placed.h"
 
 namespace tweenfall::pairs {
@@ -22,6 +23,8 @@ constexpr std::uint8_t longest_foresight = 16;
 constexpr std::size_t few_neighbors = 6, many_neighbors = 16;
 /// More pairs of boxes than this for each body are a crowd.
 constexpr std::size_t kept_in_crowd = 64, found_in_crowd = 16;
+/// Searches may find a pair in several cells.
+constexpr std::size_t found_once_more = 16;
 /// Bodies that are worth a part of their own.
 constexpr std::size_t worth_a_part = 128, worth_a_look = 32;
 /// Boxes end here: a difference of any two is still a number.
@@ -179,6 +182,24 @@ void BroadPhase::choose_among_kept() {
     if (counts(pair.first, pair.second)) pairs_.push_back(pair);
 }
 
+bool BroadPhase::choose_by(PairSearch search, const PairFilter& filter) {
+  for (const std::uint32_t index : renewed_) entries_[index].renewed = false;
+  renewed_.clear();
+  std::vector<Item> items;
+  for (std::uint32_t i = 0; i < entries_.size(); ++i)
+    if (entries_[i].kind == Kind::movable || entries_[i].kind == Kind::immovable)
+      items.push_back({entries_[i].swept, i, entries_[i].kind == Kind::movable});
+  Search found;
+  found.items = items;
+  found.most = found_once_more * (4096 + kept_in_crowd * movable_.size());
+  search_by(search)(found);
+  if (found.crowded()) return false;
+  found.sort();
+  for (const Pair& pair : found.found)
+    if (filter.lets(pair.first, pair.second) && counts(pair.first, pair.second)) pairs_.push_back(pair);
+  return true;
+}
+
 /// The same pairs without any that are kept. Of those that have enough, only such are looked for that have not.
 void BroadPhase::choose_in_crowd(std::span<const std::uint32_t> changed, const PairFilter& filter) {
   movable_.open_all();
@@ -237,7 +258,7 @@ void BroadPhase::add_planes(const std::vector<Body>& bodies, std::span<const std
 
 const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::span<const std::uint32_t> changed,
                                           const std::vector<forces::Load>& loads, const PairFilter& filter,
-                                          double margin, double dt, const threads::Workers& work) {
+                                          double margin, double dt, const threads::Workers& work, PairSearch search) {
   entries_.resize(std::max(entries_.size(), bodies.size()));
   looks_.resize(changed.size());
   work.ranges(changed.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
@@ -247,9 +268,12 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
   for (std::size_t i = 0; i < changed.size(); ++i) follow(looks_[i], changed[i]);
   movable_.settle();
   immovable_.settle();
-  if (!crowded_) keep_pairs(filter, work);
+  const bool searches = search != PairSearch::tree;
+  if (!crowded_ && !searches) keep_pairs(filter, work);
   pairs_.clear();
-  if (crowded_) {
+  if (searches) {
+    if (!choose_by(search, filter)) choose_in_crowd(changed, filter);
+  } else if (crowded_) {
     choose_in_crowd(changed, filter);
     // It has thinned out: the next step keeps pairs again, and begins with none.
     if (pairs_.size() <= found_in_crowd * movable_.size()) {

@@ -27,9 +27,10 @@ class BroadPhase {
   /// @param changed  sorted: all bodies that move by themselves, and all others that were added, moved or handed over,
   /// or had or have a target, or were told whom they may meet, since they were last given
   /// @param margin  pairs with a gap up to this count too, m
+  /// @param search  the same pairs by another way
   const std::vector<Pair>& find(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
                                 const std::vector<forces::Load>& loads, const PairFilter& filter, double margin,
-                                double dt, const threads::Workers& work = {});
+                                double dt, const threads::Workers& work = {}, PairSearch search = {});
   void remove(std::uint32_t body);
   /// The box of a body, with room to spare; null for one that has none yet, or a plane.
   [[nodiscard]] const Bounds* box(std::uint32_t body) const {
@@ -66,6 +67,8 @@ class BroadPhase {
   bool look_around(std::uint32_t index, const PairFilter& filter, std::size_t most, std::vector<Pair>& fresh);
   bool counts(std::uint32_t a, std::uint32_t b);
   void choose_among_kept();
+  /// @return false in a crowd
+  bool choose_by(PairSearch search, const PairFilter& filter);
   void choose_in_crowd(std::span<const std::uint32_t> changed, const PairFilter& filter);
   void add_planes(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
                   const PairFilter& filter, double margin);

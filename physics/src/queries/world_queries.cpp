@@ -89,6 +89,10 @@ std::vector<BodyDetail> body_details(const World& asked) {
   return details;
 }
 
+double complementarity_residual(const World& asked) {
+  return queries::Inside::of(asked).complementarity;
+}
+
 Vec3 closest_point(const World& world, BodyId body, const Vec3& point) {
   return closest_point(world.shape(body), world.motion(body).pose, point);
 }

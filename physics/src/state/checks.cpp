@@ -105,10 +105,10 @@ void validate(const WorldSettings& settings) {
   require(settings.push_out_speed >= 0,
           "push-out speed must not be negative, but is " + number_text(settings.push_out_speed));
   require(forces::exists(settings.integrator), "there is no such integrator");
-  require(settings.solver <= ContactSolver::iterative, "there is no such solver");
-  require(settings.separation <= Parting::soft, "there is no such way to take overlap apart");
-  require(settings.collision <= Detection::ahead, "there is no such way to find that bodies meet");
-  require(settings.broad_phase <= PairSearch::tree, "there is no such way to find pairs");
+  require(settings.solver <= ContactSolver::lcp, "there is no such solver");
+  require(settings.separation <= Parting::closest_point, "there is no such way to take overlap apart");
+  require(settings.collision <= Detection::time_of_impact, "there is no such way to find that bodies meet");
+  require(settings.broad_phase <= PairSearch::bvh, "there is no such way to find pairs");
 }
 
 void validate_surface(const Makeup& body) {

@@ -88,6 +88,17 @@ struct World::Implementation : state::WorldState, step::Workspace {
              step::Solver& solver);
   void solve_in_pieces(const islands::IslandContents& island, int pieces, double dt, step::Solver& solver);
   void advance_bodies(double dt);
+
+  // Where other strategies than the usual ones are asked for
+  [[nodiscard]] bool goes_by_strategies(const islands::IslandContents& island) const;
+  /// @return how far off complementarity it is, m/s
+  double solve_by_strategies(const islands::IslandContents& island, double dt, strategies::IslandByStrategies& by);
+  void fly_alone(std::uint32_t index, double h, double dt);  ///< a body that nothing has moved, through a part of dt
+  void separate(std::span<contacts::ContactConstraint* const> overlapping);
+  [[nodiscard]] bool goes_by_impacts() const;
+  /// The whole world from impact to impact.
+  void solve_by_impacts(double dt);
+  void lead_on(double h, double left);  ///< what is on its way to a target, through a part of what is left
   void let_sleep(double dt);
   void remember_contacts();
   void report();

@@ -14,6 +14,7 @@
 #include "queries/lazy_scene.h"
 #include "state/makeups.h"
 #include "step/solver.h"
+#include "strategies/island_by_strategies.h"
 #include "threads/workers.h"
 
 namespace tweenfall::step {
@@ -53,6 +54,8 @@ struct Solvers {
   Solver few;
   blocks::BlockSolver many;
   std::vector<Batch> batches;  ///< for `many`, by effort
+  strategies::IslandByStrategies strategies;
+  double complementarity = 0;  ///< of the islands of this step, m/s
 
   Batch& put_by(const islands::IslandContents& island, const blocks::BlockSolver::Effort& effort);
   void solve(Batch& batch, std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
@@ -101,9 +104,11 @@ struct Workspace {
   islands::FreeIslands free_islands;
   std::vector<Solvers> solvers;  ///< one for each thread
   std::vector<std::uint32_t> islands_by_size;
-  std::vector<char> moved;   ///< by a solver in this step
-  state::Makeups makeups;    ///< of the bodies that were added last
-  queries::LazyScene scene;  ///< of the bodies between two changes
+  std::vector<char> moved;                          ///< by a solver in this step
+  std::vector<contacts::ContactConstraint> struck;  ///< in this step, by bodies that have left each other since
+  double complementarity = 0;                       ///< how far off it the last step was, where it was solved for, m/s
+  state::Makeups makeups;                           ///< of the bodies that were added last
+  queries::LazyScene scene;                         ///< of the bodies between two changes
 
   void note(std::uint32_t body);  ///< the next step looks at this body
 };

@@ -115,6 +115,7 @@ void step::Solvers::solve(Batch& batch, std::vector<state::Body>& bodies, const 
 
 void World::Implementation::solve_islands(double dt) {
   moved.assign(bodies.size(), 0);
+  complementarity = 0;
   leave_sleeping_links();
   const std::vector<islands::IslandContents>& all = island_sorter.sort(bodies, islands, active, stiff_springs, links);
   if (all.empty()) return;
@@ -125,6 +126,7 @@ void World::Implementation::solve_islands(double dt) {
   for (std::size_t i = 0; i < shares; ++i) {
     solvers[i].few.begin(bodies.size());
     solvers[i].many.begin(bodies.size());
+    solvers[i].complementarity = 0;
   }
   // The biggest first, so that no thread is left with one at the end; the very big ones by all threads together.
   const auto size_of = [&](std::uint32_t island) {
@@ -138,6 +140,10 @@ void World::Implementation::solve_islands(double dt) {
                      [&](std::uint32_t a, std::uint32_t b) { return size_of(a) > size_of(b); });
   const auto solve = [&](std::size_t island, step::Solvers& by, const threads::Workers& within) {
     const islands::IslandContents& contents = all[islands_by_size[island]];
+    if (goes_by_strategies(contents)) {
+      by.complementarity = std::max(by.complementarity, solve_by_strategies(contents, dt, by.strategies));
+      return;
+    }
     if (const int pieces = pieces_of(contents, dt); pieces > 1) {
       solve_in_pieces(contents, pieces, dt, by.few);
       return;
@@ -169,11 +175,15 @@ void World::Implementation::solve_islands(double dt) {
     return {start.center, start.rotation, start.twist};
   };
   for (const islands::IslandContents& island : all)
-    free_islands.keep(island, bodies, loads, moved, settings.integrator, dt, start_of);
+    if (!goes_by_strategies(island)) free_islands.keep(island, bodies, loads, moved, settings.integrator, dt, start_of);
+  for (std::size_t i = 0; i < shares; ++i) complementarity = std::max(complementarity, solvers[i].complementarity);
 }
 
 void World::Implementation::advance_bodies(double dt) {
-  solve_islands(dt);
+  if (goes_by_impacts())
+    solve_by_impacts(dt);
+  else
+    solve_islands(dt);
   const bool asks = forces::asking(settings.integrator) != nullptr;
   workers().ranges(watched.size(), step::worth_sharing, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
@@ -349,7 +359,7 @@ void World::Implementation::step(double dt) {
   } while (wake_islands());
   failed = true;
   advance_bodies(dt);
-  hold_before_surfaces();
+  if (!strategies::chosen(settings)) hold_before_surfaces();
   let_sleep(dt);
   report();
   sense();

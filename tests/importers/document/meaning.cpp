@@ -2,6 +2,7 @@
 
 #include <tweenfall/curves/keys.h>
 #include <tweenfall/physics/stage/recording.h>
+#include <tweenfall/physics/strategies.h>
 
 #include <numbers>
 #include <string>
@@ -50,6 +51,38 @@ TEST_CASE("each integrator has its word") {
     CAPTURE(text);
     CHECK(Document::parse(text, "words.json", {}).stage().world.integrator == word.second);
   }
+}
+
+TEST_CASE("each of a world's strategies has its word") {
+  const auto means = [](const std::string& field, const std::string& word, const auto& part, auto meant) {
+    const std::string text = R"({"tweenfall": 1, "world": {")" + field + R"(": ")" + word + R"("}})";
+    CAPTURE(text);
+    const Document document = Document::parse(text, "words.json", {});
+    CHECK(document.stage().world.*part == meant);
+    // What is usual is left out, and the rest is written as it was read.
+    const bool usual = meant == decltype(meant){};
+    CHECK((document.text().find(word) == std::string::npos) == usual);
+  };
+  means("solver", "iterative", &WorldSettings::solver, ContactSolver::iterative);
+  means("solver", "sequential", &WorldSettings::solver, ContactSolver::sequential);
+  means("solver", "shock", &WorldSettings::solver, ContactSolver::shock);
+  means("solver", "lcp", &WorldSettings::solver, ContactSolver::lcp);
+  means("separation", "soft", &WorldSettings::separation, Parting::soft);
+  means("separation", "half", &WorldSettings::separation, Parting::half);
+  means("separation", "by-mass", &WorldSettings::separation, Parting::by_mass);
+  means("separation", "positional-impulse", &WorldSettings::separation, Parting::positional_impulse);
+  means("separation", "closest-point", &WorldSettings::separation, Parting::closest_point);
+  means("collision", "ahead", &WorldSettings::collision, Detection::ahead);
+  means("collision", "discrete", &WorldSettings::collision, Detection::discrete);
+  means("collision", "time-of-impact", &WorldSettings::collision, Detection::time_of_impact);
+  means("broad_phase", "tree", &WorldSettings::broad_phase, PairSearch::tree);
+  means("broad_phase", "all-pairs", &WorldSettings::broad_phase, PairSearch::all_pairs);
+  means("broad_phase", "sweep", &WorldSettings::broad_phase, PairSearch::sweep);
+  means("broad_phase", "grid", &WorldSettings::broad_phase, PairSearch::grid);
+  means("broad_phase", "quadtree", &WorldSettings::broad_phase, PairSearch::quadtree);
+  means("broad_phase", "octree", &WorldSettings::broad_phase, PairSearch::octree);
+  means("broad_phase", "kd-tree", &WorldSettings::broad_phase, PairSearch::kd_tree);
+  means("broad_phase", "bvh", &WorldSettings::broad_phase, PairSearch::bvh);
 }
 
 TEST_CASE("the lamp of the contract means what is said") {
@@ -219,6 +252,10 @@ TEST_CASE("every field reaches the stage's description") {
     CHECK(near(stage.world.gravity, Vec3(0, -1.62, 0), 0));
     CHECK(stage.step == 0.01);
     CHECK(stage.world.integrator == Integrator::semi_implicit_euler);
+    CHECK(stage.world.solver == ContactSolver::lcp);
+    CHECK(stage.world.separation == Parting::by_mass);
+    CHECK(stage.world.collision == Detection::time_of_impact);
+    CHECK(stage.world.broad_phase == PairSearch::grid);
     CHECK(stage.world.iterations == 30);
     CHECK(stage.world.sleep_speed == 0.05);
     CHECK(std::isinf(stage.world.sleep_after));

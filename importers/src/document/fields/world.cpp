@@ -3,6 +3,8 @@
 #include "document/joints/joints.h"
 #include "document/ragdolls/ragdolls.h"
 
+#include <tweenfall/physics/strategies.h>
+
 #include <algorithm>
 #include <charconv>
 #include <limits>
@@ -118,6 +120,34 @@ const Table<StageDescription>& world_table() {
                                   {"backward-euler", Integrator::backward_euler},
                                   {"implicit-trapezoid", Integrator::implicit_trapezoid}},
                                  "", of_world(&WorldSettings::integrator)),
+       one_of<Stage, ContactSolver>("solver", "a solver",
+                                    {{"iterative", ContactSolver::iterative},
+                                     {"sequential", ContactSolver::sequential},
+                                     {"shock", ContactSolver::shock},
+                                     {"lcp", ContactSolver::lcp}},
+                                    "how the contacts of an island are met", of_world(&WorldSettings::solver)),
+       one_of<Stage, Parting>("separation", "a way to take overlap apart",
+                              {{"soft", Parting::soft},
+                               {"half", Parting::half},
+                               {"by-mass", Parting::by_mass},
+                               {"positional-impulse", Parting::positional_impulse},
+                               {"closest-point", Parting::closest_point}},
+                              "how overlap is taken apart", of_world(&WorldSettings::separation)),
+       one_of<Stage, Detection>("collision", "a way to find that bodies meet",
+                                {{"ahead", Detection::ahead},
+                                 {"discrete", Detection::discrete},
+                                 {"time-of-impact", Detection::time_of_impact}},
+                                "when bodies are found to meet", of_world(&WorldSettings::collision)),
+       one_of<Stage, PairSearch>("broad_phase", "a way to find pairs",
+                                 {{"tree", PairSearch::tree},
+                                  {"all-pairs", PairSearch::all_pairs},
+                                  {"sweep", PairSearch::sweep},
+                                  {"grid", PairSearch::grid},
+                                  {"quadtree", PairSearch::quadtree},
+                                  {"octree", PairSearch::octree},
+                                  {"kd-tree", PairSearch::kd_tree},
+                                  {"bvh", PairSearch::bvh}},
+                                 "how pairs are found that may meet", of_world(&WorldSettings::broad_phase)),
        {"iterations", bounded("a whole number from 1 to 10000", 1, false, 10000, true), "passes of the contact solver",
         member<Stage>(of_world(&WorldSettings::iterations))},
        {"sleep_speed", &ValueForms::not_negative, "m/s below which a body counts as still",

@@ -23,4 +23,9 @@ struct BodyDetail {
 /// Of all bodies, by index. Nothing is kept for it between calls.
 [[nodiscard]] std::vector<BodyDetail> body_details(const World& world);
 
+/// How far the impulses of the last step are from solving the linear complementarity problem of its contacts, in m/s:
+/// the most by which an impulse pulls or surfaces close, or the lesser of the two where surfaces part and yet press.
+/// 0 unless the world's solver is `ContactSolver::lcp`.
+[[nodiscard]] double complementarity_residual(const World& world);
+
 }  // namespace tweenfall

@@ -1,0 +1,16 @@
+#include "strategies/separations.h"
+
+namespace tweenfall::strategies {
+
+/// Each goes back by half the overlap, whatever it weighs; what cannot move leaves all of it to the other.
+void half(Overlap& overlap) {
+  const double depth = overlap.depth();
+  overlap.part(!overlap.a.movable  ? 0
+               : overlap.b.movable ? 0.5 * depth
+                                   : depth,
+               !overlap.b.movable  ? 0
+               : overlap.a.movable ? 0.5 * depth
+                                   : depth);
+}
+
+}  // namespace tweenfall::strategies

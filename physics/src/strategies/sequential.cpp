@@ -1,0 +1,14 @@
+#include "strategies/solvers.h"
+
+namespace tweenfall::strategies {
+
+/// One collision after the other, each once, as if it were the only one: what the lecture's algorithm does, and why it
+/// "cannot handle stacks of bodies". The second of two that share a body undoes what the first did.
+void sequential(Gathering& island) {
+  for (Touch& touch : island.touches) {
+    island.press(touch);
+    island.rub(touch);
+  }
+}
+
+}  // namespace tweenfall::strategies

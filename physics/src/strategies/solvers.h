@@ -1,0 +1,18 @@
+#pragma once
+
+#include <tweenfall/physics/strategies.h>
+
+#include "strategies/gathering.h"
+
+namespace tweenfall::strategies {
+
+/// Meets the contacts of an island: changes the velocities of its parties by impulses at its touches.
+using SolvesContacts = void(Gathering& island);
+
+// One file each
+SolvesContacts sequential, iterative, shock, lcp;
+
+/// Null for a solver that is none.
+[[nodiscard]] SolvesContacts* solver_of(ContactSolver solver);
+
+}  // namespace tweenfall::strategies

@@ -1,0 +1,326 @@
+#include <tweenfall/curves/rotation.h>
+#include <tweenfall/physics/strategies.h>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+#include "contacts/meeting.h"
+#include "state/world_data.h"
+#include "step/keyed_step.h"
+#include "strategies/separations.h"
+#include "strategies/touching.h"
+#include "surfaces/surface.h"
+
+/// How a world's bodies go through a step where it asks for other strategies than the usual ones.
+
+namespace tweenfall {
+
+namespace strategies {
+namespace {
+
+using contacts::ContactConstraint;
+using contacts::PointConstraint;
+using state::Body;
+
+/// Overlap that is as good as none, m.
+constexpr double no_depth = 1e-10;
+/// A time in which nothing moves by more than that, s.
+constexpr double instant = 1e-12;
+/// Instants of a step at which bodies meet; what still meets then is solved with the rest.
+constexpr int most_instants = 4096;
+/// At one instant: what is wedged would bounce to and fro for ever.
+constexpr int most_blows_at_once = 8;
+/// What meets within this part of a step meets now.
+constexpr double meets_now = 1e-7;
+constexpr double never_met = std::numeric_limits<double>::infinity();
+
+void forget_totals(ContactConstraint& contact) {
+  contact.total_rolling = Vec3::Zero();
+  for (PointConstraint& point : contact.points) {
+    point.total_normal = point.approach = 0;
+    point.total_friction = Vec3::Zero();
+  }
+}
+
+Place place_of(const Body& body) {
+  Place place;
+  place.movable = !body.immovable() && !body.asleep;
+  place.center = body.center;
+  place.rotation = body.motion.pose.rotation;
+  if (!place.movable) return place;
+  place.inverse_mass = 1 / body.mass().mass;
+  place.inverse_inertia = body.world_inverse_inertia(place.rotation);
+  return place;
+}
+
+/// When the first of a contact's points meet, faster than a tremble.
+double time_of_blow(const ContactConstraint& contact, const std::vector<Body>& bodies,
+                    const std::vector<forces::Load>& loads, double left, double step) {
+  if (contact.impact_time > 0) return contact.impact_time;
+  const Body &a = bodies[contact.a], &b = bodies[contact.b];
+  const Vec3& normal = contact.manifold.normal;
+  const contacts::Closing closing = contacts::closing_of(normal, loads[contact.a], loads[contact.b], step);
+  double first = never_met;
+  for (int i = 0; i < contact.count; ++i) {
+    const PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
+    const Vec3 at_a = a.twist.linear + a.twist.angular.cross(point.start_arm_a);
+    const Vec3 at_b = b.twist.linear + b.twist.angular.cross(point.start_arm_b);
+    const double gap = point.start_gap > touching ? point.start_gap : 0;
+    const auto [time, speed] = contacts::meeting_of(gap, normal.dot(at_a - at_b), closing.pull, left);
+    if (speed > closing.tremble) first = std::min(first, time);
+  }
+  return first;
+}
+
+/// A contact as its bodies lie now; of no points when they are apart.
+/// @param find  whether there is a manifold of one whose points have been forgotten
+template <class Find>
+ContactConstraint overlap_now(const ContactConstraint& contact, const std::vector<Body>& bodies,
+                              const std::vector<step::Start>& starts, const Find& find) {
+  const Body &a = bodies[contact.a], &b = bodies[contact.b];
+  if (!surfaces::surface_of(a.shape().solid) && !surfaces::surface_of(b.shape().solid)) {
+    ContactConstraint now = small::looked_for_again(contact);
+    if (!find(now, small::way_of(a, contact.part_a, {}, instant), small::way_of(b, contact.part_b, {}, instant)))
+      now.count = 0;
+    return now;
+  }
+  // Of a mesh or a field the triangle is known: it is taken for a plane.
+  ContactConstraint now = contact;
+  const step::Start &from_a = starts[contact.a], &from_b = starts[contact.b];
+  for (int i = 0; i < now.count; ++i) {
+    PointConstraint& point = now.points[static_cast<std::size_t>(i)];
+    const Vec3 arm_a = a.motion.pose.rotation * (from_a.rotation.conjugate() * point.start_arm_a);
+    const Vec3 arm_b = b.motion.pose.rotation * (from_b.rotation.conjugate() * point.start_arm_b);
+    point.start_gap += now.manifold.normal.dot(b.center + arm_b - from_b.center - point.start_arm_b - a.center - arm_a +
+                                               from_a.center + point.start_arm_a);
+    point.start_arm_a = arm_a;
+    point.start_arm_b = arm_b;
+  }
+  return now;
+}
+
+/// What contacts come to in all parts of a step.
+class Sums {
+ public:
+  void add(std::span<ContactConstraint* const> contacts) {
+    for (ContactConstraint* contact : contacts) {
+      double normal = 0, approach = 0;
+      Vec3 total = Vec3::Zero();
+      for (int i = 0; i < contact->count; ++i) {
+        const PointConstraint& point = contact->points[static_cast<std::size_t>(i)];
+        normal += point.total_normal;
+        total += point.total_normal * contact->manifold.normal + point.total_friction;
+        approach = std::max(approach, point.approach);
+      }
+      forget_totals(*contact);
+      if (normal == 0 && approach == 0) continue;
+      Sum& sum = of(*contact);
+      sum.normal += normal;
+      sum.total += total;
+      sum.approach = std::max(sum.approach, approach);
+    }
+  }
+  /// Tells them as if they had come of one step; contacts that are there no more join in.
+  /// @param gone  where those stay until the step has been told
+  void finish(std::vector<ContactConstraint*>& active, std::vector<ContactConstraint>& gone, double dt) {
+    gone.clear();
+    gone.reserve(sums_.size());
+    const auto is_before = [](const ContactConstraint* a, const ContactConstraint* b) { return key(*a) < key(*b); };
+    const auto present = static_cast<std::ptrdiff_t>(active.size());
+    for (Sum& sum : sums_) {
+      if (std::binary_search(active.begin(), active.begin() + present, &sum.contact, is_before)) continue;
+      gone.push_back(sum.contact);
+      active.push_back(&gone.back());
+    }
+    std::sort(active.begin(), active.end(), is_before);
+    for (ContactConstraint* contact : active) {
+      // Its manifold is not of the start of the step.
+      contact->kept = false;
+      contact->impact_time = dt;
+      const auto found =
+          std::find_if(sums_.begin(), sums_.end(), [&](const Sum& sum) { return key(sum.contact) == key(*contact); });
+      if (found == sums_.end()) continue;
+      PointConstraint& first = contact->points[0];
+      first.total_normal = found->normal;
+      first.total_friction = found->total - found->normal * contact->manifold.normal;
+      first.approach = found->approach;
+    }
+  }
+
+ private:
+  struct Sum {
+    ContactConstraint contact;
+    double normal = 0, approach = 0;
+    Vec3 total{0, 0, 0};
+  };
+  static std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t> key(const ContactConstraint& contact) {
+    return {contact.a, contact.b, contact.part_a, contact.part_b};
+  }
+  Sum& of(const ContactConstraint& contact) {
+    for (Sum& sum : sums_)
+      if (key(sum.contact) == key(contact)) return sum;
+    sums_.push_back({contact, 0, 0, Vec3::Zero()});
+    return sums_.back();
+  }
+
+  std::vector<Sum> sums_;
+};
+
+}  // namespace
+}  // namespace strategies
+
+bool World::Implementation::goes_by_strategies(const islands::IslandContents& island) const {
+  if (!strategies::chosen(settings) || !island.springs.empty() || !island.joints.empty()) return false;
+  return std::none_of(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
+    return bodies[contact->a].drive.owner() == Owner::driven || bodies[contact->b].drive.owner() == Owner::driven;
+  });
+}
+
+double World::Implementation::solve_by_strategies(const islands::IslandContents& island, double dt,
+                                                  strategies::IslandByStrategies& by) {
+  for (contacts::ContactConstraint* contact : island.contacts) strategies::forget_totals(*contact);
+  const auto fly_all = [&] {
+    for (const contacts::ContactConstraint* contact : island.contacts)
+      for (const std::uint32_t index : {contact->a, contact->b}) fly_alone(index, dt, dt);
+  };
+  const auto find = [this](contacts::ContactConstraint& contact, const collision::Passage& way_a,
+                           const collision::Passage& way_b) {
+    return find_manifold(contact, bodies[contact.a], bodies[contact.b], way_a, way_b, strategies::instant, nullptr);
+  };
+  double off = 0;
+  if (settings.collision == Detection::discrete) {
+    // All go on by the whole step; then whatever overlaps responds, and is taken apart.
+    fly_all();
+    std::vector<contacts::ContactConstraint*> met;
+    for (contacts::ContactConstraint* contact : island.contacts) {
+      contacts::ContactConstraint now = strategies::overlap_now(*contact, bodies, starts, find);
+      contact->kept = false;
+      contact->impact_time = dt;
+      if (now.count == 0) continue;
+      now.kept = false;
+      now.impact_time = dt;
+      *contact = now;
+      met.push_back(contact);
+    }
+    off = by.respond(bodies, loads, met, settings, {.h = 0, .left = dt, .step = dt}, moved);
+  } else {
+    off = by.respond(bodies, loads, island.contacts, settings, {.h = dt, .left = dt, .step = dt}, moved);
+    fly_all();
+  }
+  separate(island.contacts);
+  return off;
+}
+
+void World::Implementation::fly_alone(std::uint32_t index, double h, double dt) {
+  state::Body& body = bodies[index];
+  if (body.immovable() || body.asleep || moved[index] != 0) return;
+  if (h == dt && forces::asking(settings.integrator))
+    flight.land(index, body, dt);
+  else
+    forces::fly(body, loads[index], settings.integrator, h);
+  moved[index] = 1;
+}
+
+void World::Implementation::separate(std::span<contacts::ContactConstraint* const> overlapping) {
+  // Of a mesh or a field it is known where it was met at the start of the step.
+  const auto lost = [&](const contacts::ContactConstraint& contact) {
+    return settings.collision != Detection::ahead && (surfaces::surface_of(bodies[contact.a].shape().solid) ||
+                                                      surfaces::surface_of(bodies[contact.b].shape().solid));
+  };
+  const auto find = [this](contacts::ContactConstraint& contact, const collision::Passage& way_a,
+                           const collision::Passage& way_b) {
+    return find_manifold(contact, bodies[contact.a], bodies[contact.b], way_a, way_b, strategies::instant, nullptr);
+  };
+  strategies::Separates* const part = strategies::separation_of(settings.separation);
+  const int passes = settings.solver == ContactSolver::sequential ? 1 : settings.iterations;
+  for (int pass = 0; pass < passes; ++pass) {
+    bool parted = false;
+    for (const contacts::ContactConstraint* contact : overlapping) {
+      state::Body &a = bodies[contact->a], &b = bodies[contact->b];
+      strategies::Overlap overlap;
+      overlap.a = strategies::place_of(a);
+      overlap.b = strategies::place_of(b);
+      if ((!overlap.a.movable && !overlap.b.movable) || lost(*contact)) continue;
+      const contacts::ContactConstraint now = strategies::overlap_now(*contact, bodies, starts, find);
+      if (now.count == 0) continue;
+      overlap.normal = now.manifold.normal;
+      overlap.count = now.count;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(now.count); ++i)
+        overlap.points[i] = {now.points[i].start_arm_a, now.points[i].start_arm_b, -now.points[i].start_gap};
+      if (!(overlap.depth() > strategies::no_depth)) continue;
+      parted = true;
+      part(overlap);
+      for (const auto& [body, place] : {std::pair(&a, &overlap.a), std::pair(&b, &overlap.b)}) {
+        if (!place->movable) continue;
+        body->center = place->center;
+        body->follow_center(place->rotation);
+      }
+    }
+    if (!parted) return;
+  }
+}
+
+bool World::Implementation::goes_by_impacts() const {
+  if (settings.collision != Detection::time_of_impact || !links.empty() || !stiff_springs.empty()) return false;
+  return std::none_of(watched.begin(), watched.end(),
+                      [&](std::uint32_t index) { return bodies[index].drive.owner() == Owner::driven; });
+}
+
+void World::Implementation::solve_by_impacts(double dt) {
+  solvers.resize(std::max<std::size_t>(1, solvers.size()));
+  strategies::IslandByStrategies& by = solvers[0].strategies;
+  strategies::Sums sums;
+  complementarity = 0;
+  const double soon = strategies::meets_now * dt;
+  double left = dt;
+  int at_once = 0;
+  const auto go = [&](double h, bool blows) {
+    moved.assign(bodies.size(), 0);
+    for (contacts::ContactConstraint* contact : active) strategies::forget_totals(*contact);
+    complementarity = std::max(complementarity, by.respond(bodies, loads, active, settings,
+                                                           {.h = h, .left = left, .step = dt, .blows = blows}, moved));
+    if (h == 0) return;
+    for (const std::uint32_t index : watched) fly_alone(index, h, dt);
+    if (h < left) lead_on(h, left);
+  };
+  for (int i = 0;; ++i) {
+    double first = strategies::never_met;
+    for (const contacts::ContactConstraint* contact : active)
+      first = std::min(first, strategies::time_of_blow(*contact, bodies, loads, left, dt));
+    if (first > left || i == strategies::most_instants || at_once == strategies::most_blows_at_once) {
+      go(left, first <= left);
+      separate(active);
+      break;
+    }
+    const double h = first <= soon ? 0 : std::min(first, left);
+    at_once = h == 0 ? at_once + 1 : 0;
+    go(h, h == 0);
+    sums.add(active);
+    left = std::max(left - h, soon);
+    do {
+      forces::gather_loads(bodies, watched, forces, settings, time + dt - left, left, workers(), loads, stiff_springs,
+                           flight);
+      find_constraints(left);
+    } while (wake_islands());
+  }
+  sums.add(active);
+  sums.finish(active, struck, dt);
+  for (const std::uint32_t index : watched) moved[index] = bodies[index].immovable() || bodies[index].asleep ? 0 : 1;
+}
+
+void World::Implementation::lead_on(double h, double left) {
+  for (const std::uint32_t index : watched) {
+    state::Body& body = bodies[index];
+    if (!body.immovable() || !body.has_target) continue;
+    const step::KeyedCourse course = step::keyed_course(body, left);
+    const Twist mean = course.mean_between(0, h / left, left);
+    body.twist = course.velocity(h / left, left);
+    body.center += h * mean.linear;
+    Quat rotation = exp_map(h * mean.angular) * body.motion.pose.rotation;
+    rotation.normalize();
+    body.follow_center(rotation);
+  }
+}
+
+}  // namespace tweenfall
