@@ -75,7 +75,17 @@ TEST_CASE("operations of a document mean what the same operations mean in C++") 
   CHECK(still.parts.vertical);
   CHECK(still.parts.horizontal);
   CHECK(still.parts.turn == RootParts::Turn::all);
-  CHECK(Document::parse(document.text(), "again.json", {}).stage().graphs.size() == 1);
+  const auto& bob = operation_of<SpringPose>(graph, "bob");
+  CHECK(bob.base == "walk");
+  CHECK(bob.position->gravity == Vec3(0, -2, 0));
+  CHECK(bob.rotation->hz == 2);
+  CHECK(bob.rotation->damping == 0.5);
+  CHECK(bob.rotation->steps_per_second == 60);
+  const auto& sway = operation_of<JigglePose>(graph, "sway");
+  CHECK(sway.joints == std::vector<std::string>{"spine", "head"});
+  CHECK(sway.tip == Vec3(0, 0.2, 0));
+  CHECK(sway.spring.damping == 0.1);
+  CHECK(near(sway.limit, 60 * degree, 1e-15));
   CHECK(fingerprint(Document::parse(document.text(), "again.json", {}).stage().graphs[0]) == fingerprint(graph));
 }
 
@@ -125,5 +135,9 @@ TEST_CASE("faults of operations are told with their places") {
   CHECK(tells("{\"mirror\": {\"pairs\": [[\"*.L\", \"*.R\"]]}}", "/graphs/g/poses/p/mirror"));
   CHECK(tells("{\"retarget\": {\"source\": \"a\", \"target\": \"d\", \"pairs\": [[\"x\", \"d\"]]}}",
               "no joint is named \"x\""));
+  CHECK(tells("{\"spring\": {\"node\": \"b\"}}", "neither a position nor a rotation"));
+  CHECK(tells("{\"spring\": {\"node\": \"b\", \"rotation\": {\"gravity\": [0, 1, 0]}}}", "\"gravity\""));
+  CHECK(tells("{\"jiggle\": {\"joints\": [\"a\"]}}", "a chain of one joint swings only with a \"tip\""));
+  CHECK(tells("{\"jiggle\": {\"joints\": [\"a\", \"d\"]}}", "must be below the joint before it"));
   CHECK(tells("{\"root_motion\": {\"node\": \"b\", \"onto\": \"d\"}}", "does not carry"));
 }

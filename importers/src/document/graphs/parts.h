@@ -47,6 +47,8 @@ struct OperationWord {
 [[nodiscard]] OperationWord mirror_word();
 [[nodiscard]] OperationWord retarget_word();
 [[nodiscard]] OperationWord root_motion_word();
+[[nodiscard]] OperationWord spring_word();
+[[nodiscard]] OperationWord jiggle_word();
 
 // The word of an operation that changes a pose, which is an object with the fields of a table.
 template <class Operation>

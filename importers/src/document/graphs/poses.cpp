@@ -68,9 +68,10 @@ void read_layers(const json::Value& value, GraphPose& pose, Building& building) 
 }
 
 const std::vector<OperationWord>& words() {
-  static const std::vector<OperationWord> all = {
-      clip_word(),    rest_word(),  blend_word(), layers_word(), space_word(),    machine_word(),    two_bone_word(),
-      look_at_word(), reach_word(), feet_word(),  mirror_word(), retarget_word(), root_motion_word()};
+  static const std::vector<OperationWord> all = {clip_word(),        rest_word(),    blend_word(),    layers_word(),
+                                                 space_word(),       machine_word(), two_bone_word(), look_at_word(),
+                                                 reach_word(),       feet_word(),    mirror_word(),   retarget_word(),
+                                                 root_motion_word(), spring_word(),  jiggle_word()};
   return all;
 }
 
