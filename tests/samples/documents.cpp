@@ -158,7 +158,7 @@ TEST_CASE("the stroller walks on, greets and halts again when its inputs say so"
   const Vec3 hand = place(stage, "figure/RightHand");
   const GraphPlayer before = stage.graph("figure");
   CHECK(before.passages(0).back().state == 0);
-  static_cast<void>(advance_with(stage, std::span(inputs).first(2), 5.6));
+  static_cast<void>(advance_with(stage, std::span(inputs).first(2), 5.3));
   CHECK(stage.graph("figure").passages(0).back().state == 1);
   CHECK(stage.graph("figure").passages(0).back().time == 4.4);
   CHECK(place(stage, "figure/RightHand").y() > hand.y() + 0.3);
