@@ -70,8 +70,9 @@ int main() {
     const PairsFound found = find_pairs(searches[i].search, many);
     std::printf("%-10s %10zu %7zu\n", searches[i].name, found.tests, found.pairs.size());
     same = same && found.pairs == all.pairs;
-    draw(svg, searches[i], find_pairs(searches[i].search, drawn), drawn, width * static_cast<double>(i % 2),
-         height * static_cast<double>(i / 2));
+    const std::size_t column = i % 2, row = i / 2;
+    draw(svg, searches[i], find_pairs(searches[i].search, drawn), drawn, width * static_cast<double>(column),
+         height * static_cast<double>(row));
   }
   svg << "</svg>\n";
   return same && svg.good() ? 0 : 1;
