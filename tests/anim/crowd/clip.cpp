@@ -13,7 +13,7 @@ using namespace tweenfall::test;
 namespace {
 
 // Whole, as bytes: also what stands in unused lanes.
-bool same_bits(std::span<const CrowdGroup> a, std::span<const CrowdGroup> b) {
+bool same_groups(std::span<const CrowdGroup> a, std::span<const CrowdGroup> b) {
   return std::ranges::equal(std::as_bytes(a), std::as_bytes(b));
 }
 
@@ -86,8 +86,8 @@ TEST_CASE("the wide kernels give the bits of the plain ones, values and rates") 
         crowd::sample_with(crowd::plain_sample_kernels(), compiled, time, arriving, 1, plain.data(),
                            plain_rates.data());
         crowd::sample_with(crowd::fastest_sample_kernels(), compiled, time, arriving, 1, alone.data(), nullptr);
-        CHECK(same_bits(wide, plain));
-        CHECK(same_bits(wide, alone));
+        CHECK(same_groups(wide, plain));
+        CHECK(same_groups(wide, alone));
         CHECK(std::ranges::equal(std::as_bytes(std::span(wide_rates)), std::as_bytes(std::span(plain_rates))));
       }
     }

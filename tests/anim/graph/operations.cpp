@@ -12,7 +12,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-const std::vector<double> instants = {0, 0.1, 0.37, 0.74, 1.13, 1.6, 1.91, 2.4, 5.03};
+const std::vector<double> shown_instants = {0, 0.1, 0.37, 0.74, 1.13, 1.6, 1.91, 2.4, 5.03};
 
 /// What the functions themselves make of a pose at a time.
 using ByHand = std::function<void(std::span<Motion> pose, GraphPlayer& player, const Sample<double>& weight)>;
@@ -25,7 +25,7 @@ void check_same(const WithWeight& described, const ByHand& by_hand) {
   for (const GraphNumber& weight : weights) {
     CAPTURE(weight.index());
     GraphPlayer player(figure_graph(graph_with(described(weight))));
-    for (const double time : instants) {
+    for (const double time : shown_instants) {
       CAPTURE(time);
       player.seek(time);
       Sample<double> now{1, 0, 0};
@@ -164,7 +164,7 @@ TEST_CASE("root motion is taken out in a graph as by itself, and what it is put 
              });
   GraphPlayer walking(figure_graph({.poses = {{"walk", ClipPose{"walk"}}}})),
       carried(figure_graph(graph_with(on_the_spot(1., "hips"))));
-  for (const double time : instants) {
+  for (const double time : shown_instants) {
     const std::vector<Motion> before = shown(walking, time), after = shown(carried, time);
     const WorldMotion a = world_of_node(*figures(), 8, before), b = world_of_node(*figures(), 8, after);
     CHECK((a.motion.pose.position - b.motion.pose.position).norm() < 1e-12);

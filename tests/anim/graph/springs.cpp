@@ -116,7 +116,9 @@ TEST_CASE("springs come the same way at 30, 60 and 144 frames a second, forwards
       player.seek(time);
       seen.emplace_back(time, shown(player, time));
     }
-    for (const auto& [time, pose] : seen) {
+    for (const auto& each : seen) {
+      const double time = each.first;
+      const auto& pose = each.second;
       CAPTURE(time);
       CHECK(same_bits(shown(all, time), pose));
       if (frame_of_sixth(time) >= 0) CHECK(same_bits(at_common[static_cast<std::size_t>(frame_of_sixth(time))], pose));

@@ -90,9 +90,9 @@ class Meeting {
  public:
   Meeting(const Flow& flow, double dt, double share, std::span<const double> known)
       : flow_(flow), dt_(dt), share_(share), known_(known), now_(known.size()), best_(now_), off_(now_), since_(now_) {
-    std::map<std::uint32_t, std::size_t> numbers;
+    std::map<std::uint32_t, std::size_t> places;
     for (std::size_t block = 0; block < flow.ties.size(); ++block) {
-      const auto [found, added] = numbers.try_emplace(flow.ties[block], tied_.size());
+      const auto [found, added] = places.try_emplace(flow.ties[block], tied_.size());
       if (added) tied_.emplace_back();
       tied_[found->second].blocks.push_back(block);
     }
