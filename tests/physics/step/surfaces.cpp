@@ -25,14 +25,14 @@ BodySettings crate(const Vec3& place, double turned = 0) {
 }
 
 /// What a belt does to a box that it takes along, or stops, by a change of its speed.
-struct Ride {
+struct BeltRide {
   double slipped_for = 0, went = 0, relative_speed = 0;
 };
 
-Ride ride(World& world, BodyId on, BodyId box, const Vec3& along, double from, double to, double h) {
+BeltRide ride(World& world, BodyId on, BodyId box, const Vec3& along, double from, double to, double h) {
   world.set_surface_velocity(on, {.linear = Vec3(to, 0, 0)});
   const double start = world.motion(box).pose.position.dot(along);
-  Ride result;
+  BeltRide result;
   const int steps = static_cast<int>(std::lround(1.0 / h));
   int riding = 0;
   for (int i = 1; i <= steps; ++i) {
@@ -75,7 +75,7 @@ TEST_CASE("a belt takes a box along: it slips for 0.3823 s and 0.2867 m, rides, 
           double before = 0;
           for (const double speed : {1.5, 0.0, -1.5}) {
             CAPTURE(speed);
-            const Ride taken = ride(world, on, row.back(), along, before, speed, h);
+            const BeltRide taken = ride(world, on, row.back(), along, before, speed, h);
             CHECK(std::abs(taken.slipped_for - slip_time) <= h + 1e-9);
             // From rest to the belt's speed or back it goes as far as it slips.
             CHECK(std::abs(std::abs(taken.went) - slip_length) <= 1.5 * h);
