@@ -11,8 +11,8 @@ about_source='^(headers|layering|page$)'
 # sanitizers.
 long_when_sanitized='^(anim/crowd/(clip|size)'
 long_when_sanitized+='|importers/document/(contact_scenarios|hostile_physics)'
-long_when_sanitized+='|physics/(collision/(oracle|triangle_contacts)|stage/(blows|saving)|state/(copies|saving)'
-long_when_sanitized+='|step/(energy|impact|momentum|riders|small_islands)))$'
+long_when_sanitized+='|physics/(collision/(broad_phase|oracle|triangle_contacts)|stage/(blows|saving)|state/(copies|saving)'
+long_when_sanitized+='|step/(energy|impact|integrators|momentum|riders|small_islands)))$'
 
 # run_stages NAME...: each by its function stage_NAME, up to the first that fails.
 run_stages() {
