@@ -6,24 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "physics/step/methods.h"
+
 using namespace tweenfall;
 
 namespace {
-
-struct Named {
-  const char* name;
-  Integrator integrator;
-  double order;
-};
-constexpr std::array<Named, 9> all{{{"exact-quadratic", Integrator::exact_quadratic, 2},
-                                    {"semi-implicit-euler", Integrator::semi_implicit_euler, 1},
-                                    {"explicit-euler", Integrator::explicit_euler, 1},
-                                    {"midpoint", Integrator::midpoint, 2},
-                                    {"trapezoid", Integrator::trapezoid, 2},
-                                    {"rk4", Integrator::rk4, 4},
-                                    {"verlet", Integrator::verlet, 2},
-                                    {"backward-euler", Integrator::backward_euler, 1},
-                                    {"implicit-trapezoid", Integrator::implicit_trapezoid, 2}}};
 
 /// A pendulum that is pushed: q' = p, p' = -sin q + 0.3 cos 2 t.
 void pushed_pendulum(double time, std::span<const double> state, std::span<double> rates) {
@@ -42,7 +29,7 @@ double apart(const FirstOrderPath& a, const FirstOrderPath& b) {
 
 TEST_CASE("each integrator comes nearer to a pushed pendulum's way by its order") {
   const FirstOrderPath limit = first_order_path(pushed_pendulum, {1, 0.5}, Integrator::rk4, 3.0 / 20000, 20000);
-  for (const Named& each : all) {
+  for (const test::Method& each : test::methods) {
     CAPTURE(each.name);
     const std::size_t steps = each.order > 3 ? 50 : each.order > 1 ? 200 : 3200;
     const double dt = 3.0 / static_cast<double>(steps);

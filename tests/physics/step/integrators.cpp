@@ -9,28 +9,16 @@
 #include <vector>
 
 #include "physics/scene.h"
+#include "physics/step/methods.h"
 
 using namespace tweenfall;
+using test::Method;
+using test::methods;
 using test::near;
 
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-
-struct Method {
-  const char* name;
-  Integrator integrator;
-  double order;
-};
-constexpr std::array<Method, 9> methods{{{"exact-quadratic", Integrator::exact_quadratic, 2},
-                                         {"semi-implicit-euler", Integrator::semi_implicit_euler, 1},
-                                         {"explicit-euler", Integrator::explicit_euler, 1},
-                                         {"midpoint", Integrator::midpoint, 2},
-                                         {"trapezoid", Integrator::trapezoid, 2},
-                                         {"rk4", Integrator::rk4, 4},
-                                         {"verlet", Integrator::verlet, 2},
-                                         {"backward-euler", Integrator::backward_euler, 1},
-                                         {"implicit-trapezoid", Integrator::implicit_trapezoid, 2}}};
 
 /// By how many powers of two an error falls when the step is halved.
 double order_of(double coarse, double fine) {
