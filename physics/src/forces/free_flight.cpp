@@ -62,6 +62,9 @@ class Tumbling {
   bool steady_;
 };
 
+/// Of a turn that is followed, at most.
+constexpr double most_pieces = 64;
+
 /// A momentum, less as much of it as would have more energy than that.
 Vec3 within_energy(const Tumbling& tumbling, double energy, const Vec3& momentum) {
   const double now = 0.5 * tumbling.angular(momentum).dot(momentum);
@@ -111,10 +114,11 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
   }
   const double energy = 0.5 * first.dot(momentum), length = momentum.norm();
   const Vec3 end_momentum = start.rotation * momentum + dt * load.torque;  // in the world's axes
-  // A tenth of a radian a piece keeps the energy of a tumbling body to parts in a billion.
+  // A tenth of a radian per piece keeps the energy of a tumbling body to parts in a billion. Where the most pieces
+  // would turn by more than a radian each, they tell no more than one does.
   const double angle =
       (first.norm() + 0.5 * dt * tumbling.angular(start.rotation.conjugate() * load.torque).norm()) * dt;
-  const int pieces = static_cast<int>(std::min(64.0, std::max(1.0, std::ceil(angle / 0.1))));  // 1 for no number
+  const int pieces = angle < most_pieces ? static_cast<int>(std::clamp(std::ceil(angle / 0.1), 1.0, most_pieces)) : 1;
   Quat rotation = start.rotation;
   for (int piece = 0; piece < pieces; ++piece) {
     const Tumble tumble = tumbling.through(dt / pieces, rotation, momentum);

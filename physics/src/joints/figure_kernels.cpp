@@ -125,7 +125,7 @@ struct FigureWork : FigureFactors<Register> {
     return changed;
   }
 
-  /// Takes out what came to lie beyond its bound, or at it. @param all  also what did not
+  /// Takes out what came to lie beyond its bound, or at it. @param everything  also what did not
   TWEENFALL_LANES static Number dismiss(Figures& figures, const Number& live, bool everything) {
     Number changed = nothing();
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {

@@ -23,6 +23,10 @@ constexpr std::size_t most_contacts = 32;
 constexpr double much = 1.5;
 constexpr double little = 0.15;
 constexpr int most_pieces = 600;
+/// As many of what no pieces follow, for it turns by more than `beyond_following` in a step, rad: it stays bounded, and
+/// takes no end of time.
+constexpr int pieces_of_unfollowed = 60;
+constexpr double beyond_following = 1e5;
 constexpr int least_sub_steps = 8;
 
 bool round(const Body& body) {
@@ -60,6 +64,7 @@ int World::Implementation::pieces_of(const islands::IslandContents& island, doub
         return 1;
   }
   if (!(turn > small::much)) return 1;
+  if (!(turn < small::beyond_following)) return small::pieces_of_unfollowed;
   return static_cast<int>(std::min<double>(std::ceil(turn / small::little), small::most_pieces));
 }
 

@@ -1,4 +1,5 @@
 #include "physics/scene.h"
+#include "processor_time.h"
 
 using namespace tweenfall;
 
@@ -185,6 +186,23 @@ TEST_CASE("thousands of bodies at one point step without end of time or memory, 
   }
   for (int i = 0; i < 2; ++i) world.step(1.0 / 60);
   for (const BodyId body : bodies) CHECK(world.motion(body).pose.position.norm() < 10);
+}
+
+TEST_CASE("a capsule larger than any world lies in a crowd, and thirty steps end") {
+  World world;
+  world.add({.shape = {Plane{}}, .fixed = true});
+  std::vector<BodyId> bodies;
+  for (int i = 0; i < 24; ++i) {
+    BodySettings body{.mass = 1, .restitution = 0.3};
+    body.motion.pose.position = Vec3(0.9 * (i % 5) - 2, 0.4 + 0.25 * i, 0.7 * (i % 4) - 1);
+    if (i % 3 == 1) body.shape.solid = Box{Vec3(0.2, 0.15, 0.25)};
+    if (i % 3 == 2) body.shape.solid = Capsule{i == 5 ? 1e17 : 0.15, 0.3};
+    bodies.push_back(world.add(body));
+  }
+  const double begin = test::processor_seconds();
+  for (int i = 0; i < 30; ++i) world.step(1.0 / 60);
+  CHECK(test::processor_seconds() - begin < 3);
+  for (const BodyId body : bodies) CHECK(world.motion(body).pose.position.allFinite());
 }
 
 TEST_CASE("worlds of any size and steps of any length stay finite") {
