@@ -14,6 +14,7 @@ endif()
 # Sources are compiled several as one, in about half the time. The names that a room keeps to itself, those of anonymous
 # namespaces too, therefore stand in the room's own namespace (tweenfall::slopes, tweenfall::staging) and are used once
 # per room; those that stand in tweenfall itself, once per module. -DCMAKE_UNITY_BUILD=OFF compiles each alone.
+# tweenfall_compile_by_room in module.cmake says which are compiled together.
 # Few as one where sources change, many where all is compiled anyway.
 if(NOT DEFINED CMAKE_UNITY_BUILD)
   set(CMAKE_UNITY_BUILD ON)
