@@ -5,7 +5,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../.cmake/setup.sh"
 cd "$source_folder"
 
 # Tests about the source and the page, which say the same under every compiler.
-about_source='^(headers|layering|page$)'
+about_source='^(headers|headers_catches|layering|page$)'
 
 # What is about numbers over long runs, whose code shorter tests run too; each takes ten seconds to minutes under
 # sanitizers.
