@@ -1,0 +1,156 @@
+#pragma once
+
+/// The world in a plane: bodies that slide and turn in it, contacts, joints, and one step after another.
+///
+/// It is used as `World` is, with vectors of two numbers and an angle in place of a rotation, and has a solver of its
+/// own, made for two dimensions: much quicker than a space in which nothing leaves a plane.
+
+#include <tweenfall/physics/planar_joint.h>
+#include <tweenfall/physics/planar_shape.h>
+#include <tweenfall/physics/world.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tweenfall::planar {
+
+/// A place and how it changes.
+struct Motion {
+  Vec2 position{0, 0};  ///< m
+  double angle = 0;     ///< rad, counterclockwise, any number of turns
+  Vec2 velocity{0, 0};  ///< of the position, m/s
+  double spin = 0;      ///< rate of the angle, rad/s
+};
+
+struct WorldSettings {
+  Vec2 gravity{0, -9.81};       ///< m/s^2
+  int sub_steps = 4;            ///< into which a step is divided for contacts and joints, 1 to 64
+  double sleep_speed = 0.02;    ///< m/s (and rad/s times size) below which a body counts as still
+  double sleep_after = 0.5;     ///< s of stillness after which a body sleeps; infinity: never
+  double push_out_speed = 0.5;  ///< greatest speed at which overlap is taken apart, m/s
+};
+
+/// As `tweenfall::BodySettings`, in a plane.
+struct BodySettings {
+  Shape shape = {};
+  std::optional<double> mass{};  ///< kg; absent: density times area
+  double density = 1000;         ///< kg/m^2
+  double friction = 0.5;         ///< Coulomb coefficient; a pair takes sqrt(f1 f2) unless told otherwise
+  double restitution = 0;        ///< 0 to 1; a pair takes the larger unless told otherwise
+  Combine friction_combine = Combine::usual;
+  Combine restitution_combine = Combine::usual;
+  bool sensor = false;         ///< reports what overlaps it, and neither pushes nor is pushed
+  double linear_damping = 0;   ///< 1/s: what is left of a velocity after t seconds is exp(-damping t)
+  double angular_damping = 0;  ///< 1/s
+  bool fixed = false;          ///< part of the scenery: never moves
+  std::uint64_t groups = 1;    ///< that it belongs to, one bit each
+  std::uint64_t collides_with =
+      ~std::uint64_t{0};  ///< groups; two bodies meet when each collides with one of the other's
+  Drive drive = Drive::free();
+  Motion motion = {};  ///< of the node's origin
+};
+
+/// A touching pair after a step.
+struct Contact {
+  BodyId a, b;
+  Manifold manifold;
+  double impulse = 0;         ///< sum of normal impulses of the step, N s; >= 0
+  Vec2 total_impulse{0, 0};   ///< on b, friction included, N s
+  double approach_speed = 0;  ///< normal speed at which they met, before the step's impulses, m/s
+  bool began = false;         ///< the pair did not touch in the step before
+};
+
+/// What a hinge or a distance does: angle and its rate, or length and its rate; and its impulse in the last step.
+struct JointReading {
+  double value = 0;    ///< of b's angle against a's, rad; or the distance, m
+  double rate = 0;     ///< per second
+  Vec2 impulse{0, 0};  ///< on b at its anchor, N s
+  double gap = 0;      ///< by how much the joint is violated, m
+};
+
+/// Bodies in a plane and what acts on them. A copy steps to the same bits as the original. Every call that takes a
+/// handle throws std::invalid_argument for a stale one, and every call that takes numbers for those that are not finite
+/// or beyond 1e30. A world that was moved from may be destroyed or assigned to, and nothing else.
+class World {
+ public:
+  explicit World(const WorldSettings& settings = {});
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  World(const World&);
+  World& operator=(const World&);
+
+  // Bodies
+  BodyId add(const BodySettings& body);  ///< @throws std::invalid_argument naming what is wrong
+  void remove(BodyId body);              ///< with its joints; wakes what it touched
+  [[nodiscard]] bool contains(BodyId body) const noexcept;
+  [[nodiscard]] std::vector<BodyId> bodies() const;
+
+  // State
+  [[nodiscard]] Motion motion(BodyId body) const;         ///< of the node's origin
+  [[nodiscard]] Vec2 center_velocity(BodyId body) const;  ///< of the center of mass, m/s
+  [[nodiscard]] const MassProperties& mass(BodyId body) const;
+  [[nodiscard]] const Shape& shape(BodyId body) const;
+  [[nodiscard]] Owner owner(BodyId body) const;
+  [[nodiscard]] Drive drive(BodyId body) const;
+  [[nodiscard]] bool is_fixed(BodyId body) const;
+  [[nodiscard]] bool is_sensor(BodyId body) const;
+  [[nodiscard]] double still_for(BodyId body) const;  ///< s of stillness so far
+  [[nodiscard]] bool asleep(BodyId body) const;
+  [[nodiscard]] bool saturated(BodyId body) const;  ///< its drive pulled with all it may in the last step
+  [[nodiscard]] Vec2 reaction(
+      BodyId body) const;  ///< sum of contact impulses on a keyed or fixed body since it was added, N s
+  [[nodiscard]] double kinetic_energy() const;  ///< of all free and driven bodies, J
+  [[nodiscard]] double time() const noexcept;   ///< sum of the steps, s
+
+  // Changes; each wakes the body
+  void set_motion(BodyId body, const Motion& motion);
+  /// Hands the body over. Leaving `keyed`, it keeps the place and the velocity of its last target.
+  void set_drive(BodyId body, const Drive& drive);
+  /// Where a keyed body shall be at the end of the next step, and its path's own velocity there: it has just these
+  /// numbers then. Of a driven body, where its spring pulls it.
+  void set_target(BodyId body, const Motion& end_of_step);
+  void apply_force(BodyId body, const Vec2& force, const Vec2& point);  ///< N, at a world point, during the next step
+  void apply_torque(BodyId body, double torque);                        ///< N m, during the next step
+  void apply_impulse(BodyId body, const Vec2& impulse, const Vec2& point);  ///< N s, at once
+  void wake(BodyId body);
+  void set_groups(BodyId body, std::uint64_t groups, std::uint64_t collides_with);
+
+  // Joints
+  JointId add_joint(const JointSettings& joint);  ///< @throws std::invalid_argument naming what is wrong
+  void remove_joint(JointId joint);
+  [[nodiscard]] bool contains(JointId joint) const noexcept;
+  [[nodiscard]] const JointSettings& joint(JointId joint) const;
+  [[nodiscard]] JointReading reading(JointId joint) const;
+
+  // Time
+  /// Advances by `dt` seconds. What nothing touches flies by x += v t + g t^2/2.
+  /// @throws std::invalid_argument when dt is not positive and finite
+  /// @throws NotFinite when a body stops being finite: `step` throws again until it is removed or moved by
+  /// `set_motion`.
+  void step(double dt);
+
+  /// Pairs that touched in the last step, by the indices of their bodies.
+  [[nodiscard]] std::span<const Contact> contacts() const noexcept;
+  /// Pairs that touched before the last step and not in it.
+  [[nodiscard]] std::span<const EndedContact> ended_contacts() const noexcept;
+  /// What was in sensors at the end of the last step, by index of the sensor and then of the body.
+  [[nodiscard]] std::span<const SensorOverlap> sensor_overlaps() const noexcept;
+
+  // Keeping it
+  [[nodiscard]] std::uint64_t state_hash() const;  ///< of all that tells on its next steps
+  /// The world as bytes, from which `load` makes it again, with the same handles: it then steps to the same bits.
+  [[nodiscard]] std::vector<std::byte> save() const;
+  /// @throws std::invalid_argument telling what is wrong with the bytes; nothing has changed then
+  void load(std::span<const std::byte> saved);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace tweenfall::planar

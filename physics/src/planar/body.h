@@ -1,0 +1,87 @@
+#pragma once
+
+#include <tweenfall/physics/planar_world.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "planar/plate.h"
+#include "planar/turning.h"
+
+namespace tweenfall::planar::inner {
+
+/// What steps ask for again and again.
+struct Body {
+  Vec2 center{0, 0};  ///< of mass, world, m
+  double angle = 0;
+  Turn turn;
+  Vec2 velocity{0, 0};  ///< of the center of mass
+  double spin = 0;
+  double inverse_mass = 0, inverse_moment = 0;  ///< 0 for what is not moved
+  double reach = 0;                             ///< farthest point from the center of mass, m; 0 for a half-plane
+  double skin = 0;                              ///< m
+  double least = 0;                             ///< about how thin it is, m
+  double travel = 0;                            ///< how far a point of it may get in the step by itself, m
+  Vec2 force{0, 0};                             ///< for the next step
+  double torque = 0;
+  double still_for = 0;
+  // Its box, with room to spare, in the tree of boxes: of where it was then.
+  Vec2 boxed_center{0, 0};
+  double boxed_angle = 0, boxed_room = 0;
+  bool boxed = false;
+  bool has_target = false;
+  bool alive = false, asleep = false;
+  bool movable = false;  ///< neither fixed nor keyed
+  bool lone = false;     ///< a circle
+  bool driven = false;
+  bool damped = false;
+  bool under_way = false;  ///< in this step: awake and movable, or keyed and going somewhere
+
+  [[nodiscard]] Vec2 velocity_at(const Vec2& arm) const { return velocity + spin * quarter(arm); }
+};
+
+/// The rest of it.
+struct Makeup {
+  std::uint32_t generation = 0;
+  Shape shape;
+  Plate plate;
+  MassProperties mass;
+  double friction = 0, restitution = 0;
+  Combine friction_combine = Combine::usual, restitution_combine = Combine::usual;
+  double linear_damping = 0, angular_damping = 0;
+  bool fixed = false, sensor = false, saturated = false;
+  std::uint64_t groups = 1, collides_with = 0;
+  Drive drive = Drive::free();
+  Motion motion;  ///< of the node's origin, of what is fixed or keyed: the very numbers that it was given
+  Motion target;
+  Vec2 reaction{0, 0};
+};
+
+/// Two bodies whose boxes meet, and how they touch.
+struct Meeting {
+  std::uint32_t a = 0, b = 0;  ///< a < b
+  double friction = 0, restitution = 0;
+  bool sensing = false;   ///< one is a sensor
+  bool touching = false;  ///< in the last step
+  int count = 0;          ///< of points, in contact or about to be
+  bool exact = false;     ///< found where the bodies are, not where they are to meet
+  // Found when b lay so against a:
+  Vec2 apart{0, 0};  ///< in a's axes
+  Turn relative;
+  Vec2 normal{0, 1};                                                                   ///< in a's axes
+  std::array<Vec2, 2> core_a{Vec2(0, 0), Vec2(0, 0)}, core_b{Vec2(0, 0), Vec2(0, 0)};  ///< in a's axes, and in b's
+  std::array<std::uint32_t, 2> feature{};
+  std::array<double, 2> pressing{}, dragging{};  ///< impulses of the last sub-step, N s
+};
+
+struct Joint {
+  bool alive = false;
+  std::uint32_t generation = 0;
+  JointSettings settings;
+  Vec2 impulse{0, 0};  ///< of the last sub-step, of what holds points together
+  double pull = 0, push = 0, motor = 0, lower = 0, upper = 0;
+  Vec2 total{0, 0};  ///< of the last step
+};
+
+}  // namespace tweenfall::planar::inner

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "blocks/coloring.h"
+#include "planar/body.h"
+#include "planar/contact_block.h"
+
+namespace tweenfall::planar::inner {
+
+/// What a free body gains by itself, and what its damping leaves of it in a sub-step.
+struct Gain {
+  double x = 0, y = 0, turn = 0;  ///< m/s^2, rad/s^2
+  double keep = 1, keep_turn = 1;
+};
+
+/// Impulses of a step on one meeting, N s.
+struct Given {
+  double normal[2] = {0, 0}, sideways[2] = {0, 0};
+  double approach = 0;  ///< greatest closing speed of a point as the step begins, m/s
+};
+
+/// What a step is solved for.
+struct Scene {
+  std::vector<Body>& bodies;
+  std::vector<Makeup>& makeups;
+  std::vector<Meeting>& meetings;
+  std::vector<Joint>& joints;
+  std::span<const std::uint32_t> moving;  ///< bodies under way
+  std::span<const std::uint32_t> active;  ///< meetings with points
+  double push_out_speed = 0;
+  double dt = 0;
+  int sub_steps = 1;
+  double warmth = 1;  ///< share of the impulses of the step before with which this one begins
+};
+
+/// Takes bodies through a step: in each sub-step velocities, blows of what rebounds, contacts that give way while
+/// bodies are moved, and once more firmly.
+class ContactSolver {
+ public:
+  void solve(Scene scene);
+
+  std::vector<Gain> gains;   ///< by body
+  std::vector<Given> given;  ///< by active meeting
+
+ private:
+  struct Bouncy {
+    std::uint32_t place = 0;  ///< block times lanes plus lane
+    std::uint32_t active = 0;
+    double restitution = 0;
+    int count = 0;
+  };
+  /// Where the bodies of a bouncy contact meet.
+  struct Arrival {
+    double when = 0;   ///< s from the start of the sub-step
+    double speed = 0;  ///< m/s; 0 when they do not
+  };
+
+  void build(const Scene& scene);
+  void color(const Scene& scene);
+  void fill(const Scene& scene, std::uint32_t k);
+  void begin_sub_step(const Scene& scene, double h, int left);
+  void pull(const Body& body, Makeup& makeup, std::uint32_t index, double h, double ahead);
+  void strike(double h);
+  bool strike(const Bouncy& bouncy, double h);
+  [[nodiscard]] Arrival arrival(const ContactBlock& block, int lane, int point, double h) const;
+  void knock(const ContactBlock& block, int lane, double along, double across, int point, double when);
+  void move(const Scene& scene, double h);
+  void store(const Scene& scene);
+  void finish(const Scene& scene);
+
+  std::vector<BodyRow> velocities_, starts_, unpushed_, displacements_;
+  std::vector<double> struck_at_;
+  std::vector<ContactBlock> blocks_;
+  std::vector<std::uint32_t> colors_, places_;
+  std::vector<Bouncy> bouncy_;
+  blocks::Coloring coloring_;
+};
+
+}  // namespace tweenfall::planar::inner

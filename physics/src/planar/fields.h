@@ -1,0 +1,126 @@
+#pragma once
+
+/// The fields of all that a world in a plane is made of, each listed once: what is hashed, saved and loaded is the
+/// same. A field that is added and not listed here does not compile. Those that are as in space stand in
+/// saving/fields.h.
+
+#include "planar/body.h"
+#include "saving/fields.h"
+
+namespace tweenfall::planar::inner {
+
+using saving::Is;
+
+template <Is<Circle> T, class Visit>
+void each_field(T& circle, const Visit& visit) {
+  auto& [radius] = circle;
+  visit(radius);
+}
+template <Is<Capsule> T, class Visit>
+void each_field(T& capsule, const Visit& visit) {
+  auto& [radius, half_height] = capsule;
+  visit(radius, half_height);
+}
+template <Is<Box> T, class Visit>
+void each_field(T& box, const Visit& visit) {
+  auto& [half_extents] = box;
+  visit(half_extents);
+}
+template <Is<Polygon> T, class Visit>
+void each_field(T& polygon, const Visit& visit) {
+  auto& [corners] = polygon;
+  visit(corners);
+}
+template <Is<HalfPlane> T, class Visit>
+void each_field(T& half, const Visit& visit) {
+  auto& [normal, offset] = half;
+  visit(normal, offset);
+}
+template <Is<Shape> T, class Visit>
+void each_field(T& shape, const Visit& visit) {
+  auto& [outline, offset, angle] = shape;
+  visit(outline, offset, angle);
+}
+template <Is<MassProperties> T, class Visit>
+void each_field(T& mass, const Visit& visit) {
+  auto& [kilograms, center, moment] = mass;
+  visit(kilograms, center, moment);
+}
+template <Is<Motion> T, class Visit>
+void each_field(T& motion, const Visit& visit) {
+  auto& [position, angle, velocity, spin] = motion;
+  visit(position, angle, velocity, spin);
+}
+template <Is<WorldSettings> T, class Visit>
+void each_field(T& settings, const Visit& visit) {
+  auto& [gravity, sub_steps, sleep_speed, sleep_after, push_out_speed] = settings;
+  visit(gravity, sub_steps, sleep_speed, sleep_after, push_out_speed);
+}
+template <Is<Turn> T, class Visit>
+void each_field(T& turn, const Visit& visit) {
+  auto& [cos, sin] = turn;
+  visit(cos, sin);
+}
+
+template <Is<Body> T, class Visit>
+void each_field(T& body, const Visit& visit) {
+  auto& [center, angle, turn, velocity, spin, inverse_mass, inverse_moment, reach, skin, least, travel, force, torque,
+         still_for, boxed_center, boxed_angle, boxed_room, boxed, has_target, alive, asleep, movable, lone, driven,
+         damped, under_way] = body;
+  visit(center, angle, velocity, spin, force, torque, still_for, boxed_center, boxed_angle, boxed_room, boxed,
+        has_target, alive, asleep);
+  saving::follows_from_others(turn, inverse_mass, inverse_moment, reach, skin, least, travel, movable, lone, driven,
+                              damped, under_way);
+}
+template <Is<Makeup> T, class Visit>
+void each_field(T& makeup, const Visit& visit) {
+  auto& [generation, shape, plate, mass, friction, restitution, friction_combine, restitution_combine, linear_damping,
+         angular_damping, fixed, sensor, saturated, groups, collides_with, drive, motion, target, reaction] = makeup;
+  visit(generation, shape, mass, friction, restitution, friction_combine, restitution_combine, linear_damping,
+        angular_damping, fixed, sensor, saturated, groups, collides_with, drive, motion, target, reaction);
+  saving::follows_from_others(plate);
+}
+template <Is<Meeting> T, class Visit>
+void each_field(T& meeting, const Visit& visit) {
+  auto& [a, b, friction, restitution, sensing, touching, count, exact, apart, relative, normal, core_a, core_b, feature,
+         pressing, dragging] = meeting;
+  visit(a, b, friction, restitution, sensing, touching, count, exact, apart, relative, normal, core_a, core_b, feature,
+        pressing, dragging);
+}
+template <Is<Hinge> T, class Visit>
+void each_field(T& hinge, const Visit& visit) {
+  auto& [lower, upper, motor_speed, motor_torque] = hinge;
+  visit(lower, upper, motor_speed, motor_torque);
+}
+template <Is<Distance> T, class Visit>
+void each_field(T& distance, const Visit& visit) {
+  auto& [shortest, longest] = distance;
+  visit(shortest, longest);
+}
+template <Is<JointSettings> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [a, b, anchor_a, anchor_b, kind, collide] = joint;
+  visit(a, b, anchor_a, anchor_b, kind, collide);
+}
+template <Is<Joint> T, class Visit>
+void each_field(T& joint, const Visit& visit) {
+  auto& [alive, generation, settings, impulse, pull, push, motor, lower, upper, total] = joint;
+  visit(alive, generation, settings, impulse, pull, push, motor, lower, upper, total);
+}
+template <Is<ContactPoint> T, class Visit>
+void each_field(T& point, const Visit& visit) {
+  auto& [position, penetration, feature] = point;
+  visit(position, penetration, feature);
+}
+template <Is<Manifold> T, class Visit>
+void each_field(T& manifold, const Visit& visit) {
+  auto& [normal, points, count] = manifold;
+  visit(normal, points, count);
+}
+template <Is<Contact> T, class Visit>
+void each_field(T& contact, const Visit& visit) {
+  auto& [a, b, manifold, impulse, total_impulse, approach_speed, began] = contact;
+  visit(a, b, manifold, impulse, total_impulse, approach_speed, began);
+}
+
+}  // namespace tweenfall::planar::inner

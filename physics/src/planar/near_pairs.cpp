@@ -1,0 +1,173 @@
+#include "planar/near_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contacts/combine.h"
+
+namespace tweenfall::planar::inner {
+
+namespace {
+
+/// Room to spare, besides that for what lies ahead, in parts of a body's reach.
+constexpr double spare = 0.05;
+/// Steps like this one for which a box has room.
+constexpr double foresight = 4;
+
+bool may_meet(const Body& body_a, const Makeup& a, const Body& body_b, const Makeup& b) {
+  if ((a.groups & b.collides_with) == 0 || (b.groups & a.collides_with) == 0) return false;
+  if (a.sensor || b.sensor) return !(a.sensor && b.sensor) && !(a.fixed && b.fixed);
+  return body_a.movable || body_b.movable;
+}
+
+Bounds box_around(const Body& body, const Makeup& makeup) {
+  Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+  bool first = true;
+  for (const Corner& corner : makeup.plate.corners) {
+    const Vec2 at = body.turn * corner.at;
+    low = first ? at : low.cwiseMin(at);
+    high = first ? at : high.cwiseMax(at);
+    first = false;
+  }
+  const Vec2 room = Vec2::Constant(makeup.plate.skin + body.boxed_room);
+  low += body.center - room;
+  high += body.center + room;
+  return {Vec3(low.x(), low.y(), 0), Vec3(high.x(), high.y(), 0)};
+}
+
+}  // namespace
+
+void NearPairs::remove(std::uint32_t body) {
+  tree_.remove(body);
+  std::erase(endless_, body);
+}
+
+void NearPairs::box(const Body& body, const Makeup& makeup, std::uint32_t index) {
+  if (!makeup.plate.endless) {
+    tree_.set(index, box_around(body, makeup));
+    return;
+  }
+  const auto place = std::lower_bound(endless_.begin(), endless_.end(), index);
+  if (place == endless_.end() || *place != index) endless_.insert(place, index);
+}
+
+void NearPairs::restore(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups) {
+  tree_ = {};
+  endless_.clear();
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].alive || !bodies[i].boxed) continue;
+    Body then = bodies[i];
+    then.center = bodies[i].boxed_center;
+    then.turn = Turn::of(bodies[i].boxed_angle);
+    box(then, makeups[i], i);
+  }
+  tree_.settle();
+}
+
+void NearPairs::look_around(std::uint32_t index, const std::vector<Body>& bodies, const std::vector<Makeup>& makeups,
+                            const std::vector<Pair>& apart) {
+  const Makeup& makeup = makeups[index];
+  seen_.clear();
+  const auto see = [&](std::uint32_t other) {
+    // Of two that are both looked around for, the first sees the other.
+    if (other == index || (is_renewed_[other] && other < index)) return;
+    if (may_meet(bodies[index], makeup, bodies[other], makeups[other])) seen_.push_back(other);
+  };
+  if (makeup.plate.endless) {
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+      if (bodies[i].alive && !makeups[i].plate.endless) see(i);
+  } else if (counts_[index] >= most) {
+    tree_.visit_open(tree_.of(index), see);
+  } else {
+    tree_.visit(tree_.of(index), see);
+  }
+  if (!makeup.plate.endless)
+    for (const std::uint32_t other : endless_) see(other);
+  std::sort(seen_.begin(), seen_.end());
+  for (const std::uint32_t other : seen_) {
+    const Pair pair = std::minmax(index, other);
+    if (!apart.empty() && std::binary_search(apart.begin(), apart.end(), pair)) continue;
+    if (bodies[index].movable && bodies[other].movable) {
+      if (counts_[index] >= most && counts_[other] >= most) continue;
+      for (const std::uint32_t one : {index, other})
+        if (++counts_[one] >= most && !closed_[one]) {
+          closed_[one] = 1;
+          tree_.close(one);
+        }
+    }
+    fresh_.push_back(pair);
+  }
+}
+
+void NearPairs::merge(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups,
+                      std::vector<Meeting>& meetings) {
+  std::sort(fresh_.begin(), fresh_.end());
+  merged_.clear();
+  merged_.reserve(meetings.size() + fresh_.size());
+  std::size_t next = 0;
+  const auto add_fresh = [&] {
+    Meeting meeting;
+    std::tie(meeting.a, meeting.b) = fresh_[next++];
+    const Makeup &a = makeups[meeting.a], &b = makeups[meeting.b];
+    meeting.friction = contacts::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
+    meeting.restitution =
+        contacts::combined_restitution(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
+    meeting.sensing = a.sensor || b.sensor;
+    merged_.push_back(meeting);
+  };
+  for (const Meeting& meeting : meetings) {
+    if (!bodies[meeting.a].alive || !bodies[meeting.b].alive) continue;
+    const Pair pair(meeting.a, meeting.b);
+    while (next < fresh_.size() && fresh_[next] < pair) add_fresh();
+    const bool again = next < fresh_.size() && fresh_[next] == pair;
+    if (again) ++next;
+    if (again || !(is_renewed_[meeting.a] || is_renewed_[meeting.b])) merged_.push_back(meeting);
+  }
+  while (next < fresh_.size()) add_fresh();
+  meetings.swap(merged_);
+}
+
+void NearPairs::update(std::vector<Body>& bodies, const std::vector<Makeup>& makeups, const std::vector<Pair>& apart,
+                       std::vector<Meeting>& meetings) {
+  renewed_.clear();
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.alive) continue;
+    const Makeup& makeup = makeups[i];
+    if (body.boxed) {
+      if (!body.under_way || makeup.plate.endless) continue;
+      const double turned = std::min(2.0, std::abs(body.angle - body.boxed_angle)) * body.reach;
+      const double needed = (body.center - body.boxed_center).norm() + turned + body.travel + close * body.reach;
+      if (needed <= body.boxed_room) continue;
+    }
+    body.boxed = true;
+    body.boxed_center = body.center;
+    body.boxed_angle = body.angle;
+    body.boxed_room = foresight * body.travel + (close + spare) * body.reach;
+    box(body, makeup, i);
+    renewed_.push_back(i);
+  }
+  if (renewed_.empty()) return;
+  tree_.settle();
+  is_renewed_.assign(bodies.size(), 0);
+  for (const std::uint32_t i : renewed_) is_renewed_[i] = 1;
+  counts_.assign(bodies.size(), 0);
+  closed_.assign(bodies.size(), 0);
+  for (const Meeting& meeting : meetings) {
+    if (is_renewed_[meeting.a] || is_renewed_[meeting.b]) continue;
+    if (!bodies[meeting.a].movable || !bodies[meeting.b].movable) continue;
+    ++counts_[meeting.a];
+    ++counts_[meeting.b];
+  }
+  tree_.open_all();
+  for (std::uint32_t i = 0; i < bodies.size(); ++i)
+    if (counts_[i] >= most && bodies[i].alive) {
+      closed_[i] = 1;
+      tree_.close(i);
+    }
+  fresh_.clear();
+  for (const std::uint32_t i : renewed_) look_around(i, bodies, makeups, apart);
+  merge(bodies, makeups, meetings);
+}
+
+}  // namespace tweenfall::planar::inner

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "pairs/bounds_tree.h"
+#include "planar/body.h"
+
+namespace tweenfall::planar::inner {
+
+/// Of a body's reach: what counts as touching before it does.
+constexpr double close = 0.02;
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< a < b
+
+/// Which bodies are near each other. Each has a box with room to spare in a tree, and is looked around for again only
+/// when it may have left it.
+class NearPairs {
+ public:
+  /// Two bodies that both are near so many that move by themselves already are no pair: thousands at one place part all
+  /// the same.
+  static constexpr std::uint32_t most = 48;
+
+  /// Brings the meetings up to date, sorted; those that stay keep what they know.
+  /// @param apart  sorted pairs that joints keep from touching
+  void update(std::vector<Body>& bodies, const std::vector<Makeup>& makeups, const std::vector<Pair>& apart,
+              std::vector<Meeting>& meetings);
+  void remove(std::uint32_t body);
+  /// Makes the tree again from what bodies know of their boxes.
+  void restore(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups);
+
+ private:
+  void box(const Body& body, const Makeup& makeup, std::uint32_t index);
+  void look_around(std::uint32_t index, const std::vector<Body>& bodies, const std::vector<Makeup>& makeups,
+                   const std::vector<Pair>& apart);
+  void merge(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups, std::vector<Meeting>& meetings);
+
+  pairs::BoundsTree tree_;
+  std::vector<std::uint32_t> endless_;  ///< sorted
+  std::vector<std::uint32_t> renewed_, seen_;
+  std::vector<char> is_renewed_;
+  std::vector<std::uint32_t> counts_;  ///< of pairs of two that move by themselves
+  std::vector<char> closed_;
+  std::vector<Pair> fresh_;
+  std::vector<Meeting> merged_;
+};
+
+}  // namespace tweenfall::planar::inner

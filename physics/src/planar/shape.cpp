@@ -1,0 +1,241 @@
+#include <tweenfall/physics/planar_shape.h>
+
+#include <tweenfall/curves/number_text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "planar/checks.h"
+#include "planar/manifold.h"
+#include "planar/plate.h"
+#include "planar/turning.h"
+
+namespace tweenfall::planar {
+
+namespace inner {
+namespace {
+
+constexpr double longest = 1e30;
+
+void require_size(double value, const char* name) {
+  demand(value > 0 && value <= longest,
+         std::string(name) + " must be positive and at most 1e30 m, but is " + number_text(value));
+}
+
+bool is_place(const Vec2& v) {
+  return std::abs(v.x()) <= longest && std::abs(v.y()) <= longest;
+}
+
+/// Twice the area that the corners go round; negative when clockwise.
+double twice_area(const std::vector<Vec2>& corners) {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    sum += cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+  return sum;
+}
+
+void check(const Circle& circle) {
+  require_size(circle.radius, "radius of a circle");
+}
+void check(const Capsule& capsule) {
+  require_size(capsule.radius, "radius of a capsule");
+  demand(capsule.half_height >= 0 && capsule.half_height <= longest,
+         "half height of a capsule must lie in 0 to 1e30 m, but is " + number_text(capsule.half_height));
+}
+void check(const Box& box) {
+  require_size(box.half_extents.x(), "half width of a box");
+  require_size(box.half_extents.y(), "half height of a box");
+}
+void check(const HalfPlane& half) {
+  demand(is_place(half.normal) && half.normal.squaredNorm() > 0 && std::isnormal(half.normal.norm()),
+         "the normal of a half-plane must be finite and longer than 0");
+  demand(std::abs(half.offset) <= longest,
+         "offset of a half-plane must be finite and at most 1e30 m, but is " + number_text(half.offset));
+}
+void check(const Polygon& polygon) {
+  const std::vector<Vec2>& corners = polygon.corners;
+  const std::size_t count = corners.size();
+  demand(count >= 3 && count <= Polygon::most_corners,
+         "a polygon has 3 to 64 corners, but this one has " + std::to_string(count));
+  for (const Vec2& corner : corners) demand(is_place(corner), "corners of a polygon must be finite and at most 1e30 m");
+  const double whole = twice_area(corners);
+  // Sides so short that rounding decides which way they turn are none.
+  double size = 0;
+  for (const Vec2& corner : corners) size = std::max(size, (corner - corners[0]).norm());
+  demand(std::abs(whole) > 1e-9 * size * size && whole != 0, "the corners of a polygon lie on one line");
+  for (std::size_t i = 0; i < count; ++i)
+    demand((corners[(i + 1) % count] - corners[i]).norm() > 1e-9 * size, "corners " + std::to_string(i) + " and " +
+                                                                             std::to_string((i + 1) % count) +
+                                                                             " of a polygon are one and the same");
+  double around = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 in = corners[(i + 1) % count] - corners[i];
+    const Vec2 out = corners[(i + 2) % count] - corners[(i + 1) % count];
+    const double turned = cross(in, out) * (whole > 0 ? 1 : -1);
+    demand(turned > 1e-12 * in.norm() * out.norm() || (turned >= 0 && in.dot(out) > 0),
+           "the polygon is not convex at corner " + std::to_string((i + 1) % count));
+    around += elementary::atan2(turned, in.dot(out));
+  }
+  demand(around < 1.5 * 2 * std::numbers::pi, "the corners of a polygon go round more than once");
+}
+
+/// Centroid and second moment about it for unit mass.
+/// Source: Green's theorem; e.g. P. Bourke, Calculating the area and centroid of a polygon, 1988.
+MassProperties unit_mass(const Polygon& polygon) {
+  const std::vector<Vec2>& corners = polygon.corners;
+  Vec2 first(0, 0);
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const Vec2 p = corners[i] - corners[0], q = corners[i + 1] - corners[0];
+    first += cross(p, q) * (p + q) / 3;
+  }
+  MassProperties properties;
+  properties.mass = 1;
+  const double twice = twice_area(corners);
+  const Vec2 centroid = first / twice;
+  properties.center = corners[0] + centroid;
+  // Triangles from the centroid: then nothing has to be taken off again.
+  double second = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 p = corners[i] - properties.center, q = corners[(i + 1) % corners.size()] - properties.center;
+    second += cross(p, q) * (p.squaredNorm() + p.dot(q) + q.squaredNorm()) / 6;
+  }
+  properties.moment = second / twice;
+  return properties;
+}
+MassProperties unit_mass(const Circle& circle) {
+  return {1, Vec2(0, 0), 0.5 * circle.radius * circle.radius};
+}
+MassProperties unit_mass(const Box& box) {
+  return {1, Vec2(0, 0), box.half_extents.squaredNorm() / 3};
+}
+MassProperties unit_mass(const Capsule& capsule) {
+  const double r = capsule.radius, h = capsule.half_height;
+  const double straight = 4 * r * h, round = std::numbers::pi * r * r, all = straight + round;
+  // Two half circles, each with its center of mass 4 r / (3 pi) beyond the middle of its flat side.
+  const double off = 4 * r / (3 * std::numbers::pi);
+  const double half_disc = 0.5 * r * r - off * off + (h + off) * (h + off);
+  return {1, Vec2(0, 0), (straight * (r * r + h * h) / 3 + round * half_disc) / all};
+}
+MassProperties unit_mass(const HalfPlane&) {
+  throw std::invalid_argument("a half-plane has no mass: only fixed and keyed bodies can be one");
+}
+
+double area_of(const Circle& circle) {
+  return std::numbers::pi * circle.radius * circle.radius;
+}
+double area_of(const Capsule& capsule) {
+  return capsule.radius * (4 * capsule.half_height + std::numbers::pi * capsule.radius);
+}
+double area_of(const Box& box) {
+  return 4 * box.half_extents.x() * box.half_extents.y();
+}
+double area_of(const Polygon& polygon) {
+  return 0.5 * std::abs(twice_area(polygon.corners));
+}
+double area_of(const HalfPlane&) {
+  return std::numeric_limits<double>::infinity();
+}
+
+std::vector<Vec2> corners_of(const Circle&) {
+  return {Vec2(0, 0)};
+}
+std::vector<Vec2> corners_of(const Capsule& capsule) {
+  if (capsule.half_height == 0) return {Vec2(0, 0)};
+  return {Vec2(0, -capsule.half_height), Vec2(0, capsule.half_height)};
+}
+std::vector<Vec2> corners_of(const Box& box) {
+  const double x = box.half_extents.x(), y = box.half_extents.y();
+  return {Vec2(-x, -y), Vec2(x, -y), Vec2(x, y), Vec2(-x, y)};
+}
+std::vector<Vec2> corners_of(const Polygon& polygon) {
+  std::vector<Vec2> corners = polygon.corners;
+  if (twice_area(corners) < 0) std::reverse(corners.begin(), corners.end());
+  return corners;
+}
+std::vector<Vec2> corners_of(const HalfPlane& half) {
+  return {half.offset * half.normal.normalized()};
+}
+
+double skin_of(const Outline& outline) {
+  if (const auto* circle = std::get_if<Circle>(&outline)) return circle->radius;
+  if (const auto* capsule = std::get_if<Capsule>(&outline)) return capsule->radius;
+  return 0;
+}
+
+}  // namespace
+
+Plate plate_of(const Shape& shape, const Vec2& center) {
+  Plate plate;
+  plate.skin = skin_of(shape.outline);
+  const Turn turn = Turn::of(shape.angle);
+  for (const Vec2& corner : std::visit([](const auto& outline) { return corners_of(outline); }, shape.outline))
+    plate.corners.push_back({shape.offset + turn * corner - center, Vec2(0, 0)});
+  if (const auto* half = std::get_if<HalfPlane>(&shape.outline)) {
+    plate.endless = true;
+    plate.corners[0].normal = turn * half->normal.normalized();
+    plate.reach = plate.least = std::numeric_limits<double>::infinity();
+    return plate;
+  }
+  const std::size_t count = plate.corners.size();
+  for (std::size_t i = 0; i < count && count > 1; ++i) {
+    const Vec2 side = plate.corners[(i + 1) % count].at - plate.corners[i].at;
+    plate.corners[i].normal = (-quarter(side)).normalized();
+  }
+  plate.least = std::numeric_limits<double>::infinity();
+  for (const Corner& corner : plate.corners) {
+    plate.reach = std::max(plate.reach, corner.at.norm());
+    plate.least = std::min(plate.least, count > 2 ? corner.at.dot(corner.normal) : 0.0);
+  }
+  plate.reach += plate.skin;
+  plate.least += plate.skin;
+  return plate;
+}
+
+}  // namespace inner
+
+void validate(const Shape& shape) {
+  std::visit([](const auto& outline) { inner::check(outline); }, shape.outline);
+  inner::demand(inner::is_place(shape.offset), "offset of a shape must be finite and at most 1e30 m");
+  inner::demand(std::abs(shape.angle) <= inner::longest, "angle of a shape must be finite and at most 1e30 rad");
+}
+
+double area(const Outline& outline) {
+  return std::visit([](const auto& its) { return inner::area_of(its); }, outline);
+}
+
+MassProperties mass_properties(const Shape& shape, double mass) {
+  validate(shape);
+  inner::demand(mass > 0 && mass <= inner::longest,
+                "mass must be positive and at most 1e30 kg, but is " + number_text(mass));
+  MassProperties properties = std::visit([](const auto& outline) { return inner::unit_mass(outline); }, shape.outline);
+  properties.mass = mass;
+  properties.moment *= mass;
+  properties.center = shape.offset + inner::Turn::of(shape.angle) * properties.center;
+  return properties;
+}
+
+Manifold collide(const Shape& a, const Place& place_a, const Shape& b, const Place& place_b, double margin) {
+  validate(a);
+  validate(b);
+  const inner::Plate plate_a = inner::plate_of(a, Vec2(0, 0)), plate_b = inner::plate_of(b, Vec2(0, 0));
+  const inner::Placed at_a{&plate_a, place_a.position, inner::Turn::of(place_a.angle)};
+  const inner::Placed at_b{&plate_b, place_b.position, inner::Turn::of(place_b.angle)};
+  const inner::Found found = inner::find_manifold(at_a, at_b, margin);
+  Manifold manifold;
+  manifold.normal = found.normal;
+  manifold.count = found.count;
+  for (int i = 0; i < found.count; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const inner::FoundPoint& point = found.points[k];
+    const Vec2 on_a = place_a.position + point.core_a + plate_a.skin * found.normal;
+    const Vec2 on_b = place_b.position + point.core_b - plate_b.skin * found.normal;
+    manifold.points[k] = {0.5 * (on_a + on_b), -point.gap, point.feature};
+  }
+  return manifold;
+}
+
+}  // namespace tweenfall::planar

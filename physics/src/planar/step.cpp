@@ -1,0 +1,168 @@
+#include <tweenfall/curves/elementary.h>
+#include <tweenfall/curves/number_text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "planar/world_data.h"
+
+namespace tweenfall::planar {
+
+using inner::Body;
+using inner::Makeup;
+using inner::Meeting;
+
+namespace inner {
+namespace {
+
+constexpr double countable = 1e30;
+
+bool is_finite(const Body& body) {
+  return std::abs(body.center.x()) <= countable && std::abs(body.center.y()) <= countable &&
+         std::abs(body.velocity.x()) <= countable && std::abs(body.velocity.y()) <= countable &&
+         std::abs(body.angle) <= countable && std::abs(body.spin) <= countable;
+}
+
+}  // namespace
+}  // namespace inner
+
+void World::Implementation::damp(std::uint32_t index, double h) {
+  const Makeup& makeup = makeups[index];
+  inner::Gain& gain = solver.gains[index];
+  gain.keep = elementary::exp(-makeup.linear_damping * h);
+  gain.keep_turn = elementary::exp(-makeup.angular_damping * h);
+}
+
+/// What each body does by itself: gains, keyed courses, how far it may get.
+void World::Implementation::set_out(double dt) {
+  moving.clear();
+  solver.gains.assign(bodies.size(), {});
+  const double h = dt / settings.sub_steps;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.alive) continue;
+    Makeup& makeup = makeups[i];
+    body.under_way = false;
+    body.travel = 0;
+    double gained = 0;
+    if (!body.movable) {
+      if (makeup.fixed) continue;
+      // The solver sees the mean velocity that takes it to its target.
+      body.velocity = Vec2(0, 0);
+      body.spin = 0;
+      if (body.has_target) {
+        const Vec2 end = makeup.target.position + inner::Turn::of(makeup.target.angle) * makeup.mass.center;
+        body.velocity = (end - body.center) / dt;
+        body.spin = (makeup.target.angle - body.angle) / dt;
+      }
+      body.under_way = body.velocity != Vec2::Zero() || body.spin != 0;
+    } else {
+      if (body.asleep) continue;
+      body.under_way = true;
+      inner::Gain& gain = solver.gains[i];
+      const Vec2 acceleration = settings.gravity + body.inverse_mass * body.force;
+      gain.x = acceleration.x();
+      gain.y = acceleration.y();
+      gain.turn = body.inverse_moment * body.torque;
+      if (body.damped) damp(i, h);
+      gained = (acceleration.norm() + body.reach * std::abs(gain.turn)) * dt;
+      if (body.driven) makeup.saturated = false;
+      if (body.driven)
+        gained += (makeup.target.position - motion_of(i).position).norm() / dt + makeup.target.velocity.norm();
+    }
+    if (!body.under_way) continue;
+    moving.push_back(i);
+    body.travel = (body.velocity.norm() + gained) * dt + std::min(2.0, std::abs(body.spin) * dt) * body.reach;
+    // Of what is not finite no box can be made.
+    if (!(body.travel <= inner::countable)) body.travel = inner::countable;
+  }
+}
+
+void World::Implementation::find_meetings(double dt) {
+  looked_at.assign(meetings.size(), 0);
+  do {
+    for (std::size_t k = 0; k < meetings.size(); ++k) {
+      Meeting& meeting = meetings[k];
+      if (looked_at[k] || meeting.sensing || !(bodies[meeting.a].under_way || bodies[meeting.b].under_way)) continue;
+      looked_at[k] = 1;
+      look_at(meeting, dt);
+    }
+  } while (sleepers > 0 && rouse());
+}
+
+/// Keyed bodies end exactly where they shall, with the path's own velocity.
+void World::Implementation::arrive(double dt) {
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.alive) continue;
+    body.force = Vec2(0, 0);
+    body.torque = 0;
+    if (body.movable) body.has_target = false;
+    if (body.movable && !body.driven) continue;
+    Makeup& makeup = makeups[i];
+    if (body.driven) {
+      // It goes on to be pulled to where it was told last.
+      makeup.target.velocity = Vec2(0, 0);
+      makeup.target.spin = 0;
+      continue;
+    }
+    if (makeup.fixed) continue;
+    Motion arrived = makeup.motion;
+    if (body.has_target) {
+      arrived = makeup.target;
+    } else {
+      arrived.velocity = Vec2(0, 0);
+      arrived.spin = 0;
+    }
+    place(i, arrived);
+  }
+  time += dt;
+}
+
+void World::Implementation::check_finite(double dt) {
+  for (const std::uint32_t i : moving) {
+    if (inner::is_finite(bodies[i])) continue;
+    failed = true;
+    throw NotFinite(handle(i), time + dt,
+                    "a force, an impulse or a joint that is too strong for its mass, or a step that is too long");
+  }
+}
+
+void World::Implementation::step(double dt) {
+  if (!(dt > 0 && dt <= inner::countable))
+    throw std::invalid_argument("the length of a step must be positive and finite, but is " + number_text(dt) + " s");
+  if (failed) {
+    moving.clear();
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+      if (bodies[i].alive) moving.push_back(i);
+    failed = false;
+    check_finite(0);
+  }
+  step_length = dt;
+  starts.resize(bodies.size());
+  start_angles.resize(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    starts[i] = bodies[i].center;
+    start_angles[i] = bodies[i].angle;
+  }
+  set_out(dt);
+  check_finite(dt);
+  near.update(bodies, makeups, kept_apart, meetings);
+  find_meetings(dt);
+  active.clear();
+  for (std::uint32_t k = 0; k < meetings.size(); ++k)
+    if (looked_at[k] && meetings[k].count > 0) active.push_back(k);
+  const double h = dt / settings.sub_steps;
+  // In shorter steps impulses are smaller.
+  const double warmth = last_h > 0 ? std::min(1.0, h / last_h) : 0;
+  last_h = h;
+  solver.solve(
+      {bodies, makeups, meetings, joints, moving, active, settings.push_out_speed, dt, settings.sub_steps, warmth});
+  report();
+  arrive(dt);
+  if (!std::isinf(settings.sleep_after)) let_sleep(dt);
+  check_finite(0);
+}
+
+}  // namespace tweenfall::planar

@@ -1,0 +1,357 @@
+#include <tweenfall/physics/planar_world.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "planar/checks.h"
+#include "planar/world_data.h"
+#include "state/checks.h"
+
+namespace tweenfall::planar {
+
+using inner::Body;
+using inner::Joint;
+using inner::Makeup;
+using inner::Meeting;
+
+Body& World::Implementation::at(BodyId id) {
+  if (!(id.index < bodies.size() && bodies[id.index].alive && makeups[id.index].generation == id.generation))
+    throw std::invalid_argument("there is no body with index " + std::to_string(id.index) + " and generation " +
+                                std::to_string(id.generation) + ": it was removed, or belongs to another world");
+  return bodies[id.index];
+}
+const Body& World::Implementation::at(BodyId id) const {
+  return const_cast<Implementation*>(this)->at(id);
+}
+Joint& World::Implementation::at(JointId id) {
+  if (!(id.index < joints.size() && joints[id.index].alive && joints[id.index].generation == id.generation))
+    throw std::invalid_argument("there is no joint with index " + std::to_string(id.index) + " and generation " +
+                                std::to_string(id.generation) + ": it was removed, or belongs to another world");
+  return joints[id.index];
+}
+const Joint& World::Implementation::at(JointId id) const {
+  return const_cast<Implementation*>(this)->at(id);
+}
+
+Motion World::Implementation::motion_of(std::uint32_t index) const {
+  const Body& body = bodies[index];
+  const Makeup& makeup = makeups[index];
+  if (!body.movable) return makeup.motion;
+  const Vec2 arm = body.turn * makeup.mass.center;
+  return {body.center - arm, body.angle, body.velocity_at(-arm), body.spin};
+}
+
+void World::Implementation::place(std::uint32_t index, const Motion& motion) {
+  Body& body = bodies[index];
+  Makeup& makeup = makeups[index];
+  makeup.motion = motion;
+  makeup.target = {motion.position, motion.angle, Vec2(0, 0), 0};
+  body.has_target = false;
+  body.angle = motion.angle;
+  body.turn = inner::Turn::of(motion.angle);
+  const Vec2 arm = body.turn * makeup.mass.center;
+  body.center = motion.position + arm;
+  body.velocity = motion.velocity + motion.spin * inner::quarter(arm);
+  body.spin = motion.spin;
+}
+
+void World::Implementation::give_mass(std::uint32_t index) {
+  Body& body = bodies[index];
+  const Makeup& makeup = makeups[index];
+  body.skin = makeup.plate.skin;
+  body.reach = makeup.plate.endless ? 0 : makeup.plate.reach;
+  body.least = makeup.plate.least;
+  body.lone = makeup.plate.corners.size() == 1 && !makeup.plate.endless;
+  body.damped = makeup.linear_damping > 0 || makeup.angular_damping > 0;
+  body.driven = makeup.drive.owner() == Owner::driven;
+  body.movable = !makeup.fixed && makeup.drive.owner() != Owner::keyed;
+  body.inverse_mass = body.movable ? 1 / makeup.mass.mass : 0;
+  body.inverse_moment = body.movable ? 1 / makeup.mass.moment : 0;
+}
+
+void World::Implementation::wake(std::uint32_t index) {
+  Body& body = bodies[index];
+  if (body.asleep) --sleepers;
+  body.asleep = false;
+  bodies[index].still_for = 0;
+}
+
+void World::Implementation::wake_neighbors(std::uint32_t index) {
+  for (const Meeting& meeting : meetings)
+    if (meeting.count > 0 && (meeting.a == index || meeting.b == index))
+      wake(meeting.a == index ? meeting.b : meeting.a);
+  for (const Joint& joint : joints)
+    for (const auto& [one, other] :
+         {std::pair(joint.settings.a, joint.settings.b), std::pair(joint.settings.b, joint.settings.a)})
+      if (joint.alive && one.index == index && other != BodyId{}) wake(other.index);
+}
+
+void World::Implementation::look_again(std::uint32_t index) {
+  bodies[index].boxed = false;
+}
+
+void World::Implementation::keep_apart() {
+  kept_apart.clear();
+  for (const Joint& joint : joints) {
+    const JointSettings& its = joint.settings;
+    if (!joint.alive || its.collide || its.a == BodyId{} || its.b == BodyId{}) continue;
+    kept_apart.push_back(std::minmax(its.a.index, its.b.index));
+  }
+  std::sort(kept_apart.begin(), kept_apart.end());
+}
+
+World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>()) {
+  inner::demand_settings(settings);
+  implementation_->settings = settings;
+}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::World(const World& other) : implementation_(std::make_unique<Implementation>(*other.implementation_)) {}
+World& World::operator=(const World& other) {
+  if (this != &other) implementation_ = std::make_unique<Implementation>(*other.implementation_);
+  return *this;
+}
+
+BodyId World::add(const BodySettings& settings) {
+  inner::demand_body(settings);
+  Implementation& world = *implementation_;
+  Makeup makeup;
+  makeup.mass = inner::mass_of(settings);
+  makeup.shape = settings.shape;
+  makeup.plate = inner::plate_of(settings.shape, makeup.mass.center);
+  makeup.friction = settings.friction;
+  makeup.restitution = settings.restitution;
+  makeup.friction_combine = settings.friction_combine;
+  makeup.restitution_combine = settings.restitution_combine;
+  makeup.linear_damping = settings.linear_damping;
+  makeup.angular_damping = settings.angular_damping;
+  makeup.fixed = settings.fixed;
+  makeup.sensor = settings.sensor;
+  makeup.groups = settings.groups;
+  makeup.collides_with = settings.collides_with;
+  makeup.drive = settings.fixed ? Drive::free() : settings.drive;
+  std::uint32_t index = 0;
+  if (world.unused.empty()) {
+    index = static_cast<std::uint32_t>(world.bodies.size());
+    world.bodies.emplace_back();
+    world.makeups.push_back(std::move(makeup));
+  } else {
+    index = world.unused.back();
+    world.unused.pop_back();
+    makeup.generation = world.makeups[index].generation;
+    world.bodies[index] = {};
+    world.makeups[index] = std::move(makeup);
+  }
+  Body& body = world.bodies[index];
+  body.alive = true;
+  Motion motion = settings.motion;
+  if (settings.fixed) {
+    motion.velocity = Vec2(0, 0);
+    motion.spin = 0;
+  }
+  world.give_mass(index);
+  world.place(index, motion);
+  return world.handle(index);
+}
+
+void World::remove(BodyId id) {
+  Implementation& world = *implementation_;
+  static_cast<void>(world.at(id));
+  world.wake_neighbors(id.index);
+  world.wake(id.index);
+  for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
+    const Joint& joint = world.joints[i];
+    if (joint.alive && (joint.settings.a == id || joint.settings.b == id)) remove_joint({i, joint.generation});
+  }
+  std::erase_if(world.meetings, [&](const Meeting& meeting) { return meeting.a == id.index || meeting.b == id.index; });
+  world.near.remove(id.index);
+  world.bodies[id.index] = {};
+  const std::uint32_t generation = id.generation + 1;
+  world.makeups[id.index] = {};
+  world.makeups[id.index].generation = generation;
+  world.unused.push_back(id.index);
+}
+
+bool World::contains(BodyId id) const noexcept {
+  const Implementation& world = *implementation_;
+  return id.index < world.bodies.size() && world.bodies[id.index].alive &&
+         world.makeups[id.index].generation == id.generation;
+}
+
+std::vector<BodyId> World::bodies() const {
+  std::vector<BodyId> all;
+  for (std::uint32_t i = 0; i < implementation_->bodies.size(); ++i)
+    if (implementation_->bodies[i].alive) all.push_back(implementation_->handle(i));
+  return all;
+}
+
+Motion World::motion(BodyId body) const {
+  static_cast<void>(implementation_->at(body));
+  return implementation_->motion_of(body.index);
+}
+Vec2 World::center_velocity(BodyId body) const {
+  return implementation_->at(body).velocity;
+}
+const MassProperties& World::mass(BodyId body) const {
+  static_cast<void>(implementation_->at(body));
+  return implementation_->makeups[body.index].mass;
+}
+const Shape& World::shape(BodyId body) const {
+  static_cast<void>(implementation_->at(body));
+  return implementation_->makeups[body.index].shape;
+}
+Owner World::owner(BodyId body) const {
+  static_cast<void>(implementation_->at(body));
+  return implementation_->makeups[body.index].drive.owner();
+}
+Drive World::drive(BodyId body) const {
+  static_cast<void>(implementation_->at(body));
+  return implementation_->makeups[body.index].drive;
+}
+bool World::is_fixed(BodyId body) const {
+  static_cast<void>(implementation_->at(body));
+  return implementation_->makeups[body.index].fixed;
+}
+bool World::is_sensor(BodyId body) const {
+  static_cast<void>(implementation_->at(body));
+  return implementation_->makeups[body.index].sensor;
+}
+double World::still_for(BodyId body) const {
+  return implementation_->at(body).still_for;
+}
+bool World::asleep(BodyId body) const {
+  return implementation_->at(body).asleep;
+}
+bool World::saturated(BodyId body) const {
+  static_cast<void>(implementation_->at(body));
+  return implementation_->makeups[body.index].saturated;
+}
+Vec2 World::reaction(BodyId body) const {
+  static_cast<void>(implementation_->at(body));
+  return implementation_->makeups[body.index].reaction;
+}
+double World::kinetic_energy() const {
+  double energy = 0;
+  for (std::size_t i = 0; i < implementation_->bodies.size(); ++i) {
+    const Body& body = implementation_->bodies[i];
+    if (!body.alive || !body.movable) continue;
+    const MassProperties& mass = implementation_->makeups[i].mass;
+    energy += 0.5 * (mass.mass * body.velocity.squaredNorm() + mass.moment * body.spin * body.spin);
+  }
+  return energy;
+}
+double World::time() const noexcept {
+  return implementation_->time;
+}
+
+void World::set_motion(BodyId id, const Motion& motion) {
+  static_cast<void>(implementation_->at(id));
+  inner::demand_motion(motion);
+  implementation_->wake_neighbors(id.index);
+  implementation_->wake(id.index);
+  Motion its = motion;
+  if (implementation_->makeups[id.index].fixed) {
+    its.velocity = Vec2(0, 0);
+    its.spin = 0;
+  }
+  implementation_->place(id.index, its);
+  implementation_->look_again(id.index);
+  implementation_->failed = false;
+}
+
+void World::set_drive(BodyId id, const Drive& drive) {
+  Implementation& world = *implementation_;
+  static_cast<void>(world.at(id));
+  state::validate(drive);
+  Makeup& makeup = world.makeups[id.index];
+  inner::demand(!makeup.fixed, "a fixed body cannot be handed over");
+  inner::demand(drive.owner() == Owner::keyed || !makeup.plate.endless,
+                "a half-plane has no mass: only fixed and keyed bodies can be one");
+  const Motion motion = world.motion_of(id.index);
+  if (makeup.drive.owner() != drive.owner()) {
+    for (Meeting& meeting : world.meetings)
+      if (meeting.a == id.index || meeting.b == id.index) meeting.pressing = meeting.dragging = {};
+    makeup.drive = drive;
+    world.give_mass(id.index);
+    const bool keeps = world.bodies[id.index].has_target;
+    const Motion target = makeup.target;
+    world.place(id.index, motion);
+    if (keeps) {
+      world.bodies[id.index].has_target = true;
+      makeup.target = target;
+    }
+    world.look_again(id.index);
+  }
+  makeup.drive = drive;
+  world.give_mass(id.index);
+  world.wake_neighbors(id.index);
+  world.wake(id.index);
+}
+
+void World::set_target(BodyId id, const Motion& end_of_step) {
+  static_cast<void>(implementation_->at(id));
+  inner::demand_motion(end_of_step);
+  Makeup& makeup = implementation_->makeups[id.index];
+  makeup.target = end_of_step;
+  implementation_->bodies[id.index].has_target = true;
+  if (makeup.drive.owner() == Owner::driven) implementation_->wake(id.index);
+}
+
+void World::apply_force(BodyId id, const Vec2& force, const Vec2& point) {
+  Body& body = implementation_->at(id);
+  inner::demand_numbers(force, "force");
+  inner::demand_numbers(point, "point of a force");
+  body.force += force;
+  body.torque += inner::cross(point - body.center, force);
+  implementation_->wake(id.index);
+}
+
+void World::apply_torque(BodyId id, double torque) {
+  static_cast<void>(implementation_->at(id));
+  inner::demand_number(torque, "torque");
+  implementation_->at(id).torque += torque;
+  implementation_->wake(id.index);
+}
+
+void World::apply_impulse(BodyId id, const Vec2& impulse, const Vec2& point) {
+  Body& body = implementation_->at(id);
+  inner::demand_numbers(impulse, "impulse");
+  inner::demand_numbers(point, "point of an impulse");
+  body.velocity += body.inverse_mass * impulse;
+  body.spin += body.inverse_moment * inner::cross(point - body.center, impulse);
+  implementation_->wake(id.index);
+}
+
+void World::wake(BodyId id) {
+  static_cast<void>(implementation_->at(id));
+  implementation_->wake(id.index);
+}
+
+void World::set_groups(BodyId id, std::uint64_t groups, std::uint64_t collides_with) {
+  static_cast<void>(implementation_->at(id));
+  Makeup& makeup = implementation_->makeups[id.index];
+  makeup.groups = groups;
+  makeup.collides_with = collides_with;
+  implementation_->wake_neighbors(id.index);
+  implementation_->wake(id.index);
+  implementation_->look_again(id.index);
+}
+
+std::span<const Contact> World::contacts() const noexcept {
+  return implementation_->contacts;
+}
+std::span<const EndedContact> World::ended_contacts() const noexcept {
+  return implementation_->ended;
+}
+std::span<const SensorOverlap> World::sensor_overlaps() const noexcept {
+  return implementation_->overlaps;
+}
+
+void World::step(double dt) {
+  implementation_->step(dt);
+}
+
+}  // namespace tweenfall::planar

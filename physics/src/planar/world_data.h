@@ -1,0 +1,76 @@
+#pragma once
+
+#include <tweenfall/physics/planar_world.h>
+
+#include <vector>
+
+#include "planar/body.h"
+#include "planar/contact_solver.h"
+#include "planar/near_pairs.h"
+
+namespace tweenfall::planar {
+
+struct World::Implementation {
+  WorldSettings settings;
+  double time = 0;
+  std::vector<inner::Body> bodies;  ///< by index; those of removed bodies are not alive
+  std::vector<inner::Makeup> makeups;
+  std::vector<std::uint32_t> unused;  ///< indices, the last removed last
+  std::vector<inner::Joint> joints;
+  std::vector<std::uint32_t> unused_joints;
+  std::vector<inner::Meeting> meetings;  ///< sorted
+  double last_h = 0;                     ///< length of the last sub-step, s
+  bool failed = false;                   ///< a body is not finite
+
+  // What follows from these
+  std::vector<inner::Pair> kept_apart;  ///< by joints, sorted
+  inner::NearPairs near;
+  std::size_t sleepers = 0;
+
+  // Of the last step
+  std::vector<Contact> contacts, contacts_before;
+  std::vector<EndedContact> ended;
+  std::vector<SensorOverlap> overlaps;
+
+  // Room for a step
+  double step_length = 0;             ///< s
+  std::vector<std::uint32_t> moving;  ///< under way
+  std::vector<std::uint32_t> active;  ///< meetings with points to be solved
+  std::vector<char> looked_at;        ///< by meeting
+  std::vector<std::uint32_t> root;    ///< of islands
+  std::vector<double> stillness;
+  std::vector<Vec2> starts;  ///< centers
+  std::vector<double> start_angles;
+  inner::ContactSolver solver;
+
+  [[nodiscard]] inner::Body& at(BodyId id);  ///< @throws std::invalid_argument
+  [[nodiscard]] const inner::Body& at(BodyId id) const;
+  [[nodiscard]] BodyId handle(std::uint32_t index) const { return {index, makeups[index].generation}; }
+  [[nodiscard]] inner::Joint& at(JointId id);
+  [[nodiscard]] const inner::Joint& at(JointId id) const;
+  [[nodiscard]] Motion motion_of(std::uint32_t index) const;
+  void place(std::uint32_t index, const Motion& motion);
+  void give_mass(std::uint32_t index);  ///< what of its mass moves
+  void wake(std::uint32_t index);
+  void wake_neighbors(std::uint32_t index);
+  void keep_apart();  ///< finds `kept_apart` again
+  void look_again(std::uint32_t index);
+  void settle_in();  ///< after loading
+
+  void step(double dt);
+  void set_out(double dt);
+  void damp(std::uint32_t index, double h);  ///< what damping leaves in a sub-step
+  void find_meetings(double dt);
+  void look_at(inner::Meeting& meeting, double dt);
+  bool rouse();
+  void join_islands();
+  [[nodiscard]] std::uint32_t root_of(std::uint32_t index);
+  void arrive(double dt);
+  void report();
+  void report(inner::Meeting& meeting, const inner::Given* given);
+  void sense();
+  void let_sleep(double dt);
+  void check_finite(double dt);
+};
+
+}  // namespace tweenfall::planar

@@ -1,0 +1,131 @@
+#include <tweenfall/curves/number_text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "planar/checks.h"
+#include "planar/world_data.h"
+
+namespace tweenfall::planar {
+
+namespace inner {
+namespace {
+
+constexpr double farthest = 1e30;
+
+void check(const Hinge& hinge) {
+  demand(hinge.lower <= hinge.upper, "limits of a hinge must be in order, but are " + number_text(hinge.lower) +
+                                         " and " + number_text(hinge.upper) + " rad");
+  demand(std::abs(hinge.motor_speed) <= farthest, "motor speed of a hinge must be finite and at most 1e30 rad/s");
+  demand(hinge.motor_torque >= 0 && hinge.motor_torque <= farthest,
+         "motor torque of a hinge must lie in 0 to 1e30 N m, but is " + number_text(hinge.motor_torque));
+}
+void check(const Distance& distance) {
+  demand(distance.shortest >= 0 && distance.shortest <= distance.longest && distance.longest > 0 &&
+             distance.shortest <= farthest,
+         "a distance needs 0 <= shortest <= longest, longest > 0, but has " + number_text(distance.shortest) + " and " +
+             number_text(distance.longest) + " m");
+}
+void check_anchor(const Vec2& anchor) {
+  demand(std::abs(anchor.x()) <= farthest && std::abs(anchor.y()) <= farthest,
+         "anchors of a joint must be finite and at most 1e30 m");
+}
+
+}  // namespace
+
+void validate_joint(const JointSettings& joint) {
+  demand(joint.a != joint.b, "a joint needs two different ends");
+  check_anchor(joint.anchor_a);
+  check_anchor(joint.anchor_b);
+  std::visit([](const auto& kind) { check(kind); }, joint.kind);
+}
+
+}  // namespace inner
+
+using inner::Body;
+using inner::Joint;
+
+JointId World::add_joint(const JointSettings& settings) {
+  Implementation& world = *implementation_;
+  inner::validate_joint(settings);
+  for (const BodyId& end : {settings.a, settings.b})
+    if (end != BodyId{}) static_cast<void>(world.at(end));
+  std::uint32_t index = 0;
+  if (world.unused_joints.empty()) {
+    index = static_cast<std::uint32_t>(world.joints.size());
+    world.joints.emplace_back();
+  } else {
+    index = world.unused_joints.back();
+    world.unused_joints.pop_back();
+  }
+  const std::uint32_t generation = world.joints[index].generation;
+  world.joints[index] = {};
+  world.joints[index].alive = true;
+  world.joints[index].generation = generation;
+  world.joints[index].settings = settings;
+  for (const BodyId& end : {settings.a, settings.b}) {
+    if (end == BodyId{}) continue;
+    world.wake_neighbors(end.index);
+    world.wake(end.index);
+    world.look_again(end.index);
+  }
+  world.keep_apart();
+  return {index, generation};
+}
+
+void World::remove_joint(JointId id) {
+  Implementation& world = *implementation_;
+  Joint& joint = world.at(id);
+  for (const BodyId& end : {joint.settings.a, joint.settings.b}) {
+    if (end == BodyId{} || !contains(end)) continue;
+    world.wake_neighbors(end.index);
+    world.wake(end.index);
+    world.look_again(end.index);
+  }
+  joint = {};
+  joint.generation = id.generation + 1;
+  world.unused_joints.push_back(id.index);
+  world.keep_apart();
+}
+
+bool World::contains(JointId id) const noexcept {
+  return id.index < implementation_->joints.size() && implementation_->joints[id.index].alive &&
+         implementation_->joints[id.index].generation == id.generation;
+}
+
+const JointSettings& World::joint(JointId id) const {
+  return implementation_->at(id).settings;
+}
+
+JointReading World::reading(JointId id) const {
+  const Implementation& world = *implementation_;
+  const Joint& joint = world.at(id);
+  struct End {
+    Vec2 at, velocity;
+    double angle, spin;
+  };
+  const auto end = [&](const BodyId& body, const Vec2& anchor) -> End {
+    if (body == BodyId{}) return {anchor, Vec2(0, 0), 0, 0};
+    const Body& its = world.bodies[body.index];
+    const Vec2 arm = its.turn * Vec2(anchor - world.makeups[body.index].mass.center);
+    return {its.center + arm, its.velocity_at(arm), its.angle, its.spin};
+  };
+  const End a = end(joint.settings.a, joint.settings.anchor_a), b = end(joint.settings.b, joint.settings.anchor_b);
+  JointReading reading;
+  reading.impulse = joint.total;
+  const Vec2 apart = b.at - a.at;
+  const double length = apart.norm();
+  if (const auto* distance = std::get_if<Distance>(&joint.settings.kind)) {
+    reading.value = length;
+    reading.rate = length > 0 ? apart.dot(b.velocity - a.velocity) / length : 0;
+    reading.gap = std::max({0.0, length - distance->longest, distance->shortest - length});
+  } else {
+    reading.value = b.angle - a.angle;
+    reading.rate = b.spin - a.spin;
+    reading.gap = length;
+  }
+  return reading;
+}
+
+}  // namespace tweenfall::planar

@@ -1,0 +1,134 @@
+#include <tweenfall/physics/planar_world.h>
+
+#include "processor_time.h"
+#include "support.h"
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// Heaps, a keyed pusher, a driven body, joints, a sensor, sleepers.
+planar::World busy_world() {
+  Random random(7);
+  planar::World world;
+  world.add({.shape = {planar::HalfPlane{}}, .fixed = true});
+  const BodyId pusher =
+      world.add({.shape = {planar::Box{Vec2(0.2, 1)}}, .drive = Drive::keyed(), .motion = {.position = Vec2(-3, 1)}});
+  static_cast<void>(pusher);
+  world.add(
+      {.shape = {planar::Box{Vec2(2, 0.2)}}, .sensor = true, .fixed = true, .motion = {.position = Vec2(2, 0.5)}});
+  std::vector<BodyId> bodies;
+  for (int i = 0; i < 40; ++i) {
+    planar::BodySettings body{.restitution = i % 5 == 0 ? 0.6 : 0, .linear_damping = i % 7 == 0 ? 0.1 : 0};
+    const std::vector<planar::Shape> shapes{
+        {planar::Box{Vec2(0.3, 0.2)}},
+        {planar::Circle{0.25}},
+        {planar::Polygon{{Vec2(0, 0), Vec2(0.5, 0), Vec2(0.2, 0.4)}}, Vec2(0.1, 0), 0.3}};
+    body.shape = shapes[static_cast<std::size_t>(i % 3)];
+    body.motion = {Vec2(0.8 * (i % 8) - 2, 0.5 + 0.9 * (i / 8)), random.between(0, 6), Vec2(0, 0),
+                   random.between(-3, 3)};
+    if (i == 11) body.drive = {.hz = 2, .zeta = 0.7, .max_force = 500};
+    bodies.push_back(world.add(body));
+  }
+  world.add_joint({.a = bodies[3], .b = bodies[4], .anchor_a = Vec2(0.3, 0), .kind = planar::Distance{0.2, 1}});
+  world.add_joint(
+      {.b = bodies[5], .anchor_a = Vec2(2, 3), .anchor_b = Vec2(0.1, 0), .kind = planar::Hinge{-2, 2, 1, 5}});
+  world.remove(bodies[20]);
+  return world;
+}
+
+void step(planar::World& world, int n) {
+  const double t = (n + 1) / 60.0;
+  world.set_target(world.bodies()[1], {Vec2(-3 + t, 1), 0, Vec2(1, 0), 0});
+  world.step(1.0 / 60);
+}
+
+}  // namespace
+
+TEST_CASE("in a plane a copy and what was saved and loaded step to the same bits") {
+  planar::World world = busy_world();
+  for (int i = 0; i < 150; ++i) step(world, i);
+  planar::World copy = world, loaded;
+  const std::vector<std::byte> saved = world.save();
+  loaded.load(saved);
+  CHECK(loaded.save() == saved);
+  CHECK(loaded.state_hash() == world.state_hash());
+  for (int i = 150; i < 300; ++i) {
+    for (planar::World* one : {&world, &copy, &loaded}) step(*one, i);
+    REQUIRE(copy.state_hash() == world.state_hash());
+    REQUIRE(loaded.state_hash() == world.state_hash());
+  }
+  CHECK(copy.contacts().size() == world.contacts().size());
+}
+
+TEST_CASE("in a plane bytes that were changed or cut are refused and change nothing") {
+  planar::World world = busy_world();
+  for (int i = 0; i < 20; ++i) step(world, i);
+  const std::vector<std::byte> saved = world.save();
+  planar::World other = busy_world();
+  const std::uint64_t before = other.state_hash();
+  for (std::size_t i = 0; i < saved.size(); i += 97) {
+    std::vector<std::byte> wrong = saved;
+    wrong[i] ^= std::byte{0x10};
+    CHECK_THROWS_AS(other.load(wrong), std::invalid_argument);
+    CHECK_THROWS_AS(other.load(std::span(saved).first(i)), std::invalid_argument);
+  }
+  CHECK(other.state_hash() == before);
+}
+
+TEST_CASE("in a plane hostile numbers are refused in words, and stale handles too") {
+  using doctest::Contains;
+  planar::World world;
+  CHECK_THROWS_WITH_AS(planar::World({.gravity = {NAN, 0}}), Contains("gravity must be finite"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(planar::World({.sub_steps = 0}), Contains("sub_steps must lie in 1 to 64"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(world.add({.mass = 0.0}), Contains("mass must be positive"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(world.add({.motion = {.position = Vec2(NAN, 0)}}), Contains("position of a body"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(world.add({.shape = {planar::HalfPlane{}}}), Contains("half-plane has no mass"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(world.add({.shape = {planar::Circle{1e-200}}, .mass = 1.0}), Contains("too small"),
+                       std::invalid_argument);
+  const BodyId body = world.add({});
+  CHECK_THROWS_AS(world.apply_force(body, Vec2(INFINITY, 0), Vec2(0, 0)), std::invalid_argument);
+  CHECK_THROWS_AS(world.step(0), std::invalid_argument);
+  CHECK_THROWS_AS(world.step(NAN), std::invalid_argument);
+  CHECK_THROWS_AS(world.add_joint({.a = body, .b = body}), std::invalid_argument);
+  CHECK_THROWS_AS(world.add_joint({.a = body, .kind = planar::Distance{2, 1}}), std::invalid_argument);
+  world.remove(body);
+  CHECK_THROWS_WITH_AS(world.motion(body), Contains("it was removed"), std::invalid_argument);
+  const BodyId next = world.add({});
+  CHECK(next.index == body.index);
+  CHECK(next != body);
+}
+
+TEST_CASE("in a plane what is no longer finite is named, and the world goes on without it") {
+  planar::World world;
+  const BodyId good = world.add({}), bad = world.add({.motion = {.position = Vec2(9, 0)}});
+  world.apply_impulse(bad, Vec2(1e30, 0), Vec2(9, 0));
+  world.apply_impulse(bad, Vec2(1e30, 0), Vec2(9, 0));
+  world.apply_impulse(bad, Vec2(1e30, 0), Vec2(9, 0));
+  for (int i = 0; i < 900; ++i) world.apply_impulse(bad, Vec2(1e30, 0), Vec2(9, 0));
+  CHECK_THROWS_AS(world.step(1), NotFinite);
+  CHECK_THROWS_AS(world.step(1), NotFinite);
+  world.remove(bad);
+  CHECK_NOTHROW(world.step(1));
+  CHECK(std::isfinite(world.motion(good).position.y()));
+}
+
+TEST_CASE("in a plane thousands at one point part without end of time or NaN, and far out things still fall") {
+  planar::World world({.gravity = {0, 0}});
+  for (int i = 0; i < 600; ++i)
+    world.add({.shape = i % 2 == 0 ? planar::Shape{planar::Circle{0.1}} : planar::Shape{planar::Box{Vec2(0.1, 0.1)}}});
+  const double before = processor_seconds();
+  for (int i = 0; i < 3; ++i) world.step(1.0 / 60);
+  CHECK(processor_seconds() - before < 20);
+  for (const BodyId body : world.bodies()) REQUIRE(world.motion(body).position.allFinite());
+  planar::World far;
+  far.add({.shape = {planar::Box{Vec2(5, 1)}}, .fixed = true, .motion = {.position = Vec2(1e8, -1)}});
+  const BodyId box = far.add({.shape = {planar::Box{}}, .motion = {.position = Vec2(1e8, 0.5)}});
+  for (int i = 0; i < 120; ++i) far.step(1.0 / 60);
+  CHECK(near(far.motion(box).position.y(), 0.5, 1e-3));
+  CHECK(near(far.motion(box).position.x(), 1e8, 1e-13));
+}
