@@ -40,6 +40,36 @@ TEST_CASE("every word of a world's strategies has a document") {
   CHECK(names_in("stacking") == std::set<std::string>{"iterative", "lcp", "sequential", "shock"});
   CHECK(names_in("broad_phase") ==
         std::set<std::string>{"all_pairs", "bvh", "grid", "kd_tree", "octree", "quadtree", "sweep"});
+  CHECK(names_in("forces") ==
+        std::set<std::string>{"attractor", "buoyancy", "damper", "drag", "field", "torque", "vortex", "wind"});
+}
+
+TEST_CASE("each force of a document does what its closed form says") {
+  Stage drag = lecture("forces/drag");
+  drag.advance_to(1.5);
+  // v0 m / c (1 - exp(-c t / m))
+  CHECK(near(place_of(drag, "linear").x(), 12 / 0.4 * (1 - std::exp(-0.6)), 1e-7));
+  Stage water = lecture("forces/buoyancy");
+  water.advance_to(12);
+  // 0.6 of 0.4 m under; half a ball; the tower lies, 0.6 of its 0.4 m under as well.
+  CHECK(near(place_of(water, "raft").y(), -0.04, 5e-3));
+  CHECK(near(place_of(water, "ball").y(), 0, 5e-3));
+  CHECK(std::abs((water.world(water.node("tower")).motion.pose.rotation * Vec3(0, 1, 0)).y()) < 0.3);
+  CHECK(place_of(water, "stone").y() < -2.8);
+  Stage planets = lecture("forces/attractor");
+  planets.advance_to(1);
+  CHECK(near(place_of(planets, "round"), Vec3(1, 0, 0), 0.02));
+  Stage torque = lecture("forces/torque");
+  torque.advance_to(1);
+  CHECK(near(place_of(torque, "moved"), Vec3(0, 2.5, 0), 1e-9));
+  // r x f / I = 1 / (1.01 / 12)
+  CHECK(near(torque.twist(torque.node("both")).angular.z(), 12 / 1.01, 1e-6));
+  CHECK(near(torque.twist(torque.node("turned")).angular.z(), 24 / 1.01, 1e-6));
+  CHECK(near(place_of(torque, "turned"), Vec3(0, -1.5, 0), 1e-9));
+  CHECK(place_of(torque, "still") == Vec3(0, -3, 0));
+  Stage field = lecture("forces/field");
+  field.advance_to(pi / 4);  // half a turn on a circle of 1/2 m
+  CHECK(near(place_of(field, "charge") - Vec3(0, 2, 0), Vec3(0, 0, 1), 1e-2));
 }
 
 TEST_CASE("the swing on a spring gains, loses or keeps its energy as each integrator's own closed form says") {

@@ -70,9 +70,9 @@ void Flight::gather(const Acting& acting, std::span<const std::uint32_t> watched
          Vec3::Constant(starts_[k].momentum.norm())},
         sizes_, k);
   }
-  tie(acting, loads);
+  tie(acting, watched, loads);
   const auto rates_of = [&](double after, std::span<const double> since, std::span<double> rates) {
-    find_rates(acting, loads, after, since, rates);
+    find_rates(acting, watched, loads, after, since, rates);
   };
   integrate({std::ref(rates_of), numbers, 3, are_places, sizes_, ties_, turns_}, acting.dt, room_, means_);
   for (std::size_t k = 0; k < count; ++k) {
@@ -84,7 +84,7 @@ void Flight::gather(const Acting& acting, std::span<const std::uint32_t> watched
   }
 }
 
-void Flight::tie(const Acting& acting, const std::vector<Load>& loads) {
+void Flight::tie(const Acting& acting, std::span<const std::uint32_t> watched, const std::vector<Load>& loads) {
   const auto count = static_cast<std::uint32_t>(starts_.size());
   ties_.resize(count);
   turns_.assign(count, 0);
@@ -95,13 +95,15 @@ void Flight::tie(const Acting& acting, const std::vector<Load>& loads) {
   };
   std::vector<std::pair<std::uint32_t, std::uint32_t>> both;
   for (const NumberedForce& entry : acting.forces) {
-    const auto* spring = std::get_if<Spring>(&entry.force);
-    if (!spring || !find_body(acting.bodies, spring->a) || !find_body(acting.bodies, spring->b)) continue;
-    const std::uint32_t a = slots_[spring->a.index], b = slots_[spring->b.index];
-    if (a == nobody || b == nobody || a == b || too_stiff(*spring, acting.bodies, loads)) continue;
-    const auto [less, more] = std::minmax({root(a), root(b)});
-    ties_[more] = less;
-    both.emplace_back(std::max(a, b), std::min(a, b));
+    const std::optional<Spring> spring = spring_between(entry.force, 1, acting.bodies);
+    if (spring && too_stiff(*spring, acting.bodies, loads)) continue;
+    each_tie(entry, acting.bodies, watched, [&](std::uint32_t one, std::uint32_t other) {
+      const std::uint32_t a = slots_[one], b = slots_[other];
+      if (a == nobody || b == nobody || a == b) return;
+      const auto [less, more] = std::minmax({root(a), root(b)});
+      ties_[more] = less;
+      both.emplace_back(std::max(a, b), std::min(a, b));
+    });
   }
   for (std::uint32_t k = 0; k < count; ++k) ties_[k] = root(k);
   std::sort(both.begin(), both.end());
@@ -118,8 +120,27 @@ void Flight::tie(const Acting& acting, const std::vector<Load>& loads) {
   }
 }
 
-void Flight::find_rates(const Acting& acting, const std::vector<Load>& loads, double after,
-                        std::span<const double> since, std::span<double> rates) {
+/// Within the step, at the states that the integrator asks about.
+class Flight::Amid : public Moment {
+ public:
+  Amid(const Flight& flight, const Acting& acting, double after)
+      : Moment(acting.bodies, acting.settings.gravity, acting.time + after),
+        flight_(flight),
+        after_(after),
+        dt_(acting.dt) {}
+  [[nodiscard]] Glimpse of(std::uint32_t body) const override {
+    const std::uint32_t slot = flight_.slots_[body];
+    return slot == nobody ? led(bodies[body], after_, dt_) : flight_.glimpses_[slot];
+  }
+  [[nodiscard]] Side side() const { return after_ >= dt_ ? Side::in : Side::out; }
+
+ private:
+  const Flight& flight_;
+  double after_, dt_;
+};
+
+void Flight::find_rates(const Acting& acting, std::span<const std::uint32_t> watched, const std::vector<Load>& loads,
+                        double after, std::span<const double> since, std::span<double> rates) {
   for (std::size_t k = 0; k < starts_.size(); ++k) {
     const Body& body = acting.bodies[starts_[k].index];
     const Change changed = change_of(since, k);
@@ -135,35 +156,33 @@ void Flight::find_rates(const Acting& acting, const std::vector<Load>& loads, do
     rates_[k].turn = turn_rate(changed.turn, at.angular);
     rates_[k].momentum = body.torque - body.makeup->angular_damping * momentum;
   }
+  const Amid moment(*this, acting, after);
   for (const NumberedForce& entry : acting.forces) {
-    if (const auto* spring = std::get_if<Spring>(&entry.force)) {
-      if (!too_stiff(*spring, acting.bodies, loads)) add_spring(acting, *spring, after);
+    const double strength = entry.settings.strength.at(moment.time, moment.side());
+    if (named(entry.force).alone && !std::holds_alternative<Push>(entry.force)) {
+      const std::optional<Spring> spring = spring_between(entry.force, strength, acting.bodies);
+      if (spring && !too_stiff(*spring, acting.bodies, loads)) add_spring(acting, *spring, moment);
       continue;
     }
-    const auto* drag = std::get_if<Drag>(&entry.force);
-    const auto* field = std::get_if<Field>(&entry.force);
-    for (std::size_t k = 0; k < starts_.size(); ++k) {
-      const double mass = acting.bodies[starts_[k].index].mass().mass;
-      const Glimpse& at = glimpses_[k];
-      if (drag) {
-        rates_[k].linear -= (drag->linear + drag->quadratic * at.linear.norm()) / mass * at.linear;
-        rates_[k].momentum -= drag->angular * at.angular;
-      } else if (field) {
-        rates_[k].linear += (*field)(mass, at.center, at.linear, acting.time + after) / mass;
-      }
-    }
+    each_acted(entry, acting.bodies, watched, [&](std::uint32_t i) {
+      if (slots_[i] == nobody) return;
+      const Glimpse& at = glimpses_[slots_[i]];
+      const double mass = acting.bodies[i].mass().mass;
+      const Effect effect = effect_of(entry.force, strength, {acting.bodies[i], at}, moment);
+      Change& rate = rates_[slots_[i]];
+      if (effect.force != Vec3::Zero()) rate.linear += effect.force / mass;
+      if (effect.torque != Vec3::Zero()) rate.momentum += effect.torque;
+      rate.linear -= effect.resistance / mass * (at.linear - effect.medium);
+      rate.momentum -= effect.angular_resistance * at.angular;
+    });
   }
   for (std::size_t k = 0; k < starts_.size(); ++k) put(rates_[k], rates, k);
 }
 
-void Flight::add_spring(const Acting& acting, const Spring& spring, double after) {
+void Flight::add_spring(const Acting& acting, const Spring& spring, const Moment& moment) {
   const Body* a = find_body(acting.bodies, spring.a);
   const Body* b = find_body(acting.bodies, spring.b);
-  if (!a || (!b && spring.b != BodyId{})) return;  // an end was removed: the spring hangs loose
-  const auto glimpse = [&](const Body& body, std::uint32_t index) {
-    return slots_[index] == nobody ? led(body, after, acting.dt) : glimpses_[slots_[index]];
-  };
-  const Pull pull = pull_of(spring, *a, glimpse(*a, spring.a.index), b, b ? glimpse(*b, spring.b.index) : Glimpse{});
+  const Pull pull = pull_of(spring, *a, moment.of(spring.a.index), b, b ? moment.of(spring.b.index) : Glimpse{});
   const auto apply = [&](const Body& body, std::uint32_t index, const Vec3& force, const Vec3& arm) {
     if (slots_[index] == nobody) return;
     Change& rate = rates_[slots_[index]];

@@ -44,12 +44,13 @@ class Flight {
     Vec3 momentum;  ///< angular, world axes
   };
 
-  /// Gravity, drag, springs, fields and what the caller applied, of all of them at these states.
-  void find_rates(const Acting& acting, const std::vector<Load>& loads, double after, std::span<const double> since,
-                  std::span<double> rates);
-  void add_spring(const Acting& acting, const Spring& spring, double after);
-  /// Which bodies springs tie together.
-  void tie(const Acting& acting, const std::vector<Load>& loads);
+  /// Gravity, all forces and what the caller applied, of all of them at these states.
+  void find_rates(const Acting& acting, std::span<const std::uint32_t> watched, const std::vector<Load>& loads,
+                  double after, std::span<const double> since, std::span<double> rates);
+  class Amid;
+  void add_spring(const Acting& acting, const Spring& spring, const Moment& moment);
+  /// Which bodies act on each other.
+  void tie(const Acting& acting, std::span<const std::uint32_t> watched, const std::vector<Load>& loads);
 
   std::vector<std::uint32_t> slots_;  ///< by body
   std::vector<Start> starts_;

@@ -4,6 +4,7 @@
 
 #include "forces/drive_law.h"
 #include "forces/flight.h"
+#include "forces/kinds/kinds.h"
 #include "forces/spring_pull.h"
 #include "step/keyed_step.h"
 
@@ -38,7 +39,6 @@ constexpr double most_springiness = 1;
 void add_springiness(const std::vector<Body>& bodies, const Spring& spring, double dt, std::vector<Load>& loads) {
   const Body* a = find_body(bodies, spring.a);
   const Body* b = find_body(bodies, spring.b);
-  if (!a || (!b && spring.b != BodyId{})) return;
   const auto inverse_mass = [](const Body& body, const Vec3& anchor) {
     if (!moves(body)) return 0.0;
     return 1 / body.mass().mass + (anchor - body.mass().center).squaredNorm() * body.inverse_inertia().norm();
@@ -49,12 +49,74 @@ void add_springiness(const std::vector<Body>& bodies, const Spring& spring, doub
   if (b && moves(*b)) loads[spring.b.index].springiness += stiffness * felt;
 }
 
+/// The start of a step, or its end, where bodies would be without what changes in it.
+class EndOfStep : public Moment {
+ public:
+  EndOfStep(const std::vector<Body>& all, const WorldSettings& settings, double start, bool later, double dt,
+            const std::vector<Load>& loads)
+      : Moment(all, settings.gravity, later ? start + dt : start), loads_(loads), dt_(dt), later_(later) {}
+  [[nodiscard]] Glimpse of(std::uint32_t body) const override {
+    return later_ ? ahead(bodies[body], loads_[body], dt_) : now(bodies[body]);
+  }
+  [[nodiscard]] Side side() const { return later_ ? Side::in : Side::out; }
+
+ private:
+  const std::vector<Load>& loads_;
+  double dt_;
+  bool later_;
+};
+
+/// @param torque_share  of the torque, which has no two ends
+void put(const Effect& effect, double mass, bool at_end, double torque_share, Load& load) {
+  if (effect.force != Vec3::Zero()) (at_end ? load.end_acceleration : load.acceleration) += effect.force / mass;
+  if (effect.torque != Vec3::Zero()) load.torque += torque_share * effect.torque;
+  if (at_end) return;
+  load.drag += effect.resistance / mass;
+  load.angular_drag += effect.angular_resistance;
+  if (effect.resistance == 0 || effect.medium == Vec3::Zero()) return;
+  const Vec3 carried = effect.resistance / mass * effect.medium;
+  load.carried += carried;
+  load.acceleration += carried;
+  load.end_acceleration += carried;
+}
+
 }  // namespace
 
 const Body* find_body(const std::vector<Body>& bodies, const BodyId& id) {
   if (id.index >= bodies.size()) return nullptr;
   const Body& body = bodies[id.index];
   return body.alive && body.generation == id.generation ? &body : nullptr;
+}
+
+std::optional<Spring> spring_between(const Force& force, double strength, const std::vector<Body>& bodies) {
+  std::optional<Spring> spring;
+  if (const auto* elastic = std::get_if<Spring>(&force)) spring = spring_of(*elastic, strength);
+  if (const auto* damper = std::get_if<Damper>(&force)) spring = spring_of(*damper, strength);
+  // Where an end was removed it hangs loose.
+  if (spring && (!find_body(bodies, spring->a) || (spring->b != BodyId{} && !find_body(bodies, spring->b))))
+    spring.reset();
+  return spring;
+}
+
+Effect effect_of(const Force& force, double strength, const Subject& subject, const Moment& moment) {
+  return std::visit(
+      [&](const auto& kind) -> Effect {
+        if constexpr (requires { spring_of(kind, strength); })
+          return {};
+        else
+          return effect_of(kind, strength, subject, moment);
+      },
+      force);
+}
+
+Named named(const Force& force) {
+  return std::visit([](const auto& kind) { return named(kind); }, force);
+}
+
+bool stirs(const NumberedForce& entry, double from, double to) {
+  if (std::holds_alternative<Field>(entry.force)) return true;
+  const auto* formula = std::get_if<ForceFormula>(&entry.force);
+  return (formula && formula->reads_time()) || entry.settings.strength.changes(from, to);
 }
 
 bool too_stiff(const Spring& spring, const std::vector<Body>& bodies, const std::vector<Load>& loads) {
@@ -87,15 +149,18 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     load.drag = body.makeup->linear_damping;
     load.angular_damping = body.makeup->angular_damping;
   });
+  // A spring is what it is halfway through the step, but where it is explicit, and asked for at both ends.
+  const auto spring_at = [&](const NumberedForce& entry, double when, Side side) {
+    return spring_between(entry.force, entry.settings.strength.at(when, side), bodies);
+  };
   if (!implicit(settings.integrator))
     for (const NumberedForce& entry : forces)
-      if (const auto* spring = std::get_if<Spring>(&entry.force)) add_springiness(bodies, *spring, dt, loads);
+      if (const auto spring = spring_at(entry, time + 0.5 * dt, Side::out)) add_springiness(bodies, *spring, dt, loads);
   for (const NumberedForce& entry : forces) {
-    const auto* spring = std::get_if<Spring>(&entry.force);
-    if (!spring) continue;
+    const std::optional<Spring> spring = spring_at(entry, time + 0.5 * dt, Side::out);
+    if (!spring || !too_stiff(*spring, bodies, loads)) continue;
     const Body* a = find_body(bodies, spring->a);
     const Body* b = find_body(bodies, spring->b);
-    if (!a || (!b && spring->b != BodyId{}) || !too_stiff(*spring, bodies, loads)) continue;
     step::SpringRow row;
     row.a = spring->a.index;
     if (b) row.b = spring->b.index;
@@ -110,22 +175,15 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
   // Twice: at the start, and where the bodies would be at the end (velocity Verlet for untouched bodies).
   const double torque_share = settings.integrator == Integrator::exact_quadratic ? 0.5 : 1;
   const auto add = [&](bool at_end) {
+    const EndOfStep moment(bodies, settings, time, at_end, dt, loads);
     for (const NumberedForce& entry : forces) {
-      if (const auto* drag = std::get_if<Drag>(&entry.force)) {
-        if (at_end) continue;
-        for (const std::uint32_t i : watched) {
-          if (!moves(bodies[i])) continue;
-          const double speed = bodies[i].twist.linear.norm();
-          loads[i].drag += (drag->linear + drag->quadratic * speed) / bodies[i].mass().mass;
-          loads[i].angular_drag += drag->angular;
-        }
-      } else if (const auto* spring = std::get_if<Spring>(&entry.force)) {
+      const double strength = entry.settings.strength.at(moment.time, moment.side());
+      if (named(entry.force).alone && !std::holds_alternative<Push>(entry.force)) {
+        const std::optional<Spring> spring = spring_between(entry.force, strength, bodies);
+        if (!spring || too_stiff(*spring, bodies, loads)) continue;
         const Body* a = find_body(bodies, spring->a);
         const Body* b = find_body(bodies, spring->b);
-        if (!a || (!b && spring->b != BodyId{})) continue;  // an end was removed: the spring hangs loose
-        if (too_stiff(*spring, bodies, loads)) continue;
-        const Glimpse at_a = at_end ? ahead(*a, loads[spring->a.index], dt) : now(*a);
-        const Glimpse at_b = !b ? Glimpse{} : at_end ? ahead(*b, loads[spring->b.index], dt) : now(*b);
+        const Glimpse at_a = moment.of(spring->a.index), at_b = b ? moment.of(spring->b.index) : Glimpse{};
         const Pull pull = pull_of(*spring, *a, at_a, b, at_b);
         const auto apply = [&](const Body& body, std::size_t index, const Vec3& force, const Vec3& arm) {
           if (!moves(body)) return;
@@ -135,15 +193,14 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
         };
         apply(*a, spring->a.index, pull.force, pull.arm_a);
         if (b) apply(*b, spring->b.index, -pull.force, pull.arm_b);
-      } else if (const auto* field = std::get_if<Field>(&entry.force)) {
-        for (const std::uint32_t i : watched) {
-          if (!moves(bodies[i])) continue;
-          const Glimpse at = at_end ? ahead(bodies[i], loads[i], dt) : now(bodies[i]);
-          const double mass = bodies[i].mass().mass;
-          const Vec3 force = (*field)(mass, at.center, at.linear, at_end ? time + dt : time);
-          (at_end ? loads[i].end_acceleration : loads[i].acceleration) += force / mass;
-        }
+        continue;
       }
+      if (at_end && std::holds_alternative<Drag>(entry.force)) continue;
+      each_acted(entry, bodies, watched, [&](std::uint32_t i) {
+        if (!moves(bodies[i])) return;
+        put(effect_of(entry.force, strength, {bodies[i], moment.of(i)}, moment), bodies[i].mass().mass, at_end,
+            torque_share, loads[i]);
+      });
     }
   };
   if (Integrate* integrate = asking(settings.integrator)) {

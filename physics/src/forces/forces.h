@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "forces/free_flight.h"
+#include "forces/kinds/kinds.h"
 #include "state/body.h"
 #include "step/spring_row.h"
 #include "threads/workers.h"
@@ -15,6 +17,7 @@ class Flight;
 struct NumberedForce {
   std::uint64_t number = 0;
   Force force;
+  ForceSettings settings;
 };
 
 /// Loads of the watched bodies for a step of length `dt` that starts at `time`; `loads` becomes as long as `bodies`.
@@ -31,5 +34,46 @@ void gather_loads(const std::vector<state::Body>& bodies, std::span<const std::u
 
 /// The body of a handle; null when it is gone, or for the world itself.
 [[nodiscard]] const state::Body* find_body(const std::vector<state::Body>& bodies, const BodyId& id);
+
+/// A force between two points at such a strength, with both its ends there; none for all other forces.
+[[nodiscard]] std::optional<Spring> spring_between(const Force& force, double strength,
+                                                   const std::vector<state::Body>& bodies);
+[[nodiscard]] Effect effect_of(const Force& force, double strength, const Subject& subject, const Moment& moment);
+[[nodiscard]] Named named(const Force& force);
+
+/// Calls `see(index)` for each body that a force acts on by itself and that is there, in order.
+/// @param all  indices of bodies that are there, in order: whom a force without a list of its own acts on
+template <class Indices, class See>
+void each_acted(const NumberedForce& entry, const std::vector<state::Body>& bodies, const Indices& all,
+                const See& see) {
+  const Named own = named(entry.force);
+  const auto see_one = [&](const BodyId& id) {
+    if (find_body(bodies, id)) see(id.index);
+  };
+  if (own.alone) {
+    for (const BodyId& end : own.ends) see_one(end);
+  } else if (!entry.settings.bodies.empty()) {
+    for (const BodyId& id : entry.settings.bodies)
+      if (id != own.ends[0]) see_one(id);
+  } else {
+    for (const std::uint32_t i : all)
+      if (i != own.ends[0].index) see(i);
+  }
+}
+
+/// Calls `see(a, b)` for each pair of bodies of which one acts on the other.
+template <class Indices, class See>
+void each_tie(const NumberedForce& entry, const std::vector<state::Body>& bodies, const Indices& all, const See& see) {
+  const Named own = named(entry.force);
+  const BodyId &a = own.ends[0], &b = own.ends[1];
+  if (own.alone) {
+    if (find_body(bodies, a) && find_body(bodies, b)) see(a.index, b.index);
+  } else if (find_body(bodies, a)) {
+    each_acted(entry, bodies, all, [&](std::uint32_t i) { see(a.index, i); });
+  }
+}
+
+/// Whether a force may be another from one time to the other though its bodies rest.
+[[nodiscard]] bool stirs(const NumberedForce& entry, double from, double to);
 
 }  // namespace tweenfall::forces

@@ -156,8 +156,10 @@ void fly(Body& body, const Load& load, Integrator integrator, double dt) {
   if (integrator == Integrator::semi_implicit_euler) {
     body.center += body.twist.linear * dt;
   } else if (load.drag > 0) {
-    // Implicit in the drag: the sum of all displacements is then exactly speed over drag.
-    body.center += body.twist.linear * dt - load.acceleration * (0.5 * dt * dt / (1 + load.drag * dt));
+    // Implicit in the drag: the sum of all displacements is then exactly speed over drag. What drifts with a medium
+    // drifts evenly.
+    const Vec3 driven = load.acceleration - load.carried;
+    body.center += body.twist.linear * dt - driven * (0.5 * dt * dt / (1 + load.drag * dt));
   } else {
     body.center += before * dt + load.acceleration * (0.5 * dt * dt);
   }

@@ -8,6 +8,7 @@ namespace tweenfall::forces {
 struct Load {
   Vec3 acceleration{0, 0, 0};      ///< at the start of the step, m/s^2
   Vec3 end_acceleration{0, 0, 0};  ///< where the body would be at its end
+  Vec3 carried{0, 0, 0};           ///< of both, what comes of the drag of media that move
   Vec3 torque{0, 0, 0};            ///< N m
   double drag = 0;                 ///< 1/s, taken implicitly
   double angular_drag = 0;         ///< kg m^2/s, taken implicitly

@@ -71,8 +71,13 @@ std::vector<BodyDetail> body_details(const World& asked) {
   for (const Contact& contact : world.contacts) tie(contact.a, contact.b);
   for (const state::Joint& joint : world.joints)
     if (joint.alive) tie(joint.settings.a, joint.settings.b);
+  std::vector<std::uint32_t> there;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i)
+    if (bodies[i].alive) there.push_back(i);
   for (const forces::NumberedForce& entry : world.forces)
-    if (const auto* spring = std::get_if<Spring>(&entry.force)) tie(spring->a, spring->b);
+    forces::each_tie(entry, bodies, there, [&](std::uint32_t a, std::uint32_t b) {
+      tie({a, bodies[a].generation}, {b, bodies[b].generation});
+    });
   std::vector<BodyDetail> details;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     const state::Body& body = bodies[i];

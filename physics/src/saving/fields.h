@@ -3,9 +3,9 @@
 /// The fields of all that a world's state is made of, each listed once: what is hashed, saved and loaded is the same. A
 /// field that is added and not listed here does not compile.
 
-#include <concepts>
 #include <cstdint>
 
+#include "saving/force_fields.h"
 #include "state/world_state.h"
 
 namespace tweenfall::saving {
@@ -20,9 +20,6 @@ using state::KeptImpulses;
 using state::Makeup;
 using state::PointMemory;
 using state::WorldState;
-
-template <class T, class Of>
-concept Is = std::same_as<std::remove_const_t<T>, Of>;
 
 /// Names fields that follow from others.
 inline void follows_from_others(const auto&...) {}
@@ -148,24 +145,6 @@ void each_field(T& body, const Visit& visit) {
         collides_with, makeup, extra);
   visit.rarely(saturated);
   follows_from_others(conveys);
-}
-
-template <Is<Drag> T, class Visit>
-void each_field(T& drag, const Visit& visit) {
-  auto& [linear, quadratic, angular] = drag;
-  visit(linear, quadratic, angular);
-}
-
-template <Is<Spring> T, class Visit>
-void each_field(T& spring, const Visit& visit) {
-  auto& [a, b, anchor_a, anchor_b, rest_length, stiffness, damping] = spring;
-  visit(a, b, anchor_a, anchor_b, rest_length, stiffness, damping);
-}
-
-template <Is<forces::NumberedForce> T, class Visit>
-void each_field(T& entry, const Visit& visit) {
-  auto& [number, force] = entry;
-  visit(number, force);
 }
 
 template <Is<PointMemory> T, class Visit>

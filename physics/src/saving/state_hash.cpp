@@ -19,6 +19,10 @@ class StateHash : public Teller<StateHash> {
     else
       hash_.add(static_cast<std::uint64_t>(value));
   }
+  void text(const std::string& text) {
+    number(static_cast<std::uint64_t>(text.size()));
+    for (const char c : text) number(c);
+  }
   void hull(const ConvexHull& hull) {
     for (const Vec3& vertex : hull.vertices()) walk(*this, vertex);
     for (const ConvexHull::Face& face : hull.faces())

@@ -121,6 +121,15 @@ class Walk {
       tool_.heights(value);
     } else if constexpr (std::is_same_v<Value, Field>) {
       tool_.field(value);
+    } else if constexpr (InParts<Value>) {
+      if constexpr (std::is_const_v<T>) {
+        const auto parts = parts_of(value);
+        one(parts);
+      } else {
+        decltype(parts_of(value)) parts;
+        one(parts);
+        value = made_of(parts);
+      }
     } else {
       each_field(value, *this);
     }

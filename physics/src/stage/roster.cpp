@@ -173,17 +173,27 @@ Hierarchy nodes_of(const StageDescription& description, std::vector<StageFault>&
   return Hierarchy(std::move(nodes));
 }
 
-void add_described_force(StageState& state, const ForceDescription& force) {
-  if (const auto* drag = std::get_if<DragDescription>(&force)) state.world.add_force(drag->drag);
-  if (const auto* described = std::get_if<SpringDescription>(&force)) {
-    Spring spring = described->spring;
-    const StagedBody* a = described->a == no_node ? nullptr : state.body(described->a);
-    const StagedBody* b = described->b == no_node ? nullptr : state.body(described->b);
-    if (!a || (described->b != no_node && !b)) throw std::invalid_argument("a spring's ends must be nodes with bodies");
-    spring.a = a->id;
-    spring.b = b ? b->id : BodyId{};
-    state.world.add_force(spring);
-  }
+void add_described_force(StageState& state, const ForceDescription& described) {
+  const auto body_at = [&](std::size_t node, const std::string& what) {
+    const StagedBody* body = node < state.body_of.size() ? state.body(node) : nullptr;
+    if (!body) throw std::invalid_argument(what + " must be nodes with bodies");
+    return body->id;
+  };
+  Force force = described.force;
+  const auto name_bodies = [&](auto& kind) {
+    if constexpr (requires { kind.anchor_a; }) {
+      kind.a = body_at(described.a, "a spring's ends");
+      kind.b = described.b == no_node ? BodyId{} : body_at(described.b, "a spring's ends");
+    } else if constexpr (requires { kind.turns; }) {
+      kind.body = body_at(described.a, "what is pushed");
+    } else if constexpr (requires { kind.of; }) {
+      kind.of = described.a == no_node ? BodyId{} : body_at(described.a, "what an attractor is on");
+    }
+  };
+  std::visit(name_bodies, force);
+  ForceSettings settings{{}, described.strength};
+  for (const std::size_t node : described.bodies) settings.bodies.push_back(body_at(node, "what a force acts on"));
+  state.world.add_force(std::move(force), std::move(settings));
 }
 
 }  // namespace

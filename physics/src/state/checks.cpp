@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "forces/integrators/integrators.h"
+#include "forces/kinds/kinds.h"
 #include "shapes/compound.h"
 #include "shapes/turned.h"
 #include "state/countable.h"
@@ -56,19 +57,7 @@ void require_amount(double value, const char* name) {
 }
 
 void validate(const Force& force) {
-  if (const auto* drag = std::get_if<Drag>(&force)) {
-    require_amount(drag->linear, "linear drag");
-    require_amount(drag->quadratic, "quadratic drag");
-    require_amount(drag->angular, "angular drag");
-  } else if (const auto* spring = std::get_if<Spring>(&force)) {
-    require_finite(spring->anchor_a, "first anchor of a spring");
-    require_finite(spring->anchor_b, "second anchor of a spring");
-    require_amount(spring->rest_length, "rest length of a spring");
-    require_amount(spring->stiffness, "stiffness of a spring");
-    require_amount(spring->damping, "damping of a spring");
-  } else {
-    require(static_cast<bool>(std::get<Field>(force)), "a field must hold a function");
-  }
+  std::visit([](const auto& kind) { forces::validate(kind); }, force);
 }
 
 void validate(const Drive& drive) {

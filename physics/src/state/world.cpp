@@ -179,12 +179,7 @@ void World::remove(BodyId id) {
   Implementation& world = changing();
   state::Body& body = world.at(id);
   world.wake_neighbors(id.index);
-  for (const forces::NumberedForce& entry : world.forces) {
-    const auto* spring = std::get_if<Spring>(&entry.force);
-    if (!spring || (spring->a != id && spring->b != id)) continue;
-    for (const BodyId& end : {spring->a, spring->b})
-      if (contains(end)) world.wake(end.index);
-  }
+  world.wake_forced(id);
   world.remove_joints_of(id.index);
   world.drop_contacts(id.index);
   if (body.sensor()) std::erase(world.sensors, id.index);
@@ -427,32 +422,6 @@ void World::wake(BodyId id) {
   Implementation& world = changing();
   world.at(id);
   world.wake(id.index);
-}
-
-std::size_t World::add_force(Force force) {
-  Implementation& world = changing();
-  state::validate(force);
-  if (const auto* spring = std::get_if<Spring>(&force)) {
-    world.at(spring->a);
-    if (spring->b != BodyId{}) world.at(spring->b);
-    world.wake(spring->a.index);
-    if (spring->b != BodyId{}) world.wake(spring->b.index);
-  } else {
-    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-      if (world.bodies[i].alive) world.wake(i);
-  }
-  const auto number = static_cast<std::size_t>(world.next_force++);
-  world.forces.push_back({number, std::move(force)});
-  return number;
-}
-
-void World::remove_force(std::size_t number) {
-  Implementation& world = changing();
-  const std::size_t erased =
-      std::erase_if(world.forces, [&](const forces::NumberedForce& f) { return f.number == number; });
-  state::require(erased == 1, "there is no force number " + std::to_string(number));
-  for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-    if (world.bodies[i].alive) world.wake(i);
 }
 
 void World::set_executor(std::shared_ptr<Executor> executor) {

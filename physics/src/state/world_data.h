@@ -72,7 +72,8 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void gather_links();          ///< joints that hold something that can move
   void leave_sleeping_links();  ///< out of what is solved
   void end_links(double dt);    ///< reactions, and what breaks
-  void wake_by_fields();
+  void wake_by_forces(double dt);  ///< those on whom a force acts that may be another though they rest
+  void wake_forced(BodyId body);   ///< those on whom a force acts that is by this body
   bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
   void solve_islands(double dt);
   /// How many pieces an island goes through a step in; nearly always one.

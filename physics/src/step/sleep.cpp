@@ -14,6 +14,8 @@ namespace {
 constexpr double driven_share = 1e-3;
 /// A spring that would bring a body to this part of that speed before it fell asleep keeps it awake.
 constexpr double pulling_share = 0.1;
+/// Among what is noted of bodies that something pulls: it may turn them, too.
+constexpr char turned_too = 2;
 /// Displacements of this part of a place are rounding.
 constexpr double rounding = 1e-14;
 /// Bodies that are worth a part of their own.
@@ -30,14 +32,6 @@ bool still(const state::Body& body, const Start& start, double speed, double dt)
 }  // namespace
 }  // namespace step
 
-void World::Implementation::wake_by_fields() {
-  for (const forces::NumberedForce& entry : forces) {
-    if (!std::holds_alternative<Field>(entry.force)) continue;
-    for (const std::uint32_t i : watched) wake(i);
-    return;
-  }
-}
-
 bool World::Implementation::wake_islands() {
   islands.reset(bodies.size());
   flags.assign(bodies.size(), 0);
@@ -45,11 +39,7 @@ bool World::Implementation::wake_islands() {
   const auto each_link = [&](const auto& visit) {
     for (const contacts::ContactConstraint* constraint : active) visit(constraint->a, constraint->b);
     for (const std::uint32_t place : retained) visit(memories[place].a, memories[place].b);
-    for (const forces::NumberedForce& entry : forces) {
-      const auto* spring = std::get_if<Spring>(&entry.force);
-      if (spring && forces::find_body(bodies, spring->a) && forces::find_body(bodies, spring->b))
-        visit(spring->a.index, spring->b.index);
-    }
+    for (const forces::NumberedForce& entry : forces) forces::each_tie(entry, bodies, watched, visit);
     for (const joints::JointLink& link : links)
       if (link.a != joints::JointLink::world) visit(link.a, link.b);
   };
@@ -80,14 +70,14 @@ bool World::Implementation::wake_islands() {
 }
 
 void World::Implementation::let_sleep(double dt) {
-  // Whom a spring pulls may start slowly.
+  // Whom something pulls may start slowly.
   flags.assign(bodies.size(), 0);
-  for (const forces::NumberedForce& entry : forces) {
-    const auto* spring = std::get_if<Spring>(&entry.force);
-    if (!spring) continue;
-    for (const BodyId& end : {spring->a, spring->b})
-      if (forces::find_body(bodies, end)) flags[end.index] = 1;
-  }
+  for (const forces::NumberedForce& entry : forces)
+    if (!std::holds_alternative<Drag>(entry.force))
+      forces::each_acted(entry, bodies, watched, [&](std::uint32_t i) {
+        if (flags[i] == 0 || !std::holds_alternative<Spring>(entry.force))
+          flags[i] = std::holds_alternative<Spring>(entry.force) ? 1 : step::turned_too;
+      });
   // Per island the shortest stillness counts.
   stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
   drowsy.clear();
@@ -107,6 +97,10 @@ void World::Implementation::let_sleep(double dt) {
       bool still = !carried[islands.root(i)] && !starts[i].led && step::still(body, starts[i], speed, dt);
       if (flags[i] && !moved[i])
         still = still && loads[i].acceleration.norm() * settings.sleep_after < step::pulling_share * speed;
+      if (flags[i] == step::turned_too && !moved[i])
+        still = still && (body.inverse_inertia() * (body.motion.pose.rotation.conjugate() * loads[i].torque)).norm() *
+                                 body.radius() * settings.sleep_after <
+                             step::pulling_share * speed;
       body.still_for = still ? body.still_for + dt : 0;
     }
   });

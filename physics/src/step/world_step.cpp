@@ -350,7 +350,7 @@ void World::Implementation::step(double dt) {
   stepping = true;
   begin_watch();
   if (failed) check_bodies(0, time);
-  wake_by_fields();
+  wake_by_forces(dt);
   do {
     forces::gather_loads(bodies, watched, forces, settings, time, dt, workers(), loads, stiff_springs, flight);
     check_loads(time + dt);

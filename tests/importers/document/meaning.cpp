@@ -262,14 +262,14 @@ TEST_CASE("every field reaches the stage's description") {
     CHECK(stage.world.push_out_speed == 1);
     CHECK(stage.world.threads == 2);
     REQUIRE(stage.forces.size() == 3);
-    CHECK(std::get<DragDescription>(stage.forces[0]).drag.quadratic == 0.2);
-    const SpringDescription& spring = std::get<SpringDescription>(stage.forces[1]);
-    CHECK(stage.nodes[spring.a].name == "tower/1");
-    CHECK(stage.nodes[spring.b].name == "ball");
-    CHECK(spring.spring.rest_length == 0.5);
-    CHECK(spring.spring.stiffness == 100);
-    CHECK(spring.spring.damping == 2);
-    CHECK(std::get<SpringDescription>(stage.forces[2]).b == no_node);
+    CHECK(std::get<Drag>(stage.forces[0].force).quadratic == 0.2);
+    CHECK(stage.nodes[stage.forces[1].a].name == "tower/1");
+    CHECK(stage.nodes[stage.forces[1].b].name == "ball");
+    const Spring& spring = std::get<Spring>(stage.forces[1].force);
+    CHECK(spring.rest_length == 0.5);
+    CHECK(spring.stiffness == 100);
+    CHECK(spring.damping == 2);
+    CHECK(stage.forces[2].b == no_node);
   }
   SUBCASE("hand-off") {
     REQUIRE(stage.rules.size() == 6);

@@ -25,7 +25,7 @@ StageDescription small_stage() {
   lay("box three", {Box{{0.15, 0.4, 0.2}}}, {0.5, 0.9, -0.4});
   lay("ball", {Sphere{0.25}}, {-0.4, 0.9, 0.3});
   lay("rod", {Capsule{0.1, 0.3}}, {-0.3, 1.7, -0.2});
-  stage.forces = {DragDescription{}};
+  stage.forces = {ForceDescription{}};
   HandBack back;
   back.settle = {Settle::Kind::quintic, 0.3};
   stage.rules = {release_at(0.3137, "body"), recover_at(2.0071, "body", back)};

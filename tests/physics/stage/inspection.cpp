@@ -35,7 +35,7 @@ TEST_CASE("an inspection tells all that a stage refuses, each with its part, and
   stage.world.gravity = Vec3(0, 0, 0);
   stage.nodes.erase(stage.nodes.begin());
   stage.nodes[1].body->mass = 1;
-  stage.forces = {DragDescription{}, SpringDescription{.spring = {.rest_length = 1e31}, .a = 0}};
+  stage.forces = {ForceDescription{}, ForceDescription{.force = Spring{.rest_length = 1e31}, .a = 0}};
   const StageInspection forces = inspect(stage);
   REQUIRE(forces.faults.size() == 1);
   CHECK(forces.faults[0].part == StageFault::Part::force);
@@ -71,7 +71,7 @@ TEST_CASE(
   stage.nodes = {ball_at("free", Vec3(0, 0, 0)), ball_at("held", Vec3(3, 0, 0))};
   stage.nodes[1].body->drive = Drive::keyed();
   const auto with = [&](double stiffness, double damping, std::size_t a) {
-    stage.forces = {SpringDescription{.spring = {.stiffness = stiffness, .damping = damping}, .a = a}};
+    stage.forces = {ForceDescription{.force = Spring{.stiffness = stiffness, .damping = damping}, .a = a}};
     return inspect(stage).stiff_springs;
   };
   stage.step = 0.01;

@@ -48,9 +48,10 @@ StageDescription busy(double step = 1.0 / 240) {
                          .weight = keyed_curve<double>({{.time = 0.1, .value = 0.0, .ease = Ease::linear()},
                                                         {.time = 1.5, .value = 0.6, .ease = Ease::linear()},
                                                         {.time = 2.5, .value = 0.0}})});
-  stage.forces = {DragDescription{}, SpringDescription{.spring = {.rest_length = 0.5, .stiffness = 30, .damping = 0.2},
-                                                       .a = named("lower"),
-                                                       .b = named("box2")}};
+  stage.forces = {ForceDescription{},
+                  ForceDescription{.force = Spring{.rest_length = 0.5, .stiffness = 30, .damping = 0.2},
+                                   .a = named("lower"),
+                                   .b = named("box2")}};
   stage.joints = {{.name = "rope",
                    .b = named("hanging"),
                    .frame_a = {.position = {-2, 3, 0}},

@@ -47,10 +47,7 @@ void read_world(const json::Value& world, Building& building);
 
 // The node with a body of that name; `no_node` where there is none, which is told.
 [[nodiscard]] std::size_t body_called(const json::Value& name, Building& building);
-
-// The forces of a world
-const Form* force_form(FormStore& store, const ValueForms& values);
-void read_force(const json::Value& force, std::vector<ForceDescription>& forces, Building& building);
-[[nodiscard]] json::Value place_of_stiffness(const json::Value& force);
+// Those of a name or pattern; that there are none is told.
+[[nodiscard]] std::vector<std::size_t> bodies_named(const json::Value& name, Building& building);
 
 }  // namespace tweenfall::document::fields

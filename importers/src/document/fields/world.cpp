@@ -1,5 +1,6 @@
 #include "document/fields/table.h"
 #include "document/fields/things.h"
+#include "document/forces/forces.h"
 #include "document/joints/joints.h"
 #include "document/ragdolls/ragdolls.h"
 
@@ -40,13 +41,13 @@ const Form* sleep_form(FormStore& store, const ValueForms& values) {
 }
 
 const Form* forces_form(FormStore& store, const ValueForms& values) {
-  Form forces = list_of(force_form(store, values), "a list of forces", 0);
+  Form forces = list_of(forces::form(store, values), "a list of forces", 0);
   forces.one_a_line = true;
   return store.add(std::move(forces));
 }
 
 void read_forces(const json::Value& value, StageDescription& stage, Building& building) {
-  for (const json::Value& force : value.items()) read_force(force, stage.forces, building);
+  for (const json::Value& force : value.items()) forces::read(force, stage.forces, building);
 }
 
 void read_joints(const json::Value& value, StageDescription&, Building& building) {
@@ -61,20 +62,6 @@ const Form* ignore_form(FormStore& store, const ValueForms& values) {
   const Form* const pair =
       store.add(list_of(values.name, "a list of two names or patterns of nodes with bodies", 2, 2));
   return store.add(list_of(pair, "a list of pairs of names or patterns", 0));
-}
-
-// Nodes with bodies of a name or pattern; none are told.
-std::vector<std::size_t> bodies_named(const json::Value& name, Building& building) {
-  if (!name.is(Kind::text)) return {};
-  if (name.text().find('*') == std::string::npos) {
-    const std::size_t node = body_called(name, building);
-    return node == no_node ? std::vector<std::size_t>{} : std::vector{node};
-  }
-  std::vector<std::size_t> named = building.nodes_named(name.text());
-  std::erase_if(named, [&](std::size_t node) { return !building.stage.nodes[node].body; });
-  if (named.empty() && !building.excused(name.text()))
-    building.problems.add(name, "no node with a body matches " + json::in_quotes(name.text()));
-  return named;
 }
 
 void read_ignored(const json::Value& value, StageDescription& stage, Building& building) {

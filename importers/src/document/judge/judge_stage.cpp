@@ -2,6 +2,7 @@
 #include <tweenfall/physics/stage/inspection.h>
 
 #include "document/fields/things.h"
+#include "document/forces/forces.h"
 #include "document/judge/judge.h"
 #include "document/read/values.h"
 
@@ -84,7 +85,7 @@ void judge_stage(Building& building) {
   note_joint_starts(building, found);
   const json::Value world = place_of_world(building);
   for (const StiffSpring& stiff : found.stiff_springs)
-    building.problems.note(fields::place_of_stiffness(fields::place_of_force(world, stiff.force)),
+    building.problems.note(forces::place_of_stiffness(fields::place_of_force(world, stiff.force)),
                            "this spring is too fast for the bodies on it and steps of " +
                                step_text(building.stage.step) +
                                " s; it holds, but its swing is damped away. Steps of " + step_text(stiff.longest_step) +

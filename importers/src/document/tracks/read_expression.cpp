@@ -38,10 +38,7 @@ class ExpressionReader {
     try {
       return expression_curve(Expression(value.text(), parameters_));
     } catch (const ExpressionError& error) {
-      // One byte of the text is one of the file, but for the quote before it, as long as none is escaped.
-      const bool plain = value.length() == value.text().size() + 2;
-      problems_.add(plain ? json::Fault{value.offset() + 1 + error.place(), 1, error.fault()}
-                          : json::Fault{value.offset(), value.length(), error.what()});
+      add_fault_of_expression(value, error, problems_);
       return {};
     }
   }
@@ -59,6 +56,13 @@ Curve<T> vector_of_parts(const std::vector<Curve<double>>& parts) {
 }
 
 }  // namespace
+
+void add_fault_of_expression(const json::Value& text, const ExpressionError& fault, Problems& problems) {
+  // One byte of the text is one of the file, but for the quote before it, as long as none is escaped.
+  const bool plain = text.length() == text.text().size() + 2;
+  problems.add(plain ? json::Fault{text.offset() + 1 + fault.place(), 1, fault.fault()}
+                     : json::Fault{text.offset(), text.length(), fault.what()});
+}
 
 std::optional<TrackCurve> read_expression(const json::Value& track, Problems& problems) {
   const json::Value expression = usable(track, "expression");

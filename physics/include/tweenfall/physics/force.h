@@ -1,12 +1,18 @@
 #pragma once
 
-/// Forces that act on bodies between contacts: drag, springs, and the caller's own.
+/// Forces that act on bodies between contacts. They add up, at any state that an integrator asks about, and may be
+/// limited to some bodies and have a strength that is scripted (`strength.h`).
 
 #include <tweenfall/curves/pose.h>
+#include <tweenfall/physics/strength.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <variant>
+#include <vector>
 
 namespace tweenfall {
 
@@ -16,7 +22,7 @@ struct BodyId {
   bool operator==(const BodyId&) const = default;
 };
 
-/// Resistance of a medium on every body: -linear v - quadratic |v| v, and -angular w for the spin.
+/// Resistance of a medium: -linear v - quadratic |v| v, and -angular w for the spin.
 struct Drag {
   double linear = 0;     ///< kg/s
   double quadratic = 0;  ///< kg/m
@@ -35,11 +41,113 @@ struct Spring {
   double damping = 0;      ///< N s/m, along the spring
 };
 
+/// A dashpot between two such points: -damping times the rate of their distance, along the line between them. However
+/// much damping there is, it is stable.
+struct Damper {
+  BodyId a;
+  BodyId b = {};  ///< the default handle means the world
+  Vec3 anchor_a{0, 0, 0}, anchor_b{0, 0, 0};
+  double damping = 0;  ///< N s/m
+};
+
+/// A medium that moves: resistance to the velocity against it. With a coefficient, also 1/2 rho C A |v| v, where A is
+/// how large the body looks along that velocity (parts of a compound each by itself, in nobody's lee).
+struct Wind {
+  Vec3 velocity{0, 0, 0};   ///< of the medium, m/s
+  double linear = 0;        ///< kg/s
+  double quadratic = 0;     ///< kg/m
+  double angular = 0;       ///< kg m^2/s
+  double coefficient = 0;   ///< of drag, C: about .5 for a ball, 1 for a box
+  double density = 1.2041;  ///< rho of the medium, kg/m^3: of air at 20 degrees
+};
+
+/// A liquid below a plane surface: holds a body up by the weight of the liquid that it displaces, at the middle of the
+/// part that is under, and resists what moves in it, by the share that is under.
+/// Source: Archimedes; volumes are exact for spheres, boxes and hulls, and to about 1e-10 for other round solids.
+struct Buoyancy {
+  Vec3 normal{0, 1, 0};   ///< of the surface, out of the liquid; any length but 0
+  double level = 0;       ///< of the surface along the normal, m
+  double density = 1000;  ///< of the liquid, kg/m^3
+  Drag drag = {};         ///< of what is wholly under
+  Vec3 flow{0, 0, 0};     ///< velocity of the liquid, m/s
+};
+
+/// Draws toward a point, by an acceleration of `acceleration` / r^power, r being sqrt(distance^2 + softening^2). With
+/// power 2 that is Newton's gravity of a mass of `acceleration` / G. Not drawn itself: two that draw each other are two
+/// attractors.
+struct Attractor {
+  BodyId of = {};           ///< whose point it is; the default handle means the world
+  Vec3 at{0, 0, 0};         ///< on that body's node, or in the world, m
+  double acceleration = 1;  ///< m/s^2 at a distance of 1 m; negative drives away
+  double power = 2;         ///< -4 to 8
+  double softening = 0;     ///< m
+  bool by_mass = true;      ///< false: a force in N in place of the acceleration
+};
+
+/// Drives around an axis, counterclockwise for who looks against it, by an acceleration of `acceleration` / r^power,
+/// with r as above from the axis; and draws toward it by `inward` times that.
+struct Vortex {
+  Vec3 at{0, 0, 0};    ///< a point of the axis, m
+  Vec3 axis{0, 1, 0};  ///< any length but 0
+  double acceleration = 1;
+  double inward = 0;
+  double power = 1;  ///< -4 to 8
+  double softening = 0;
+};
+
+/// A force by formulas of x, y, z (of the center of mass, m), vx, vy, vz (m/s), t (time of the world, s) and mass (kg).
+/// Where one has no finite value 0 stands in.
+class ForceFormula {
+ public:
+  using Parameter = Expression::Parameter;
+  ForceFormula() : ForceFormula({"0", "0", "0"}) {}
+  /// @param force  its three components, N
+  /// @throws ExpressionError
+  explicit ForceFormula(std::array<std::string, 3> force, std::vector<Parameter> parameters = {});
+  /// The force of a potential energy in J: the way it falls, exactly. Not of vx, vy or vz.
+  /// @throws ExpressionError
+  [[nodiscard]] static ForceFormula potential(std::string energy, std::vector<Parameter> parameters = {});
+
+  [[nodiscard]] Vec3 force(double mass, const Vec3& position, const Vec3& velocity, double time) const noexcept;
+  /// J; none unless it was made from a potential.
+  [[nodiscard]] std::optional<double> energy(double mass, const Vec3& position, double time) const noexcept;
+  [[nodiscard]] bool reads_time() const noexcept { return reads_time_; }
+
+  [[nodiscard]] const std::vector<std::string>& texts() const noexcept { return texts_; }  ///< three, or one potential
+  [[nodiscard]] const std::vector<Parameter>& parameters() const noexcept { return parameters_; }
+
+ private:
+  struct Texts {
+    std::vector<std::string> all;
+  };
+  ForceFormula(Texts texts, std::vector<Parameter> parameters);
+
+  std::vector<std::string> texts_;
+  std::vector<Parameter> parameters_;
+  std::vector<Expression> expressions_;
+  bool reads_time_ = false;
+};
+
+/// A steady force and torque on one body.
+struct Push {
+  BodyId body;
+  Vec3 force{0, 0, 0};       ///< N
+  Vec3 torque{0, 0, 0};      ///< N m, besides the one that the force has about the center of mass
+  std::optional<Vec3> at{};  ///< where the force acts, on the body's node, m; absent: at its center of mass
+  bool turns = false;        ///< force and torque turn with the body; else they keep to the world's axes
+};
+
 /// A force field: force in N on a body, from its mass and the motion of its center of mass. A world with a field keeps
 /// its bodies awake, for a field may change. It may read the world that it acts in and throw, but not change it: calls
 /// that would change it throw std::logic_error, and it must not be destroyed or assigned to.
 using Field = std::function<Vec3(double mass, const Vec3& position, const Vec3& velocity, double time)>;
 
-using Force = std::variant<Drag, Spring, Field>;
+using Force = std::variant<Drag, Spring, Field, Damper, Wind, Buoyancy, Attractor, Vortex, ForceFormula, Push>;
+
+/// On whom a force acts, and how strongly.
+struct ForceSettings {
+  std::vector<BodyId> bodies = {};  ///< none: all; not for those that name their bodies themselves
+  Strength strength = {};           ///< factor; of drag, springs, dampers, wind and buoyancy below 0 counts as 0
+};
 
 }  // namespace tweenfall

@@ -216,8 +216,17 @@ class World {
   [[nodiscard]] std::span<const JointId> broken_joints() const noexcept;
 
   // Forces
-  std::size_t add_force(Force force);  ///< @returns a number for `remove_force`
+  /// @returns a number for the calls below
+  /// @throws std::invalid_argument naming what is wrong
+  std::size_t add_force(Force force, ForceSettings settings = {});
+  // All throw std::invalid_argument for a number that is none
   void remove_force(std::size_t number);
+  void set_strength(std::size_t force, const Strength& strength);
+  /// Energy of a force's free bodies in it, at the present strength, J: of springs, attractors, potentials, steady
+  /// pushes, and of buoyancy where gravity is square to the surface. None for what has none.
+  [[nodiscard]] std::optional<double> potential_energy(std::size_t force) const;
+  /// The sum of those that have one, and of gravity, which is 0 at the origin, J.
+  [[nodiscard]] double potential_energy() const;
 
   // Time
   /// Advances by `dt` seconds. The result of n steps depends on their lengths alone, bit for bit.
@@ -244,7 +253,7 @@ class World {
   /// A number that changes when any bit does of what the world is: of all that tells on its next steps.
   [[nodiscard]] std::uint64_t state_hash() const noexcept;
   /// The world as bytes, from which `load` makes it again, with the same handles: it then steps to the same bits.
-  /// @throws std::invalid_argument when the world has a field, for a function cannot be saved: take it away with
+  /// @throws std::invalid_argument when the world has a `Field`, for a function cannot be saved: take it away with
   /// `remove_force` and add it again after loading; or when a body is not finite
   [[nodiscard]] std::vector<std::byte> save() const;
   /// Becomes the world that was saved.

@@ -76,10 +76,11 @@ double give_of(const StageState& state, std::size_t node, const Vec3& anchor) {
 std::vector<StiffSpring> stiff_springs_in(const StageState& state, const StageDescription& description) {
   std::vector<StiffSpring> found;
   for (std::size_t i = 0; i < description.forces.size(); ++i) {
-    const auto* described = std::get_if<SpringDescription>(&description.forces[i]);
-    if (!described) continue;
-    const Spring& spring = described->spring;
-    const double give = give_of(state, described->a, spring.anchor_a) + give_of(state, described->b, spring.anchor_b);
+    const ForceDescription& described = description.forces[i];
+    const auto* kind = std::get_if<Spring>(&described.force);
+    if (!kind) continue;
+    const Spring& spring = *kind;
+    const double give = give_of(state, described.a, spring.anchor_a) + give_of(state, described.b, spring.anchor_b);
     // The step h at which (stiffness h^2 + damping h) give is 1: above it the solver takes the spring by its end.
     const double root = std::sqrt(spring.damping * spring.damping + 4 * spring.stiffness / give);
     const double longest = give > 0 ? 2 / give / (spring.damping + root) : description.step;

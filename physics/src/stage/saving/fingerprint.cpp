@@ -78,11 +78,11 @@ std::uint64_t fingerprint(const StageDescription& description) {
     visit(of_graph);
   }
   for (const ForceDescription& force : description.forces) {
-    if (const auto* drag = std::get_if<DragDescription>(&force)) visit(drag->drag);
-    if (const auto* spring = std::get_if<SpringDescription>(&force)) {
-      visit(spring->spring);
-      visit.places(spring->a, spring->b);
-    }
+    const bool user_field = std::holds_alternative<Field>(force.force);
+    if (!user_field) visit(force.force);
+    visit.places(force.a, force.b);
+    for (const std::size_t node : force.bodies) visit.places(node);
+    visit(user_field, force.strength);
   }
   for (const auto& [a, b] : description.ignored) visit.places(a, b);
   return saving::checksum(out.bytes);

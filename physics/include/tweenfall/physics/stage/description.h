@@ -48,15 +48,14 @@ struct NodeDescription {
   std::optional<Color> color{};
 };
 
-struct DragDescription {
-  Drag drag;
+/// A force of the stage's world, from time 0. Of those who come later one without a list of its own acts on all, too.
+struct ForceDescription {
+  Force force = Drag{};             ///< its handles are not read
+  std::size_t a = no_node;          ///< node with a body: what a spring, a damper or a push is at, whose an attractor is
+  std::size_t b = no_node;          ///< the other end of a spring or a damper; `no_node`: the world
+  std::vector<std::size_t> bodies;  ///< nodes with bodies on whom alone it acts; none: all
+  Strength strength = {};           ///< over the stage's time
 };
-struct SpringDescription {
-  Spring spring;            ///< its handles are not read
-  std::size_t a = no_node;  ///< node with a body
-  std::size_t b = no_node;  ///< node with a body; `no_node`: the world
-};
-using ForceDescription = std::variant<DragDescription, SpringDescription>;
 
 /// What holds two bodies, or a body and the world, to each other, from time 0 and through every hand-off. Between ends
 /// that are both keyed or static it does nothing.
