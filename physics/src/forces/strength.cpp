@@ -32,6 +32,25 @@ double greatest(const Curve<double>& curve) {
   return most;
 }
 
+Span<double> rest(double start, double value) {
+  Span<double> span;
+  span.start = start;
+  span.coefficients.fill(0);
+  span.coefficients[0] = span.end = value;
+  return span;
+}
+
+/// The curve made of its spans alone, as it is when it was saved: where it jumps at its first or last key it rests for
+/// a second beyond it.
+Curve<double> of_spans(const Curve<double>& curve) {
+  std::vector<Span<double>> spans = curve.spans();
+  const double before = curve.value(curve.start(), Side::in), after = curve.value(curve.end());
+  if (curve.after() == Outside::hold && after != spans.back().end) spans.push_back(rest(curve.end(), after));
+  if (curve.before() == Outside::hold && before != spans.front().coefficients[0])
+    spans.insert(spans.begin(), rest(curve.start() - 1, before));
+  return Curve<double>(spans).with_outside(curve.rule_before(), curve.rule_after());
+}
+
 }  // namespace
 }  // namespace forces
 
@@ -40,16 +59,18 @@ Strength::Strength(double factor) : factor_(factor) {
 }
 
 Strength::Strength(const Curve<double>& keys) : curve_(keys) {
-  if (keys.knots().empty() && keys.duration() == 0) {
-    *this = Strength(keys.value(0));
+  if (keys.duration() == 0) {
+    *this = Strength(keys.value(keys.start()));
     return;
   }
   state::require(!keys.spans().empty(), "a strength is told by keys, not by a curve's formula; give it as a text");
   const double most = forces::greatest(keys);
   state::require(state::countable(most), "a strength must be finite and at most 1e30");
-  if (!forces::has_eases(keys.spans())) return;
-  const std::vector<Key<double>> fitted = fit(keys, 1e-9 * (most > 0 ? most : 1));
-  curve_ = keyed_curve<double>(fitted).with_outside(keys.rule_before(), keys.rule_after());
+  if (forces::has_eases(keys.spans())) {
+    const std::vector<Key<double>> fitted = fit(keys, 1e-9 * (most > 0 ? most : 1));
+    curve_ = keyed_curve<double>(fitted).with_outside(keys.rule_before(), keys.rule_after());
+  }
+  curve_ = forces::of_spans(*curve_);
 }
 
 Strength Strength::formula(const std::string& text) {

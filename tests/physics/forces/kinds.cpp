@@ -250,6 +250,9 @@ TEST_CASE("a strength is keyed or a formula, and its integral is the momentum th
   const Curve<double> elastic = keyed_curve<double>(Keys{{0, 0, *Ease::named("elastic-out")}, {1, 2}});
   const Strength fitted = elastic;
   for (int i = -10; i <= 110; ++i) CHECK(near(fitted.at(0.01 * i), elastic.value(0.01 * i), 4e-9));
+  CHECK(Strength(keyed_curve<double>(Keys{{1, 4}})).at(2) == 4);
+  CHECK(jump.at(3) == 0);
+  CHECK(jump.at(2, Side::in) == -3);
   CHECK(Strength(Curve<double>(4.0)) == Strength(4));
   CHECK(Strength::formula("1/t").at(0) == 0);
   CHECK_THROWS_AS(Strength{Curve<double>([](double, Side) { return Sample<double>{}; }, 0, 1)}, std::invalid_argument);
