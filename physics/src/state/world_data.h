@@ -69,12 +69,12 @@ struct World::Implementation : state::WorldState, step::Workspace {
                               contacts::FoundPart& part) const;
   /// Keeps what a step has deflected or driven fast from ending behind a mesh or a height field that it was before.
   void hold_before_surfaces();
-  void gather_links();          ///< joints that hold something that can move
-  void leave_sleeping_links();  ///< out of what is solved
-  void end_links(double dt);    ///< reactions, and what breaks
+  void gather_links();             ///< joints that hold something that can move
+  void leave_sleeping_links();     ///< out of what is solved
+  void end_links(double dt);       ///< reactions, and what breaks
   void wake_by_forces(double dt);  ///< those on whom a force acts that may be another though they rest
   void wake_forced(BodyId body);   ///< those on whom a force acts that is by this body
-  bool wake_islands();  ///< true when a sleeper woke, so that its contacts must be looked for
+  bool wake_islands();             ///< true when a sleeper woke, so that its contacts must be looked for
   void solve_islands(double dt);
   /// How many pieces an island goes through a step in; nearly always one.
   [[nodiscard]] int pieces_of(const islands::IslandContents& island, double dt) const;

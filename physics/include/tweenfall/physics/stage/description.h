@@ -50,9 +50,9 @@ struct NodeDescription {
 
 /// A force of the stage's world, from time 0. Of those who come later one without a list of its own acts on all, too.
 struct ForceDescription {
-  Force force = Drag{};             ///< its handles are not read
-  std::size_t a = no_node;          ///< node with a body: what a spring, a damper or a push is at, whose an attractor is
-  std::size_t b = no_node;          ///< the other end of a spring or a damper; `no_node`: the world
+  Force force = Drag{};     ///< its handles are not read
+  std::size_t a = no_node;  ///< node with a body: what a spring, a damper or a push is at, whose an attractor is
+  std::size_t b = no_node;  ///< the other end of a spring or a damper; `no_node`: the world
   std::vector<std::size_t> bodies;  ///< nodes with bodies on whom alone it acts; none: all
   Strength strength = {};           ///< over the stage's time
 };
