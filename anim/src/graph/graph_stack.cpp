@@ -1,8 +1,96 @@
 #include "graph/graph_stack.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace tweenfall::graphs {
+
+struct GraphStack::Runner {
+  // Questions about many nodes at one time, and about both ends of a step, are many.
+  struct Kept {
+    double time = -1;
+    Side side = Side::out;
+    std::vector<Motion> local;
+  };
+
+  Runner(GraphGround below, std::size_t nodes, std::size_t graphs) : plays(std::move(below)) {
+    players.reserve(graphs);  // each is asked by the next
+    for (Kept& each : kept) each.local.resize(nodes);
+  }
+
+  /// What the graph of that number lies on.
+  [[nodiscard]] GraphGround over(std::size_t graph) {
+    if (graph == 0) return plays;
+    GraphPlayer& player = players[graph - 1];
+    const auto pose = [&player](double time, Side side, std::span<Motion> out) { player.pose_at(time, out, side); };
+    const auto next_event = [&player, below = over(graph - 1).next_event](std::string_view name, double after,
+                                                                          double until) {
+      std::optional<double> first = player.first_event(name, after, until);
+      if (below)
+        if (const auto next = below(name, after, first.value_or(until))) first = next;
+      return first;
+    };
+    return {pose, next_event};
+  }
+
+  void put(std::size_t graph, const GraphInput& input) {
+    GraphPlayer& player = players[graph];
+    player.seek(input.time);
+    if (input.value)
+      player.set(input.name, *input.value);
+    else
+      player.send(input.name);
+    // Those above lie on another ground from then on.
+    for (std::size_t i = graph + 1; i < players.size(); ++i) players[i] = GraphPlayer(players[i], over(i), input.time);
+    for (Kept& each : kept) each.time = -1;
+  }
+
+  [[nodiscard]] const std::vector<Motion>& kept_at(double time, Side side) {
+    time = std::isfinite(time) ? std::max(time, 0.0) : 0;
+    for (const Kept& each : kept)
+      if (each.time == time && each.side == side) return each.local;
+    Kept& next = kept[oldest];
+    oldest = (oldest + 1) % kept.size();
+    players.back().pose_at(time, next.local, side);
+    next.time = time;
+    next.side = side;
+    return next.local;
+  }
+
+  GraphGround plays;
+  std::vector<GraphPlayer> players;
+  std::array<Kept, 4> kept;
+  std::size_t oldest = 0;
+};
+
+class GraphStack::Lent {
+ public:
+  explicit Lent(const GraphStack& stack) : stack_(stack) {
+    for (std::atomic<Runner*>& place : stack.idle_)
+      if (Runner* found = place.exchange(nullptr, std::memory_order_acquire)) {
+        runner_.reset(found);
+        return;
+      }
+    runner_ = stack.new_runner();
+  }
+  ~Lent() {
+    for (std::atomic<Runner*>& place : stack_.idle_) {
+      Runner* none = nullptr;
+      if (!place.compare_exchange_strong(none, runner_.get(), std::memory_order_release)) continue;
+      static_cast<void>(runner_.release());
+      return;
+    }
+  }
+  Lent(const Lent&) = delete;
+  Lent& operator=(const Lent&) = delete;
+
+  Runner* operator->() const noexcept { return runner_.get(); }
+
+ private:
+  const GraphStack& stack_;
+  std::unique_ptr<Runner> runner_;
+};
 
 GraphStack::GraphStack(const std::shared_ptr<const Hierarchy>& nodes,
                        const std::shared_ptr<const std::vector<Clip>>& clips,
@@ -10,112 +98,90 @@ GraphStack::GraphStack(const std::shared_ptr<const Hierarchy>& nodes,
     : descriptions_(std::make_shared<const std::vector<GraphDescription>>(std::move(descriptions))),
       nodes_(nodes->size()),
       plays_(std::move(plays)) {
-  players_.reserve(descriptions_->size());  // each is asked by the next
-  for (std::size_t i = 0; i < descriptions_->size(); ++i)
-    players_.emplace_back(std::make_shared<const Graph>(nodes, clips, (*descriptions_)[i]), over(i));
-  for (Kept& kept : kept_) kept.local.resize(nodes_);
+  for (const GraphDescription& each : *descriptions_)
+    graphs_.push_back(std::make_shared<const Graph>(nodes, clips, each));
+  idle_[0] = new_runner().release();
 }
 
-GraphStack::GraphStack(GraphStack& other, GraphGround plays, double from)
-    : descriptions_(other.descriptions_), nodes_(other.nodes_), plays_(std::move(plays)) {
-  const std::lock_guard guard(other.lock_);
-  players_.reserve(other.players_.size());
-  for (std::size_t i = 0; i < other.players_.size(); ++i) players_.emplace_back(other.players_[i], over(i), from);
-  for (Kept& kept : kept_) kept.local.resize(nodes_);
+GraphStack::GraphStack(const GraphStack& other, GraphGround plays, double from)
+    : graphs_(other.graphs_),
+      descriptions_(other.descriptions_),
+      nodes_(other.nodes_),
+      plays_(std::move(plays)),
+      puts_(other.puts_) {
+  const Lent lent(other);
+  auto runner = std::make_unique<Runner>(plays_, nodes_, graphs_.size());
+  for (std::size_t i = 0; i < graphs_.size(); ++i) runner->players.emplace_back(lent->players[i], runner->over(i), from);
+  idle_[0] = runner.release();
 }
 
-GraphGround GraphStack::over(std::size_t graph) {
-  if (graph == 0) return plays_;
-  GraphPlayer& player = players_[graph - 1];
-  const auto pose = [&player](double time, Side side, std::span<Motion> out) { player.pose_at(time, out, side); };
-  const auto next_event = [&player, below = over(graph - 1).next_event](std::string_view name, double after,
-                                                                        double until) {
-    std::optional<double> first = player.first_event(name, after, until);
-    if (below)
-      if (const auto next = below(name, after, first.value_or(until))) first = next;
-    return first;
-  };
-  return {pose, next_event};
+GraphStack::~GraphStack() {
+  for (const std::atomic<Runner*>& place : idle_) delete place.load();
+}
+
+std::unique_ptr<GraphStack::Runner> GraphStack::new_runner() const {
+  auto runner = std::make_unique<Runner>(plays_, nodes_, graphs_.size());
+  for (std::size_t i = 0; i < graphs_.size(); ++i) runner->players.emplace_back(graphs_[i], runner->over(i));
+  for (const Put& each : puts_) runner->put(each.graph, each.input);
+  return runner;
 }
 
 void GraphStack::put(std::size_t graph, const GraphInput& input) {
-  GraphPlayer& player = players_[graph];
-  player.seek(input.time);
-  if (input.value)
-    player.set(input.name, *input.value);
-  else
-    player.send(input.name);
-  // Those above lie on another ground from then on.
-  for (std::size_t i = graph + 1; i < players_.size(); ++i) players_[i] = GraphPlayer(players_[i], over(i), input.time);
-  forget_kept();
+  Lent(*this)->put(graph, input);
+  puts_.push_back({graph, input});
 }
 
-void GraphStack::put_all_of(GraphStack& others) {
-  const std::lock_guard guard(others.lock_);
-  for (std::size_t i = 0; i < players_.size(); ++i)
-    for (const GraphInput& input : others.players_[i].own_inputs()) put(i, input);
+void GraphStack::put_all_of(const GraphStack& others) {
+  for (const Put& each : others.puts_) put(each.graph, each.input);
 }
 
-void GraphStack::forget_kept() {
-  for (Kept& kept : kept_) kept.time = -1;
-}
-
-GraphPlayer GraphStack::player(const std::shared_ptr<GraphStack>& stack, std::size_t graph, double time) {
-  const GraphGround ground = stack->over(graph);
-  GraphGround locked{.pose = [stack, ground](double at, Side side, std::span<Motion> out) {
-    const std::lock_guard guard(stack->lock_);
-    ground.pose(at, side, out);
-  }};
-  if (ground.next_event)
-    locked.next_event = [stack, ground](std::string_view name, double after, double until) {
-      const std::lock_guard guard(stack->lock_);
-      return ground.next_event(name, after, until);
+GraphPlayer GraphStack::player(const std::shared_ptr<const GraphStack>& stack, std::size_t graph, double time) {
+  // It outlives this question, and asks for what lies below it on its own.
+  GraphGround ground = stack->plays_;
+  if (graph > 0) {
+    ground.pose = [stack, graph](double at, Side side, std::span<Motion> out) {
+      Lent(*stack)->players[graph - 1].pose_at(at, out, side);
     };
-  const std::lock_guard guard(stack->lock_);
-  GraphPlayer player(stack->players_[graph], std::move(locked), infinite_time);
+    ground.next_event = [stack, graph](std::string_view name, double after, double until) {
+      const Lent lent(*stack);
+      return lent->over(graph).next_event(name, after, until);
+    };
+  }
+  GraphPlayer player = [&] {
+    const Lent lent(*stack);
+    return GraphPlayer(lent->players[graph], std::move(ground), infinite_time);
+  }();
   player.seek(time);
   return player;
 }
 
 bool GraphStack::moves(std::size_t node) const noexcept {
-  return std::ranges::any_of(players_, [&](const GraphPlayer& player) { return player.graph().moves(node); });
+  return std::ranges::any_of(graphs_, [&](const auto& graph) { return graph->moves(node); });
 }
 
-const std::vector<Motion>& GraphStack::kept_at(double time, Side side) {
-  time = std::max(time, 0.0);
-  for (const Kept& kept : kept_)
-    if (kept.time == time && kept.side == side) return kept.local;
-  Kept& kept = kept_[oldest_];
-  oldest_ = (oldest_ + 1) % kept_.size();
-  players_.back().pose_at(time, kept.local, side);
-  kept.time = time;
-  kept.side = side;
-  return kept.local;
+void GraphStack::sample(double time, Side side, std::span<Motion> local) const {
+  const Lent lent(*this);
+  std::ranges::copy(lent->kept_at(time, side), local.begin());
 }
 
-void GraphStack::sample(double time, Side side, std::span<Motion> local) {
-  const std::lock_guard guard(lock_);
-  std::ranges::copy(kept_at(time, side), local.begin());
+Motion GraphStack::sample_node(std::size_t node, double time, Side side) const {
+  const Lent lent(*this);
+  return lent->kept_at(time, side)[node];
 }
 
-Motion GraphStack::sample_node(std::size_t node, double time, Side side) {
-  const std::lock_guard guard(lock_);
-  return kept_at(time, side)[node];
-}
-
-std::vector<GraphEvent> GraphStack::events(double from, double to) {
-  const std::lock_guard guard(lock_);
+std::vector<GraphEvent> GraphStack::events(double from, double to) const {
+  const Lent lent(*this);
   std::vector<GraphEvent> events;
-  for (GraphPlayer& player : players_)
+  for (GraphPlayer& player : lent->players)
     for (GraphEvent& event : player.events(from, to)) events.push_back(std::move(event));
   std::ranges::stable_sort(events, {}, &GraphEvent::time);
   return events;
 }
 
-std::optional<double> GraphStack::first_event(std::string_view name, std::size_t node, double from, double to) {
-  const std::lock_guard guard(lock_);
+std::optional<double> GraphStack::first_event(std::string_view name, std::size_t node, double from, double to) const {
+  const Lent lent(*this);
   std::optional<double> first;
-  for (GraphPlayer& player : players_) {
+  for (GraphPlayer& player : lent->players) {
     if (node != no_node && !player.graph().moves(node)) continue;
     for (const GraphEvent& event : player.events(from, to))
       if (event.name == name && event.kind != GraphEvent::Kind::end && event.time < first.value_or(infinite_time))
@@ -124,10 +190,10 @@ std::optional<double> GraphStack::first_event(std::string_view name, std::size_t
   return first;
 }
 
-std::optional<double> GraphStack::first_instant(double from, double to) {
-  const std::lock_guard guard(lock_);
+std::optional<double> GraphStack::first_instant(double from, double to) const {
+  const Lent lent(*this);
   std::optional<double> first;
-  for (GraphPlayer& player : players_)
+  for (GraphPlayer& player : lent->players)
     if (const auto instant = player.first_instant(from, first.value_or(to))) first = instant;
   return first;
 }

@@ -1,16 +1,22 @@
 #pragma once
 
 // The graphs of an animation, each over the one before, the first over the plays; asked from anywhere at any time.
+//
+// What came in to them never changes. What follows from it is found by runners, which remember how far they have come;
+// each is lent to one question at a time. Whoever asks from one thread gets the same one again, without a lock; one who
+// asks meanwhile from another thread gets another one, which is made where there is none yet.
 
 #include <tweenfall/anim/animation.h>
 #include <tweenfall/anim/graph_player.h>
 
 #include <array>
+#include <atomic>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
+
+#include "graph/record.h"
 
 namespace tweenfall::graphs {
 
@@ -21,7 +27,10 @@ class GraphStack {
   GraphStack(const std::shared_ptr<const Hierarchy>& nodes, const std::shared_ptr<const std::vector<Clip>>& clips,
              std::vector<GraphDescription> descriptions, GraphGround plays);
   /// Graphs with the same past, over plays that may be others from a time on.
-  GraphStack(GraphStack& other, GraphGround plays, double from);
+  GraphStack(const GraphStack& other, GraphGround plays, double from);
+  ~GraphStack();
+  GraphStack(const GraphStack&) = delete;
+  GraphStack& operator=(const GraphStack&) = delete;
 
   [[nodiscard]] std::span<const GraphDescription> descriptions() const noexcept { return *descriptions_; }
   [[nodiscard]] bool moves(std::size_t node) const noexcept;
@@ -30,39 +39,41 @@ class GraphStack {
   /// @throws std::invalid_argument as `GraphPlayer` does
   void put(std::size_t graph, const GraphInput& input);
   /// What came in to others of the same names.
-  void put_all_of(GraphStack& others);
+  void put_all_of(const GraphStack& others);
 
   /// One of them at a time, for whoever keeps `stack`.
-  [[nodiscard]] static GraphPlayer player(const std::shared_ptr<GraphStack>& stack, std::size_t graph, double time);
+  [[nodiscard]] static GraphPlayer player(const std::shared_ptr<const GraphStack>& stack, std::size_t graph,
+                                          double time);
 
-  /// Of the nodes that it was made for. Times before 0 are taken as 0.
-  void sample(double time, Side side, std::span<Motion> local);
-  [[nodiscard]] Motion sample_node(std::size_t node, double time, Side side);
+  /// Of the nodes that it was made for. Times before 0, and those that are none, are taken as 0.
+  void sample(double time, Side side, std::span<Motion> local) const;
+  [[nodiscard]] Motion sample_node(std::size_t node, double time, Side side) const;
   [[nodiscard]] std::size_t nodes() const noexcept { return nodes_; }
 
-  [[nodiscard]] std::vector<GraphEvent> events(double from, double to);
-  [[nodiscard]] std::optional<double> first_event(std::string_view name, std::size_t node, double from, double to);
-  [[nodiscard]] std::optional<double> first_instant(double from, double to);
+  [[nodiscard]] std::vector<GraphEvent> events(double from, double to) const;
+  [[nodiscard]] std::optional<double> first_event(std::string_view name, std::size_t node, double from,
+                                                  double to) const;
+  [[nodiscard]] std::optional<double> first_instant(double from, double to) const;
 
  private:
-  // Questions about many nodes at one time, and about both ends of a step, are many.
   static constexpr double infinite_time = std::numeric_limits<double>::infinity();
-  struct Kept {
-    double time = -1;
-    Side side = Side::out;
-    std::vector<Motion> local;
+  struct Runner;
+  /// A runner for as long as a question lasts.
+  class Lent;
+  struct Put {
+    std::size_t graph;
+    GraphInput input;
   };
-  [[nodiscard]] const std::vector<Motion>& kept_at(double time, Side side);
-  [[nodiscard]] GraphGround over(std::size_t graph);
-  void forget_kept();
+  static constexpr std::size_t most_idle = 8;
 
+  [[nodiscard]] std::unique_ptr<Runner> new_runner() const;
+
+  std::vector<std::shared_ptr<const Graph>> graphs_;
   std::shared_ptr<const std::vector<GraphDescription>> descriptions_;
   std::size_t nodes_;
   GraphGround plays_;
-  std::vector<GraphPlayer> players_;
-  std::recursive_mutex lock_;  // a player that was given away asks on its own
-  std::array<Kept, 4> kept_;
-  std::size_t oldest_ = 0;
+  Record<Put> puts_;  // as they came
+  mutable std::array<std::atomic<Runner*>, most_idle> idle_{};
 };
 
 /// Plays as what graphs lie on. @param plays  without graphs

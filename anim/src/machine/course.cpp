@@ -9,7 +9,7 @@ namespace {
 class Course {
  public:
   Course(Log& log, const Graph& graph, const GraphGround& ground, std::span<Motion> room)
-      : log_(log), graph_(graph), ground_(ground), room_(room), taken_(log.passages.size(), 0) {}
+      : log_(log), graph_(graph), ground_(ground), room_(room) {}
 
   void run(double until) {
     if (log_.known < 0) {
@@ -70,7 +70,7 @@ class Course {
   void happen(double time) {
     const std::vector<GraphReaction>& reactions = graph_.description().reactions;
     std::vector<char> reacted(reactions.size(), 0);
-    std::ranges::fill(taken_, 0);
+    taken_.assign(log_.passages.size(), 0);
     std::size_t told =
         static_cast<std::size_t>(std::ranges::lower_bound(log_.sent, time, {}, &Sending::time) - log_.sent.begin());
     static_cast<void>(react(time, reacted));
@@ -142,7 +142,7 @@ class Course {
   const Graph& graph_;
   const GraphGround& ground_;
   std::span<Motion> room_;
-  std::vector<std::size_t> taken_;  // by machine: transitions at this instant
+  std::vector<std::size_t> taken_{};  // by machine: transitions at this instant
 };
 
 }  // namespace

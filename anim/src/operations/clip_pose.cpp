@@ -35,6 +35,8 @@ class PlayedClip : public Operation {
 
   [[nodiscard]] std::optional<double> next_event(const Log&, std::string_view name, double start, double after,
                                                  double until) const override {
+    const std::vector<ClipEvent>& events = clip_.clip().events;
+    if (std::ranges::find(events, name, &ClipEvent::name) == events.end()) return std::nullopt;
     if (const auto event = first_event(play(start), clip_.clip(), after, until, false, name)) return event->time;
     return std::nullopt;
   }

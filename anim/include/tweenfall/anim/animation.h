@@ -8,6 +8,9 @@
 /// The plays are layers, in order. The first lies over the rest poses, each further one is mixed
 /// over what is below with its weight; a weight that changes contributes its own rate, so a
 /// cross-fade's velocity is exact.
+///
+/// Asking is for any number of threads at once, takes no lock and never fails. Plays keep nothing; graphs remember how
+/// far they have come, and ask for memory where a machine passes to another state, or a second thread asks meanwhile.
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/hierarchy.h>
