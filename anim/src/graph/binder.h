@@ -33,9 +33,12 @@ struct Graph::Compiled {
   const graphs::Operation* output = nullptr;
   std::size_t phases = 0;                            // of clips that run in phase
   std::size_t swings = 0;                            // operations with springs
+  std::size_t travels = 0;                           // operations that accumulate a way
   std::vector<char> moved;                           // by node: whether an operation moves it
   std::vector<Curve<double>> jumping;                // numbers over the graph's time that jump
   std::vector<std::optional<std::size_t>> reacting;  // by reaction: the parameter that it sets
+
+  [[nodiscard]] graphs::LogSizes sizes() const noexcept { return {machines.size(), phases, swings, travels}; }
 };
 
 }  // namespace tweenfall
@@ -70,6 +73,7 @@ class Binder {
   [[nodiscard]] std::size_t machine_number() const noexcept;
   [[nodiscard]] std::size_t new_phase() noexcept { return compiled_->phases++; }
   [[nodiscard]] std::size_t new_swing() noexcept { return compiled_->swings++; }
+  [[nodiscard]] std::size_t new_travel() noexcept { return compiled_->travels++; }
   void fault(const Place& place, std::string message);
   /// Does what may throw. @returns whether it did not; each problem that it lists is told
   template <class Make>

@@ -49,8 +49,7 @@ std::size_t parameter_named(const GraphDescription& description, std::string_vie
 
 GraphPlayer::GraphPlayer(std::shared_ptr<const Graph> graph, GraphGround ground)
     : graph_(std::move(graph)), run_(std::make_unique<Run>()) {
-  run_->log =
-      graphs::fresh_log(graph_->description(), machines(), graph_->compiled().phases, graph_->compiled().swings);
+  run_->log = graphs::fresh_log(graph_->description(), graph_->compiled().sizes());
   lie_on(std::move(ground));
   know(0);
 }
@@ -231,8 +230,7 @@ std::vector<std::byte> GraphPlayer::save() const {
 }
 
 void GraphPlayer::load(std::span<const std::byte> saved) {
-  graphs::SavedLog read =
-      graphs::log_of(saved, graph_->description(), machines(), graph_->compiled().phases, graph_->compiled().swings);
+  graphs::SavedLog read = graphs::log_of(saved, graph_->description(), graph_->compiled().sizes());
   graphs::make_known(read.log, *graph_, read.time, run_->ground, run_->room);
   run_->log = std::move(read.log);
   run_->time = read.time;

@@ -111,7 +111,8 @@ GraphStack::GraphStack(const GraphStack& other, GraphGround plays, double from)
       puts_(other.puts_) {
   const Lent lent(other);
   auto runner = std::make_unique<Runner>(plays_, nodes_, graphs_.size());
-  for (std::size_t i = 0; i < graphs_.size(); ++i) runner->players.emplace_back(lent->players[i], runner->over(i), from);
+  for (std::size_t i = 0; i < graphs_.size(); ++i)
+    runner->players.emplace_back(lent->players[i], runner->over(i), from);
   idle_[0] = runner.release();
 }
 

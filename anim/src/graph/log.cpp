@@ -33,10 +33,13 @@ void add(Record<Setting>& settings, double half_life, Setting setting) {
   settings.push_back(setting);
 }
 
-// Where phases and springs have come until `time` does not hang on what is later.
+// Where phases, springs and figures have come until `time` does not hang on what is later.
 void forget_marks(Log& log, double time) noexcept {
   for (auto& marks : log.marks)
     for (PhaseMark& mark : marks)
+      if (mark.time > time) mark = {};
+  for (auto& marks : log.travels)
+    for (TravelMark& mark : marks)
       if (mark.time > time) mark = {};
   for (SwingMemory& memory : log.swings)
     for (SwingCourse& course : memory.courses) {
@@ -78,11 +81,12 @@ void forget(Log& log, const GraphDescription& description, double time, const La
 
 }  // namespace
 
-Log fresh_log(const GraphDescription& description, std::size_t machines, std::size_t phases, std::size_t swings) {
+Log fresh_log(const GraphDescription& description, const LogSizes& sizes) {
   Log log;
-  log.marks.resize(phases);
-  log.swings.resize(swings);
-  log.passages.resize(machines);
+  log.marks.resize(sizes.phases);
+  log.swings.resize(sizes.swings);
+  log.travels.resize(sizes.travels);
+  log.passages.resize(sizes.machines);
   for (const GraphParameter& parameter : description.parameters)
     log.settings.emplace_back().push_back({.time = 0, .value = parameter.start, .origin = Origin::description});
   for (const GraphInput& input : description.inputs) {

@@ -83,6 +83,18 @@ struct SwingMemory {
   bool prepared = false;  // the states of all marks have their size
 };
 
+/// How far a figure has come on its way; see `Travel`.
+struct TravelMark {
+  static constexpr std::size_t kept = 8;
+  double start = -1, time = -1;
+  Pose reached{};
+};
+
+/// How much there is of what a log remembers.
+struct LogSizes {
+  std::size_t machines = 0, phases = 0, swings = 0, travels = 0;
+};
+
 struct Log {
   std::vector<Record<Setting>> settings;  // by parameter, in order of time
   Record<Sending> sent;                   // in order of time
@@ -92,6 +104,8 @@ struct Log {
   mutable std::vector<std::array<PhaseMark, PhaseMark::kept>> marks;
   /// By operation with springs: where to go on from. Says nothing new.
   mutable std::vector<SwingMemory> swings;
+  /// By operation that accumulates a way: where to go on from. Says nothing new.
+  mutable std::vector<std::array<TravelMark, TravelMark::kept>> travels;
   /// What comes later is not seen: poses go on as if nothing happened. Springs look a little ahead so.
   mutable double until = std::numeric_limits<double>::infinity();
   double known = -1;  // all that happens until then, and at that time, is known; below 0: nothing is
@@ -113,8 +127,7 @@ struct Sight {
 [[nodiscard]] double next_instant(const Log& log, double after) noexcept;
 
 /// A log in which nothing has happened yet but what the description gives.
-[[nodiscard]] Log fresh_log(const GraphDescription& description, std::size_t machines, std::size_t phases,
-                            std::size_t swings);
+[[nodiscard]] Log fresh_log(const GraphDescription& description, const LogSizes& sizes);
 
 /// Puts it in, in order; of equal times behind those that are there.
 void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value,

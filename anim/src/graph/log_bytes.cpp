@@ -146,15 +146,14 @@ std::vector<std::byte> bytes_of(const Log& log, const GraphDescription& descript
   return bytes;
 }
 
-SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& description, std::size_t machines,
-                std::size_t phases, std::size_t swings) {
+SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& description, const LogSizes& sizes) {
   if (bytes.size() < 32) Reader::refuse("they end too soon");
   Reader reader(bytes.first(bytes.size() - 8));
   if (reader.number() != kind_of_file) Reader::refuse("they begin as none does");
   if (Reader(bytes.last(8)).number() != checksum(bytes.first(bytes.size() - 8)))
     Reader::refuse("their checksum does not fit");
   if (reader.number() != fingerprint(description)) Reader::refuse("they are of another graph");
-  SavedLog saved{fresh_log(description, machines, phases, swings), reader.real()};
+  SavedLog saved{fresh_log(description, sizes), reader.real()};
   if (saved.time < 0) Reader::refuse("its time is before 0 s");
   const auto time_after = [&](double last) {
     const double read = reader.real();

@@ -18,7 +18,7 @@ struct SavedLog {
 
 /// @throws std::invalid_argument telling what is wrong with the bytes, or that they are of another graph
 [[nodiscard]] SavedLog log_of(std::span<const std::byte> bytes, const GraphDescription& description,
-                              std::size_t machines, std::size_t phases, std::size_t swings);
+                              const LogSizes& sizes);
 
 /// Of what came in and what followed until a time.
 [[nodiscard]] std::uint64_t hash_of(const Log& log, double time) noexcept;

@@ -84,6 +84,26 @@ void Machine::pose(const Log& log, const Moment& moment, const Scratch& scratch,
   show(log, until(log.passages[number_], sight.time, sight.side), moment, scratch, out);
 }
 
+void Machine::bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
+                      Bearers& out) const noexcept {
+  const Sight sight = seen(log, moment.time, moment.side);
+  ShownPassages shown;
+  const Passages passages = until(log.passages[number_], sight.time, sight.side);
+  const std::size_t count = shown_at(passages, moment.time, moment.side, shown);
+  // A fade that begins here may show nothing yet.
+  const Passage& latest = passages[passages.count - 1];
+  if (!latest.settles && moment.time < latest.time + latest.change.seconds) out.flow = true;
+  Sample<double> left = weight;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Passage& passage = *shown[i].passage;
+    const Moment own{moment.time, moment.side, passage.time};
+    // The lowest has all that is left.
+    const Sample<double> share = i + 1 == count ? Sample<double>{1, 0, 0} : shown[i].weight;
+    states_[passage.state]->bearers(log, own, node, product(left, share), out);
+    left = product(left, rest_of(share));
+  }
+}
+
 std::vector<GraphActivity> Machine::activity(const Log& log, double time) const {
   ShownPassages shown;
   const Passages passages = until(log.passages[number_], time, Side::out);

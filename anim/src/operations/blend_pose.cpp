@@ -49,6 +49,24 @@ class Blended : public Operation {
     return sum > 0 ? own / std::max(sum, least_weight) : 0;
   }
 
+  void bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
+               Bearers& out) const noexcept override {
+    std::array<Sample<double>, most_blended> weights;
+    Sample<double> sum{0, 0, 0};
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      weights[i] = as_weight(parts_[i].weight.sample(log, moment.time, moment.side));
+      sum.value += weights[i].value;
+      sum.rate += weights[i].rate;
+      if (parts_[i].weight.flows()) out.flow = true;
+    }
+    if (!(sum.value >= least_weight)) sum = {least_weight, 0, 0};
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const double share = weights[i].value / sum.value;
+      const Sample<double> own{share, (weights[i].rate - share * sum.rate) / sum.value, 0};
+      if (!is_nothing(own)) parts_[i].pose->bearers(log, moment, node, product(weight, own), out);
+    }
+  }
+
  private:
   std::vector<Part> parts_;
 };

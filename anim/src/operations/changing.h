@@ -30,6 +30,11 @@ class Changing : public Operation {
     return changed_.base ? std::vector{changed_.base} : std::vector<const Operation*>();
   }
 
+  void bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
+               Bearers& out) const noexcept override {
+    if (changed_.base) changed_.base->bearers(log, moment, node, weight, out);
+  }
+
  protected:
   /// @param weight  some
   virtual void change(const Log& log, const Moment& moment, const Sample<double>& weight, const Scratch& scratch,
@@ -42,6 +47,7 @@ class Changing : public Operation {
       std::ranges::copy(scratch.below, out.begin());
   }
   [[nodiscard]] const Number& weight() const noexcept { return changed_.weight; }
+  [[nodiscard]] const Operation* base() const noexcept { return changed_.base; }
 
  private:
   Changed changed_;

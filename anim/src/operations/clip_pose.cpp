@@ -51,6 +51,15 @@ class PlayedClip : public Operation {
     return end_time(play(start), clip_.clip());
   }
 
+  void bearers(const Log&, const Moment& moment, std::size_t, const Sample<double>& weight,
+               Bearers& out) const noexcept override {
+    out.add({this, 0, moment.start, weight});
+  }
+  [[nodiscard]] std::vector<const pose::BoundClip*> own_clips() const override { return {&clip_}; }
+  [[nodiscard]] ClipClock clock_of(const Log&, std::size_t, const Moment& moment) const noexcept override {
+    return clock_at(moment.start + at_, speed_, clip_.clip(), moment.time, moment.side);
+  }
+
  private:
   [[nodiscard]] Play play(double start) const { return {.clip = number_, .at = start + at_, .speed = speed_}; }
   static GraphEvent::Kind kind_of(FiredEvent::Kind kind) {

@@ -64,6 +64,23 @@ class Layered : public Operation {
     return share;
   }
 
+  // What is added is taken to move no figure.
+  void bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
+               Bearers& out) const noexcept override {
+    Sample<double> left = weight;
+    for (std::size_t i = layers_.size(); i-- > 0;) {
+      const Layer& layer = layers_[i];
+      const double reach = layer.mask[node];
+      if (layer.adds || reach == 0) continue;
+      if (layer.weight.flows()) out.flow = true;
+      const Sample<double> own = product({reach, 0, 0}, as_share(layer.weight.sample(log, moment.time, moment.side)));
+      if (is_nothing(own)) continue;
+      layer.pose->bearers(log, moment, node, product(left, own), out);
+      left = product(left, rest_of(own));
+    }
+    if (base_ && !is_nothing(left)) base_->bearers(log, moment, node, left, out);
+  }
+
  private:
   const Operation* base_;  // null: what lies below the graph
   std::vector<Layer> layers_;

@@ -71,6 +71,15 @@ class Number {
   return number;
 }
 
+[[nodiscard]] inline Sample<double> product(const Sample<double>& a, const Sample<double>& b) noexcept {
+  return {a.value * b.value, a.rate * b.value + a.value * b.rate,
+          a.acceleration * b.value + 2 * a.rate * b.rate + a.value * b.acceleration};
+}
+/// What is left of 1.
+[[nodiscard]] inline Sample<double> rest_of(const Sample<double>& weight) noexcept {
+  return {1 - weight.value, -weight.rate, -weight.acceleration};
+}
+
 [[nodiscard]] inline bool is_nothing(const Sample<double>& weight) noexcept {
   return weight.value == 0 && weight.rate == 0;
 }

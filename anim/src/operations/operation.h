@@ -6,7 +6,10 @@
 #include <tweenfall/anim/graph_player.h>
 
 #include "graph/log.h"
+#include "pose/bound_clip.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -39,6 +42,27 @@ struct Stretch {
   double from, to, start;
 };
 
+class Operation;
+
+/// A clip that shows, and how much of it, as what a figure's way is made of.
+struct Bearer {
+  const Operation* operation;
+  std::size_t clip;  // by number among those of the operation
+  double start;      // of the state around it
+  Sample<double> weight;
+};
+/// Those that show at a time; what is left of 1 stands still.
+struct Bearers {
+  static constexpr std::size_t most = 64;
+  std::array<Bearer, most> list;
+  std::size_t count = 0;
+  bool flow = false;  // their weights may change without anything that happens
+
+  void add(const Bearer& bearer) noexcept {
+    if (count < most) list[count++] = bearer;
+  }
+};
+
 class Operation {
  public:
   Operation() = default;
@@ -69,6 +93,16 @@ class Operation {
 
   /// When all clips have ended; 0 where there are none.
   [[nodiscard]] virtual double end(const Log& log, double start) const noexcept;
+
+  /// Adds the clips that bear a node, as far as it shows itself. None: it stands still.
+  /// @param weight  of the operation
+  virtual void bearers(const Log&, const Moment&, std::size_t /*node*/, const Sample<double>& /*weight*/,
+                       Bearers& /*out*/) const noexcept {}
+  /// Its own clips, and the clock of each.
+  [[nodiscard]] virtual std::vector<const pose::BoundClip*> own_clips() const { return {}; }
+  [[nodiscard]] virtual ClipClock clock_of(const Log&, std::size_t /*clip*/, const Moment&) const noexcept {
+    return {};
+  }
 
   /// Poses that it works in, its operands' included.
   [[nodiscard]] std::size_t rooms() const noexcept { return rooms_; }

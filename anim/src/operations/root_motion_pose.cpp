@@ -4,6 +4,7 @@
 #include "chains/problems.h"
 #include "operations/account.h"
 #include "operations/changing.h"
+#include "operations/travel.h"
 
 namespace tweenfall::graphs {
 
@@ -14,29 +15,39 @@ class OnTheSpot : public Changing {
   OnTheSpot(Changed changed, RootMotion root, std::optional<RootMotion> onto)
       : Changing(std::move(changed)), root_(std::move(root)), onto_(std::move(onto)) {}
 
+  void accumulate(const Hierarchy& nodes, std::size_t number) { travel_.emplace(nodes, root_, base(), number); }
+
  protected:
-  void change(const Log&, const Moment&, const Sample<double>& weight, const Scratch& scratch,
+  void change(const Log& log, const Moment& moment, const Sample<double>& weight, const Scratch& scratch,
               std::span<Motion> pose) const noexcept override {
     const std::span<Motion> changed = scratch.pose();
+    Motion frame;
+    if (travel_) frame = travel_->at(log, moment, changed);
     std::ranges::copy(pose, changed.begin());
-    const Motion frame = root_.take_out(changed);
-    if (onto_) onto_->put_back(changed, frame);
+    const Motion taken = root_.take_out(changed);
+    if (!travel_) frame = taken;
+    if (onto_)
+      onto_->put_back(changed, frame);
+    else if (travel_)
+      root_.put_back(changed, frame);
     cross_fade(pose, changed, weight, pose);
   }
 
  private:
   RootMotion root_;
   std::optional<RootMotion> onto_;
+  std::optional<Travel> travel_{};
 };
 
 }  // namespace
 
 void tell(const RootMotionPose& pose, Account& account) {
-  account.words = pose.onto.empty() ? pose.node + " on the spot" : pose.onto + " goes the way of " + pose.node;
+  const std::string on_the_spot = pose.accumulates ? " goes on and on" : " on the spot";
+  account.words = pose.onto.empty() ? pose.node + on_the_spot : pose.onto + " goes the way of " + pose.node;
   account.words += share_in_words(pose.weight);
   account.pose(pose.base, "base");
   account.tell(pose.node, pose.parts.horizontal, pose.parts.vertical, pose.parts.turn, pose.parts.up, pose.onto,
-               pose.weight);
+               pose.weight, pose.accumulates);
 }
 
 std::unique_ptr<Operation> bound(const RootMotionPose& described, Binder& binder) {
@@ -58,6 +69,7 @@ std::unique_ptr<Operation> bound(const RootMotionPose& described, Binder& binder
   binder.moves(node);
   if (onto != no_node) binder.moves(onto);
   auto operation = std::make_unique<OnTheSpot>(std::move(changed), *std::move(root), std::move(carrier));
+  if (described.accumulates) operation->accumulate(binder.nodes(), binder.new_travel());
   operation->set_rooms(1);
   return operation;
 }

@@ -46,6 +46,15 @@ class Space : public Operation {
     return weights[operand].value;
   }
 
+  void bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
+               Bearers& out) const noexcept override {
+    std::array<Sample<double>, most_blended> weights;
+    weights_.sample(log, moment.time, moment.side, {weights.data(), poses_.size()});
+    if (weights_.flows()) out.flow = true;
+    for (std::size_t i = 0; i < poses_.size(); ++i)
+      if (!is_nothing(weights[i])) poses_[i]->bearers(log, moment, node, product(weight, weights[i]), out);
+  }
+
  private:
   std::vector<const Operation*> poses_;
   SpaceWeights weights_;
@@ -70,18 +79,32 @@ class SyncedSpace : public Operation {
       if (is_nothing(own[i])) continue;
       const std::span<Motion> motions = free.pose();
       free = free.rest();
-      const SyncedTime at = phase_.sync().time(i, phase);
-      ClipClock clock;
-      clock.time = at.time.value;
-      clock.rate = at.time.rate;
-      clock.cycle = static_cast<int>(std::clamp(at.cycle, -2e9, 2e9));
-      clock.started = true;
-      clock.side = moment.side;
       std::ranges::copy(scratch.below, motions.begin());
-      clips_[i]->bound->sample(nodes_, clock, motions);
+      clips_[i]->bound->sample(nodes_, clock_in(i, phase, moment.side), motions);
       layers[count++] = {.pose = motions, .weight = own[i]};
     }
     blend({layers.data(), count}, scratch.below, out);
+  }
+
+  void bearers(const Log& log, const Moment& moment, std::size_t, const Sample<double>& weight,
+               Bearers& out) const noexcept override {
+    std::array<Sample<double>, most_blended> weights;
+    phase_.weights().sample(log, moment.time, moment.side, {weights.data(), clips_.size()});
+    if (phase_.weights().flows()) out.flow = true;
+    for (std::size_t i = 0; i < clips_.size(); ++i)
+      if (!is_nothing(weights[i])) out.add({this, i, moment.start, product(weight, weights[i])});
+  }
+  [[nodiscard]] std::vector<const pose::BoundClip*> own_clips() const override {
+    std::vector<const pose::BoundClip*> own;
+    own.reserve(clips_.size());
+    for (const LoopedClip* clip : clips_) own.push_back(&*clip->bound);
+    return own;
+  }
+  [[nodiscard]] ClipClock clock_of(const Log& log, std::size_t clip, const Moment& moment) const noexcept override {
+    std::array<Sample<double>, most_blended> weights;
+    const std::span<Sample<double>> own(weights.data(), clips_.size());
+    phase_.weights().sample(log, moment.time, moment.side, own);
+    return clock_in(clip, phase_.sync().running(phase_.at(log, moment.start, moment.time), own), moment.side);
   }
 
   void events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const override {
@@ -127,6 +150,17 @@ class SyncedSpace : public Operation {
   }
 
  private:
+  [[nodiscard]] ClipClock clock_in(std::size_t clip, const Sample<double>& phase, Side side) const noexcept {
+    const SyncedTime at = phase_.sync().time(clip, phase);
+    ClipClock clock;
+    clock.time = at.time.value;
+    clock.rate = at.time.rate;
+    clock.cycle = static_cast<int>(std::clamp(at.cycle, -2e9, 2e9));
+    clock.started = true;
+    clock.side = side;
+    return clock;
+  }
+
   std::vector<const LoopedClip*> clips_;
   const Hierarchy& nodes_;
   Phase phase_;

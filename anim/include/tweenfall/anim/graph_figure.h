@@ -34,11 +34,17 @@ struct RetargetPose {
 
 /// What carries a figure through the world is taken out of its pose, as by `RootMotion`, and carries another node, or
 /// none: then the figure goes on the spot.
+///
+/// Where it accumulates, the figure goes on instead from loop to loop and from clip to clip: its way is made of the
+/// steps of the clips in the base, mixed by the weights that they have in blends, spaces, layers and machines. What is
+/// added, mirrored or retargeted there changes no step. It begins where the clips have it when the graph begins, or the
+/// state around it. Loops of one clip are repeated in closed form: ten thousand end where one does, so many times over.
 struct RootMotionPose {
   std::string base{};
   std::string node;
   RootParts parts = {};
-  std::string onto{};  ///< a node above it, which is carried instead; empty: none
+  std::string onto{};  ///< a node above it, which is carried instead; empty: none, or, accumulating, itself
+  bool accumulates = false;
   GraphNumber weight = 1.0;
 };
 

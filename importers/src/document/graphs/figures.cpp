@@ -91,6 +91,8 @@ const Table<RootMotionPose>& root_motion_table() {
   static const Table<Pose> table(
       "a root motion",
       {{"node", &ValueForms::name, "that carries the figure, such as the hips", member<Pose>(&Pose::node), true},
+       {"accumulate", &ValueForms::boolean, "its way goes on from loop to loop and from clip to clip",
+        member<Pose>(&Pose::accumulates)},
        {"onto", &ValueForms::name, "a node above it, which is carried instead; absent: the figure goes on the spot",
         member<Pose>(&Pose::onto)},
        {"horizontal", &ValueForms::boolean, "its way over the ground",

@@ -1,0 +1,50 @@
+#pragma once
+
+// The way that a figure goes: the ways of the clips that bear it, from loop to loop and from clip to clip.
+
+#include <tweenfall/anim/root_motion.h>
+
+#include "graph/binder.h"
+
+namespace tweenfall::graphs {
+
+/// It runs from the start of the state around it, from where the clips have the figure then. The ways of several clips
+/// are mixed step by step, each step with the mean of the weights at its ends: 480 times a second from each instant on.
+/// Where one clip bears it alone, its loops are repeated in closed form, so that nothing drifts.
+class Travel {
+ public:
+  /// @param base    what bears the figure; null for nothing
+  /// @param number  among those of the graph
+  Travel(const Hierarchy& nodes, RootMotion root, const Operation* base, std::size_t number);
+
+  /// Where it has come to, with its rates.
+  /// @param room  of one pose, to work in
+  [[nodiscard]] Motion at(const Log& log, const Moment& moment, std::span<Motion> room) const noexcept;
+
+ private:
+  struct Known {
+    const Operation* operation;
+    std::size_t clip;
+    const pose::BoundClip* bound;
+    RootTravel travel;
+  };
+  void know(const Operation& operation);
+  [[nodiscard]] std::vector<Known>::const_iterator known_of(const Bearer& bearer) const noexcept;
+  [[nodiscard]] Bearers bearers_at(const Log& log, const Moment& moment) const noexcept;
+  [[nodiscard]] Motion carried(const pose::BoundClip& clip, const ClipClock& clock,
+                               std::span<Motion> room) const noexcept;
+  [[nodiscard]] Motion step_of(const Log& log, const Bearer& bearer, double from, double to, Side side,
+                               std::span<Motion> room) const noexcept;
+  [[nodiscard]] Pose place_at_start(const Log& log, double start, std::span<Motion> room) const noexcept;
+  [[nodiscard]] Motion step(const Log& log, const Bearers& first, double start, double from, double to, Side side,
+                            std::span<Motion> room) const noexcept;
+
+  const Hierarchy& nodes_;
+  RootMotion root_;
+  std::vector<std::size_t> chain_;  // the node and all above it
+  const Operation* base_;
+  std::size_t number_;
+  std::vector<Known> known_;
+};
+
+}  // namespace tweenfall::graphs

@@ -1,0 +1,184 @@
+// Root motion that accumulates in a graph, held against closed forms: screws, straight ways, integrals of weights.
+
+#include "graph_support.h"
+
+#include <cmath>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// exp(t (turn, way)): a figure that goes on a screw.
+Pose screw(const Vec3& turn, const Vec3& way, double t) {
+  Pose pose;
+  pose.rotation = exp_map(t * turn);
+  pose.position = right_jacobian(-t * turn) * Vec3(t * way);
+  return pose;
+}
+
+/// The root goes on a screw from rest, and the upper limb swings.
+Clip walker(const std::string& name, const Vec3& turn, const Vec3& way, double duration) {
+  Clip clip{.name = name, .duration = duration, .loop = {.mode = LoopMode::repeat}};
+  const Vec3 rest(0, 1, 0);
+  clip.tracks.push_back({"root", "position",
+                         Curve<Vec3>(
+                             [=](double t, Side) {
+                               const Pose at = screw(turn, way, t);
+                               const Vec3 rate = at.rotation * way, spin = turn;
+                               const Vec3 lever = at.rotation * rest;
+                               return Sample<Vec3>{at.position + lever, rate + spin.cross(lever), {0, 0, 0}};
+                             },
+                             0, duration)});
+  clip.tracks.push_back({"root", "rotation",
+                         Curve<Quat>(
+                             [=](double t, Side) {
+                               return Sample<Quat>{exp_map(t * turn), turn, {0, 0, 0}};
+                             },
+                             0, duration)});
+  clip.tracks.push_back({"upper", "position",
+                         keyed_curve<Vec3>({{.time = 0, .value = {0.3, 0, 0}},
+                                            {.time = duration / 2, .value = {0.4, 0.1, 0}},
+                                            {.time = duration, .value = {0.3, 0, 0}}})});
+  return clip;
+}
+
+const Vec3 ahead(0, 0, 1.4), running(0, 0, 3), around(0, 0.7, 0);
+
+std::shared_ptr<const std::vector<Clip>> walkers() {
+  return std::make_shared<const std::vector<Clip>>(
+      std::vector<Clip>{walker("walk", {0, 0, 0}, ahead, 1), walker("run", {0, 0, 0}, running, 0.7),
+                        walker("arc", around, ahead, 1), walker("quick", {0, 0, 0}, ahead, 0.1),
+                        walker("quicker", 2 * around, running, 0.1), moving("wave", 7, LoopMode::repeat)});
+}
+
+RootMotionPose travelling(std::string base, std::string onto = {}) {
+  return {.base = std::move(base), .node = "root", .onto = std::move(onto), .accumulates = true};
+}
+
+GraphPlayer travel_of(std::vector<GraphPose> poses, std::vector<GraphParameter> parameters = {},
+                      std::vector<GraphInput> inputs = {}) {
+  std::string last = poses.back().name;
+  poses.push_back({"way", travelling(last)});
+  return GraphPlayer(graph_of(
+      {.parameters = std::move(parameters), .poses = std::move(poses), .inputs = std::move(inputs)}, walkers()));
+}
+
+/// Where the root's rest place has been carried.
+Pose carried(GraphPlayer& player, double time, Side side = Side::out) {
+  Pose root = pose_at(player, time, side)[0].pose;
+  root.position -= root.rotation * Vec3(0, 1, 0);
+  return root;
+}
+
+}  // namespace
+
+TEST_CASE("ten thousand loops of an arc end on the circle, where the screw has them") {
+  GraphPlayer player = travel_of({{"walk", ClipPose{.clip = "arc"}}});
+  for (const double time : {0.4, 1., 1.6, 37.25, 10'000., 10'000.37}) {
+    const Pose reached = carried(player, time), exact = screw(around, ahead, time);
+    CAPTURE(time);
+    CHECK(near(reached.position, exact.position, 1e-9));
+    CHECK(near(reached.rotation, exact.rotation, 1e-9));
+  }
+  CHECK(rate_error(player, 9'999.6) < 1e-5);  // at 1e4 s a stencil has 1e-12 / 1e-4 of noise
+}
+
+TEST_CASE("a blend of walkers goes by the mean of their ways, over ten thousand loops") {
+  GraphPlayer straight = travel_of({{"both", BlendPose{{{"walk", 1.0}, {"run", 3.0}}}}});
+  CHECK(carried(straight, 100).position.z() == doctest::Approx(100 * (0.25 * 1.4 + 0.75 * 3)).epsilon(1e-12));
+
+  GraphPlayer turning = travel_of({{"both", BlendPose{{{"quick", 0.5}, {"quicker", 0.5}}}}});
+  for (const double time : {1.2345, 1000.}) {
+    const Pose reached = carried(turning, time), exact = screw(around, 0.5 * (ahead + running), time);
+    CHECK(near(reached.position, exact.position, 2e-6));
+    CHECK(near(reached.rotation, exact.rotation, 1e-9));
+  }
+}
+
+TEST_CASE("a way through fades, keyed weights and parameters goes on without a jump, at its rate") {
+  using Kind = GraphCondition::Kind;
+  const Curve<double> share = keyed_curve<double>({{.time = 0, .value = 0}, {.time = 3, .value = 1}});
+  GraphPlayer player = travel_of(
+      {{"gaits",
+        SpacePose{.by = {ByParameter{"speed"}}, .entries = {{"walk", {0, 0}}, {"run", {1, 0}}}, .sync = std::string()}},
+       {"stand", RestPose{}},
+       {"legs",
+        MachinePose{.start = "stand",
+                    .states = {{"stand", "stand"}, {"go", "gaits"}},
+                    .transitions = {{.to = "go", .when = {{Kind::event, "go"}}, .change = {.seconds = 0.6}},
+                                    {{"go"}, "stand", {{Kind::event, "halt"}}, {GraphChange::Kind::quintic, 0.5}}}}},
+       {"mixed", BlendPose{{{"legs", 1.0}, {"arc", share}}}},
+       {"all",
+        LayersPose{.base = "mixed", .layers = {{.pose = "wave", .mask = {{.joints = "upper", .below = true}}}}}}},
+      {{.name = "speed", .half_life = 0.2}}, {{0.3, "go"}, {1.1, "speed", 0.9}, {2.4, "halt"}});
+  for (const double time : {0.3, 1.0, 1.1, 2.0, 2.4, 2.9, 3.0}) {
+    CAPTURE(time);
+    const Apart seam = apart({pose_at(player, time, Side::in)[0]}, {pose_at(player, time)[0]});
+    CHECK(seam.value < 1e-12);
+  }
+  Random random(3);
+  for (int i = 0; i < 40; ++i) {
+    const double time = random.between(0.01, 4);
+    CAPTURE(time);
+    const double h = 1e-4;
+    const Vec3 slope = (carried(player, time + h).position - carried(player, time - h).position) / (2 * h);
+    const Motion root = pose_at(player, time)[0];
+    const Vec3 own = root.twist.linear - root.twist.angular.cross(Vec3(root.pose.rotation * Vec3(0, 1, 0)));
+    CHECK(near(own, slope, 5e-5));
+  }
+}
+
+TEST_CASE("a way that fades in goes as far as the integral of its weight") {
+  using Kind = GraphCondition::Kind;
+  GraphPlayer player = travel_of(
+      {{"stand", RestPose{}},
+       {"legs",
+        MachinePose{
+            .start = "stand",
+            .states = {{"stand", "stand"}, {"walk", "walk"}},
+            .transitions = {{.to = "walk", .when = {{Kind::time_in_state, {}, 0.5}}, .change = {.seconds = 0.6}}}}}});
+  CHECK(carried(player, 0.5).position.norm() == 0);
+  // Of u^2 (3 - 2 u) over 0.6 s the half is gone; a straight way at 1.4 m/s otherwise.
+  CHECK(carried(player, 2.1).position.z() == doctest::Approx(1.4 * (0.3 + 1.0)).epsilon(1e-6));
+}
+
+TEST_CASE("a way is the same bits whatever the frames and whoever asks, under springs too") {
+  const std::vector<GraphPose> poses = {
+      {"gaits", SpacePose{.by = {ByParameter{"speed"}}, .entries = {{"walk", {0, 0}}, {"arc", {1, 0}}}}},
+      {"way", travelling("gaits")},
+      {"hat", SpringPose{.base = "way", .node = "upper", .position = SpringSettings{.hz = 2}}}};
+  const GraphDescription description{.parameters = {{.name = "speed", .half_life = 0.3}},
+                                     .poses = poses,
+                                     .inputs = {{0.37, "speed", 1}, {1.9, "speed", 0.25}}};
+  const auto graph = graph_of(description, walkers());
+  GraphPlayer fine(graph), coarse(graph), back(graph);
+  std::vector<std::vector<Motion>> seen;
+  for (int i = 0; i <= 60; ++i) seen.push_back(pose_at(fine, 0.05 * i));
+  for (int i = 0; i <= 60; i += 12) CHECK(same_bits(pose_at(coarse, 0.05 * i), seen[static_cast<std::size_t>(i)]));
+  for (int i = 60; i >= 0; i -= 7) CHECK(same_bits(pose_at(back, 0.05 * i), seen[static_cast<std::size_t>(i)]));
+  // What comes in takes effect from then on.
+  GraphPlayer told(graph), knowing(graph);
+  told.seek(3);
+  told.seek(2.5);
+  told.set("speed", 0);
+  knowing.seek(2.5);
+  knowing.set("speed", 0);
+  CHECK(same_bits(pose_at(told, 2.9), pose_at(knowing, 2.9)));
+  CHECK(same_bits(pose_at(told, 2.4), seen[48]));
+}
+
+TEST_CASE(
+    "the way may carry a node above, and a clip once, backwards or forwards and back goes no further than it does") {
+  GraphPlayer onto(graph_of(
+      {.poses = {{"way", RootMotionPose{.base = "walk", .node = "upper", .onto = "root", .accumulates = true}}}},
+      walkers()));
+  CHECK(std::isfinite(pose_at(onto, 5)[0].pose.position.sum()));
+  GraphPlayer once = travel_of({{"walk", ClipPose{.clip = "arc", .loop = Loop{.mode = LoopMode::once}}}});
+  CHECK(near(carried(once, 7).position, screw(around, ahead, 1).position, 1e-12));
+  GraphPlayer pingpong = travel_of({{"walk", ClipPose{.clip = "arc", .loop = Loop{.mode = LoopMode::pingpong}}}});
+  CHECK(near(carried(pingpong, 6.25).position, screw(around, ahead, 0.25).position, 1e-12));
+  GraphPlayer backwards = travel_of({{"walk", ClipPose{.clip = "arc", .speed = -1}}});
+  const Pose expected = compose(screw(around, ahead, 1), undone(screw(around, ahead, 5.5)));
+  CHECK(near(carried(backwards, 5.5).position, expected.position, 1e-9));
+}
