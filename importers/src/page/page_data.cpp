@@ -7,6 +7,7 @@
 #include "json/json_string.h"
 #include "page/page_details.h"
 #include "page/page_frames.h"
+#include "page/page_graphs.h"
 #include "page/page_meshes.h"
 #include "recording/base64.h"
 #include "recording/key_lanes.h"
@@ -348,6 +349,7 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
     append_items(out, "joints", stage.joints,
                  [&](const JointDescription& joint) { return joint_json(recording, joint); });
   append_details(out, recording, frames);
+  append_page_graphs(out, recording, frames);
   append_items(out, "handoffs", recording.handoffs, handoff_json);
   append_items(out, "events", recording.events, event_json);
   append_page_meshes(out, stage, node_of);

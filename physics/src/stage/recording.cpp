@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "stage/graph_record.h"
+
 namespace tweenfall {
 
 namespace staging {
@@ -156,6 +158,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     if (!node.color.empty()) node.color.resize(recording.times.size(), node.color.back());
     if (!node.weights.empty()) node.weights.resize(recording.times.size(), node.weights.back());
   }
+  recording.graphs = staging::graph_records(stage, recording.times);
   recording.handoffs.assign(stage.handoffs().begin(), stage.handoffs().end());
   recording.events.assign(stage.events().begin(), stage.events().end());
   std::ranges::stable_sort(recording.events, {}, &StageEvent::time);  // contacts are told a little later

@@ -36,6 +36,13 @@ struct GraphParameter {
   std::optional<Curve<double>> curve{};  ///< its value over the graph's time; nobody then sets it
 };
 
+/// A track of the user's as a parameter's curve: from the graph's start on as its clip plays it, loops included.
+/// @param track  "node.property", of numbers, or a switch, whose on is 1
+/// @param clip   empty: the only one that has the track
+/// @throws std::invalid_argument for a track or clip that is not there, with the nearest, or of another kind
+[[nodiscard]] Curve<double> track_curve(std::span<const Clip> clips, std::string_view track,
+                                        std::string_view clip = {});
+
 // The operations. Where one asks for a pose, it is told the name of another of the graph, or of a clip.
 
 /// A clip, from when the state that shows it was entered, or the graph began. What it does not drive is as below.

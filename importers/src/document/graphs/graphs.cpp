@@ -19,18 +19,34 @@ const Table<GraphParameter>& parameter_table() {
   const auto start = [](const json::Value& value, GraphParameter& parameter, Building&) {
     parameter.start = read_setting(value);
   };
+  const auto track = [](const json::Value&, GraphParameter&, Building&) {};  // it is read with its clip
   static const Table<GraphParameter> table(
       "a parameter", {{"start", setting_form, "until it is set", {start, "0"}},
                       {"half_life", &ValueForms::not_negative, "seconds in which poses come half way to what was set",
-                       fields::member<GraphParameter>(&GraphParameter::half_life)}});
+                       fields::member<GraphParameter>(&GraphParameter::half_life)},
+                      {"track", &ValueForms::name, "of numbers, which it follows from the graph's start on", {track}},
+                      {"clip", &ValueForms::name, "of the track; absent: the only one that has it", {track}}});
   return table;
+}
+
+std::optional<Curve<double>> followed_track(const json::Value& parameter, Building& building) {
+  const json::Value track = usable(parameter, "track");
+  if (!track || !building.failed_imports.empty()) return std::nullopt;
+  try {
+    return track_curve(building.stage.clips, track.text(), text_in(parameter, "clip", ""));
+  } catch (const std::invalid_argument& problem) {
+    building.problems.add(track, problem.what());
+    return std::nullopt;
+  }
 }
 
 const Form* parameter_form(FormStore& store, const ValueForms& values) {
   Form full = parameter_table().listing_form(store, values);
   full.on_one_line = true;
+  full.together = {at_most_one({"track", "start"}), at_most_one({"track", "half_life"}),
+                   {Together::Rule::first_needs_second, {"clip", "track"}}};
   return store.add(
-      choice_of("a number, true, false, {\"start\", \"half_life\"}, or a list of keys",
+      choice_of("a number, true, false, {\"start\", \"half_life\"}, {\"track\", \"clip\"}, or a list of keys",
                 {values.number, values.boolean, store.add(std::move(full)), weight_keys_form(store, values)}));
 }
 
@@ -39,12 +55,14 @@ void read_parameters(const json::Value& value, GraphDescription& graph, Building
     if (is_free_name(member.name)) continue;
     GraphParameter& parameter = graph.parameters.emplace_back();
     parameter.name = member.name;
-    if (member.value.is(Kind::object))
+    if (member.value.is(Kind::object)) {
       parameter_table().read(member.value, parameter, building);
-    else if (member.value.is(Kind::list))
+      parameter.curve = followed_track(member.value, building);
+    } else if (member.value.is(Kind::list)) {
       parameter.curve = read_plain_keys(member.value, building.problems);
-    else
+    } else {
       parameter.start = read_setting(member.value);
+    }
   }
 }
 

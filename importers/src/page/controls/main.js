@@ -71,6 +71,8 @@ const known = name => {
   return node;
 };
 
+const graphPart = (graph, parts, name) => recording.graphs.find(each => each.name === graph)[parts].find(each => each.name === name);
+
 window.tweenfall = {
   ready: true,
   webgl: !!renderer,
@@ -85,7 +87,16 @@ window.tweenfall = {
   get playing() { return state.playing; },
   get chosen() { return state.chosen ? state.chosen.name : null; },
   get shownTime() { return [state.from, state.until]; },
-  get rows() { return timeline.list.rows.map(row => (row.lane ? `${row.node.name}.${row.lane.property}` : row.node.name)); },
+  get rows() { return timeline.list.rows.map(row => (row.graph ? graphRowName(row) : row.lane ? `${row.node.name}.${row.lane.property}` : row.node.name)); },
+  // Of a graph's machine its states' weights, of a parameter its value, now.
+  graphs: recording.graphs.map(graph => graph.name),
+  stateOf: (graph, machine) => stateAt(graphPart(graph, "machines", machine), state.time),
+  weightsOf: (graph, machine) => {
+    const part = graphPart(graph, "machines", machine), weights = stateWeightsAt(part, state.time);
+    return Object.fromEntries(part.states.map((name, i) => [name, weights[i]]));
+  },
+  parameterOf: (graph, name) => parameterAt(graphPart(graph, "parameters", name), state.time),
+  passagesOf: (graph, machine) => graphPart(graph, "machines", machine).passages,
   seek, play, pause, step, frameAll, frameChosen, zoomTime, panTime, showAllTime,
   choose: name => change({chosen: name === null ? null : known(name)}),
   fold: name => toggleFold(known(name)),

@@ -74,6 +74,12 @@ class Recording {
     this.joints = raw.joints || [];
     this.details = raw.details ? {starts: integers(raw.details.starts), contacts: floats(raw.details.contacts),
       nodes: new Map(raw.details.nodes.map(({node, island, asleep, boxes}) => [node, {island, asleep, boxes: floats(boxes)}]))} : null;
+    this.graphs = (raw.graphs || []).map(graph => ({name: graph.name,
+      parameters: graph.parameters.map(({name, values}) => {
+        const all = floats(values), finite = all.filter(Number.isFinite);
+        return {name, values: all, low: finite.reduce((a, b) => Math.min(a, b), Infinity), high: finite.reduce((a, b) => Math.max(a, b), -Infinity)};
+      }),
+      machines: graph.machines.map(machine => ({...machine, weights: floats(machine.weights), settling: floats(machine.settling)}))}));
     this.handoffs = raw.handoffs.filter(handoff => handoff.cause !== "start");
     this.events = raw.events;
     this.findBreaks();

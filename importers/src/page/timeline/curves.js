@@ -19,9 +19,9 @@ class Curves {
   }
 
   wire(canvas, panelOf) {
-    const lane = () => panelOf() && panelOf().lane;
+    const lanes = () => (panelOf() ? panelOf().lanes : []);
     wireAxis(canvas, {left: margin.left, right: margin.right,
-      snaps: () => (lane() ? Array.from(lane().times) : []), hover: x => this.tip(panelOf(), x, canvas.clientWidth)});
+      snaps: () => lanes().flatMap(lane => Array.from(lane.times)), hover: x => this.tip(panelOf(), x, canvas.clientWidth)});
   }
 
   canvasFor(i) {
@@ -78,7 +78,7 @@ class Curves {
       for (const {time, numbers} of along) context.lineTo(x(time), y(numbers[panel.name][i]));
       context.stroke();
     });
-    this.drawKeys(context, panel, gathered, x, y, bottom);
+    for (const lane of panel.lanes) this.drawKeys(context, panel, lane, gathered, x, y, bottom);
     line(context, x(state.time), top - 3, x(state.time), bottom, colors.accent, 1);
     const now = gatheredAt(gathered, state.time)[panel.name];
     panel.names.forEach((_, i) => {
@@ -126,14 +126,15 @@ class Curves {
     }
   }
 
-  drawKeys(context, panel, gathered, x, y, bottom) {
-    if (!panel.lane) return;
-    const {lane} = panel, seen = [];
+  drawKeys(context, panel, lane, gathered, x, y, bottom) {
+    const seen = [], only = lane.property === panel.track ? -1 : "xyzrgba".indexOf(lane.property.slice(-1)) % 3;
+    const series = lane.property.endsWith(".a") ? 3 : only;
     lane.times.forEach((time, i) => { if (time >= state.from && time <= state.until) seen.push(i); });
     if (seen.length > 2 && x(lane.times[seen[seen.length - 1]]) - x(lane.times[seen[0]]) < markApart * (seen.length - 1)) return drawTicks(context, seen.map(i => x(lane.times[i])), bottom);
     for (const i of seen) {
       const values = gatheredAt(gathered, lane.times[i])[panel.name];
       values.forEach((value, axis) => {
+        if (series >= 0 && axis !== series) return;
         context.fillStyle = colors.panel;
         diamond(context, x(lane.times[i]), y(value), 5);
         context.fillStyle = colorOfSeries(panel, axis);
@@ -174,12 +175,12 @@ class Curves {
   tip(panel, x, width) {
     if (!panel) return "";
     const at = time => xOfTime(time, width, margin.left, margin.right);
-    if (panel.lane) {
+    for (const lane of panel.lanes) {
       let best = -1, least = 6;
-      panel.lane.times.forEach((time, i) => {
+      lane.times.forEach((time, i) => {
         if (Math.abs(at(time) - x) < least) { least = Math.abs(at(time) - x); best = i; }
       });
-      if (best >= 0) return keyText(panel.lane, best);
+      if (best >= 0) return keyText(lane, best);
     }
     const time = timeOfX(x, width, margin.left, margin.right), values = gatheredAt(gather(state.chosen), time)[panel.name];
     return `${number(time, 4)} s\n` + panel.names.map((name, i) => `${name} ${number(values[i])}`).slice(0, 8).join("  ");

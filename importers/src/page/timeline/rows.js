@@ -1,10 +1,10 @@
-// Which rows the timeline has: a row for each node, below it a lane for each of its tracks and its children, unless it is
+// Which rows the timeline has: those of graphs, then a row for each node, below it a lane for each of its tracks and its children, unless it is
 // folded; or, while searching, all whose name has the text.
 
 // What moves comes first; things that only stand there come last.
 const standsThere = node => node.fixed && !node.children.length;
 const rootNodes = nodes.filter(node => node.parent < 0).sort((a, b) => standsThere(a) - standsThere(b));
-const rowHeight = row => (row.lane ? 18 : 23);
+const rowHeight = row => (row.lane || (row.part && !row.part.states) ? 18 : 23);
 
 function visibleRows() {
   const rows = [], wanted = state.find.trim().toLowerCase();
@@ -23,6 +23,7 @@ function visibleRows() {
     for (const node of nodes) if (node.name.toLowerCase().includes(wanted)) open(node, 0);
     return {rows, height: top};
   }
+  for (const {graph, part} of graphRows) add({node: null, lane: null, graph, part, depth: part ? 1 : 0});
   // Without recursion: chains of nodes may be thousands long.
   const waiting = rootNodes.map(node => [node, 0]).reverse();
   while (waiting.length) {

@@ -70,7 +70,9 @@ function gather(node, local = state.local) {
       }
     if (!(panel.low <= panel.high)) panel.low = panel.high = 0;
     panel.flat = panel.high - panel.low <= panel.least + 1e-6 * Math.abs(panel.high);
-    panel.lane = node.lanes.find(lane => lane.property === panel.track);
+    // Tracks of the whole, and of single numbers of it.
+    panel.lanes = node.lanes.filter(lane => panel.track && (lane.property === panel.track || lane.property.startsWith(panel.track + ".")));
+    panel.lane = panel.lanes[0];
     // What hardly changes is shown flat, not its rounding.
     const room = panel.flat ? Math.max(0.5 * Math.abs(panel.high), 1e4 * panel.least) : (panel.high - panel.low) * 0.08;
     panel.high += room;

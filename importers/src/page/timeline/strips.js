@@ -92,6 +92,7 @@ function drawKeys(context, list, color, size = 3.5) {
 }
 
 function drawStrip(canvas, row) {
+  if (row.graph) return drawGraphStrip(canvas, row);
   const context = prepared(canvas);
   if (!context) return;
   const middle = context.height / 2;
@@ -123,6 +124,7 @@ const nearest = (list, timeOf, x, width, reach = 5) => {
 };
 
 function stripTip(row, x, width) {
+  if (row.graph) return graphTip(row, x, width);
   if (row.lane) {
     const key = nearest(row.lane.times, time => time, x, width);
     return key < 0 ? "" : keyText(row.lane, key);

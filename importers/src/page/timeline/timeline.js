@@ -25,14 +25,14 @@ class Timeline {
     label.append(fold, dot, name);
     element.append(label, canvas);
     rowsFill.append(element);
-    label.addEventListener("click", () => change({chosen: held.row.node}));
+    label.addEventListener("click", () => held.row.node && change({chosen: held.row.node}));
     fold.addEventListener("click", event => {
       if (!held.row.folds) return;
       event.stopPropagation();
       toggleFold(held.row.node, event.shiftKey);
     });
     wireAxis(canvas, {pans: true, hover: x => stripTip(held.row, x, canvas.clientWidth),
-      snaps: () => (held.row.lane ? Array.from(held.row.lane.times) : keyTimesOf(held.row.node))});
+      snaps: () => (held.row.graph ? graphSnaps(held.row) : held.row.lane ? Array.from(held.row.lane.times) : keyTimesOf(held.row.node))});
     return held;
   }
 
@@ -51,6 +51,7 @@ class Timeline {
   fill(held, row) {
     const {element, label, fold, dot, name, canvas} = held;
     held.row = row;
+    if (row.graph) return this.fillGraph(held, row);
     element.className = "row" + (row.lane ? " lane" : "") + (row.node === state.chosen ? " chosen" : "");
     element.style.transform = `translateY(${row.top}px)`;
     label.style.paddingLeft = 4 + 11 * Math.min(6, row.depth + (row.lane ? 1 : 0)) + "px";
@@ -60,6 +61,22 @@ class Timeline {
     dot.style.background = row.node.hasBody ? colors[recording.shownOwner(row.node, state.time)] : "";
     name.textContent = (row.lane ? row.lane.property : row.node.name) || "(no name)";
     drawStrip(canvas, row);
+  }
+
+  fillGraph(held, row) {
+    const {element, label, fold, dot, canvas} = held;
+    element.className = "row graph" + (row.part && !row.part.states ? " lane" : "");
+    element.style.transform = `translateY(${row.top}px)`;
+    label.style.paddingLeft = 4 + 11 * row.depth + "px";
+    label.title = graphRowName(row);
+    fold.textContent = "";
+    dot.hidden = true;
+    this.nameGraph(held);
+    drawStrip(canvas, row);
+  }
+
+  nameGraph({name, row}) {
+    name.textContent = row.part ? `${row.part.name}: ${graphNow(row)}` : row.graph.name;
   }
 
   // The rows anew: after folding, searching.
@@ -94,7 +111,9 @@ class Timeline {
     if ("from" in changed || "chosen" in changed) this.place();
     if ("from" in changed) drawRuler(ruler);
     if ("time" in changed)
-      for (const {row, dot} of this.pool) if (row.node.hasBody) dot.style.background = colors[recording.shownOwner(row.node, state.time)];
+      for (const held of this.pool) if (held.row.graph) this.nameGraph(held);
+    if ("time" in changed)
+      for (const {row, dot} of this.pool) if (row.node && row.node.hasBody) dot.style.background = colors[recording.shownOwner(row.node, state.time)];
     this.drawPlayhead();
   }
 
@@ -107,7 +126,7 @@ class Timeline {
 
 // The chosen node's neighbor in the list.
 function chooseNext(timeline, direction) {
-  const list = timeline.list.rows.filter(row => !row.lane), at = list.findIndex(row => row.node === state.chosen);
+  const list = timeline.list.rows.filter(row => row.node && !row.lane), at = list.findIndex(row => row.node === state.chosen);
   if (list.length) change({chosen: list[Math.min(list.length - 1, Math.max(0, at < 0 ? 0 : at + direction))].node});
 }
 

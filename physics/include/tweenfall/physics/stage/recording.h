@@ -29,11 +29,36 @@ struct JointRecord {
   std::vector<std::optional<JointReading>> reading;  ///< one per frame; nothing before it came and once it is gone
 };
 
+/// A graph through all frames: what was put in, and what it passed through.
+struct GraphRecord {
+  struct Parameter {
+    std::string name;
+    std::vector<double> value;  ///< as poses see it; one per frame
+  };
+  struct Passage {
+    double time;
+    std::size_t state;
+    std::string how;  ///< "fade 0.2 s", when "speed > 0.1"; empty for where it starts
+    std::string when;
+  };
+  struct Machine {
+    std::string name;
+    std::vector<std::string> states;
+    std::vector<Passage> passages;   ///< in order of time
+    std::vector<double> weight;      ///< of each state in turn, frame by frame; together 1
+    std::vector<char> is_settling;   ///< one per frame: a difference to what was before still dies away
+  };
+  std::string name;
+  std::vector<Parameter> parameters;
+  std::vector<Machine> machines;
+};
+
 struct Recording {
   std::string name;
   std::vector<double> times;  ///< s
   std::vector<NodeRecord> nodes;
   std::vector<JointRecord> joints;  ///< in the description's order, then those that were added, as they came
+  std::vector<GraphRecord> graphs;  ///< in the description's order
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
   std::vector<UnfiredRule> unfired;  ///< rules that waited to the end in vain
