@@ -497,6 +497,48 @@ TEST_CASE("a seek fires what lies between only if asked, but leaves and enters i
   CHECK_FALSE(before.changed(clip, 5, playing::Seek{1}).clock(5.5).ended);
 }
 
+TEST_CASE("a seek that fades goes on without a jump in place or velocity, interrupted too, and ends as a plain one") {
+  const auto nodes = std::make_shared<const Hierarchy>(std::vector<Node>{{"ball"}});
+  const auto course = [](const char* name, double pace) {
+    return Clip{
+        .name = name,
+        .duration = 10,
+        .tracks = {
+            {"ball", "position",
+             Curve<Vec3>(
+                 [pace](double t, Side) {
+                   return Sample<Vec3>{{std::sin(pace * t), 0.1 * t, 0}, {pace * std::cos(pace * t), 0.1, 0}, {}};
+                 },
+                 0, 10)}}};
+  };
+  Play over{.clip = 1};
+  for (const double weight : {1.0, 0.6, 0.0}) {
+    over.weight = Curve<double>(weight);
+    const Animation plain(nodes, {course("below", 1), course("over", 2.3)}, {Play{}, over});
+    const PlayChange first{1.3, "over", playing::Seek{.time = 5, .fade = 0.5}};
+    const PlayChange second{1.5, "over", playing::Seek{.time = 2.2, .fade = 0.4}};
+    const Animation fading = plain.with_change(first), again = fading.with_change(second);
+    const Animation jumping = plain.with_change({1.3, "over", playing::Seek{.time = 5}});
+    const auto at = [](const Animation& animation, double time, Side side = Side::out) {
+      return animation.sample_node(0, time, side);
+    };
+    for (const Animation* each : {&fading, &again})
+      for (const double time : {1.3, 1.5, 1.8, 1.9}) {
+        CHECK(near(at(*each, time, Side::in), at(*each, time), 1e-12));
+        CHECK(near(at(*each, time).pose.position, at(*each, time - 1e-7).pose.position, 1e-6));
+      }
+    for (double time = 1.21; time < 2.1; time += 0.0437) {
+      const double h = 1e-5;
+      const Vec3 slope = (at(again, time + h).pose.position - at(again, time - h).pose.position) / (2 * h);
+      CHECK(near(at(again, time).twist.linear, slope, 1e-7));
+    }
+    for (const double time : {0.4, 1.2999, 1.8, 2.5}) CHECK(near(at(fading, time), at(jumping, time), 0));
+    // Half way through the fade, half of each: sin is that of a pace of 2.3, from 1.55 s and from 5.25 s.
+    const double there = 0.5 * std::sin(2.3 * 1.55) + 0.5 * std::sin(2.3 * 5.25);
+    CHECK(near(at(fading, 1.55).pose.position.x(), (1 - weight) * std::sin(1.55) + weight * there, 1e-12));
+  }
+}
+
 TEST_CASE("ten thousand changes are found again at any time, and leave no stack behind") {
   const Clip clip = clip_with_events(2, {LoopMode::repeat, 0});
   Player player(Play{}, clip);

@@ -198,4 +198,35 @@ Sample<double> Player::Life::weight(double time, Side side) const noexcept {
   return weight;
 }
 
+Sample<double> Player::Life::over_under(double time) const noexcept {
+  const double u = (time - under_from) / under_for;
+  if (!under || !(u < 1)) return {1, 0, 0};
+  if (!(u > 0)) return {0, 0, 6 / (under_for * under_for)};
+  return {u * u * (3 - 2 * u), 6 * u * (1 - u) / under_for, (6 - 12 * u) / (under_for * under_for)};
+}
+
+PlayVoices Player::voices(double time, Side side) const noexcept {
+  const Life* life = &at_time(time, side);
+  PlayVoices voices;
+  voices.list[0] = {life->clock(time, side), life->weight(time, side)};
+  voices.count = 1;
+  // Of a weight w, n = w f is the new one's, and what is below has the rest of it: 1 - (1 - w) / (1 - n), so that
+  // what lies under the play shows through as before.
+  for (; life->under && voices.count < PlayVoices::most; life = life->under) {
+    const Sample<double> part = life->over_under(time);
+    if (part.value == 1 && part.rate == 0) break;
+    PlayVoice& upper = voices.list[voices.count - 1];
+    const Sample<double> whole = upper.weight;
+    upper.weight = clips::times(whole, part);
+    const double left = 1 - whole.value, open = 1 - upper.weight.value;
+    if (!(open > 0)) break;
+    const double ratio = left / open, rate = (ratio * upper.weight.rate - whole.rate) / open;
+    const double acceleration =
+        (2 * rate * upper.weight.rate + ratio * upper.weight.acceleration - whole.acceleration) / open;
+    voices.list[voices.count++] = {life->under->clock(time, side), {1 - ratio, -rate, -acceleration}};
+  }
+  std::ranges::reverse(voices.list.begin(), voices.list.begin() + static_cast<std::ptrdiff_t>(voices.count));
+  return voices;
+}
+
 }  // namespace tweenfall

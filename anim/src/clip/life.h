@@ -131,6 +131,11 @@ struct Player::Life : clips::Course {
   double stopped = clips::infinity;
   std::vector<FiredEvent> told{};  ///< at `since`
   std::shared_ptr<Life> before{};
+  const Life* under = nullptr;  ///< one of those before: its clock runs on while this one fades in over it
+  double under_from = 0, under_for = 0;
+
+  /// How much of this one there is over the other.
+  [[nodiscard]] Sample<double> over_under(double time) const noexcept;
 };
 
 namespace clips {

@@ -250,6 +250,10 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                    next->find_end();
                  },
                  [&](const playing::Seek& seek) {
+                   clips::require_seconds(seek.fade);
+                   next->under = seek.fade > 0 && time > old.at ? latest_.get() : nullptr;
+                   next->under_from = time;
+                   next->under_for = seek.fade;
                    const clips::Rounds& rounds = old.rounds;
                    const double last = rounds.from + rounds.length;
                    if (!(seek.time >= rounds.from && seek.time <= last))

@@ -58,10 +58,11 @@ bool passes(const std::vector<std::string>& mask, std::string_view node) {
   return mask.empty() || std::ranges::any_of(mask, [&](const std::string& pattern) { return matches(pattern, node); });
 }
 
-// A play as it runs, and what it drives.
+// A play as it runs, one of its clocks, and what it drives.
 struct Running {
-  const RunningPlay& play;
   const BoundClip* clip;
+  ClipClock clock{};
+  Sample<double> weight{1, 0, 0};
   const std::vector<char>* masked = nullptr;  // null: the whole clip
   const std::vector<Parts>* below = nullptr;  // null: all of it or nothing, as the next says
   bool covered = false;
@@ -78,12 +79,12 @@ struct Running {
   }
 };
 
-void lay_over(const Running& running, std::uint32_t entry, const Hierarchy& nodes, const ClipClock& clock,
-              const Sample<double>& weight, Motion& motion) noexcept {
-  const Parts parts = running.parts(entry, clock.started);
+void lay_over(const Running& running, std::uint32_t entry, const Hierarchy& nodes, Motion& motion) noexcept {
+  const Sample<double>& weight = running.weight;
+  const Parts parts = running.parts(entry, running.clock.started);
   if (parts == 0 || is_nothing(weight)) return;
   Motion over = motion;
-  running.clip->sample_entry(entry, nodes, clock, over);
+  running.clip->sample_entry(entry, nodes, running.clock, over);
   take(parts, is_whole(weight) ? over : mix(motion, over, weight.value, weight.rate), motion);
 }
 
@@ -319,23 +320,30 @@ std::optional<RunningPlay> Animation::running(const ClockOverride& clock, std::s
   return running;
 }
 
-// Calls `visit` with each play that has a say, in order.
-template <class Visit>
-void Animation::for_each_running(double stage_time, Side side, const ClockOverride& clock, const Visit& visit) const {
+// Calls `visit` with each clock of each play that has a say, in order. @param counts  of the play, before its clocks
+template <class Counts, class Visit>
+void Animation::for_each_running(double stage_time, Side side, const ClockOverride& clock, const Counts& counts,
+                                 const Visit& visit) const {
   const bool alone = clock.clip != ClockOverride::every_clip;
   bool covered = false;
   const std::size_t count = running_count(clock);
   for (std::size_t p = 0; p < count; ++p) {
     const std::optional<RunningPlay> play = running(clock, p);
     if (!play || (!alone && play->is_gone(stage_time, side))) continue;
-    pose::Running running{*play, &bound_clips_->clips[play->play().clip]};
+    pose::Running running{.clip = &bound_clips_->clips[play->play().clip]};
     if (!alone) {
       running.masked = &bound_plays_->plays[p].masked;
       running.below = &bound_plays_->plays[p].below;
     }
     running.covered = covered;
-    visit(running);
     covered = true;
+    if (!counts(running)) continue;
+    const PlayVoices voices = play->voices(stage_time, side);
+    for (std::size_t i = 0; i < voices.count; ++i) {
+      running.clock = voices.list[i].clock;
+      running.weight = voices.list[i].weight;
+      visit(running);
+    }
   }
 }
 
@@ -348,17 +356,16 @@ void Animation::sample(double stage_time, std::span<Motion> local, Side side,
     graphs_->sample(own_clock.timeline_at(stage_time), side, local.first(graphs_->nodes()));
     return;
   }
-  for_each_running(stage_time, side, own_clock, [&](const pose::Running& running) {
-    const ClipClock clock = running.play.clock(stage_time, side);
-    const Sample<double> weight = running.play.weight(stage_time, side);
+  const auto all = [](const pose::Running&) { return true; };
+  for_each_running(stage_time, side, own_clock, all, [&](const pose::Running& running) {
     const bool unmasked = !running.masked || running.masked->empty();
-    if (unmasked && clock.started && pose::is_whole(weight)) {
-      running.clip->sample(*nodes_, clock, local);
+    if (unmasked && running.clock.started && pose::is_whole(running.weight)) {
+      running.clip->sample(*nodes_, running.clock, local);
       return;
     }
     const auto& entries = running.clip->entries();
     for (std::uint32_t entry = 0; entry < entries.size(); ++entry)
-      if (running.drives(entry)) pose::lay_over(running, entry, *nodes_, clock, weight, local[entries[entry].node]);
+      if (running.drives(entry)) pose::lay_over(running, entry, *nodes_, local[entries[entry].node]);
   });
 }
 
@@ -367,11 +374,12 @@ Motion Animation::sample_node(std::size_t node, double stage_time, Side side,
   if (graphs_ && own_clock.clip == ClockOverride::every_clip && node < graphs_->nodes())
     return graphs_->sample_node(node, own_clock.timeline_at(stage_time), side);
   Motion motion = pose::at_rest_on((*nodes_)[node]);
-  for_each_running(stage_time, side, own_clock, [&](const pose::Running& running) {
+  const auto drives = [&](const pose::Running& running) {
     const std::uint32_t entry = running.clip->entry_of(node);
-    if (running.drives(entry) && running.clip->entries()[entry].parts)
-      pose::lay_over(running, entry, *nodes_, running.play.clock(stage_time, side),
-                     running.play.weight(stage_time, side), motion);
+    return running.drives(entry) && running.clip->entries()[entry].parts;
+  };
+  for_each_running(stage_time, side, own_clock, drives, [&](const pose::Running& running) {
+    pose::lay_over(running, running.clip->entry_of(node), *nodes_, motion);
   });
   return motion;
 }
@@ -383,13 +391,16 @@ WorldMotion Animation::world(std::size_t node, double stage_time, Side side,
 
 NodeLook Animation::look(std::size_t node, double stage_time, Side side, const ClockOverride& own_clock) const {
   NodeLook look;
-  for_each_running(stage_time, side, own_clock, [&](const pose::Running& running) {
+  const auto shows = [&](const pose::Running& running) {
     const std::uint32_t index = running.clip->entry_of(node);
-    if (!running.drives(index)) return;
+    if (!running.drives(index)) return false;
     const BoundClip::Entry& entry = running.clip->entries()[index];
-    if (!entry.has_color() && !entry.weights) return;
-    const ClipClock clock = running.play.clock(stage_time, side);
-    const Sample<double> weight = running.play.weight(stage_time, side);
+    return entry.has_color() || entry.weights;
+  };
+  for_each_running(stage_time, side, own_clock, shows, [&](const pose::Running& running) {
+    const BoundClip::Entry& entry = running.clip->entries()[running.clip->entry_of(node)];
+    const ClipClock& clock = running.clock;
+    const Sample<double>& weight = running.weight;
     if (entry.has_color() && (clock.started || !look.color))
       pose::fade_color(entry, clock, weight, (*nodes_)[node], look.color);
     if (entry.weights && (clock.started || look.weights.empty()))

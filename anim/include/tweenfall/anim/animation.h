@@ -134,8 +134,9 @@ class Animation {
   /// Nothing where the player at this place does not run under the clock.
   [[nodiscard]] std::optional<RunningPlay> running(const ClockOverride& clock, std::size_t place) const noexcept;
   [[nodiscard]] bool moved_by(std::size_t node, std::size_t place, std::size_t clip, bool unmasked) const noexcept;
-  template <class Visit>
-  void for_each_running(double stage_time, Side side, const ClockOverride& clock, const Visit& visit) const;
+  template <class Counts, class Visit>
+  void for_each_running(double stage_time, Side side, const ClockOverride& clock, const Counts& counts,
+                        const Visit& visit) const;
 
   std::shared_ptr<const Hierarchy> nodes_;
   std::shared_ptr<const std::vector<Clip>> clips_;

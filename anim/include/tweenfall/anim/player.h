@@ -5,6 +5,7 @@
 
 #include <tweenfall/anim/play.h>
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -74,6 +75,7 @@ struct SetSpeed {
 struct Seek {
   double time = 0;      ///< clip time, s
   bool events = false;  ///< whether what lies between fires, all of it now
+  double fade = 0;  ///< s in which the pose of the clock as it was, which runs on, fades into the new one; 0: a jump
 
   bool operator==(const Seek&) const = default;
 };
@@ -98,6 +100,18 @@ struct PlayChange {
 /// @throws std::invalid_argument for keys that make no curve
 [[nodiscard]] Play play_of(const playing::Start& start, std::size_t clip);
 
+/// A clock of a play, and its say.
+struct PlayVoice {
+  ClipClock clock;
+  Sample<double> weight;
+};
+/// All that a play shows at a time, the lowest first: one, and below it, while a seek fades, what it was before.
+struct PlayVoices {
+  static constexpr std::size_t most = 8;  ///< beyond which the oldest is heard no more
+  std::array<PlayVoice, most> list{};
+  std::size_t count = 0;
+};
+
 class Player {
  public:
   /// @throws std::invalid_argument listing what is wrong with the play
@@ -118,6 +132,8 @@ class Player {
   [[nodiscard]] ClipClock clock(double time, Side side = Side::out) const noexcept;
   /// Of its say: with its fades; 0 once it was stopped.
   [[nodiscard]] Sample<double> weight(double time, Side side = Side::out) const noexcept;
+  /// Clock and weight, while a seek fades of each pose that shows: laid over each other they have the play's weight.
+  [[nodiscard]] PlayVoices voices(double time, Side side = Side::out) const noexcept;
   /// Whether it was stopped and has no say.
   [[nodiscard]] bool is_gone(double time, Side side = Side::out) const noexcept;
   /// When the play that runs now is over, or stopped, s; infinity for never.
@@ -165,6 +181,13 @@ struct RunningPlay {
   }
   [[nodiscard]] Sample<double> weight(double time, Side side = Side::out) const noexcept {
     return alone ? Sample<double>{1, 0, 0} : player->weight(own_time(time), side);
+  }
+  [[nodiscard]] PlayVoices voices(double time, Side side = Side::out) const noexcept {
+    if (!alone) return player->voices(own_time(time), side);
+    PlayVoices one;
+    one.list[0] = {clock(time, side), weight(time, side)};
+    one.count = 1;
+    return one;
   }
   [[nodiscard]] bool is_gone(double time, Side side = Side::out) const noexcept {
     return player->is_gone(own_time(time), side);

@@ -43,7 +43,8 @@ std::optional<Curve<double>> followed_track(const json::Value& parameter, Buildi
 const Form* parameter_form(FormStore& store, const ValueForms& values) {
   Form full = parameter_table().listing_form(store, values);
   full.on_one_line = true;
-  full.together = {at_most_one({"track", "start"}), at_most_one({"track", "half_life"}),
+  full.together = {at_most_one({"track", "start"}),
+                   at_most_one({"track", "half_life"}),
                    {Together::Rule::first_needs_second, {"clip", "track"}}};
   return store.add(
       choice_of("a number, true, false, {\"start\", \"half_life\"}, {\"track\", \"clip\"}, or a list of keys",

@@ -194,7 +194,9 @@ const Table<Asked<playing::Seek>>& seek_table() {
                                   {"to", &ValueForms::not_negative, "clip time",
                                    fields::member<Seek>([](Seek& seek) -> double& { return seek.action.time; }), true},
                                   {"events", &ValueForms::boolean, "whether what lies between fires",
-                                   fields::member<Seek>([](Seek& seek) -> bool& { return seek.action.events; })}});
+                                   fields::member<Seek>([](Seek& seek) -> bool& { return seek.action.events; })},
+                                  {"fade", &ValueForms::not_negative, "seconds in which what showed fades; 0: a jump",
+                                   fields::member<Seek>([](Seek& seek) -> double& { return seek.action.fade; })}});
   return table;
 }
 

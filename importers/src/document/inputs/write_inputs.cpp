@@ -121,6 +121,7 @@ struct OfAction {
     Fields fields = named();
     fields.add("to", number_text(seek.time));
     if (seek.events) fields.add("events", "true");
+    fields.add("fade", seek.fade, 0);
     return {"seek", fields.object()};
   }
 

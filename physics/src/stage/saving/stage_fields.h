@@ -228,8 +228,8 @@ void each_field(T& set, const Visit& visit) {
 
 template <Is<playing::Seek> T, class Visit>
 void each_field(T& seek, const Visit& visit) {
-  auto& [time, events] = seek;
-  visit(time, events);
+  auto& [time, events, fade] = seek;
+  visit(time, events, fade);
 }
 
 template <Is<staging::change::Ask> T, class Visit>

@@ -44,9 +44,9 @@ struct GraphRecord {
   struct Machine {
     std::string name;
     std::vector<std::string> states;
-    std::vector<Passage> passages;   ///< in order of time
-    std::vector<double> weight;      ///< of each state in turn, frame by frame; together 1
-    std::vector<char> is_settling;   ///< one per frame: a difference to what was before still dies away
+    std::vector<Passage> passages;  ///< in order of time
+    std::vector<double> weight;     ///< of each state in turn, frame by frame; together 1
+    std::vector<char> is_settling;  ///< one per frame: a difference to what was before still dies away
   };
   std::string name;
   std::vector<Parameter> parameters;
