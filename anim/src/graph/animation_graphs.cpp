@@ -20,7 +20,8 @@ GraphGround ground_of(const Animation& plays) {
         first = next->time;
     return first;
   };
-  return {pose, next_event};
+  const auto look = [plays](std::size_t node, double time, Side side) { return plays.look(node, time, side); };
+  return {pose, next_event, look};
 }
 
 }  // namespace graphs

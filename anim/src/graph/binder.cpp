@@ -92,6 +92,7 @@ void Binder::bind_parameters() {
 }
 
 void Binder::bind_inputs() {
+  const std::vector<std::string> awaited = events_awaited(description_);
   for (std::size_t i = 0; i < description_.inputs.size(); ++i) {
     const GraphInput& input = description_.inputs[i];
     const Place place = {"inputs", std::to_string(i)};
@@ -100,7 +101,10 @@ void Binder::bind_inputs() {
     const std::size_t found = number_of(description_.parameters, input.name);
     const bool known = found < description_.parameters.size();
     if (!input.value) {
-      if (known) fault(place, "the parameter " + quoted(input.name) + " is set to a value; give one");
+      if (known)
+        fault(place, "the parameter " + quoted(input.name) + " is set to a value; give one");
+      else if (std::ranges::find(awaited, input.name) == awaited.end())
+        fault(place, "no machine waits for an event " + quoted(input.name) + nearest_of(input.name, awaited));
       continue;
     }
     if (!(std::abs(*input.value) <= largest_parameter)) fault(place, "a parameter is set to a number up to 1e15");
@@ -124,7 +128,7 @@ void Binder::bind_reactions() {
       fault(place, "the parameter " + quoted(reaction.name) + " is set to a value; give one");
     if (!reaction.value && reaction.name.empty()) fault(place, "an event that is sent has a name");
     if (!reaction.value) continue;
-    if (!std::isfinite(*reaction.value)) fault(place, "a parameter is set to a finite number");
+    if (!(std::abs(*reaction.value) <= largest_parameter)) fault(place, "a parameter is set to a number up to 1e15");
     if (!known)
       fault(place, "there is no parameter " + quoted(reaction.name) +
                        nearest_of(reaction.name, names_of(description_.parameters)));

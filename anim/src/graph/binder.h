@@ -38,6 +38,14 @@ struct Graph::Compiled {
   std::vector<Curve<double>> jumping;                // numbers over the graph's time that jump
   std::vector<std::optional<std::size_t>> reacting;  // by reaction: the parameter that it sets
 
+  /// Whether some clip colors a node, or has its morph weights.
+  [[nodiscard]] bool looks(std::size_t node) const noexcept {
+    return std::ranges::any_of(clips, [&](const auto& clip) {
+      const std::uint32_t entry = clip->bound->entry_of(node);
+      if (entry == pose::BoundClip::no_entry) return false;
+      return clip->bound->entries()[entry].has_color() || clip->bound->entries()[entry].weights;
+    });
+  }
   [[nodiscard]] graphs::LogSizes sizes() const noexcept { return {machines.size(), phases, swings, travels}; }
 };
 

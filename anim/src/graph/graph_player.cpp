@@ -4,6 +4,7 @@
 #include <tweenfall/curves/number_text.h>
 
 #include "graph/log_bytes.h"
+#include "graph/look.h"
 #include "machine/course.h"
 
 #include <algorithm>
@@ -93,6 +94,12 @@ void GraphPlayer::set(std::string_view name, double value) {
 }
 
 void GraphPlayer::send(std::string_view event) {
+  const std::vector<std::string> awaited = events_awaited(graph_->description());
+  if (std::ranges::find(awaited, event) == awaited.end()) {
+    const std::string nearest = nearest_name(event, awaited);
+    throw std::invalid_argument("no machine waits for an event \"" + std::string(event) + "\"" +
+                                (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?"));
+  }
   graphs::forget_after(run_->log, graph_->description(), run_->time);
   graphs::send(run_->log, run_->time, event, graphs::Origin::outside);
   know(run_->time);
@@ -159,6 +166,15 @@ void GraphPlayer::evaluate(double time, std::span<Motion> local, Side side) noex
   run_->ground.pose(time, side, below);
   graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes, &run_->ground.pose},
                                   local);
+}
+
+NodeLook GraphPlayer::look_at(std::size_t node, double time, Side side) {
+  graphs::require_time(time, 0);
+  NodeLook below;
+  if (run_->ground.look) below = run_->ground.look(node, time, side);
+  if (!graph_->compiled().looks(node)) return below;
+  know(time);
+  return graphs::look_of(run_->log, *graph_, node, {time, side, 0}, below);
 }
 
 Sample<double> GraphPlayer::parameter(std::string_view name) const {

@@ -31,7 +31,8 @@ struct GraphStack::Runner {
         if (const auto next = below(name, after, first.value_or(until))) first = next;
       return first;
     };
-    return {pose, next_event};
+    const auto look = [&player](std::size_t node, double time, Side side) { return player.look_at(node, time, side); };
+    return {pose, next_event, look};
   }
 
   void put(std::size_t graph, const GraphInput& input) {
@@ -143,6 +144,9 @@ GraphPlayer GraphStack::player(const std::shared_ptr<const GraphStack>& stack, s
     ground.pose = [stack, graph](double at, Side side, std::span<Motion> out) {
       Lent(*stack)->players[graph - 1].pose_at(at, out, side);
     };
+    ground.look = [stack, graph](std::size_t node, double at, Side side) {
+      return Lent(*stack)->players[graph - 1].look_at(node, at, side);
+    };
     ground.next_event = [stack, graph](std::string_view name, double after, double until) {
       const Lent lent(*stack);
       return lent->over(graph).next_event(name, after, until);
@@ -168,6 +172,11 @@ void GraphStack::sample(double time, Side side, std::span<Motion> local) const {
 Motion GraphStack::sample_node(std::size_t node, double time, Side side) const {
   const Lent lent(*this);
   return lent->kept_at(time, side)[node];
+}
+
+NodeLook GraphStack::look(std::size_t node, double time, Side side) const {
+  const Lent lent(*this);
+  return lent->players.back().look_at(node, std::isfinite(time) ? std::max(time, 0.0) : 0, side);
 }
 
 std::vector<GraphEvent> GraphStack::events(double from, double to) const {

@@ -48,6 +48,7 @@ class GraphStack {
   /// Of the nodes that it was made for. Times before 0, and those that are none, are taken as 0.
   void sample(double time, Side side, std::span<Motion> local) const;
   [[nodiscard]] Motion sample_node(std::size_t node, double time, Side side) const;
+  [[nodiscard]] NodeLook look(std::size_t node, double time, Side side) const;
   [[nodiscard]] std::size_t nodes() const noexcept { return nodes_; }
 
   [[nodiscard]] std::vector<GraphEvent> events(double from, double to) const;

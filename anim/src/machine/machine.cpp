@@ -87,19 +87,21 @@ void Machine::pose(const Log& log, const Moment& moment, const Scratch& scratch,
 void Machine::bearers(const Log& log, const Moment& moment, std::size_t node, const Sample<double>& weight,
                       Bearers& out) const noexcept {
   const Sight sight = seen(log, moment.time, moment.side);
-  ShownPassages shown;
   const Passages passages = until(log.passages[number_], sight.time, sight.side);
-  const std::size_t count = shown_at(passages, moment.time, moment.side, shown);
-  // A fade that begins here may show nothing yet.
-  const Passage& latest = passages[passages.count - 1];
-  if (!latest.settles && moment.time < latest.time + latest.change.seconds) out.flow = true;
   Sample<double> left = weight;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Passage& passage = *shown[i].passage;
-    const Moment own{moment.time, moment.side, passage.time};
-    // The lowest has all that is left.
-    const Sample<double> share = i + 1 == count ? Sample<double>{1, 0, 0} : shown[i].weight;
-    states_[passage.state]->bearers(log, own, node, product(left, share), out);
+  for (std::size_t i = passages.count; i-- > 0;) {
+    const Passage& passage = passages[i];
+    if (i + 1 < passages.count && passages[i + 1].time == passage.time) continue;
+    // Where a difference settles, what was before bears on for as long.
+    GraphChange change = passage.change;
+    if (passage.settles) change = {.seconds = std::min(settling_time(change), 4 * change.seconds)};
+    const double since = moment.time - passage.time;
+    const bool lowest = passages[0].time == passage.time || since >= change.seconds;
+    const Sample<double> share = lowest ? Sample<double>{1, 0, 0} : progress(change, since, moment.side);
+    if (!lowest) out.flow = true;
+    if (!is_nothing(share))
+      states_[passage.state]->bearers(log, {moment.time, moment.side, passage.time}, node, product(left, share), out);
+    if (lowest) return;
     left = product(left, rest_of(share));
   }
 }

@@ -109,6 +109,16 @@ std::vector<GraphOperand> operands_of(const PoseOperation& operation) {
   return graphs::account_of(operation).operands;
 }
 
+std::vector<std::string> events_awaited(const GraphDescription& description) {
+  std::set<std::string> names;
+  for (const GraphPose& pose : description.poses)
+    if (const auto* machine = std::get_if<MachinePose>(&pose.operation))
+      for (const GraphTransition& transition : machine->transitions)
+        for (const GraphCondition& condition : transition.when)
+          if (condition.kind == GraphCondition::Kind::event) names.insert(condition.name);
+  return {names.begin(), names.end()};
+}
+
 std::vector<std::string> clips_named_in(const GraphDescription& description) {
   std::set<std::string> names;
   for (const GraphPose& pose : description.poses)

@@ -6,6 +6,7 @@
 
 #include "graph/graph_stack.h"
 #include "pose/bound_clip.h"
+#include "pose/clip_look.h"
 
 namespace tweenfall {
 
@@ -92,74 +93,6 @@ Motion at_rest_on(const Node& node) noexcept {
   Motion motion;
   motion.pose = node.rest;
   return motion;
-}
-
-template <class T>
-Sample<T> per_stage_second(Sample<T> sample, double clock_rate) noexcept {
-  sample.rate *= clock_rate;
-  sample.acceleration *= clock_rate * clock_rate;
-  return sample;
-}
-
-// The plain numbers of a value that is mixed by its parts.
-double& numbers(double& value) noexcept {
-  return value;
-}
-Vec4& numbers(Color& value) noexcept {
-  return value.rgba;
-}
-
-template <class T>
-void fade(Sample<T>& under, Sample<T> over, const Sample<double>& weight) noexcept {
-  if (is_whole(weight)) {
-    under = over;
-    return;
-  }
-  using Numbers = Rate<T>;
-  const Numbers difference = numbers(over.value) - numbers(under.value), rate_difference = over.rate - under.rate;
-  under.acceleration += weight.value * (over.acceleration - under.acceleration) + 2 * weight.rate * rate_difference +
-                        weight.acceleration * difference;
-  under.rate += weight.value * rate_difference + weight.rate * difference;
-  if (weight.value == 1)
-    under.value = over.value;
-  else
-    numbers(under.value) += weight.value * difference;
-}
-
-/// What a clip has for a node's color; single numbers lie over what is below, or over white.
-Sample<Color> color_over(const BoundClip::Entry& entry, const ClipClock& clock, const Node& node,
-                         const std::optional<Sample<Color>>& look) {
-  if (entry.color) return per_stage_second(entry.color->sample(clock.time, clock.side), clock.rate);
-  Sample<Color> over =
-      look.value_or(Sample<Color>{node.color.value_or(Color{Vec4(1, 1, 1, 1)}), Vec4(0, 0, 0, 0), Vec4(0, 0, 0, 0)});
-  for (int i = 0; i < 4; ++i) {
-    const Curve<double>* curve = entry.tints[static_cast<std::size_t>(i)];
-    if (!curve) continue;
-    const Sample<double> number = per_stage_second(curve->sample(clock.time, clock.side), clock.rate);
-    over.value.rgba[i] = number.value;
-    over.rate[i] = number.rate;
-    over.acceleration[i] = number.acceleration;
-  }
-  return over;
-}
-
-void fade_color(const BoundClip::Entry& entry, const ClipClock& clock, const Sample<double>& weight, const Node& node,
-                std::optional<Sample<Color>>& look) {
-  const Sample<Color> over = color_over(entry, clock, node, look);
-  if (!look && !node.color) {
-    look = over;  // there is nothing to fade from
-    return;
-  }
-  if (!look) look = Sample<Color>{*node.color, Vec4::Zero(), Vec4::Zero()};
-  fade(*look, over, weight);
-}
-
-void fade_weights(const WeightCurves& curves, const ClipClock& clock, const Sample<double>& weight, const Node& node,
-                  std::vector<Sample<double>>& look) {
-  for (std::size_t i = look.size(); i < curves.size(); ++i)
-    look.push_back({i < node.weights.size() ? node.weights[i] : 0, 0, 0});
-  for (std::size_t i = 0; i < curves.size(); ++i)
-    fade(look[i], per_stage_second(curves[i].sample(clock.time, clock.side), clock.rate), weight);
 }
 
 std::string name_of(const Player& player, std::span<const Clip> clips) {
@@ -399,12 +332,7 @@ NodeLook Animation::look(std::size_t node, double stage_time, Side side, const C
   };
   for_each_running(stage_time, side, own_clock, shows, [&](const pose::Running& running) {
     const BoundClip::Entry& entry = running.clip->entries()[running.clip->entry_of(node)];
-    const ClipClock& clock = running.clock;
-    const Sample<double>& weight = running.weight;
-    if (entry.has_color() && (clock.started || !look.color))
-      pose::fade_color(entry, clock, weight, (*nodes_)[node], look.color);
-    if (entry.weights && (clock.started || look.weights.empty()))
-      pose::fade_weights(*entry.weights, clock, weight, (*nodes_)[node], look.weights);
+    pose::lay_look_over(entry, running.clock, running.weight, (*nodes_)[node], look);
   });
   return look;
 }

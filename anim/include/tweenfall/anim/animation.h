@@ -14,6 +14,7 @@
 
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/anim/hierarchy.h>
+#include <tweenfall/anim/node_look.h>
 #include <tweenfall/anim/play.h>
 #include <tweenfall/anim/player.h>
 
@@ -32,12 +33,6 @@ class GraphPlayer;
 namespace graphs {
 class GraphStack;
 }
-
-/// The animated values of one node at one time, beside its motion.
-struct NodeLook {
-  std::optional<Sample<Color>> color;
-  std::vector<Sample<double>> weights;  ///< morph weights; empty when not animated
-};
 
 class Animation {
  public:
@@ -85,7 +80,8 @@ class Animation {
   [[nodiscard]] WorldMotion world(std::size_t node, double stage_time, Side side = Side::out,
                                   const ClockOverride& clock = {}) const noexcept;
 
-  /// Color and morph weights of one node, where a playing clip drives them; the first play fades from the node's own.
+  /// Color and morph weights of one node, where a playing clip drives them, or one of a graph; the first play fades
+  /// from the node's own.
   [[nodiscard]] NodeLook look(std::size_t node, double stage_time, Side side = Side::out,
                               const ClockOverride& clock = {}) const;
 

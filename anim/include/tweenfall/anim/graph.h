@@ -190,6 +190,9 @@ struct GraphOperand {
 /// All names by which poses mean clips, each once.
 [[nodiscard]] std::vector<std::string> clips_named_in(const GraphDescription& description);
 
+/// The events for which its machines wait, each once.
+[[nodiscard]] std::vector<std::string> events_awaited(const GraphDescription& description);
+
 /// For tools: `speed > 0.1 and event "jump"`, "at once"; "fade 0.2 s", "settle quintic 0.3 s", "cut"; "machine".
 [[nodiscard]] std::string words_of(std::span<const GraphCondition> when);
 [[nodiscard]] std::string words_of(const GraphChange& change);

@@ -10,6 +10,7 @@
 /// nowhere is lost. What the description has the graph do on events of clips is done before either.
 
 #include <tweenfall/anim/graph.h>
+#include <tweenfall/anim/node_look.h>
 #include <tweenfall/curves/pose.h>
 
 #include <cstddef>
@@ -69,6 +70,8 @@ struct GraphGround {
   /// The first time in (after, until] at which an event of that name happens below, its beginning for an interval;
   /// none: nothing happens there.
   std::function<std::optional<double>(std::string_view name, double after, double until)> next_event{};
+  /// What a node looks like there; none: nothing is animated.
+  std::function<NodeLook(std::size_t node, double time, Side side)> look{};
 };
 
 class GraphPlayer {
@@ -84,6 +87,7 @@ class GraphPlayer {
   // Input, at `time()`: whatever was put in for later times is forgotten, but for what the description gives.
   /// @throws std::invalid_argument with the nearest name, for a parameter that has a curve, or a value not finite
   void set(std::string_view parameter, double value);
+  /// @throws std::invalid_argument with the nearest name, for an event for which no machine waits
   void send(std::string_view event);
   [[nodiscard]] std::vector<GraphInput> inputs() const;  ///< all that came in, in order of time
   /// Those of them that the description did not give.
@@ -101,6 +105,9 @@ class GraphPlayer {
   void pose(std::span<Motion> local, Side side = Side::out) noexcept;
   /// The same at any time, which makes it known what happens until then.
   void pose_at(double time, std::span<Motion> local, Side side = Side::out);
+  /// Color and morph weights of a node, at any time: the mean of what the clips that show have, by how much of each
+  /// there is. Operations do not change them; where a machine settles, they fade.
+  [[nodiscard]] NodeLook look_at(std::size_t node, double time, Side side = Side::out);
   /// What poses see of a parameter. @throws std::invalid_argument with the nearest name
   [[nodiscard]] Sample<double> parameter(std::string_view name) const;
   /// Events of clips that show, in (from, to], in order; with an event at 0 where `from` is below 0.

@@ -1,0 +1,15 @@
+#pragma once
+
+// Colors and morph weights of clips.
+
+#include <tweenfall/anim/node_look.h>
+
+#include "pose/bound_clip.h"
+
+namespace tweenfall::pose {
+
+/// Lays what a clip has for a node over what it looks like below.
+void lay_look_over(const BoundClip::Entry& entry, const ClipClock& clock, const Sample<double>& weight, const Node& node,
+              NodeLook& look);
+
+}  // namespace tweenfall::pose
