@@ -1,5 +1,4 @@
 #include <tweenfall/anim/blend_space.h>
-#include <tweenfall/curves/number_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,32 +7,12 @@
 
 #include "blending/delaunay.h"
 #include "blending/heading.h"
+#include "blending/places.h"
 
 namespace tweenfall {
 
 namespace blending {
 namespace {
-
-std::string text_of(const Vec2& place) {
-  return "(" + number_text(place[0]) + ", " + number_text(place[1]) + ")";
-}
-
-// Pairs that are nearer to each other than 1e-9 of the whole, among places within a square of size 1.
-std::string nearly_equal(std::span<const Vec2> scaled, std::span<const Vec2> places) {
-  std::vector<std::size_t> order(scaled.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return scaled[i][0]; });
-  std::string problems;
-  constexpr double near = 1e-9;
-  for (std::size_t i = 0; i < order.size(); ++i)
-    for (std::size_t k = i + 1; k < order.size() && scaled[order[k]][0] - scaled[order[i]][0] <= near; ++k) {
-      const auto [first, second] = std::minmax(order[i], order[k]);
-      if (std::abs(scaled[first][1] - scaled[second][1]) <= near)
-        problems += "\n  entries " + std::to_string(first) + " and " + std::to_string(second) + " are both at " +
-                    text_of(places[first]);
-    }
-  return problems;
-}
 
 // The turn from a to b to the parameter, with its rates.
 Sample<double> moving_turn(std::span<const Vec2> places, std::size_t a, std::size_t b,
@@ -76,32 +55,9 @@ BlendPlane::BlendPlane(std::vector<Vec2> places) : places_(std::move(places)) {
   if (places_.size() < 3)
     problems += "\n  it needs three entries or more; there " +
                 std::string(places_.size() == 1 ? "is 1" : "are " + std::to_string(places_.size()));
-  bool finite = true;
-  for (std::size_t i = 0; i < places_.size(); ++i)
-    if (!std::isfinite(places_[i][0]) || !std::isfinite(places_[i][1])) {
-      finite = false;
-      problems +=
-          "\n  the place of entry " + std::to_string(i) + " must be finite; it is " + blending::text_of(places_[i]);
-    }
-  if (finite && !places_.empty()) {
-    Vec2 least = places_[0], most = places_[0];
-    for (const Vec2& place : places_) {
-      least = least.cwiseMin(place);
-      most = most.cwiseMax(place);
-    }
-    center_ = least / 2 + most / 2;
-    size_ = std::max(most[0] - least[0], most[1] - least[1]);
-    if (!(size_ > 1e-150)) size_ = 1;  // all at one place
-    if (!(size_ < 1e150)) {
-      problems += "\n  its places are farther apart than numbers can tell";
-      finite = false;
-    }
-  }
-  if (finite) {
-    scaled_places_.reserve(places_.size());
-    for (const Vec2& place : places_) scaled_places_.push_back(scaled(place));
-    problems += blending::nearly_equal(scaled_places_, places_);
-  }
+  const blending::PlaneFrame frame = blending::framed(places_, scaled_places_, problems);
+  center_ = frame.center;
+  size_ = frame.size;
   if (problems.empty()) {
     blending::Triangulation made = blending::delaunay(scaled_places_);
     triangles_ = std::move(made.triangles);
@@ -122,8 +78,7 @@ BlendPlane::BlendPlane(std::vector<Vec2> places) : places_(std::move(places)) {
 }
 
 Vec2 BlendPlane::scaled(const Vec2& place) const noexcept {
-  constexpr double far = 1e100;
-  return Vec2((place - center_) / size_).cwiseMax(-far).cwiseMin(far);
+  return blending::PlaneFrame{center_, size_}.scaled(place);
 }
 
 void BlendPlane::weights(const Sample<Vec2>& parameter, std::span<Sample<double>> weights, Side side) const noexcept {

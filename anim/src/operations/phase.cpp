@@ -11,10 +11,11 @@ namespace {
 
 constexpr double stops_a_second = 480;
 
-std::variant<BlendLine, BlendPlane> space_of(const SpacePose& described) {
+std::variant<BlendLine, BlendPlane, BlendBands> space_of(const SpacePose& described) {
   if (described.by.size() == 2) {
     std::vector<Vec2> places;
     for (const SpacePose::Entry& entry : described.entries) places.push_back(entry.place);
+    if (described.bands) return BlendBands(std::move(places));
     return BlendPlane(std::move(places));
   }
   std::vector<double> places;
@@ -34,8 +35,11 @@ void SpaceWeights::sample(const Log& log, double time, Side side, std::span<Samp
     return;
   }
   const Sample<double> y = by_[1].sample(log, time, side);
-  std::get<BlendPlane>(space_).weights(
-      Sample<Vec2>{{x.value, y.value}, {x.rate, y.rate}, {x.acceleration, y.acceleration}}, weights, side);
+  const Sample<Vec2> at{{x.value, y.value}, {x.rate, y.rate}, {x.acceleration, y.acceleration}};
+  if (const auto* bands = std::get_if<BlendBands>(&space_))
+    bands->weights(at, weights, side);
+  else
+    std::get<BlendPlane>(space_).weights(at, weights, side);
 }
 
 double SpaceWeights::next_setting(const Log& log, double after) const noexcept {

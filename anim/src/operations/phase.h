@@ -30,7 +30,7 @@ class SpaceWeights {
  private:
   std::vector<Number> by_;
   std::size_t size_;
-  std::variant<BlendLine, BlendPlane> space_;
+  std::variant<BlendLine, BlendPlane, BlendBands> space_;
 };
 
 /// It runs from the start of the state around it, with the first clip at its beginning. On the way it stops at every

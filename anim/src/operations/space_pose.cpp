@@ -186,12 +186,13 @@ void tell(const SpacePose& pose, Account& account) {
   for (const GraphNumber& number : pose.by)
     account.words += (&number == &pose.by.front() ? " by " : ", ") + words_of(number);
   if (pose.sync) account.words += ", in phase";
+  if (pose.bands) account.words += ", in bands";
   for (const SpacePose::Entry& entry : pose.entries) {
     const std::string x = brief_text(entry.place.x());
     account.pose(entry.pose, pose.by.size() == 2 ? x + ", " + brief_text(entry.place.y()) : x);
     account.tell(entry.place);
   }
-  account.tell(pose.by, pose.sync);
+  account.tell(pose.by, pose.sync, pose.bands);
 }
 
 std::unique_ptr<Operation> bound(const SpacePose& described, Binder& binder) {
@@ -216,6 +217,7 @@ std::unique_ptr<Operation> bound(const SpacePose& described, Binder& binder) {
     binder.fault({"space", "by"}, "a space is along one number or on a plane of two");
     return nullptr;
   }
+  if (described.bands && by.size() != 2) binder.fault({"space", "bands"}, "bands are for a plane of two numbers");
   std::optional<SpaceWeights> weights;
   if (!binder.attempt({"space", "poses"}, [&] { weights.emplace(described, std::move(by)); })) return nullptr;
   if (std::ranges::find(poses, nullptr) != poses.end() || std::ranges::find(clips, nullptr) != clips.end())

@@ -5,8 +5,8 @@
 /// A walk at 1.5 m/s, a run at 4 m/s: a parameter of 2 m/s gives each its weight. The parameter carries its rate and
 /// acceleration, and the weights carry theirs, exactly. Weights are 0 to 1 and sum to 1, at the place of an entry that
 /// entry's is 1 and the others' 0, exactly, and they are continuous everywhere. Their rates jump where the parameter
-/// goes from one stretch or triangle to the next: there they are those of the side to which it moves (`Side::out`) or
-/// from which it comes (`Side::in`).
+/// goes from one stretch, triangle or band to the next: there they are those of the side to which it moves
+/// (`Side::out`) or from which it comes (`Side::in`).
 
 #include <tweenfall/curves/values.h>
 
@@ -67,6 +67,31 @@ class BlendPlane {
   std::vector<Vec2> scaled_places_;  ///< about the center, the whole being of size 1
   std::vector<std::array<std::size_t, 3>> triangles_;
   std::vector<std::size_t> border_;
+};
+
+/// Entries on a plane that share it by gradient bands: between an entry and each other one its influence falls evenly
+/// from 1 to 0, the least of these counts, and the weights are the influences divided by their sum. More entries than
+/// three may show at once, two are enough, and they may lie on one line; weights change more smoothly than those of
+/// triangles, but do not lead to the parameter: a blend of speeds has not quite the speed that was asked for.
+///
+/// "Far" counts both axes alike. Beyond the entries the weights fade out to those of the border.
+/// Source: Johansen, "Automated Semi-Procedural Animation for Character Locomotion", 2009, 6.3.
+class BlendBands {
+ public:
+  /// @throws std::invalid_argument listing all problems: fewer than two, two at one place (nearer than 1e-9 of the
+  /// whole), places that are not finite
+  explicit BlendBands(std::vector<Vec2> places);
+
+  [[nodiscard]] std::span<const Vec2> places() const noexcept { return places_; }
+
+  /// @param weights  written, one for each entry, in order
+  void weights(const Sample<Vec2>& parameter, std::span<Sample<double>> weights, Side side = Side::out) const noexcept;
+
+ private:
+  std::vector<Vec2> places_;
+  Vec2 center_{0, 0};
+  double size_ = 1;
+  std::vector<Vec2> scaled_places_;
 };
 
 }  // namespace tweenfall

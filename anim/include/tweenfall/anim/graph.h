@@ -80,7 +80,7 @@ struct LayersPose {
 };
 
 /// Poses at places along a line or on a plane, weighed by where one or two numbers are among them, as `BlendLine` and
-/// `BlendPlane` do it.
+/// `BlendPlane`, or `BlendBands`, do it.
 struct SpacePose {
   struct Entry {
     std::string pose;
@@ -91,6 +91,7 @@ struct SpacePose {
   /// For clips alone, which then loop in phase, as `MarkerSync` has it: a pattern of the events that are markers. None
   /// with these names: by the shares of their loops that lie behind.
   std::optional<std::string> sync{};
+  bool bands = false;  ///< on a plane: weights by gradient bands, not by triangles
 };
 
 /// When a transition may be taken.
