@@ -1,3 +1,4 @@
+#include "anim/moving_pose.h"
 #include "support.h"
 
 #include <tweenfall/anim/animation.h>

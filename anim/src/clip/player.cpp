@@ -316,6 +316,10 @@ ClipClock clock_at(double at, double speed, const Clip& clip, double stage_time,
   return clips::Course(clips::rounds_of(clip, speed < 0), speed, at, 0).clock(stage_time, side);
 }
 
+double end_time(double at, double speed, const Clip& clip) noexcept {
+  return clips::Course(clips::rounds_of(clip, speed < 0), speed, at, 0).end;
+}
+
 double end_time(const Play& play, const Clip& clip) noexcept {
   return clips::Course(clips::rounds_of(play, clip), play.speed, play.at, play.offset).end;
 }

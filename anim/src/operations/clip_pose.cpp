@@ -48,7 +48,7 @@ class PlayedClip : public Operation {
   }
 
   [[nodiscard]] double end(const Log&, double start) const noexcept override {
-    return end_time(play(start), clip_.clip());
+    return end_time(start + at_, speed_, clip_.clip());
   }
 
   void bearers(const Log&, const Moment& moment, std::size_t, const Sample<double>& weight,

@@ -38,7 +38,7 @@ std::vector<GraphDescription> two_graphs() {
 }
 
 Animation two_graphs_over_a_play() {
-  return Animation(limb(), {three_clips()->begin(), three_clips()->end()}, {Play{}}).with_graphs(two_graphs());
+  return Animation(limb(), *three_clips(), {Play{}}).with_graphs(two_graphs());
 }
 
 std::vector<Motion> sampled(const Animation& animation, double time, Side side = Side::out) {

@@ -65,7 +65,8 @@ TEST_CASE("numbers that are none, or out of their range, are refused") {
   CHECK(faults_of({.parameters = {{.name = "x", .half_life = -1}}, .poses = {{"a", RestPose{}}}}) ==
         "/parameters/x/half_life: a half-life is 0 s or more; it is -1 s\n");
   CHECK(faults_of({.poses = {{"a", RestPose{}}}, .inputs = {{-1, "x", 2}, {1, "jump"}}}) ==
-        "/inputs/0: an input comes at 0 s or later; this one at -1 s\n/inputs/0: there is no parameter \"x\"\n");
+        "/inputs/0: an input comes at 0 s or later; this one at -1 s\n/inputs/0: there is no parameter \"x\"\n"
+        "/inputs/1: no machine waits for an event \"jump\"\n");
   CHECK(
       faults_of(
           {.parameters = {{.name = "x", .start = 1e308}}, .poses = {{"a", RestPose{}}}, .inputs = {{1, "x", -2e15}}}) ==

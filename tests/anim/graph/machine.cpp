@@ -161,7 +161,8 @@ TEST_CASE("an event that leads nowhere is lost, and one that leads on is used up
   GraphDescription steps = {.poses = {{"body", MachinePose{.start = "a",
                                                            .states = {{"a", "idle"}, {"b", "walk"}, {"c", "jump"}},
                                                            .transitions = {{{"a"}, "b", {{Kind::event, "go"}}},
-                                                                           {{"b"}, "c", {{Kind::event, "go"}}}}}}}};
+                                                                           {{"b"}, "c", {{Kind::event, "go"}}},
+                                                                           {{"c"}, "a", {{Kind::event, "stay"}}}}}}}};
   GraphPlayer player(graph_of(steps));
   player.send("stay");
   player.advance(1);

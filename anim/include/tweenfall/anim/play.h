@@ -151,5 +151,7 @@ struct FiredEvent {
 /// Stage time at which the play is over: where its clock first comes to an end of all its rounds. Infinity for an
 /// endless one.
 [[nodiscard]] double end_time(const Play& play, const Clip& clip) noexcept;
+/// The same of a play of which only this matters: the stage time at which it starts, and its speed.
+[[nodiscard]] double end_time(double at, double speed, const Clip& clip) noexcept;
 
 }  // namespace tweenfall
