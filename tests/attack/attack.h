@@ -29,6 +29,10 @@ class Attack {
 };
 
 std::unique_ptr<Attack> attack_documents(std::uint64_t seed);
+/// Documents with graphs, of which nothing else is changed.
+std::unique_ptr<Attack> attack_graphs(std::uint64_t seed);
+/// Files of inputs, given to the stages that they are for.
+std::unique_ptr<Attack> attack_inputs(std::uint64_t seed);
 /// The same documents, given to the command.
 std::unique_ptr<Attack> attack_commands(std::uint64_t seed);
 /// @param ending  of the models to start from, such as ".fbx"

@@ -6,12 +6,14 @@
 
 namespace tweenfall::attack {
 
-ChangedDocuments::ChangedDocuments(std::uint64_t seed) : seed_(seed) {
+ChangedDocuments::ChangedDocuments(std::uint64_t seed, std::string part) : seed_(seed), part_(std::move(part)) {
   const std::filesystem::path source = TWEENFALL_SOURCE_DIR;
   for (const char* folder : {"samples/documents", "tests/data/documents/good", "../shared/faults"}) {
     if (!std::filesystem::exists(source / folder)) continue;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(source / folder)) {
-      if (entry.path().extension() == ".json" && entry.file_size() < 40'000) files_.push_back(entry.path());
+      if (entry.path().extension() != ".json" || entry.file_size() >= 40'000) continue;
+      if (part_.empty() || bytes_of(entry.path()).find('"' + part_ + '"') != std::string::npos)
+        files_.push_back(entry.path());
     }
   }
   std::sort(files_.begin(), files_.end());
@@ -21,10 +23,10 @@ ChangedDocument ChangedDocuments::make(std::uint64_t number) const {
   Random random = random_of(seed_, number);
   const std::filesystem::path& file = files_[below(random, files_.size())];
   std::string text = bytes_of(file);
-  if (below(random, 4) != 0) {
+  if (!part_.empty() || below(random, 4) != 0) {
     nlohmann::ordered_json document = nlohmann::ordered_json::parse(text, nullptr, false, true);
     if (!document.is_discarded()) {
-      mutate_structure(random, document);
+      mutate_structure(random, part_.empty() ? document : document[part_]);
       return {document.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace), file.parent_path()};
     }
   }

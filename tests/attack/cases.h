@@ -19,11 +19,13 @@ struct ChangedDocument {
 /// Documents of the samples, the tests and ../shared, changed by structure and by byte.
 class ChangedDocuments {
  public:
-  explicit ChangedDocuments(std::uint64_t seed);
+  /// @param part  where given, only documents that have this member are taken, and only it is changed, by structure
+  explicit ChangedDocuments(std::uint64_t seed, std::string part = {});
   [[nodiscard]] ChangedDocument make(std::uint64_t number) const;
 
  private:
   std::uint64_t seed_;
+  std::string part_;
   std::vector<std::filesystem::path> files_;
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 class Documents final : public Attack {
  public:
-  explicit Documents(std::uint64_t seed) : documents_(seed) {}
+  explicit Documents(std::uint64_t seed, const std::string& part = {}) : documents_(seed, part) {}
 
   std::string show(std::uint64_t number) override { return documents_.make(number).text; }
 
@@ -50,6 +50,10 @@ class Documents final : public Attack {
 
 std::unique_ptr<Attack> attack_documents(std::uint64_t seed) {
   return std::make_unique<Documents>(seed);
+}
+
+std::unique_ptr<Attack> attack_graphs(std::uint64_t seed) {
+  return std::make_unique<Documents>(seed, "graphs");
 }
 
 }  // namespace tweenfall::attack

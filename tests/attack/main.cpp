@@ -1,7 +1,7 @@
 // attack KIND [--count N] [--from K] [--seed S] [--jobs J]   run cases of a kind, each job in a process of its own
 // attack KIND --show K [--seed S]                            print what case K feeds to the program
 //
-// KIND: documents, commands, stage, or the ending of models: .gltf, .glb, .fbx, .bvh, .dae, .obj
+// KIND: documents, graphs, inputs, commands, stage, or the ending of models: .gltf, .glb, .fbx, .bvh, .dae, .obj
 // A case that crashes, takes more than 10 s of a processor, 100 s of the clock or 4 GB is told by its number, and the
 // run goes on behind it.
 
@@ -35,6 +35,8 @@ constexpr rlim_t most_bytes = rlim_t{4} << 30;
 
 std::unique_ptr<Attack> attack_of(const std::string& kind, std::uint64_t seed) {
   if (kind == "documents") return attack_documents(seed);
+  if (kind == "graphs") return attack_graphs(seed);
+  if (kind == "inputs") return attack_inputs(seed);
   if (kind == "commands") return attack_commands(seed);
   if (kind == "stage") return attack_stage(seed);
   return attack_models(seed, kind);

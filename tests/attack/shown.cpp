@@ -29,17 +29,19 @@ std::string names_in(const StageDescription& stage) {
 
 }  // namespace
 
-std::string fault_of_run(const StageDescription& description, double seconds) {
+std::string fault_of_run(const StageDescription& description, double seconds, std::span<const TimedInput> inputs) {
   Recording recording;
   try {
     Stage stage(description);
-    recording = record(stage, std::min(seconds, natural_length(description)), 30);
+    const double until = inputs.empty() ? std::min(seconds, natural_length(description)) : seconds;
+    recording = record(stage, until, 30, 1e9, false, inputs);
   } catch (const NodeNotFinite& fault) {
     // Said with node, time and cause: what a run may end with.
     return fault.cause.empty() || !is_utf8(fault.what()) ? "a run ends without a cause" : "";
   } catch (const std::invalid_argument& error) {
     // More than a recording may hold is no fault of the stage.
     if (std::string_view(error.what()).find("are allowed: end it earlier") != std::string_view::npos) return {};
+    if (!inputs.empty()) return is_utf8(error.what()) ? "" : "an input is refused in what is not UTF-8";
     throw;
   }
   if (const std::string fault = fault_of_json(recording_json(recording)); !fault.empty()) {

@@ -3,7 +3,9 @@
 // A stage run and written in every form that the command writes.
 
 #include <tweenfall/physics/stage/description.h>
+#include <tweenfall/physics/stage/input.h>
 
+#include <span>
 #include <string>
 
 namespace tweenfall::attack {
@@ -11,6 +13,8 @@ namespace tweenfall::attack {
 /// What is wrong with any form of the first moments of a stage: a NaN, or bytes that are not UTF-8; empty when all is
 /// well, and when the run ends in words because a motion is no longer finite.
 /// @param seconds  how much is recorded at most
-[[nodiscard]] std::string fault_of_run(const StageDescription& description, double seconds);
+/// @param inputs   given on the way; where one is refused, all is well too
+[[nodiscard]] std::string fault_of_run(const StageDescription& description, double seconds,
+                                       std::span<const TimedInput> inputs = {});
 
 }  // namespace tweenfall::attack

@@ -199,6 +199,17 @@ inline Recording example_recording(double fps = 60) {
     }
     recording.nodes.push_back(record);
   }
+  // A machine that passes at 1 s, and is through 0.5 s later; a parameter that rises evenly.
+  GraphRecord graph{.name = "figure", .parameters = {{"speed", {}}}, .machines = {{.name = "legs"}}};
+  graph.machines[0].states = {"stand", "walk"};
+  graph.machines[0].passages = {{0, 0, "", ""}, {1, 1, "fade 0.5 s", "speed > 0.1"}};
+  for (const double time : recording.times) {
+    const double walk = std::clamp((time - 1) / 0.5, 0.0, 1.0);
+    graph.parameters[0].value.push_back(2 * time);
+    graph.machines[0].weight.insert(graph.machines[0].weight.end(), {1 - walk, walk});
+    graph.machines[0].is_settling.push_back(0);
+  }
+  recording.graphs = {graph};
   const auto handoff = [&](std::size_t node, Owner from, Owner to, double time, Cause cause) {
     const Motion before = example_moment(node, time - 1e-9).world.motion;
     const Motion after = example_moment(node, time + 1e-9).world.motion;

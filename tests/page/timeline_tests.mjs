@@ -139,6 +139,27 @@ async function showsColliders(page) {
   equal((await reach("floor"))[0] < 0, true, "a plane has no outline");
 }
 
+// The machine passes at 1 s and fades for 0.5 s; the parameter is twice the time.
+async function showsGraphs(page) {
+  const rows = await page.evaluate("tweenfall.rows");
+  equal(rows.slice(0, 3).join(), "figure,figure.legs,figure.speed", "a graph, its machines and its parameters have rows");
+  const at = async time => {
+    await page.evaluate(`tweenfall.seek(${time})`);
+    return page.evaluate("[tweenfall.stateOf('figure', 'legs'), tweenfall.weightsOf('figure', 'legs').walk, tweenfall.parameterOf('figure', 'speed')]");
+  };
+  const expected = [[0.9, "stand", 0, 1.8], [1.25, "walk", 0.5, 2.5], [2, "walk", 1, 4]];
+  for (const [time, state, weight, value] of expected) {
+    const [found, share, number] = await at(time);
+    equal(found, state, `the state at ${time} s`);
+    near([share, number], [weight, value], `its weight and the parameter at ${time} s`, 1e-5);
+    const label = await page.evaluate("[...document.querySelectorAll('#rows .row.graph .name')].map(name => name.textContent).join()");
+    equal(label, `figure,legs: ${state},speed: ${value.toFixed(3)}`, `the labels at ${time} s`);
+  }
+  const strip = await boxOf(page, "#rows .row.graph:nth-child(2) .strip");
+  await page.click(strip.left + 10 + (strip.width - 20) / 3 + 3, strip.top + 8);
+  near([await timeNow(page)], [1], "scrubbing snaps to where a machine passed", 1e-12);
+}
+
 export async function drivesTheTimeline(page) {
-  for (const test of [zoomsAndPans, folds, finds, jumpsToKeys, snaps, helps, framesAndFollows, showsColliders]) await test(page);
+  for (const test of [showsGraphs, zoomsAndPans, folds, finds, jumpsToKeys, snaps, helps, framesAndFollows, showsColliders]) await test(page);
 }
