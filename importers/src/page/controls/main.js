@@ -90,7 +90,7 @@ window.tweenfall = {
   get rows() { return timeline.list.rows.map(row => (row.graph ? graphRowName(row) : row.lane ? `${row.node.name}.${row.lane.property}` : row.node.name)); },
   // Of a graph's machine its states' weights, of a parameter its value, now.
   graphs: recording.graphs.map(graph => graph.name),
-  stateOf: (graph, machine) => stateAt(graphPart(graph, "machines", machine), state.time),
+  stateOf: (graph, machine) => machineStateAt(graphPart(graph, "machines", machine), state.time),
   weightsOf: (graph, machine) => {
     const part = graphPart(graph, "machines", machine), weights = stateWeightsAt(part, state.time);
     return Object.fromEntries(part.states.map((name, i) => [name, weights[i]]));

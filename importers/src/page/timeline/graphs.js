@@ -18,7 +18,7 @@ function stateWeightsAt(machine, time) {
 // The latest passage at a time.
 const passageAt = (machine, time) =>
   machine.passages[Math.max(0, lastNotAbove(machine.passages.length, i => machine.passages[i].time, time))];
-const stateAt = (machine, time) => machine.states[passageAt(machine, time).state];
+const machineStateAt = (machine, time) => machine.states[passageAt(machine, time).state];
 
 function parameterAt(parameter, time) {
   const first = Math.max(0, recording.frameBefore(time)), next = Math.min(first + 1, recording.frameCount - 1);
@@ -98,5 +98,5 @@ function graphTip(row, x, width) {
 // What a row's label says beside its name.
 function graphNow(row) {
   if (!row.part) return "";
-  return row.part.states ? stateAt(row.part, state.time) : number(parameterAt(row.part, state.time));
+  return row.part.states ? machineStateAt(row.part, state.time) : number(parameterAt(row.part, state.time));
 }
