@@ -9,7 +9,7 @@
 namespace tweenfall::pose {
 
 /// Lays what a clip has for a node over what it looks like below.
-void lay_look_over(const BoundClip::Entry& entry, const ClipClock& clock, const Sample<double>& weight, const Node& node,
-              NodeLook& look);
+void lay_look_over(const BoundClip::Entry& entry, const ClipClock& clock, const Sample<double>& weight,
+                   const Node& node, NodeLook& look);
 
 }  // namespace tweenfall::pose
