@@ -115,3 +115,32 @@ TEST_CASE("schema prints the library's draft-07 schema") {
   CHECK(json::parse(ran.out)["$schema"].get<std::string>().find("draft-07") != std::string::npos);
   CHECK(ran.out == document_schema());
 }
+
+TEST_CASE("view of two documents is one page with both, side by side") {
+  const Folder folder;
+  folder.write("ball.json", ball_document);
+  folder.write("thrown.json", thrown_document);
+  const Ran ran = folder.run("view ball.json thrown.json");
+  CHECK_MESSAGE(ran.code == 0, ran.err);
+  CHECK(ran.out.starts_with("wrote ball_thrown.html: "));
+  CHECK(ran.out.find("; beside it ") != std::string::npos);
+  const std::string page = folder.read("ball_thrown.html");
+  CHECK(count(page, "<iframe") == 2);
+  // Three.js is in it once.
+  CHECK(page.size() < 1.6 * folder.run("view ball.json -o -").out.size());
+  CHECK(folder.run("view - -", ball_document).code == 2);
+  CHECK(folder.run("view ball.json gone.json").code == 1);
+}
+
+TEST_CASE("plot draws the phase portraits of systems, and says where there is none") {
+  const Folder folder;
+  folder.write("spring.json", R"({"tweenfall": 1, "systems": {"spring": {"state": {"x": 1, "v": 0},
+    "rates": {"x": "v", "v": "-x"}, "energy": "x^2+v^2"}}})");
+  folder.write("ball.json", ball_document);
+  const Ran ran = folder.run("plot spring.json --portrait -o portrait.svg");
+  CHECK_MESSAGE(ran.code == 0, ran.err);
+  CHECK(ran.out.starts_with("wrote portrait.svg: 1 portrait: spring"));
+  CHECK(folder.read("portrait.svg").find("energy") != std::string::npos);
+  CHECK(folder.run("plot spring.json -o tracks.svg").out.starts_with("wrote tracks.svg: 3 tracks of spring"));
+  CHECK(folder.run("plot ball.json --portrait").code == 2);
+}

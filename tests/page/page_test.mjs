@@ -8,6 +8,7 @@ import {check, equal, near, summary} from "./checks.mjs";
 import {frameModels} from "./model_tests.mjs";
 import {showHostile} from "./hostile_tests.mjs";
 import {fitsAllWidths} from "./layout_tests.mjs";
+import {showsTwoBesideEachOther} from "./beside_tests.mjs";
 import {showsJoints, showsSteps} from "./overlay_tests.mjs";
 import {readPng} from "./png.mjs";
 import {drivesTheTimeline} from "./timeline_tests.mjs";
@@ -252,6 +253,7 @@ await run("models and hostile recordings", {}, async page => {
   await showHostile(page, join(folder, "hostile"));
   await showsJoints(page, folder);
   await showsSteps(page, folder);
+  await showsTwoBesideEachOther(page, folder);
   await page.visit(address);
 });
 

@@ -86,6 +86,19 @@ void write_stacked(const fs::path& folder) {
   save_recording(recording, stage, folder / "stacked.html");
 }
 
+/// The example, and beside it a bob of another kind that falls for half as long.
+void write_beside(const fs::path& folder) {
+  StageDescription other;
+  other.name = "the other <one>";
+  NodeDescription bob{.name = "bob", .body = BodyDescription{.shape = {Sphere{0.2}}}};
+  bob.rest.position = Vec3(0, 3, 0);
+  other.nodes = {bob};
+  Stage run(other);
+  const Recording falling = record(run, 1.5, 30);
+  const StageDescription stage = test::example_stage();
+  std::ofstream(folder / "beside.html") << side_by_side_html({falling, other}, {test::example_recording(), stage});
+}
+
 /// A door on a hinge that swings free, and a lamp whose rope breaks under it.
 void write_jointed(const fs::path& folder) {
   BodyDescription door, lamp;
@@ -230,6 +243,7 @@ int main(int count, char** arguments) {
     write_example(folder);
     write_jointed(folder);
     write_stacked(folder);
+    write_beside(folder);
     write_models(folder / "models");
     write_hostile(folder / "hostile");
   } catch (const std::exception& problem) {

@@ -152,3 +152,28 @@ TEST_CASE("what falls lies in the same places to the bit by whichever search its
     CHECK(places == first);
   }
 }
+
+TEST_CASE("what is heavier below stands up again, by a density or by mass properties, and the even ball rolls on") {
+  Stage stage = lecture("mass/self_righting");
+  const double start = place_of(stage, "even").x();
+  stage.advance_to(12);
+  const auto upright = [&](const char* node) {
+    return (stage.world(stage.node(node)).motion.pose.rotation * Vec3(0, 1, 0)).y();
+  };
+  CHECK(upright("heavier below") > 0.99);
+  CHECK(upright("leaden core") > 0.99);
+  CHECK(place_of(stage, "even").x() > start + 0.2);
+}
+
+TEST_CASE("a spring as a system spirals out by explicit and in by backward Euler, by its closed form") {
+  for (const bool out : {true, false}) {
+    const Document document =
+        Document::read(lectures / "first_order" / (out ? "spring_explicit_euler.json" : "spring_backward_euler.json"));
+    REQUIRE(document.systems().size() == 1);
+    const ExpressionSystem& system = document.systems()[0];
+    const FirstOrderPath path = path_of(system, system.start);
+    const double energy = value_at(*system.energy, path.times.back(), path.states.back());
+    CHECK(path.times.size() == 401);
+    CHECK(energy == doctest::Approx(2 * std::pow(1 + 0.05 * 0.05, out ? 400 : -400)).epsilon(1e-10));
+  }
+}

@@ -1,9 +1,9 @@
 #include <tweenfall/curves/rotation.h>
+#include <tweenfall/curves/symmetric_eigen.h>
 
 #include <stdexcept>
 
 #include "curve/components.h"
-#include "math/symmetric_eigen.h"
 
 namespace tweenfall {
 
@@ -24,12 +24,13 @@ Quat weighted_mean(std::span<const Quat> rotations, std::span<const double> weig
   }
   if (!(largest > 0)) throw std::invalid_argument("a mean needs a weight that is not zero");
   if (rotations.size() == 1) return rotations[0];
-  math::Mat4 sum = math::Mat4::Zero();
+  using Mat4 = Eigen::Matrix<double, 4, 4, Eigen::DontAlign>;
+  Mat4 sum = Mat4::Zero();
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const Vec4 q = rotations[i].coeffs();
     sum += (weights[i] / largest) * q * q.transpose();
   }
-  const Vec4 q = math::symmetric_eigen(sum).vectors.col(0);
+  const Vec4 q = symmetric_eigen(sum).vectors.col(0);
   return hemisphere_aligned(normalized(Quat(q[3], q[0], q[1], q[2])), rotations[0]);
 }
 

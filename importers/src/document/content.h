@@ -50,7 +50,8 @@ struct Building {
   std::map<std::string, std::size_t, std::less<>> clips{};
   std::set<std::string, std::less<>> imports{};         // their names here
   std::set<std::string, std::less<>> failed_imports{};  // their nodes and clips are not known to be missing
-  std::vector<json::Value> asked_groups{};              // names of groups that bodies collide with
+  std::vector<ExpressionSystem> systems{};
+  std::vector<json::Value> asked_groups{};     // names of groups that bodies collide with
   std::vector<std::string> clips_of_others{};  // clips of imports without nodes: their tracks name nodes of this file
 
   [[nodiscard]] std::vector<std::string> node_names() const;
@@ -67,6 +68,7 @@ struct ReadDocument {
   std::string name;  // in problems
   json::Tree tree;
   StageDescription stage;
+  std::vector<ExpressionSystem> systems{};
   bool names_are_free = false;
   std::vector<Problem> notes{};
 };

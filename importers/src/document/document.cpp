@@ -38,6 +38,10 @@ const StageDescription& Document::stage() const noexcept {
   return content_->document.stage;
 }
 
+const std::vector<ExpressionSystem>& Document::systems() const noexcept {
+  return content_->document.systems;
+}
+
 const std::vector<Problem>& Document::notes() const noexcept {
   return content_->document.notes;
 }

@@ -10,8 +10,9 @@ set(page_scripts
 find_file(TWEENFALL_THREE three.min.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH
           DOC "three.js as Debian's libjs-three installs it; the 3-D page carries it")
 
-set(parts page.html=${page}/page.html page.css=${page}/page.css)
-set(part_files ${page}/embed.cmake ${page}/page.html ${page}/page.css)
+set(parts page.html=${page}/page.html page.css=${page}/page.css
+  beside.html=${page}/beside/beside.html beside.js=${page}/beside/beside.js)
+set(part_files ${page}/embed.cmake ${page}/page.html ${page}/page.css ${page}/beside/beside.html ${page}/beside/beside.js)
 foreach(script IN LISTS page_scripts)
   list(APPEND parts page.js=${page}/${script})
   list(APPEND part_files ${page}/${script})

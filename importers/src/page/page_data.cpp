@@ -208,7 +208,8 @@ std::string node_json(const NodeRecord& node, const NodeDescription* description
     if (description->body->fixed) out += ",\"fixed\":true";
     if (!is_scenery(description->body->shape.solid)) {
       out += ",\"center\":";
-      append_vector(out, mass_properties(description->body->shape, 1).center);
+      const std::optional<MassProperties>& given = description->body->mass_properties;
+      append_vector(out, given ? given->center : mass_properties(description->body->shape, 1).center);
     }
   }
   return out + "}";

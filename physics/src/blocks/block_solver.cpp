@@ -77,7 +77,7 @@ void BlockSolver::take(std::size_t place, const Body& body, const Load& load, In
   lags_[place] = {};
   Traits& traits = traits_[place] = {};
   entry.index = indices_[place];
-  entry.round = body.spherical() && std::holds_alternative<Sphere>(body.shape().solid);
+  entry.round = body.round();
   entry.movable = pace.movable = !body.immovable() && !body.asleep;
   entry.conveys = body.conveys;
   if (body.conveys) {

@@ -115,17 +115,18 @@ void each_field(T& shape, const Visit& visit) {
 template <Is<MassProperties> T, class Visit>
 void each_field(T& properties, const Visit& visit) {
   auto& [mass, center, inertia] = properties;
-  visit(mass);
-  follows_from_others(center, inertia);
+  visit(mass, center, inertia);
 }
 
 template <Is<Makeup> T, class Visit>
 void each_field(T& makeup, const Visit& visit) {
   auto& [shape, mass, inverse_inertia, radius, roundness, linear_damping, angular_damping, friction, restitution,
-         rolling_friction, spinning_friction, friction_combine, restitution_combine, sensor, spherical, turned] =
-      makeup;
-  visit(linear_damping, angular_damping, mass, friction, restitution, rolling_friction, spinning_friction,
+         rolling_friction, spinning_friction, friction_combine, restitution_combine, sensor, weighed, spherical,
+         turned] = makeup;
+  visit(linear_damping, angular_damping, mass.mass, friction, restitution, rolling_friction, spinning_friction,
         friction_combine, restitution_combine, sensor, shape);
+  visit.rarely(weighed);
+  if (weighed) visit(mass.center, mass.inertia);  // else they follow from the shape
   follows_from_others(inverse_inertia, radius, roundness, spherical, turned);
 }
 

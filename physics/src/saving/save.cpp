@@ -20,7 +20,7 @@ namespace tweenfall {
 namespace saving {
 namespace {
 
-constexpr Envelope world_envelope{"world", 7};
+constexpr Envelope world_envelope{"world", 8};
 
 bool unit(const Quat& rotation) {
   return std::abs(rotation.norm() - 1) <= 1e-9;
@@ -43,9 +43,10 @@ void check(Body& body, state::Makeups& makeups) {
   body.conveys = state::conveys(extra.surface_velocity);
   state::validate(body.drive);
   state::require(unit(makeup.shape.offset.rotation), "rotation of a shape must be a unit quaternion");
-  const std::optional<double> mass = makeup.mass.mass;
+  const std::optional<double> mass = makeup.weighed ? std::nullopt : std::optional(makeup.mass.mass);
+  const std::optional<MassProperties> weighed = makeup.weighed ? std::optional(makeup.mass) : std::nullopt;
   makeup.mass = {};
-  state::give_mass(makeup, body.immovable(), mass, 0);
+  state::give_mass(makeup, body.immovable(), mass, 0, weighed);
   body.makeup = makeups.share(makeup);
   for (const Motion& motion : {body.motion, extra.target}) {
     static_cast<void>(state::checked(motion));

@@ -173,16 +173,6 @@ MassProperties mass_properties(const Shape& shape, double mass) {
   return properties;
 }
 
-MassProperties mass_properties(const SurfaceMesh& mesh, double mass) {
-  shapes::require_positive(mass, "mass");
-  if (!is_closed(mesh)) throw std::invalid_argument("only a closed mesh has mass properties; this one has open edges");
-  const MeshMeasures measures = measure(mesh);
-  if (!(measures.volume > 0))
-    throw std::invalid_argument("a mesh with mass must enclose a volume, its triangles wound outwards; it encloses " +
-                                number_text(measures.volume) + " m^3");
-  return {mass, measures.center, mass / measures.volume * measures.inertia};
-}
-
 Mat3 inertia_about(const MassProperties& properties, const Vec3& point) noexcept {
   const Vec3 arm = point - properties.center;
   const Mat3 shift = arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose();

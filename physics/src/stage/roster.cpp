@@ -25,6 +25,7 @@ BodySettings settings_of(const StageState& state, NodeId node, const BodyDescrip
   BodySettings settings{.shape = scaled(body.shape, rest_scale(*state.nodes, node)),
                         .mass = body.mass,
                         .density = body.density,
+                        .mass_properties = body.mass_properties,
                         .friction = body.friction,
                         .restitution = body.restitution,
                         .friction_combine = body.friction_combine,
@@ -38,6 +39,10 @@ BodySettings settings_of(const StageState& state, NodeId node, const BodyDescrip
                         .fixed = body.fixed,
                         .groups = body.groups,
                         .collides_with = body.collides_with};
+  if (const Vec3 scale = rest_scale(*state.nodes, node); body.mass_properties && scale != Vec3(1, 1, 1))
+    throw std::invalid_argument(
+        "a density that varies and mass properties are told for a node of scale 1; this one is "
+        "scaled, so give its shape its size instead");
   settings.drive = body.drive ? *body.drive : state.animation->animates(node) ? Drive::keyed() : Drive::free();
   settings.motion = rigid(start.motion);
   if (!body.twist.linear.allFinite() || !body.twist.angular.allFinite())

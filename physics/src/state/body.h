@@ -25,6 +25,7 @@ struct Makeup {
   Combine friction_combine = Combine::usual;
   Combine restitution_combine = Combine::usual;
   bool sensor = false;
+  bool weighed = false;    ///< its mass properties were given, not those of an even solid
   bool spherical = false;  ///< the same moment about every axis: spin feels no gyroscopic torque
   bool turned = false;     ///< what it rolls with depends on where it is touched; of a compound, too
 };
@@ -70,6 +71,10 @@ struct Body {
   [[nodiscard]] const Mat3& inverse_inertia() const { return makeup->inverse_inertia; }
   [[nodiscard]] double radius() const { return makeup->radius; }
   [[nodiscard]] bool spherical() const { return makeup->spherical; }
+  /// A ball around its center of mass: no contact that does not rub can turn it.
+  [[nodiscard]] bool round() const {
+    return spherical() && std::holds_alternative<Sphere>(shape().solid) && mass().center == shape().offset.position;
+  }
   [[nodiscard]] bool sensor() const { return makeup->sensor; }
   /// Of the node's origin at the end of the step.
   [[nodiscard]] const Motion& target() const { return extra.value().target; }

@@ -2,6 +2,7 @@
 
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/curves/rotation.h>
+#include <tweenfall/physics/mass_properties.h>
 #include <tweenfall/physics/strategies.h>
 
 #include <Eigen/LU>
@@ -39,6 +40,16 @@ double radius_of(const Solid& solid) {
   }
   if (const surfaces::Surface* surface = surfaces::surface_of(solid)) return surface->reach();
   return std::numeric_limits<double>::infinity();
+}
+
+/// What a body can have: moments about all axes, and none so small beside another that it divides by nothing.
+void require_solid(const MassProperties& weighed) {
+  tweenfall::validate(weighed);
+  require_finite(weighed.center, "center of mass");
+  const Vec3 moments = principal_axes(weighed).moments;
+  require(moments[0] > 1e-9 * moments[2] && moments[0] >= smallest && moments[2] <= largest,
+          "a body needs a moment of inertia about every axis, but its principal ones are " + number_text(moments[0]) +
+              ", " + number_text(moments[1]) + " and " + number_text(moments[2]) + " kg m^2");
 }
 
 }  // namespace
@@ -117,7 +128,8 @@ void validate_surface(const Twist& velocity) {
   require_finite(velocity.angular, "angular velocity of a surface");
 }
 
-void give_mass(Makeup& body, bool immovable, const std::optional<double>& given, double density) {
+void give_mass(Makeup& body, bool immovable, const std::optional<double>& given, double density,
+               const std::optional<MassProperties>& weighed) {
   tweenfall::validate(body.shape.solid);
   Pose& offset = body.shape.offset;
   const double turn = offset.rotation.norm();
@@ -129,15 +141,23 @@ void give_mass(Makeup& body, bool immovable, const std::optional<double>& given,
   const bool endless = std::holds_alternative<Plane>(solid);
   if (is_scenery(solid)) {
     require(immovable, std::string("a body with ") + kind_name(solid) + " must be fixed or keyed: it has no mass");
+    require(!weighed, std::string(kind_name(solid)) + " has no mass, so it takes no mass properties");
     body.mass.center = offset.position;
   } else {
-    const double mass = given ? *given : density * volume(solid);
+    require(!given || !weighed, "a body takes a mass or mass properties, not both");
+    if (weighed) require_solid(*weighed);
+    const double mass = weighed ? weighed->mass : given ? *given : density * volume(solid);
     require(mass >= smallest && mass <= largest,
             "mass must lie in 1e-30 kg to 1e30 kg, but is " + number_text(mass) + " kg");
     body.mass = mass_properties(body.shape, mass);
+    if (weighed) {
+      body.radius = (weighed->center - body.mass.center).norm();
+      body.mass = *weighed;
+      body.weighed = true;
+    }
     body.inverse_inertia = body.mass.inertia.inverse();
     const double first = body.mass.inertia(0, 0);
-    body.spherical = std::holds_alternative<Sphere>(solid) ||
+    body.spherical = (std::holds_alternative<Sphere>(solid) && !weighed) ||
                      (body.mass.inertia - first * Mat3::Identity()).cwiseAbs().maxCoeff() <= 1e-14 * first;
     if (body.spherical) {
       body.mass.inertia = first * Mat3::Identity();
@@ -148,7 +168,7 @@ void give_mass(Makeup& body, bool immovable, const std::optional<double>& given,
   if (const auto* capsule = std::get_if<Capsule>(&solid)) body.roundness = capsule->radius;
   body.turned = std::holds_alternative<Cylinder>(solid) || std::holds_alternative<Cone>(solid) ||
                 std::holds_alternative<TaperedCapsule>(solid) || std::holds_alternative<Compound>(solid);
-  body.radius = radius_of(solid);
+  body.radius = radius_of(solid) + (weighed ? body.radius : 0);
   require(body.radius >= smallest && (endless || body.radius <= largest),
           "a shape must measure 1e-30 m to 1e30 m, but this one reaches " + number_text(body.radius) +
               " m from its center");

@@ -32,6 +32,8 @@ void validate_surface(const Twist& velocity);
 /// Sets what follows from a body's shape and mass: mass properties, radius, roundness. A plane has none.
 /// @param immovable  fixed or keyed
 /// @param given  kg; absent: density times volume
-void give_mass(Makeup& body, bool immovable, const std::optional<double>& given, double density);
+/// @param weighed  instead of what an even solid has
+void give_mass(Makeup& body, bool immovable, const std::optional<double>& given, double density,
+               const std::optional<MassProperties>& weighed);
 
 }  // namespace tweenfall::state

@@ -147,7 +147,7 @@ BodyId World::add(const BodySettings& settings) {
   makeup.angular_damping = settings.angular_damping;
   state::validate_surface(makeup);
   state::validate_surface(settings.surface_velocity);
-  state::give_mass(makeup, body.immovable(), settings.mass, settings.density);
+  state::give_mass(makeup, body.immovable(), settings.mass, settings.density, settings.mass_properties);
   body.makeup = world.makeups.share(makeup);
   body.conveys = state::conveys(settings.surface_velocity);
   if (body.conveys) body.extra.own().surface_velocity = settings.surface_velocity;

@@ -51,7 +51,7 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<contacts::Contact
     const Body& body = bodies[index];
     SolverBody entry;
     entry.index = index;
-    entry.round = body.spherical() && std::holds_alternative<Sphere>(body.shape().solid);
+    entry.round = body.round();
     entry.movable = !body.immovable() && !body.asleep;
     entry.conveys = body.conveys;
     if (body.conveys) entry.surface = body.surface();

@@ -164,7 +164,10 @@ std::string bodies_table(const StageDescription& stage, const std::string& file)
     const NodeDescription& node = stage.nodes[i];
     if (!node.body) continue;
     const Vec3 scale = scale_at_rest(stage, i);
-    const double mass = node.body->mass.value_or(node.body->density * volume(node.body->shape.solid) * scale.prod());
+    const double mass =
+        node.body->mass_properties
+            ? node.body->mass_properties->mass
+            : node.body->mass.value_or(node.body->density * volume(node.body->shape.solid) * scale.prod());
     table.row({node.name, shape_text(node.body->shape) + scale_text(scale), node.body->fixed ? "" : brief_text(mass),
                brief_text(node.body->friction), brief_text(node.body->restitution),
                owner_text(node, made.owner(i) == Owner::keyed)});

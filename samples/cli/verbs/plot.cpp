@@ -10,6 +10,7 @@
 #include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/graph_plot.h>
 #include <tweenfall/importers/plot.h>
+#include <tweenfall/importers/portrait_plot.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ struct PlotFileOptions : RunOptions {
   std::string output;
   std::vector<std::string> tracks;
   std::optional<double> columns;
-  bool no_rates = false, graph = false;
+  bool no_rates = false, graph = false, portrait = false;
 };
 
 constexpr int most_columns = 6;
@@ -71,8 +72,20 @@ int plot_graphs(const PlotFileOptions& options) {
   return 0;
 }
 
+int plot_portraits(const PlotFileOptions& options) {
+  const StageFile read = read_stage_file(options.file);
+  if (!read.document || read.document->systems().empty())
+    throw UsageError(options.file + " has no system of which to draw a portrait");
+  write_output(options.output, portrait_svg(read.document->systems()));
+  std::string names;
+  for (const ExpressionSystem& system : read.document->systems()) names += (names.empty() ? "" : ", ") + system.name;
+  say_written(options.output, counted(read.document->systems().size(), "portrait") + ": " + names);
+  return 0;
+}
+
 int plot_file(const PlotFileOptions& options) {
   if (options.graph) return plot_graphs(options);
+  if (options.portrait) return plot_portraits(options);
   require_amount(options);
   require_output(options.output, options.file, std::vector<std::string>{".svg"});
   const double columns = options.columns.value_or(1);
@@ -126,6 +139,8 @@ Run declare_plot(Arguments& arguments) {
   arguments.number("--until", "T", options->until, "simulate to stage time T, s");
   arguments.number("--columns", "N", options->columns, "so many side by side, 1 to 6; 1 without it");
   arguments.flag("--graph", options->graph, "the graphs instead: what is made of what, and machines with their states");
+  arguments.flag("--portrait", options->portrait,
+                 "phase portraits of the systems instead: one number over another, with directions and energy");
   arguments.flag("--no-rates", options->no_rates, "values alone, without their rates below");
   return [options] { return plot_file(*options); };
 }

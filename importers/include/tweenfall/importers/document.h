@@ -7,6 +7,7 @@
 /// that writing it back gives the same text, and `stage` makes of it what runs.
 
 #include <tweenfall/importers/model.h>
+#include <tweenfall/physics/expression_system.h>
 #include <tweenfall/physics/stage/description.h>
 
 #include <filesystem>
@@ -66,6 +67,9 @@ class Document {
 
   /// Nodes, clips, bodies and rules, imports included.
   [[nodiscard]] const StageDescription& stage() const noexcept;
+
+  /// Systems of first order that it writes down; each is a clip of the stage, too.
+  [[nodiscard]] const std::vector<ExpressionSystem>& systems() const noexcept;
 
   /// What its author may want to know though the document is valid: names of ours nearly hit, what is too stiff or too
   /// fast for the step, bodies that start in each other, what a rule's pattern leaves out, what was lost of a model.

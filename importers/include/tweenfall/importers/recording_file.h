@@ -54,6 +54,18 @@ void check_drawable(const Recording& recording, const StageDescription& stage);
 /// @throws std::runtime_error when the library was built without three.js.
 [[nodiscard]] std::string recording_html(const Recording& recording, const StageDescription& stage);
 
+/// A recording and the stage that it was made of.
+struct ShownRecording {
+  const Recording& recording;
+  const StageDescription& stage;
+};
+
+/// Both pages side by side in one, with one clock and one way of looking: to compare what two strategies make of a
+/// stage. The one that lasts longer has the clock. A program drives it through `window.beside`, whose `pages` are the
+/// two as `window.tweenfall` is of one.
+/// @throws std::runtime_error when the library was built without three.js.
+[[nodiscard]] std::string side_by_side_html(const ShownRecording& left, const ShownRecording& right);
+
 /// How many of the recording's frames its page carries: all of them, unless they are so many that it thins them.
 [[nodiscard]] std::size_t page_frame_count(const Recording& recording);
 

@@ -84,7 +84,17 @@ const Table<Body>& body_table() {
       {{"shape", shapes::form, "", shape, true},
        {"offset", form_of(offset_table()), "of the shape on its node", offset},
        {"mass", bounded("a mass in kg, above 0", 0, true), "kg", member<Body>(&Body::mass), false, while_static},
-       {"density", bounded("a density in kg/m^3, above 0", 0, true), "kg/m^3", member<Body>(&Body::density), false,
+       {"density",
+        density_form,
+        "kg/m^3, or an expression of x, y and z, m on the node",
+        {read_density, text_of_default(Body{}.density)},
+        false,
+        while_static},
+       {"mass_properties",
+        mass_properties_form,
+        "instead of those of an even solid",
+        {read_mass_properties},
+        false,
         while_static},
        {"friction", &ValueForms::not_negative, "a pair takes sqrt(f1 f2)", member<Body>(&Body::friction)},
        {"restitution",
@@ -128,7 +138,7 @@ const Table<Body>& body_table() {
 
 const Form* body_form(FormStore& store, const ValueForms& values) {
   Form form = body_table().form(store, values);
-  form.together = {at_most_one({"mass", "density"})};
+  form.together = {at_most_one({"mass", "density", "mass_properties"})};
   form.definition = "body";
   return store.add(std::move(form));
 }

@@ -7,6 +7,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tweenfall::document::fields {
@@ -20,6 +21,13 @@ void read_look(const json::Value& value, NodeDescription& node, Building& buildi
 
 const Form* body_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] BodyDescription read_body(const json::Value& body, Building& building);
+
+// What a body weighs: its density, a number or an expression, and mass properties that it has instead.
+const Form* density_form(FormStore& store, const ValueForms& values);
+void read_density(const json::Value& density, BodyDescription& body, Building& building);
+const Form* mass_properties_form(FormStore& store, const ValueForms& values);
+void read_mass_properties(const json::Value& value, BodyDescription& body, Building& building);
+
 void check_groups(Building& building);  // those that bodies collide with, when all bodies are known
 [[nodiscard]] json::Value place_of_spin(const json::Value& body);  // or the body, where it says none
 
@@ -37,6 +45,10 @@ const Form* fade_form(FormStore& store, const ValueForms& values);
 
 const Form* world_form(FormStore& store, const ValueForms& values);
 void read_world(const json::Value& world, Building& building);
+// A step in seconds or as "1/N", and what integrators are called.
+const Form* step_form(FormStore& store, const ValueForms& values);
+[[nodiscard]] double seconds_of_step(const json::Value& step);
+[[nodiscard]] const std::vector<std::pair<std::string, Integrator>>& integrator_words();
 [[nodiscard]] json::Value place_of_gravity(const json::Value& world);  // or the world, where it says none; and so below
 [[nodiscard]] json::Value place_of_step(const json::Value& world);
 [[nodiscard]] json::Value place_of_force(const json::Value& world, std::size_t index);

@@ -16,23 +16,8 @@ namespace {
 
 using Kind = json::Value::Kind;
 
-const Form* step_form(FormStore& store, const ValueForms& values) {
-  Form fraction;
-  fraction.kind = Form::Kind::text;
-  fraction.pattern = "^1/[1-9][0-9]{0,8}$";
-  fraction.fits = [](std::string_view text) {
-    return text.size() > 2 && text.size() <= 11 && text.substr(0, 2) == "1/" && text[2] != '0' &&
-           text.substr(2).find_first_not_of("0123456789") == std::string_view::npos;
-  };
-  return store.add(choice_of("a step: seconds above 0, or \"1/N\"", {values.positive, store.add(std::move(fraction))}));
-}
-
 void read_step(const json::Value& value, StageDescription& stage, Building&) {
-  if (value.is(Kind::number)) stage.step = value.number();
-  if (!value.is(Kind::text)) return;
-  double parts = 240;
-  std::from_chars(value.text().data() + 2, value.text().data() + value.text().size(), parts);
-  stage.step = 1 / parts;
+  stage.step = seconds_of_step(value);
 }
 
 const Form* sleep_form(FormStore& store, const ValueForms& values) {
@@ -96,17 +81,8 @@ const Table<StageDescription>& world_table() {
       "a world",
       {{"gravity", &ValueForms::vector, "m/s^2", member<Stage>(of_world(&WorldSettings::gravity))},
        {"step", step_form, "s", {read_step, "\"1/240\""}, false, {}, {"dt", "timestep", "time_step"}},
-       one_of<Stage, Integrator>("integrator", "an integrator",
-                                 {{"exact-quadratic", Integrator::exact_quadratic},
-                                  {"semi-implicit-euler", Integrator::semi_implicit_euler},
-                                  {"explicit-euler", Integrator::explicit_euler},
-                                  {"midpoint", Integrator::midpoint},
-                                  {"trapezoid", Integrator::trapezoid},
-                                  {"rk4", Integrator::rk4},
-                                  {"verlet", Integrator::verlet},
-                                  {"backward-euler", Integrator::backward_euler},
-                                  {"implicit-trapezoid", Integrator::implicit_trapezoid}},
-                                 "", of_world(&WorldSettings::integrator)),
+       one_of<Stage, Integrator>("integrator", "an integrator", integrator_words(), "",
+                                 of_world(&WorldSettings::integrator)),
        one_of<Stage, ContactSolver>("solver", "a solver",
                                     {{"iterative", ContactSolver::iterative},
                                      {"sequential", ContactSolver::sequential},
@@ -152,6 +128,39 @@ const Table<StageDescription>& world_table() {
 }
 
 }  // namespace
+
+const Form* step_form(FormStore& store, const ValueForms& values) {
+  Form fraction;
+  fraction.kind = Form::Kind::text;
+  fraction.pattern = "^1/[1-9][0-9]{0,8}$";
+  fraction.fits = [](std::string_view text) {
+    return text.size() > 2 && text.size() <= 11 && text.substr(0, 2) == "1/" && text[2] != '0' &&
+           text.substr(2).find_first_not_of("0123456789") == std::string_view::npos;
+  };
+  return store.add(choice_of("a step: seconds above 0, or \"1/N\"", {values.positive, store.add(std::move(fraction))}));
+}
+
+double seconds_of_step(const json::Value& value) {
+  if (value.is(Kind::number)) return value.number();
+  if (!value.is(Kind::text)) return 1.0 / 240;
+  double parts = 240;
+  std::from_chars(value.text().data() + 2, value.text().data() + value.text().size(), parts);
+  return 1 / parts;
+}
+
+const std::vector<std::pair<std::string, Integrator>>& integrator_words() {
+  static const std::vector<std::pair<std::string, Integrator>> words = {
+      {"exact-quadratic", Integrator::exact_quadratic},
+      {"semi-implicit-euler", Integrator::semi_implicit_euler},
+      {"explicit-euler", Integrator::explicit_euler},
+      {"midpoint", Integrator::midpoint},
+      {"trapezoid", Integrator::trapezoid},
+      {"rk4", Integrator::rk4},
+      {"verlet", Integrator::verlet},
+      {"backward-euler", Integrator::backward_euler},
+      {"implicit-trapezoid", Integrator::implicit_trapezoid}};
+  return words;
+}
 
 const Form* world_form(FormStore& store, const ValueForms& values) {
   Form world = world_table().form(store, values);

@@ -4,6 +4,7 @@
 #include "document/fields/things.h"
 #include "document/grammar/grammar_parts.h"
 #include "document/graphs/graphs.h"
+#include "document/systems/systems.h"
 
 #include <utility>
 
@@ -75,6 +76,7 @@ struct Grammar {
           false,
           "{}",
           {"animations", "animation", "actions"}},
+         {"systems", systems::form(store, values), "x' = f(x, t) by formulas, each a clip", false, "{}"},
          {"play", rows_of(fields::play_form(store, values), "a list of plays"), "absent: the only clip"},
          {"graphs", graphs::form(store, values), "what lies over the plays", false, "{}", {"graph", "animator"}},
          {"world", fields::world_form(store, values), "", false, "{}"},

@@ -8,6 +8,7 @@
 #include "document/judge/judge.h"
 #include "document/read/values.h"
 #include "document/report/check.h"
+#include "document/systems/systems.h"
 
 #include <fstream>
 #include <optional>
@@ -47,12 +48,14 @@ ReadDocument read_document(std::string text, const std::string& name, const std:
     read_nodes(building);
     fields::check_groups(building);
     read_clips(building);
+    systems::read(usable(root, "systems"), building);
     read_plays(building);
     graphs::read(usable(root, "graphs"), building);
     fields::read_world(usable(root, "world"), building);
     read_rules(building);
     if (problems.empty()) judge(building);
     out.stage = std::move(building.stage);
+    out.systems = std::move(building.systems);
     out.names_are_free = building.names_are_free;
   }
   if (!problems.empty()) throw DocumentError(problems.located(Severity::error, name, out.tree));

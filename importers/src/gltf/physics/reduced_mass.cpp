@@ -13,7 +13,8 @@ std::optional<ReducedMass> Masses::reduced(const JointDescription& joint) const 
     if (!found || found->keyed || found->body.fixed || is_scenery(found->body.shape.solid)) return;
     const BodyDescription& body = found->body;
     const MassProperties of_all =
-        mass_properties(body.shape, body.mass.value_or(body.density * volume(body.shape.solid)));
+        body.mass_properties ? *body.mass_properties
+                             : mass_properties(body.shape, body.mass.value_or(body.density * volume(body.shape.solid)));
     const Vec3 axis = frame.rotation * Vec3(1, 0, 0);
     linear += 1 / of_all.mass;
     angular += 1 / axis.dot(inertia_about(of_all, frame.position) * axis);

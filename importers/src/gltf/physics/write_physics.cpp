@@ -100,7 +100,9 @@ class PhysicsWriter {
       if (body.keyed) motion["isKinematic"] = true;
       if (!is_scenery(body.body.shape.solid)) {
         const double scaled = scales_[body.node].prod();
-        motion["mass"] = body.body.mass.value_or(body.body.density * volume(body.body.shape.solid) * scaled);
+        motion["mass"] = body.body.mass_properties
+                             ? body.body.mass_properties->mass
+                             : body.body.mass.value_or(body.body.density * volume(body.body.shape.solid) * scaled);
       }
       const Quat from_world = model_.nodes[body.node].rest.rotation.conjugate();
       if (!body.body.twist.linear.isZero(0)) motion["linearVelocity"] = numbers(from_world * body.body.twist.linear);

@@ -31,7 +31,7 @@ function toNext(list, direction) {
 
 let lastTick = 0;
 function tick(now) {
-  if (state.playing && lastTick) {
+  if (state.playing && !state.led && lastTick) {
     let time = state.time + Math.min(0.25, (now - lastTick) / 1000) * state.speed;
     if (time >= recording.endTime) {
       if (state.loop && recording.duration > 0)

@@ -21,8 +21,8 @@ class Store {
 const recording = new Recording(JSON.parse(document.getElementById("data").textContent));
 const {nodes, times} = recording;
 
-// `from` and `until`: what the timeline and the curves show; `folded`: nodes whose rows are hidden below them.
-const store = new Store({time: recording.startTime, playing: false, speed: 1, loop: true, snap: true, chosen: null, byOwner: true,
+// `led`: another page's clock moves the time; `from` and `until`: what the timeline and the curves show; `folded`: nodes whose rows are hidden below them.
+const store = new Store({time: recording.startTime, playing: false, led: false, speed: 1, loop: true, snap: true, chosen: null, byOwner: true,
   trail: true, skeleton: false, colliders: false, joints: false, contacts: false, islands: false, boxes: false, sleepers: false, follow: false, local: false, help: false, find: "", folded: new Set(),
   from: recording.startTime, until: recording.endTime});
 const state = store.values;

@@ -148,8 +148,12 @@ class Cast {
     return direction => this.unit * (bounds.reach(direction) - dot3(direction, this.origin));
   }
 
-  // From the world to the scene.
+  // From the world to the scene, and back.
   toScene(point) {
     return point.map((value, i) => (value - this.origin[i]) * this.unit);
+  }
+
+  toWorld(point) {
+    return point.map((value, i) => value / this.unit + this.origin[i]);
   }
 }

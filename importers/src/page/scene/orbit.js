@@ -27,6 +27,18 @@ class Orbit {
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld(true);
     this.changed();
+    if (this.looked) this.looked(this.look);
+  }
+
+  // Where it looks at in the world, from how far and from which side, so that another page can look alike.
+  get look() {
+    return {target: cast.toWorld(this.target.toArray()), distance: this.distance / cast.unit, yaw: this.yaw, pitch: this.pitch};
+  }
+
+  set look({target, distance, yaw, pitch}) {
+    this.target.fromArray(cast.toScene(target));
+    Object.assign(this, {distance: distance * cast.unit, yaw, pitch});
+    this.apply();
   }
 
   zoom(factor) {

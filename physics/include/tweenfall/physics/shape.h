@@ -106,7 +106,7 @@ void validate(const Solid& solid);
 [[nodiscard]] MassProperties mass_properties(const Shape& shape, double mass);
 
 /// Mass properties of what a closed mesh encloses, filled evenly, in the mesh's own space.
-/// @throws std::invalid_argument for a mesh that is open or inside out, or mass not > 0.
+/// @throws std::invalid_argument for a mesh that is open or inside out, naming the edge or triangle, or mass not > 0.
 [[nodiscard]] MassProperties mass_properties(const SurfaceMesh& mesh, double mass);
 
 /// The same properties about the frame moved by the parallel-axis theorem: inertia about `point` (node frame).

@@ -80,10 +80,11 @@ enum class Combine : std::uint8_t {
 
 struct BodySettings {
   Shape shape = {};
-  std::optional<double> mass{};  ///< kg; absent: density times volume
-  double density = 1000;         ///< kg/m^3
-  double friction = 0.5;         ///< Coulomb coefficient; a pair takes sqrt(f1 f2) unless told otherwise
-  double restitution = 0;        ///< 0 to 1; a pair takes the larger unless told otherwise
+  std::optional<double> mass{};                     ///< kg; absent: density times volume
+  double density = 1000;                            ///< kg/m^3
+  std::optional<MassProperties> mass_properties{};  ///< instead of those that an even solid has; beside no `mass`
+  double friction = 0.5;   ///< Coulomb coefficient; a pair takes sqrt(f1 f2) unless told otherwise
+  double restitution = 0;  ///< 0 to 1; a pair takes the larger unless told otherwise
   Combine friction_combine = Combine::usual;
   Combine restitution_combine = Combine::usual;
   double rolling_friction = 0;  ///< resistance to turning, as a length: torque <= length times normal force, m

@@ -19,8 +19,9 @@ namespace tweenfall {
 
 struct BodyDescription {
   Shape shape = {};
-  std::optional<double> mass{};  ///< kg; absent: density times volume
-  double density = 1000;         ///< kg/m^3
+  std::optional<double> mass{};                     ///< kg; absent: density times volume
+  double density = 1000;                            ///< kg/m^3
+  std::optional<MassProperties> mass_properties{};  ///< instead of those of an even solid; on nodes of scale 1
   double friction = 0.5;
   double restitution = 0;
   Combine friction_combine = Combine::usual;

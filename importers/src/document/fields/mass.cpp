@@ -1,0 +1,93 @@
+#include <tweenfall/curves/expression.h>
+#include <tweenfall/curves/number_text.h>
+#include <tweenfall/physics/mass_properties.h>
+
+#include <array>
+#include <stdexcept>
+
+#include "document/fields/table.h"
+#include "document/fields/things.h"
+#include "document/tracks/read_expression.h"
+
+namespace tweenfall::document::fields {
+
+namespace {
+
+using Kind = json::Value::Kind;
+
+/// Mass properties as they are written: moments and products of inertia apart.
+struct Given {
+  double mass = 0;
+  Vec3 center{0, 0, 0}, moments{0, 0, 0}, products{0, 0, 0};
+};
+
+const Table<Given>& given_table() {
+  static const Table<Given> table(
+      "mass properties",
+      {{"mass", bounded("a mass in kg, above 0", 0, true), "kg", member<Given>(&Given::mass), true},
+       {"center", &ValueForms::vector, "of mass, on the node, m", member<Given>(&Given::center)},
+       {"inertia", &ValueForms::vector, "xx, yy and zz about the center of mass, kg m^2",
+        member<Given>(&Given::moments), true},
+       {"products", &ValueForms::vector, "xy, yz and zx of the tensor, which are minus the integrals, kg m^2",
+        member<Given>(&Given::products)}});
+  return table;
+}
+
+/// Bodies are many: what is still rough after so much is told.
+constexpr Quadrature of_documents{.tolerance = 1e-6, .most_evaluations = 50000};
+constexpr double noted = 1e-3;
+
+}  // namespace
+
+const Form* mass_properties_form(FormStore& store, const ValueForms& values) {
+  return store.add(given_table().listing_form(store, values));
+}
+
+void read_mass_properties(const json::Value& value, BodyDescription& body, Building& building) {
+  Given given;
+  given_table().read(value, given, building);
+  MassProperties properties{given.mass, given.center, given.moments.asDiagonal()};
+  for (int i = 0; i < 3; ++i)
+    properties.inertia(i, (i + 1) % 3) = properties.inertia((i + 1) % 3, i) = given.products[i];
+  if (!usable(value, "mass") || !usable(value, "inertia")) return;  // was told
+  try {
+    validate(properties);
+    body.mass_properties = properties;
+  } catch (const std::invalid_argument& fault) {
+    building.problems.add(value, fault.what());
+  }
+}
+
+const Form* density_form(FormStore& store, const ValueForms&) {
+  Form text;
+  text.kind = Form::Kind::text;
+  text.what = "an expression of x, y and z";
+  return store.add(
+      choice_of("a density in kg/m^3, above 0, or an expression of x, y and z, such as \"1000*(1+x)\"",
+                {store.add(bounded("a density in kg/m^3, above 0", 0, true)), store.add(std::move(text))}));
+}
+
+void read_density(const json::Value& density, BodyDescription& body, Building& building) {
+  take(density, body.density, building);
+  if (!density.is(Kind::text)) return;
+  static const std::array<std::string, 3> names{"x", "y", "z"};
+  try {
+    const Expression expression(density.text(), names, {});
+    const WeighedProperties weighed =
+        weigh(body.shape, Density([&](const Vec3& place) {
+                const std::array<Sample<double>, 3> at{Sample<double>{place.x()}, {place.y()}, {place.z()}};
+                return expression.sample(at).value;
+              }),
+              of_documents);
+    body.mass_properties = weighed.properties;
+    if (weighed.mass_error > noted * weighed.properties.mass)
+      building.problems.note(density, "varies too fast to be weighed exactly: the mass may be off by " +
+                                          brief_text(100 * weighed.mass_error / weighed.properties.mass) + " %");
+  } catch (const ExpressionError& error) {
+    add_fault_of_expression(density, error, building.problems);
+  } catch (const std::invalid_argument& fault) {
+    building.problems.add(density, fault.what());
+  }
+}
+
+}  // namespace tweenfall::document::fields

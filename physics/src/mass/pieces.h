@@ -1,0 +1,32 @@
+#pragma once
+
+// Solids as images of the unit cube, one file for each: what a density is summed over.
+
+#include <tweenfall/physics/mass_properties.h>
+
+#include <functional>
+#include <vector>
+
+namespace tweenfall::mass {
+
+/// Where a place of the cube lies in the solid's own space, and how much volume stands there for one of the cube.
+struct Image {
+  Vec3 place;      ///< m
+  double stretch;  ///< m^3; negative where a tetrahedron is to be taken away
+};
+/// Smooth in all of u, v and w, each from 0 to 1.
+using Piece = std::function<Image(double u, double v, double w)>;
+using Pieces = std::vector<Piece>;
+
+[[nodiscard]] Pieces pieces_of(const Sphere& sphere);
+[[nodiscard]] Pieces pieces_of(const Ellipsoid& ellipsoid);
+[[nodiscard]] Pieces pieces_of(const Box& box);
+[[nodiscard]] Pieces pieces_of(const Capsule& capsule);
+[[nodiscard]] Pieces pieces_of(const Cylinder& cylinder);
+[[nodiscard]] Pieces pieces_of(const Cone& cone);
+[[nodiscard]] Pieces pieces_of(const TaperedCapsule& capsule);
+[[nodiscard]] Pieces pieces_of(const Hull& hull);
+/// Of a mesh that has no fault.
+[[nodiscard]] Pieces pieces_of(const SurfaceMesh& mesh, const Vec3& apex);
+
+}  // namespace tweenfall::mass
