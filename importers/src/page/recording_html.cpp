@@ -4,6 +4,7 @@
 #include "page/page_data.h"
 #include "page/page_files.h"
 #include "page/page_frames.h"
+#include "recording/soft_meshes.h"
 
 #include <stdexcept>
 
@@ -31,7 +32,8 @@ std::string recording_html(const Recording& recording, const StageDescription& s
     if (part == "title") {
       out += markup_text(name.empty() ? "recording" : name);
     } else if (part == "data") {
-      out += page::page_data(recording, stage);
+      const auto dressed = recordings::with_soft_meshes(recording, stage);
+      out += dressed ? page::page_data(dressed->recording, dressed->stage) : page::page_data(recording, stage);
     } else if (part == "three.js") {
       out += three;
     } else {
