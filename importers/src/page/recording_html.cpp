@@ -8,6 +8,7 @@
 #include "page/page_data.h"
 #include "page/page_files.h"
 #include "page/page_frames.h"
+#include "recording/soft_meshes.h"
 
 namespace tweenfall {
 
@@ -48,6 +49,12 @@ std::string title_of(const Recording& recording, const StageDescription& stage) 
   return markup_text(name.empty() ? "recording" : name);
 }
 
+/// With soft bodies as meshes.
+std::string data_of(const Recording& recording, const StageDescription& stage) {
+  const auto dressed = recordings::with_soft_meshes(recording, stage);
+  return dressed ? page_data(dressed->recording, dressed->stage) : page_data(recording, stage);
+}
+
 /// A page in two parts: what is its own, and what it has in common with all others.
 struct Halves {
   std::string own, common;
@@ -58,7 +65,7 @@ Halves halves_of(const Recording& recording, const StageDescription& stage) {
   const std::size_t cut = frame.find(mark) + mark.size();
   const auto text_of = [&](const std::string& name) {
     return name == "title"      ? title_of(recording, stage)
-           : name == "data"     ? page_data(recording, stage)
+           : name == "data"     ? data_of(recording, stage)
            : name == "three.js" ? three_js()
                                 : part(name);
   };

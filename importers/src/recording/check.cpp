@@ -131,6 +131,16 @@ void check_recording(const Recording& recording) {
       recordings::fail(recording, "the hand-off of \"" + recording.nodes[handoff.node].name + "\" at " +
                                       number_text(handoff.time) + " s has no finite speed");
   }
+  for (const SoftRecord& soft : recording.softs) {
+    if (soft.positions.size() != recording.times.size())
+      recordings::fail(recording, "soft body \"" + soft.name + "\" has " + std::to_string(soft.positions.size()) +
+                                      " lists of places for " + std::to_string(recording.times.size()) + " frames");
+    for (std::size_t frame = 0; frame < soft.positions.size(); ++frame)
+      for (const Vec3& place : soft.positions[frame])
+        if (!place.allFinite())
+          recordings::fail(recording, "soft body \"" + soft.name + "\" is not at a finite place at " +
+                                          number_text(recording.times[frame]) + " s");
+  }
   for (const JointRecord& joint : recording.joints) {
     for (const NodeId node : {joint.a, joint.b})
       if (node != no_node && node >= recording.nodes.size())

@@ -90,6 +90,26 @@ void append_joint(std::string& out, const Recording& recording, const JointRecor
   out += "}";
 }
 
+/// The places of all nodes, frame by frame, and when which edges tore.
+void append_soft(std::string& out, const Recording& recording, const SoftRecord& soft) {
+  json::append_string(out, soft.name);
+  out += ": {\n   \"positions\": ";
+  append_list(out, soft.positions.size(), [&](std::size_t frame) {
+    append_list(out, soft.positions[frame].size(),
+                [&](std::size_t i) { append_vector(out, soft.positions[frame][i]); });
+  });
+  out += ",\n   \"torn\": ";
+  std::vector<std::size_t> torn;
+  for (std::size_t i = 0; i < soft.torn_at.size(); ++i)
+    if (soft.torn_at[i] < recording.times.size()) torn.push_back(i);
+  append_list(out, torn.size(), [&](std::size_t i) {
+    out += "{\"edge\": " + std::to_string(torn[i]) + ", \"time\": ";
+    append_number(out, recording.times[soft.torn_at[torn[i]]]);
+    out += "}";
+  });
+  out += "}";
+}
+
 void append_twist(std::string& out, const Twist& twist) {
   out += "{\"linear\": ";
   append_vector(out, twist.linear);
@@ -171,6 +191,11 @@ std::string recording_json(const Recording& recording) {
     out += ",\n \"joints\": ";
     recordings::append_lines(out, '{', '}', recording.joints.size(),
                              [&](std::size_t i) { recordings::append_joint(out, recording, recording.joints[i]); });
+  }
+  if (!recording.softs.empty()) {
+    out += ",\n \"soft\": ";
+    recordings::append_lines(out, '{', '}', recording.softs.size(),
+                             [&](std::size_t i) { recordings::append_soft(out, recording, recording.softs[i]); });
   }
   out += ",\n \"handoffs\": ";
   recordings::append_lines(out, '[', ']', recording.handoffs.size(),

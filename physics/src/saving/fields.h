@@ -320,6 +320,65 @@ void each_field(T& overlap, const Visit& visit) {
   visit(sensor, body, began);
 }
 
+template <Is<SoftId> T, class Visit>
+void each_field(T& id, const Visit& visit) {
+  auto& [index, generation] = id;
+  visit(index, generation);
+}
+
+template <Is<SoftEdge> T, class Visit>
+void each_field(T& edge, const Visit& visit) {
+  auto& [a, b, length, stiffness, damping, tear] = edge;
+  visit(a, b, length, stiffness, damping, tear);
+}
+
+template <Is<SoftBend> T, class Visit>
+void each_field(T& bend, const Visit& visit) {
+  auto& [nodes, weights, stiffness] = bend;
+  visit(nodes, weights, stiffness);
+}
+
+template <Is<SoftTetrahedron> T, class Visit>
+void each_field(T& solid, const Visit& visit) {
+  auto& [nodes, stiffness, volume] = solid;
+  visit(nodes, stiffness, volume);
+}
+
+template <Is<SoftEnclosure> T, class Visit>
+void each_field(T& enclosure, const Visit& visit) {
+  auto& [triangles, stiffness, volume] = enclosure;
+  visit(triangles, stiffness, volume);
+}
+
+template <Is<SoftPin> T, class Visit>
+void each_field(T& pin, const Visit& visit) {
+  auto& [node, body, point, in_place] = pin;
+  visit(node, body, point, in_place);
+}
+
+template <Is<SoftSettings> T, class Visit>
+void each_field(T& settings, const Visit& visit) {
+  auto& [positions, velocities, masses, edges, bends, tetrahedra, enclosures, triangles, pins, solver, sub_step,
+         iterations, radius, friction, linear_damping, collide, groups, collides_with] = settings;
+  visit(positions, velocities, masses, edges, bends, tetrahedra, enclosures, triangles, pins, solver, sub_step,
+        iterations, radius, friction, linear_damping, collide, groups, collides_with);
+}
+
+template <Is<soft::PinState> T, class Visit>
+void each_field(T& state, const Visit& visit) {
+  auto& [pin, target, velocity, force] = state;
+  visit(pin, target, velocity, force);
+}
+
+template <Is<soft::SoftBody> T, class Visit>
+void each_field(T& body, const Visit& visit) {
+  auto& [alive, generation, made, positions, velocities, torn, pins, gone] = body;
+  visit(alive, generation);
+  if (!alive) return;
+  visit(made, positions, velocities, torn, pins);
+  follows_from_others(gone);
+}
+
 template <Is<WorldSettings> T, class Visit>
 void each_field(T& settings, const Visit& visit) {
   auto& [gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed, solver, separation, collision,
@@ -332,9 +391,12 @@ void each_field(T& settings, const Visit& visit) {
 template <Is<WorldState> T, class Visit>
 void each_field(T& world, const Visit& visit) {
   auto& [settings, bodies, unused, forces, next_force, time, failed, memories, ignored, joints, unused_joints, broken,
-         contacts, ended, gone_contacts, sensors, overlaps, left_sensors] = world;
+         contacts, ended, gone_contacts, sensors, overlaps, left_sensors, softs, unused_softs] = world;
   visit(settings, bodies, unused, forces, next_force, time, memories, ignored, joints, unused_joints, broken, contacts,
         ended, gone_contacts, overlaps, left_sensors);
+  bool has_softs = !softs.empty();
+  visit.rarely(has_softs);
+  if (has_softs) visit(softs, unused_softs);
   follows_from_others(sensors);
   follows_from_others(failed);  // a body that is not finite cannot be saved, and is found again
 }

@@ -227,6 +227,48 @@ void check_pairs(const WorldState& world) {
     });
 }
 
+void check(soft::SoftBody& body, const WorldState& world) {
+  state::require(body.made->solver == SoftSolver::positions || body.made->solver == SoftSolver::springs,
+                 "there is no such solver");
+  static_cast<void>(soft::checked(*body.made));
+  const std::size_t nodes = body.made->positions.size();
+  state::require(body.positions.size() == nodes && body.velocities.size() == nodes &&
+                     body.torn.size() == body.made->edges.size() && body.made->pins.empty() && body.made->sub_step,
+                 "its nodes and edges are not as many as they were");
+  for (std::size_t i = 0; i < nodes; ++i) {
+    state::require_finite(body.positions[i], "place of a node");
+    state::require_finite(body.velocities[i], "velocity of a node");
+  }
+  for (std::size_t i = 0; i < body.pins.size(); ++i) {
+    const soft::PinState& state = body.pins[i];
+    state::require(state.pin.node < nodes && (i == 0 || body.pins[i - 1].pin.node < state.pin.node),
+                   "its pins must be in order of nodes");
+    const BodyId& holder = state.pin.body;
+    state::require(holder == BodyId{} || (holder.index < world.bodies.size() && world.bodies[holder.index].alive &&
+                                          world.bodies[holder.index].generation == holder.generation),
+                   "there are no such bodies");
+    for (const Vec3& value : {state.pin.point, state.target, state.velocity})
+      state::require_finite(value, "place of a pin");
+    require_numbers(state.force, "force of a pin");
+  }
+  soft::find_gone(body);
+}
+
+void check_softs(WorldState& world) {
+  std::vector<char> free(world.softs.size(), 0);
+  for (std::size_t i = 0; i < world.softs.size(); ++i) {
+    if (world.softs[i].alive)
+      at("soft body " + std::to_string(i), [&] { check(world.softs[i], world); });
+    else
+      free[i] = 1;
+  }
+  for (const std::uint32_t index : world.unused_softs) {
+    state::require(index < free.size() && free[index] != 0, "a saved world has a bad list of free soft bodies");
+    free[index] = 0;
+  }
+  state::require(std::ranges::count(free, 1) == 0, "a saved world has a bad list of free soft bodies");
+}
+
 /// Sets what follows from the rest, too.
 void check(WorldState& world) {
   at("setting", [&] { state::validate(world.settings); });
@@ -241,6 +283,7 @@ void check(WorldState& world) {
     });
   check_pairs(world);
   check_joints(world);
+  check_softs(world);
 }
 
 }  // namespace

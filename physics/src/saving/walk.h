@@ -87,11 +87,12 @@ class Walk {
         if (!has) value.reset();
       }
       if (has) one(*value);
-    } else if constexpr (std::is_same_v<Value, std::shared_ptr<const Makeup>>) {
+    } else if constexpr (std::is_same_v<Value, std::shared_ptr<const Makeup>> ||
+                         std::is_same_v<Value, std::shared_ptr<const SoftSettings>>) {
       if constexpr (std::is_const_v<T>) {
         one(*value);
       } else {
-        const auto read = std::make_shared<Makeup>();
+        const auto read = std::make_shared<std::remove_const_t<typename Value::element_type>>();
         one(*read);
         value = read;
       }

@@ -6,6 +6,7 @@
 
 #include "stage/rules/played_tracks.h"
 #include "stage/stage_data.h"
+#include "stage/staged_softs.h"
 #include "stage/whole_pose.h"
 #include "state/countable.h"
 
@@ -30,6 +31,7 @@ void handle_instant(StageState& state, double step, std::span<const Command> com
   report_events(state, from, state.handled, happenings);
   fire_rules(state, from, step, happenings);
   end_joints(state, from, happenings);
+  end_pins(state, from, happenings);
   for (const Command& command : commands_after(commands, from)) {
     if (command.time > state.handled) break;
     if (!arrived) arrived = state;
@@ -96,6 +98,7 @@ void set_targets(StageState& state, double end) {
     const Motion target = moved_on(rigid(target_pose.at(body)), center, end - jump);
     state.world.set_target(body.id, bearable(state, body, target, "its path"));
   }
+  lead_pins(state, target_pose);
   state.jumped = false;
 }
 

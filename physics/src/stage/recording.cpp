@@ -70,6 +70,24 @@ void take_joints(const Stage& stage, Recording& recording) {
   for (JointRecord& record : recording.joints) record.reading.resize(frame + 1);
 }
 
+void take_softs(const Stage& stage, Recording& recording) {
+  constexpr auto never = static_cast<std::size_t>(-1);
+  const std::size_t frame = recording.times.size() - 1;
+  for (std::size_t i = 0; i < stage.description().softs.size(); ++i) {
+    const std::string& name = stage.description().softs[i].name;
+    SoftNodes nodes = stage.soft(name);
+    if (i == recording.softs.size()) {
+      SoftRecord& record = recording.softs.emplace_back();
+      record.name = name;
+      record.torn_at.assign(nodes.torn.size(), never);
+    }
+    SoftRecord& record = recording.softs[i];
+    for (std::size_t edge = 0; edge < nodes.torn.size(); ++edge)
+      if (nodes.torn[edge] != 0) record.torn_at[edge] = std::min(record.torn_at[edge], frame);
+    record.positions.push_back(std::move(nodes.positions));
+  }
+}
+
 /// @return whether there was room
 bool take_details(const Stage& stage, Recording& recording, double& room) {
   const StageDetail& taken = recording.details.emplace_back(detail_of(stage));
@@ -84,8 +102,11 @@ void require_affordable(const Stage& stage, double until, double fps, double mos
   const double length = std::max(0.0, until - stage.time()), frames = length * fps + 1, steps = length / stage.step();
   constexpr double node_bytes = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner);
   constexpr double joint_bytes = sizeof(std::optional<JointReading>);
+  double soft_bytes = 0;
+  for (const SoftDescription& soft : stage.description().softs)
+    soft_bytes += static_cast<double>(soft.soft.positions.size() * sizeof(Vec3));
   const double bytes = frames * (static_cast<double>(stage.nodes().size()) * node_bytes +
-                                 static_cast<double>(stage.description().joints.size()) * joint_bytes);
+                                 static_cast<double>(stage.description().joints.size()) * joint_bytes + soft_bytes);
   const auto whole = [](double value) { return std::to_string(std::llround(std::min(value, 1e18))); };
   if (steps > most_steps)
     throw std::invalid_argument("a recording of " + whole(length) + " s takes " + whole(steps) +
@@ -139,6 +160,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
   const auto take = [&] {
     staging::take_frame(stage, world, recording);
     staging::take_joints(stage, recording);
+    staging::take_softs(stage, recording);
     if (details) details = staging::take_details(stage, recording, room);
   };
   inputs = advance_with(stage, inputs, stage.time());
@@ -159,6 +181,8 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     if (!node.weights.empty()) node.weights.resize(recording.times.size(), node.weights.back());
   }
   recording.graphs = staging::graph_records(stage, recording.times);
+  for (SoftRecord& soft : recording.softs)
+    for (std::size_t& edge : soft.torn_at) edge = std::min(edge, recording.times.size());
   recording.handoffs.assign(stage.handoffs().begin(), stage.handoffs().end());
   recording.events.assign(stage.events().begin(), stage.events().end());
   std::ranges::stable_sort(recording.events, {}, &StageEvent::time);  // contacts are told a little later
@@ -193,6 +217,7 @@ double natural_length(const StageDescription& description) {
     if (const auto* at = std::get_if<when::At>(&joint.until)) length = std::max(length, at->time);
   for (const NodeDescription& node : description.nodes)
     if (node.body && !node.body->fixed) simulated = true;
+  if (!description.softs.empty()) simulated = true;
   if (simulated) length += to_come_to_rest;
   return std::clamp(length, 1.0, most);
 }

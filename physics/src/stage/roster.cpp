@@ -8,6 +8,7 @@
 #include "stage/rules/played_tracks.h"
 #include "stage/scaled_shape.h"
 #include "stage/stage_data.h"
+#include "stage/staged_softs.h"
 #include "stage/whole_pose.h"
 
 namespace tweenfall::staging {
@@ -242,6 +243,7 @@ StageState described_state(const StageDescription& description, std::vector<Stag
   for (std::size_t i = 0; i < description.forces.size(); ++i)
     attempt(faults, Part::force, i, "", [&] { add_described_force(state, description.forces[i]); });
   add_joints(state, description, faults);
+  add_softs(state, description, faults);
   for (std::size_t i = 0; i < description.ignored.size(); ++i)
     attempt(faults, Part::ignored, i, "", [&] {
       const auto body = [&](std::size_t node) { return state.bodies[body_index(state, node)].id; };

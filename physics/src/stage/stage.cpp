@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "stage/stage_implementation.h"
+#include "stage/staged_softs.h"
 
 namespace tweenfall {
 
@@ -170,6 +171,11 @@ std::vector<JointEnds> Stage::joints() const {
   joints.reserve(state.joints->list.size());
   for (const staging::StagedJoint& joint : state.joints->list) joints.push_back({joint.name, joint.a, joint.b});
   return joints;
+}
+
+SoftNodes Stage::soft(std::string_view name) const {
+  const auto [from, to] = inside().around();
+  return staging::soft_nodes(*from, *to, name, time());
 }
 
 const StageDescription& Stage::description() const {

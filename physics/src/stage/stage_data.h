@@ -133,6 +133,7 @@ struct StagedJoint {
   NodeId a = no_node, b = no_node;
   std::variant<std::monostate, when::At, when::Event> until;
 };
+struct StagedSofts;
 struct StagedJoints {
   std::vector<StagedJoint> list;      ///< in the order in which they were described, or added
   std::vector<std::size_t> by_name;   ///< those of the list, in order of their names
@@ -158,8 +159,9 @@ struct StageState {
   std::shared_ptr<const Jumps> jumps;
   std::shared_ptr<const PlayedTracks> tracks;
   std::shared_ptr<const StagedJoints> joints;  ///< gone ones included: the world knows which hold
-  std::vector<char> present;                   ///< by node
-  std::vector<std::optional<Color>> colors;    ///< by node, where none is animated
+  std::shared_ptr<const StagedSofts> softs;
+  std::vector<char> present;                 ///< by node
+  std::vector<std::optional<Color>> colors;  ///< by node, where none is animated
   std::vector<StagedBody> bodies;
   std::vector<std::size_t> unused;                ///< places in `bodies` of those that have left
   std::vector<std::size_t> body_of;               ///< by node; `no_body` for none

@@ -181,6 +181,8 @@ void World::remove(BodyId id) {
   world.wake_neighbors(id.index);
   world.wake_forced(id);
   world.remove_joints_of(id.index);
+  for (soft::SoftBody& soft : world.softs)
+    std::erase_if(soft.pins, [&](const soft::PinState& state) { return state.pin.body == id; });
   world.drop_contacts(id.index);
   if (body.sensor()) std::erase(world.sensors, id.index);
   body.alive = false;

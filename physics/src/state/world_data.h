@@ -105,6 +105,9 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void report();
   void tell_ended();
   void sense();
+  void note_soft_starts();        ///< where bodies are before a step, for soft ones
+  void advance_softs(double dt);  ///< soft bodies, and what they give the bodies that have been moved already
+  void check_softs() const;       ///< @throws SoftNotFinite
 };
 
 }  // namespace tweenfall

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "forces/forces.h"
+#include "soft/soft_state.h"
 #include "state/body.h"
 #include "state/contact_memories.h"
 #include "state/ignored_pairs.h"
@@ -33,6 +34,8 @@ struct WorldState {
   std::vector<std::uint32_t> sensors;        ///< indices of bodies, sorted
   std::vector<SensorOverlap> overlaps;       ///< by sensor, then by body
   std::vector<SensorOverlap> left_sensors;   ///< in the last step
+  std::vector<soft::SoftBody> softs;
+  std::vector<std::uint32_t> unused_softs;  ///< indices of removed soft bodies
 };
 
 }  // namespace tweenfall::state

@@ -12,6 +12,7 @@
 #include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
 #include "queries/lazy_scene.h"
+#include "soft/partners.h"
 #include "state/makeups.h"
 #include "step/solver.h"
 #include "strategies/island_by_strategies.h"
@@ -108,6 +109,7 @@ struct Workspace {
   std::vector<contacts::ContactConstraint> struck;  ///< in this step, by bodies that have left each other since
   double complementarity = 0;                       ///< how far off it the last step was, where it was solved for, m/s
   state::Makeups makeups;                           ///< of the bodies that were added last
+  std::vector<soft::Place> soft_starts;             ///< by body, where there are soft bodies
   queries::LazyScene scene;                         ///< of the bodies between two changes
 
   void note(std::uint32_t body);  ///< the next step looks at this body

@@ -358,8 +358,10 @@ void World::Implementation::step(double dt) {
     find_constraints(dt);
   } while (wake_islands());
   failed = true;
+  note_soft_starts();
   advance_bodies(dt);
   if (!strategies::chosen(settings)) hold_before_surfaces();
+  advance_softs(dt);
   let_sleep(dt);
   report();
   sense();
@@ -367,6 +369,7 @@ void World::Implementation::step(double dt) {
   end_watch();
   time += dt;
   if (failed) check_bodies(dt, time);
+  check_softs();
 }
 
 }  // namespace tweenfall

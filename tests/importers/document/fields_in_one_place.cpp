@@ -24,7 +24,8 @@ const std::set<std::string> words_of_others = {
     "mass",    "friction", "restitution", "linear_damping", "angular_damping",
     "mask",    "when",     "settle",      "joints",         "name",
     "from",    "loop",     "count",       "once",           "overlap",
-    "sweep",   "density",  "integrator"};
+    "sweep",   "density",  "integrator",  "solver",         "iterations",
+    "color"};
 
 // A source without its comments, and without what its forms are called in the schema.
 std::string code_of(const std::filesystem::path& file) {

@@ -3,6 +3,7 @@
 #include "document/forces/forces.h"
 #include "document/joints/joints.h"
 #include "document/ragdolls/ragdolls.h"
+#include "document/soft/soft.h"
 
 #include <tweenfall/physics/strategies.h>
 
@@ -37,6 +38,10 @@ void read_forces(const json::Value& value, StageDescription& stage, Building& bu
 
 void read_joints(const json::Value& value, StageDescription&, Building& building) {
   joints::read(value, building);
+}
+
+void read_soft(const json::Value& value, StageDescription&, Building& building) {
+  soft::read(value, building);
 }
 
 void read_ragdolls(const json::Value& value, StageDescription&, Building& building) {
@@ -123,6 +128,7 @@ const Table<StageDescription>& world_table() {
        {"forces", forces_form, "", {read_forces, "[]"}},
        {"ragdolls", ragdolls::form, "fitted to imported figures, by the names of imports", {read_ragdolls, "{}"}},
        {"joints", joints::form, "what holds bodies together", {read_joints, "{}"}},
+       {"soft", soft::form, "ropes, cloth and volumes", {read_soft, "{}"}},
        {"ignore", ignore_form, "pairs of bodies that pass through each other", {read_ignored, "[]"}}});
   return table;
 }
@@ -184,6 +190,10 @@ json::Value place_of_force(const json::Value& world, std::size_t index) {
 json::Value place_of_joint(const json::Value& world, std::string_view name) {
   const json::Value joints = usable(world, "joints");
   return joints ? usable(joints, name) : json::Value();
+}
+
+json::Value place_of_soft(const json::Value& world, std::string_view name) {
+  return below(world, {"soft", name});
 }
 
 json::Value place_of_ignored(const json::Value& world) {

@@ -31,6 +31,8 @@ json::Value place_of_fault(const Building& building, const StageFault& fault) {
       return fields::place_of_force(world, fault.index);
     case StageFault::Part::joint:
       return place_of_joint(building, fault.index);
+    case StageFault::Part::soft:
+      return fields::place_of_soft(world, building.stage.softs[fault.index].name);
     case StageFault::Part::ignored:
       return fields::place_of_ignored(world);
     case StageFault::Part::rule:

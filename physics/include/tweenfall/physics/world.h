@@ -28,6 +28,9 @@ namespace tweenfall {
 namespace queries {
 class Inside;
 }
+namespace soft {
+class Inside;
+}
 
 // Of these `strategies.h` tells the words; {} is the usual one.
 enum class ContactSolver : std::uint8_t;
@@ -263,6 +266,7 @@ class World {
 
  private:
   friend class queries::Inside;
+  friend class soft::Inside;
   struct Implementation;
   [[nodiscard]] const Implementation& inside() const;  ///< @throws std::logic_error when moved from
   [[nodiscard]] Implementation& changing();            ///< @throws std::logic_error when moved from or in a step

@@ -3,6 +3,7 @@
 
 #include "stage/rules/sensed.h"
 #include "stage/stage_data.h"
+#include "stage/staged_softs.h"
 
 namespace tweenfall::staging {
 
@@ -120,7 +121,8 @@ double next_instant(const StageState& state, double to) {
   double next = first_jump(state, from, to);
   for (const ArmedRule& armed : state.armed)
     if (waits(state, armed)) next = std::min(next, first_instant(state, armed, from, std::min(next, to)));
-  return std::min(next, next_joint_end(state, from, std::min(next, to)));
+  next = std::min(next, next_joint_end(state, from, std::min(next, to)));
+  return std::min(next, next_pin_end(state, from, std::min(next, to)));
 }
 
 void fire_rules(StageState& state, double from, double step, std::vector<Happening>& happenings) {

@@ -58,6 +58,7 @@ std::uint64_t fingerprint(const StageDescription& description) {
   const saving::Walk<saving::ByteWriter> visit(out);
   const Sampling sampling(out);
   visit(description.step, description.world, description.nodes, description.joints, description.rules);
+  for (const SoftDescription& soft : description.softs) visit(soft);
   for (const Clip& clip : description.clips) {
     visit(clip.name, clip.duration, clip.loop.mode, clip.loop.count);
     for (const Track& track : clip.tracks) {

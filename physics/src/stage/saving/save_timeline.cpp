@@ -6,6 +6,7 @@
 #include "saving/envelope.h"
 #include "stage/saving/fingerprint.h"
 #include "stage/saving/stage_fields.h"
+#include "stage/staged_softs.h"
 #include "stage/timeline.h"
 
 namespace tweenfall::staging {
@@ -70,6 +71,12 @@ void check_bodies(const StageState& state) {
     require(std::ranges::is_sorted(*body.below, {}, &SettlingNode::node), "list of settling nodes");
   }
   require(state.world.bodies().size() == here, "world: it has more bodies than the stage");
+  const std::vector<SoftId> softs = soft_bodies(state.world);
+  require(softs.size() == state.softs->list.size(), "world: it has not the stage's soft bodies");
+  for (std::size_t i = 0; i < softs.size(); ++i)
+    require(softs[i] == state.softs->list[i].second &&
+                soft_positions(state.world, softs[i]).size() == state.softs->nodes[i],
+            "world: a soft body is not the stage's");
 }
 
 void check_blows(const StageState& state) {

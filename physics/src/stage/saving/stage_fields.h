@@ -381,6 +381,20 @@ void each_field(T& tear, const Visit& visit) {
   visit(since, told);
 }
 
+template <Is<SoftPinDescription> T, class Visit>
+void each_field(T& pin, const Visit& visit) {
+  auto& [node, to, point, until] = pin;
+  visit(node, point, until);
+  visit.places(to);
+}
+
+template <Is<SoftDescription> T, class Visit>
+void each_field(T& described, const Visit& visit) {
+  auto& [name, soft, pins, color] = described;
+  visit(name, soft, pins);
+  leads_to_nothing(color);
+}
+
 template <Is<staging::StagedJoint> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
   auto& [name, id, a, b, until] = joint;

@@ -6,6 +6,7 @@
 #include <tweenfall/anim/graph.h>
 #include <tweenfall/anim/mesh.h>
 #include <tweenfall/physics/handoff/rule.h>
+#include <tweenfall/physics/soft_body.h>
 #include <tweenfall/physics/world.h>
 
 #include <limits>
@@ -73,6 +74,22 @@ struct JointDescription {
   std::variant<std::monostate, when::At, when::Event> until{};    ///< when it lets go, unless it breaks before
 };
 
+/// Holds a node of a soft body, from time 0 on.
+struct SoftPinDescription {
+  std::uint32_t node = 0;       ///< of the soft body
+  std::size_t to = no_node;     ///< node of the stage, which it follows; `no_node`: the world
+  std::optional<Vec3> point{};  ///< on that node, m; absent: where the soft body has its node
+  std::variant<std::monostate, when::At, when::Event> until{};  ///< when it lets go
+};
+
+/// A rope, a cloth or a volume, placed in the world.
+struct SoftDescription {
+  std::string name;
+  SoftSettings soft = {};  ///< its own pins are not read
+  std::vector<SoftPinDescription> pins{};
+  std::optional<Color> color{};
+};
+
 struct StageDescription {
   std::string name;
   std::vector<NodeDescription> nodes;
@@ -83,6 +100,7 @@ struct StageDescription {
   double step = 1.0 / 240;  ///< s
   std::vector<ForceDescription> forces;
   std::vector<JointDescription> joints;
+  std::vector<SoftDescription> softs;
   std::vector<std::pair<std::size_t, std::size_t>> ignored;  ///< nodes whose bodies pass through each other
   std::vector<Rule> rules;
 

@@ -53,12 +53,20 @@ struct GraphRecord {
   std::vector<Machine> machines;
 };
 
+/// One soft body of the stage's description through all frames.
+struct SoftRecord {
+  std::string name;
+  std::vector<std::vector<Vec3>> positions;  ///< of its nodes, world, m; one list per frame
+  std::vector<std::size_t> torn_at;          ///< by edge: the first frame in which it is torn; times.size() for never
+};
+
 struct Recording {
   std::string name;
   std::vector<double> times;  ///< s
   std::vector<NodeRecord> nodes;
   std::vector<JointRecord> joints;  ///< in the description's order, then those that were added, as they came
   std::vector<GraphRecord> graphs;  ///< in the description's order
+  std::vector<SoftRecord> softs;    ///< in the description's order
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
   std::vector<UnfiredRule> unfired;  ///< rules that waited to the end in vain

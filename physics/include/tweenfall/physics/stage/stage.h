@@ -49,13 +49,20 @@ struct StageEvent {
   std::vector<NodeId> nodes;  ///< of a contact, an overlap or a veto: the two; of a sensor: it and the body; of a
                               ///< joint: its bodies
   double impulse = 0;         ///< of a contact: N s
-  std::string joint = {};     ///< of a joint: its name
+  std::string joint = {};     ///< of a joint, or of a pin that lets go ("unpinned"): its, or its soft body's, name
 };
 
 /// A joint that the stage has or had, and the nodes whose bodies it holds; `no_node`: the world.
 struct JointEnds {
   std::string name;
   NodeId a = no_node, b = no_node;
+};
+
+/// A soft body as a stage shows it.
+struct SoftNodes {
+  std::vector<Vec3> positions;   ///< world, m
+  std::vector<Vec3> velocities;  ///< m/s
+  std::vector<char> torn;        ///< by edge of its description: 1 once it is
 };
 
 /// A rule that waited for one of its bodies in vain.
@@ -107,7 +114,8 @@ class Stage {
   /// The description's and those that were added until `time()`, in that order, also those that are gone; one that came
   /// again by the name of one that had gone stands in its place.
   [[nodiscard]] std::vector<JointEnds> joints() const;
-  [[nodiscard]] Path path(NodeId node) const;  ///< where the animation wants the node
+  [[nodiscard]] SoftNodes soft(std::string_view name) const;  ///< @throws std::invalid_argument with the nearest name
+  [[nodiscard]] Path path(NodeId node) const;                 ///< where the animation wants the node
   [[nodiscard]] const StageDescription& description() const;
 
   // Hand-off by the caller, at exactly `time()`. @throws NodeNotFinite when what leads the body there is too fast

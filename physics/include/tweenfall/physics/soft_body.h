@@ -1,0 +1,211 @@
+#pragma once
+
+/// Soft bodies: ropes, cloth and volumes of point masses, which a world steps together with its rigid bodies.
+///
+/// A soft body is made of nodes and of what lies between them: edges that resist being stretched, bends that resist
+/// being bent, and volumes that resist being squeezed. One description serves two solvers: `springs` takes all of it as
+/// forces and finds the end of each sub-step by backward Euler; `positions` takes it as constraints with a compliance
+/// (XPBD). What is of infinite stiffness only the second knows. Nodes are balls of the soft body's radius where they
+/// meet rigid bodies, and what pushes them pushes back; what is smaller than the space between nodes slips through.
+/// Nodes do not meet each other. A rigid body that a soft one touches or holds stays awake.
+///
+///     World world;
+///     const BodyId hand = world.add({.shape = {Sphere{0.1}}, .drive = Drive::keyed()});
+///     SoftSettings line = rope({.from = {0, 0, 0}, .to = {1, 0, 0}, .links = 20});
+///     line.pins = {{.node = 0, .body = hand}};
+///     const SoftId id = add_soft(world, line);
+///     world.step(1.0 / 240);
+
+#include <tweenfall/curves/surface_mesh.h>
+#include <tweenfall/physics/world.h>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tweenfall {
+
+enum class SoftSolver : std::uint8_t {
+  positions,  ///< constraints, in many small sub-steps: Macklin, Müller, Chentanez, XPBD, 2016; Macklin et al., Small
+              ///< Steps in Physics Simulation, 2019
+  springs,    ///< forces, by backward Euler and conjugate gradients: Baraff, Witkin, Large Steps in Cloth Simulation,
+              ///< 1998
+};
+
+/// Keeps two nodes at a distance: with energy stiffness/2 (distance - length)^2.
+struct SoftEdge {
+  std::uint32_t a = 0, b = 0;
+  std::optional<double> length{};                              ///< at rest, m; absent: as the nodes are placed
+  double stiffness = std::numeric_limits<double>::infinity();  ///< N/m
+  double damping = 0;                                          ///< N s/m, along the edge
+  double tear = std::numeric_limits<double>::infinity();       ///< strain (stretch over length) at which it tears
+};
+
+/// Keeps three or four nodes straight or flat: with energy stiffness/2 |sum of weight times place|^2, where the weights
+/// sum to 0. Source: Bergou, Wardetzky, Harmon, Zorin, Grinspun, A Quadratic Bending Model for Inextensible Surfaces,
+/// 2006.
+struct SoftBend {
+  std::array<std::uint32_t, 4> nodes{};
+  std::array<double, 4> weights{};  ///< 0 where there are only three nodes
+  double stiffness = 0;             ///< N/m
+};
+
+/// Keeps the volume of a tetrahedron: with energy stiffness/2 (volume - rest)^2 / rest.
+struct SoftTetrahedron {
+  std::array<std::uint32_t, 4> nodes{};  ///< the first three counter-clockwise, seen from the fourth
+  double stiffness = std::numeric_limits<double>::infinity();  ///< Pa
+  std::optional<double> volume{};                              ///< at rest, m^3; absent: as the nodes are placed
+};
+
+/// The same for all that a closed surface encloses; gone once a triangle of it is torn.
+struct SoftEnclosure {
+  std::vector<std::array<std::uint32_t, 3>> triangles;         ///< counter-clockwise, seen from outside
+  double stiffness = std::numeric_limits<double>::infinity();  ///< Pa
+  std::optional<double> volume{};  ///< at rest, m^3; absent: as the nodes are placed. More: it is blown up
+};
+
+/// Holds a node to a point of a rigid body, or of the world, which it follows through every sub-step.
+struct SoftPin {
+  std::uint32_t node = 0;
+  BodyId body = {};       ///< the default handle: the world
+  Vec3 point{0, 0, 0};    ///< on the body's node, or in the world, m
+  bool in_place = false;  ///< `point` is not read: where the node is when it is pinned
+};
+
+struct SoftSettings {
+  std::vector<Vec3> positions;   ///< world, m
+  std::vector<Vec3> velocities;  ///< m/s, one per node, or empty: at rest
+  std::vector<double> masses;    ///< kg, one per node; each > 0
+  std::vector<SoftEdge> edges;
+  std::vector<SoftBend> bends;
+  std::vector<SoftTetrahedron> tetrahedra;
+  std::vector<SoftEnclosure> enclosures;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of the surface, to be drawn; torn with its edges
+  std::vector<SoftPin> pins;
+  SoftSolver solver = SoftSolver::positions;
+  /// Longest sub-step, s; absent: 1/1920 of constraints, 1/240 of springs. All soft bodies of a world go by the
+  /// shortest; no step takes more than 1000.
+  std::optional<double> sub_step{};
+  /// Passes over all constraints in a sub-step, 1 to 1000; springs do not read it. What bends stiffly, is damped hard
+  /// or bears far more than its own mass needs several, or shorter sub-steps: until they agree it gives way too much.
+  int iterations = 1;
+  double radius = 0.01;       ///< of the nodes where they meet bodies, m; > 0
+  double friction = 0.5;      ///< with bodies: sqrt(f1 f2)
+  double linear_damping = 0;  ///< 1/s: how fast a free node's speed fades
+  bool collide = true;        ///< whether it meets bodies; a pinned node never does
+  std::uint64_t groups = 1;   ///< as of bodies
+  std::uint64_t collides_with = ~std::uint64_t{0};
+};
+
+// Makers. All throw std::invalid_argument naming what is wrong; what they make can be changed before it is added
+
+struct RopeSettings {
+  Vec3 from{0, 0, 0}, to{1, 0, 0};  ///< m
+  int links = 20;                   ///< edges; 1 to 100,000
+  double slack = 0;                 ///< by which part of their distance it is longer; >= 0
+  double mass = 0.1;                ///< of the whole, kg; > 0. End nodes have half of an inner one's
+  double stiffness = std::numeric_limits<double>::infinity();  ///< force at a strain of 1, N
+  double damping = 0;                                          ///< the same at a strain rate of 1/s, N s
+  double bending = 0;                                          ///< moment times radius of curvature, N m^2
+  double tear = std::numeric_limits<double>::infinity();       ///< strain
+};
+/// A chain of nodes from one point to another, straight at rest.
+[[nodiscard]] SoftSettings rope(const RopeSettings& settings);
+
+struct ClothMaterial {
+  double density = 0.2;                                   ///< kg/m^2; > 0
+  double stretching = 2000;                               ///< force over width at a strain of 1, N/m
+  double damping = 0;                                     ///< the same at a strain rate of 1/s, N s/m
+  double bending = 0;                                     ///< energy over area at a curvature of 1/m, doubled: N m
+  double tear = std::numeric_limits<double>::infinity();  ///< strain
+};
+struct ClothSettings {
+  Vec3 corner{0, 0, 0};                  ///< m
+  Vec3 along{1, 0, 0}, across{0, 0, 1};  ///< its two sides from there, m
+  int columns = 20, rows = 20;           ///< cells along and across; 1 to 1000
+  ClothMaterial material = {};
+};
+/// A parallelogram; node (i, j) is number j (columns + 1) + i.
+[[nodiscard]] SoftSettings cloth(const ClothSettings& settings);
+/// The surface of a mesh, flat at rest where it bends; vertices at one place are one node.
+/// Source of the edges' stiffness: Van Gelder, Approximate Simulation of Elastic Membranes by Triangulated Spring
+/// Meshes, 1998.
+[[nodiscard]] SoftSettings cloth(const SurfaceMesh& mesh, const ClothMaterial& material = {});
+
+struct VolumeMaterial {
+  double density = 100;                                   ///< kg/m^3 of what is filled; > 0
+  double stiffness = 20'000;                              ///< of its edges: about Young's modulus, Pa
+  double bulk = 100'000;                                  ///< against a change of volume, Pa
+  double damping = 0;                                     ///< of its edges, Pa s
+  double tear = std::numeric_limits<double>::infinity();  ///< strain
+};
+struct SoftBoxSettings {
+  Pose pose = {};                     ///< of its middle; scale is not read
+  Vec3 half_extents{0.5, 0.5, 0.5};   ///< m; each > 0
+  std::array<int, 3> cells{4, 4, 4};  ///< 1 to 100 each, of five tetrahedra
+  VolumeMaterial material = {};
+};
+/// A box of tetrahedra; node (i, j, k) along x, y, z is number (k (cells y + 1) + j) (cells x + 1) + i.
+[[nodiscard]] SoftSettings soft_box(const SoftBoxSettings& settings);
+
+struct BalloonMaterial {
+  ClothMaterial skin = {};
+  double bulk = 100'000;  ///< of what is inside against a change of volume, Pa
+  double pressure = 1;    ///< volume at rest over that of the mesh; > 0
+};
+/// A closed mesh as a skin around a volume. @throws std::invalid_argument for one that is open or inside out, too
+[[nodiscard]] SoftSettings balloon(const SurfaceMesh& mesh, const BalloonMaterial& material = {});
+
+// In a world
+
+struct SoftId {
+  std::uint32_t index = 0xffffffffu;
+  std::uint32_t generation = 0;
+  bool operator==(const SoftId&) const = default;
+};
+
+// All below throw std::invalid_argument for a stale handle and for what cannot be, naming it; and, those that change
+// something, std::logic_error when a field calls them.
+SoftId add_soft(World& world, const SoftSettings& settings);
+void remove_soft(World& world, SoftId soft);
+[[nodiscard]] std::vector<SoftId> soft_bodies(const World& world);
+
+[[nodiscard]] std::span<const Vec3> soft_positions(const World& world, SoftId soft);   ///< m, valid until a change
+[[nodiscard]] std::span<const Vec3> soft_velocities(const World& world, SoftId soft);  ///< m/s
+/// As it was added, with all lengths and volumes at rest.
+[[nodiscard]] const SoftSettings& soft_settings(const World& world, SoftId soft);
+[[nodiscard]] bool torn(const World& world, SoftId soft, std::size_t edge);
+/// Triangles that are not torn.
+[[nodiscard]] std::vector<std::array<std::uint32_t, 3>> soft_triangles(const World& world, SoftId soft);
+
+struct SoftEnergy {
+  double kinetic = 0;  ///< J
+  double elastic = 0;  ///< of what is of finite stiffness, J
+  double weight = 0;   ///< against the world's gravity, 0 at the origin, J
+};
+[[nodiscard]] SoftEnergy soft_energy(const World& world, SoftId soft);
+
+void apply_impulse(World& world, SoftId soft, std::uint32_t node, const Vec3& impulse);  ///< N s, at once
+
+// Pins, by node
+void pin(World& world, SoftId soft, const SoftPin& pin);    ///< in place of that node's pin, if it has one
+void unpin(World& world, SoftId soft, std::uint32_t node);  ///< it keeps its velocity; nothing for one without a pin
+/// Where a pin to the world shall be at the end of the next step, and its velocity there.
+void lead_pin(World& world, SoftId soft, std::uint32_t node, const Vec3& point, const Vec3& velocity);
+struct SoftPinReading {
+  SoftPin pin;
+  Vec3 force{0, 0, 0};  ///< by the node on what holds it, mean of the last step, N
+};
+[[nodiscard]] std::vector<SoftPinReading> soft_pins(const World& world, SoftId soft);  ///< by node
+
+/// A node's place or velocity is no longer a number, or beyond 1e30.
+class SoftNotFinite : public NotFinite {
+ public:
+  SoftNotFinite(SoftId soft, std::uint32_t node, double time);
+  SoftId soft;
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,170 @@
+#include <tweenfall/curves/hermite.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "soft/meetings.h"
+#include "soft/sub_step.h"
+#include "state/countable.h"
+#include "state/world_data.h"
+
+namespace tweenfall {
+
+namespace soft {
+namespace {
+
+constexpr double most_sub_steps = 1000;
+
+Vec3 mean_velocity(const SoftBody& body) {
+  Vec3 momentum(0, 0, 0);
+  double mass = 0;
+  for (std::size_t i = 0; i < body.positions.size(); ++i) {
+    momentum += body.made->masses[i] * body.velocities[i];
+    mass += body.made->masses[i];
+  }
+  return momentum / mass;
+}
+
+/// Of all edges that are stretched too far the one that is by most; it goes alone, and takes the load off its
+/// neighbors.
+void tear_one(SoftBody& body) {
+  const SoftSettings& made = *body.made;
+  std::size_t worst = made.edges.size();
+  double most = 1;
+  for (std::size_t i = 0; i < made.edges.size(); ++i) {
+    const SoftEdge& edge = made.edges[i];
+    if (std::isinf(edge.tear) || body.torn[i] != 0) continue;
+    const double strain = (body.positions[edge.a] - body.positions[edge.b]).norm() / *edge.length - 1;
+    if (!(strain > most * edge.tear)) continue;
+    most = strain / edge.tear;
+    worst = i;
+  }
+  if (worst < made.edges.size()) tear(body, worst);
+}
+
+/// One soft body in a step.
+class Course {
+ public:
+  Course(SoftBody& body, std::vector<state::Body>& bodies, Partners& partners, const WorldSettings& settings, double dt)
+      : body_(body), bodies_(bodies), partners_(partners), settings_(settings), dt_(dt) {
+    near_ = find_near(body, bodies, partners, settings.gravity, dt);
+    for (PinState& state : body.pins) {
+      state.force = Vec3(0, 0, 0);
+      starts_.push_back(body.positions[state.pin.node]);
+      start_rates_.push_back(body.velocities[state.pin.node]);
+      if (state.pin.body != BodyId{}) static_cast<void>(partners.number_of(state.pin.body.index));
+    }
+  }
+
+  void go(double time, double h, bool backward) {
+    find_held(time);
+    find_contacts(body_, near_, bodies_, partners_, settings_.gravity, settings_.push_out_speed, h, contacts_);
+    const Vec3 before = held_.empty() ? mean_velocity(body_) : Vec3(0, 0, 0);
+    SubStep step{body_, partners_, contacts_, held_, settings_.gravity, h, backward};
+    (body_.made->solver == SoftSolver::positions ? solve_positions : solve_springs)(step);
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      body_.pins[i].force += held_[i].pushed / (h * dt_);
+      if (held_[i].partner == Held::nobody && body_.pins[i].pin.body != BodyId{})
+        partners_[partners_.number_of(body_.pins[i].pin.body.index)].taken += held_[i].pushed / h;
+    }
+    const bool touches = std::ranges::any_of(contacts_, [](const NodeContact& contact) { return contact.pressed > 0; });
+    if (held_.empty() && !touches) {
+      // Backward Euler takes what falls too far by half of a sub-step's gain: what nothing holds falls as a whole as
+      // it must.
+      const Vec3 early = 0.5 * h * (mean_velocity(body_) - before);
+      for (Vec3& place : body_.positions) place -= early;
+    }
+    tear_one(body_);
+  }
+
+  /// What is pinned ends exactly where it is held.
+  void finish() {
+    for (PinState& state : body_.pins) {
+      if (state.pin.body == BodyId{}) {
+        state.velocity = Vec3(0, 0, 0);
+        continue;
+      }
+      const state::Body& holder = bodies_[state.pin.body.index];
+      const Pose& pose = holder.motion.pose;
+      body_.positions[state.pin.node] = pose.position + pose.rotation * state.pin.point;
+      if (holder.immovable())
+        body_.velocities[state.pin.node] = velocity_at(holder.twist, body_.positions[state.pin.node] - holder.center);
+    }
+  }
+
+ private:
+  void find_held(double time) {
+    held_.clear();
+    const double share = time / dt_;
+    for (std::size_t i = 0; i < body_.pins.size(); ++i) {
+      const PinState& state = body_.pins[i];
+      Held held{.node = state.pin.node};
+      if (state.pin.body == BodyId{}) {
+        const bool led = share < 1 && state.target != starts_[i];
+        const Sample<Vec3> way =
+            led ? hermite::sample<Vec3>(starts_[i], start_rates_[i], state.target, state.velocity, dt_, share)
+                : Sample<Vec3>{state.target, state.velocity, Vec3(0, 0, 0)};
+        held.place = way.value;
+        held.velocity = way.rate;
+      } else {
+        const std::uint32_t number = partners_.number_of(state.pin.body.index);
+        const Partner& partner = partners_[number];
+        held.arm = partner.now.rotation * (state.pin.point - bodies_[partner.body].mass().center);
+        held.place = partner.now.center + held.arm;
+        if (partner.moves()) held.partner = number;
+      }
+      held_.push_back(held);
+    }
+  }
+
+  SoftBody& body_;
+  std::vector<state::Body>& bodies_;
+  Partners& partners_;
+  const WorldSettings& settings_;
+  double dt_;
+  std::vector<Near> near_;
+  std::vector<Vec3> starts_, start_rates_;  ///< of the pinned nodes
+  std::vector<Held> held_;
+  std::vector<NodeContact> contacts_;
+};
+
+}  // namespace
+}  // namespace soft
+
+void World::Implementation::note_soft_starts() {
+  soft_starts.clear();
+  if (std::ranges::none_of(softs, &soft::SoftBody::alive)) return;
+  for (const state::Body& body : bodies) soft_starts.push_back({body.center, body.motion.pose.rotation, body.twist});
+}
+
+void World::Implementation::advance_softs(double dt) {
+  if (softs.empty()) return;
+  double longest = 0;
+  for (const soft::SoftBody& body : softs)
+    if (body.alive) longest = longest > 0 ? std::min(longest, *body.made->sub_step) : *body.made->sub_step;
+  if (!(longest > 0)) return;
+  const double count = std::clamp(std::ceil(dt / longest - 1e-9), 1.0, soft::most_sub_steps), h = dt / count;
+  soft::Partners partners(bodies, soft_starts, dt);
+  std::vector<soft::Course> courses;
+  for (soft::SoftBody& body : softs)
+    if (body.alive) courses.emplace_back(body, bodies, partners, settings, dt);
+  for (double i = 1; i <= count; ++i) {
+    const double since = i < count ? i * h : dt;
+    partners.go_to(since, h);
+    for (soft::Course& course : courses) course.go(since, h, static_cast<int>(i) % 2 == 0);
+    partners.accept(h);
+  }
+  partners.finish(h);
+  for (soft::Course& course : courses) course.finish();
+}
+
+void World::Implementation::check_softs() const {
+  for (std::uint32_t i = 0; i < softs.size(); ++i) {
+    if (!softs[i].alive) continue;
+    for (std::uint32_t node = 0; node < softs[i].positions.size(); ++node)
+      if (!state::countable(softs[i].positions[node]) || !state::countable(softs[i].velocities[node]))
+        throw SoftNotFinite({i, softs[i].generation}, node, time);
+  }
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "state/body.h"
+
+namespace tweenfall::soft {
+
+/// Where a rigid body is, and its twist at its center of mass.
+struct Place {
+  Vec3 center{0, 0, 0};
+  Quat rotation{1, 0, 0, 0};
+  Twist twist;
+};
+
+/// A rigid body that soft ones touch or hold on to in a step that it has been through already: along its course, and
+/// off it by what they give it.
+struct Partner {
+  std::uint32_t body = 0;
+  double mass = 0, inverse_mass = 0;                            ///< kg; inverse 0 for one that nothing moves
+  Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  ///< world axes
+  Place start, end;                                             ///< of the step
+  bool along_parabola = false;  ///< its velocities belong to its displacement: no blow has changed them
+  // Off its course so far
+  Vec3 shift{0, 0, 0}, turn{0, 0, 0};  ///< m, rad
+  Vec3 push{0, 0, 0}, spin{0, 0, 0};   ///< m/s, rad/s
+  // In the present sub-step
+  Place before, now;                     ///< at its start, and at its end if nothing more is given
+  Vec3 moved{0, 0, 0}, turned{0, 0, 0};  ///< by what has been given in it, m and rad
+  Vec3 taken{0, 0, 0};                   ///< impulse of the whole step, N s
+
+  [[nodiscard]] bool moves() const { return inverse_mass > 0; }
+  /// A point of the body at the end of the sub-step, as far as it is known. @param arm  from its center, then
+  [[nodiscard]] Vec3 point(const Vec3& arm) const { return now.center + arm + moved + turned.cross(arm); }
+  /// How much a push of 1 kg m along a unit direction moves that point, 1/kg.
+  [[nodiscard]] double give_along(const Vec3& direction, const Vec3& arm) const {
+    const Vec3 lever = arm.cross(direction);
+    return inverse_mass + lever.dot(inverse_inertia * lever);
+  }
+  /// Moves the body by a push, kg m: an impulse times the length of the sub-step h.
+  void give(const Vec3& pushed, const Vec3& arm, double h) {
+    moved += inverse_mass * pushed;
+    turned += inverse_inertia * arm.cross(pushed);
+    taken += pushed / h;
+  }
+};
+
+/// All that soft bodies meet in a step.
+class Partners {
+ public:
+  /// @param starts  by body, as they were before the step
+  Partners(std::vector<state::Body>& bodies, const std::vector<Place>& starts, double dt)
+      : bodies_(bodies), starts_(starts), dt_(dt) {}
+
+  [[nodiscard]] std::uint32_t number_of(std::uint32_t body);
+  [[nodiscard]] Partner& operator[](std::uint32_t number) { return all_[number]; }
+  [[nodiscard]] const Partner& operator[](std::uint32_t number) const { return all_[number]; }
+  [[nodiscard]] std::size_t size() const { return all_.size(); }
+  [[nodiscard]] const state::Body& body(std::uint32_t index) const { return bodies_[index]; }
+  [[nodiscard]] const Place& start(std::uint32_t index) const { return starts_[index]; }
+
+  /// On to a time since the start of the step, by a sub-step of length h.
+  void go_to(double time, double h);
+  /// Takes what the bodies were given in the sub-step.
+  void accept(double h);
+  /// Tells the bodies, and wakes them. @param h  of a sub-step
+  void finish(double h);
+
+ private:
+  std::vector<state::Body>& bodies_;
+  const std::vector<Place>& starts_;
+  double dt_;
+  std::vector<Partner> all_;
+  std::vector<std::uint32_t> numbers_;  ///< by body, plus 1
+};
+
+}  // namespace tweenfall::soft

@@ -1,0 +1,183 @@
+#include "physics/soft/soft_scene.h"
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+SoftSettings hammock(SoftSolver solver) {
+  SoftSettings sheet = cloth({.corner = {-0.5, 1, -0.5},
+                              .columns = 8,
+                              .rows = 8,
+                              .material = {.density = 1, .stretching = 3000, .damping = 10}});
+  for (const std::uint32_t corner : {0u, 8u, 72u, 80u}) sheet.pins.push_back({.node = corner, .in_place = true});
+  sheet.solver = solver;
+  return sheet;
+}
+
+/// What a soft body gives its hooks, N.
+Vec3 borne(const World& world, SoftId id) {
+  Vec3 sum(0, 0, 0);
+  for (const SoftPinReading& reading : soft_pins(world, id)) sum += reading.force;
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a box comes to rest on a cloth, whose hooks bear the weight of both") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {
+    CAPTURE(static_cast<int>(solver));
+    World world;
+    const BodyId box = world.add({.shape = {Box{Vec3(0.15, 0.1, 0.15)}},
+                                  .mass = 0.8,
+                                  .linear_damping = 3,
+                                  .angular_damping = 1,
+                                  .motion = {.pose = {.position = Vec3(0, 1.2, 0)}}});
+    SoftSettings sheet = hammock(solver);
+    sheet.linear_damping = 3;
+    if (solver == SoftSolver::springs) sheet.sub_step = 1.0 / 120;
+    const SoftId id = add_soft(world, sheet);
+    step(world, 3, 1.0 / 120);
+    Vec3 mean(0, 0, 0);
+    for (int n = 0; n < 120; ++n) {
+      world.step(1.0 / 120);
+      mean += borne(world, id) / 120;
+    }
+    CAPTURE(mean.transpose());
+    CHECK(near(mean, Vec3(0, -9.81 * 1.8, 0), 0.02));
+    CHECK(world.twist(box).linear.norm() < 0.05);
+    CHECK(world.motion(box).pose.position.y() > 0.3);
+    CHECK(world.motion(box).pose.position.y() < 1.1);
+    CHECK_FALSE(world.asleep(box));
+  }
+}
+
+TEST_CASE("what a cloth and a box give each other is one momentum") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {
+    CAPTURE(static_cast<int>(solver));
+    World world({.gravity = {0, 0, 0}});
+    const BodyId box =
+        world.add({.shape = {Box{Vec3(0.2, 0.1, 0.2)}},
+                   .mass = 2,
+                   .motion = {.pose = {.position = Vec3(0.1, 0.3, 0)}, .twist = {Vec3(0.3, -3, 0), Vec3(0.5, 0, 1)}}});
+    SoftSettings sheet = hammock(solver);
+    for (Vec3& place : sheet.positions) place.y() = 0;
+    sheet.pins.clear();
+    const SoftId id = add_soft(world, sheet);
+    const auto total = [&] { return Vec3(momentum_of(world, id) + 2 * world.twist(box).linear); };
+    const auto spin = [&] {
+      const Motion motion = world.motion(box);
+      const Mat3 axes = motion.pose.rotation.toRotationMatrix();
+      Vec3 sum = 2 * motion.pose.position.cross(world.twist(box).linear) +
+                 axes * world.mass(box).inertia * axes.transpose() * world.twist(box).angular;
+      for (std::size_t i = 0; i < sheet.masses.size(); ++i)
+        sum += sheet.masses[i] * soft_positions(world, id)[i].cross(soft_velocities(world, id)[i]);
+      return sum;
+    };
+    const Vec3 start = total(), spin_start = spin();
+    step(world, 0.25);
+    CHECK(world.twist(box).linear.y() > -2.8);
+    CHECK(near(total(), start, 1e-9));
+    CHECK((spin() - spin_start).norm() < 0.02 * spin_start.norm());
+  }
+}
+
+TEST_CASE("a box hangs from a rope that is pinned to it") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {
+    CAPTURE(static_cast<int>(solver));
+    World world;
+    const BodyId box = world.add(
+        {.shape = {Box{Vec3(0.1, 0.1, 0.1)}}, .mass = 0.5, .motion = {.pose = {.position = Vec3(0, -1.1, 0)}}});
+    SoftSettings line = rope({.to = {0, -1, 0}, .links = 10, .mass = 0.1, .stiffness = 5e3, .damping = 20});
+    line.pins = {{.node = 0, .in_place = true}, {.node = 10, .body = box, .point = {0, 0.1, 0}}};
+    line.solver = solver;
+    line.iterations = 10;
+    const SoftId id = add_soft(world, line);
+    step(world, 2);
+    CAPTURE(world.motion(box).pose.position.transpose());
+    CAPTURE(soft_pins(world, id)[0].force.transpose());
+    CAPTURE(soft_pins(world, id)[1].force.transpose());
+    CHECK(near(world.motion(box).pose.position, Vec3(0, -1.1 - (0.5 + 0.05) * 9.81 / 5e3, 0), 1e-3));
+    CHECK(world.twist(box).linear.norm() < 1e-3);
+    const auto pins = soft_pins(world, id);
+    CHECK(near(pins[0].force, Vec3(0, -0.6 * 9.81, 0), 1e-3));
+    CHECK(near(pins[1].force, Vec3(0, 0.5 * 9.81, 0), 0.06));
+    world.remove(box);
+    CHECK(soft_pins(world, id).size() == 1);
+    step(world, 1);
+    CHECK(all_finite(world, id));
+  }
+}
+
+TEST_CASE("no node of a rope passes a thin wall, and none of a cloth a moving one") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {
+    CAPTURE(static_cast<int>(solver));
+    for (const double speed : {3.0, 15.0, 60.0}) {
+      CAPTURE(speed);
+      World world({.gravity = {0, 0, 0}});
+      world.add({.shape = {Box{Vec3(0.002, 2, 2)}}, .fixed = true});
+      SoftSettings line =
+          rope({.from = {-0.5, -0.2, 0}, .to = {-0.3, 0.2, 0}, .links = 16, .mass = 0.1, .stiffness = 1e3});
+      line.velocities.assign(17, Vec3(speed, 0, 0));
+      line.solver = solver;
+      const SoftId id = add_soft(world, line);
+      for (int n = 0; n < 120; ++n) {
+        world.step(1.0 / 60);
+        for (const Vec3& place : soft_positions(world, id)) REQUIRE(place.x() < -0.002);
+      }
+    }
+    World world({.gravity = {0, 0, 0}});
+    const BodyId paddle = world.add(
+        {.shape = {Box{Vec3(0.005, 1, 1)}}, .drive = Drive::keyed(), .motion = {.pose = {.position = {-1, 0, 0}}}});
+    SoftSettings sheet =
+        cloth({.corner = {0, -0.3, -0.3}, .along = {0, 0.6, 0}, .across = {0, 0, 0.6}, .columns = 6, .rows = 6});
+    sheet.solver = solver;
+    const SoftId id = add_soft(world, sheet);
+    for (int n = 1; n <= 60; ++n) {
+      Motion motion;
+      motion.pose.position.x() = -1 + 8 * n / 120.0;
+      motion.twist.linear.x() = 8;
+      world.set_target(paddle, motion);
+      world.step(1.0 / 120);
+      for (const Vec3& place : soft_positions(world, id)) REQUIRE(place.x() > motion.pose.position.x() + 0.005);
+    }
+    CHECK(momentum_of(world, id).x() == doctest::Approx(0.2 * 0.36 * 8).epsilon(0.05));
+    CHECK(world.reaction(paddle).x() == doctest::Approx(-momentum_of(world, id).x()).epsilon(1e-6));
+  }
+}
+
+// Coulomb: what lies on a slope slides where its tangent is above the friction, and then as g (sin - friction cos).
+TEST_CASE("a cloth lies on a slope that is less steep than its friction, and slides down one that is steeper") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs})
+    for (const double slope : {0.3, 0.7}) {
+      CAPTURE(static_cast<int>(solver));
+      CAPTURE(slope);
+      const Vec3 along = Vec3(1, -slope, 0).normalized(), normal = Vec3(slope, 1, 0).normalized();
+      World world;
+      world.add({.shape = {Plane{normal, 0}}, .friction = 0.5, .fixed = true});
+      SoftSettings sheet =
+          cloth({.corner = normal * 0.0101, .along = 0.3 * along, .across = {0, 0, 0.3}, .columns = 4, .rows = 4});
+      sheet.solver = solver;
+      const SoftId id = add_soft(world, sheet);
+      const Vec3 start = test::center_of(world, id);
+      step(world, 1);
+      const double slid = along.dot(test::center_of(world, id) - start), cosine = normal.y();
+      if (slope < 0.5)
+        CHECK(std::abs(slid) < 2e-3);
+      else
+        CHECK(slid == doctest::Approx(0.5 * 9.81 * cosine * (slope - 0.5)).epsilon(0.02));
+    }
+}
+
+TEST_CASE("a soft body meets those whom its groups let it meet") {
+  World world;
+  world.add({.shape = {Plane{}}, .fixed = true, .groups = 2});
+  SoftSettings sheet = cloth({.corner = {0, 0.1, 0}, .columns = 2, .rows = 2});
+  sheet.collides_with = 1;
+  const SoftId through = add_soft(world, sheet);
+  sheet.collides_with = 2;
+  const SoftId lies = add_soft(world, sheet);
+  step(world, 1);
+  CHECK(soft_positions(world, through)[0].y() < -1);
+  CHECK(soft_positions(world, lies)[0].y() > 0);
+}
