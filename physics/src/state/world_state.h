@@ -4,8 +4,10 @@
 
 #include <vector>
 
+#include "flat/flat.h"
 #include "forces/forces.h"
 #include "state/body.h"
+#include "state/boxed.h"
 #include "state/contact_memories.h"
 #include "state/ignored_pairs.h"
 #include "state/joint.h"
@@ -33,6 +35,7 @@ struct WorldState {
   std::vector<std::uint32_t> sensors;        ///< indices of bodies, sorted
   std::vector<SensorOverlap> overlaps;       ///< by sensor, then by body
   std::vector<SensorOverlap> left_sensors;   ///< in the last step
+  Boxed<flat::Flat> flat;                    ///< where there is a plane
 };
 
 }  // namespace tweenfall::state
