@@ -44,6 +44,7 @@ TEST_CASE("every word of a world's strategies has a document") {
         std::set<std::string>{"all_pairs", "bvh", "grid", "kd_tree", "octree", "quadtree", "sweep"});
   CHECK(names_in("forces") ==
         std::set<std::string>{"attractor", "buoyancy", "damper", "drag", "field", "torque", "vortex", "wind"});
+  CHECK(names_in("plane") == std::set<std::string>{"space", "xy"});
 }
 
 TEST_CASE("each force of a document does what its closed form says") {
@@ -72,6 +73,25 @@ TEST_CASE("each force of a document does what its closed form says") {
   Stage field = lecture("forces/field");
   field.advance_to(pi / 4);  // half a turn on a circle of 1/2 m
   CHECK(near(place_of(field, "charge") - Vec3(0, 2, 0), Vec3(0, 0, 1), 1e-2));
+}
+
+TEST_CASE("in a plane a ball that is let go flies as the closed form says, and nothing leaves the plane by a bit") {
+  Stage stage = lecture("plane/xy");
+  stage.advance(0.7);
+  const Motion start = stage.world(stage.node("ball")).motion;
+  stage.advance(0.1);
+  const double t = 0.1;
+  const Vec3 expected = start.pose.position + t * start.twist.linear + 0.5 * t * t * Vec3(0, -9.81, 0);
+  CHECK((place_of(stage, "ball") - expected).norm() < 1e-9);
+  stage.advance(3);
+  for (const char* node : {"ball", "wedge", "rod", "box 1", "box 15"}) {
+    const Motion motion = stage.world(stage.node(node)).motion;
+    CAPTURE(node);
+    CHECK(motion.pose.position.z() == 0);
+    CHECK(motion.pose.rotation.x() == 0);
+    CHECK(motion.pose.rotation.y() == 0);
+    CHECK(motion.pose.position.y() > 0);
+  }
 }
 
 TEST_CASE("the swing on a spring gains, loses or keeps its energy as each integrator's own closed form says") {

@@ -127,6 +127,7 @@ void World::Implementation::end_links(double dt) {
 
 JointId World::add_joint(const JointSettings& settings) {
   Implementation& world = changing();
+  flat::refuse(world.settings.plane, "joints");
   state::Joint joint;
   joint.settings = joints::checked(settings);
   world.at(settings.b);

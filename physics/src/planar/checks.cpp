@@ -68,8 +68,9 @@ void demand_body(const BodySettings& body) {
 
 MassProperties mass_of(const BodySettings& body) {
   if (std::holds_alternative<HalfPlane>(body.shape.outline)) return {};
-  const MassProperties properties =
+  MassProperties properties =
       mass_properties(body.shape, body.mass ? *body.mass : body.density * area(body.shape.outline));
+  if (body.moment) properties.moment = *body.moment;
   demand(properties.moment > 0 && std::isnormal(1 / properties.mass) && std::isnormal(1 / properties.moment),
          "the body is too small, too large, too light or too heavy: its mass would be " + number_text(properties.mass) +
              " kg and its moment of inertia " + number_text(properties.moment) + " kg m^2");

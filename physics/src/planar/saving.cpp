@@ -52,6 +52,8 @@ struct NumberByNumber {
     } else if constexpr (std::is_same_v<Value, Vec2>) {
       one(value.data()[0]);
       one(value.data()[1]);
+    } else if constexpr (std::is_same_v<Value, Pair>) {
+      (*this)(value.first, value.second);
     } else if constexpr (is_row<Value>) {
       for (auto& element : value) one(element);
     } else if constexpr (is_list<Value>) {
@@ -85,7 +87,8 @@ struct NumberByNumber {
 template <class Tool, class State>
 void walk_world(Tool& tool, State& world) {
   NumberByNumber<Tool>{tool}(world.settings, world.time, world.last_h, world.bodies, world.makeups, world.unused,
-                             world.joints, world.unused_joints, world.meetings, world.contacts, world.overlaps);
+                             world.joints, world.unused_joints, world.meetings, world.contacts, world.overlaps,
+                             world.ignored);
 }
 
 bool in_order(const std::vector<Meeting>& meetings) {
@@ -138,6 +141,7 @@ void World::Implementation::settle_in() {
     its.motion = makeup.motion;
     const bool endless = std::holds_alternative<HalfPlane>(makeup.shape.outline);
     if (!endless) its.mass = makeup.mass.mass;
+    if (!endless) its.moment = makeup.mass.moment;
     inner::demand_body(its);
     its.motion = {body.center, body.angle, body.velocity, body.spin};
     inner::demand_body(its);
@@ -178,6 +182,10 @@ void World::Implementation::settle_in() {
                                meeting.core_b[i].y(), meeting.pressing[i], meeting.dragging[i]}),
              "a number is not finite");
   }
+  for (const auto& [first, second] : ignored)
+    expect(first < second && second < bodies.size() && bodies[first].alive && bodies[second].alive,
+           "bodies that are not there ignore each other");
+  expect(std::is_sorted(ignored.begin(), ignored.end()), "its ignored pairs are not in order");
   keep_apart();
   near.restore(bodies, makeups);
 }

@@ -92,8 +92,16 @@ void World::Implementation::look_again(std::uint32_t index) {
   bodies[index].boxed = false;
 }
 
+void World::Implementation::meet_or_not(const inner::Pair& pair) {
+  for (const std::uint32_t index : {pair.first, pair.second}) {
+    wake(index);
+    look_again(index);
+  }
+  keep_apart();
+}
+
 void World::Implementation::keep_apart() {
-  kept_apart.clear();
+  kept_apart = ignored;
   for (const Joint& joint : joints) {
     const JointSettings& its = joint.settings;
     if (!joint.alive || its.collide || its.a == BodyId{} || its.b == BodyId{}) continue;
@@ -167,6 +175,8 @@ void World::remove(BodyId id) {
     if (joint.alive && (joint.settings.a == id || joint.settings.b == id)) remove_joint({i, joint.generation});
   }
   std::erase_if(world.meetings, [&](const Meeting& meeting) { return meeting.a == id.index || meeting.b == id.index; });
+  std::erase_if(world.ignored, [&](const auto& pair) { return pair.first == id.index || pair.second == id.index; });
+  world.keep_apart();
   world.near.remove(id.index);
   world.bodies[id.index] = {};
   const std::uint32_t generation = id.generation + 1;
@@ -338,6 +348,26 @@ void World::set_groups(BodyId id, std::uint64_t groups, std::uint64_t collides_w
   implementation_->wake_neighbors(id.index);
   implementation_->wake(id.index);
   implementation_->look_again(id.index);
+}
+
+void World::ignore(BodyId a, BodyId b) {
+  Implementation& world = *implementation_;
+  static_cast<void>(world.at(a));
+  static_cast<void>(world.at(b));
+  inner::demand(a != b, "a body cannot ignore itself");
+  const inner::Pair pair = std::minmax(a.index, b.index);
+  const auto place = std::lower_bound(world.ignored.begin(), world.ignored.end(), pair);
+  if (place != world.ignored.end() && *place == pair) return;
+  world.ignored.insert(place, pair);
+  world.meet_or_not(pair);
+}
+
+void World::collide(BodyId a, BodyId b) {
+  Implementation& world = *implementation_;
+  static_cast<void>(world.at(a));
+  static_cast<void>(world.at(b));
+  const inner::Pair pair = std::minmax(a.index, b.index);
+  if (std::erase(world.ignored, pair) > 0) world.meet_or_not(pair);
 }
 
 std::span<const Contact> World::contacts() const noexcept {

@@ -18,12 +18,13 @@ struct World::Implementation {
   std::vector<std::uint32_t> unused;  ///< indices, the last removed last
   std::vector<inner::Joint> joints;
   std::vector<std::uint32_t> unused_joints;
+  std::vector<inner::Pair> ignored;      ///< sorted
   std::vector<inner::Meeting> meetings;  ///< sorted
   double last_h = 0;                     ///< length of the last sub-step, s
   bool failed = false;                   ///< a body is not finite
 
   // What follows from these
-  std::vector<inner::Pair> kept_apart;  ///< by joints, sorted
+  std::vector<inner::Pair> kept_apart;  ///< by joints, or as they were told, sorted
   inner::NearPairs near;
   std::size_t sleepers = 0;
 
@@ -55,6 +56,7 @@ struct World::Implementation {
   void wake_neighbors(std::uint32_t index);
   void keep_apart();  ///< finds `kept_apart` again
   void look_again(std::uint32_t index);
+  void meet_or_not(const inner::Pair& pair);
   void settle_in();  ///< after loading
 
   void step(double dt);

@@ -382,22 +382,24 @@ void each_field(T& body, const Visit& visit) {
 template <Is<WorldSettings> T, class Visit>
 void each_field(T& settings, const Visit& visit) {
   auto& [gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed, solver, separation, collision,
-         broad_phase, threads] = settings;
+         broad_phase, plane, threads] = settings;
   visit(gravity, integrator, iterations, sleep_speed, sleep_after, push_out_speed);
   visit.rarely(solver, separation, collision, broad_phase);
+  visit.rarely(plane);
   leads_to_nothing(threads);
 }
 
 template <Is<WorldState> T, class Visit>
 void each_field(T& world, const Visit& visit) {
   auto& [settings, bodies, unused, forces, next_force, time, failed, memories, ignored, joints, unused_joints, broken,
-         contacts, ended, gone_contacts, sensors, overlaps, left_sensors, softs, unused_softs] = world;
+         contacts, ended, gone_contacts, sensors, overlaps, left_sensors, softs, unused_softs, flat] = world;
   visit(settings, bodies, unused, forces, next_force, time, memories, ignored, joints, unused_joints, broken, contacts,
         ended, gone_contacts, overlaps, left_sensors);
   bool has_softs = !softs.empty();
   visit.rarely(has_softs);
   if (has_softs) visit(softs, unused_softs);
   follows_from_others(sensors);
+  follows_from_others(flat);    // kept behind all others, where there is a plane
   follows_from_others(failed);  // a body that is not finite cannot be saved, and is found again
 }
 

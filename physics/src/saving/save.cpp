@@ -296,6 +296,7 @@ std::vector<std::byte> World::save() const {
                    "a world whose body " + std::to_string(i) + " is not finite cannot be saved");
   saving::ByteWriter contents;
   walk(contents, world);
+  if (world.flat.has_value()) world.flat.value().write(contents);
   return saving::sealed(saving::world_envelope, contents.bytes);
 }
 
@@ -304,8 +305,10 @@ void World::load(std::span<const std::byte> saved) {
   saving::ByteReader reader(saving::opened(saving::world_envelope, saved), "world");
   state::WorldState loaded;
   walk(reader, loaded);
+  if (loaded.settings.plane != WorldPlane::none) loaded.flat.own().read(reader);
   reader.require(reader.at_end(), "there is more than a world");
   saving::check(loaded);
+  if (loaded.flat.has_value()) loaded.flat.own().check(loaded);
   loaded.settings.threads = before.settings.threads;
   implementation_ = std::make_unique<Implementation>(std::move(loaded), before.executor);
 }

@@ -82,6 +82,7 @@ SoftNotFinite::SoftNotFinite(SoftId which, std::uint32_t node, double when)
 
 SoftId add_soft(World& asked, const SoftSettings& settings) {
   auto& world = soft::Inside::changing(asked);
+  flat::refuse(world.settings.plane, "soft bodies");
   soft::SoftBody body = soft::begun(soft::checked(settings));
   for (const SoftPin& pin : settings.pins) soft::enter_pin(body, world, pin);
   if (world.unused_softs.empty()) {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "flat/flat.h"
 #include "forces/integrators/integrators.h"
 #include "forces/kinds/kinds.h"
 #include "shapes/compound.h"
@@ -109,6 +110,7 @@ void validate(const WorldSettings& settings) {
   require(settings.separation <= Parting::closest_point, "there is no such way to take overlap apart");
   require(settings.collision <= Detection::time_of_impact, "there is no such way to find that bodies meet");
   require(settings.broad_phase <= PairSearch::bvh, "there is no such way to find pairs");
+  flat::validate(settings);
 }
 
 void validate_surface(const Makeup& body) {

@@ -92,6 +92,7 @@ void World::Implementation::forget_impulses(std::uint32_t index) {
 World::World(const WorldSettings& settings) : implementation_(std::make_unique<Implementation>()) {
   state::validate(settings);
   implementation_->settings = settings;
+  if (settings.plane != WorldPlane::none) implementation_->flat.own().begin(settings);
   if (settings.threads > 1)
     implementation_->executor = std::make_shared<ThreadPool>(static_cast<std::size_t>(settings.threads));
 }
@@ -148,6 +149,7 @@ BodyId World::add(const BodySettings& settings) {
   state::validate_surface(makeup);
   state::validate_surface(settings.surface_velocity);
   state::give_mass(makeup, body.immovable(), settings.mass, settings.density, settings.mass_properties);
+  flat::require_body(world.settings.plane, settings);
   body.makeup = world.makeups.share(makeup);
   body.conveys = state::conveys(settings.surface_velocity);
   if (body.conveys) body.extra.own().surface_velocity = settings.surface_velocity;
@@ -261,6 +263,7 @@ void World::set_motion(BodyId id, const Motion& motion) {
   Implementation& world = changing();
   state::Body& body = world.at(id);
   const Motion wanted = state::checked(motion);
+  flat::require_motion(world.settings.plane, wanted);
   world.wake_neighbors(id.index);
   world.wake_jointed(id.index);
   world.wake(id.index);
@@ -311,6 +314,7 @@ void World::set_target(BodyId id, const Motion& end_of_step) {
   state::require(body.drive.owner() != Owner::free,
                  "a free body takes no target: only keyed and driven bodies have one");
   const Motion wanted = state::checked(end_of_step);
+  flat::require_motion(world.settings.plane, wanted);
   Motion& target = body.target();
   const Pose before = target.pose;
   target = wanted;
@@ -327,6 +331,7 @@ void World::set_surface_velocity(BodyId id, const Twist& velocity) {
   Implementation& world = changing();
   state::Body& body = world.at(id);
   state::validate_surface(velocity);
+  if (state::conveys(velocity)) flat::refuse(world.settings.plane, "moving surfaces");
   const Twist& before = body.extra.value().surface_velocity;
   if (before.linear == velocity.linear && before.angular == velocity.angular) return;
   body.extra.own().surface_velocity = velocity;

@@ -4,9 +4,11 @@
 
 #include <vector>
 
+#include "flat/flat.h"
 #include "forces/forces.h"
 #include "soft/soft_state.h"
 #include "state/body.h"
+#include "state/boxed.h"
 #include "state/contact_memories.h"
 #include "state/ignored_pairs.h"
 #include "state/joint.h"
@@ -36,6 +38,7 @@ struct WorldState {
   std::vector<SensorOverlap> left_sensors;   ///< in the last step
   std::vector<soft::SoftBody> softs;
   std::vector<std::uint32_t> unused_softs;  ///< indices of removed soft bodies
+  Boxed<flat::Flat> flat;                    ///< where there is a plane
 };
 
 }  // namespace tweenfall::state

@@ -350,6 +350,14 @@ void World::Implementation::step(double dt) {
   stepping = true;
   begin_watch();
   if (failed) check_bodies(0, time);
+  if (flat.has_value()) {
+    failed = true;
+    step_in_plane(dt);
+    end_watch();
+    time += dt;
+    if (failed) check_bodies(dt, time);
+    return;
+  }
   wake_by_forces(dt);
   do {
     forces::gather_loads(bodies, watched, forces, settings, time, dt, workers(), loads, stiff_springs, flight);

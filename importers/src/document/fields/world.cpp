@@ -116,6 +116,10 @@ const Table<StageDescription>& world_table() {
                                   {"kd-tree", PairSearch::kd_tree},
                                   {"bvh", PairSearch::bvh}},
                                  "how pairs are found that may meet", of_world(&WorldSettings::broad_phase)),
+       one_of<Stage, WorldPlane>(
+           "plane", "a plane",
+           {{"none", WorldPlane::none}, {"xy", WorldPlane::xy}, {"xz", WorldPlane::xz}, {"yz", WorldPlane::yz}},
+           "in which all bodies lie and turn", of_world(&WorldSettings::plane)),
        {"iterations", bounded("a whole number from 1 to 10000", 1, false, 10000, true), "passes of the contact solver",
         member<Stage>(of_world(&WorldSettings::iterations))},
        {"sleep_speed", &ValueForms::not_negative, "m/s below which a body counts as still",

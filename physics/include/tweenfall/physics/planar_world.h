@@ -37,10 +37,11 @@ struct WorldSettings {
 /// As `tweenfall::BodySettings`, in a plane.
 struct BodySettings {
   Shape shape = {};
-  std::optional<double> mass{};  ///< kg; absent: density times area
-  double density = 1000;         ///< kg/m^2
-  double friction = 0.5;         ///< Coulomb coefficient; a pair takes sqrt(f1 f2) unless told otherwise
-  double restitution = 0;        ///< 0 to 1; a pair takes the larger unless told otherwise
+  std::optional<double> mass{};    ///< kg; absent: density times area
+  std::optional<double> moment{};  ///< of inertia about the center of mass, kg m^2; absent: a uniform plate's
+  double density = 1000;           ///< kg/m^2
+  double friction = 0.5;           ///< Coulomb coefficient; a pair takes sqrt(f1 f2) unless told otherwise
+  double restitution = 0;          ///< 0 to 1; a pair takes the larger unless told otherwise
   Combine friction_combine = Combine::usual;
   Combine restitution_combine = Combine::usual;
   bool sensor = false;         ///< reports what overlaps it, and neither pushes nor is pushed
@@ -119,6 +120,8 @@ class World {
   void apply_impulse(BodyId body, const Vec2& impulse, const Vec2& point);  ///< N s, at once
   void wake(BodyId body);
   void set_groups(BodyId body, std::uint64_t groups, std::uint64_t collides_with);
+  void ignore(BodyId a, BodyId b);   ///< they pass through each other. @throws std::invalid_argument for the same body
+  void collide(BodyId a, BodyId b);  ///< takes back `ignore`
 
   // Joints
   JointId add_joint(const JointSettings& joint);  ///< @throws std::invalid_argument naming what is wrong

@@ -55,6 +55,9 @@ enum class Integrator {
   implicit_trapezoid,   ///< by the mean of the start and what will be at the end; second order, keeps a swing's energy
 };
 
+/// A plane through the world's origin in which all bodies lie and turn.
+enum class WorldPlane : std::uint8_t { none, xy, xz, yz };
+
 struct WorldSettings {
   Vec3 gravity{0, -9.81, 0};  ///< m/s^2
   Integrator integrator = Integrator::exact_quadratic;
@@ -66,7 +69,11 @@ struct WorldSettings {
   Parting separation{};         ///< how overlap is taken apart
   Detection collision{};        ///< when bodies are found to meet
   PairSearch broad_phase{};     ///< how pairs are found that may meet
-  int threads = 0;              ///< that share a step, 0 to 256; 0 and 1: the one that calls. No bit depends on it
+  /// Where bodies meet as their sections do, by the solver of `planar_world.h`; nothing leaves the plane by a bit.
+  /// There `iterations` and `threads` are not read, the strategies above must be the usual ones, and `add_force`,
+  /// `add_joint`, moving surfaces, rolling friction, compounds, meshes and fields of heights are refused.
+  WorldPlane plane{};
+  int threads = 0;  ///< that share a step, 0 to 256; 0 and 1: the one that calls. No bit depends on it
 };
 
 /// How two bodies' frictions, or restitutions, make one. Of two bodies that name different rules the one that comes
