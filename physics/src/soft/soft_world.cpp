@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "flat/flat.h"
 #include "soft/energies.h"
 #include "soft/soft_state.h"
 #include "state/checks.h"

@@ -38,7 +38,7 @@ struct WorldState {
   std::vector<SensorOverlap> left_sensors;   ///< in the last step
   std::vector<soft::SoftBody> softs;
   std::vector<std::uint32_t> unused_softs;  ///< indices of removed soft bodies
-  Boxed<flat::Flat> flat;                    ///< where there is a plane
+  Boxed<flat::Flat> flat;                   ///< where there is a plane
 };
 
 }  // namespace tweenfall::state
