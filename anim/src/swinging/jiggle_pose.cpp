@@ -1,4 +1,5 @@
 #include <tweenfall/anim/jiggle.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "operations/account.h"
 #include "swinging/swing.h"
@@ -34,8 +35,9 @@ class SwingingChain : public Swing<JiggleState> {
 }  // namespace
 
 void tell(const JigglePose& pose, Account& account) {
-  account.words =
-      (pose.joints.empty() ? std::string("a chain") : pose.joints.front()) + " swings" + share_in_words(pose.weight);
+  account.words = (pose.joints.empty() ? std::string("a chain") : pose.joints.front()) + " swings, " +
+                  brief_text(pose.spring.hz) + " Hz, damping " + brief_text(pose.spring.damping) +
+                  share_in_words(pose.weight);
   account.pose(pose.base, "base");
   account.tell(pose.joints, pose.tip, pose.spring.hz, pose.spring.damping, pose.spring.gravity,
                pose.spring.steps_per_second, pose.limit, pose.ease, pose.weight);

@@ -1,4 +1,5 @@
 #include <tweenfall/anim/node_spring.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "operations/account.h"
 #include "swinging/swing.h"
@@ -27,6 +28,10 @@ class SpringyNode : public Swing<NodeSpringState> {
   NodeSpring spring_;
 };
 
+std::string words_of(const SpringSettings& spring) {
+  return brief_text(spring.hz) + " Hz, damping " + brief_text(spring.damping);
+}
+
 void tell(const SpringSettings& spring, Account& account) {
   account.tell(spring.hz, spring.damping, spring.gravity, spring.steps_per_second);
 }
@@ -34,7 +39,10 @@ void tell(const SpringSettings& spring, Account& account) {
 }  // namespace
 
 void tell(const SpringPose& pose, Account& account) {
-  account.words = pose.node + " on a spring" + share_in_words(pose.weight);
+  account.words = pose.node + " on a spring";
+  if (pose.position) account.words += ", place " + words_of(*pose.position);
+  if (pose.rotation) account.words += ", rotation " + words_of(*pose.rotation);
+  account.words += share_in_words(pose.weight);
   account.pose(pose.base, "base");
   account.tell(pose.node, pose.position.has_value(), pose.rotation.has_value(), pose.weight);
   if (pose.position) tell(*pose.position, account);

@@ -96,7 +96,7 @@ TEST_CASE("inputs are read with their settings, and written so that the same are
     {"at": 0.7, "speed": {"play": "walk", "speed": [[0, 1.5, "quad-in"], [1, 0.1]]}},
     {"at": 1, "fade": {"play": "wave", "weight": 0.25, "seconds": 0.1, "ease": "sine-in-out"}},
     {"at": 1, "weigh": {"play": "wave", "weight": [[0, 0.25], [1, 1]]}},
-    {"at": 1.1, "seek": {"play": "walk", "to": 3, "events": true}},
+    {"at": 1.1, "seek": {"play": "walk", "to": 3, "events": true, "fade": 0.25}},
     {"at": 1.2, "stop": {"play": "wave", "seconds": 0.1}},
     {"at": 1.3, "start": {"play": "again", "clip": "walk", "from": 1, "to": 3, "direction": "reverse", "loop": "repeat", "count": 2, "mask": "ball"}},
     {"at": 2, "release": {"body": "ball", "velocity": {"scale": 0.5, "add": {"linear": [0, 1, 0], "angular": [0, 0, 33.3]}}, "overlap": "ignore"}},
@@ -141,6 +141,12 @@ TEST_CASE("faults of inputs are told at their places") {
   // What is started is known from then on.
   CHECK(input_faults(R"({"at": 1, "start": {"play": "w", "clip": "wave"}}, {"at": 2, "stop": {"play": "w"}})").empty());
   CHECK(fault_says(input_faults(R"({"at": 1, "start": {"play": "w", "clip": "wav"}})"), "there is no clip \"wav\""));
+  // What could not start is no further fault of what is asked of it.
+  const std::string twice = input_faults(
+      R"({"at": 1, "start": {"play": "w", "clip": "wave", "from": 99}}, {"at": 2, "stop": {"play": "w"}})");
+  CHECK(fault_says(twice, "its section reaches to 99 s"));
+  CHECK(twice.find(" error: ") == twice.rfind(" error: "));
+  CHECK(fault_says(input_faults(R"({"at": 1, "speed": {"play": 0.96, "speed": 0.5}})"), "i.json:2"));
 }
 
 TEST_CASE("a seek beyond what is played is told at its place, whatever the play was asked for before") {

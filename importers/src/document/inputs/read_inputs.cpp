@@ -104,11 +104,14 @@ class Reader {
         played.player = played.player.changed(building_.stage.clips[played.clip], time_, action);
         return;
       }
-      const auto& start = std::get<playing::Start>(action);
-      const std::size_t clip = building_.clips.at(start.clip.empty() ? name : start.clip);
-      Play play = tweenfall::play_of(start, clip);
+      // Where none has started, or of no clip, that has been told.
+      const auto* start = std::get_if<playing::Start>(&action);
+      if (!start) return;
+      const auto clip = building_.clips.find(start->clip.empty() ? name : start->clip);
+      if (clip == building_.clips.end()) return;
+      Play play = tweenfall::play_of(*start, clip->second);
       play.at = time_;
-      players_.emplace(name, Played{Player(play, building_.stage.clips[clip]), clip});
+      players_.emplace(name, Played{Player(play, building_.stage.clips[clip->second]), clip->second});
     } catch (const std::invalid_argument& fault) {
       building_.problems.add(place, fault.what());
     }
@@ -188,12 +191,7 @@ class Reader {
   }
 
   void look_up(const GraphDescription& graph, const input::Send& send, const json::Value& place) {
-    std::vector<std::string> names;
-    for (const GraphPose& pose : graph.poses)
-      if (const auto* machine = std::get_if<MachinePose>(&pose.operation))
-        for (const GraphTransition& transition : machine->transitions)
-          for (const GraphCondition& condition : transition.when)
-            if (condition.kind == GraphCondition::Kind::event) names.push_back(condition.name);
+    const std::vector<std::string> names = events_awaited(graph);
     if (std::find(names.begin(), names.end(), send.event) == names.end())
       building_.problems.add(place, "nothing in the graph " + json::in_quotes(graph.name) + " waits for " +
                                         json::in_quotes(send.event) + suggestion(send.event, names));
