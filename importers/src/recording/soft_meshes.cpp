@@ -16,14 +16,14 @@ constexpr std::size_t around = 8;                // corners of a tube
 constexpr std::size_t most_targets = 400;        // of a mesh
 constexpr std::size_t most_vectors = 1'500'000;  // of all its targets
 
-struct Surface {
+struct SoftSurface {
   std::vector<Vec3> positions, normals;
 };
 
 /// One soft body, frame by frame.
-class Skin {
+class SoftSkin {
  public:
-  Skin(const SoftRecord& record, const SoftDescription& described) : record_(record), soft_(described.soft) {
+  SoftSkin(const SoftRecord& record, const SoftDescription& described) : record_(record), soft_(described.soft) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> edges;
     for (std::size_t i = 0; i < soft_.edges.size(); ++i)
       edges.emplace(std::minmax(soft_.edges[i].a, soft_.edges[i].b), i);
@@ -44,7 +44,7 @@ class Skin {
     return tube;
   }
 
-  [[nodiscard]] Surface at(std::size_t frame) const {
+  [[nodiscard]] SoftSurface at(std::size_t frame) const {
     return soft_.triangles.empty() ? tube_at(frame) : surface_at(frame);
   }
 
@@ -72,7 +72,7 @@ class Skin {
     torn_at_.push_back(torn_at);
   }
 
-  [[nodiscard]] Surface surface_at(std::size_t frame) const {
+  [[nodiscard]] SoftSurface surface_at(std::size_t frame) const {
     const std::vector<Vec3>& nodes = record_.positions[frame];
     std::vector<Vec3> normal_of(nodes.size(), Vec3(0, 0, 0));
     for (std::size_t i = 0; i < torn_at_.size(); ++i) {
@@ -81,7 +81,7 @@ class Skin {
       const Vec3 normal = (nodes[b] - nodes[a]).cross(nodes[c] - nodes[a]);
       for (const std::uint32_t node : {a, b, c}) normal_of[node] += normal;
     }
-    Surface surface;
+    SoftSurface surface;
     for (const std::uint32_t node : node_of_) {
       surface.positions.push_back(nodes[node]);
       surface.normals.push_back(unit(normal_of[node], Vec3(0, 1, 0)));
@@ -95,12 +95,12 @@ class Skin {
     return surface;
   }
 
-  [[nodiscard]] Surface tube_at(std::size_t frame) const {
+  [[nodiscard]] SoftSurface tube_at(std::size_t frame) const {
     const std::vector<Vec3>& nodes = record_.positions[frame];
     std::vector<Vec3> along(nodes.size(), Vec3(0, 0, 0)), side(nodes.size(), Vec3(0, 0, 0));
     for (const SoftEdge& edge : soft_.edges)
       for (const std::uint32_t end : {edge.a, edge.b}) along[end] += unit(nodes[edge.b] - nodes[edge.a], Vec3(0, 0, 0));
-    Surface surface;
+    SoftSurface surface;
     for (std::size_t i = 0; i < soft_.edges.size(); ++i) {
       const SoftEdge& edge = soft_.edges[i];
       const bool torn = frame >= record_.torn_at[i];
@@ -151,17 +151,17 @@ std::vector<std::size_t> frames_shown(std::size_t frames, std::size_t vertices) 
 }
 
 void dress(Dressed& out, const SoftRecord& record, const SoftDescription& described) {
-  const Skin skin(record, described);
+  const SoftSkin skin(record, described);
   Mesh mesh;
   mesh.name = described.name;
   mesh.base_color = described.color.value_or(Color{Vec4(0.45, 0.3, 0.16, 1)});
   mesh.triangles = skin.triangles();
-  const Surface first = skin.at(0);
+  const SoftSurface first = skin.at(0);
   mesh.positions = first.positions;
   mesh.normals = first.normals;
   const std::vector<std::size_t> shown = frames_shown(record.positions.size(), first.positions.size());
   for (std::size_t k = 1; k < shown.size(); ++k) {
-    Surface surface = skin.at(shown[k]);
+    SoftSurface surface = skin.at(shown[k]);
     for (std::size_t i = 0; i < surface.positions.size(); ++i) {
       surface.positions[i] -= first.positions[i];
       surface.normals[i] -= first.normals[i];

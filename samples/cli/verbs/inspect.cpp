@@ -190,6 +190,20 @@ std::string joints_table(const StageDescription& stage) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
+std::string softs_table(const StageDescription& stage) {
+  Table table(counted(stage.softs.size(), "soft body", "soft bodies"),
+              {"name", "solver", ">nodes", ">edges", ">triangles", ">mass, kg", ">pins"});
+  for (const SoftDescription& described : stage.softs) {
+    const SoftSettings& soft = described.soft;
+    double mass = 0;
+    for (const double one : soft.masses) mass += one;
+    table.row({described.name, soft.solver == SoftSolver::springs ? "springs" : "positions",
+               std::to_string(soft.positions.size()), std::to_string(soft.edges.size()),
+               std::to_string(soft.triangles.size()), brief_text(mass), std::to_string(described.pins.size())});
+  }
+  return table.empty() ? "" : table.text(styled_output());
+}
+
 std::string poses_table(const GraphDescription& graph) {
   Table table("poses of the graph " + graph.name, {"name", "is", "of"});
   for (const GraphPose& pose : graph.poses) {
@@ -240,7 +254,7 @@ int inspect_file(const std::string& file) {
   const StageDescription& stage = read.stage;
   std::string out = nodes_table(stage) + clips_table(stage);
   for (const Clip& clip : stage.clips) out += tracks_table(clip) + events_table(clip);
-  out += graph_tables(stage) + bodies_table(stage, file) + joints_table(stage);
+  out += graph_tables(stage) + bodies_table(stage, file) + joints_table(stage) + softs_table(stage);
   print(out);
   return 0;
 }
