@@ -7,6 +7,8 @@
 
 namespace tweenfall::queries {
 
+[[nodiscard]] const std::vector<state::Body>& bodies_of(const World& world);
+
 /// A world's bodies, by index.
 inline void arrange_bodies(Scene& scene, const std::vector<state::Body>& bodies) {
   scene.arrange(bodies.size(), [&bodies](std::uint32_t index) -> Item {

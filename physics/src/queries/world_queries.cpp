@@ -56,6 +56,10 @@ std::optional<NearestBody> nearest_body(const World& world, const Vec3& point, d
   return queries::nearest<NearestBody>(queries::Inside(world), point, within, filter);
 }
 
+const std::vector<state::Body>& queries::bodies_of(const World& world) {
+  return Inside::of(world).bodies;
+}
+
 std::vector<BodyDetail> body_details(const World& asked) {
   const auto& world = queries::Inside::of(asked);
   const std::vector<state::Body>& bodies = world.bodies;

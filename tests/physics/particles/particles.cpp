@@ -1,0 +1,271 @@
+#include <tweenfall/physics/particles.h>
+
+#include <tweenfall/curves/keys.h>
+#include <tweenfall/curves/rotation.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "physics/step/methods.h"
+#include "support.h"
+
+using namespace tweenfall;
+using test::near;
+using test::pi;
+
+namespace {
+
+void run(Particles& particles, double seconds, int steps, const World* world = nullptr) {
+  for (int i = 0; i < steps; ++i) {
+    if (world)
+      particles.step(seconds / steps, *world);
+    else
+      particles.step(seconds / steps);
+  }
+}
+
+World with_floor(double restitution, double friction) {
+  World world;
+  BodySettings floor;
+  floor.shape.solid = Plane{};
+  floor.fixed = true;
+  floor.restitution = restitution;
+  floor.friction = friction;
+  world.add(floor);
+  return world;
+}
+
+}  // namespace
+
+TEST_CASE("a particle is where the lecture's table of the projectile says, second after second") {
+  Particles particles({.gravity = Vec3(0, -1, 0)});
+  particles.emit(Vec3(0, 0, 0), Vec3(3, 4, 0));
+  const double heights[] = {3.5, 6, 7.5, 8, 7.5, 6, 3.5, 0};
+  for (int second = 1; second <= 8; ++second) {
+    particles.step(1);
+    CHECK(near(particles.position(0), Vec3(3.0 * second, heights[second - 1], 0), 1e-13));
+  }
+}
+
+TEST_CASE("each integrator of particles comes nearer to a planet's year by its order, and the implicit are refused") {
+  const auto off = [](Integrator integrator, int steps) {
+    Particles particles({.gravity = Vec3(0, 0, 0), .integrator = integrator});
+    particles.emit(Vec3(0.7, 0, 0), Vec3(0, 2 * pi * std::sqrt(1.3 / 0.7), 0));
+    particles.add_force(Attractor{.acceleration = 4 * pi * pi});
+    run(particles, 0.25, steps);
+    // The ellipse of a = 1, e = 0.3 a quarter year on: E - e sin E = pi / 2.
+    double anomaly = pi / 2;
+    for (int i = 0; i < 50; ++i) anomaly = pi / 2 + 0.3 * std::sin(anomaly);
+    return (particles.position(0) - Vec3(std::cos(anomaly) - 0.3, std::sqrt(0.91) * std::sin(anomaly), 0)).norm();
+  };
+  for (const test::Method& method : test::methods) {
+    CAPTURE(std::string(method.name));
+    if (method.integrator == Integrator::backward_euler || method.integrator == Integrator::implicit_trapezoid) {
+      CHECK_THROWS_AS(off(method.integrator, 1), std::invalid_argument);
+      continue;
+    }
+    const double order = std::log2(off(method.integrator, 400) / off(method.integrator, 800));
+    CHECK(std::abs(order - method.order) < 0.15);
+  }
+}
+
+TEST_CASE("drag, winds and formulas do to particles what they do to bodies") {
+  for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::rk4, Integrator::verlet}) {
+    WorldSettings settings;
+    settings.integrator = integrator;
+    World world(settings);
+    BodySettings ball;
+    ball.shape.solid = Sphere{0.1};
+    ball.mass = 0.2;
+    ball.motion.twist.linear = Vec3(4, 5, 0);
+    const BodyId body = world.add(ball);
+    Particles particles({.integrator = integrator, .mass = 0.2, .radius = 0.1});
+    particles.emit(Vec3(0, 0, 0), Vec3(4, 5, 0));
+    const Strength ramp = keyed_curve<double>({{0, 0, Ease::smooth()}, {1, 1}});
+    const std::pair<Force, Strength> forces[] = {
+        {Drag{.linear = 0.05, .quadratic = 0.01}, 1},
+        {Wind{.velocity = Vec3(0, 0, 3), .linear = 0.1, .coefficient = 0.5}, ramp},
+        {Vortex{.at = Vec3(1, 0, 0), .acceleration = 3, .inward = 0.4, .softening = 0.2}, 1},
+        {ForceFormula({"sin(3*t)", "-0.1*y", "mass"}), 1}};
+    for (const auto& [force, strength] : forces) {
+      world.add_force(force, {{}, strength});
+      particles.add_force(force, strength);
+    }
+    for (int i = 0; i < 60; ++i) {
+      world.step(1.0 / 60);
+      particles.step(1.0 / 60);
+    }
+    // Formulas and vortices are asked at the end of a step by what each knows of it.
+    CHECK(near(particles.position(0), world.motion(body).pose.position, 1e-9));
+    CHECK(near(particles.velocity(0), world.twist(body).linear, 1e-9));
+  }
+}
+
+TEST_CASE("a particle bounces off a plane when the closed form says, as often as there are bounces in the time") {
+  const World world = with_floor(0, 0);
+  for (const int steps : {7, 60, 240}) {
+    Particles particles({.restitution = 0.8, .friction = 0});
+    particles.emit(Vec3(0, 2, 0), Vec3(1.5, 0, 0));
+    run(particles, 2, steps, &world);
+    // Falls for sqrt(2 h / g), then flies for 2 v e^n / g each time.
+    const double first = std::sqrt(4 / 9.81), speed = 9.81 * first;
+    double begun = first, up = 0.8 * speed;
+    while (begun + 2 * up / 9.81 < 2) {
+      begun += 2 * up / 9.81;
+      up *= 0.8;
+    }
+    const double since = 2 - begun;
+    CHECK(near(particles.position(0), Vec3(3, up * since - 0.5 * 9.81 * since * since, 0), 1e-8));
+    CHECK(near(particles.velocity(0), Vec3(1.5, up - 9.81 * since, 0), 1e-8));
+  }
+}
+
+TEST_CASE("friction takes mu (1 + e) v of what slides, and a particle at rest on a slope stays below atan mu alone") {
+  World world = with_floor(0.5, 0.2);
+  Particles particles({.gravity = Vec3(0, 0, 0), .restitution = 0.5, .friction = 0.2});
+  particles.emit(Vec3(0, 1, 0), Vec3(4, -2, 3));
+  run(particles, 1, 3, &world);
+  // 5 m/s along, less 0.2 * 1.5 * 2.
+  CHECK(near(particles.velocity(0), Vec3(4 * 0.88, 1, 3 * 0.88), 1e-12));
+  for (const double slope : {0.15, 0.25}) {
+    Particles lying(
+        {.gravity = 9.81 * Vec3(std::sin(std::atan(slope)), -std::cos(std::atan(slope)), 0), .friction = 0.2});
+    lying.emit(Vec3(0, 0, 0), Vec3(0, 0, 0));
+    run(lying, 1, 60, &world);
+    const double pull = std::max(0.0, 9.81 * (std::sin(std::atan(slope)) - 0.2 * std::cos(std::atan(slope))));
+    CHECK(near(lying.position(0), Vec3(0.5 * pull, 0, 0), 1e-4));
+    CHECK(near(lying.velocity(0).x(), pull, 1e-4));
+  }
+}
+
+TEST_CASE("particles keep out of boxes, balls and hulls, and a body that moves throws them") {
+  World world;
+  WorldSettings still;
+  still.gravity = Vec3(0, 0, 0);
+  world = World(still);
+  BodySettings body;
+  body.fixed = true;
+  body.shape.solid = Box{Vec3(0.5, 0.5, 0.5)};
+  world.add(body);
+  body.shape.solid = Sphere{0.5};
+  body.motion.pose.position = Vec3(3, 0, 0);
+  world.add(body);
+  for (const double radius : {0.0, 0.05}) {
+    CAPTURE(radius);
+    Particles particles({.gravity = Vec3(0, 0, 0), .radius = radius, .restitution = 1, .friction = 0});
+    particles.emit(Vec3(0.1, 2, 0.2), Vec3(0, -10, 0));
+    particles.emit(Vec3(3 + 0.5 * std::sqrt(0.5) + radius * std::sqrt(0.5), 2, 0), Vec3(0, -10, 0));
+    run(particles, 0.4, 3, &world);
+    CHECK(near(particles.velocity(0), Vec3(0, 10, 0), 1e-9));
+    CHECK(near(particles.position(0).y(), 0.5 + radius + 4 - (1.5 - radius), 1e-8));
+    // Met at 45 degrees it leaves at a right angle.
+    CHECK(near(particles.velocity(1), Vec3(10, 0, 0), 1e-7));
+  }
+  BodySettings bat;
+  bat.drive = Drive::keyed();
+  bat.shape.solid = Box{Vec3(0.1, 1, 1)};
+  bat.motion.pose.position = Vec3(-5, 0, 0);
+  bat.motion.twist.linear = Vec3(3, 0, 0);
+  const BodyId moving = world.add(bat);
+  Particles thrown({.gravity = Vec3(0, 0, 0), .restitution = 1, .friction = 0});
+  thrown.emit(Vec3(-4.5, 0, 0), Vec3(-1, 0, 0));
+  for (int i = 1; i <= 30; ++i) {
+    Motion target = bat.motion;
+    target.pose.position.x() += 3 * i / 60.0;
+    world.set_target(moving, target);
+    world.step(1.0 / 60);
+    thrown.step(1.0 / 60, world);
+  }
+  // 2 u - v
+  CHECK(near(thrown.velocity(0), Vec3(7, 0, 0), 1e-9));
+}
+
+TEST_CASE("emitters let go when the integral of their rate says, from where their curve is, with its velocity") {
+  Emitter emitter;
+  emitter.rate = keyed_curve<double>({{0, 0, Ease::linear()}, {2, 100}});
+  emitter.position = keyed_curve<Vec3>({{0, Vec3(0, 0, 0), Ease::linear()}, {2, Vec3(8, 2, 0), Ease::linear()}});
+  emitter.velocity = Curve<Vec3>(Vec3(0, 3, 0));
+  emitter.rotation = Curve<Quat>(exp_map(Vec3(pi / 2, 0, 0)));
+  for (const int steps : {1, 7, 120}) {
+    Particles particles({.gravity = Vec3(0, 0, 0)});
+    particles.add(emitter);
+    run(particles, 2, steps);
+    // 25 t^2 of them: number k leaves at sqrt(k) / 5.
+    REQUIRE(particles.size() == 100);
+    for (std::size_t i = 0; i < 100; ++i) {
+      const double at = std::sqrt(static_cast<double>(i + 1)) / 5;
+      CHECK(near(particles.born()[i], at, 1e-9));
+      CHECK(near(particles.velocity(i), Vec3(4, 1, 3), 1e-9));
+      CHECK(near(particles.position(i), Vec3(8, 2, 3 * (2 - at)), 1e-8));
+    }
+    CHECK(near(particles.momentum(), 0.1 * Vec3(4, 1, 3), 1e-9));
+  }
+}
+
+TEST_CASE("a stream has rate times life of particles, each dies at its age, and what chance there is comes of a seed") {
+  Emitter emitter;
+  emitter.rate = Curve<double>(250.0);
+  emitter.velocity = Curve<Vec3>(Vec3(0, 4, 0));
+  emitter.spread = pi / 6;
+  emitter.speed_spread = 0.25;
+  emitter.size = 0.3;
+  const ParticleSettings settings{.gravity = Vec3(0, 0, 0), .life = 0.5, .seed = 42};
+  Particles particles(settings), split(settings), other({.gravity = Vec3(0, 0, 0), .life = 0.5, .seed = 43});
+  for (Particles* each : {&particles, &split, &other}) each->add(emitter);
+  run(particles, 2.001, 100);
+  run(split, 2.001, 37);
+  run(other, 2.001, 100);
+  CHECK(particles.emitted() == 500);
+  CHECK(particles.size() == 125);
+  REQUIRE(split.size() == 125);
+  double apart = 0;
+  std::set<std::uint64_t> numbers;
+  Vec3 mean(0, 0, 0);
+  for (std::size_t i = 0; i < 125; ++i) {
+    CHECK(particles.numbers()[i] == split.numbers()[i]);
+    CHECK(near(particles.position(i), split.position(i), 1e-9));
+    apart = std::max(apart, (particles.velocity(i) - other.velocity(i)).norm());
+    numbers.insert(particles.numbers()[i]);
+    const Vec3 velocity = particles.velocity(i);
+    CHECK(velocity.normalized().y() >= std::cos(pi / 6) - 1e-12);
+    CHECK(std::abs(velocity.norm() - 4) <= 1 + 1e-12);
+    CHECK((particles.position(i) - (2.001 - particles.born()[i]) * velocity).norm() <= 0.3 + 1e-9);
+    mean += velocity / 125;
+  }
+  CHECK(numbers.size() == 125);
+  CHECK(apart > 0.1);
+  // The mean of a cone's heights is half of 1 and its edge's.
+  CHECK(near(mean.y(), 2 * (1 + std::cos(pi / 6)), 0.05));
+  Particles copy = particles;
+  run(particles, 1, 60);
+  run(copy, 1, 60);
+  for (std::size_t i = 0; i < copy.size(); ++i) CHECK(particles.position(i) == copy.position(i));
+}
+
+TEST_CASE("of too many particles those that would be more stay out, and what cannot be is refused") {
+  Emitter emitter;
+  emitter.rate = Curve<double>(1e8);
+  Particles particles({.most = 1000});
+  particles.add(emitter);
+  particles.step(1);
+  CHECK(particles.size() == 1000);
+  CHECK(particles.emitted() == 100000000);
+  CHECK(particles.left_out() == 100000000 - 1000);
+  const double none = std::nan("");
+  CHECK_THROWS_AS(Particles({.mass = 0}), std::invalid_argument);
+  CHECK_THROWS_AS(Particles({.restitution = 2}), std::invalid_argument);
+  CHECK_THROWS_AS(Particles({.life = none}), std::invalid_argument);
+  CHECK_THROWS_AS(particles.emit(Vec3(none, 0, 0), Vec3(0, 0, 0)), std::invalid_argument);
+  CHECK_THROWS_AS(particles.step(none), std::invalid_argument);
+  CHECK_THROWS_AS(particles.add_force(Spring{}), std::invalid_argument);
+  CHECK_THROWS_AS(particles.add_force(Buoyancy{}), std::invalid_argument);
+  emitter.rate = keyed_curve<double>({{0, 1, Ease::linear()}, {1, -1}});
+  CHECK_THROWS_AS(particles.add(emitter), std::invalid_argument);
+  // What leaves all bounds is gone.
+  Particles lost({.gravity = Vec3(0, 0, 0)});
+  lost.add_force(ForceFormula({"1e30*x^9", "0", "0"}));
+  lost.emit(Vec3(1e3, 0, 0), Vec3(0, 0, 0));
+  run(lost, 1, 10);
+  CHECK(lost.size() == 0);
+}
