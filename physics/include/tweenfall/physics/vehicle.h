@@ -1,0 +1,82 @@
+#pragma once
+
+/// Wheels with suspension and tyres that carry a body: a car that drives, brakes, slides and climbs.
+///
+/// A vehicle is no part of a world: before each step it looks where its wheels stand and applies their forces to the
+/// chassis, and the opposite ones to what it stands on. It is a plain value, to be copied or kept beside a world.
+
+#include <tweenfall/physics/world.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace tweenfall {
+
+struct WheelSettings {
+  Vec3 mount{0, 0, 0};        ///< where the strut begins, on the chassis' node, m
+  double radius = 0.3;        ///< m; > 0
+  double rest_length = 0.3;   ///< of the strut, from mount to hub, unloaded, m; > 0
+  double stiffness = 30'000;  ///< N/m; > 0
+  double damping = 3'000;     ///< N s/m
+  double moment = 1;          ///< of inertia about the axle, kg m^2; > 0
+  double grip = 1;            ///< Coulomb coefficient along the wheel's heading
+  double side_grip = 1;       ///< and across it
+  double sharpness = 10;      ///< how soon grip comes with slip: half of it at a slip of tan(pi/6) / sharpness; > 0
+};
+
+struct VehicleSettings {
+  BodyId chassis = {};
+  Vec3 forward{1, 0, 0};      ///< on the chassis' node, unit
+  Vec3 up{0, 1, 0};           ///< likewise, across `forward`; struts point the other way
+  Vec3 gravity{0, -9.81, 0};  ///< of the world: what a wheel that stands holds against, m/s^2
+  std::vector<WheelSettings> wheels;
+};
+
+/// What a driver does to a wheel.
+struct WheelControl {
+  double torque = 0;  ///< of the engine, forward, N m
+  double brake = 0;   ///< torque at most, N m; >= 0
+  double steer = 0;   ///< of the heading about `up`, counterclockwise from above, rad
+};
+
+struct WheelReading {
+  bool touches = false;  ///< and the rest, but spin and angle, is of the last `act` in which it did
+  double length = 0;     ///< of the strut, m
+  double spin = 0;       ///< rad/s; positive when it rolls forward
+  double angle = 0;      ///< it has turned, rad
+  double load = 0;       ///< N
+  double slip = 0;       ///< of the contact against the ground, over the speed of rolling
+  Vec3 point{0, 0, 0};   ///< where it stands, world, m
+  Vec3 force{0, 0, 0};   ///< on the chassis, load included, N
+};
+
+class Vehicle {
+ public:
+  /// @throws std::invalid_argument naming what is wrong
+  explicit Vehicle(VehicleSettings settings);
+
+  [[nodiscard]] const VehicleSettings& settings() const noexcept { return settings_; }
+  [[nodiscard]] std::size_t wheels() const noexcept { return readings_.size(); }
+  /// Holds until it is told otherwise. @throws std::invalid_argument for a wheel that is not there, or bad numbers
+  void control(std::size_t wheel, const WheelControl& control);
+  [[nodiscard]] const WheelReading& reading(std::size_t wheel) const { return readings_.at(wheel); }
+
+  /// Applies what the wheels do in the next step of `dt` seconds. A strut is a spring and a damper from the mount to
+  /// the hub; a tyre grips by P = load * sin(atan(sharpness * slip)), of its grip along and across by the ellipse, and
+  /// never more than what ends its slip within the step: so it stands still, too.
+  /// Sources: Pacejka, Tire and Vehicle Dynamics, 2012, 3.2 (slip of the tread, friction circle) and 4.3 (the magic
+  /// formula, here with C = 1, so that a locked wheel slides by Coulomb's law).
+  /// @throws std::invalid_argument for a chassis that is not there, or a dt that is not positive and finite
+  void act(World& world, double dt);
+
+ private:
+  struct Stand;
+  [[nodiscard]] Stand find_stand(const World& world, const Motion& chassis, std::size_t wheel) const;
+  [[nodiscard]] Vec3 grip(const Stand& stand, double share, std::size_t wheel, double dt);
+
+  VehicleSettings settings_;
+  std::vector<WheelControl> controls_;
+  std::vector<WheelReading> readings_;
+};
+
+}  // namespace tweenfall

@@ -1,0 +1,196 @@
+#include <tweenfall/physics/vehicle.h>
+
+#include <tweenfall/curves/elementary.h>
+#include <tweenfall/curves/number_text.h>
+#include <tweenfall/physics/query.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace tweenfall {
+
+namespace vehicles {
+namespace {
+
+/// Below this speed of rolling, slip is told over it, m/s.
+constexpr double slow = 1e-3;
+constexpr double most = 1e30;
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+void require_positive(double value, const char* name) {
+  require(value > 0 && value <= most,
+          std::string(name) + " of a wheel must be positive and at most 1e30, but is " + number_text(value));
+}
+void require_amount(double value, const char* name) {
+  require(value >= 0 && value <= most,
+          std::string(name) + " of a wheel must lie in 0 to 1e30, but is " + number_text(value));
+}
+bool is_place(const Vec3& v) {
+  return v.cwiseAbs().maxCoeff() <= most;
+}
+
+Vec3 velocity_at(const Motion& motion, const Vec3& point) {
+  return motion.twist.linear + motion.twist.angular.cross(point - motion.pose.position);
+}
+
+/// Toward 0 by at most so much.
+double slowed(double value, double by) {
+  return value > 0 ? std::max(0.0, value - by) : std::min(0.0, value + by);
+}
+
+}  // namespace
+}  // namespace vehicles
+
+struct Vehicle::Stand {
+  bool touches = false;
+  BodyId ground;
+  Vec3 point{0, 0, 0}, normal{0, 1, 0};
+  double length = 0, load = 0;
+  Vec3 along{1, 0, 0}, across{0, 0, 1};  ///< the wheel's heading in the ground, and to its left
+  double speed = 0, drift = 0;           ///< against the ground, along and across, m/s
+};
+
+Vehicle::Vehicle(VehicleSettings settings) : settings_(std::move(settings)) {
+  using vehicles::require;
+  require(std::abs(settings_.forward.norm() - 1) < 1e-9 && std::abs(settings_.up.norm() - 1) < 1e-9 &&
+              std::abs(settings_.forward.dot(settings_.up)) < 1e-9,
+          "forward and up of a vehicle must be unit vectors across each other");
+  require(vehicles::is_place(settings_.gravity), "gravity of a vehicle must be finite and at most 1e30 m/s^2");
+  require(!settings_.wheels.empty(), "a vehicle needs a wheel");
+  for (const WheelSettings& wheel : settings_.wheels) {
+    require(vehicles::is_place(wheel.mount), "the mount of a wheel must be finite and at most 1e30 m");
+    vehicles::require_positive(wheel.radius, "radius");
+    vehicles::require_positive(wheel.rest_length, "rest length");
+    vehicles::require_positive(wheel.stiffness, "stiffness");
+    vehicles::require_amount(wheel.damping, "damping");
+    vehicles::require_positive(wheel.moment, "moment");
+    vehicles::require_amount(wheel.grip, "grip");
+    vehicles::require_amount(wheel.side_grip, "side grip");
+    vehicles::require_positive(wheel.sharpness, "sharpness");
+  }
+  controls_.resize(settings_.wheels.size());
+  readings_.resize(settings_.wheels.size());
+  for (std::size_t i = 0; i < readings_.size(); ++i) readings_[i].length = settings_.wheels[i].rest_length;
+}
+
+void Vehicle::control(std::size_t wheel, const WheelControl& control) {
+  vehicles::require(wheel < controls_.size(), "there is no wheel number " + std::to_string(wheel));
+  vehicles::require(std::abs(control.torque) <= vehicles::most && std::abs(control.steer) <= vehicles::most,
+                    "torque and steer of a wheel must be finite and at most 1e30");
+  vehicles::require_amount(control.brake, "brake");
+  controls_[wheel] = control;
+}
+
+Vehicle::Stand Vehicle::find_stand(const World& world, const Motion& chassis, std::size_t wheel) const {
+  const WheelSettings& its = settings_.wheels[wheel];
+  const Quat& rotation = chassis.pose.rotation;
+  const Vec3 up = rotation * settings_.up, mount = chassis.pose.position + rotation * its.mount;
+  Stand stand;
+  QueryFilter filter;
+  filter.groups = world.collides_with(settings_.chassis);
+  filter.accept = [&](BodyId body) { return body != settings_.chassis; };
+  const auto hit = cast_ray(world, mount, -up, its.rest_length + its.radius, filter);
+  stand.length = its.rest_length;
+  // Of ground that the strut would lie in, or that faces the other way, nothing holds.
+  if (!hit || hit->inside || !(hit->normal.dot(up) > 0.1)) return stand;
+  stand.ground = hit->body;
+  stand.point = hit->point;
+  stand.normal = hit->normal;
+  stand.length = std::max(0.0, hit->distance - its.radius);
+  const Vec3 velocity =
+      vehicles::velocity_at(chassis, stand.point) - vehicles::velocity_at(world.motion(stand.ground), stand.point);
+  stand.load = its.stiffness * (its.rest_length - stand.length) - its.damping * velocity.dot(stand.normal);
+  if (!(stand.load > 0)) return stand;
+  stand.touches = true;
+  const elementary::SinCos steer = elementary::sin_cos(controls_[wheel].steer);
+  const Vec3 left = settings_.up.cross(settings_.forward);
+  const Vec3 heading = rotation * (steer.cos * settings_.forward + steer.sin * left);
+  stand.along = (heading - heading.dot(stand.normal) * stand.normal).normalized();
+  stand.across = stand.normal.cross(stand.along);
+  stand.speed = velocity.dot(stand.along);
+  stand.drift = velocity.dot(stand.across);
+  return stand;
+}
+
+/// The tyre's force, and the wheel's spin.
+/// @param share  of the chassis' mass that this wheel bears, kg
+Vec3 Vehicle::grip(const Stand& stand, double share, std::size_t wheel, double dt) {
+  const WheelSettings& its = settings_.wheels[wheel];
+  const WheelControl& control = controls_[wheel];
+  WheelReading& reading = readings_[wheel];
+  const double turn = dt / its.moment;
+  double spin = reading.spin + turn * control.torque;
+  const double braked = vehicles::slowed(spin, turn * control.brake);
+  // What the brake has left holds against the ground's torque as well.
+  const double left = turn * control.brake - std::abs(spin - braked);
+  spin = braked;
+  Vec3 force = Vec3::Zero();
+  if (stand.touches) {
+    // What gravity would make of the slip meanwhile has to be held, too.
+    const double slip = stand.speed + dt * settings_.gravity.dot(stand.along) - spin * its.radius;
+    const double drift = stand.drift + dt * settings_.gravity.dot(stand.across);
+    const double size = std::hypot(slip, drift), rolling = std::max(vehicles::slow, std::abs(spin) * its.radius);
+    reading.slip = size / rolling;
+    const double rise = its.sharpness * reading.slip;
+    // sin(atan(x))
+    const double part = std::isfinite(rise * rise) ? rise / std::sqrt(1 + rise * rise) : 1;
+    const bool locked = left > 0 && spin == 0;
+    const double mass = locked ? share : 1 / (1 / share + its.radius * its.radius / its.moment);
+    double along = -mass * slip / dt, across = -share * drift / dt;
+    // Within the ellipse of what it can grip.
+    const double most_along = its.grip * stand.load * part, most_across = its.side_grip * stand.load * part;
+    const double beyond =
+        std::hypot(most_along > 0 ? along / most_along : 0, most_across > 0 ? across / most_across : 0);
+    if (most_along == 0) along = 0;
+    if (most_across == 0) across = 0;
+    if (beyond > 1 && size > 0) {
+      along = -most_along * slip / size;
+      across = -most_across * drift / size;
+    }
+    force = along * stand.along + across * stand.across;
+    const double before = spin;
+    spin -= turn * its.radius * along;
+    spin = locked && before == 0 ? vehicles::slowed(spin, left) : spin;
+  }
+  reading.spin = spin;
+  reading.angle += spin * dt;
+  return force;
+}
+
+void Vehicle::act(World& world, double dt) {
+  vehicles::require(dt > 0 && dt <= vehicles::most,
+                    "the length of a step must be positive and finite, but is " + number_text(dt) + " s");
+  const Motion chassis = world.motion(settings_.chassis);
+  const double mass = world.mass(settings_.chassis).mass;
+  std::vector<Stand> stands;
+  stands.reserve(readings_.size());
+  double loads = 0;
+  for (std::size_t i = 0; i < readings_.size(); ++i) {
+    stands.push_back(find_stand(world, chassis, i));
+    loads += stands.back().touches ? stands.back().load : 0;
+  }
+  for (std::size_t i = 0; i < readings_.size(); ++i) {
+    const Stand& stand = stands[i];
+    WheelReading& reading = readings_[i];
+    reading.touches = stand.touches;
+    reading.length = stand.length;
+    const Vec3 tyre = grip(stand, stand.touches ? mass * stand.load / loads : 0, i, dt);
+    if (!stand.touches) {
+      reading.load = 0;
+      reading.force = Vec3::Zero();
+      continue;
+    }
+    reading.load = stand.load;
+    reading.point = stand.point;
+    reading.force = stand.load * stand.normal + tyre;
+    world.apply_force(settings_.chassis, reading.force, stand.point);
+    if (!world.is_fixed(stand.ground)) world.apply_force(stand.ground, -reading.force, stand.point);
+  }
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,167 @@
+#include <tweenfall/physics/vehicle.h>
+
+#include "support.h"
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+constexpr double dt = 1.0 / 240, g = 9.81;
+
+struct Car {
+  World world;
+  Vehicle vehicle;
+  BodyId chassis;
+
+  void run(double seconds) {
+    for (int i = 0; i < std::lround(seconds / dt); ++i) {
+      vehicle.act(world, dt);
+      world.step(dt);
+    }
+  }
+  void control(const WheelControl& all) {
+    for (std::size_t i = 0; i < vehicle.wheels(); ++i) vehicle.control(i, all);
+  }
+  [[nodiscard]] Motion motion() const { return world.motion(chassis); }
+};
+
+/// 1000 kg on four wheels, low, at rest on ground that is tilted against its way.
+Car car_on(double tilt, double grip = 0.8) {
+  const Vec3 gravity(-g * std::sin(tilt), -g * std::cos(tilt), 0);
+  World world({.gravity = gravity, .sleep_after = std::numeric_limits<double>::infinity()});
+  world.add({.shape = {Plane{}}, .fixed = true});
+  BodySettings body{.shape = {Box{Vec3(1.6, 0.1, 0.7)}}, .mass = 1000.0};
+  body.motion.pose.position = Vec3(0, 0.5, 0);
+  const BodyId chassis = world.add(body);
+  VehicleSettings settings{.chassis = chassis, .gravity = gravity, .wheels = {}};
+  for (const double x : {1.3, -1.3})
+    for (const double z : {-0.7, 0.7})
+      settings.wheels.push_back({.mount = Vec3(x, 0, z), .grip = grip, .side_grip = grip});
+  Car car{std::move(world), Vehicle(std::move(settings)), chassis};
+  car.run(1);
+  return car;
+}
+
+void set_speed(Car& car, const Vec3& velocity) {
+  Motion motion = car.motion();
+  motion.twist.linear += velocity;
+  car.world.set_motion(car.chassis, motion);
+}
+
+}  // namespace
+
+TEST_CASE("a car stands on its springs, each wheel with its share, and stays where it is") {
+  Car car = car_on(0);
+  const Vec3 before = car.motion().pose.position;
+  car.run(2);
+  double load = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const WheelReading& wheel = car.vehicle.reading(i);
+    CHECK(near(wheel.load, 1000 * g / 4, 1e-3));
+    CHECK(near(wheel.length, 0.3 - 1000 * g / 4 / 30'000, 1e-3));
+    load += wheel.load;
+  }
+  CHECK(near(load, 1000 * g, 1e-3));
+  CHECK((car.motion().pose.position - before).norm() < 2e-3);
+}
+
+TEST_CASE("locked wheels stop a car in v^2 / (2 mu g), rolling ones hardly at all") {
+  for (const double speed : {10.0, 25.0}) {
+    Car car = car_on(0);
+    set_speed(car, Vec3(speed, 0, 0));
+    car.control({.brake = 1e6});
+    const double start = car.motion().pose.position.x();
+    car.run(speed / (0.8 * g) + 1);
+    CHECK(near(car.motion().pose.position.x() - start, speed * speed / (2 * 0.8 * g), 1e-2));
+    CHECK(std::abs(car.motion().twist.linear.x()) < 1e-3);
+  }
+  Car rolling = car_on(0);
+  set_speed(rolling, Vec3(10, 0, 0));
+  rolling.run(2);
+  // Four wheels of 1 kg m^2 have been spun up: m v = (m + 4 I / r^2) v'.
+  CHECK(near(rolling.motion().twist.linear.x(), 10 / (1 + 4 / 0.09 / 1000), 1e-2));
+  CHECK(near(rolling.vehicle.reading(0).spin, rolling.motion().twist.linear.x() / 0.3, 1e-3));
+}
+
+TEST_CASE("an engine drives a car by T / r over its mass and that of its wheels, and no harder than they grip") {
+  Car car = car_on(0);
+  car.control({.torque = 150});
+  const double before = car.motion().twist.linear.x();
+  car.run(2);
+  CHECK(near(car.motion().twist.linear.x() - before, 2 * (4 * 150 / 0.3) / (1000 + 4 / 0.09), 2e-2));
+  Car burning = car_on(0);
+  burning.control({.torque = 5000});
+  burning.run(1);
+  CHECK(near(burning.motion().twist.linear.x(), 0.8 * g, 2e-2));
+  CHECK(burning.vehicle.reading(0).spin * 0.3 > 20);
+}
+
+TEST_CASE("a car that goes sideways is stopped by mu g, and a bend is held up to a grip of v^2 / r") {
+  Car sideways = car_on(0);
+  set_speed(sideways, Vec3(0, 0, 5));
+  sideways.run(0.4);
+  CHECK(near(sideways.motion().twist.linear.z(), 5 - 0.8 * g * 0.4, 3e-2));
+  // Steered by a little at 10 m/s it goes in a circle of wheelbase / tan(steer).
+  Car car = car_on(0);
+  set_speed(car, Vec3(10, 0, 0));
+  for (const std::size_t wheel : {0u, 1u}) car.vehicle.control(wheel, {.steer = 0.05});
+  car.run(2);
+  const Motion motion = car.motion();
+  const double speed = motion.twist.linear.norm(), rate = motion.twist.angular.y();
+  const double sharpest = 0.8 * g / speed;
+  CHECK(rate > 0.5 * speed * std::tan(0.05) / 2.6);
+  CHECK(rate < 1.1 * speed * std::tan(0.05) / 2.6);
+  CHECK(rate < sharpest);
+  // Steered hard at 25 m/s it cannot turn faster than its grip lets it.
+  Car hard = car_on(0);
+  set_speed(hard, Vec3(25, 0, 0));
+  for (const std::size_t wheel : {0u, 1u}) hard.vehicle.control(wheel, {.steer = 0.4});
+  const Vec3 before = hard.motion().twist.linear;
+  hard.run(0.5);
+  CHECK((hard.motion().twist.linear - before).norm() < 1.05 * 0.8 * g * 0.5);
+}
+
+TEST_CASE(
+    "a braked car holds on a slope below atan(mu), slides above by g (sin - mu cos), and one that drives climbs") {
+  const double critical = std::atan(0.8);
+  Car holding = car_on(critical - 0.1);
+  holding.control({.brake = 1e6});
+  holding.run(0.5);
+  set_speed(holding, -holding.motion().twist.linear);
+  holding.run(0.5);
+  const double before = holding.motion().pose.position.x();
+  holding.run(1);
+  CHECK(std::abs(holding.motion().pose.position.x() - before) < 5e-3);
+  Car sliding = car_on(critical + 0.1);
+  sliding.control({.brake = 1e6});
+  sliding.run(0.5);
+  const double start = sliding.motion().twist.linear.x();
+  sliding.run(0.5);
+  const double tilt = critical + 0.1;
+  CHECK(near(sliding.motion().twist.linear.x() - start, -0.5 * g * (std::sin(tilt) - 0.8 * std::cos(tilt)), 5e-2));
+  Car climbing = car_on(0.3);
+  climbing.control({.torque = 400});
+  climbing.run(2);
+  const double from = climbing.motion().twist.linear.x();
+  climbing.run(1);
+  const double expected = (4 * 400 / 0.3 - 1000 * g * std::sin(0.3)) / (1000 + 4 / 0.09);
+  CHECK(near(climbing.motion().twist.linear.x() - from, expected, 5e-2));
+}
+
+TEST_CASE("a wheel in the air turns by its torque alone, and bad numbers are refused in words") {
+  using doctest::Contains;
+  World world({.gravity = {0, 0, 0}});
+  const BodyId body = world.add({});
+  Vehicle vehicle({.chassis = body, .wheels = {WheelSettings{}}});
+  vehicle.control(0, {.torque = 3});
+  for (int i = 0; i < 240; ++i) vehicle.act(world, dt);
+  CHECK(near(vehicle.reading(0).spin, 3, 1e-12));
+  CHECK_FALSE(vehicle.reading(0).touches);
+  CHECK_THROWS_WITH_AS(vehicle.control(1, {}), Contains("no wheel number 1"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(vehicle.control(0, {.brake = NAN}), Contains("brake of a wheel"), std::invalid_argument);
+  CHECK_THROWS_AS(vehicle.act(world, 0), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Vehicle({.chassis = body, .wheels = {}}), Contains("needs a wheel"), std::invalid_argument);
+  CHECK_THROWS_WITH_AS(Vehicle({.chassis = body, .wheels = {{.radius = -1}}}), Contains("radius of a wheel"),
+                       std::invalid_argument);
+}
