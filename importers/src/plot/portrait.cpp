@@ -20,11 +20,11 @@ constexpr const char *own_color = "#d1495b", *other_color = "#3d6fa5", *arrow_co
 /// Beyond this nothing is drawn: what a method blows up says so by leaving the picture.
 constexpr double most_drawn = 1e12;
 
-struct Place {
+struct PortraitPoint {
   double across, up;
 };
 
-using Places = std::vector<Place>;
+using Places = std::vector<PortraitPoint>;
 
 struct Range {
   double low = HUGE_VAL, high = -HUGE_VAL;
@@ -44,14 +44,14 @@ double number_of(const FirstOrderPath& path, std::size_t at, std::size_t number)
   return number == 0 ? path.times[at] : path.states[at][number - 1];
 }
 
-bool drawn(const Place& place) {
+bool drawn(const PortraitPoint& place) {
   return std::abs(place.across) <= most_drawn && std::abs(place.up) <= most_drawn;
 }
 
 Places portrait_of(const ExpressionSystem& system, const FirstOrderPath& path) {
   Places places;
   for (std::size_t at = 0; at < path.times.size(); ++at) {
-    const Place place{number_of(path, at, system.across), number_of(path, at, system.up)};
+    const PortraitPoint place{number_of(path, at, system.across), number_of(path, at, system.up)};
     if (!drawn(place)) break;
     places.push_back(place);
   }
@@ -61,7 +61,7 @@ Places portrait_of(const ExpressionSystem& system, const FirstOrderPath& path) {
 Places energy_of(const ExpressionSystem& system, const FirstOrderPath& path) {
   Places places;
   for (std::size_t at = 0; at < path.times.size(); ++at) {
-    const Place place{path.times[at], value_at(*system.energy, path.times[at], path.states[at])};
+    const PortraitPoint place{path.times[at], value_at(*system.energy, path.times[at], path.states[at])};
     if (!std::isfinite(place.up) || !drawn(place)) break;
     places.push_back(place);
   }
@@ -158,7 +158,7 @@ void draw_portrait(SvgWriter& svg, const ExpressionSystem& system, const FirstOr
   const Places mine = portrait_of(system, own);
   for (const std::vector<double>& start : system.starts) others.push_back(portrait_of(system, path_of(system, start)));
   const auto take = [&](const Places& places) {
-    for (const Place& place : places) {
+    for (const PortraitPoint& place : places) {
       across_range.take(place.across);
       up_range.take(place.up);
     }
@@ -182,7 +182,7 @@ void draw_portrait(SvgWriter& svg, const ExpressionSystem& system, const FirstOr
 void draw_energy(SvgWriter& svg, const ExpressionSystem& system, const FirstOrderPath& own, double left, double top) {
   const Places places = energy_of(system, own);
   Range times, energies;
-  for (const Place& place : places) {
+  for (const PortraitPoint& place : places) {
     times.take(place.across);
     energies.take(place.up);
   }
