@@ -31,12 +31,11 @@ struct CutDisc {
   double area, moment;
 };
 CutDisc cut_disc(double radius, double distance) {
-  constexpr double pi = std::numbers::pi;
   if (distance <= -radius) return {0, 0};
-  if (distance >= radius) return {pi * radius * radius, 0};
+  if (distance >= radius) return {std::numbers::pi * radius * radius, 0};
   const double half = std::sqrt((radius - distance) * (radius + distance));
   const double angle = elementary::atan2(half, distance);  // of half the part that is left out
-  return {radius * radius * (pi - angle) + distance * half, -2.0 / 3 * half * half * half};
+  return {radius * radius * (std::numbers::pi - angle) + distance * half, -2.0 / 3 * half * half * half};
 }
 
 }  // namespace
