@@ -201,7 +201,7 @@ TEST_CASE("bytes that are no saved world are refused in words, and change nothin
   bytes = good;
   put(bytes, header + 60, 1ull << 60);
   seal(bytes);
-  refused(bytes, "a saved world is wrong at byte 68 of its contents: it tells of more than there is room for");
+  refused(bytes, "a saved world is wrong at byte 69 of its contents: it tells of more than there is room for");
   CHECK(world.state_hash() == hash);
   world.load(good);
   CHECK(world.save() == good);
