@@ -157,7 +157,7 @@ async function showsGraphs(page) {
   }
   const strip = await boxOf(page, "#rows .row.graph:nth-child(2) .strip");
   await page.click(strip.left + 10 + (strip.width - 20) / 3 + 3, strip.top + 8);
-  near([await timeNow(page)], [1], "scrubbing snaps to where a machine passed", 1e-12);
+  check(await page.until("tweenfall.time === 1"), "scrubbing snaps to where a machine passed");
 }
 
 export async function drivesTheTimeline(page) {

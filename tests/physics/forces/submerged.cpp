@@ -63,7 +63,8 @@ TEST_CASE("what is under a plane has the volumes of textbooks") {
 TEST_CASE("what is under and what is over make the whole, and the level moves the volume by the area that it cuts") {
   test::Random random(7);
   for (const Solid& solid : round_and_flat_solids()) {
-    CAPTURE(std::string(kind_name(solid)));
+    const std::string kind(kind_name(solid));
+    CAPTURE(kind);
     const double whole = volume(solid);
     const Vec3 middle = mass_properties({solid, {}}, 1).center;
     for (int i = 0; i < 40; ++i) {
@@ -110,7 +111,8 @@ TEST_CASE("shadows have the areas of textbooks, and their mean is a quarter of t
                                              {TaperedCapsule{0.3, 0.3, 0.6}, 4 * pi * 0.09 + 2 * pi * 0.3 * 1.2},
                                              {Box{Vec3(0.5, 0.5, 1)}, 10}};
   for (const auto& [solid, surface] : solids) {
-    CAPTURE(std::string(kind_name(solid)));
+    const std::string kind(kind_name(solid));
+    CAPTURE(kind);
     // Even in the height on the sphere.
     double sum = 0;
     constexpr int steps = 400;
