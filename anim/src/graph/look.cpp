@@ -53,11 +53,13 @@ NodeLook look_of(const Log& log, const Graph& graph, std::size_t node, const Mom
   NodeLook mean;
   if (colored) {
     std::vector<Sample<Color>> colors;
+    colors.reserve(looks.size());
     for (const NodeLook& look : looks) colors.push_back(color_or_own(look.color, described));
     mean.color = blend<Color>(colors, shares, colors.front());
   }
   for (std::size_t m = 0; m < morphs; ++m) {
     std::vector<Sample<double>> weights;
+    weights.reserve(looks.size());
     for (const NodeLook& look : looks) weights.push_back(weight_or_own(look, m, described));
     mean.weights.push_back(blend<double>(weights, shares, weights.front()));
   }
