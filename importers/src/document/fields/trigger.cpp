@@ -69,7 +69,7 @@ void read_instant(const json::Value& value, RuleBeingRead& rule, Building& build
 
 // A name or pattern of nodes, of which one must be as `fits` says.
 template <class Thing, class Fits>
-Meaning<Thing> name_of_nodes(std::string Thing::*member_of, std::string lacks, Fits fits) {
+Meaning<Thing> name_of_nodes(std::string Thing::*member_of, const std::string& lacks, Fits fits) {
   Meaning<Thing> meaning = member<Thing>(member_of);
   meaning.read = [member_of, lacks, fits](const json::Value& value, Thing& thing, Building& building) {
     take(value, thing.*member_of, building);
