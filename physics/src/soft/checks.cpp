@@ -145,7 +145,7 @@ void check_volumes(SoftSettings& settings) {
 }  // namespace
 
 double enclosed_by(const std::vector<std::array<std::uint32_t, 3>>& triangles, const std::vector<Vec3>& positions) {
-  const Vec3 origin = positions[triangles[0][0]];
+  const Vec3& origin = positions[triangles[0][0]];
   double sum = 0;
   for (const auto& [a, b, c] : triangles)
     sum += (positions[a] - origin).dot((positions[b] - origin).cross(positions[c] - origin));
