@@ -67,7 +67,8 @@ template <class Note>
 void corners_to_sides(const Sides& corners, const Sides& sides, const Note& note) {
   for (std::size_t i = 0; i < corners.count; ++i)
     for (std::size_t j = 0; j < sides.count; ++j) {
-      const Vec2 from = sides.at(j), along = sides.at(sides.after(j)) - from;
+      const Vec2& from = sides.at(j);
+      const Vec2 along = sides.at(sides.after(j)) - from;
       const double square = along.squaredNorm();
       const double part = square > 0 ? std::clamp(along.dot(corners.at(i) - from) / square, 0.0, 1.0) : 0;
       note(corners.at(i), Vec2(from + part * along), i, part < 1 ? j : sides.after(j));

@@ -23,7 +23,7 @@ struct Viewed {
   Recording recording;
 };
 
-Viewed viewed(RunOptions options) {
+Viewed viewed(const RunOptions& options) {
   StageFile read = read_stage_file(options.file);
   choose_play(read, options.clip, options.file);
   Recording recording = run_stage(read.stage, options);
