@@ -155,6 +155,8 @@ async function showsGraphs(page) {
     const label = await page.evaluate("[...document.querySelectorAll('#rows .row.graph .name')].map(name => name.textContent).join()");
     equal(label, `figure,legs: ${state},speed: ${value.toFixed(3)}`, `the labels at ${time} s`);
   }
+  await page.evaluate("document.getElementById('rows').scrollTop = 0");
+  await page.drawn();
   const strip = await boxOf(page, "#rows .row.graph:nth-child(2) .strip");
   await page.click(strip.left + 10 + (strip.width - 20) / 3 + 3, strip.top + 8);
   check(await page.until("tweenfall.time === 1"), "scrubbing snaps to where a machine passed");
