@@ -241,14 +241,14 @@ void BlockSolver::end_lead() {
 void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
   if (!any_stale_ && joints_.empty()) return;
   any_stale_ = false;
-  for (IslandBody& entry : bodies_) {
+  each_body([&](std::size_t i) {
+    IslandBody& entry = bodies_[i];
     entry.stale = !entry.round && entry.turned > (entry.led == step::not_led ? turned_enough_ : 0);
-    if (!joints_.empty() && entry.movable && !bodies[entry.index].spherical())
+    if (entry.stale) entry.turned = 0;
+    if (!entry.movable) return;
+    if (entry.stale || (!joints_.empty() && !bodies[entry.index].spherical()))
       entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
-    if (!entry.stale) continue;
-    entry.turned = 0;
-    if (entry.movable) entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
-  }
+  });
   work_.ranges(contacts_.blocks.size(), blocks_worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const ContactBlock& block = contacts_.blocks[i];
@@ -432,7 +432,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   lags_.resize(contacts_.room);
   holds_.gather(contacts_, h);
   reach_.forget();
-  joints_.build(island.joints, places_, bodies_, h, dt);
+  joints_.build(island.joints, places_, bodies_, h, dt, work_);
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
   const double giving = effort.giving * softness.giving;
   PassRule soft{all(softness.rate), all(softness.speed), all(1 - giving), all(1 - giving), all(1 / h), all(settled)};

@@ -27,6 +27,8 @@ class FigureGroup {
   static void find_shape(const FigurePlan& plan, std::span<const std::uint32_t> kinds,
                          std::vector<std::uint32_t>& local, Shape& shape);
 
+  /// No other figure has any of its bodies.
+  [[nodiscard]] bool whole() const { return whole_; }
   [[nodiscard]] int lanes() const { return lanes_.used; }
   [[nodiscard]] std::uint32_t size() const { return lanes_.joint_count; }
   [[nodiscard]] std::uint32_t body_count() const { return lanes_.body_count; }

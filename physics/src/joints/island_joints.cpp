@@ -45,7 +45,8 @@ void keep_turns(state::Joint& joint, const Placement& at) {
 }  // namespace
 
 void IslandJoints::build(std::span<JointLink* const> links, const std::vector<std::uint32_t>& places,
-                         const std::vector<IslandBody>& island, double h, double dt) {
+                         const std::vector<IslandBody>& island, double h, double dt, const threads::Workers& workers) {
+  work_ = workers;
   h_ = h;
   dt_ = dt;
   const double hurry = std::min(1.0, dt / unhurried);
@@ -118,7 +119,7 @@ void IslandJoints::add_figure(bool whole) {
 }
 
 void IslandJoints::write(Entry& entry, const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
-                         const std::vector<BodyLanes>& velocities) {
+                         const std::vector<BodyLanes>& velocities, JointRows& rows) {
   const auto followed = [&](const BodyLanes& velocity) {
     Twist twist{blocks::linear_of(velocity), blocks::angular_of(velocity)};
     const double turn = twist.angular.squaredNorm() * h_ * h_;
@@ -138,50 +139,50 @@ void IslandJoints::write(Entry& entry, const std::vector<state::Body>& bodies, c
     entry.axis_a = at.x_a();
     entry.axis_b = at.x_b();
   }
-  rows_.impulses = entry.impulses;
-  rows_.begin({a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia}, h_, rate_, dt_,
-              h_ * (at.twist_b.angular - at.twist_a.angular).norm());
-  if (closing_) rows_.errors_only();
-  std::visit([&](const auto& kind) { write_rows(kind, *entry.joint, at, rows_); }, entry.joint->settings.kind);
-  entry.impulses = rows_.impulses;
+  rows.impulses = entry.impulses;
+  rows.begin({a.inverse_mass, b.inverse_mass, a.inverse_inertia, b.inverse_inertia}, h_, rate_, dt_,
+             h_ * (at.twist_b.angular - at.twist_a.angular).norm());
+  if (closing_) rows.errors_only();
+  std::visit([&](const auto& kind) { write_rows(kind, *entry.joint, at, rows); }, entry.joint->settings.kind);
+  entry.impulses = rows.impulses;
   keep_turns(*entry.joint, at);
 }
 
 void IslandJoints::write(FigureGroup& group, const blocks::Lanes& live, const std::vector<state::Body>& bodies,
                          const std::vector<IslandBody>& island, const std::vector<BodyLanes>& velocities) {
+  JointRows rows;
   for (std::uint32_t place = 0; place < group.size(); ++place)
     for (int lane = 0; lane < group.lanes(); ++lane) {
       if (live[lane] == 0) continue;
       Entry& entry = joints_[group.joint(place, lane)];
-      write(entry, bodies, island, velocities);
-      group.load(place, lane, rows_, entry.arm_a, entry.arm_b);
+      write(entry, bodies, island, velocities, rows);
+      group.load(place, lane, rows, entry.arm_a, entry.arm_b);
     }
   group.end_load();
 }
 
-void IslandJoints::write(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
-                         const std::vector<BodyLanes>& velocities) {
-  for (FigureGroup& group : groups()) write(group, blocks::all(1), bodies, island, velocities);
-}
-
-void IslandJoints::unload() {
-  each([this](const FigureGroup& group, std::uint32_t place, int lane) {
-    group.unload(place, lane, joints_[group.joint(place, lane)].impulses);
-  });
+void IslandJoints::unload(const FigureGroup& group) {
+  for (std::uint32_t place = 0; place < group.size(); ++place)
+    for (int lane = 0; lane < group.lanes(); ++lane)
+      group.unload(place, lane, joints_[group.joint(place, lane)].impulses);
 }
 
 void IslandJoints::begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
                                   const std::vector<BodyLanes>& starts, std::vector<BodyLanes>& velocities) {
   if (joints_.empty()) return;
   closing_ = false;
-  for (FigureGroup& group : groups()) group.load_bodies(island);
-  write(bodies, island, starts);
-  for (FigureGroup& group : groups()) fastest_figure_kernels().warm_start(group.figures(velocities));
+  each_group([&](FigureGroup& group) {
+    group.load_bodies(island);
+    write(group, blocks::all(1), bodies, island, starts);
+    fastest_figure_kernels().warm_start(group.figures(velocities));
+  });
 }
 
 void IslandJoints::end_sub_step() {
-  for (FigureGroup& group : groups()) fastest_figure_kernels().add_up(group.figures());
-  unload();
+  each_group([this](FigureGroup& group) {
+    fastest_figure_kernels().add_up(group.figures());
+    unload(group);
+  });
 }
 
 /// Newton's method for the places, by the factors that the velocities need next. A blow turns limbs far within a
@@ -218,14 +219,15 @@ void IslandJoints::end_step(const std::vector<state::Body>& bodies, std::vector<
   if (joints_.empty()) return;
   store();
   closing_ = true;
-  write(bodies, island, velocities);
-  for (FigureGroup& group : groups()) {
+  // All see the places where the last sub-step ended.
+  each_group([&](FigureGroup& group) { write(group, blocks::all(1), bodies, island, velocities); });
+  each_group([&](FigureGroup& group) {
     close_gaps(group, bodies, island, velocities);
     Figures& figures = group.figures(velocities);
     fastest_figure_kernels().hold_only(figures);
     fastest_figure_kernels().solve(figures, false);
     fastest_figure_kernels().add_up(figures);
-  }
+  });
   each([this](const FigureGroup& group, std::uint32_t place, int lane) {
     state::Joint& joint = *joints_[group.joint(place, lane)].joint;
     joint.force = group.push(place, lane) / dt_;
@@ -234,8 +236,8 @@ void IslandJoints::end_step(const std::vector<state::Body>& bodies, std::vector<
 }
 
 void IslandJoints::solve(std::vector<BodyLanes>& velocities, bool moving, bool backward) {
-  for (std::size_t i = 0; i < group_count_; ++i)
-    fastest_figure_kernels().solve(groups_[backward ? group_count_ - 1 - i : i].figures(velocities), moving);
+  if (joints_.empty()) return;
+  each_group([&](FigureGroup& group) { fastest_figure_kernels().solve(group.figures(velocities), moving); }, backward);
 }
 
 void IslandJoints::move(const std::vector<BodyLanes>& velocities) {

@@ -8,6 +8,7 @@
 #include "joints/figure_group.h"
 #include "joints/joint_link.h"
 #include "joints/joint_rows.h"
+#include "threads/workers.h"
 
 namespace tweenfall::joints {
 
@@ -21,7 +22,7 @@ class IslandJoints {
   /// Begins with the impulses that the joints kept.
   /// @param places  from a body's index to its place in the island; 0 for none, and for the world
   void build(std::span<JointLink* const> links, const std::vector<std::uint32_t>& places,
-             const std::vector<blocks::IslandBody>& island, double h, double dt);
+             const std::vector<blocks::IslandBody>& island, double h, double dt, const threads::Workers& workers);
   [[nodiscard]] bool empty() const { return joints_.empty(); }
 
   /// Rows for the bodies as they stand, and the impulses of the sub-step before applied again.
@@ -79,21 +80,28 @@ class IslandJoints {
       for (std::uint32_t place = 0; place < group.size(); ++place)
         for (int lane = 0; lane < group.lanes(); ++lane) see(group, place, lane);
   }
+  /// Calls see(group) for every group: for those of whole figures, which have no body in common, on all threads.
+  /// @param backward  the others from the last to the first
+  template <class See>
+  void each_group(const See& see, bool backward = false) {
+    const auto see_if = [&](std::size_t i, bool whole) {
+      if (groups_[i].whole() == whole) see(groups_[i]);
+    };
+    work_.parts(group_count_, [&](std::size_t i) { see_if(i, true); });
+    for (std::size_t i = 0; i < group_count_; ++i) see_if(backward ? group_count_ - 1 - i : i, false);
+  }
   void find_figures(const std::vector<blocks::IslandBody>& island);
   void add_figure(bool whole);
-  void unload();
-  void write(const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
-             const std::vector<blocks::BodyLanes>& velocities);
+  void unload(const FigureGroup& group);
   void write(FigureGroup& group, const blocks::Lanes& live, const std::vector<state::Body>& bodies,
              const std::vector<blocks::IslandBody>& island, const std::vector<blocks::BodyLanes>& velocities);
   void write(Entry& entry, const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
-             const std::vector<blocks::BodyLanes>& velocities);
+             const std::vector<blocks::BodyLanes>& velocities, JointRows& rows);
   void store();
   void close_gaps(FigureGroup& group, const std::vector<state::Body>& bodies, std::vector<blocks::IslandBody>& island,
                   const std::vector<blocks::BodyLanes>& velocities);
 
   std::vector<Entry> joints_;
-  JointRows rows_;                   ///< of the joint that is being written
   std::vector<FigureGroup> groups_;  ///< of the islands with most so far: one takes long to make
   std::size_t group_count_ = 0;
   std::vector<std::uint32_t> gears_;  ///< of joints_
@@ -104,6 +112,7 @@ class IslandJoints {
   std::vector<std::uint32_t> kinds_;  ///< of joints_
   std::vector<std::uint32_t> roots_, local_;
   double h_ = 0, dt_ = 0, rate_ = 0;
+  threads::Workers work_;
   bool closing_ = false;  ///< the step is over but for the errors that are left
 };
 
