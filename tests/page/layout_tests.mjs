@@ -1,6 +1,7 @@
 // Nothing overlaps and nothing is cut off, from a desk's screen to a phone's, by the rectangles of the elements.
 
 import {check} from "./checks.mjs";
+import {readPng} from "./png.mjs";
 
 const parts = ["header", "#view", "#readout", "#curves", "#transport", "#timeline"];
 const controls = "header h1, header #legend, header button, #transport button, #clock, #transport label, #transport select, #find";
@@ -52,7 +53,24 @@ async function fitsTheWindow(page, width, height) {
   for (const {box: [left, , right]} of rows) check(left >= 0 && right <= 0.45 * width, `names leave room for time at ${width}: ${right}`);
 }
 
+// A canvas that gets another size is emptied, and what is shown next comes before the next animation frame: here there
+// is none. The sky and the ground are light.
+async function isNeverEmpty(page) {
+  await page.evaluate("window.next = window.requestAnimationFrame; window.held = []; " +
+    "window.requestAnimationFrame = frame => held.push(frame); document.getElementById('view').style.marginRight = '90px'");
+  await page.evaluate("new Promise(done => next.call(window, () => next.call(window, () => done(1))))");
+  const picture = readPng(Buffer.from((await page.send("Page.captureScreenshot", {format: "png"})).data, "base64"));
+  const [left, top, right, bottom] = (await rectangles(page, "#view"))[0].box;
+  for (const [x, y] of [[0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [0.9, 0.9]]) {
+    const pixel = picture.at(left + x * (right - left), top + y * (bottom - top));
+    check(Math.min(...pixel) > 100, `the view is drawn as soon as it has another size: ${pixel}`);
+  }
+  await page.evaluate("window.requestAnimationFrame = next; document.getElementById('view').style.marginRight = ''; " +
+    "held.forEach(frame => next.call(window, frame))");
+}
+
 export async function fitsAllWidths(page) {
+  await isNeverEmpty(page);
   for (const [width, height] of [[390, 844], [390, 640], [640, 480], [640, 900], [800, 600], [1024, 700], [1280, 800], [2200, 1300]])
     await fitsTheWindow(page, width, height);
   await page.resize(1280, 800);

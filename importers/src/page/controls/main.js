@@ -32,9 +32,11 @@ curvesBox.addEventListener("scroll", requestDraw);
 function layOut() {
   readColors();
   applyColors();
-  fitView();
+  const emptied = fitView();
   if (framedWhole) frameAll();
   updateScene();
+  // A layout comes after the animation frames: the page is shown before the next of them.
+  if (emptied) drawScene();
   timeline.draw();
   requestDraw();
 }

@@ -87,15 +87,18 @@ function updateScene() {
   scene.updateMatrixWorld();
 }
 
+// Whether the canvas has another size now: what was drawn is gone then, and black until it is drawn again.
 function fitView() {
-  const width = view.clientWidth, height = view.clientHeight;
-  if (!width || !height) return;
+  const width = view.clientWidth, height = view.clientHeight, ratio = window.devicePixelRatio || 1;
+  if (!width || !height) return false;
   camera.aspect = width / height;
   camera.updateProjectionMatrix();
-  if (renderer) {
-    renderer.setPixelRatio(window.devicePixelRatio || 1);
-    renderer.setSize(width, height, false);
-  }
+  if (!renderer) return false;
+  const size = renderer.getSize(new THREE.Vector2());
+  if (size.x === width && size.y === height && renderer.getPixelRatio() === ratio) return false;
+  renderer.setPixelRatio(ratio);
+  renderer.setSize(width, height, false);
+  return true;
 }
 
 function drawScene() {
