@@ -1,10 +1,13 @@
 #include <tweenfall/curves/calculus.h>
+#include <tweenfall/curves/editing.h>
 #include <tweenfall/curves/elementary.h>
 #include <tweenfall/physics/particles.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "particles/colliders.h"
 #include "state/checks.h"
@@ -83,6 +86,14 @@ Vec3 in_cone(const Vec3& along, double half_angle, double u, double turn) {
   return length * (cap.x() * side + cap.y() * axis + cap.z() * axis.cross(side));
 }
 
+/// A formula has none, and its integral needs one.
+void give_an_end(Emitter& emitter) {
+  constexpr double long_enough = 600;
+  if (std::isfinite(emitter.rate.start()) && std::isfinite(emitter.rate.end())) return;
+  if (!std::isfinite(emitter.start) || !(emitter.end > emitter.start)) return;
+  emitter.rate = trimmed(emitter.rate, emitter.start, std::min(emitter.end, emitter.start + long_enough));
+}
+
 void validate(const Emitter& emitter) {
   state::require(std::isfinite(emitter.start) && emitter.start >= 0 && emitter.end >= emitter.start,
                  "an emitter must start at 0 s or later, and end after that");
@@ -90,9 +101,8 @@ void validate(const Emitter& emitter) {
   state::require(emitter.spread >= 0 && emitter.spread <= std::numbers::pi, "spread of an emitter must lie in 0 to pi");
   state::require(emitter.speed_spread >= 0 && emitter.speed_spread <= 1, "spread of speeds must lie in 0 to 1");
   state::require_amount(emitter.size, "size of an emitter");
-  const double low = std::isfinite(emitter.rate.start()) ? emitter.rate.start() : 0;
-  const double high = std::isfinite(emitter.rate.end()) ? emitter.rate.end() : low;
-  const Range rates = range(emitter.rate, low - 1, high + 1);
+  const double low = std::max(emitter.start, emitter.rate.start() - 1);
+  const Range rates = range(emitter.rate, low, std::max(low, std::min(emitter.end, emitter.rate.end() + 1)));
   state::require(rates.low >= 0, "the rate of an emitter must never be negative");
   state::require(rates.high <= 1e9, "an emitter lets at most 1e9 particles go in a second");
 }
@@ -101,11 +111,25 @@ void validate(const Emitter& emitter) {
 }  // namespace particles
 
 void Particles::add(const Emitter& emitter) {
-  particles::validate(emitter);
-  Source source{emitter, antiderivative(emitter.rate), 0, 0};
+  Source source{emitter, Curve<double>(0.0), 0, 0};
+  particles::give_an_end(source.emitter);
+  particles::validate(source.emitter);
+  source.let_go = antiderivative(source.emitter.rate);
   source.seed = particles::mixed(settings_.seed, sources_.size() + 1);
-  source.number = particles::count_until(emitter, source.let_go, time_);
+  source.number = particles::count_until(source.emitter, source.let_go, time_);
   sources_.push_back(std::move(source));
+}
+
+void Particles::place(std::size_t emitter, Curve<Vec3> position, Curve<Quat> rotation) {
+  state::require(emitter < sources_.size(), "there is no emitter number " + std::to_string(emitter));
+  sources_[emitter].emitter.position = std::move(position);
+  sources_[emitter].emitter.rotation = std::move(rotation);
+}
+
+void Particles::halt(std::size_t emitter) {
+  state::require(emitter < sources_.size(), "there is no emitter number " + std::to_string(emitter));
+  double& end = sources_[emitter].emitter.end;
+  end = std::min(end, std::max(time_, sources_[emitter].emitter.start));
 }
 
 void Particles::emit(const Vec3& position, const Vec3& velocity) {

@@ -88,6 +88,35 @@ void take_softs(const Stage& stage, Recording& recording) {
   }
 }
 
+void take_vehicles(const Stage& stage, Recording& recording) {
+  for (std::size_t i = 0; i < stage.description().vehicles.size(); ++i) {
+    const VehicleDescription& described = stage.description().vehicles[i];
+    if (i == recording.vehicles.size()) {
+      VehicleRecord& record = recording.vehicles.emplace_back();
+      record.name = described.name;
+      record.chassis = described.chassis;
+      for (const WheelDescription& wheel : described.wheels) record.wheels.push_back(wheel.name);
+    }
+    recording.vehicles[i].frame.push_back(stage.vehicle(described.name));
+  }
+}
+
+/// How many there will be is known only as they come.
+void take_particles(const Stage& stage, Recording& recording, double& room) {
+  for (std::size_t i = 0; i < stage.description().particles.size(); ++i) {
+    const ParticlesDescription& described = stage.description().particles[i];
+    if (i == recording.particles.size())
+      recording.particles.push_back({.name = described.name, .radius = described.settings.radius, .frame = {}});
+    const StageParticles& taken = recording.particles[i].frame.emplace_back(stage.particles(described.name));
+    room -= static_cast<double>(taken.numbers.size() * (2 * sizeof(Vec3) + sizeof(std::uint64_t)));
+    if (room < 0)
+      throw std::invalid_argument(
+          "by " + number_text(stage.time()) + " s a recording of the particles \"" + described.name +
+          "\" takes more memory than is allowed: end it earlier, take fewer frames a second, or "
+          "let fewer particles go");
+  }
+}
+
 /// @return whether there was room
 bool take_details(const Stage& stage, Recording& recording, double& room) {
   const StageDetail& taken = recording.details.emplace_back(detail_of(stage));
@@ -156,11 +185,13 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
   recording.name = stage.description().name;
   std::vector<WorldMotion> world;
   const double start = stage.time();
-  double room = std::min(most_bytes, 256.0 * 1024 * 1024);
+  double room = std::min(most_bytes, 256.0 * 1024 * 1024), particle_room = most_bytes;
   const auto take = [&] {
     staging::take_frame(stage, world, recording);
     staging::take_joints(stage, recording);
     staging::take_softs(stage, recording);
+    staging::take_vehicles(stage, recording);
+    staging::take_particles(stage, recording, particle_room);
     if (details) details = staging::take_details(stage, recording, room);
   };
   inputs = advance_with(stage, inputs, stage.time());
@@ -217,7 +248,10 @@ double natural_length(const StageDescription& description) {
     if (const auto* at = std::get_if<when::At>(&joint.until)) length = std::max(length, at->time);
   for (const NodeDescription& node : description.nodes)
     if (node.body && !node.body->fixed) simulated = true;
-  if (!description.softs.empty()) simulated = true;
+  for (const VehicleDescription& vehicle : description.vehicles)
+    for (const Strength* script : {&vehicle.throttle, &vehicle.brake, &vehicle.steer})
+      if (script->curve() && script->curve()->end() < hour) length = std::max(length, script->curve()->end());
+  if (!description.softs.empty() || !description.vehicles.empty() || !description.particles.empty()) simulated = true;
   if (simulated) length += to_come_to_rest;
   return std::clamp(length, 1.0, most);
 }

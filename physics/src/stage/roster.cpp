@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stage/actors/particles.h"
+#include "stage/actors/vehicles.h"
 #include "stage/rules/played_tracks.h"
 #include "stage/scaled_shape.h"
 #include "stage/stage_data.h"
@@ -244,6 +246,8 @@ StageState described_state(const StageDescription& description, std::vector<Stag
     attempt(faults, Part::force, i, "", [&] { add_described_force(state, description.forces[i]); });
   add_joints(state, description, faults);
   add_softs(state, description, faults);
+  add_vehicles(state, description, faults);
+  add_particles(state, description, faults);
   for (std::size_t i = 0; i < description.ignored.size(); ++i)
     attempt(faults, Part::ignored, i, "", [&] {
       const auto body = [&](std::size_t node) { return state.bodies[body_index(state, node)].id; };

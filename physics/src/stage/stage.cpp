@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stage/actors/particles.h"
+#include "stage/actors/vehicles.h"
 #include "stage/stage_implementation.h"
 #include "stage/staged_softs.h"
 
@@ -171,6 +173,16 @@ std::vector<JointEnds> Stage::joints() const {
   joints.reserve(state.joints->list.size());
   for (const staging::StagedJoint& joint : state.joints->list) joints.push_back({joint.name, joint.a, joint.b});
   return joints;
+}
+
+std::vector<StageWheel> Stage::vehicle(std::string_view name) const {
+  const auto [from, to] = inside().around();
+  return staging::vehicle_wheels(*from, *to, name, time());
+}
+
+StageParticles Stage::particles(std::string_view name) const {
+  const auto [from, to] = inside().around();
+  return staging::stage_particles(*from, *to, name, time());
 }
 
 SoftNodes Stage::soft(std::string_view name) const {

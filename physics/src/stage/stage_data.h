@@ -141,6 +141,16 @@ struct StagedJoints {
   std::vector<std::size_t> by_index;  ///< those of the list, by index of the world's joint
 };
 
+/// Wheels under a body.
+struct StagedVehicle {
+  std::shared_ptr<const VehicleDescription> described;
+  Vehicle vehicle;
+};
+struct StagedParticles {
+  std::shared_ptr<const ParticlesDescription> described;
+  Particles particles;
+};
+
 /// What happened during a piece, to be told when the stage's time gets there.
 struct Happening {
   double time = 0;
@@ -160,6 +170,8 @@ struct StageState {
   std::shared_ptr<const PlayedTracks> tracks;
   std::shared_ptr<const StagedJoints> joints;  ///< gone ones included: the world knows which hold
   std::shared_ptr<const StagedSofts> softs;
+  std::vector<StagedVehicle> vehicles;       ///< as they were described
+  std::vector<StagedParticles> particles;    ///< likewise
   std::vector<char> present;                 ///< by node
   std::vector<std::optional<Color>> colors;  ///< by node, where none is animated
   std::vector<StagedBody> bodies;

@@ -2,6 +2,7 @@
 
 #include <tweenfall/curves/elementary.h>
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/curves/rotation.h>
 #include <tweenfall/physics/query.h>
 
 #include <algorithm>
@@ -84,6 +85,27 @@ void Vehicle::control(std::size_t wheel, const WheelControl& control) {
                     "torque and steer of a wheel must be finite and at most 1e30");
   vehicles::require_amount(control.brake, "brake");
   controls_[wheel] = control;
+}
+
+void Vehicle::restore(std::vector<WheelReading> readings) {
+  vehicles::require(readings.size() == readings_.size(), "a vehicle has as many readings as wheels");
+  for (const WheelReading& reading : readings)
+    for (const double number : {reading.length, reading.spin, reading.angle, reading.load, reading.slip, reading.steer})
+      vehicles::require(std::isfinite(number), "readings of a wheel must be finite");
+  readings_ = std::move(readings);
+}
+
+Pose wheel_pose(const VehicleSettings& settings, std::size_t wheel, const WheelReading& reading, const Pose& chassis) {
+  const Vec3 left = settings.up.cross(settings.forward);
+  Mat3 axes;
+  axes.col(0) = settings.forward;
+  axes.col(1) = left;
+  axes.col(2) = settings.forward.cross(left);
+  const auto turned = [](const Vec3& axis, double angle) { return exp_map(axis * angle); };
+  const Quat rotation =
+      chassis.rotation * turned(settings.up, reading.steer) * turned(left, reading.angle) * Quat(axes);
+  const Vec3 hub = settings.wheels.at(wheel).mount - reading.length * settings.up;
+  return {chassis.position + chassis.rotation * hub, rotation.normalized(), Vec3(1, 1, 1)};
 }
 
 Vehicle::Stand Vehicle::find_stand(const World& world, const Motion& chassis, std::size_t wheel) const {
@@ -179,6 +201,7 @@ void Vehicle::act(World& world, double dt) {
     WheelReading& reading = readings_[i];
     reading.touches = stand.touches;
     reading.length = stand.length;
+    reading.steer = controls_[i].steer;
     const Vec3 tyre = grip(stand, stand.touches ? mass * stand.load / loads : 0, i, dt);
     if (!stand.touches) {
       reading.load = 0;

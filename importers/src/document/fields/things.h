@@ -56,6 +56,8 @@ const Form* step_form(FormStore& store, const ValueForms& values);
 // Null for a joint that is not of the world's own.
 [[nodiscard]] json::Value place_of_joint(const json::Value& world, std::string_view name);
 [[nodiscard]] json::Value place_of_soft(const json::Value& world, std::string_view name);
+[[nodiscard]] json::Value place_of_vehicle(const json::Value& world, std::string_view name);
+[[nodiscard]] json::Value place_of_particles(const json::Value& world, std::string_view name);
 [[nodiscard]] json::Value place_of_ignored(const json::Value& world);
 
 // The node with a body of that name; `no_node` where there is none, which is told.

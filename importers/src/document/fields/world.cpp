@@ -1,3 +1,4 @@
+#include "document/actors/actors.h"
 #include "document/fields/table.h"
 #include "document/fields/things.h"
 #include "document/forces/forces.h"
@@ -42,6 +43,14 @@ void read_joints(const json::Value& value, StageDescription&, Building& building
 
 void read_soft(const json::Value& value, StageDescription&, Building& building) {
   soft::read(value, building);
+}
+
+void read_vehicles(const json::Value& value, StageDescription&, Building& building) {
+  actors::read_vehicles(value, building);
+}
+
+void read_particles(const json::Value& value, StageDescription&, Building& building) {
+  actors::read_particles(value, building);
 }
 
 void read_ragdolls(const json::Value& value, StageDescription&, Building& building) {
@@ -133,6 +142,8 @@ const Table<StageDescription>& world_table() {
        {"ragdolls", ragdolls::form, "fitted to imported figures, by the names of imports", {read_ragdolls, "{}"}},
        {"joints", joints::form, "what holds bodies together", {read_joints, "{}"}},
        {"soft", soft::form, "ropes, cloth and volumes", {read_soft, "{}"}},
+       {"vehicles", actors::vehicles_form, "wheels that carry bodies", {read_vehicles, "{}"}, false, {}, {"cars"}},
+       {"particles", actors::particles_form, "points that emitters let go", {read_particles, "{}"}},
        {"ignore", ignore_form, "pairs of bodies that pass through each other", {read_ignored, "[]"}}});
   return table;
 }
@@ -198,6 +209,14 @@ json::Value place_of_joint(const json::Value& world, std::string_view name) {
 
 json::Value place_of_soft(const json::Value& world, std::string_view name) {
   return below(world, {"soft", name});
+}
+
+json::Value place_of_vehicle(const json::Value& world, std::string_view name) {
+  return below(world, {"vehicles", name});
+}
+
+json::Value place_of_particles(const json::Value& world, std::string_view name) {
+  return below(world, {"particles", name});
 }
 
 json::Value place_of_ignored(const json::Value& world) {

@@ -33,6 +33,10 @@ json::Value place_of_fault(const Building& building, const StageFault& fault) {
       return place_of_joint(building, fault.index);
     case StageFault::Part::soft:
       return fields::place_of_soft(world, building.stage.softs[fault.index].name);
+    case StageFault::Part::vehicle:
+      return fields::place_of_vehicle(world, building.stage.vehicles[fault.index].name);
+    case StageFault::Part::particles:
+      return fields::place_of_particles(world, building.stage.particles[fault.index].name);
     case StageFault::Part::ignored:
       return fields::place_of_ignored(world);
     case StageFault::Part::rule:

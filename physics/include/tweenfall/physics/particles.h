@@ -19,6 +19,9 @@ namespace tweenfall {
 namespace particles {
 class Colliders;
 }
+namespace saving {
+struct ParticleFields;
+}
 
 struct ParticleSettings {
   Vec3 gravity{0, -9.81, 0};  ///< m/s^2
@@ -38,13 +41,14 @@ struct ParticleSettings {
 struct Emitter {
   Curve<Vec3> position = Curve<Vec3>(Vec3(0, 0, 0));     ///< m
   Curve<Quat> rotation = Curve<Quat>(Quat(1, 0, 0, 0));  ///< of its axes
-  Curve<double> rate = Curve<double>(0.0);               ///< particles per second; never negative
-  Curve<Vec3> velocity = Curve<Vec3>(Vec3(0, 0, 0));     ///< of particles, in its axes, m/s
-  double inherit = 1;                                    ///< share of its own velocity that they take along
-  double spread = 0;                                     ///< half angle of the cone in which they leave, rad, 0 to pi
-  double speed_spread = 0;                               ///< by up to this share they are faster or slower
-  double size = 0;                                       ///< radius of the ball in which they begin, evenly, m
-  double start = 0, end = 1e30;                          ///< between which it emits, s
+  /// Particles per second; never negative. What a formula is after ten minutes it stays.
+  Curve<double> rate = Curve<double>(0.0);
+  Curve<Vec3> velocity = Curve<Vec3>(Vec3(0, 0, 0));  ///< of particles, in its axes, m/s
+  double inherit = 1;                                 ///< share of its own velocity that they take along
+  double spread = 0;                                  ///< half angle of the cone in which they leave, rad, 0 to pi
+  double speed_spread = 0;                            ///< by up to this share they are faster or slower
+  double size = 0;                                    ///< radius of the ball in which they begin, evenly, m
+  double start = 0, end = 1e30;                       ///< between which it emits, s
 };
 
 /// Many particles, as one list for each of their numbers. A copy goes on to the same bits.
@@ -57,6 +61,10 @@ class Particles {
   /// have left before is not made up for.
   /// @throws std::invalid_argument naming what is wrong
   void add(const Emitter& emitter);
+  /// Where an emitter is from now on. @param emitter  in the order in which they were added
+  /// @throws std::invalid_argument for one that is not there
+  void place(std::size_t emitter, Curve<Vec3> position, Curve<Quat> rotation);
+  void halt(std::size_t emitter);  ///< lets no more go. @throws std::invalid_argument for one that is not there
   /// Lets one go, now. @throws std::invalid_argument for numbers that are not finite
   void emit(const Vec3& position, const Vec3& velocity);
   /// Drag, a wind, an attractor of the world, a vortex, a formula or a field. What they say of masses and places holds
@@ -70,6 +78,7 @@ class Particles {
   /// instant at which it does, and goes on through the rest of the step. Sensors are passed through.
   void step(double dt, const World& world);
 
+  [[nodiscard]] const ParticleSettings& settings() const noexcept { return settings_; }
   [[nodiscard]] double time() const noexcept { return time_; }
   [[nodiscard]] std::size_t size() const noexcept { return x_.size(); }
   [[nodiscard]] std::uint64_t emitted() const noexcept { return emitted_; }    ///< all of them, dead ones too
@@ -94,6 +103,7 @@ class Particles {
   [[nodiscard]] Vec3 momentum() const noexcept;          ///< kg m/s
 
  private:
+  friend struct saving::ParticleFields;
   struct Source {
     Emitter emitter;
     Curve<double> let_go;      ///< how many until a time

@@ -48,7 +48,13 @@ struct WheelReading {
   double slip = 0;       ///< of the contact against the ground, over the speed of rolling
   Vec3 point{0, 0, 0};   ///< where it stands, world, m
   Vec3 force{0, 0, 0};   ///< on the chassis, load included, N
+  double steer = 0;      ///< of the heading, as it was told, rad
 };
+
+/// Where a wheel is by its reading: at its hub, with its y along the axle to the left.
+/// @param chassis  of the chassis' node, in whose space the wheel is asked for
+[[nodiscard]] Pose wheel_pose(const VehicleSettings& settings, std::size_t wheel, const WheelReading& reading,
+                              const Pose& chassis);
 
 class Vehicle {
  public:
@@ -60,6 +66,10 @@ class Vehicle {
   /// Holds until it is told otherwise. @throws std::invalid_argument for a wheel that is not there, or bad numbers
   void control(std::size_t wheel, const WheelControl& control);
   [[nodiscard]] const WheelReading& reading(std::size_t wheel) const { return readings_.at(wheel); }
+  [[nodiscard]] const std::vector<WheelReading>& readings() const noexcept { return readings_; }
+  /// Goes on from readings that it had, such as when the world was saved.
+  /// @throws std::invalid_argument for more or fewer than it has wheels, or numbers that are not finite
+  void restore(std::vector<WheelReading> readings);
 
   /// Applies what the wheels do in the next step of `dt` seconds. A strut is a spring and a damper from the mount to
   /// the hub; a tyre grips by P = load * sin(atan(sharpness * slip)), of its grip along and across by the ellipse, and

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <optional>
 
+#include "stage/actors/particles.h"
+#include "stage/actors/vehicles.h"
 #include "stage/rules/meetings.h"
 #include "stage/rules/overlaps.h"
 #include "stage/rules/sensed.h"
@@ -113,6 +115,7 @@ StageState tried(const StageState& state, std::size_t armed, double end, double 
                                  rule.hand_back, step, unheard));
   set_targets(trial, end);
   trial.blows.clear();
+  drive_vehicles(trial, end - trial.time);
   trial.world.step(end - trial.time);
   return trial;
 }
@@ -262,8 +265,11 @@ void follow_blows(StageState& state, const PieceStart& before, double step, std:
 /// Moves the world to `end`, where it has been told what its bodies shall do.
 void step_told_world(StageState& state, double end, double step, std::vector<Happening>& happenings) {
   const PieceStart before(state);
+  const ParticleStep particles(state);
+  drive_vehicles(state, end - state.time);
   state.world.step(end - state.time);
   state.time = end;
+  particles.take(state);
   state.presses.assign(state.node_of.size(), 0);
   for (const Contact& contact : state.world.contacts())
     if (contact.impulse > 0)

@@ -51,6 +51,16 @@ class Sampling {
   saving::Walk<saving::ByteWriter> visit_;
 };
 
+void tell_forces(const std::vector<ForceDescription>& forces, const saving::Walk<saving::ByteWriter>& visit) {
+  for (const ForceDescription& force : forces) {
+    const bool user_field = std::holds_alternative<Field>(force.force);
+    if (!user_field) visit(force.force);
+    visit.places(force.a, force.b);
+    for (const std::size_t node : force.bodies) visit.places(node);
+    visit(user_field, force.strength);
+  }
+}
+
 }  // namespace
 
 std::uint64_t fingerprint(const StageDescription& description) {
@@ -59,6 +69,18 @@ std::uint64_t fingerprint(const StageDescription& description) {
   const Sampling sampling(out);
   visit(description.step, description.world, description.nodes, description.joints, description.rules);
   for (const SoftDescription& soft : description.softs) visit(soft);
+  for (const VehicleDescription& vehicle : description.vehicles) visit(vehicle);
+  for (const ParticlesDescription& particles : description.particles) {
+    visit(particles.name, particles.settings, particles.collide);
+    for (const EmitterDescription& emitter : particles.emitters) {
+      visit.places(emitter.node);
+      visit(emitter.position, emitter.direction, emitter.inherit, emitter.spread, emitter.speed_spread, emitter.size,
+            emitter.start, emitter.end);
+      sampling(emitter.rate);
+      sampling(emitter.speed);
+    }
+    tell_forces(particles.forces, visit);
+  }
   for (const Clip& clip : description.clips) {
     visit(clip.name, clip.duration, clip.loop.mode, clip.loop.count);
     for (const Track& track : clip.tracks) {
@@ -78,13 +100,7 @@ std::uint64_t fingerprint(const StageDescription& description) {
     const std::uint64_t of_graph = fingerprint(graph);
     visit(of_graph);
   }
-  for (const ForceDescription& force : description.forces) {
-    const bool user_field = std::holds_alternative<Field>(force.force);
-    if (!user_field) visit(force.force);
-    visit.places(force.a, force.b);
-    for (const std::size_t node : force.bodies) visit.places(node);
-    visit(user_field, force.strength);
-  }
+  tell_forces(description.forces, visit);
   for (const auto& [a, b] : description.ignored) visit.places(a, b);
   return saving::checksum(out.bytes);
 }

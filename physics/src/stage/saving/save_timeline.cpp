@@ -8,6 +8,7 @@
 #include "stage/saving/stage_fields.h"
 #include "stage/staged_softs.h"
 #include "stage/timeline.h"
+#include "state/countable.h"
 
 namespace tweenfall::staging {
 
@@ -27,6 +28,8 @@ void each_moving_field(State& state, const Visit& visit) {
   for (auto& body : state.bodies) visit(body);
   for (auto& armed : state.armed) visit(armed);
   visit(state.blows, state.presses, state.passing, state.strained, state.torn);
+  for (auto& staged : state.vehicles) visit(staged);
+  for (auto& staged : state.particles) visit(staged);
 }
 
 /// Throws where a number is none.
@@ -77,6 +80,15 @@ void check_bodies(const StageState& state) {
     require(softs[i] == state.softs->list[i].second &&
                 soft_positions(state.world, softs[i]).size() == state.softs->nodes[i],
             "world: a soft body is not the stage's");
+}
+
+void check_particles(const StageState& state) {
+  for (const StagedParticles& staged : state.particles) {
+    const Particles& particles = staged.particles;
+    require(std::abs(particles.time() - state.time) <= 1e-6 * std::max(1.0, state.time), "time of particles");
+    for (std::size_t i = 0; i < particles.size(); ++i)
+      require(state::countable(particles.position(i)) && state::countable(particles.velocity(i)), "particle");
+  }
 }
 
 void check_blows(const StageState& state) {
@@ -189,6 +201,7 @@ void Timeline::load(std::span<const std::byte> saved) {
   check_time(state, now, between, description.step);
   check_bodies(state);
   check_blows(state);
+  check_particles(state);
   state.joints = joints_of(joints, state);
   const std::size_t nodes = state.nodes->size();
   check_happenings(past_events, past_handoffs, nodes);

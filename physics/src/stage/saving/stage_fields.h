@@ -395,6 +395,70 @@ void each_field(T& described, const Visit& visit) {
   leads_to_nothing(color);
 }
 
+template <Is<WheelSettings> T, class Visit>
+void each_field(T& wheel, const Visit& visit) {
+  auto& [mount, radius, rest_length, stiffness, damping, moment, grip, side_grip, sharpness] = wheel;
+  visit(mount, radius, rest_length, stiffness, damping, moment, grip, side_grip, sharpness);
+}
+
+template <Is<WheelDescription> T, class Visit>
+void each_field(T& described, const Visit& visit) {
+  auto& [name, wheel, torque, brake, lock] = described;
+  visit(name, wheel, torque, brake, lock);
+}
+
+template <Is<VehicleDescription> T, class Visit>
+void each_field(T& vehicle, const Visit& visit) {
+  auto& [name, chassis, forward, up, wheels, throttle, brake, steer] = vehicle;
+  visit(name);
+  visit.places(chassis);
+  visit(forward, up, wheels, throttle, brake, steer);
+}
+
+template <Is<ParticleSettings> T, class Visit>
+void each_field(T& settings, const Visit& visit) {
+  auto& [gravity, integrator, mass, radius, restitution, friction, life, life_spread, most, seed] = settings;
+  visit(gravity, integrator, mass, radius, restitution, friction, life, life_spread, seed);
+  visit.places(most);
+}
+
+template <Is<WheelReading> T, class Visit>
+void each_field(T& reading, const Visit& visit) {
+  auto& [touches, length, spin, angle, load, slip, point, force, steer] = reading;
+  visit(touches, length, spin, angle, load, slip, point, force, steer);
+}
+
+template <Is<staging::StagedVehicle> T, class Visit>
+void each_field(T& staged, const Visit& visit) {
+  follows_from_others(staged.described);
+  auto readings = staged.vehicle.readings();
+  visit(readings);
+  if constexpr (!std::is_const_v<T>) staged.vehicle.restore(std::move(readings));
+}
+
+/// What particles keep to themselves.
+struct ParticleFields {
+  template <class T, class Visit>
+  static void of(T& p, const Visit& visit) {
+    visit(p.time_, p.emitted_, p.left_out_, p.by_hand_);
+    visit(p.x_, p.y_, p.z_, p.vx_, p.vy_, p.vz_, p.born_, p.dies_, p.number_);
+    for (auto& source : p.sources_) visit(source.number, source.emitter.end);
+    if constexpr (!std::is_const_v<T>) {
+      const std::size_t count = p.x_.size();
+      for (const auto* list : {&p.y_, &p.z_, &p.vx_, &p.vy_, &p.vz_, &p.born_, &p.dies_})
+        if (list->size() != count) throw std::invalid_argument("a saved stage has a bad list of particles");
+      if (p.number_.size() != count || count > p.settings_.most)
+        throw std::invalid_argument("a saved stage has a bad list of particles");
+    }
+  }
+};
+
+template <Is<staging::StagedParticles> T, class Visit>
+void each_field(T& staged, const Visit& visit) {
+  follows_from_others(staged.described);
+  ParticleFields::of(staged.particles, visit);
+}
+
 template <Is<staging::StagedJoint> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
   auto& [name, id, a, b, until] = joint;

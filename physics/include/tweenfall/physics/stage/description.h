@@ -6,7 +6,9 @@
 #include <tweenfall/anim/graph.h>
 #include <tweenfall/anim/mesh.h>
 #include <tweenfall/physics/handoff/rule.h>
+#include <tweenfall/physics/particles.h>
 #include <tweenfall/physics/soft_body.h>
+#include <tweenfall/physics/vehicle.h>
 #include <tweenfall/physics/world.h>
 
 #include <limits>
@@ -90,6 +92,49 @@ struct SoftDescription {
   std::optional<Color> color{};
 };
 
+struct WheelDescription {
+  std::string name;
+  WheelSettings wheel = {};
+  double torque = 0;  ///< of the engine at full throttle, N m
+  double brake = 0;   ///< torque at most of a brake that is pressed whole, N m
+  double lock = 0;    ///< of the heading when steered as far as it goes, rad
+};
+
+/// Wheels that carry a body, and how they are driven over the stage's time.
+struct VehicleDescription {
+  std::string name;
+  std::size_t chassis = no_node;  ///< node with a body
+  Vec3 forward{1, 0, 0};          ///< on the chassis' node, unit
+  Vec3 up{0, 1, 0};               ///< likewise, across `forward`
+  std::vector<WheelDescription> wheels;
+  Strength throttle = 0;  ///< -1 to 1; what is beyond counts as these
+  Strength brake = 0;     ///< 0 to 1
+  Strength steer = 0;     ///< -1 to 1, to the left
+};
+
+/// Lets particles go along the way of a node.
+struct EmitterDescription {
+  std::size_t node = no_node;                ///< which it is on; `no_node`: the world
+  Vec3 position{0, 0, 0};                    ///< on the node, m
+  Vec3 direction{0, 1, 0};                   ///< in which they leave, node axes, unit
+  Curve<double> rate = Curve<double>(0.0);   ///< particles per second over the stage's time; never negative
+  Curve<double> speed = Curve<double>(0.0);  ///< m/s
+  double inherit = 1;                        ///< share of the node's own velocity that they take along
+  double spread = 0;                         ///< half angle of the cone in which they leave, rad, 0 to pi
+  double speed_spread = 0;                   ///< by up to this share they are faster or slower
+  double size = 0;                           ///< radius of the ball in which they begin, m
+  double start = 0, end = 1e30;              ///< stage time, s
+};
+
+struct ParticlesDescription {
+  std::string name;
+  ParticleSettings settings = {};
+  bool collide = true;  ///< whether they bounce off bodies
+  std::vector<EmitterDescription> emitters;
+  std::vector<ForceDescription> forces;  ///< drag, winds, vortices, fields, attractors of the world
+  std::optional<Color> color{};
+};
+
 struct StageDescription {
   std::string name;
   std::vector<NodeDescription> nodes;
@@ -101,6 +146,8 @@ struct StageDescription {
   std::vector<ForceDescription> forces;
   std::vector<JointDescription> joints;
   std::vector<SoftDescription> softs;
+  std::vector<VehicleDescription> vehicles;
+  std::vector<ParticlesDescription> particles;
   std::vector<std::pair<std::size_t, std::size_t>> ignored;  ///< nodes whose bodies pass through each other
   std::vector<Rule> rules;
 

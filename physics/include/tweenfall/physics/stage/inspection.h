@@ -11,9 +11,9 @@ namespace tweenfall {
 
 /// Something for which a description makes no stage.
 struct StageFault {
-  enum class Part { world, step, clips, node, force, joint, soft, ignored, rule };
+  enum class Part { world, step, clips, node, force, joint, soft, vehicle, particles, ignored, rule };
   Part part = Part::world;
-  std::size_t index = 0;  ///< of the node, force, joint, soft body, ignored pair or rule
+  std::size_t index = 0;  ///< of the node, force, joint, soft body, vehicle, particles, ignored pair or rule
   std::string message;
 };
 

@@ -60,13 +60,30 @@ struct SoftRecord {
   std::vector<std::size_t> torn_at;          ///< by edge: the first frame in which it is torn; times.size() for never
 };
 
+/// One vehicle of the stage's description through all frames.
+struct VehicleRecord {
+  std::string name;
+  std::size_t chassis = no_node;               ///< node
+  std::vector<std::string> wheels;             ///< their names
+  std::vector<std::vector<StageWheel>> frame;  ///< one list of wheels per frame
+};
+
+/// Particles of one kind through all frames.
+struct ParticlesRecord {
+  std::string name;
+  double radius = 0;                  ///< m
+  std::vector<StageParticles> frame;  ///< one per frame
+};
+
 struct Recording {
   std::string name;
   std::vector<double> times;  ///< s
   std::vector<NodeRecord> nodes;
-  std::vector<JointRecord> joints;  ///< in the description's order, then those that were added, as they came
-  std::vector<GraphRecord> graphs;  ///< in the description's order
-  std::vector<SoftRecord> softs;    ///< in the description's order
+  std::vector<JointRecord> joints;         ///< in the description's order, then those that were added, as they came
+  std::vector<GraphRecord> graphs;         ///< in the description's order
+  std::vector<SoftRecord> softs;           ///< in the description's order
+  std::vector<VehicleRecord> vehicles;     ///< likewise
+  std::vector<ParticlesRecord> particles;  ///< likewise
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
   std::vector<UnfiredRule> unfired;  ///< rules that waited to the end in vain

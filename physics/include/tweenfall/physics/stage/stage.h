@@ -65,6 +65,19 @@ struct SoftNodes {
   std::vector<char> torn;        ///< by edge of its description: 1 once it is
 };
 
+/// A wheel of a vehicle as a stage shows it.
+struct StageWheel {
+  Pose pose = {};  ///< world: at its hub, with its y along the axle to the left
+  WheelReading reading = {};
+};
+
+/// Particles as a stage shows them, the oldest first.
+struct StageParticles {
+  std::vector<Vec3> positions;         ///< world, m
+  std::vector<Vec3> velocities;        ///< m/s
+  std::vector<std::uint64_t> numbers;  ///< by which each is known for its whole life
+};
+
 /// A rule that waited for one of its bodies in vain.
 struct UnfiredRule {
   std::size_t rule = 0;  ///< in the order in which rules were given
@@ -115,7 +128,10 @@ class Stage {
   /// again by the name of one that had gone stands in its place.
   [[nodiscard]] std::vector<JointEnds> joints() const;
   [[nodiscard]] SoftNodes soft(std::string_view name) const;  ///< @throws std::invalid_argument with the nearest name
-  [[nodiscard]] Path path(NodeId node) const;                 ///< where the animation wants the node
+  /// Its wheels, in the description's order. @throws std::invalid_argument with the nearest name
+  [[nodiscard]] std::vector<StageWheel> vehicle(std::string_view name) const;
+  [[nodiscard]] StageParticles particles(std::string_view name) const;  ///< @throws the same
+  [[nodiscard]] Path path(NodeId node) const;                           ///< where the animation wants the node
   [[nodiscard]] const StageDescription& description() const;
 
   // Hand-off by the caller, at exactly `time()`. @throws NodeNotFinite when what leads the body there is too fast

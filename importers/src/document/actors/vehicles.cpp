@@ -1,0 +1,133 @@
+#include "document/actors/actors.h"
+#include "document/fields/things.h"
+#include "document/forces/force.h"
+
+namespace tweenfall::document::actors {
+
+namespace {
+
+using Kind = json::Value::Kind;
+using Wheel = WheelDescription;
+using Described = VehicleDescription;
+
+const fields::Table<Wheel>& wheel_table() {
+  using fields::member;
+  const auto of_wheel = [](auto WheelSettings::*part) {
+    return member<Wheel>([part](Wheel & wheel) -> auto& { return wheel.wheel.*part; });
+  };
+  const fields::Meaning<Wheel> lock = {[](const json::Value& value, Wheel& wheel, Building&) {
+                                         if (value.is(Kind::number)) wheel.lock = radians(value.number());
+                                       },
+                                       "0"};
+  static const fields::Table<Wheel> table(
+      "a wheel",
+      {{"mount", &ValueForms::vector, "where its strut begins, on the chassis, m", of_wheel(&WheelSettings::mount),
+        true},
+       {"radius", &ValueForms::positive, "m", of_wheel(&WheelSettings::radius)},
+       {"rest_length",
+        &ValueForms::positive,
+        "of the strut, from mount to hub, unloaded, m",
+        of_wheel(&WheelSettings::rest_length),
+        false,
+        {},
+        {"suspension_length", "travel"}},
+       {"stiffness", &ValueForms::positive, "of the strut, N/m", of_wheel(&WheelSettings::stiffness)},
+       {"damping", &ValueForms::not_negative, "of the strut, N s/m", of_wheel(&WheelSettings::damping)},
+       {"moment", &ValueForms::positive, "of inertia about the axle, kg m^2", of_wheel(&WheelSettings::moment)},
+       {"grip",
+        &ValueForms::not_negative,
+        "Coulomb coefficient along its heading",
+        of_wheel(&WheelSettings::grip),
+        false,
+        {},
+        {"friction", "traction"}},
+       {"side_grip", &ValueForms::not_negative, "and across it", of_wheel(&WheelSettings::side_grip)},
+       {"sharpness", &ValueForms::positive, "how soon grip comes with slip", of_wheel(&WheelSettings::sharpness)},
+       {"torque",
+        &ValueForms::number,
+        "of the engine at full throttle, N m",
+        member<Wheel>(&Wheel::torque),
+        false,
+        {},
+        {"engine", "drive"}},
+       {"brake", &ValueForms::not_negative, "torque at most when braked whole, N m", member<Wheel>(&Wheel::brake)},
+       {"lock",
+        bounded("an angle from -90 to 90 degrees", -90, false, 90),
+        "of its heading when steered whole, degrees",
+        lock,
+        false,
+        {},
+        {"steer", "steering"}}});
+  return table;
+}
+
+const Form* wheels_form(FormStore& store, const ValueForms& values) {
+  return store.add(
+      map_of(store.add(wheel_table().listing_form(store, values)), "an object with wheels by name, at least one"));
+}
+
+void read_wheels(const json::Value& value, Described& vehicle, Building& building) {
+  for (const json::Member& member : value.members()) {
+    if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
+    Wheel wheel;
+    wheel.name = member.name;
+    wheel_table().read(member.value, wheel, building);
+    vehicle.wheels.push_back(std::move(wheel));
+  }
+}
+
+fields::Meaning<Described> axis(Vec3 Described::*part, std::string standard) {
+  return {[part](const json::Value& value, Described& vehicle, Building& building) {
+            if (const std::optional<Vec3> given = axis_of(value, building.problems)) vehicle.*part = *given;
+          },
+          std::move(standard)};
+}
+
+fields::Row<Described> script(std::string name, std::string help, Strength Described::*part) {
+  const auto read = [part](const json::Value& value, Described& vehicle, Building& building) {
+    ForceDescription scripted;
+    scripted.strength = 0;
+    forces::read_strength(value, scripted, building);
+    vehicle.*part = scripted.strength;
+  };
+  return {std::move(name), forces::strength_form, std::move(help), {read, "0"}};
+}
+
+const fields::Table<Described>& vehicle_table() {
+  const fields::Meaning<Described> chassis = {[](const json::Value& value, Described& vehicle, Building& building) {
+    vehicle.chassis = fields::body_called(value, building);
+  }};
+  static const fields::Table<Described> table(
+      "a vehicle",
+      {{"chassis", &ValueForms::name, "node with a body that the wheels carry", chassis, true, {}, {"body", "node"}},
+       {"forward", &ValueForms::axis, "on the chassis", axis(&Described::forward, "\"x\"")},
+       {"up", &ValueForms::axis, "on the chassis, across \"forward\"", axis(&Described::up, "\"y\"")},
+       {"wheels", wheels_form, "by name", {read_wheels}, true},
+       script("throttle", "-1 to 1: part of each wheel's \"torque\", over stage time", &Described::throttle),
+       script("brake", "0 to 1: part of each wheel's \"brake\"", &Described::brake),
+       script("steer", "-1 to 1, to the left: part of each wheel's \"lock\"", &Described::steer)});
+  return table;
+}
+
+}  // namespace
+
+const Form* vehicles_form(FormStore& store, const ValueForms& values) {
+  Form vehicle = vehicle_table().listing_form(store, values);
+  vehicle.definition = "vehicle";
+  return store.add(map_of(store.add(std::move(vehicle)), "an object with vehicles by name"));
+}
+
+void read_vehicles(const json::Value& value, Building& building) {
+  for (const json::Member& member : value.members()) {
+    if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
+    Described vehicle;
+    vehicle.name = member.name;
+    const std::size_t before = building.problems.size();
+    vehicle_table().read(member.value, vehicle, building);
+    // Of one that could not be read there is nothing to add.
+    if (building.problems.size() == before && vehicle.chassis != no_node)
+      building.stage.vehicles.push_back(std::move(vehicle));
+  }
+}
+
+}  // namespace tweenfall::document::actors

@@ -1,0 +1,21 @@
+#pragma once
+
+// Vehicles of a stage: driven by their scripts, before each step of the world.
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
+
+/// Adds the description's vehicles. Those that make none are faults.
+void add_vehicles(StageState& state, const StageDescription& description, std::vector<StageFault>& faults);
+/// Lets wheels act on the world's next step of `dt` seconds.
+void drive_vehicles(StageState& state, double dt);
+/// Between two states that follow each other. @throws std::invalid_argument with the nearest name
+[[nodiscard]] std::vector<StageWheel> vehicle_wheels(const StageState& from, const StageState& to,
+                                                     std::string_view name, double time);
+
+}  // namespace tweenfall::staging
