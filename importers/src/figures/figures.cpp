@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "figures/actor_figures.h"
 #include "figures/shape_mesh.h"
 #include "figures/turned_profile.h"
 
@@ -152,8 +153,14 @@ struct Rectangle {
   [[nodiscard]] bool empty() const { return !(low.x() <= high.x()); }
 };
 
-std::vector<Rectangle> rectangles(const std::vector<Figure>& list) {
+std::vector<Rectangle> rectangles(const std::vector<Figure>& list, const Recording& recording, int across) {
   std::vector<Rectangle> all;
+  for (const ParticlesRecord& particles : recording.particles)
+    for (const StageParticles& frame : particles.frame) {
+      Rectangle around;
+      for (const Vec3& place : frame.positions) around.add(flattened(place, across));
+      if (!around.empty()) all.push_back(around);
+    }
   for (const Figure& figure : list)
     for (const std::vector<Vec2>& points : figure.points) {
       Rectangle around;
@@ -315,6 +322,8 @@ std::vector<Figure> flat_figures(const Recording& recording, const StageDescript
       continue;
     list.push_back(skinned_figure(recording, stage, instance, record_of, across));
   }
+  add_wheel_figures(list, recording, stage, across);
+  add_soft_figures(list, recording, stage, across);
   return list;
 }
 
@@ -334,10 +343,10 @@ SideScene side_scene(const Recording& recording, const StageDescription& stage, 
                      double height) {
   SideScene scene;
   scene.figures = flat_figures(recording, stage, 0);
-  Rectangle around = around_most(rectangles(scene.figures));
+  Rectangle around = around_most(rectangles(scene.figures, recording, 0));
   SideView& view = scene.view;
   std::vector<Figure> other = flat_figures(recording, stage, 2);
-  const Rectangle around_other = around_most(rectangles(other));
+  const Rectangle around_other = around_most(rectangles(other, recording, 2));
   if (!around.empty() && around_other.high.x() - around_other.low.x() > 1.5 * (around.high.x() - around.low.x())) {
     view.across = 2;
     scene.figures = std::move(other);

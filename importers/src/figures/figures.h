@@ -4,6 +4,7 @@
 
 #include <tweenfall/physics/stage/recording.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct Figure {
     stick,  ///< points: two; drawn as thick as 2 radius with round ends
     box,    ///< points: eight corners
     bones,  ///< points: pairs, a line each
+    lines,  ///< points: one list after the other, each joined to a line
     hull,   ///< points: center of mass, `hull_outline` around the outline, then pairs, a line each
   };
   Kind kind = Kind::box;
@@ -37,6 +39,9 @@ struct Figure {
   double radius = 0;           ///< px
   std::size_t vertices = 0;    ///< of a hull, before its outline is taken
   bool fixed = false;
+  std::string name = {};                  ///< of what is no node, else empty
+  std::optional<Color> color = {};        ///< its own
+  std::vector<std::size_t> starts{};      ///< of lines: the first point of each
   std::vector<std::vector<Vec2>> points;  ///< [frame][point], px
 };
 
@@ -45,10 +50,10 @@ struct SideScene {
   std::vector<Figure> figures;
 };
 
-/// Bodies that are not planes, meshes without skin as their boxes, and one stick figure for each skin and for each tree
-/// of other nodes without bodies and meshes; in a view that holds all of them throughout, in at most `width` by
-/// `height` px with the upper left corner at (left, top). What flies off, out of all proportion to the rest, does not
-/// count.
+/// Soft bodies, wheels, bodies that are not planes, meshes without skin as their boxes, and one stick figure for each
+/// skin and for each tree of other nodes without bodies and meshes; in a view that holds all of them throughout, in at
+/// most `width` by `height` px with the upper left corner at (left, top). What flies off, out of all proportion to the
+/// rest, does not count.
 [[nodiscard]] SideScene side_scene(const Recording& recording, const StageDescription& stage, double left, double top,
                                    double width, double height);
 

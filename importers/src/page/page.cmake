@@ -4,7 +4,7 @@ set(page_scripts
   data/recording.js data/rotation.js data/motion.js
   controls/store.js controls/playback.js
   timeline/canvas.js
-  scene/geometry.js scene/deform.js scene/bounds.js scene/orbit.js scene/cast.js scene/scene.js scene/looking.js scene/joints.js scene/steps.js scene/overlay.js
+  scene/geometry.js scene/deform.js scene/bounds.js scene/orbit.js scene/particles.js scene/cast.js scene/scene.js scene/looking.js scene/joints.js scene/steps.js scene/overlay.js
   timeline/axis.js timeline/graphs.js timeline/rows.js timeline/strips.js timeline/timeline.js timeline/series.js timeline/curves.js
   controls/readout.js controls/actions.js controls/controls.js controls/main.js)
 find_file(TWEENFALL_THREE three.min.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH

@@ -9,6 +9,7 @@
 #include "page/page_frames.h"
 #include "page/page_graphs.h"
 #include "page/page_meshes.h"
+#include "page/page_particles.h"
 #include "recording/base64.h"
 #include "recording/key_lanes.h"
 #include "recording/words.h"
@@ -351,6 +352,7 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
                  [&](const JointDescription& joint) { return joint_json(recording, joint); });
   append_details(out, recording, frames);
   append_page_graphs(out, recording, frames);
+  append_page_particles(out, recording, stage, frames);
   append_items(out, "handoffs", recording.handoffs, handoff_json);
   append_items(out, "events", recording.events, event_json);
   append_page_meshes(out, stage, node_of);

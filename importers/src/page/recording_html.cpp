@@ -8,7 +8,7 @@
 #include "page/page_data.h"
 #include "page/page_files.h"
 #include "page/page_frames.h"
-#include "recording/soft_meshes.h"
+#include "recording/meshes/dressed.h"
 
 namespace tweenfall {
 
@@ -49,9 +49,9 @@ std::string title_of(const Recording& recording, const StageDescription& stage) 
   return markup_text(name.empty() ? "recording" : name);
 }
 
-/// With soft bodies as meshes.
+/// With soft bodies and wheels as meshes.
 std::string data_of(const Recording& recording, const StageDescription& stage) {
-  const auto dressed = recordings::with_soft_meshes(recording, stage);
+  const auto dressed = recordings::with_own_meshes(recording, stage);
   return dressed ? page_data(dressed->recording, dressed->stage) : page_data(recording, stage);
 }
 

@@ -141,6 +141,23 @@ void check_recording(const Recording& recording) {
           recordings::fail(recording, "soft body \"" + soft.name + "\" is not at a finite place at " +
                                           number_text(recording.times[frame]) + " s");
   }
+  const auto require_frames = [&](const std::string& what, std::size_t frames) {
+    if (frames != recording.times.size())
+      recordings::fail(recording, what + " has " + std::to_string(frames) + " lists for " +
+                                      std::to_string(recording.times.size()) + " frames");
+  };
+  for (const VehicleRecord& vehicle : recording.vehicles) {
+    require_frames("vehicle \"" + vehicle.name + "\"", vehicle.frame.size());
+    for (const std::vector<StageWheel>& wheels : vehicle.frame)
+      if (wheels.size() != vehicle.wheels.size())
+        recordings::fail(recording, "vehicle \"" + vehicle.name + "\" has more or fewer wheels in some frame");
+  }
+  for (const ParticlesRecord& particles : recording.particles) {
+    require_frames("the particles \"" + particles.name + "\"", particles.frame.size());
+    for (const StageParticles& there : particles.frame)
+      if (there.numbers.size() != there.positions.size() || there.velocities.size() != there.positions.size())
+        recordings::fail(recording, "the particles \"" + particles.name + "\" have lists of different lengths");
+  }
   for (const JointRecord& joint : recording.joints) {
     for (const NodeId node : {joint.a, joint.b})
       if (node != no_node && node >= recording.nodes.size())

@@ -110,6 +110,50 @@ void append_soft(std::string& out, const Recording& recording, const SoftRecord&
   out += "}";
 }
 
+/// How its wheels stand, wheel by wheel and frame by frame.
+void append_vehicle(std::string& out, const VehicleRecord& vehicle) {
+  json::append_string(out, vehicle.name);
+  out += ": {";
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    out += i > 0 ? ",\n   " : "\n   ";
+    json::append_string(out, vehicle.wheels[i]);
+    const auto series = [&](const char* name, const auto& append) {
+      (out += name) += ": ";
+      append_list(out, vehicle.frame.size(), [&](std::size_t frame) { append(vehicle.frame[frame].at(i)); });
+    };
+    const auto numbers = [&](const char* name, double WheelReading::*part) {
+      series(name, [&](const StageWheel& wheel) { append_number(out, wheel.reading.*part); });
+    };
+    series(": {\"position\"", [&](const StageWheel& wheel) { append_vector(out, wheel.pose.position); });
+    numbers(", \"spin\"", &WheelReading::spin);
+    numbers(", \"steer\"", &WheelReading::steer);
+    numbers(", \"load\"", &WheelReading::load);
+    numbers(", \"slip\"", &WheelReading::slip);
+    out += "}";
+  }
+  out += "}";
+}
+
+/// Places and velocities, frame by frame, and by which number each particle is known.
+void append_particles(std::string& out, const ParticlesRecord& particles) {
+  json::append_string(out, particles.name);
+  out += ": {\n   \"numbers\": ";
+  append_list(out, particles.frame.size(), [&](std::size_t frame) {
+    const std::vector<std::uint64_t>& numbers = particles.frame[frame].numbers;
+    append_list(out, numbers.size(), [&](std::size_t i) { out += std::to_string(numbers[i]); });
+  });
+  const auto vectors = [&](const char* name, std::vector<Vec3> StageParticles::*part) {
+    (out += name) += ": ";
+    append_list(out, particles.frame.size(), [&](std::size_t frame) {
+      const std::vector<Vec3>& list = particles.frame[frame].*part;
+      append_list(out, list.size(), [&](std::size_t i) { append_vector(out, list[i]); });
+    });
+  };
+  vectors(",\n   \"positions\"", &StageParticles::positions);
+  vectors(",\n   \"velocities\"", &StageParticles::velocities);
+  out += "}";
+}
+
 void append_twist(std::string& out, const Twist& twist) {
   out += "{\"linear\": ";
   append_vector(out, twist.linear);
@@ -196,6 +240,16 @@ std::string recording_json(const Recording& recording) {
     out += ",\n \"soft\": ";
     recordings::append_lines(out, '{', '}', recording.softs.size(),
                              [&](std::size_t i) { recordings::append_soft(out, recording, recording.softs[i]); });
+  }
+  if (!recording.vehicles.empty()) {
+    out += ",\n \"vehicles\": ";
+    recordings::append_lines(out, '{', '}', recording.vehicles.size(),
+                             [&](std::size_t i) { recordings::append_vehicle(out, recording.vehicles[i]); });
+  }
+  if (!recording.particles.empty()) {
+    out += ",\n \"particles\": ";
+    recordings::append_lines(out, '{', '}', recording.particles.size(),
+                             [&](std::size_t i) { recordings::append_particles(out, recording.particles[i]); });
   }
   out += ",\n \"handoffs\": ";
   recordings::append_lines(out, '[', ']', recording.handoffs.size(),

@@ -2,8 +2,10 @@
 
 #include <tweenfall/curves/number_text.h>
 
+#include "document/read/values.h"
 #include "figures/figures.h"
 #include "plot/svg_writer.h"
+#include "recording/dots_svg.h"
 #include "recording/keyframes.h"
 #include "recording/words.h"
 
@@ -60,6 +62,14 @@ std::string path_text(const Drawing& drawing, const Figure& figure, const std::v
   if (figure.kind == Figure::Kind::box) {
     for (const int corner : box_order)
       text += (text.empty() ? "M" : "L") + drawing.place(points[static_cast<std::size_t>(corner)]);
+    return text;
+  }
+  if (figure.kind == Figure::Kind::lines) {
+    for (std::size_t i = 0, line = 0; i < points.size(); ++i) {
+      const bool starts = line < figure.starts.size() && figure.starts[line] == i;
+      text += (starts ? "M" : "L") + drawing.place(points[i]);
+      if (starts) ++line;
+    }
     return text;
   }
   std::size_t first = 0;
@@ -138,8 +148,8 @@ void draw_ground(Drawing& drawing, const StageDescription& stage) {
 }
 
 void draw_trail(Drawing& drawing, const Figure& figure) {
+  if (figure.fixed || figure.kind == Figure::Kind::bones || !figure.name.empty()) return;
   const NodeRecord& node = drawing.recording.nodes[figure.node];
-  if (figure.fixed || figure.kind == Figure::Kind::bones) return;
   std::vector<std::vector<Vec2>> middles;
   for (const std::vector<Vec2>& points : figure.points) {
     Vec2 middle = points.front();
@@ -167,7 +177,27 @@ void draw_trail(Drawing& drawing, const Figure& figure) {
   }
 }
 
+void draw_lines(Drawing& drawing, const Figure& figure) {
+  const std::vector<std::size_t> kept = key_frames(drawing.recording.times, figure.points, drawing.tolerance);
+  const bool still = kept.size() == 2 && figure.points[kept[0]] == figure.points[kept[1]];
+  drawing.svg.open("g", {{"fill", "none"},
+                         {"stroke", figure.color ? document::color_text(*figure.color).substr(0, 7) : "#a5713c"},
+                         {"stroke-width", plotting::px(std::max(1.2, 2 * figure.radius))},
+                         {"stroke-linejoin", "round"},
+                         {"stroke-linecap", "round"}});
+  drawing.svg.text("title", {}, figure.name);
+  const auto path = [&](std::size_t frame) { return path_text(drawing, figure, figure.points[frame]); };
+  drawing.svg.open("path", {{"d", path(0)}});
+  if (!still) animate(drawing, "d", series(drawing, kept, path));
+  drawing.svg.close();
+  drawing.svg.close();
+}
+
 void draw_figure(Drawing& drawing, const Figure& figure) {
+  if (figure.kind == Figure::Kind::lines) {
+    draw_lines(drawing, figure);
+    return;
+  }
   const NodeRecord& node = drawing.recording.nodes[figure.node];
   const std::vector<std::size_t> kept = key_frames(drawing.recording.times, figure.points, drawing.tolerance);
   const bool still = kept.size() == 2 && figure.points[kept[0]] == figure.points[kept[1]];
@@ -182,7 +212,7 @@ void draw_figure(Drawing& drawing, const Figure& figure) {
                          {"stroke-opacity", stick ? "0.7" : "1"},
                          {"stroke-linejoin", "round"},
                          {"stroke-linecap", "round"}});
-  drawing.svg.text("title", {}, node.name);
+  drawing.svg.text("title", {}, figure.name.empty() ? node.name : figure.name);
   if (const auto changes = changes_of_owner(node); changes.size() > 1 && !figure.fixed) {
     const Series colors =
         series(drawing, changes, [&](std::size_t frame) { return std::string(owner_color(node.owner[frame])); });
@@ -327,6 +357,12 @@ std::string draw(const Recording& recording, const StageDescription& stage, cons
   draw_ground(drawing, stage);
   for (const Figure& figure : list) draw_trail(drawing, figure);
   for (const Figure& figure : list) draw_figure(drawing, figure);
+  const DotsPicture dots{recording, view, drawing.start, drawing.length, rest};
+  for (std::size_t i = 0; i < recording.particles.size(); ++i) {
+    const bool told = i < stage.particles.size() && stage.particles[i].color.has_value();
+    const std::string color = told ? document::color_text(*stage.particles[i].color).substr(0, 7) : "#3d9bd9";
+    draw_dots(svg, dots, recording.particles[i], color);
+  }
   svg.close();
   draw_time_bar(drawing, lanes, bar);
   return svg.finish();

@@ -8,9 +8,12 @@
 #include "report/terminal.h"
 #include "verbs/verbs.h"
 
+#include <tweenfall/curves/calculus.h>
 #include <tweenfall/curves/number_text.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace tweenfall::cli {
 
@@ -204,6 +207,37 @@ std::string softs_table(const StageDescription& stage) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
+std::string vehicles_table(const StageDescription& stage) {
+  Table table(counted(stage.vehicles.size(), "vehicle"), {"name", "wheel", "mount, m", ">radius, m", ">stiffness, N/m",
+                                                          ">grip", ">torque, N m", ">brake, N m", ">lock, deg"});
+  for (const VehicleDescription& vehicle : stage.vehicles)
+    for (const WheelDescription& each : vehicle.wheels) {
+      const WheelSettings& wheel = each.wheel;
+      table.row({vehicle.name, each.name,
+                 brief_text(wheel.mount.x()) + ", " + brief_text(wheel.mount.y()) + ", " + brief_text(wheel.mount.z()),
+                 brief_text(wheel.radius), brief_text(wheel.stiffness), brief_text(wheel.grip), brief_text(each.torque),
+                 brief_text(each.brake), brief_text(each.lock * 180 / std::numbers::pi)});
+    }
+  return table.empty() ? "" : table.text(styled_output());
+}
+
+std::string particles_table(const StageDescription& stage) {
+  Table table(counted(stage.particles.size(), "kind of particles", "kinds of particles"),
+              {"name", "from", ">most a second", ">speed, m/s", ">life, s", ">radius, m", ">forces"});
+  for (const ParticlesDescription& particles : stage.particles)
+    for (const EmitterDescription& emitter : particles.emitters) {
+      const auto most = [](const Curve<double>& curve) {
+        const bool endless = !std::isfinite(curve.start()) || !std::isfinite(curve.end());
+        const double from = endless ? 0 : curve.start(), to = endless ? 10 : curve.end();
+        return brief_text(to > from ? range(curve, from, to).high : curve.value(from));
+      };
+      table.row({particles.name, emitter.node == no_node ? "the world" : stage.nodes[emitter.node].name,
+                 most(emitter.rate), most(emitter.speed), brief_text(particles.settings.life),
+                 brief_text(particles.settings.radius), std::to_string(particles.forces.size())});
+    }
+  return table.empty() ? "" : table.text(styled_output());
+}
+
 std::string poses_table(const GraphDescription& graph) {
   Table table("poses of the graph " + graph.name, {"name", "is", "of"});
   for (const GraphPose& pose : graph.poses) {
@@ -254,7 +288,8 @@ int inspect_file(const std::string& file) {
   const StageDescription& stage = read.stage;
   std::string out = nodes_table(stage) + clips_table(stage);
   for (const Clip& clip : stage.clips) out += tracks_table(clip) + events_table(clip);
-  out += graph_tables(stage) + bodies_table(stage, file) + joints_table(stage) + softs_table(stage);
+  out += graph_tables(stage) + bodies_table(stage, file) + joints_table(stage) + softs_table(stage) +
+         vehicles_table(stage) + particles_table(stage);
   print(out);
   return 0;
 }

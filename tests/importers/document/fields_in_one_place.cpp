@@ -25,7 +25,7 @@ const std::set<std::string> words_of_others = {
     "mask",    "when",     "settle",      "joints",         "name",
     "from",    "loop",     "count",       "once",           "overlap",
     "sweep",   "density",  "integrator",  "solver",         "iterations",
-    "color",   "plane"};
+    "color",   "plane",    "direction",   "forces"};
 
 // A source without its comments, and without what its forms are called in the schema.
 std::string code_of(const std::filesystem::path& file) {

@@ -71,7 +71,8 @@ TEST_CASE("what is at home in few things of the document is told with the whole 
   const std::string of_tracks = "\"tracks\"; it belongs in a clip of \"clips\" or in a system of \"systems\"";
   CHECK(at_top("tracks") == of_tracks);
   CHECK(at_top("mass") ==
-        "\"mass\"; it belongs in \"body\" of a node of \"nodes\" or in a ragdoll of \"ragdolls\" of \"world\"");
+        "\"mass\"; it belongs in \"body\" of a node of \"nodes\" or in a ragdoll of \"ragdolls\" of \"world\" or in a "
+        "kind of \"particles\" of \"world\"");
   CHECK(in_node("\"sphere\": {\"radius\": 1}") ==
         "\"sphere\"; it belongs in \"shape\" of \"body\" of a node of \"nodes\"");
   CHECK(hint("{\"tweenfall\": 1, \"play\": [{\"clip\": \"c\", \"tracks\": 1}]}") == of_tracks);

@@ -13,7 +13,6 @@ namespace tweenfall::document::actors {
 namespace {
 
 using Kind = json::Value::Kind;
-using Described = ParticlesDescription;
 using Source = EmitterDescription;
 
 fields::FormOf share_form(double most = 1) {
@@ -97,7 +96,7 @@ const Form* emitters_form(FormStore& store, const ValueForms& values) {
   return store.add(list_of(store.add(emitter_table().listing_form(store, values)), "a list of emitters"));
 }
 
-void read_emitters(const json::Value& value, Described& particles, Building& building) {
+void read_emitters(const json::Value& value, ParticlesDescription& particles, Building& building) {
   for (const json::Value& item : value.items()) {
     if (!item.is(Kind::object)) continue;
     emitter_table().read(item, particles.emitters.emplace_back(), building);
@@ -110,7 +109,7 @@ const Form* forces_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(forces));
 }
 
-void read_forces(const json::Value& value, Described& particles, Building& building) {
+void read_forces(const json::Value& value, ParticlesDescription& particles, Building& building) {
   for (const json::Value& force : value.items()) forces::read(force, particles.forces, building);
 }
 
@@ -122,28 +121,30 @@ std::vector<std::pair<std::string, Integrator>> explicit_integrators() {
   return words;
 }
 
-const fields::Table<Described>& particles_table() {
+const fields::Table<ParticlesDescription>& particles_table() {
   const auto of_settings = [](auto ParticleSettings::*part) {
-    return [part](Described & particles) -> auto& {
+    return [part](ParticlesDescription & particles) -> auto& {
       return particles.settings.*part;
     };
   };
-  const auto member_of = [&](auto ParticleSettings::*part) { return fields::member<Described>(of_settings(part)); };
-  fields::Meaning<Described> gravity = member_of(&ParticleSettings::gravity);
+  const auto member_of = [&](auto ParticleSettings::*part) {
+    return fields::member<ParticlesDescription>(of_settings(part));
+  };
+  fields::Meaning<ParticlesDescription> gravity = member_of(&ParticleSettings::gravity);
   gravity.standard = {};
-  const fields::Meaning<Described> most = {[](const json::Value& value, Described& particles, Building&) {
-                                             if (value.is(Kind::number))
-                                               particles.settings.most = static_cast<std::size_t>(value.number());
-                                           },
-                                           "1000000"};
-  const fields::Meaning<Described> seed = {[](const json::Value& value, Described& particles, Building&) {
-                                             if (value.is(Kind::number))
-                                               particles.settings.seed = static_cast<std::uint64_t>(value.number());
-                                           },
-                                           "1"};
-  const auto color = [](Described& particles) -> std::optional<Color>& { return particles.color; };
-  static const fields::Table<Described> table(
-      "particles",
+  const fields::Meaning<ParticlesDescription> most = {
+      [](const json::Value& value, ParticlesDescription& particles, Building&) {
+        if (value.is(Kind::number)) particles.settings.most = static_cast<std::size_t>(value.number());
+      },
+      "1000000"};
+  const fields::Meaning<ParticlesDescription> seed = {
+      [](const json::Value& value, ParticlesDescription& particles, Building&) {
+        if (value.is(Kind::number)) particles.settings.seed = static_cast<std::uint64_t>(value.number());
+      },
+      "1"};
+  const auto color = [](ParticlesDescription& particles) -> std::optional<Color>& { return particles.color; };
+  static const fields::Table<ParticlesDescription> table(
+      "a kind of particles",
       {{"emitters", emitters_form, "what lets them go", {read_emitters}, true},
        {"life", &ValueForms::positive, "s from when one is let go", member_of(&ParticleSettings::life)},
        {"life_spread", share_form(), "by up to this share lives are longer or shorter",
@@ -154,14 +155,15 @@ const fields::Table<Described>& particles_table() {
        {"restitution", share_form(), "of bounces", member_of(&ParticleSettings::restitution)},
        {"friction", &ValueForms::not_negative, "with bodies", member_of(&ParticleSettings::friction)},
        {"gravity", &ValueForms::vector, "m/s^2; absent: the world's", gravity},
-       fields::one_of<Described, Integrator>("integrator", "an integrator of particles", explicit_integrators(),
-                                             "which way through a step", of_settings(&ParticleSettings::integrator)),
+       fields::one_of<ParticlesDescription, Integrator>("integrator", "an integrator of particles",
+                                                        explicit_integrators(), "which way through a step",
+                                                        of_settings(&ParticleSettings::integrator)),
        {"forces", forces_form, "on them alone, of those that name no bodies", {read_forces, "[]"}},
        {"collide", &ValueForms::boolean, "whether they bounce off bodies",
-        fields::member<Described>(&Described::collide)},
+        fields::member<ParticlesDescription>(&ParticlesDescription::collide)},
        {"most", bounded("a whole number from 1 to 1000000", 1, false, 1'000'000, true), "at a time", most},
        {"seed", bounded("a whole number of at least 0", 0, false, 9e15, true), "of what is random about them", seed},
-       {"color", &ValueForms::color, "", fields::member<Described>(color)}});
+       {"color", &ValueForms::color, "", fields::member<ParticlesDescription>(color)}});
   return table;
 }
 
@@ -176,7 +178,7 @@ const Form* particles_form(FormStore& store, const ValueForms& values) {
 void read_particles(const json::Value& value, Building& building) {
   for (const json::Member& member : value.members()) {
     if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
-    Described particles;
+    ParticlesDescription particles;
     particles.name = member.name;
     particles.settings.gravity = building.stage.world.gravity;
     const std::size_t before = building.problems.size();

@@ -8,7 +8,6 @@ namespace {
 
 using Kind = json::Value::Kind;
 using Wheel = WheelDescription;
-using Described = VehicleDescription;
 
 const fields::Table<Wheel>& wheel_table() {
   using fields::member;
@@ -49,7 +48,7 @@ const fields::Table<Wheel>& wheel_table() {
         member<Wheel>(&Wheel::torque),
         false,
         {},
-        {"engine", "drive"}},
+        {"engine"}},
        {"brake", &ValueForms::not_negative, "torque at most when braked whole, N m", member<Wheel>(&Wheel::brake)},
        {"lock",
         bounded("an angle from -90 to 90 degrees", -90, false, 90),
@@ -66,7 +65,7 @@ const Form* wheels_form(FormStore& store, const ValueForms& values) {
       map_of(store.add(wheel_table().listing_form(store, values)), "an object with wheels by name, at least one"));
 }
 
-void read_wheels(const json::Value& value, Described& vehicle, Building& building) {
+void read_wheels(const json::Value& value, VehicleDescription& vehicle, Building& building) {
   for (const json::Member& member : value.members()) {
     if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
     Wheel wheel;
@@ -76,15 +75,15 @@ void read_wheels(const json::Value& value, Described& vehicle, Building& buildin
   }
 }
 
-fields::Meaning<Described> axis(Vec3 Described::*part, std::string standard) {
-  return {[part](const json::Value& value, Described& vehicle, Building& building) {
+fields::Meaning<VehicleDescription> axis(Vec3 VehicleDescription::*part, std::string standard) {
+  return {[part](const json::Value& value, VehicleDescription& vehicle, Building& building) {
             if (const std::optional<Vec3> given = axis_of(value, building.problems)) vehicle.*part = *given;
           },
           std::move(standard)};
 }
 
-fields::Row<Described> script(std::string name, std::string help, Strength Described::*part) {
-  const auto read = [part](const json::Value& value, Described& vehicle, Building& building) {
+fields::Row<VehicleDescription> script(std::string name, std::string help, Strength VehicleDescription::*part) {
+  const auto read = [part](const json::Value& value, VehicleDescription& vehicle, Building& building) {
     ForceDescription scripted;
     scripted.strength = 0;
     forces::read_strength(value, scripted, building);
@@ -93,19 +92,20 @@ fields::Row<Described> script(std::string name, std::string help, Strength Descr
   return {std::move(name), forces::strength_form, std::move(help), {read, "0"}};
 }
 
-const fields::Table<Described>& vehicle_table() {
-  const fields::Meaning<Described> chassis = {[](const json::Value& value, Described& vehicle, Building& building) {
-    vehicle.chassis = fields::body_called(value, building);
-  }};
-  static const fields::Table<Described> table(
+const fields::Table<VehicleDescription>& vehicle_table() {
+  const fields::Meaning<VehicleDescription> chassis = {
+      [](const json::Value& value, VehicleDescription& vehicle, Building& building) {
+        vehicle.chassis = fields::body_called(value, building);
+      }};
+  static const fields::Table<VehicleDescription> table(
       "a vehicle",
       {{"chassis", &ValueForms::name, "node with a body that the wheels carry", chassis, true, {}, {"body", "node"}},
-       {"forward", &ValueForms::axis, "on the chassis", axis(&Described::forward, "\"x\"")},
-       {"up", &ValueForms::axis, "on the chassis, across \"forward\"", axis(&Described::up, "\"y\"")},
+       {"forward", &ValueForms::axis, "on the chassis", axis(&VehicleDescription::forward, "\"x\"")},
+       {"up", &ValueForms::axis, "on the chassis, across \"forward\"", axis(&VehicleDescription::up, "\"y\"")},
        {"wheels", wheels_form, "by name", {read_wheels}, true},
-       script("throttle", "-1 to 1: part of each wheel's \"torque\", over stage time", &Described::throttle),
-       script("brake", "0 to 1: part of each wheel's \"brake\"", &Described::brake),
-       script("steer", "-1 to 1, to the left: part of each wheel's \"lock\"", &Described::steer)});
+       script("throttle", "-1 to 1: part of each wheel's \"torque\", over stage time", &VehicleDescription::throttle),
+       script("brake", "0 to 1: part of each wheel's \"brake\"", &VehicleDescription::brake),
+       script("steer", "-1 to 1, to the left: part of each wheel's \"lock\"", &VehicleDescription::steer)});
   return table;
 }
 
@@ -120,7 +120,7 @@ const Form* vehicles_form(FormStore& store, const ValueForms& values) {
 void read_vehicles(const json::Value& value, Building& building) {
   for (const json::Member& member : value.members()) {
     if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
-    Described vehicle;
+    VehicleDescription vehicle;
     vehicle.name = member.name;
     const std::size_t before = building.problems.size();
     vehicle_table().read(member.value, vehicle, building);

@@ -54,7 +54,12 @@ void Homes::add(const Form& form, std::string what, const std::string& field, bo
 
 std::string Homes::near(std::string_view name, const Form& here, std::span<const Form* const> around) const {
   std::vector<std::string> places;
+  // What stands deep in is rather a wrong word of its own than a part of the whole document gone astray.
+  constexpr std::size_t deepest = 2;
+  const auto own = std::ranges::find(objects_, &here, &Object::form);
+  const bool deep = own != objects_.end() && own->depth > deepest;
   for (const Object& object : objects_) {
+    if (deep && !object.holder) continue;
     const bool inside = object.holder && object.holder->form == &here;
     const bool outside = std::ranges::find(around, object.form) != around.end();
     if ((inside || outside) && object.form->field(name)) add_once(places, object.where);
@@ -92,7 +97,8 @@ std::string Homes::meant_inside(std::string_view name, const Form& here, Meant m
 }
 
 std::string Homes::of(std::string_view name, const Form& here, std::span<const Form* const> around) const {
-  std::string out = near(name, here, around);
+  std::string out = suggestion_of(here.field_called(name), {});
+  if (out.empty()) out = near(name, here, around);
   if (out.empty()) out = suggestion_of(here.field_meant(name), {});
   if (out.empty()) out = meant_inside(name, here, &Form::field_called);
   if (out.empty()) out = anywhere(name, here);

@@ -125,6 +125,11 @@ window.tweenfall = {
   },
   // World positions of the vertices of mesh instance `index`, as drawn.
   verticesOf: index => Array.from(cast.deformed[index].geometry.attributes.position.array),
+  // World places of the particles of a name, as drawn.
+  particlesOf: name => {
+    const found = cast.particles.find(each => each.name === name);
+    return found && Array.from(found.places.array.subarray(0, 3 * found.shown));
+  },
   // The corners of all triangles that are drawn now, ground left out, and the places of nodes where bones alone are drawn.
   drawnPoints: () => {
     const points = [], back = new THREE.Matrix4().getInverse(cast.root.matrixWorld), point = new THREE.Vector3();

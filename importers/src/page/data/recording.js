@@ -72,6 +72,7 @@ class Recording {
       keyOf: integers(lane.keyOf), keys: lane.keys}));
     for (const lane of this.lanes) lane.node.lanes.push(lane);
     this.joints = raw.joints || [];
+    this.particles = (raw.particles || []).map(each => ({...each, starts: integers(each.starts), numbers: floats(each.numbers)}));
     this.details = raw.details ? {starts: integers(raw.details.starts), contacts: floats(raw.details.contacts),
       nodes: new Map(raw.details.nodes.map(({node, island, asleep, boxes}) => [node, {island, asleep, boxes: floats(boxes)}]))} : null;
     this.graphs = (raw.graphs || []).map(graph => ({name: graph.name,
@@ -133,7 +134,7 @@ class Recording {
   // How a thing hung on `node` is colored: as the body that carries it.
   shownOwner(node, time) {
     for (let n = node; n; n = this.nodes[n.parent]) if (n.hasBody) return n.fixed ? "fixed" : this.ownerAt(n, time);
-    return "keyed";
+    return this.ownerAt(node, time);
   }
 
   // What this page leaves out or cannot show, in sentences.

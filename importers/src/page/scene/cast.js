@@ -29,7 +29,10 @@ class Cast {
     this.dressed = dressedNodes();
     this.deformed = recording.instances.map(instance => new DeformedMesh(instance));
     const bare = !this.deformed.length;
-    this.bounds = drawnBounds(this.deformed, this.dressed, {bare}).trimmed();
+    this.particles = recording.particles.map(each => new ShownParticles(each));
+    const bounds = drawnBounds(this.deformed, this.dressed, {bare});
+    for (const each of this.particles) each.addBoxes(bounds);
+    this.bounds = bounds.trimmed();
     const box = this.bounds.box();
     this.center = [0, 1, 2].map(i => (box[i] + box[3 + i]) / 2);
     this.low = box.slice(0, 3);
@@ -43,6 +46,7 @@ class Cast {
     this.gridStep = niceStep(2 * size, 8);
     for (const node of nodes) if (node.shape && node.shown && !this.dressed.has(node.index)) this.addSolid(node);
     this.deformed.forEach(held => this.addMesh(held));
+    for (const each of this.particles) this.root.add(each.object(this.unit, this.radius));
     this.addLinks();
     this.root.updateMatrixWorld(true);
   }
@@ -128,6 +132,7 @@ class Cast {
       held.update(cursor);
       if (held.shown) held.paint(node => colorAt(node, held.mesh.color.slice(0, 3)));
     }
+    for (const each of this.particles) each.update(cursor);
     this.linkLines.visible = state.skeleton;
     if (state.skeleton) this.updateLinks(cursor);
     this.root.updateMatrixWorld();

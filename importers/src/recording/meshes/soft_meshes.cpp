@@ -1,4 +1,4 @@
-#include "recording/soft_meshes.h"
+#include "recording/meshes/dressed.h"
 
 #include <tweenfall/curves/elementary.h>
 
@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace tweenfall::recordings {
 
@@ -172,12 +173,6 @@ void dress(Dressed& out, const SoftRecord& record, const SoftDescription& descri
 
   const std::vector<double>& times = out.recording.times;
   NodeRecord node;
-  node.name = described.name;
-  while (std::ranges::any_of(out.recording.nodes, [&](const NodeRecord& other) { return other.name == node.name; }))
-    node.name += " (soft)";
-  node.world.resize(times.size());
-  node.twist.resize(times.size());
-  node.owner.assign(times.size(), Owner::free);
   for (std::size_t frame = 0, k = 0; frame < times.size(); ++frame) {
     while (k + 1 < shown.size() && shown[k + 1] <= frame) ++k;
     std::vector<double> weights(mesh.morphs.size(), 0);
@@ -187,25 +182,17 @@ void dress(Dressed& out, const SoftRecord& record, const SoftDescription& descri
     if (k + 1 < shown.size()) weights[k] = part;
     if (!weights.empty()) node.weights.push_back(std::move(weights));
   }
-  NodeDescription place;
-  place.name = node.name;
-  out.stage.mesh_instances.push_back(
-      {.node = out.stage.nodes.size(), .mesh = out.stage.meshes.size(), .skin = no_node});
-  out.stage.nodes.push_back(std::move(place));
-  out.stage.meshes.push_back(std::move(mesh));
-  out.recording.nodes.push_back(std::move(node));
+  out.add(std::move(node), described.name, std::move(mesh));
 }
 
 }  // namespace
 
-std::optional<Dressed> with_soft_meshes(const Recording& recording, const StageDescription& stage) {
-  if (recording.softs.empty() || recording.softs.size() != stage.softs.size() || recording.times.empty()) return {};
-  Dressed out{recording, stage};
-  for (std::size_t i = 0; i < recording.softs.size(); ++i)
-    if (recording.softs[i].positions.size() == recording.times.size() && !recording.softs[i].positions[0].empty())
-      dress(out, recording.softs[i], stage.softs[i]);
-  out.recording.softs.clear();
-  return out;
+void add_soft_meshes(Dressed& out) {
+  const std::vector<SoftRecord> softs = out.recording.softs;
+  const std::vector<SoftDescription> described = out.stage.softs;
+  for (std::size_t i = 0; i < softs.size(); ++i)
+    if (softs[i].positions.size() == out.recording.times.size() && !softs[i].positions[0].empty())
+      dress(out, softs[i], described[i]);
 }
 
 }  // namespace tweenfall::recordings

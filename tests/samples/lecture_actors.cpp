@@ -1,0 +1,126 @@
+#include "support.h"
+
+#include <tweenfall/importers/document.h>
+#include <tweenfall/physics/stage/recording.h>
+
+#include <cmath>
+#include <string>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+constexpr double g = 9.81;
+
+Stage actors_lecture(const std::string& name) {
+  const std::filesystem::path folder = std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/documents/lectures";
+  return Stage(Document::read(folder / (name + ".json")).stage());
+}
+
+Motion motion_of(const Stage& stage, const std::string& node) {
+  return stage.world(stage.node(node)).motion;
+}
+
+}  // namespace
+
+TEST_CASE("the car of the lectures, its wheels locked, slides on for v^2 / (2 mu g)") {
+  Stage stage = actors_lecture("vehicle/brakes");
+  stage.advance_to(1);
+  const double v = stage.twist(stage.node("car")).linear.x(), from = motion_of(stage, "car").pose.position.x();
+  CHECK(v > 19);
+  stage.advance_to(5);
+  CHECK(motion_of(stage, "car").pose.position.x() - from == doctest::Approx(v * v / (2 * 0.7 * g)).epsilon(0.005));
+  CHECK(stage.twist(stage.node("car")).linear.norm() < 1e-3);
+}
+
+TEST_CASE("the car of the lectures climbs its ramp and stands there; the one whose rear wheels lock turns around") {
+  Stage climbs = actors_lecture("vehicle/climbs");
+  climbs.advance_to(6);
+  const Motion top = motion_of(climbs, "car");
+  climbs.advance_to(7);
+  CHECK(top.pose.position.y() > 2);
+  CHECK(near((top.pose.rotation * Vec3(1, 0, 0)).y(), std::sin(20 * pi / 180), 0.02));
+  CHECK((motion_of(climbs, "car").pose.position - top.pose.position).norm() < 1e-2);
+  Stage slides = actors_lecture("vehicle/slides");
+  slides.advance_to(3);
+  const Motion slid = motion_of(slides, "car");
+  const Vec3 heading = slid.pose.rotation * Vec3(1, 0, 0);
+  CHECK(heading.x() < 0.5);  // by more than a right angle less 30 degrees
+  CHECK(slid.pose.position.y() > 0.3);
+}
+
+TEST_CASE("of a rate of 50 t particle k leaves at sqrt(k) / 5 s and flies as it was thrown") {
+  Stage stage = actors_lecture("particles/rising_rate");
+  stage.advance_to(1);
+  const StageParticles shown = stage.particles("sparks");
+  REQUIRE(shown.positions.size() == 25);
+  for (const std::size_t k : {std::size_t{0}, std::size_t{6}, std::size_t{24}}) {
+    const double flown = 1 - std::sqrt(static_cast<double>(k + 1)) / 5;
+    CHECK(near(shown.positions[k], Vec3(2 * flown, 2 - 0.5 * g * flown * flown, 0), 1e-8));
+  }
+}
+
+TEST_CASE("the fountain's water lies on no body's inside, and a recording of it has all that the stage has") {
+  Stage stage = actors_lecture("particles/fountain");
+  const Recording recording = record(stage, 3, 30);
+  REQUIRE(recording.particles.size() == 1);
+  REQUIRE(recording.particles[0].frame.size() == recording.times.size());
+  const StageParticles& last = recording.particles[0].frame.back();
+  CHECK(last.numbers.size() > 400);
+  std::size_t inside = 0;
+  for (const Vec3& place : last.positions)
+    if (place.y() < 0.005 || (place - Vec3(0.9, 0.3, 0)).norm() < 0.305) ++inside;
+  CHECK(inside == 0);
+  stage.seek(1.234);
+  const StageParticles before = stage.particles("water");
+  stage.seek(2.5);
+  stage.seek(1.234);
+  CHECK(stage.particles("water").positions == before.positions);
+}
+
+TEST_CASE("ladders stand 2 percent steeper than they may lean, and slip 2 percent flatter") {
+  // Of length L, thickness 2 h and even mass, on ground of friction mu, at the wall that is smooth: moments about the
+  // foot give N L sin a = W (L/2 cos a - h sin a), and N = mu W when it slips, so tan a = 1 / (2 (mu + h / L)). At a
+  // wall as rough the wall holds mu N up: tan a = (1 - mu^2) / (2 (mu + h / L (1 + mu^2))).
+  const double mu = 0.4, share = 0.02 / 4;
+  const double smooth = 1 / (2 * (mu + share)), rough = (1 - mu * mu) / (2 * (mu + share * (1 + mu * mu)));
+  Stage stage = actors_lecture("contacts/ladders");
+  const auto steepness = [&](const std::string& node) {
+    const Vec3 along = motion_of(stage, node).pose.rotation * Vec3(1, 0, 0);
+    return along.y() / along.x();
+  };
+  CHECK(steepness("smooth stands") == doctest::Approx(1.02 * smooth).epsilon(1e-5));
+  CHECK(steepness("smooth slips") == doctest::Approx(0.98 * smooth).epsilon(1e-5));
+  CHECK(steepness("rough stands") == doctest::Approx(1.02 * rough).epsilon(1e-5));
+  CHECK(steepness("rough slips") == doctest::Approx(0.98 * rough).epsilon(1e-5));
+  stage.advance_to(2);
+  CHECK(steepness("smooth stands") == doctest::Approx(1.02 * smooth).epsilon(1e-3));
+  CHECK(steepness("rough stands") == doctest::Approx(1.02 * rough).epsilon(1e-3));
+  CHECK(steepness("smooth slips") < 0.5);
+  CHECK(steepness("rough slips") < 0.5);
+}
+
+TEST_CASE("an agent's inputs are recorded, and given again they lead to the same bits") {
+  Stage played = actors_lecture("agents/hockey");
+  // What an agent sees decides what it does: it strikes the puck whenever that is behind it.
+  for (int step = 0; step < 480; ++step) {
+    const Motion red = motion_of(played, "red");
+    if (step % 60 == 0 && red.pose.position.x() < 1)
+      played.apply_impulse(played.node("red"), Vec3(0.1 * (1 - red.pose.position.x()), 0, 0), red.pose.position);
+    played.advance(1.0 / 240);
+  }
+  const std::vector<TimedInput> inputs = played.inputs();
+  CHECK(inputs.size() >= 3);
+  Stage again = actors_lecture("agents/hockey");
+  CHECK(advance_with(again, inputs, played.time()).empty());
+  CHECK(again.state_hash() == played.state_hash());
+  CHECK(motion_of(again, "red").pose.position == motion_of(played, "red").pose.position);
+  // Without them it lies where it lay; with one it goes J / m t further.
+  Stage alone = actors_lecture("agents/hockey"), pushed = actors_lecture("agents/hockey");
+  alone.advance_to(1.5);
+  CHECK(near(motion_of(alone, "red").pose.position, Vec3(-2, 0.05, 0), 1e-5));
+  const TimedInput one{0.5, input::Push{"red", Vec3(0.4, 0, 0), Vec3(-2, 0.05, 0)}};
+  static_cast<void>(advance_with(pushed, std::span(&one, 1), 1.5));
+  CHECK(near(motion_of(pushed, "red").pose.position.x(), -2 + 0.4 / 0.2 * 1, 1e-9));
+}
