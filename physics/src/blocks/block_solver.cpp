@@ -432,7 +432,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   lags_.resize(contacts_.room);
   holds_.gather(contacts_, h);
   reach_.forget();
-  joints_.build(island.joints, places_, bodies_, h, dt, work_);
+  joints_.build(island.joints, bodies, places_, bodies_, h, dt, work_);
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
   const double giving = effort.giving * softness.giving;
   PassRule soft{all(softness.rate), all(softness.speed), all(1 - giving), all(1 - giving), all(1 / h), all(settled)};

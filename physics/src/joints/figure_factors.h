@@ -59,6 +59,26 @@ TWEENFALL_LANES bool any_bit(const Halves<Half>& numbers) {
 
 constexpr std::uint32_t rows_of_joint = FigureJoint::most_rows;
 
+/// Calls what is made for so many rows: of a point alone, or with some bounds; the compiler then knows their number.
+#define TWEENFALL_OF_ROWS(count, function, ...) \
+  switch (count) {                              \
+    case 3:                                     \
+      function<3>(__VA_ARGS__);                 \
+      break;                                    \
+    case 4:                                     \
+      function<4>(__VA_ARGS__);                 \
+      break;                                    \
+    case 5:                                     \
+      function<5>(__VA_ARGS__);                 \
+      break;                                    \
+    case 6:                                     \
+      function<6>(__VA_ARGS__);                 \
+      break;                                    \
+    default:                                    \
+      function<0>(__VA_ARGS__);                 \
+      break;                                    \
+  }
+
 /// In registers of one kind. Conditions are 1 or 0 in each lane: products of them are found faster than what comes of
 /// several comparisons.
 template <class Register>
@@ -317,10 +337,11 @@ struct FigureFactors {
     }
   }
 
+  template <std::uint32_t known>
   TWEENFALL_LANES static void factor_diagonal(Figures& figures, std::uint32_t place) {
     const FigureJoint& joint = figures.joints[place];
     const FigureRow* rows = rows_of(figures, place);
-    const std::uint32_t count = joint.in_count;
+    const std::uint32_t count = known != 0 ? known : joint.in_count;
     Lanes* block = figures.blocks + joint.diagonal;
     for (std::uint32_t i = 0; i < count; ++i)
       for (std::uint32_t k = 0; k <= i; ++k) {
@@ -384,11 +405,8 @@ struct FigureFactors {
     lay_out(figures);
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) fill(figures, place);
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
-      factor_diagonal(figures, place);
-      if (figures.joints[place].in_count == 3)
-        eliminate<3>(figures, place);
-      else
-        eliminate<0>(figures, place);
+      TWEENFALL_OF_ROWS(figures.joints[place].in_count, factor_diagonal, figures, place)
+      TWEENFALL_OF_ROWS(figures.joints[place].in_count, eliminate, figures, place)
     }
   }
 
@@ -445,16 +463,12 @@ struct FigureFactors {
     solve_upper(figures.blocks + joint.diagonal, own, columns);
   }
   TWEENFALL_LANES static void solve_values(Figures& figures) {
-    for (std::uint32_t place = 0; place < figures.joint_count; ++place)
-      if (figures.joints[place].in_count == 3)
-        solve_down<3>(figures, place);
-      else
-        solve_down<0>(figures, place);
-    for (std::uint32_t place = figures.joint_count; place-- > 0;)
-      if (figures.joints[place].in_count == 3)
-        solve_up<3>(figures, place);
-      else
-        solve_up<0>(figures, place);
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      TWEENFALL_OF_ROWS(figures.joints[place].in_count, solve_down, figures, place)
+    }
+    for (std::uint32_t place = figures.joint_count; place-- > 0;) {
+      TWEENFALL_OF_ROWS(figures.joints[place].in_count, solve_up, figures, place)
+    }
   }
   /// The impulses that came out, on the bodies.
   TWEENFALL_LANES static void give_values(Figures& figures) {

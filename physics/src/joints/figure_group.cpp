@@ -1,6 +1,9 @@
 #include "joints/figure_group.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "joints/kinds/kinds.h"
 
 namespace tweenfall::joints {
 
@@ -11,14 +14,17 @@ using blocks::Lanes3;
 
 namespace {
 
-/// Rows with bounds may nearly say what others say already; with so much more of their own inverse mass they do not ask
-/// for any impulse, and are met all the same when solved once more.
-constexpr double caution = 0.003;
-
 constexpr std::uint32_t moving_end = 0x80000000u;
 constexpr std::size_t numbers_of_joint = 3;  ///< of a shape
 
 void put(const Vec3& value, Lanes3& lanes, int lane) {
+  lanes.x[lane] = value.x();
+  lanes.y[lane] = value.y();
+  lanes.z[lane] = value.z();
+}
+
+void put(const Quat& value, LanesQuat& lanes, int lane) {
+  lanes.w[lane] = value.w();
   lanes.x[lane] = value.x();
   lanes.y[lane] = value.y();
   lanes.z[lane] = value.z();
@@ -34,7 +40,7 @@ void clear(FigureRow& row, int lane) {
 
 }  // namespace
 
-void FigureGroup::find_shape(const FigurePlan& plan, std::span<const std::uint32_t> kinds,
+void FigureGroup::find_shape(std::span<const FigurePlan::Member> members, std::span<const std::uint32_t> kinds,
                              std::vector<std::uint32_t>& local, Shape& shape) {
   shape.clear();
   std::uint32_t bodies = 0;
@@ -44,12 +50,12 @@ void FigureGroup::find_shape(const FigurePlan& plan, std::span<const std::uint32
     if (local[place] == 0) local[place] = ++bodies;
     return (local[place] - 1) | moving_end;
   };
-  for (const FigurePlan::Member& member : plan.members()) {
+  for (const FigurePlan::Member& member : members) {
     const std::uint32_t a = number_of(member.a, member.a_moves);
     const std::uint32_t b = number_of(member.b, member.b_moves);
     shape.insert(shape.end(), {a, b, kinds[member.joint]});
   }
-  for (const FigurePlan::Member& member : plan.members()) local[member.a] = local[member.b] = 0;
+  for (const FigurePlan::Member& member : members) local[member.a] = local[member.b] = 0;
 }
 
 void FigureGroup::begin(const FigurePlan& plan, const Shape& shape, bool whole) {
@@ -67,11 +73,14 @@ void FigureGroup::begin(const FigurePlan& plan, const Shape& shape, bool whole) 
   holds_.assign(count, {});
   joint_of_.assign(lane_count * count, 0);
   std::uint32_t bodies = 0;
+  bool in_lanes = false;
   for (std::size_t i = 0; i < count; ++i) {
     FigureJoint& joint = joints_[i];
     joint.a = shape[numbers_of_joint * i] & ~moving_end;
     joint.b = shape[numbers_of_joint * i + 1] & ~moving_end;
     bodies = std::max({bodies, joint.a + 1, joint.b + 1});
+    joint.writing = static_cast<Writing>(shape[numbers_of_joint * i + 2] / kinds_room);
+    in_lanes = in_lanes || joint.writing != Writing::by_kind;
     joint.push = joint.turn = {};
     joint.arm_a = joint.arm_b = {};
   }
@@ -80,6 +89,15 @@ void FigureGroup::begin(const FigurePlan& plan, const Shape& shape, bool whole) 
   for (std::size_t i = 0; i < count; ++i) {
     bodies_[joints_[i].a].moves = (shape[numbers_of_joint * i] & moving_end) != 0;
     bodies_[joints_[i].b].moves = (shape[numbers_of_joint * i + 1] & moving_end) != 0;
+  }
+  frames_.clear();
+  if (in_lanes) {
+    // Lanes that no figure has lie straight.
+    FigureFrame straight{};
+    straight.axes_a.w = straight.axes_b.w = straight.swing_y = straight.swing_z = straight.twist_high = blocks::all(1);
+    straight.twist_low = blocks::all(-1);
+    frames_.assign(count, straight);
+    for (FigureBody& body : bodies_) body.rotation.w = blocks::all(1);
   }
   firsts_.assign(plan.firsts().begin(), plan.firsts().end());
   links_.resize(plan.later().size());
@@ -129,6 +147,56 @@ void FigureGroup::load_bodies(const std::vector<IslandBody>& island) {
   }
 }
 
+void FigureGroup::frame(std::uint32_t place, int lane, const state::Joint& joint, const Vec3& pivot_a,
+                        const Vec3& pivot_b, const std::array<double, most_rows>& impulses) {
+  FigureFrame& frame = frames_[place];
+  put(pivot_a, frame.pivot_a, lane);
+  put(pivot_b, frame.pivot_b, lane);
+  for (std::size_t row = 0; row < most_rows; ++row) frame.impulses[row][lane] = impulses[row];
+  const auto* limb = std::get_if<SwingTwistJoint>(&joint.settings.kind);
+  if (!limb) return;
+  put(joint.settings.frame_a.rotation, frame.axes_a, lane);
+  put(joint.settings.frame_b.rotation, frame.axes_b, lane);
+  frame.swing_y[lane] = std::max(limb->swing_y, narrowest_swing);
+  frame.swing_z[lane] = std::max(limb->swing_z, narrowest_swing);
+  frame.twist_low[lane] = limb->twist.low;
+  frame.twist_high[lane] = limb->twist.high;
+  frame.side_y[lane] = joint.side.y();
+  frame.side_z[lane] = joint.side.z();
+}
+
+void FigureGroup::write(const std::vector<IslandBody>& island, const std::vector<blocks::BodyLanes>& velocities,
+                        const Lanes& live, const WriteRule& rule) {
+  if (frames_.empty()) return;
+  for (std::uint32_t i = 0; i < lanes_.body_count; ++i) {
+    FigureBody& body = bodies_[i];
+    for (int lane = 0; lane < lanes_.used; ++lane) {
+      if (live[lane] == 0) continue;
+      const std::uint32_t place = this->body(i, lane);
+      const IslandBody& entry = island[place];
+      put(entry.center, body.center, lane);
+      put(entry.rotation, body.rotation, lane);
+      Vec3 spin = blocks::angular_of(velocities[place]);
+      const double turn = spin.squaredNorm() * rule.h * rule.h;
+      if (turn > followable * followable) spin *= followable / std::sqrt(turn);
+      put(spin, body.spin, lane);
+    }
+  }
+  point_at_own();
+  fastest_figure_kernels().write(lanes_, rule);
+}
+
+void FigureGroup::keep_impulses() {
+  for (std::uint32_t place = 0; place < frames_.size(); ++place) {
+    const FigureJoint& joint = joints_[place];
+    if (joint.writing == Writing::by_kind) continue;
+    for (std::size_t i = 0; i < joint.count; ++i)
+      for (int lane = 0; lane < lane_count; ++lane)
+        // Adding 0 makes every 0 a positive one, whatever the other lanes have.
+        frames_[place].impulses[joint.sources[i]][lane] = rows_[most_rows * place + i].impulse[lane] + 0.0;
+  }
+}
+
 void FigureGroup::load(std::uint32_t place, int lane, const JointRows& rows, const Vec3& arm_a, const Vec3& arm_b) {
   FigureJoint& joint = joints_[place];
   joint.point = rows.point;
@@ -169,12 +237,26 @@ void FigureGroup::load(std::uint32_t place, int lane, const JointRows& rows, con
   holds_[place][static_cast<std::size_t>(lane)] = static_cast<std::uint8_t>(rows.together);
 }
 
+/// A copy has its own.
+void FigureGroup::point_at_own() {
+  lanes_.bodies = bodies_.data();
+  lanes_.joints = joints_.data();
+  lanes_.frames = frames_.data();
+  lanes_.rows = rows_.data();
+  lanes_.firsts = firsts_.data();
+  lanes_.links = links_.data();
+  lanes_.places = places_.data();
+  lanes_.blocks = blocks_.data();
+  lanes_.values = values_.data();
+}
+
 void FigureGroup::end_load() {
   const auto used = static_cast<std::ptrdiff_t>(lanes_.used);
   std::size_t blocks = 0;
   std::size_t values = 0;
   for (std::uint32_t place = 0; place < lanes_.joint_count; ++place) {
     FigureJoint& joint = joints_[place];
+    if (joint.writing != Writing::by_kind) continue;
     const auto& counts = counts_[place];
     joint.count = *std::max_element(counts.begin(), counts.begin() + used);
     joint.holds = *std::min_element(holds_[place].begin(), holds_[place].begin() + used);
@@ -188,26 +270,24 @@ void FigureGroup::end_load() {
           clear(rows_[number], lane);
       joint.turning[i] = (pushing_[number] & having) == 0;
     }
-    blocks += std::size_t{joint.count} * joint.count;
-    values += joint.count;
   }
-  for (std::uint32_t place = 0; place < lanes_.joint_count; ++place)
+  for (std::uint32_t place = 0; place < lanes_.joint_count; ++place) {
+    blocks += std::size_t{joints_[place].count} * joints_[place].count;
+    values += joints_[place].count;
     for (std::uint32_t n = firsts_[place]; n < firsts_[place + 1]; ++n)
       blocks += std::size_t{joints_[place].count} * joints_[links_[n].place].count;
+  }
   if (blocks_.size() < blocks) blocks_.resize(blocks);
   if (values_.size() < values) values_.resize(values);
-  lanes_.bodies = bodies_.data();
-  lanes_.joints = joints_.data();
-  lanes_.rows = rows_.data();
-  lanes_.firsts = firsts_.data();
-  lanes_.links = links_.data();
-  lanes_.places = places_.data();
-  lanes_.blocks = blocks_.data();
-  lanes_.values = values_.data();
+  point_at_own();
   lanes_.stale = true;
 }
 
 void FigureGroup::unload(std::uint32_t place, int lane, std::array<double, most_rows>& impulses) const {
+  if (joints_[place].writing != Writing::by_kind) {
+    for (std::size_t row = 0; row < most_rows; ++row) impulses[row] = frames_[place].impulses[row][lane];
+    return;
+  }
   for (std::size_t i = 0; i < counts_[place][static_cast<std::size_t>(lane)]; ++i) {
     const std::size_t number = most_rows * place + i;
     // Adding 0 makes every 0 a positive one, whatever the other lanes have.
@@ -216,7 +296,7 @@ void FigureGroup::unload(std::uint32_t place, int lane, std::array<double, most_
 }
 
 bool FigureGroup::acts(std::uint32_t place, int lane) const {
-  for (std::size_t i = 0; i < counts_[place][static_cast<std::size_t>(lane)]; ++i)
+  for (std::size_t i = 0; i < joints_[place].count; ++i)
     if (rows_[most_rows * place + i].impulse[lane] != 0) return true;
   return false;
 }

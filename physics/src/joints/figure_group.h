@@ -21,12 +21,15 @@ class FigureGroup {
   void begin(const FigurePlan& plan, const Shape& shape, bool whole);
   /// Takes a figure along. @return false if it has another shape, or there is no lane left
   [[nodiscard]] bool take(const FigurePlan& plan, const Shape& shape);
-  /// Bodies of the group at the ends of each joint, with what moves and the kind of the joint.
-  /// @param kinds  by the members' joint
+  /// Bodies of the group at the ends of each joint, with what moves, and the kind of the joint and how it is written.
+  /// @param kinds  by the members' joint; see kind_number
   /// @param local  room: by place, 0 between calls
-  static void find_shape(const FigurePlan& plan, std::span<const std::uint32_t> kinds,
+  static void find_shape(std::span<const FigurePlan::Member> members, std::span<const std::uint32_t> kinds,
                          std::vector<std::uint32_t>& local, Shape& shape);
 
+  [[nodiscard]] static std::uint32_t kind_number(std::size_t kind, Writing writing) {
+    return static_cast<std::uint32_t>(kind) + kinds_room * static_cast<std::uint32_t>(writing);
+  }
   /// No other figure has any of its bodies.
   [[nodiscard]] bool whole() const { return whole_; }
   [[nodiscard]] int lanes() const { return lanes_.used; }
@@ -45,6 +48,20 @@ class FigureGroup {
   [[nodiscard]] const FigureBody& body(std::uint32_t number) const { return bodies_[number]; }
 
   void load_bodies(const std::vector<blocks::IslandBody>& island);
+  /// Of a joint whose rows are written in lanes. @param pivot_a, pivot_b  from the centers of mass
+  void frame(std::uint32_t place, int lane, const state::Joint& joint, const Vec3& pivot_a, const Vec3& pivot_b,
+             const std::array<double, most_rows>& impulses);
+  /// Writes the rows of all joints for which that is done in lanes.
+  /// @param live  lanes whose bodies may have moved since
+  void write(const std::vector<blocks::IslandBody>& island, const std::vector<blocks::BodyLanes>& velocities,
+             const blocks::Lanes& live, const WriteRule& rule);
+  [[nodiscard]] Writing writing(std::uint32_t place) const { return joints_[place].writing; }
+  /// Impulses of rows that were written in lanes are those with which the next sub-step begins.
+  void keep_impulses();
+  /// Unit; see state::Joint.
+  [[nodiscard]] Vec3 side(std::uint32_t place, int lane) const {
+    return {0, frames_[place].side_y[lane], frames_[place].side_z[lane]};
+  }
   /// The rows of a joint; once all of those that changed are loaded, `end_load`.
   void load(std::uint32_t place, int lane, const JointRows& rows, const Vec3& arm_a, const Vec3& arm_b);
   void end_load();
@@ -63,8 +80,10 @@ class FigureGroup {
   }
 
  private:
+  static constexpr std::uint32_t kinds_room = 256;
   [[nodiscard]] static std::size_t at(std::uint32_t number) { return std::size_t{blocks::lane_count} * number; }
   void add(const FigurePlan& plan);
+  void point_at_own();
 
   Figures lanes_;
   Shape shape_;
@@ -74,6 +93,7 @@ class FigureGroup {
   std::vector<FigureRow> rows_;
   std::vector<std::uint32_t> firsts_;
   std::vector<FigureLink> links_;
+  std::vector<FigureFrame> frames_;  ///< beside joints_, or empty
   std::vector<blocks::Lanes> blocks_, values_;
   std::vector<std::uint32_t> places_, joint_of_;
   std::vector<std::array<std::uint8_t, blocks::lane_count>> counts_, holds_;  ///< rows that each lane has

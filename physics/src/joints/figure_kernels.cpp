@@ -1,6 +1,6 @@
 #include <array>
 
-#include "joints/figure_factors.h"
+#include "joints/figure_writing.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
 
@@ -15,7 +15,7 @@ constexpr double passable = 1e-10;
 
 /// How what is in and what is beside change places, in registers of one kind.
 template <class Register>
-struct FigureWork : FigureFactors<Register> {
+struct FigureWork : FigureWriting<Register> {
   using Factors = FigureFactors<Register>;
   using Number = typename Factors::Number;
   using Vector = typename Factors::Vector;
@@ -40,6 +40,7 @@ struct FigureWork : FigureFactors<Register> {
   using Factors::speed_of;
   using Factors::sum_of_point;
   using Factors::write;
+  using FigureWriting<Register>::used_of;
 
   // Rounds
 
@@ -148,12 +149,6 @@ struct FigureWork : FigureFactors<Register> {
     }
     figures.stale = figures.stale || any(changed);
     return changed;
-  }
-
-  TWEENFALL_LANES static Number used_of(const Figures& figures) {
-    Lanes used;
-    for (int lane = 0; lane < lane_count; ++lane) used[lane] = lane < figures.used ? 1 : 0;
-    return used;
   }
 
   TWEENFALL_LANES static void solve(Figures& figures, bool moving) {
@@ -288,17 +283,18 @@ struct FigureWork : FigureFactors<Register> {
     figures.stale = own.stale;                                             \
     figures.silent = own.silent;                                           \
   }
-#define TWEENFALL_FIGURE_KERNELS(name, Numbers, target)                                                  \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, warm_start, (Figures & figures), (own))                 \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, solve, (Figures & figures, bool moving), (own, moving)) \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, moved, (Figures & figures), (own))                      \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, close,                                                  \
-                          (Figures & figures, bool of_what_holds, const Lanes& live, Lanes& widest),     \
-                          (own, of_what_holds, live, widest))                                            \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, hold_only, (Figures & figures), (own))                  \
-  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, add_up, (Figures & figures), (own))                     \
-  constexpr FigureKernels name = {warm_start_##name, solve_##name,     moved_##name,                     \
-                                  close_##name,      hold_only_##name, add_up_##name};
+#define TWEENFALL_FIGURE_KERNELS(name, Numbers, target)                                                              \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, write_all, (Figures & figures, const WriteRule& rule), (own, rule)) \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, warm_start, (Figures & figures), (own))                             \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, solve, (Figures & figures, bool moving), (own, moving))             \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, moved, (Figures & figures), (own))                                  \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, close,                                                              \
+                          (Figures & figures, bool of_what_holds, const Lanes& live, Lanes& widest),                 \
+                          (own, of_what_holds, live, widest))                                                        \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, hold_only, (Figures & figures), (own))                              \
+  TWEENFALL_FIGURE_KERNEL(name, Numbers, target, add_up, (Figures & figures), (own))                                 \
+  constexpr FigureKernels name = {write_all_##name, warm_start_##name, solve_##name, moved_##name,                   \
+                                  close_##name,     hold_only_##name,  add_up_##name};
 
 TWEENFALL_FIGURE_KERNELS(plain_figures, Halves<Halves<Two>>, )
 #if defined(__x86_64__) || defined(__i386__)

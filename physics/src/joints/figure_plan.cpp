@@ -35,6 +35,10 @@ bool FigurePlan::make(std::span<const Member> members, Room& room) {
   return true;
 }
 
+void FigurePlan::change_members(std::span<const Member> members) {
+  for (std::size_t i = 0; i < members.size(); ++i) members_[place_of_[i]] = members[i];
+}
+
 /// By distance from where each tree hangs, the farthest first.
 void FigurePlan::order(Room& room) {
   std::vector<std::uint32_t>& depth = room.depth;
@@ -117,7 +121,8 @@ bool FigurePlan::find_structure(Room& room) {
   }
   first_[count] = static_cast<std::uint32_t>(later_.size());
   room.given = members_;
-  for (std::size_t i = 0; i < count; ++i) members_[room.place_of[i]] = room.given[i];
+  place_of_ = room.place_of;
+  change_members(room.given);
   return true;
 }
 

@@ -31,6 +31,9 @@ class FigurePlan {
   /// @return false if there are so many loops that joint by joint would be less work; it is no plan then
   [[nodiscard]] bool make(std::span<const Member> members, Room& room);
 
+  /// The same plan for as many others that hang together in the same way.
+  void change_members(std::span<const Member> members);
+
   /// In the order of elimination.
   [[nodiscard]] std::span<const Member> members() const { return members_; }
   /// Of each member into `later`, and their end.
@@ -43,6 +46,7 @@ class FigurePlan {
   [[nodiscard]] bool find_structure(Room& room);
 
   std::vector<Member> members_;
+  std::vector<std::uint32_t> place_of_;  ///< by number in what it was made for
   std::vector<std::uint32_t> first_, later_;
 };
 

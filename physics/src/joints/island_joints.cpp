@@ -19,8 +19,6 @@ constexpr double taken_apart = 0.3;
 /// In shorter steps than this, s, errors are taken apart more slowly: the speed that it needs is the shorter the step
 /// the greater.
 constexpr double unhurried = 1e-3;
-/// The bend of an arc tells nothing when a sub-step turns further, rad.
-constexpr double followable = 0.3;
 /// Impulses of sub-steps much shorter than the last one kept hold mostly rounding, which would grow with the ratio.
 constexpr double long_enough = 0.15;
 /// After so many times the last one's length what it told is old.
@@ -28,6 +26,12 @@ constexpr double old_after = 24;
 /// So often places are brought together at the end of a step, and how near they are then by once more, m or rad.
 constexpr int most_closings = 5;
 constexpr double closed = 2e-3;
+
+Writing writing_of(const JointKind& kind) {
+  if (std::holds_alternative<BallJoint>(kind)) return Writing::point;
+  const auto* limb = std::get_if<SwingTwistJoint>(&kind);
+  return limb && !limb->toward && !(limb->twist.hz > 0) ? Writing::limb : Writing::by_kind;
+}
 
 /// Whole turns are counted from sub-step to sub-step.
 void keep_turns(state::Joint& joint, const Placement& at) {
@@ -44,8 +48,9 @@ void keep_turns(state::Joint& joint, const Placement& at) {
 
 }  // namespace
 
-void IslandJoints::build(std::span<JointLink* const> links, const std::vector<std::uint32_t>& places,
-                         const std::vector<IslandBody>& island, double h, double dt, const threads::Workers& workers) {
+void IslandJoints::build(std::span<JointLink* const> links, const std::vector<state::Body>& bodies,
+                         const std::vector<std::uint32_t>& places, const std::vector<IslandBody>& island, double h,
+                         double dt, const threads::Workers& workers) {
   work_ = workers;
   h_ = h;
   dt_ = dt;
@@ -63,12 +68,28 @@ void IslandJoints::build(std::span<JointLink* const> links, const std::vector<st
     entry.b = places[links[i]->b];
     const double ratio = joint.kept_step > h ? h / joint.kept_step : 1;
     for (std::size_t k = 0; k < joint.kept.size(); ++k) entry.impulses[k] = ratio * joint.kept[k];
-    kinds_[i] = static_cast<std::uint32_t>(joint.settings.kind.index());
+    kinds_[i] = FigureGroup::kind_number(joint.settings.kind.index(), writing_of(joint.settings.kind));
     if (std::holds_alternative<GearJoint>(joint.settings.kind)) gears_.push_back(static_cast<std::uint32_t>(i));
     members_[i] = {entry.a, entry.b, entry.a != 0 && island[entry.a].movable, island[entry.b].movable,
                    static_cast<std::uint32_t>(i)};
   }
   find_figures(island);
+  each_group([&](FigureGroup& group) { frame(group, bodies, island); });
+}
+
+void IslandJoints::frame(FigureGroup& group, const std::vector<state::Body>& bodies,
+                         const std::vector<IslandBody>& island) {
+  for (std::uint32_t place = 0; place < group.size(); ++place) {
+    if (group.writing(place) == Writing::by_kind) continue;
+    for (int lane = 0; lane < group.lanes(); ++lane) {
+      const Entry& entry = joints_[group.joint(place, lane)];
+      const JointSettings& settings = entry.joint->settings;
+      const Vec3 pivot_a = entry.a == 0 ? settings.frame_a.position
+                                        : Vec3(settings.frame_a.position - bodies[island[entry.a].index].mass().center);
+      group.frame(place, lane, *entry.joint, pivot_a,
+                  settings.frame_b.position - bodies[island[entry.b].index].mass().center, entry.impulses);
+    }
+  }
 }
 
 void IslandJoints::find_figures(const std::vector<IslandBody>& island) {
@@ -88,34 +109,46 @@ void IslandJoints::find_figures(const std::vector<IslandBody>& island) {
     roots_[std::max(a, b)] = std::min(a, b);
   }
   // Sorted by root, and in their order otherwise.
-  const auto root_of_member = [&](const FigurePlan::Member& member) {
-    return root_of(member.a_moves ? member.a : member.b);
-  };
-  std::stable_sort(members_.begin(), members_.end(),
-                   [&](const FigurePlan::Member& left, const FigurePlan::Member& right) {
-                     return root_of_member(left) < root_of_member(right);
-                   });
-  for (std::size_t begin = 0, end = 0; begin < members_.size(); begin = end) {
-    while (end < members_.size() && root_of_member(members_[end]) == root_of_member(members_[begin])) ++end;
-    const std::span<const FigurePlan::Member> some = std::span(members_).subspan(begin, end - begin);
-    if (plan_.make(some, room_)) {
-      add_figure(true);
+  sorted_.clear();
+  for (std::size_t i = 0; i < members_.size(); ++i)
+    sorted_.push_back(std::uint64_t{root_of(members_[i].a_moves ? members_[i].a : members_[i].b)} << 32u | i);
+  std::sort(sorted_.begin(), sorted_.end());
+  given_.clear();
+  for (const std::uint64_t one : sorted_) given_.push_back(members_[one & 0xffffffffu]);
+  for (std::size_t begin = 0, end = 0; begin < given_.size(); begin = end) {
+    while (end < given_.size() && sorted_[end] >> 32u == sorted_[begin] >> 32u) ++end;
+    const std::span<const FigurePlan::Member> some = std::span(given_).subspan(begin, end - begin);
+    if (KnownPlan& known = plan_for(some); known.found) {
+      known.plan.change_members(some);
+      add_figure(known.plan, known.shape, true);
       continue;
     }
     for (std::size_t i = 0; i < some.size(); ++i) {
       static_cast<void>(plan_.make(some.subspan(i, 1), room_));
-      add_figure(false);
+      FigureGroup::find_shape(plan_.members(), kinds_, local_, shape_);
+      add_figure(plan_, shape_, false);
     }
   }
 }
 
-void IslandJoints::add_figure(bool whole) {
-  FigureGroup::find_shape(plan_, kinds_, local_, shape_);
+IslandJoints::KnownPlan& IslandJoints::plan_for(std::span<const FigurePlan::Member> members) {
+  FigureGroup::find_shape(members, kinds_, local_, shape_);
+  for (KnownPlan& known : known_)
+    if (known.given == shape_) return known;
+  if (known_.size() < most_known) known_.emplace_back();
+  KnownPlan& known = known_[next_known_++ % most_known];
+  known.given = shape_;
+  known.found = known.plan.make(members, room_);
+  if (known.found) FigureGroup::find_shape(known.plan.members(), kinds_, local_, known.shape);
+  return known;
+}
+
+void IslandJoints::add_figure(const FigurePlan& plan, const FigureGroup::Shape& shape, bool whole) {
   if (whole)
     for (FigureGroup& group : groups())
-      if (group.take(plan_, shape_)) return;
+      if (group.take(plan, shape)) return;
   if (group_count_ == groups_.size()) groups_.emplace_back();
-  groups_[group_count_++].begin(plan_, shape_, whole);
+  groups_[group_count_++].begin(plan, shape, whole);
 }
 
 void IslandJoints::write(Entry& entry, const std::vector<state::Body>& bodies, const std::vector<IslandBody>& island,
@@ -150,10 +183,11 @@ void IslandJoints::write(Entry& entry, const std::vector<state::Body>& bodies, c
 
 void IslandJoints::write(FigureGroup& group, const blocks::Lanes& live, const std::vector<state::Body>& bodies,
                          const std::vector<IslandBody>& island, const std::vector<BodyLanes>& velocities) {
+  group.write(island, velocities, live, {h_, rate_, dt_, closing_});
   JointRows rows;
   for (std::uint32_t place = 0; place < group.size(); ++place)
     for (int lane = 0; lane < group.lanes(); ++lane) {
-      if (live[lane] == 0) continue;
+      if (live[lane] == 0 || group.writing(place) != Writing::by_kind) continue;
       Entry& entry = joints_[group.joint(place, lane)];
       write(entry, bodies, island, velocities, rows);
       group.load(place, lane, rows, entry.arm_a, entry.arm_b);
@@ -161,9 +195,9 @@ void IslandJoints::write(FigureGroup& group, const blocks::Lanes& live, const st
   group.end_load();
 }
 
-void IslandJoints::unload(const FigureGroup& group) {
+void IslandJoints::unload(const FigureGroup& group, bool in_lanes) {
   for (std::uint32_t place = 0; place < group.size(); ++place)
-    for (int lane = 0; lane < group.lanes(); ++lane)
+    for (int lane = 0; lane < group.lanes() && (group.writing(place) != Writing::by_kind) == in_lanes; ++lane)
       group.unload(place, lane, joints_[group.joint(place, lane)].impulses);
 }
 
@@ -181,7 +215,8 @@ void IslandJoints::begin_sub_step(const std::vector<state::Body>& bodies, const 
 void IslandJoints::end_sub_step() {
   each_group([this](FigureGroup& group) {
     fastest_figure_kernels().add_up(group.figures());
-    unload(group);
+    group.keep_impulses();
+    unload(group, false);
   });
 }
 
@@ -217,6 +252,7 @@ void IslandJoints::close_gaps(FigureGroup& group, const std::vector<state::Body>
 void IslandJoints::end_step(const std::vector<state::Body>& bodies, std::vector<IslandBody>& island,
                             std::vector<BodyLanes>& velocities) {
   if (joints_.empty()) return;
+  each_group([&](const FigureGroup& group) { unload(group, true); });
   store();
   closing_ = true;
   // All see the places where the last sub-step ended.
@@ -232,6 +268,7 @@ void IslandJoints::end_step(const std::vector<state::Body>& bodies, std::vector<
     state::Joint& joint = *joints_[group.joint(place, lane)].joint;
     joint.force = group.push(place, lane) / dt_;
     joint.torque = group.turn(place, lane) / dt_;
+    if (group.writing(place) == Writing::limb) joint.side = group.side(place, lane);
   });
 }
 

@@ -21,8 +21,9 @@ class IslandJoints {
  public:
   /// Begins with the impulses that the joints kept.
   /// @param places  from a body's index to its place in the island; 0 for none, and for the world
-  void build(std::span<JointLink* const> links, const std::vector<std::uint32_t>& places,
-             const std::vector<blocks::IslandBody>& island, double h, double dt, const threads::Workers& workers);
+  void build(std::span<JointLink* const> links, const std::vector<state::Body>& bodies,
+             const std::vector<std::uint32_t>& places, const std::vector<blocks::IslandBody>& island, double h,
+             double dt, const threads::Workers& workers);
   [[nodiscard]] bool empty() const { return joints_.empty(); }
 
   /// Rows for the bodies as they stand, and the impulses of the sub-step before applied again.
@@ -91,8 +92,17 @@ class IslandJoints {
     for (std::size_t i = 0; i < group_count_; ++i) see_if(backward ? group_count_ - 1 - i : i, false);
   }
   void find_figures(const std::vector<blocks::IslandBody>& island);
-  void add_figure(bool whole);
-  void unload(const FigureGroup& group);
+  void frame(FigureGroup& group, const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island);
+  void add_figure(const FigurePlan& plan, const FigureGroup::Shape& shape, bool whole);
+  /// A plan that was made for figures that hang together in one way.
+  struct KnownPlan {
+    FigureGroup::Shape given;  ///< how: as a shape, in the order in which the joints were
+    FigurePlan plan;
+    FigureGroup::Shape shape;
+    bool found = false;
+  };
+  KnownPlan& plan_for(std::span<const FigurePlan::Member> members);
+  void unload(const FigureGroup& group, bool in_lanes);
   void write(FigureGroup& group, const blocks::Lanes& live, const std::vector<state::Body>& bodies,
              const std::vector<blocks::IslandBody>& island, const std::vector<blocks::BodyLanes>& velocities);
   void write(Entry& entry, const std::vector<state::Body>& bodies, const std::vector<blocks::IslandBody>& island,
@@ -105,11 +115,15 @@ class IslandJoints {
   std::vector<FigureGroup> groups_;  ///< of the islands with most so far: one takes long to make
   std::size_t group_count_ = 0;
   std::vector<std::uint32_t> gears_;  ///< of joints_
+  static constexpr std::size_t most_known = 8;
+  std::vector<KnownPlan> known_;  ///< those of figures seen lately
+  std::size_t next_known_ = 0;    ///< gives way to the next one
   FigurePlan plan_;
   FigurePlan::Room room_;
   FigureGroup::Shape shape_;
-  std::vector<FigurePlan::Member> members_;
-  std::vector<std::uint32_t> kinds_;  ///< of joints_
+  std::vector<FigurePlan::Member> members_, given_;
+  std::vector<std::uint64_t> sorted_;  ///< roots of members, and which ones
+  std::vector<std::uint32_t> kinds_;   ///< of joints_
   std::vector<std::uint32_t> roots_, local_;
   double h_ = 0, dt_ = 0, rate_ = 0;
   threads::Workers work_;

@@ -8,19 +8,6 @@
 
 namespace tweenfall::joints {
 
-namespace {
-
-/// What starts far from where its joint wants it is drawn there no faster than so, m/s and rad/s: it may push others on
-/// its way.
-constexpr double fastest_approach = 4;
-constexpr double fastest_turn = 10;
-/// What has not passed its bound by more comes back at leisure, m or rad.
-constexpr double far_beyond = 3e-3;
-/// How far a blow may turn what stood still within a sub-step, rad: bounds that are nearer are minded.
-constexpr double reach_of_blow = 0.1;
-
-}  // namespace
-
 Direction operator-(const Direction& direction) {
   return {-direction.linear_a, -direction.turn_a, -direction.linear_b, -direction.turn_b};
 }

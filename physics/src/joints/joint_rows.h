@@ -28,6 +28,21 @@ constexpr double new_enough = 1e-10;
 /// What holds gives way by this part of its impulse, so that rows which contradict each other cannot throw bodies
 /// about.
 constexpr double give = 1e-8;
+/// Rows with bounds may nearly say what others say already; with so much more of their own inverse mass they do not ask
+/// for any impulse, and are met all the same when solved once more.
+constexpr double caution = 0.003;
+
+/// What starts far from where its joint wants it is drawn there no faster than so, m/s and rad/s: it may push others on
+/// its way.
+constexpr double fastest_approach = 4;
+constexpr double fastest_turn = 10;
+/// What has not passed its bound by more comes back at leisure, m or rad.
+constexpr double far_beyond = 3e-3;
+/// How far a blow may turn what stood still within a sub-step, rad: bounds that are nearer are minded.
+constexpr double reach_of_blow = 0.1;
+
+/// The bend of an arc tells nothing when a sub-step turns further, rad.
+constexpr double followable = 0.3;
 
 struct Row {
   Direction direction;

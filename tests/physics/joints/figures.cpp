@@ -114,7 +114,7 @@ TEST_CASE("figures are solved to the same bits with every instruction set") {
     FigurePlan plan;
     REQUIRE(plan.make(members, room));
     FigureGroup::Shape shape;
-    FigureGroup::find_shape(plan, kinds, local, shape);
+    FigureGroup::find_shape(plan.members(), kinds, local, shape);
     if (lane == 0)
       group.begin(plan, shape, true);
     else

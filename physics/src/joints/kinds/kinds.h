@@ -47,6 +47,13 @@ void write_rows(const PulleyJoint& kind, state::Joint& joint, const Placement& a
 void write_rows(const GearJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
 void write_rows(const SpringJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows);
 
+/// A cone narrower than this is a hinge's business, rad.
+constexpr double narrowest_swing = 1e-3;
+/// Shares of the longer axis of an ellipse: with less, its ends are sharp, and blunted.
+constexpr double narrow_ellipse = 0.5;
+/// Rows of a `SwingTwistJoint`, after those of its point; each beside the one of the lower bound.
+constexpr std::uint8_t row_of_cone = 4, row_of_end = 5, row_of_twist = 7;
+
 /// An angle within -pi to pi as the one nearest to the last, whole turns included.
 [[nodiscard]] double unwrapped(double angle, double last);
 /// How far a rotation turns about the x axis: its twist, rad.

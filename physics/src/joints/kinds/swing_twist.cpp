@@ -10,11 +10,6 @@ namespace tweenfall::joints {
 
 namespace {
 
-/// A cone narrower than this is a hinge's business, rad.
-constexpr double narrowest = 1e-3;
-/// Shares of the longer axis of an ellipse: with less, its ends are sharp.
-constexpr double narrow = 0.5;
-
 /// A rotation as a swing after a twist about x: rotation = exp(swing) * twist, with swing.x = 0.
 struct Swing {
   Vec3 vector{0, 0, 0};  ///< rad
@@ -67,8 +62,8 @@ Direction twist_direction(const Placement& at) {
 /// Rows of the cone: four.
 void bound_swing(const SwingTwistJoint& kind, state::Joint& joint, const Placement& at, const Quat& relative,
                  JointRows& rows) {
-  const double y = std::max(kind.swing_y, narrowest);
-  const double z = std::max(kind.swing_z, narrowest);
+  const double y = std::max(kind.swing_y, narrowest_swing);
+  const double z = std::max(kind.swing_z, narrowest_swing);
   // Half an angle is at most its tangent: most limbs need no angle to be seen well inside.
   const double inside = std::min(y, z) - rows.far();
   const double twist_part = relative.w() * relative.w() + relative.x() * relative.x();
@@ -97,7 +92,7 @@ void bound_swing(const SwingTwistJoint& kind, state::Joint& joint, const Placeme
   }
   // At the ends of a narrow ellipse one row turns from side to side and lets the limb slip past: they are blunted.
   const double most = std::max(y, z);
-  if (std::min(y, z) < narrow * most) {
+  if (std::min(y, z) < narrow_ellipse * most) {
     const Vec3 longer = Vec3::Unit(y > z ? 1 : 2);
     const Limits ends{-most, most, kind.twist.hz, kind.twist.zeta};
     rows.bound(about(at.axes_a * axis_of(swing, longer)), swing.vector.dot(longer), &ends);
