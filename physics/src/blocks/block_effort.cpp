@@ -161,8 +161,8 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
   Effort effort;
   effort.single = island.contacts.size() == 1;
   effort.sub_steps = sub_steps_of_small;
-  effort.softening = std::max(1, settings.iterations / 5);
-  effort.relaxing = std::max(1, 2 * settings.iterations / 5);
+  effort.softening = std::max(1, settings.iterations / (effort.single ? 5 : 10));
+  effort.relaxing = 2 * effort.softening;
   effort.rebound_passes = settings.iterations;
   effort.turned_enough = turned_enough_of_small;
   const double h = dt / effort.sub_steps;

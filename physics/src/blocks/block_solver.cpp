@@ -23,6 +23,12 @@ constexpr double slow_turn = 0.05;
 /// A change of velocity that no longer matters, m/s.
 constexpr double settled = 1e-11;
 
+/// Lanes that another lane's contact makes do more than their own adds nothing, which may turn a -0 into a 0: it must
+/// not tell which contacts share a block.
+Vec3 without_sign_of_zero(const Vec3& value) {
+  return {value.x() + 0.0, value.y() + 0.0, value.z() + 0.0};
+}
+
 constexpr BodyLag pressed_still = {{0, 0, 0, 1}};
 
 /// Angular velocity after the time h in which a body's spin and the torque on it change it, to second order.
@@ -103,8 +109,8 @@ void BlockSolver::take(std::size_t place, const Body& body, const Load& load, In
   pace.steady = pace.even && !(load.drag > 0);
   pace.unturned = pace.steady && entry.round;
   traits.uneven = !body.spherical();
-  set(velocity.linear, body.twist.linear);
-  set(velocity.angular, body.twist.angular);
+  set(velocity.linear, without_sign_of_zero(body.twist.linear));
+  set(velocity.angular, without_sign_of_zero(body.twist.angular));
 }
 
 void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load>& loads,
@@ -502,8 +508,9 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       entry.rotation.normalize();
     }
     Body& body = bodies[entry.index];
-    body.center = entry.center;
-    body.twist = {linear_of(velocities_[i]), angular_of(velocities_[i])};
+    entry.rotation.coeffs() = entry.rotation.coeffs() + Vec4::Zero();
+    body.center = without_sign_of_zero(entry.center);
+    body.twist = {without_sign_of_zero(linear_of(velocities_[i])), without_sign_of_zero(angular_of(velocities_[i]))};
     body.saturated = entry.saturated;
     body.follow_center(entry.rotation);
     moved[entry.index] = 1;

@@ -151,6 +151,7 @@ class BlockSolver {
   islands::IslandDepth depth_;
   std::vector<std::uint32_t> island_of_;              ///< of bodies_: which of those that are solved now
   std::vector<islands::IslandEnergy> energies_;       ///< of them
+  std::vector<char> reached_;                         ///< by a rebound
   std::vector<double> shares_;                        ///< of the rebound, that they let through
   std::vector<contacts::ContactConstraint*> listed_;  ///< contacts of all of them
   std::vector<joints::JointLink*> listed_joints_;     ///< and joints

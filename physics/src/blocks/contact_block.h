@@ -58,7 +58,7 @@ struct ContactBlock {
                                                      ///< a place that nobody reads
   std::uint32_t point = 0, friction = 0;             ///< first rows
   std::uint32_t inertia = 0;                         ///< its row, where it is not even
-  std::int8_t points = 0;                            ///< of the lane with most
+  std::int8_t points = 0;                            ///< of the lane with most; what another has not has no mass
   std::int8_t frictions = 0;                         ///< none, one at the middle of several points, or as many
   bool drifts = false;                               ///< some surface moves: there are rows that tell how
   bool even = true;                                  ///< all bodies have one moment about every axis

@@ -47,9 +47,19 @@ struct Masses {
   }
 };
 
-// Kinds of blocks: balls, or up to four points, three grips, even or not.
-enum class Grip { none, central, points };
-constexpr std::uint32_t ball_kind = 24, kinds = 25;
+// Kinds of contacts: balls, or three grips, even or not, of up to four points. Contacts of one grip share blocks: those
+// with the most to do come first, so that of blocks nearly all lanes are full and hardly any does more than it must.
+enum class Grip { none, central, points, balls };
+constexpr std::uint32_t kinds_of_grip = 8, kinds = 4 * kinds_of_grip;
+constexpr std::uint32_t ball_kind = static_cast<std::uint32_t>(Grip::balls) * kinds_of_grip;
+
+int points_of(std::uint32_t kind) {
+  return 4 - static_cast<int>(kind % 4);
+}
+
+bool is_even(std::uint32_t kind) {
+  return kind / 4 % 2 == 1;
+}
 
 /// A contact that slides is held point by point, for only so does the spin of what slides die with its slide.
 Grip grip_of(const ContactConstraint& contact) {
@@ -60,8 +70,8 @@ Grip grip_of(const ContactConstraint& contact) {
 std::uint32_t kind_of(const ContactConstraint& contact, const IslandBody& a, const IslandBody& b) {
   const auto smooth = [](const IslandBody& body) { return body.movable ? body.round : body.led == step::not_led; };
   if (contact.count == 1 && !a.conveys && !b.conveys && smooth(a) && smooth(b)) return ball_kind;
-  return 2 * (3 * static_cast<std::uint32_t>(contact.count - 1) + static_cast<std::uint32_t>(grip_of(contact))) +
-         (a.isotropic && b.isotropic ? 1 : 0);
+  return static_cast<std::uint32_t>(grip_of(contact)) * kinds_of_grip + (a.isotropic && b.isotropic ? 4u : 0u) +
+         static_cast<std::uint32_t>(4 - contact.count);
 }
 
 /// One row of friction at an arm from each body.
@@ -177,16 +187,19 @@ void ContactBlocks::lay_out() {
     }
   };
   for (std::uint32_t next = 0; next < sorted_.size();) {
-    const std::uint32_t key = keys_[sorted_[next]], color = key / kinds, kind = key % kinds;
+    const std::uint32_t first = keys_[sorted_[next]], color = first / kinds;
     open_colors(color + 1);
-    open(kind);
     const std::uint32_t most = color >= Coloring::none ? 1 : lane_count;
-    Filling filling{kind == ball_kind, 0, next, 0, room};
-    filling.index = static_cast<std::uint32_t>((filling.of_balls ? balls.size() : blocks.size()) - 1);
-    while (filling.count < most && next < sorted_.size() && keys_[sorted_[next]] == key) {
-      ++next;
-      ++filling.count;
+    Filling filling{first % kinds == ball_kind, 0, next, 0, room};
+    Makeup makeup{static_cast<int>(first % kinds / kinds_of_grip)};
+    for (; filling.count < most && next < sorted_.size(); ++next, ++filling.count) {
+      const std::uint32_t key = keys_[sorted_[next]];
+      if (key / kinds_of_grip != first / kinds_of_grip) break;
+      makeup.points = std::max(makeup.points, points_of(key));
+      makeup.even = makeup.even && is_even(key);
     }
+    open(makeup);
+    filling.index = static_cast<std::uint32_t>((filling.of_balls ? balls.size() : blocks.size()) - 1);
     fillings_.push_back(filling);
     // Where all lanes have two movable bodies nothing is left over.
     if (filling.count < lane_count || color >= Coloring::half) ++room;
@@ -227,8 +240,9 @@ void ContactBlocks::find_phases() {
   add(false, Coloring::half, Coloring::none + 1);
 }
 
-void ContactBlocks::open(std::uint32_t kind) {
-  if (kind == ball_kind) {
+void ContactBlocks::open(const Makeup& makeup) {
+  const auto grip = static_cast<Grip>(makeup.grip);
+  if (grip == Grip::balls) {
     balls.emplace_back();
     ball_meetings.emplace_back();
     ball_origins.emplace_back();
@@ -237,9 +251,8 @@ void ContactBlocks::open(std::uint32_t kind) {
   ContactBlock& block = blocks.emplace_back();
   meetings.emplace_back();
   origins.emplace_back();
-  block.even = kind % 2 == 1;
-  block.points = static_cast<std::int8_t>(kind / 6 + 1);
-  const auto grip = static_cast<Grip>(kind / 2 % 3);
+  block.even = makeup.even;
+  block.points = static_cast<std::int8_t>(makeup.points);
   block.frictions = grip == Grip::none ? std::int8_t{0} : grip == Grip::central ? std::int8_t{1} : block.points;
   block.point = static_cast<std::uint32_t>(points.size());
   block.friction = static_cast<std::uint32_t>(frictions.size());
@@ -345,8 +358,11 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
   const Vec3& normal = contact.manifold.normal;
   const Masses masses{a, b};
   if (!block.even) {
-    put(inertias[block.inertia].inverse_a, lane, a.inverse_inertia);
-    put(inertias[block.inertia].inverse_b, lane, b.inverse_inertia);
+    // Of two isotropic bodies as where the block is even, to the bit.
+    put(inertias[block.inertia].inverse_a, lane,
+        masses.isotropic ? Mat3(a.inverse_moment * Mat3::Identity()) : a.inverse_inertia);
+    put(inertias[block.inertia].inverse_b, lane,
+        masses.isotropic ? Mat3(b.inverse_moment * Mat3::Identity()) : b.inverse_inertia);
   }
   Vec3 middle_a = Vec3::Zero(), middle_b = Vec3::Zero();
   std::array<Vec3, 4> arms;
@@ -428,8 +444,9 @@ void ContactBlocks::store(double h, const threads::Workers& work) {
       // Friction at the middle is shared out evenly.
       const double share = block.central() ? 1.0 / contact.count : 1;
       const FrictionRow& grip = frictions[block.friction + (block.central() ? 0u : static_cast<std::uint32_t>(k))];
-      point.kept_friction = share * (grip.first[lane] * along1 + grip.second[lane] * along2);
-      point.total_friction = share * (grip.total_first[lane] * along1 + grip.total_second[lane] * along2);
+      point.kept_friction = share * (grip.first[lane] * along1 + grip.second[lane] * along2) + Vec3::Zero();
+      point.total_friction =
+          share * (grip.total_first[lane] * along1 + grip.total_second[lane] * along2) + Vec3::Zero();
       const double most = sliding * contact.friction * point.kept_normal;
       if (!block.central() && point.kept_normal > 0 && point.kept_friction.squaredNorm() >= most * most)
         contact.slid = true;

@@ -82,11 +82,17 @@ class ContactBlocks {
     std::uint32_t index, first, count, room;  ///< `first` in `sorted_`
   };
 
+  /// Of a block: as much of each as that of its lanes needs which needs most.
+  struct Makeup {
+    int grip = 0, points = 1;
+    bool even = true;
+  };
+
   void sort_by_key();
   void find_keys(std::span<contacts::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
                  const std::vector<IslandBody>& bodies, const threads::Workers& work);
   void lay_out();
-  void open(std::uint32_t kind);
+  void open(const Makeup& makeup);
   void find_phases();
   void fill(std::size_t block, int lane, contacts::ContactConstraint& contact, const std::vector<IslandBody>& bodies,
             const Ends& own, const contacts::Closing& closing, double h);

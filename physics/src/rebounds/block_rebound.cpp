@@ -148,9 +148,13 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
   // The work of a surface is not known: the island is left as it is.
   if (conveyed_) return;
   energies_.assign(island_of_.back() + std::size_t{1}, {});
+  // An island in which nothing was reached has what it had.
+  reached_.assign(energies_.size(), 0);
+  for (std::uint32_t i = 1; i < bodies_.size(); ++i)
+    if (paces_[i].movable && reach_.before(i)) reached_[island_of_[i]] = 1;
   for (std::uint32_t i = 1; i < bodies_.size(); ++i) {
     const BodyPace& pace = paces_[i];
-    if (!pace.movable) continue;
+    if (!pace.movable || reached_[island_of_[i]] == 0) continue;
     islands::IslandEnergy& energy = energies_[island_of_[i]];
     const BodyLanes* reached = reach_.before(i);
     const BodyLanes& before = reached ? *reached : velocities_[i];

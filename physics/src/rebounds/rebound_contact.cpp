@@ -26,7 +26,7 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
   tremble_ = contacts.meetings[i].tremble[lane];
   count_ = static_cast<std::size_t>(contact.count);
   central_ = block.central();
-  isotropic_ = block.even;
+  isotropic_ = body_a_->isotropic && body_b_->isotropic;
   frictions_ = central_ ? 1 : block.frictions > 0 ? count_ : 0;
   tangent1_ = lane_of(block.tangent1, lane);
   tangent2_ = lane_of(block.tangent2, lane);
