@@ -6,6 +6,7 @@ import {pathToFileURL} from "node:url";
 import {findBrowser, Page} from "./browser.mjs";
 import {check, equal, near, summary} from "./checks.mjs";
 import {frameModels} from "./model_tests.mjs";
+import {showsActors} from "./actor_tests.mjs";
 import {showHostile} from "./hostile_tests.mjs";
 import {fitsAllWidths} from "./layout_tests.mjs";
 import {showsTwoBesideEachOther} from "./beside_tests.mjs";
@@ -253,6 +254,7 @@ await run("models and hostile recordings", {}, async page => {
   await showHostile(page, join(folder, "hostile"));
   await showsJoints(page, folder);
   await showsSteps(page, folder);
+  await showsActors(page, folder);
   await showsTwoBesideEachOther(page, folder);
   await page.visit(address);
 });

@@ -4,6 +4,7 @@
 // models/NAME.html, .svg: every model of ../shared/models, or, where there is none, of the project.
 // hostile/NAME.html: recordings that hardly fit a page.
 
+#include <tweenfall/importers/document.h>
 #include <tweenfall/importers/model.h>
 #include <tweenfall/importers/plot.h>
 #include <tweenfall/importers/recording_file.h>
@@ -136,6 +137,20 @@ void write_jointed(const fs::path& folder) {
     save_recording(recording, stage, folder / ("jointed" + std::string(ending)));
 }
 
+/// Lectures with particles, wheels and a cloth.
+void write_actors(const fs::path& folder) {
+  const fs::path lectures = fs::path(TWEENFALL_SOURCE_DIR) / "samples/documents/lectures";
+  const auto write = [&](const char* lecture, const std::string& name, double until) {
+    const StageDescription stage = Document::read(lectures / lecture).stage();
+    Stage run(stage);
+    const Recording recording = record(run, until, 30);
+    for (const char* ending : {".html", ".json"}) save_recording(recording, stage, folder / (name + ending));
+  };
+  write("particles/fountain.json", "fountain", 1.5);
+  write("vehicle/slides.json", "car", 1.5);
+  write("soft/cloth_positions.json", "cloth", 0.6);
+}
+
 Recording still(const StageDescription& stage, const std::vector<double>& times) {
   Recording recording{.name = stage.name, .times = times, .nodes = {}, .handoffs = {}, .events = {}};
   for (const NodeDescription& node : stage.nodes) {
@@ -242,6 +257,7 @@ int main(int count, char** arguments) {
     fs::create_directories(folder);
     write_example(folder);
     write_jointed(folder);
+    write_actors(folder);
     write_stacked(folder);
     write_beside(folder);
     write_models(folder / "models");

@@ -23,28 +23,40 @@ Vec2 seen_from_side(const Vec3& point, int across) {
 /// Of a surface its edges but for those that are the longest of each triangle they are in, which are diagonals of
 /// cells, those of its hem first; of what has none all edges.
 std::vector<std::size_t> drawn_edges(const SoftSettings& soft, std::size_t& hem) {
+  constexpr double sharp = 0.7;  // cosine of the angle by which a surface turns at an edge that counts as a hem
   struct Side {
     int triangles = 0;
     bool longest = true;
+    bool is_hem = true;
+    Vec3 normal{0, 0, 0};
   };
   std::map<Ends, Side> sides;
   const auto length = [&](std::uint32_t a, std::uint32_t b) { return (soft.positions[a] - soft.positions[b]).norm(); };
   for (const auto& triangle : soft.triangles) {
     double most = 0;
     for (std::size_t k = 0; k < 3; ++k) most = std::max(most, length(triangle[k], triangle[(k + 1) % 3]));
+    const Vec3& corner = soft.positions[triangle[0]];
+    const Vec3 normal = (soft.positions[triangle[1]] - corner).cross(soft.positions[triangle[2]] - corner).normalized();
     for (std::size_t k = 0; k < 3; ++k) {
       Side& side = sides[std::minmax(triangle[k], triangle[(k + 1) % 3])];
-      ++side.triangles;
+      if (side.triangles++ == 0)
+        side.normal = normal;
+      else
+        side.is_hem = normal.dot(side.normal) < sharp;
       side.longest = side.longest && length(triangle[k], triangle[(k + 1) % 3]) > (1 - 1e-6) * most;
     }
   }
   std::vector<std::size_t> of_hem, others;
   for (std::size_t i = 0; i < soft.edges.size(); ++i) {
     const auto found = sides.find(std::minmax(soft.edges[i].a, soft.edges[i].b));
-    if (soft.triangles.empty() || (found != sides.end() && found->second.triangles > 1 && !found->second.longest))
+    if (soft.triangles.empty()) {
       others.push_back(i);
-    else if (found != sides.end() && found->second.triangles == 1)
-      of_hem.push_back(i);
+    } else if (found != sides.end()) {
+      if (found->second.is_hem)
+        of_hem.push_back(i);
+      else if (!found->second.longest)
+        others.push_back(i);
+    }
   }
   hem = of_hem.size();
   of_hem.insert(of_hem.end(), others.begin(), others.end());

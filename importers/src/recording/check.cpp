@@ -146,6 +146,7 @@ void check_recording(const Recording& recording) {
       recordings::fail(recording, what + " has " + std::to_string(frames) + " lists for " +
                                       std::to_string(recording.times.size()) + " frames");
   };
+  if (!recording.energy.empty()) require_frames("the energy of bodies", recording.energy.size());
   for (const VehicleRecord& vehicle : recording.vehicles) {
     require_frames("vehicle \"" + vehicle.name + "\"", vehicle.frame.size());
     for (const std::vector<StageWheel>& wheels : vehicle.frame)

@@ -154,6 +154,26 @@ void append_particles(std::string& out, const ParticlesRecord& particles) {
   out += "}";
 }
 
+/// Of bodies, frame by frame; of a force that has none null.
+void append_energy(std::string& out, const std::vector<StageEnergy>& energy) {
+  const auto series = [&](const char* name, const auto& append_at) {
+    out += name;
+    append_list(out, energy.size(), [&](std::size_t frame) { append_at(energy[frame]); });
+  };
+  series("{\"kinetic\": ", [&](const StageEnergy& one) { append_number(out, one.kinetic); });
+  series(",\n  \"weight\": ", [&](const StageEnergy& one) { append_number(out, one.weight); });
+  out += ",\n  \"forces\": ";
+  append_list(out, energy.front().forces.size(), [&](std::size_t force) {
+    series("", [&](const StageEnergy& one) {
+      if (force < one.forces.size() && one.forces[force])
+        append_number(out, *one.forces[force]);
+      else
+        out += "null";
+    });
+  });
+  out += "}";
+}
+
 void append_twist(std::string& out, const Twist& twist) {
   out += "{\"linear\": ";
   append_vector(out, twist.linear);
@@ -240,6 +260,10 @@ std::string recording_json(const Recording& recording) {
     out += ",\n \"soft\": ";
     recordings::append_lines(out, '{', '}', recording.softs.size(),
                              [&](std::size_t i) { recordings::append_soft(out, recording, recording.softs[i]); });
+  }
+  if (!recording.energy.empty()) {
+    out += ",\n \"energy\": ";
+    recordings::append_energy(out, recording.energy);
   }
   if (!recording.vehicles.empty()) {
     out += ",\n \"vehicles\": ";

@@ -190,6 +190,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     staging::take_frame(stage, world, recording);
     staging::take_joints(stage, recording);
     staging::take_softs(stage, recording);
+    recording.energy.push_back(stage.energy());
     staging::take_vehicles(stage, recording);
     staging::take_particles(stage, recording, particle_room);
     if (details) details = staging::take_details(stage, recording, room);

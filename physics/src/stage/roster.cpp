@@ -201,7 +201,7 @@ void add_described_force(StageState& state, const ForceDescription& described) {
   std::visit(name_bodies, force);
   ForceSettings settings{{}, described.strength};
   for (const std::size_t node : described.bodies) settings.bodies.push_back(body_at(node, "what a force acts on"));
-  state.world.add_force(std::move(force), std::move(settings));
+  state.forces.push_back(state.world.add_force(std::move(force), std::move(settings)));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stage/actors/energy.h"
 #include "stage/actors/particles.h"
 #include "stage/actors/vehicles.h"
 #include "stage/stage_implementation.h"
@@ -173,6 +174,11 @@ std::vector<JointEnds> Stage::joints() const {
   joints.reserve(state.joints->list.size());
   for (const staging::StagedJoint& joint : state.joints->list) joints.push_back({joint.name, joint.a, joint.b});
   return joints;
+}
+
+StageEnergy Stage::energy() const {
+  const auto [from, to] = inside().around();
+  return staging::stage_energy(*from, *to, time());
 }
 
 std::vector<StageWheel> Stage::vehicle(std::string_view name) const {

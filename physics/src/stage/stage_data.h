@@ -170,6 +170,7 @@ struct StageState {
   std::shared_ptr<const PlayedTracks> tracks;
   std::shared_ptr<const StagedJoints> joints;  ///< gone ones included: the world knows which hold
   std::shared_ptr<const StagedSofts> softs;
+  std::vector<std::size_t> forces;           ///< numbers of the description's in the world
   std::vector<StagedVehicle> vehicles;       ///< as they were described
   std::vector<StagedParticles> particles;    ///< likewise
   std::vector<char> present;                 ///< by node

@@ -238,6 +238,21 @@ std::string particles_table(const StageDescription& stage) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
+/// What is a clip by its formulas: the clip has what follows from them.
+std::string systems_table(const std::vector<ExpressionSystem>& systems) {
+  Table table(counted(systems.size(), "system"),
+              {"name", "variable", ">starts as", ">rate then", ">step, s", ">lasts, s", "keeps"});
+  for (const ExpressionSystem& system : systems)
+    for (std::size_t i = 0; i < system.variables.size(); ++i) {
+      const bool first = i == 0;
+      table.row({first ? system.name : "", system.variables[i], brief_text(system.start[i]),
+                 brief_text(value_at(system.rates[i], 0, system.start)), first ? brief_text(system.step) : "",
+                 first ? brief_text(system.duration) : "",
+                 first && system.energy ? brief_text(value_at(*system.energy, 0, system.start)) : ""});
+    }
+  return table.empty() ? "" : table.text(styled_output());
+}
+
 std::string poses_table(const GraphDescription& graph) {
   Table table("poses of the graph " + graph.name, {"name", "is", "of"});
   for (const GraphPose& pose : graph.poses) {
@@ -287,6 +302,7 @@ int inspect_file(const std::string& file) {
   const StageFile read = read_stage_file(file);
   const StageDescription& stage = read.stage;
   std::string out = nodes_table(stage) + clips_table(stage);
+  if (read.document) out += systems_table(read.document->systems());
   for (const Clip& clip : stage.clips) out += tracks_table(clip) + events_table(clip);
   out += graph_tables(stage) + bodies_table(stage, file) + joints_table(stage) + softs_table(stage) +
          vehicles_table(stage) + particles_table(stage);

@@ -149,6 +149,30 @@ std::string lock(const std::string& kind, const std::string& axes) {
 
 }  // namespace
 
+TEST_CASE("where the mass of a body is, and its inertia, go to glTF and come back; what cannot be is told") {
+  Model model = bodies_of_all_shapes();
+  MassProperties weighed{3, Vec3(0.1, -0.2, 0.05), Mat3::Zero()};
+  weighed.inertia << 0.5, 0.1, 0, 0.1, 0.4, 0.05, 0, 0.05, 0.3;
+  for (ModelBody& body : model.bodies)
+    if (model.nodes[body.node].name == "n1") body.body.mass_properties = weighed;
+  const Model again = written_and_read(model);
+  CHECK(again.repairs.empty());
+  const ModelBody* same = body_named(again, "n1");
+  REQUIRE(same);
+  REQUIRE(same->body.mass_properties.has_value());
+  CHECK(same->body.mass_properties->mass == 3);
+  CHECK((same->body.mass_properties->center - weighed.center).norm() < 1e-12);
+  CHECK((same->body.mass_properties->inertia - weighed.inertia).norm() < 1e-6);
+  std::string text = two_balls("");
+  const std::string mass = R"("mass":1)";
+  text.replace(text.find(mass), mass.size(), mass + R"(,"inertiaDiagonal":[1,1,3])");
+  const Model refused = read_text(text);
+  CHECK_FALSE(body_named(refused, "upper")->body.mass_properties.has_value());
+  CHECK(std::ranges::any_of(refused.repairs, [](const std::string& repair) {
+    return repair.find("no body has such an inertia") != std::string::npos;
+  }));
+}
+
 TEST_CASE("a body of each shape is read from glTF as it was written") {
   const Model model = bodies_of_all_shapes(), again = written_and_read(model);
   CHECK(again.repairs.empty());

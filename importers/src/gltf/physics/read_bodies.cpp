@@ -158,9 +158,39 @@ class BodyReader {
     if (body.body.fixed && !(body.body.twist.linear.isZero(0) && body.body.twist.angular.isZero(0)))
       motion.problems().repair(motion.place(), "moves on without end, unmoved by others, and stands still here");
     if (immovable) body.body.twist = {};
-    for (const char* name : {"centerOfMass", "inertiaDiagonal", "inertiaOrientation", "gravityFactor"})
-      if (motion.has(name) && !(name == std::string_view("gravityFactor") && number_of(motion, name) == 1.0))
-        motion.problems().repair(motion.place_of(name), "was not read: bodies are of even density, and fall alike");
+    if (motion.has("gravityFactor") && number_of(motion, "gravityFactor") != 1.0)
+      motion.problems().repair(motion.place_of("gravityFactor"), "was not read: bodies fall alike");
+    if (!body.body.fixed) read_mass_properties(motion, body);
+  }
+
+  /// Where its mass is and its inertia, which only go together.
+  void read_mass_properties(const Fields& motion, ModelBody& body) {
+    const auto refuse = [&](const char* name, const char* why) {
+      motion.problems().repair(motion.place_of(name), std::string("was not read: ") + why);
+    };
+    if (!motion.has("inertiaDiagonal")) {
+      for (const char* name : {"centerOfMass", "inertiaOrientation"})
+        if (motion.has(name)) refuse(name, "without \"inertiaDiagonal\" a body is of even density");
+      return;
+    }
+    const Vec3 diagonal = vector_of(motion, "inertiaDiagonal", {0, 0, 0});
+    const Vec3 center = vector_of(motion, "centerOfMass", {0, 0, 0});
+    const std::vector<double> turn = motion.numbers("inertiaOrientation", 4);
+    const Quat axes = turn.size() == 4 ? Quat(turn[3], turn[0], turn[1], turn[2]) : Quat(1, 0, 0, 0);
+    const bool can_be = diagonal.minCoeff() > 0 && 2 * diagonal.maxCoeff() <= (1 + 1e-9) * diagonal.sum() &&
+                        std::abs(axes.norm() - 1) < 1e-3;
+    if (!body.body.mass) {
+      refuse("inertiaDiagonal", "without a mass a body is of even density");
+    } else if (!can_be) {
+      refuse("inertiaDiagonal", "no body has such an inertia; it is of even density");
+    } else if (!pose_within(scene_, body.node, no_node).scale.isApprox(Vec3(1, 1, 1), 1e-9)) {
+      refuse("inertiaDiagonal", "on a node that is scaled a body is of even density");
+    } else {
+      const Mat3 rotation = axes.normalized().toRotationMatrix();
+      body.body.mass_properties =
+          MassProperties{*body.body.mass, center, rotation * diagonal.asDiagonal() * rotation.transpose()};
+      body.body.mass.reset();
+    }
   }
 
   void read_surface(const Fields& collider, BodyDescription& body) {

@@ -1,6 +1,8 @@
 #include "figures/shape_mesh.h"
 #include "gltf/physics/written_physics.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <nlohmann/json.hpp>
 
 #include <variant>
@@ -24,6 +26,17 @@ Quat from_up(const Vec3& direction) {
   if (direction.y() < -1 + 1e-12) return {0, 1, 0, 0};
   const Vec3 axis = Vec3(0, 1, 0).cross(direction);
   return Quat(1 + direction.y(), axis.x(), axis.y(), axis.z()).normalized();
+}
+
+/// Where its mass is, and its inertia by principal axes.
+void write_mass_properties(const MassProperties& mass, Json& motion) {
+  const Eigen::SelfAdjointEigenSolver<Mat3> principal(mass.inertia);
+  Mat3 axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) = -axes.col(0);
+  const Quat turn(axes);
+  motion["centerOfMass"] = numbers(mass.center);
+  motion["inertiaDiagonal"] = numbers(principal.eigenvalues());
+  motion["inertiaOrientation"] = Json::array({turn.x(), turn.y(), turn.z(), turn.w()});
 }
 
 /// Things that are listed once each, however often they are meant.
@@ -104,6 +117,7 @@ class PhysicsWriter {
                              ? body.body.mass_properties->mass
                              : body.body.mass.value_or(body.body.density * volume(body.body.shape.solid) * scaled);
       }
+      if (body.body.mass_properties) write_mass_properties(*body.body.mass_properties, motion);
       const Quat from_world = model_.nodes[body.node].rest.rotation.conjugate();
       if (!body.body.twist.linear.isZero(0)) motion["linearVelocity"] = numbers(from_world * body.body.twist.linear);
       if (!body.body.twist.angular.isZero(0)) motion["angularVelocity"] = numbers(from_world * body.body.twist.angular);

@@ -68,10 +68,13 @@ bool is_vetoed(const StageState& state, const StagedBody& body, double instant, 
   if (take_over.overlap != TakeOver::Overlap::veto) return false;
   const std::vector<BodyId> others = bodies_in(state, body, rigid(body.path.at(instant, Side::in)).pose);
   if (others.empty()) return false;
-  happenings.push_back(
-      {instant,
-       StageEvent{
-           .time = instant, .name = "vetoed", .data = {}, .nodes = {body.node, state.node_of[others.front().index]}}});
+  StageEvent event;
+  event.time = instant;
+  event.name = "vetoed";
+  event.nodes = {body.node, state.node_of[others.front().index]};
+  Happening& happening = happenings.emplace_back();
+  happening.time = instant;
+  happening.what.emplace<StageEvent>(std::move(event));
   return true;
 }
 

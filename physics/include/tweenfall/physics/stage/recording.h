@@ -84,6 +84,7 @@ struct Recording {
   std::vector<SoftRecord> softs;           ///< in the description's order
   std::vector<VehicleRecord> vehicles;     ///< likewise
   std::vector<ParticlesRecord> particles;  ///< likewise
+  std::vector<StageEnergy> energy;         ///< one per frame, or empty
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
   std::vector<UnfiredRule> unfired;  ///< rules that waited to the end in vain

@@ -78,6 +78,13 @@ struct StageParticles {
   std::vector<std::uint64_t> numbers;  ///< by which each is known for its whole life
 };
 
+/// Energies of a stage's bodies, J.
+struct StageEnergy {
+  double kinetic = 0;                         ///< of all free bodies
+  double weight = 0;                          ///< against gravity, 0 at the origin
+  std::vector<std::optional<double>> forces;  ///< of each force of the description that has one
+};
+
 /// A rule that waited for one of its bodies in vain.
 struct UnfiredRule {
   std::size_t rule = 0;  ///< in the order in which rules were given
@@ -131,7 +138,8 @@ class Stage {
   /// Its wheels, in the description's order. @throws std::invalid_argument with the nearest name
   [[nodiscard]] std::vector<StageWheel> vehicle(std::string_view name) const;
   [[nodiscard]] StageParticles particles(std::string_view name) const;  ///< @throws the same
-  [[nodiscard]] Path path(NodeId node) const;                           ///< where the animation wants the node
+  [[nodiscard]] StageEnergy energy() const;    ///< between two steps: on the straight way from one to the other
+  [[nodiscard]] Path path(NodeId node) const;  ///< where the animation wants the node
   [[nodiscard]] const StageDescription& description() const;
 
   // Hand-off by the caller, at exactly `time()`. @throws NodeNotFinite when what leads the body there is too fast

@@ -1,0 +1,145 @@
+#include <tweenfall/importers/document.h>
+#include <tweenfall/importers/model.h>
+#include <tweenfall/importers/recording_file.h>
+
+#include "support.h"
+
+#include <nlohmann/json.hpp>
+
+#include <regex>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// Of the element after the title of `name`: its first path, as points in order, and where lines begin.
+std::vector<Vec2> drawn_points(const std::string& svg, const std::string& name, std::size_t* lines = nullptr) {
+  const std::size_t title = svg.find("<title>" + name + "</title>");
+  REQUIRE(title != std::string::npos);
+  const std::size_t from = svg.find(" d=\"", title) + 4;
+  const std::string path = svg.substr(from, svg.find('"', from) - from);
+  std::vector<Vec2> points;
+  const std::regex point("([ML])(-?[0-9.]+) (-?[0-9.]+)");
+  for (auto it = std::sregex_iterator(path.begin(), path.end(), point); it != std::sregex_iterator(); ++it) {
+    points.emplace_back(std::stod((*it)[2]), std::stod((*it)[3]));
+    if (lines && (*it)[1] == "M") ++*lines;
+  }
+  return points;
+}
+
+Document of_lecture(const std::string& name) {
+  return Document::read(std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/documents/lectures" / (name + ".json"));
+}
+
+struct Run {
+  StageDescription stage;
+  Recording recording;
+  Run(const std::string& lecture, double until, double fps) : stage(of_lecture(lecture).stage()) {
+    Stage running(stage);
+    recording = record(running, until, fps);
+  }
+};
+
+/// A rope of ten links that hangs straight and then is laid along x, and tears in the middle on the way.
+Run laid_rope(bool tears) {
+  Run run("soft/rope_positions", 0, 1);
+  run.stage = {};
+  run.stage.softs.push_back({.name = "rope", .soft = rope({.from = {0, 1, 0}, .to = {0, 0, 0}, .links = 10})});
+  run.recording = {};
+  run.recording.times = {0, 1};
+  SoftRecord record{.name = "rope", .positions = {{}, {}}, .torn_at = std::vector<std::size_t>(10, 2)};
+  for (int i = 0; i <= 10; ++i) {
+    record.positions[0].emplace_back(0, 1 - 0.1 * i, 0);
+    record.positions[1].emplace_back(0.1 * i, 0, 0);
+  }
+  if (tears) record.torn_at[5] = 1;
+  run.recording.softs.push_back(std::move(record));
+  return run;
+}
+
+}  // namespace
+
+TEST_CASE("the moving picture draws a rope as one line through its nodes, and one that tears in pieces") {
+  const Run whole = laid_rope(false);
+  std::size_t lines = 0;
+  const std::vector<Vec2> points = drawn_points(recording_svg(whole.recording, whole.stage), "rope", &lines);
+  CHECK(lines == 1);
+  REQUIRE(points.size() == 11);
+  // It may be drawn from either end: nodes are 0.1 m apart, and it is 1 m long.
+  const double scale = (points.back() - points.front()).norm();
+  CHECK(scale > 100);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    CHECK((points[i] - points[i - 1]).norm() == doctest::Approx(0.1 * scale).epsilon(0.02));
+  const Run torn = laid_rope(true);
+  const std::string svg = recording_svg(torn.recording, torn.stage);
+  lines = 0;
+  CHECK(drawn_points(svg, "rope", &lines).size() == 20);
+  CHECK(lines == 10);
+  // In the second frame the torn link is a point.
+  const std::size_t values = svg.find(';', svg.find(" values=\"", svg.find("<title>rope</title>"))) + 1;
+  const std::string second = svg.substr(values, svg.find(';', values) - values);
+  const std::regex link("M([-0-9.]+ [-0-9.]+)L([-0-9.]+ [-0-9.]+)");
+  std::size_t points_only = 0, links = 0;
+  for (auto it = std::sregex_iterator(second.begin(), second.end(), link); it != std::sregex_iterator(); ++it, ++links)
+    if ((*it)[1] == (*it)[2]) ++points_only;
+  CHECK(links == 10);
+  CHECK(points_only == 1);
+}
+
+TEST_CASE("the moving picture of a cloth shows its hem and some of its threads, and stays small") {
+  const Run run("soft/cloth_positions", 1.5, 60);
+  const std::string svg = recording_svg(run.recording, run.stage);
+  CHECK(svg.size() < 300000);
+  std::size_t lines = 0;
+  const std::vector<Vec2> points = drawn_points(svg, "sheet", &lines);
+  CHECK(lines > 4);
+  CHECK(points.size() > 4 * 17);
+  CHECK(points.size() < 400);
+}
+
+TEST_CASE("wheels are drawn where they are, in the moving picture and as nodes of a model") {
+  const Run run("vehicle/brakes", 1, 30);
+  const std::string svg = recording_svg(run.recording, run.stage);
+  for (const char* wheel : {"car/front left", "car/front right", "car/rear left", "car/rear right"})
+    CHECK(count(svg, std::string("<title>") + wheel + "</title>") == 1);
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tweenfall_wheels.glb";
+  save_recording(run.recording, run.stage, file);
+  const Model model = load_model(file);
+  std::filesystem::remove(file);
+  const auto wheel = std::ranges::find(model.nodes, std::string("car/front left"), &Node::name);
+  REQUIRE(wheel != model.nodes.end());
+  // 1.3 m before the middle, 0.75 m to its left, and as far below as the springs bear 1000 kg
+  CHECK(near(wheel->rest.position, Vec3(1.3, 0.518 - 0.3, -0.75), 2e-2));
+}
+
+TEST_CASE("what vehicles, particles and energies were is in a recording's text") {
+  const Run fountain("particles/fountain", 1, 20), car("vehicle/brakes", 1, 20);
+  const nlohmann::json water = nlohmann::json::parse(recording_json(fountain.recording));
+  const nlohmann::json& last = water.at("particles").at("water").at("positions").back();
+  // 400 t from 0 to 1 s, smoothed at its ends: half of 400
+  CHECK(last.size() == 200);
+  CHECK(water.at("particles").at("water").at("numbers").back().size() == last.size());
+  CHECK(last[7][1].get<double>() == fountain.recording.particles[0].frame.back().positions[7].y());
+  const nlohmann::json drive = nlohmann::json::parse(recording_json(car.recording));
+  const nlohmann::json& wheel = drive.at("vehicles").at("car").at("front left");
+  CHECK(wheel.at("position").size() == car.recording.times.size());
+  CHECK(wheel.at("load").back().get<double>() == doctest::Approx(1000 * 9.81 / 4).epsilon(0.02));
+}
+
+TEST_CASE("energies of a run: a swing's is its spring's and its speed's, and together they stay") {
+  const Run run("integrators/implicit_trapezoid", 3, 30);
+  const nlohmann::json text = nlohmann::json::parse(recording_json(run.recording));
+  const nlohmann::json& energy = text.at("energy");
+  REQUIRE(energy.at("kinetic").size() == run.recording.times.size());
+  REQUIRE(energy.at("forces").size() == 1);
+  const double first = energy.at("kinetic")[0].get<double>() + energy.at("forces")[0][0].get<double>();
+  CHECK(first == doctest::Approx(16));
+  double swings = 0;
+  for (std::size_t frame = 0; frame < run.recording.times.size(); ++frame) {
+    const double kinetic = energy.at("kinetic")[frame].get<double>();
+    CHECK(kinetic + energy.at("forces")[0][frame].get<double>() == doctest::Approx(first).epsilon(1e-9));
+    swings = std::max(swings, kinetic);
+  }
+  CHECK(swings > 0.9 * first);
+}
