@@ -7,6 +7,7 @@
 #include "collision/passage.h"
 #include "contacts/adopt.h"
 #include "contacts/combine.h"
+#include "contacts/followers.h"
 #include "contacts/found_manifold.h"
 #include "state/world_data.h"
 #include "surfaces/surface.h"
@@ -61,7 +62,7 @@ void inherit(ContactConstraint& constraint, const state::ContactMemory& old, dou
 bool World::Implementation::find_manifold(contacts::ContactConstraint& constraint, const state::Body& a,
                                           const state::Body& b, const collision::Passage& way_a,
                                           const collision::Passage& way_b, double dt,
-                                          std::vector<contacts::KnownApart>* told_apart) const {
+                                          contacts::FoundPart* told_apart) const {
   const double swing = way_a.swing + way_b.swing;
   const double reach = contacts::near_enough + (swing * dt > contacts::near_enough ? swing * dt : 0);
   const Manifold manifold = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
@@ -72,16 +73,23 @@ bool World::Implementation::find_manifold(contacts::ContactConstraint& constrain
   } else {
     const collision::Apart apart = collision::apart_along(way_a, way_b, manifold.normal);
     if (told_apart && apart.frame != collision::Apart::Frame::none)
-      told_apart->push_back({{constraint.a, constraint.b}, apart});
+      told_apart->aparts.push_back({{constraint.a, constraint.b}, apart});
     const double gap = collision::gap_along(way_a, way_b, manifold.normal);
-    if (collision::stay_apart(way_a, way_b, manifold.normal, gap, contacts::near_enough, dt)) return false;
-    const std::optional<double> meeting = collision::impact_time(way_a.course, way_b.course, dt);
-    if (!meeting) return false;
+    const bool apart_now = collision::stay_apart(way_a, way_b, manifold.normal, gap, contacts::near_enough, dt);
+    const std::optional<double> meeting =
+        apart_now ? std::nullopt : collision::impact_time(way_a.course, way_b.course, dt);
+    if (!meeting) {
+      if (told_apart && contacts::may_follow(way_a, way_b, dt))
+        told_apart->followers.push_back(
+            {contacts::link_of(constraint.a, way_a, constraint.b, way_b, manifold.normal, gap), constraint.memory});
+      return false;
+    }
     constraint.impact_time = *meeting;
     const collision::Prediction at_a = way_a.course.at(*meeting);
     const collision::Prediction at_b = way_b.course.at(*meeting);
-    // What a spin brings down in what is left of the step, too.
-    const double rest = contacts::near_enough + swing * (dt - *meeting);
+    // What a spin brings down in what is left of the step, too, and what follows where a corner comes first.
+    const double closing = std::max(0.0, manifold.normal.dot(way_a.course.linear - way_b.course.linear));
+    const double rest = contacts::near_enough + (swing + closing) * (dt - *meeting);
     constraint.manifold =
         tweenfall::collide(*way_a.course.shape, at_a.node(a), *way_b.course.shape, at_b.node(b), rest);
     contacts::adopt(constraint, way_a, at_a, way_b, at_b);
@@ -167,7 +175,7 @@ void World::Implementation::find_contact(const contacts::PairInContact& pair, co
   contacts::ContactConstraint& constraint = part.contacts.add();
   static_cast<contacts::PairInContact&>(constraint) = pair;
   constraint.kept = memory && contacts::take_up(*memory, a, b, way_a.swing + way_b.swing, dt, constraint);
-  if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt, alone ? &part.aparts : nullptr)) {
+  if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt, alone ? &part : nullptr)) {
     part.contacts.drop_last();
     return;
   }
@@ -239,6 +247,8 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
                                       contacts::FoundPart& part) {
   part.contacts.clear();
   part.aparts.clear();
+  part.followers.clear();
+  part.blows.clear();
   auto next_apart = pairs.empty() ? aparts.cend()
                                   : std::lower_bound(aparts.cbegin(), aparts.cend(), pairs.front(),
                                                      [](const contacts::KnownApart& known, const pairs::Pair& pair) {
@@ -263,9 +273,14 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
       while (next_apart != aparts.cend() && next_apart->pair < pairs[i]) ++next_apart;
       if (next_apart != aparts.cend() && next_apart->pair == pairs[i]) {
         const Vec3 direction = next_apart->apart.in_world(way_a, way_b);
-        if (collision::stay_apart(way_a, way_b, direction, collision::gap_along(way_a, way_b, direction),
-                                  contacts::near_enough, dt)) {
+        const double gap = collision::gap_along(way_a, way_b, direction);
+        if (collision::stay_apart(way_a, way_b, direction, gap, contacts::near_enough, dt)) {
           part.aparts.push_back(*next_apart);
+          if (contacts::may_follow(way_a, way_b, dt)) {
+            if (memories_of[i].count > 0) pair.memory = memories.sorted()[memories_of[i].first];
+            part.followers.push_back(
+                {contacts::link_of(index_a, way_a, index_b, way_b, direction, gap), pair.memory, false});
+          }
           continue;
         }
       }
@@ -274,7 +289,11 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
     } else {
       find_contacts_of_parts(pair, memories_of[i], dt, part);
     }
-    if (!crowded || part.contacts.size() == before) continue;
+    if (part.contacts.size() == before) continue;
+    if (contacts::may_strike(passages[index_a], passages[index_b], dt))
+      for (const contacts::ContactConstraint& contact : part.contacts.all().subspan(before))
+        contacts::note_blow(contact, passages[index_a], passages[index_b], dt, part.blows);
+    if (!crowded) continue;
     ++contact_counts[index_a];
     ++contact_counts[index_b];
   }
@@ -316,6 +335,7 @@ void World::Implementation::find_constraints(double dt) {
     aparts.insert(aparts.end(), found[i].aparts.begin(), found[i].aparts.end());
     for (contacts::ContactConstraint& contact : found[i].contacts.all()) active.push_back(&contact);
   }
+  if (!crowded) find_followers(parts, dt);
 }
 
 }  // namespace tweenfall

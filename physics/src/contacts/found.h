@@ -15,6 +15,32 @@ struct KnownApart {
   collision::Apart apart;
 };
 
+/// How two bodies may hand a blow on.
+struct Link {
+  std::uint32_t a = 0, b = 0;
+  bool a_moves = false, b_moves = false;  ///< or stands like a wall
+  double gap = 0, closing = 0;            ///< m, m/s
+};
+
+/// A pair that stays apart as its bodies go now, but might not if one of them were stopped.
+struct Followers {
+  Link link;
+  std::uint32_t memory = state::ContactMemories::nowhere;
+  bool known = true;  ///< how wide the gap is; otherwise only that it is no less
+};
+
+/// Of two bodies that meet within this step.
+struct Blow {
+  std::uint32_t a = 0, b = 0;
+  double time = 0, change = 0;  ///< s after the start of the step; of their velocities at most, m/s
+};
+
+/// What the blows of this step may do to a body.
+struct Struck {
+  double time = 0;  ///< by the first, s
+  double most = 0;  ///< change of its velocity, m/s
+};
+
 /// The memories of a pair of bodies: one, or one for each pair of parts that touched; places in the sorted list.
 struct PairMemories {
   std::uint32_t first = 0, count = 0;
@@ -44,6 +70,8 @@ class FoundContacts {
 struct FoundPart {
   FoundContacts contacts;
   std::vector<KnownApart> aparts;
+  std::vector<Followers> followers;
+  std::vector<Blow> blows;
 };
 
 }  // namespace tweenfall::contacts

@@ -5,6 +5,13 @@
 
 namespace tweenfall::pairs {
 
+namespace {
+
+/// Of a body's radius, how far it is looked for behind it at most.
+constexpr double thrown_back = 0.1;
+
+}  // namespace
+
 Vec3 travel(const state::Body& body, const forces::Load& load, double dt) {
   if (body.immovable())
     return body.has_target ? Vec3(body.target().pose.position - body.motion.pose.position) : Vec3(0, 0, 0);
@@ -36,8 +43,10 @@ Bounds swept_bounds(const state::Body& body, const forces::Load& load, double ro
     swing += load.acceleration.norm() * dt * dt;
   }
   const Vec3 around = Vec3::Constant(room + swing);
-  swept.low += way.cwiseMin(0.0) - around;
-  swept.high += way.cwiseMax(0.0) + around;
+  // What comes from behind may throw it back as far.
+  const double most = thrown_back * body.radius();
+  swept.low += way.cwiseMin(0.0).cwiseMin((-way).cwiseMax(-most)) - around;
+  swept.high += way.cwiseMax(0.0).cwiseMax((-way).cwiseMin(most)) + around;
   return swept;
 }
 

@@ -49,7 +49,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// The manifold at the start of the step, or where the bodies meet in it. Returns false when they do not.
   bool find_manifold(contacts::ContactConstraint& constraint, const state::Body& a, const state::Body& b,
                      const collision::Passage& way_a, const collision::Passage& way_b, double dt,
-                     std::vector<contacts::KnownApart>* told_apart) const;
+                     contacts::FoundPart* told_apart) const;
   /// Which memories the pairs of the broad phase have, and which of the others are kept; @return whether two bodies of
   /// a pair may each have as many contacts as a body can
   bool recall(std::span<const pairs::Pair> pairs);
@@ -59,6 +59,9 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// The contact of two bodies, or of two of their parts, if there is one.
   void find_contact(const contacts::PairInContact& pair, const collision::Passage& way_a,
                     const collision::Passage& way_b, double dt, bool alone, contacts::FoundPart& part) const;
+  /// Contacts of pairs that a blow on one of the two would bring together within this step.
+  /// @param parts  of `found`
+  void find_followers(std::size_t parts, double dt);
   /// What a contact takes from its bodies and from the step before.
   void finish_contact(contacts::ContactConstraint& constraint, const state::ContactMemory* memory) const;
   /// Contacts of a body, or of all its parts, with a body that is a mesh or a height field.

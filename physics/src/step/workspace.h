@@ -80,9 +80,12 @@ struct Workspace {
   std::vector<joints::JointLink> links;
   std::vector<Start> starts;
   pairs::BroadPhase broad_phase;
-  std::vector<contacts::FoundPart> found;                  ///< of all pairs, in their order
-  std::vector<contacts::ContactConstraint*> active;        ///< in `found`: contacts near something that stirs
-  std::vector<std::uint32_t> retained;                     ///< memories of contacts between bodies at rest, by pair
+  std::vector<contacts::FoundPart> found;            ///< of all pairs, in their order
+  contacts::FoundContacts followers;                 ///< contacts that blows of this step will close
+  std::vector<contacts::Struck> struck_bodies;       ///< by body
+  std::vector<contacts::Link> touching_links;        ///< of `active`
+  std::vector<contacts::ContactConstraint*> active;  ///< in `found` and `followers`: contacts near something that stirs
+  std::vector<std::uint32_t> retained;               ///< memories of contacts between bodies at rest, by pair
   std::vector<std::vector<std::uint32_t>> retained_parts;  ///< of the pairs, in order
   std::vector<std::uint32_t> remembered;
   std::vector<Outcome> outcomes;  ///< of `active`

@@ -250,31 +250,72 @@ TEST_CASE("a ball that meets two at once sends both off alike") {
   CHECK(near(world.twist(right).linear, Vec3(c * each, 0, -0.5 * each), 1e-6));
 }
 
-TEST_CASE("a column of twenty boxes that falls and bounces a little overlaps by little and ends upright") {
-  for (const double restitution : {0.1, 0.3})
-    for (const double rate : {60.0, 240.0}) {
-      World world({.sleep_after = std::numeric_limits<double>::infinity()});
-      world.add({.shape = {Plane{}}, .restitution = restitution, .fixed = true});
-      BodyId top;
-      for (int i = 0; i < 20; ++i) {
-        BodySettings box;
-        box.shape.solid = Box{Vec3(0.5, 0.5, 0.5)};
-        box.restitution = restitution;
-        box.motion.pose.position.y() = 0.5 + i + 0.1 * (i + 1);
-        top = world.add(box);
+TEST_CASE("a column of twenty boxes or balls that falls piece by piece overlaps by little and ends upright") {
+  // Each falls onto the one before it, which the floor has only just stopped: in a step of 1/60 s by up to 10 cm.
+  for (const Solid& solid : {Solid(Box{Vec3(0.5, 0.5, 0.5)}), Solid(Sphere{0.5})})
+    for (const double restitution : {0.0, 0.1, 0.5})
+      for (const double rate : {60.0, 240.0}) {
+        World world({.sleep_after = std::numeric_limits<double>::infinity()});
+        world.add({.shape = {Plane{}}, .restitution = restitution, .fixed = true});
+        std::vector<BodyId> column;
+        for (int i = 0; i < 20; ++i) {
+          BodySettings piece;
+          piece.shape.solid = solid;
+          piece.restitution = restitution;
+          piece.motion.pose.position.y() = 0.5 + i + 0.1 * (i + 1);
+          column.push_back(world.add(piece));
+        }
+        double deepest = 0;
+        for (int i = 0; i < 2 * rate; ++i) {
+          world.step(1 / rate);
+          double below = -0.5;
+          for (const BodyId piece : column) {
+            const double height = world.motion(piece).pose.position.y();
+            deepest = std::max(deepest, below + 1 - height);
+            below = height;
+          }
+        }
+        CAPTURE(solid.index());
+        CAPTURE(restitution);
+        CAPTURE(rate);
+        CHECK(deepest < (rate == 240 ? 0.002 : 0.006));
+        CHECK(near(world.motion(column.back()).pose.position.y(), 19.5, 0.015));
       }
-      double deepest = 0;
-      for (int i = 0; i < 5 * rate; ++i) {
-        world.step(1 / rate);
-        for (const Contact& contact : world.contacts())
-          for (int k = 0; k < contact.manifold.count; ++k)
-            deepest = std::max(deepest, contact.manifold.points[static_cast<std::size_t>(k)].penetration);
-      }
-      CAPTURE(restitution);
-      CAPTURE(rate);
-      CHECK(deepest < (rate == 240 ? 0.002 : restitution < 0.25 ? 0.05 : 0.02));
-      CHECK(near(world.motion(top).pose.position.y(), 19.5, 5e-3));
-    }
+}
+
+TEST_CASE("balls that rain into a box overlap by less than a tenth of their radius") {
+  // As in a scene of 5,000 of them, where other engines were measured when all had come to rest: 24 mm (Jolt), 33
+  // (Box3D), 43 (Bullet); while they fell Bullet's overlapped by 111 mm.
+  World world({.sleep_after = std::numeric_limits<double>::infinity()});
+  const auto wall = [&](const Vec3& half, const Vec3& at) {
+    world.add({.shape = {Box{half}}, .restitution = 0.2, .fixed = true, .motion = {.pose = {.position = at}}});
+  };
+  wall(Vec3(10, 1, 10), Vec3(0, -1, 0));
+  for (const double side : {-1.0, 1.0}) {
+    wall(Vec3(0.5, 10, 3), Vec3(side * 2, 10, 0));
+    wall(Vec3(3, 10, 0.5), Vec3(0, 10, side * 2));
+  }
+  test::Random random(3);
+  std::vector<BodyId> balls;
+  for (int i = 0; i < 5 * 5 * 10; ++i) {
+    BodySettings ball;
+    ball.shape.solid = Sphere{0.25};
+    ball.mass = 1;
+    ball.restitution = 0.2;
+    ball.motion.pose.position =
+        Vec3(0.55 * (i % 5 - 2) + random.between(-0.02, 0.02), 1 + 0.55 * (i / 25) + random.between(-0.02, 0.02),
+             0.55 * (i / 5 % 5 - 2) + random.between(-0.02, 0.02));
+    balls.push_back(world.add(ball));
+  }
+  double deepest = 0;
+  for (int i = 0; i < 90; ++i) {
+    world.step(1.0 / 60);
+    for (std::size_t a = 0; a < balls.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b)
+        deepest = std::max(deepest,
+                           0.5 - (world.motion(balls[a]).pose.position - world.motion(balls[b]).pose.position).norm());
+  }
+  CHECK(deepest < 0.024);
 }
 
 TEST_CASE("a ball and a box that bounce without loss, wedged between walls, stay finite and gain no energy") {

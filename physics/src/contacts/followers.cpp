@@ -1,0 +1,168 @@
+#include "contacts/followers.h"
+
+#include <algorithm>
+
+#include "collision/collide_pairs.h"
+#include "contacts/adopt.h"
+#include "contacts/meeting.h"
+#include "state/world_data.h"
+
+/// Bodies that fly one behind the other do not meet as they go. Where the first is stopped, the next runs into it
+/// within the same step: without a contact it would be far inside when the step is over.
+
+namespace tweenfall {
+
+namespace contacts {
+
+namespace {
+
+/// A blow is handed on through so many bodies at most: in a step it comes no farther.
+constexpr int most_rounds = 8;
+
+/// Which bodies the blows of a step reach, when, and how hard at most.
+class Blows {
+ public:
+  Blows(std::vector<Struck>& struck, std::size_t bodies, double dt) : struck_(struck), dt_(dt) {
+    struck_.assign(bodies, {dt, 0});
+  }
+  /// Whether anything was struck since it was last asked.
+  [[nodiscard]] bool spread() { return std::exchange(spread_, false); }
+
+  /// What is hardly more than was known is left out, so that it soon comes to an end: for each body by itself, for what
+  /// others do somewhere else must not matter to it.
+  void strike(std::uint32_t body, double time, double change) {
+    Struck& struck = struck_[body];
+    if (!(time < struck.time - 0.01 * dt_ || change > 1.05 * struck.most)) return;
+    struck.time = std::min(struck.time, time);
+    struck.most = std::max(struck.most, change);
+    spread_ = true;
+  }
+  /// Whether a blow reaches one of two.
+  [[nodiscard]] bool reach(const Link& link) const { return struck_[link.a].time < dt_ || struck_[link.b].time < dt_; }
+  /// What a blow makes of a pair. @return how far the two may come towards each other in what is left of the step, m; 0
+  /// where they do not meet
+  double hand_on(const Link& link) {
+    const Struck &a = struck_[link.a], &b = struck_[link.b];
+    const double begin = std::min(a.time, b.time), closing = link.closing + a.most + b.most;
+    if (!(begin < dt_ && link.gap < closing * (dt_ - begin))) return 0;
+    const double met = begin + std::max(0.0, link.gap) / closing;
+    const double change = std::max(0.0, link.closing) + std::max(a.most, b.most);
+    if (link.a_moves) strike(link.a, met, change);
+    if (link.b_moves) strike(link.b, met, change);
+    return closing * (dt_ - begin);
+  }
+
+ private:
+  std::vector<Struck>& struck_;
+  double dt_;
+  bool spread_ = false;
+};
+
+}  // namespace
+
+void note_blow(const ContactConstraint& contact, const collision::Passage& a, const collision::Passage& b, double dt,
+               std::vector<Blow>& blows) {
+  const Vec3& normal = contact.manifold.normal;
+  const double along_a = normal.dot(a.course.acceleration), along_b = normal.dot(b.course.acceleration);
+  const double tremble = 2 * std::max(std::abs(along_a), std::abs(along_b)) * dt;
+  Blow blow{contact.a, contact.b, dt, 0};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
+    const PointConstraint& point = contact.points[i];
+    const double closing = normal.dot((a.course.linear + a.course.angular.cross(point.start_arm_a)) -
+                                      (b.course.linear + b.course.angular.cross(point.start_arm_b)));
+    const auto [time, speed] = meeting_of(point.start_gap, closing, along_a - along_b, dt);
+    if (!(speed > tremble)) continue;
+    blow.time = std::min(blow.time, time);
+    blow.change = std::max(blow.change, (1 + contact.restitution) * speed);
+  }
+  if (blow.change > 0) blows.push_back(blow);
+}
+
+}  // namespace contacts
+
+void World::Implementation::find_followers(std::size_t parts, double dt) {
+  followers.clear();
+  const std::span<contacts::FoundPart> all = std::span(found).first(parts);
+  if (std::all_of(all.begin(), all.end(), [](const contacts::FoundPart& part) { return part.blows.empty(); })) return;
+  contacts::Blows blows(struck_bodies, bodies.size(), dt);
+  for (const contacts::FoundPart& part : all)
+    for (const contacts::Blow& blow : part.blows)
+      for (const std::uint32_t end : {blow.a, blow.b})
+        if (!bodies[end].immovable()) blows.strike(end, blow.time, blow.change);
+  touching_links.clear();
+  for (const contacts::ContactConstraint* contact : active) {
+    double gap = contact->points[0].start_gap;
+    for (std::size_t i = 1; i < static_cast<std::size_t>(contact->count); ++i)
+      gap = std::min(gap, contact->points[i].start_gap);
+    touching_links.push_back(contacts::link_of(contact->a, passages[contact->a], contact->b, passages[contact->b],
+                                               contact->manifold.normal, gap));
+  }
+  const auto has_corners = [this](const contacts::ContactConstraint& contact) {
+    const auto polyhedron = [this](std::uint32_t body) {
+      const Solid& solid = bodies[body].shape().solid;
+      return std::holds_alternative<Box>(solid) || std::holds_alternative<Hull>(solid);
+    };
+    const auto level = [&](std::uint32_t body) {
+      return polyhedron(body) || std::holds_alternative<Plane>(bodies[body].shape().solid);
+    };
+    return (polyhedron(contact.a) && level(contact.b)) || (polyhedron(contact.b) && level(contact.a));
+  };
+  // As the bodies lie at the start of the step.
+  const auto meet_at_start = [this](contacts::ContactConstraint& contact, const Manifold& manifold) {
+    contact.manifold = manifold;
+    const state::Body &a = bodies[contact.a], &b = bodies[contact.b];
+    contacts::adopt(contact, passages[contact.a], {a.center, a.motion.pose.rotation}, passages[contact.b],
+                    {b.center, b.motion.pose.rotation});
+    if (contact.count == 0 || !contact.manifold.normal.allFinite()) return false;
+    finish_contact(contact, contact.memory != state::ContactMemories::nowhere ? &memories[contact.memory] : nullptr);
+    return true;
+  };
+  const auto take = [&](contacts::Followers& pair) {
+    if (!blows.reach(pair.link)) return false;
+    const collision::Passage &way_a = passages[pair.link.a], &way_b = passages[pair.link.b];
+    if (!pair.known) {
+      // By a direction of steps before; what comes of this one must not depend on them.
+      const Manifold apart = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
+                                                contacts::near_enough, contacts::near_enough);
+      const double gap = collision::gap_along(way_a, way_b, apart.normal);
+      pair.link = contacts::link_of(pair.link.a, way_a, pair.link.b, way_b, apart.normal, gap);
+      pair.known = true;
+    }
+    if (!contacts::follow(way_a, way_b, pair.link.gap, dt)) return true;
+    const double way = blows.hand_on(pair.link);
+    if (way == 0) return false;
+    contacts::ContactConstraint& constraint = followers.add();
+    constraint.a = pair.link.a;
+    constraint.b = pair.link.b;
+    constraint.memory = pair.memory;
+    const double reach = way + (way_a.swing + way_b.swing) * dt;
+    if (!meet_at_start(constraint, collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape,
+                                                      way_b.placed, reach, reach)))
+      followers.drop_last();
+    return true;
+  };
+  for (int round = 0; round < contacts::most_rounds && blows.spread(); ++round) {
+    for (const contacts::Link& link : touching_links) blows.hand_on(link);
+    for (contacts::FoundPart& part : all) std::erase_if(part.followers, take);
+  }
+  // What lies on few corners may be tilted by a blow until the others come down.
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    contacts::ContactConstraint& contact = *active[i];
+    if (contact.count >= 4 || contact.impact_time > 0 || !has_corners(contact)) continue;
+    const double way = blows.hand_on(touching_links[i]);
+    if (way == 0) continue;
+    const collision::Passage &way_a = passages[contact.a], &way_b = passages[contact.b];
+    const Manifold wider = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
+                                              contacts::near_enough, contacts::near_enough + way);
+    if (wider.count > contact.count) meet_at_start(contact, wider);
+  }
+  const auto known = static_cast<std::ptrdiff_t>(active.size());
+  for (contacts::ContactConstraint& contact : followers.all()) active.push_back(&contact);
+  const auto before = [](const contacts::ContactConstraint* left, const contacts::ContactConstraint* right) {
+    return pairs::Pair(left->a, left->b) < pairs::Pair(right->a, right->b);
+  };
+  std::sort(active.begin() + known, active.end(), before);
+  std::inplace_merge(active.begin(), active.begin() + known, active.end(), before);
+}
+
+}  // namespace tweenfall

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+
+#include "collision/passage.h"
+#include "contacts/adopt.h"
+#include "contacts/found.h"
+
+namespace tweenfall::contacts {
+
+/// Whether two bodies may meet in this step though they stay apart as they go now. Of what hardly moves that is not
+/// looked into: in most heaps that is all.
+[[nodiscard]] inline bool may_follow(const collision::Passage& a, const collision::Passage& b, double dt) {
+  const double square = std::max(a.course.linear.squaredNorm(), b.course.linear.squaredNorm()) * dt * dt;
+  return 16 * square > near_enough * near_enough;
+}
+
+/// And with such a gap, where one of them is stopped, or pushed by a third.
+[[nodiscard]] inline bool follow(const collision::Passage& a, const collision::Passage& b, double gap, double dt) {
+  constexpr double faster = 4, close = 0.1;  // of the speed; parts of the smaller one's radius
+  const double square = std::max(a.course.linear.squaredNorm(), b.course.linear.squaredNorm()) * dt * dt;
+  return gap * gap < square ||
+         (gap * gap < faster * faster * square && gap < close * std::min(a.body->radius(), b.body->radius()));
+}
+
+/// Whether two bodies are so fast that they may meet with a blow.
+[[nodiscard]] inline bool may_strike(const collision::Passage& a, const collision::Passage& b, double dt) {
+  const auto fast = [dt](const collision::Passage& way) {
+    const double speed = way.course.linear.norm() + way.swing;
+    return speed > way.course.acceleration.norm() * dt;
+  };
+  return fast(a) || fast(b);
+}
+
+[[nodiscard]] inline Link link_of(std::uint32_t a, const collision::Passage& way_a, std::uint32_t b,
+                                  const collision::Passage& way_b, const Vec3& normal, double gap) {
+  return {a,
+          b,
+          !way_a.body->immovable(),
+          !way_b.body->immovable(),
+          gap,
+          normal.dot(way_a.course.linear - way_b.course.linear)};
+}
+
+/// Adds the blow with which two bodies meet at this contact within the step, if there is one.
+void note_blow(const ContactConstraint& contact, const collision::Passage& a, const collision::Passage& b, double dt,
+               std::vector<Blow>& blows);
+
+}  // namespace tweenfall::contacts
