@@ -13,7 +13,7 @@ namespace inner {
 
 namespace {
 
-constexpr double most = 1e30;
+constexpr double largest = 1e30;
 
 }  // namespace
 
@@ -21,15 +21,16 @@ void demand(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument(what);
 }
 void demand_number(double value, const char* name) {
-  demand(std::abs(value) <= most, std::string(name) + " must be finite and at most 1e30, but is " + number_text(value));
+  demand(std::abs(value) <= largest,
+         std::string(name) + " must be finite and at most 1e30, but is " + number_text(value));
 }
 void demand_numbers(const Vec2& value, const char* name) {
-  demand(std::abs(value.x()) <= most && std::abs(value.y()) <= most,
+  demand(std::abs(value.x()) <= largest && std::abs(value.y()) <= largest,
          std::string(name) + " must be finite and at most 1e30, but is (" + number_text(value.x()) + ", " +
              number_text(value.y()) + ")");
 }
 void demand_amount(double value, const char* name) {
-  demand(value >= 0 && value <= most, std::string(name) + " must lie in 0 to 1e30, but is " + number_text(value));
+  demand(value >= 0 && value <= largest, std::string(name) + " must lie in 0 to 1e30, but is " + number_text(value));
 }
 void demand_motion(const Motion& motion) {
   demand_numbers(motion.position, "position of a body");
@@ -58,9 +59,9 @@ void demand_body(const BodySettings& body) {
   demand_amount(body.linear_damping, "linear damping");
   demand_amount(body.angular_damping, "angular damping");
   if (body.mass)
-    demand(*body.mass > 0 && *body.mass <= most,
+    demand(*body.mass > 0 && *body.mass <= largest,
            "mass must be positive and at most 1e30 kg, but is " + number_text(*body.mass));
-  demand(body.density > 0 && body.density <= most,
+  demand(body.density > 0 && body.density <= largest,
          "density must be positive and at most 1e30 kg/m^2, but is " + number_text(body.density));
   state::validate(body.drive);
   demand_motion(body.motion);

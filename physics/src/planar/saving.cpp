@@ -70,7 +70,7 @@ struct NumberByNumber {
       auto index = static_cast<std::uint8_t>(value.index());
       tool.number(index);
       if constexpr (reads) choose(value, index);
-      std::visit([this](auto& chosen) { one(chosen); }, value);
+      std::visit([this](auto& chosen) { this->one(chosen); }, value);
     } else {
       each_field(value, *this);
     }

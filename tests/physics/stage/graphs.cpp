@@ -59,7 +59,7 @@ struct Told {
   const char* name;
   std::optional<double> value{};
 };
-const std::vector<Told> told{
+const std::vector<Told> script{
     {0.1037, "speed", 0.5}, {0.3, "armed", 1}, {0.4119, "jump"}, {0.4119, "speed", 0.1}, {1.2, "speed", 0}};
 
 Stage run_with(double frame, double until) {
@@ -67,12 +67,12 @@ Stage run_with(double frame, double until) {
   std::size_t next = 0;
   for (double at = 0; at < until;) {
     at = std::min(at + frame, until);
-    for (; next < told.size() && told[next].time <= at; ++next) {
-      stage.advance_to(told[next].time);
-      if (told[next].value)
-        stage.set("figure", told[next].name, *told[next].value);
+    for (; next < script.size() && script[next].time <= at; ++next) {
+      stage.advance_to(script[next].time);
+      if (script[next].value)
+        stage.set("figure", script[next].name, *script[next].value);
       else
-        stage.send("figure", told[next].name);
+        stage.send("figure", script[next].name);
     }
     stage.advance_to(at);
   }
@@ -115,7 +115,7 @@ TEST_CASE("a graph that is told something runs to the same bits whatever the fra
   }
   again.advance_to(3);
   CHECK(again.state_hash() == hash);
-  REQUIRE(again.inputs().size() == told.size());
+  REQUIRE(again.inputs().size() == script.size());
   CHECK(std::get<input::Set>(again.inputs()[0].what).parameter == "speed");
   CHECK(std::get<input::Send>(again.inputs()[2].what).event == "jump");
 }
