@@ -109,6 +109,7 @@ void BlockSolver::take(std::size_t place, const Body& body, const Load& load, In
   pace.steady = pace.even && !(load.drag > 0);
   pace.unturned = pace.steady && entry.round;
   traits.uneven = !body.spherical();
+  traits.driven = body.drive.owner() == Owner::driven;
   set(velocity.linear, without_sign_of_zero(body.twist.linear));
   set(velocity.angular, without_sign_of_zero(body.twist.angular));
 }
@@ -134,9 +135,10 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   uneven_.clear();
   rebounds_.clear();  // of the island before
   led_.clear();
-  bouncy_ = conveyed_ = any_stale_ = false;
+  bouncy_ = conveyed_ = any_stale_ = driven_ = false;
   for (std::uint32_t i = 1; i < count; ++i) {
     conveyed_ = conveyed_ || traits_[i].conveys;
+    driven_ = driven_ || traits_[i].driven;
     if (traits_[i].uneven) uneven_.push_back(i);
     if (!traits_[i].immovable) continue;
     const step::KeyedCourse course = step::keyed_course(bodies[indices_[i]], dt);
@@ -309,22 +311,31 @@ void BlockSolver::find_lags_of_jointed() {
 void BlockSolver::tame_jointed(const std::vector<Body>& bodies, double h) {
   constexpr double farthest_turn = 2;  // rad
   constexpr double farthest = 100;     // of the body's size
-  jointed_.assign(island_of_.back() + std::size_t{1}, {});
-  bool wild = false;
-  for (std::size_t i = 1; i < bodies_.size(); ++i) {
-    if (!bodies_[i].jointed || !bodies_[i].movable) continue;
-    BodyLanes& velocity = velocities_[i];
+  const auto is_wild = [&](std::size_t i) {
+    if (!bodies_[i].jointed || !bodies_[i].movable) return false;
+    const BodyLanes& velocity = velocities_[i];
     const double gained = (linear_of(velocity) - linear_of(starts_[i])).squaredNorm() * h * h;
     const double reach = farthest * bodies[bodies_[i].index].radius();
-    if (gained <= reach * reach && angular_of(velocity).squaredNorm() * h * h <= farthest_turn * farthest_turn)
-      continue;
-    wild = jointed_[island_of_[i]].wild = true;
+    return !(gained <= reach * reach && angular_of(velocity).squaredNorm() * h * h <= farthest_turn * farthest_turn);
+  };
+  wild_.assign(work_.range_count(bodies_.size() - 1, worth_a_part), 0);
+  work_.numbered_ranges(bodies_.size() - 1, worth_a_part, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    bool some = false;
+    for (std::size_t i = begin + 1; i < end + 1 && !some; ++i) some = is_wild(i);
+    wild_[part] = some ? 1 : 0;
+  });
+  if (std::find(wild_.begin(), wild_.end(), 1) == wild_.end()) return;
+  jointed_.assign(island_of_.back() + std::size_t{1}, {});
+  for (std::size_t i = 1; i < bodies_.size(); ++i) {
+    if (!is_wild(i)) continue;
+    jointed_[island_of_[i]].wild = true;
+    BodyLanes& velocity = velocities_[i];
     velocity = starts_[i];
     Vec3 angular = angular_of(velocity);
     const double turn = angular.norm() * h;
     if (turn > farthest_turn) set(velocity.angular, angular * (0.5 * farthest_turn / turn));
   }
-  if (wild) joints_.forget([this](std::uint32_t place) { return jointed_[island_of_[place]].wild; });
+  joints_.forget([this](std::uint32_t place) { return jointed_[island_of_[place]].wild; });
 }
 
 void BlockSolver::end_sub_step(double h) {
@@ -430,9 +441,10 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   turned_enough_ = effort.turned_enough;
   gather(bodies, loads, islands, settings.integrator, dt);
   foresee(contacts, loads, effort.heap ? 2 * h : 0, dt);
-  holds_.gather(island, bodies, places_, bodies_, h);
-  for (std::size_t i = 1; i < bodies_.size(); ++i)
-    if (bodies_[i].held || bodies_[i].jointed) paces_[i].steady = paces_[i].unturned = false;
+  holds_.gather(island, bodies, places_, bodies_, driven_, h);
+  if (!holds_.empty() || !island.joints.empty())
+    for (std::size_t i = 1; i < bodies_.size(); ++i)
+      if (bodies_[i].held || bodies_[i].jointed) paces_[i].steady = paces_[i].unturned = false;
   contacts_.build(contacts, places_, bodies_, closings_, h, work_);
   velocities_.resize(contacts_.room);
   lags_.resize(contacts_.room);

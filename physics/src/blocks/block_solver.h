@@ -64,7 +64,7 @@ class BlockSolver {
 
   /// What is found of a body, or of a contact, by whichever thread gets to it, and then looked at in order.
   struct Traits {
-    bool conveys = false, uneven = false, immovable = false;
+    bool conveys = false, uneven = false, immovable = false, driven = false;
   };
   struct Marks {
     bool impact = false, springs_back = false, pushed = false;
@@ -163,7 +163,9 @@ class BlockSolver {
   IslandHolds holds_;
   bool bouncy_ = false;      ///< some contact has restitution
   bool conveyed_ = false;    ///< some surface moves
+  bool driven_ = false;      ///< a drive holds some body
   std::vector<char> stale_;  ///< by part of the bodies: one of them has
+  std::vector<char> wild_;   ///< by part of the bodies: one of them moves further than can be followed
   double turned_enough_ = 0;
   bool any_stale_ = false;               ///< a body has turned since its rows were prepared
   std::vector<std::uint32_t> meetings_;  ///< lanes

@@ -45,11 +45,12 @@ void between(std::uint32_t a, std::uint32_t b, const std::vector<IslandBody>& en
 }  // namespace
 
 void IslandHolds::gather(const islands::IslandContents& island, const std::vector<Body>& bodies,
-                         const std::vector<std::uint32_t>& places, std::vector<IslandBody>& entries, double h) {
+                         const std::vector<std::uint32_t>& places, std::vector<IslandBody>& entries, bool driven,
+                         double h) {
   h_ = h;
   drives_.clear();
   springs_.clear();
-  for (std::uint32_t place = 1; place < entries.size(); ++place) {
+  for (std::uint32_t place = 1; driven && place < entries.size(); ++place) {
     IslandBody& entry = entries[place];
     const Body& body = bodies[entry.index];
     if (!entry.movable || body.drive.owner() != Owner::driven) continue;

@@ -13,8 +13,9 @@ namespace tweenfall::blocks {
 class IslandHolds {
  public:
   /// Softens what drives without a limit pull, so that contacts and joints have to move what they hold, too.
+  /// @param driven  a drive holds some body
   void gather(const islands::IslandContents& island, const std::vector<state::Body>& bodies,
-              const std::vector<std::uint32_t>& places, std::vector<IslandBody>& entries, double h);
+              const std::vector<std::uint32_t>& places, std::vector<IslandBody>& entries, bool driven, double h);
   /// Finds what resists rolling, with the impulses that it kept.
   void gather(const ContactBlocks& contacts, double h);
   [[nodiscard]] bool empty() const { return drives_.empty() && springs_.empty() && rolls_.empty(); }

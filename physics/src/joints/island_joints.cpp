@@ -59,8 +59,7 @@ void IslandJoints::build(std::span<JointLink* const> links, const std::vector<st
   joints_.resize(links.size());
   members_.resize(links.size());
   kinds_.resize(links.size());
-  gears_.clear();
-  for (std::size_t i = 0; i < links.size(); ++i) {
+  const auto take = [&](std::size_t i) {
     Entry& entry = joints_[i];
     state::Joint& joint = *links[i]->joint;
     entry.joint = &joint;
@@ -69,10 +68,16 @@ void IslandJoints::build(std::span<JointLink* const> links, const std::vector<st
     const double ratio = joint.kept_step > h ? h / joint.kept_step : 1;
     for (std::size_t k = 0; k < joint.kept.size(); ++k) entry.impulses[k] = ratio * joint.kept[k];
     kinds_[i] = FigureGroup::kind_number(joint.settings.kind.index(), writing_of(joint.settings.kind));
-    if (std::holds_alternative<GearJoint>(joint.settings.kind)) gears_.push_back(static_cast<std::uint32_t>(i));
     members_[i] = {entry.a, entry.b, entry.a != 0 && island[entry.a].movable, island[entry.b].movable,
                    static_cast<std::uint32_t>(i)};
-  }
+  };
+  constexpr std::size_t worth_a_part = 48;
+  work_.ranges(links.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) take(i);
+  });
+  gears_.clear();
+  for (std::uint32_t i = 0; i < links.size(); ++i)
+    if (std::holds_alternative<GearJoint>(links[i]->joint->settings.kind)) gears_.push_back(i);
   find_figures(island);
   each_group([&](FigureGroup& group) { frame(group, bodies, island); });
 }

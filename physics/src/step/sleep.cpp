@@ -43,8 +43,15 @@ bool World::Implementation::wake_islands() {
     for (const joints::JointLink& link : links)
       if (link.a != joints::JointLink::world) visit(link.a, link.b);
   };
+  bool disturbed = false;
   each_link([&](std::uint32_t a, std::uint32_t b) {
-    if (!bodies[a].immovable() && !bodies[b].immovable()) islands.join(a, b);
+    bool all_move = true;
+    for (const state::Body* body : {&bodies[a], &bodies[b]}) {
+      const bool immovable = body->immovable();
+      all_move = all_move && !immovable;
+      disturbed = disturbed || body->conveys || (immovable && body->stirs());
+    }
+    if (all_move) islands.join(a, b);
   });
   if (!sleepers.empty())
     for (const std::uint32_t i : watched)
@@ -56,10 +63,11 @@ bool World::Implementation::wake_islands() {
     flags[islands.of(other)] = 1;
     if (by.displaces()) carried[islands.of(other)] = 1;
   };
-  each_link([&](std::uint32_t a, std::uint32_t b) {
-    disturb(bodies[a], b);
-    disturb(bodies[b], a);
-  });
+  if (disturbed)
+    each_link([&](std::uint32_t a, std::uint32_t b) {
+      disturb(bodies[a], b);
+      disturb(bodies[b], a);
+    });
   bool any = false;
   for (const std::uint32_t i : sleepers) {
     if (!bodies[i].asleep || !flags[islands.of(i)]) continue;
