@@ -29,8 +29,8 @@ constexpr std::size_t most_contacts_of_blows = 24;
 constexpr double soon = 1e-6;
 /// In shorter steps than this what trembles is no faster than in such a one, s.
 constexpr double unhurried = 1e-3;
-/// Cuts of a step; what still meets then is solved with the rest.
-constexpr int most_cuts = 64;
+/// Cuts of a step; what still meets then is solved with the rest. Dull blows die away sooner.
+constexpr int most_cuts = 64, most_cuts_of_dull = 12;
 /// Without getting on: what is wedged would bounce to and fro for ever.
 constexpr int most_strikes = 4;
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -94,9 +94,12 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
     for (std::size_t i = 0; i < blown.size(); ++i) blown[i]->restitution = restitutions[i];
   };
   std::vector<ContactConstraint*> slow;
+  const bool springs_back = std::any_of(island.contacts.begin(), island.contacts.end(),
+                                        [](const auto* contact) { return contact->restitution > small::dull; });
+  const int most_cuts = springs_back ? small::most_cuts : small::most_cuts_of_dull;
   double left = dt;
   int strikes = 0;  // since the last cut
-  for (int cut = 0; cut < small::most_cuts && strikes < small::most_strikes; ++cut) {
+  for (int cut = 0; cut < most_cuts && strikes < small::most_strikes; ++cut) {
     // What meets right at the end of the step does so in it.
     const double span = left + soon;
     double first = small::never;

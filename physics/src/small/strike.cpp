@@ -17,6 +17,8 @@ constexpr int most_blows = 400;
 /// Passes over the points of one blow, and a change of velocity that no longer matters, parts of the greatest speed.
 constexpr int passes_of_a_blow = 100;
 constexpr double struck = 1e-15;
+/// Of blows of so little restitution such a change does not matter either.
+constexpr double dull = 0.25, struck_dully = 1e-9;
 /// Blows whose speeds differ by less than this part are one.
 constexpr double alike = 1e-9;
 /// Part of an energy that is rounding.
@@ -63,6 +65,9 @@ void Solver::strike_at_once(std::span<const std::size_t> numbers) {
       const auto is_it = [body](const SolverBody& other) { return other.index == body->index; };
       if (body->movable && std::none_of(before.begin(), before.end(), is_it)) before.push_back(*body);
     }
+  const bool springs_back =
+      std::any_of(numbers.begin(), numbers.end(), [this](std::size_t n) { return contacts_[n].restitution > dull; });
+  const double enough = (springs_back ? struck : struck_dully) * fastest;
   for (int pass = 0; pass < passes_of_a_blow; ++pass) {
     double change = 0;
     each_point([&](SolvedContact& contact, SolvedPoint& point, const PointRows& rows) {
@@ -72,7 +77,7 @@ void Solver::strike_at_once(std::span<const std::size_t> numbers) {
                           solve_friction(a, b, rows, point.friction_impulse, contact.friction * point.normal_impulse));
       change = std::max(change, solve_normal(a, b, rows, point.normal_impulse, point.rebound, contact.normal));
     });
-    if (change <= struck * fastest) break;
+    if (change <= enough) break;
   }
   // With friction a rebound at the speed that is asked for may have more energy than there was.
   double slope = 0, curvature = 0;
