@@ -15,14 +15,16 @@ endif()
 # namespaces too, therefore stand in the room's own namespace (tweenfall::slopes, tweenfall::staging) and are used once
 # per room; those that stand in tweenfall itself, once per module. -DCMAKE_UNITY_BUILD=OFF compiles each alone.
 # tweenfall_compile_by_room in module.cmake says which are compiled together.
-# Few as one where sources change, many where all is compiled anyway.
+# Few as one where sources change; many, and rooms together, where all is compiled anyway: what they share is then read
+# less often.
 if(NOT DEFINED CMAKE_UNITY_BUILD)
   set(CMAKE_UNITY_BUILD ON)
 endif()
 if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
   set(batch 5)
   if("$ENV{CI}" STREQUAL "true")
-    set(batch 16)
+    set(batch 32)
+    option(TWEENFALL_ROOMS_TOGETHER "compile sources of several rooms as one" ON)
   endif()
   set(CMAKE_UNITY_BUILD_BATCH_SIZE ${batch} CACHE STRING "how many sources are compiled as one")
 endif()

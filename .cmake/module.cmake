@@ -32,7 +32,7 @@ endfunction()
 
 # What a unity build compiles as one: sources of one room alone, at most CMAKE_UNITY_BUILD_BATCH_SIZE of them. So a file
 # that comes or goes changes what is compiled in its own room and nowhere else. A room is a folder of FOLDER with all
-# that is below it.
+# that is below it; with TWEENFALL_ROOMS_TOGETHER all that is in FOLDER is one.
 function(tweenfall_compile_by_room target folder sources)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   set(size ${CMAKE_UNITY_BUILD_BATCH_SIZE})
@@ -43,7 +43,7 @@ function(tweenfall_compile_by_room target folder sources)
   foreach(source IN LISTS sources)
     cmake_path(RELATIVE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${folder} OUTPUT_VARIABLE path)
     string(REGEX REPLACE "/.*" "" room "${path}")
-    if(room STREQUAL path)
+    if(room STREQUAL path OR TWEENFALL_ROOMS_TOGETHER)
       set(room ${target})
     endif()
     if(NOT room IN_LIST counted)

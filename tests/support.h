@@ -20,7 +20,7 @@
 
 namespace tweenfall::test {
 
-inline constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Numbers made by other programs: TWEENFALL_VECTORS, or ../shared/vectors.
 std::filesystem::path vectors_folder();

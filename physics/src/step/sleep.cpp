@@ -17,7 +17,7 @@ constexpr double pulling_share = 0.1;
 /// Among what is noted of bodies that something pulls: it may turn them, too.
 constexpr char turned_too = 2;
 /// Displacements of this part of a place are rounding.
-constexpr double rounding = 1e-14;
+constexpr double displacement_rounding = 1e-14;
 /// Bodies that are worth a part of their own.
 constexpr std::size_t worth_sharing_sleep = 128;
 
@@ -25,8 +25,8 @@ constexpr std::size_t worth_sharing_sleep = 128;
 bool still(const state::Body& body, const Start& start, double speed, double dt) {
   if (!(body.twist.linear.norm() < speed && body.twist.angular.norm() * body.radius() < speed)) return false;
   const double turn = 2 * (body.motion.pose.rotation * start.rotation.conjugate()).vec().norm();
-  return (body.center - start.center).norm() <= speed * dt + rounding * body.center.norm() &&
-         turn * body.radius() <= speed * dt + rounding * body.radius();
+  return (body.center - start.center).norm() <= speed * dt + displacement_rounding * body.center.norm() &&
+         turn * body.radius() <= speed * dt + displacement_rounding * body.radius();
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ using namespace tweenfall::test;
 namespace {
 
 /// Loops of different lengths with the same steps.
-std::shared_ptr<const std::vector<Clip>> gaits() {
+std::shared_ptr<const std::vector<Clip>> stepping_clips() {
   std::vector<Clip> clips = {moving("walk", 4, LoopMode::repeat), moving("run", 5, LoopMode::repeat),
                              moving("lean", 6, LoopMode::repeat)};
   clips[0].events = {{0.2, 0.2, "left", ""}, {1.2, 1.2, "right", ""}};
@@ -17,7 +17,7 @@ std::shared_ptr<const std::vector<Clip>> gaits() {
   return std::make_shared<const std::vector<Clip>>(std::move(clips));
 }
 
-GraphDescription along(const std::optional<std::string>& sync, double half_life = 0) {
+GraphDescription by_speed(const std::optional<std::string>& sync, double half_life = 0) {
   return {.parameters = {{.name = "speed", .half_life = half_life}},
           .poses = {
               {"move",
@@ -27,10 +27,10 @@ GraphDescription along(const std::optional<std::string>& sync, double half_life 
 }  // namespace
 
 TEST_CASE("at the place of a pose a space shows that pose bit for bit, and beyond the ends the last") {
-  GraphPlayer player(graph_of(along({}), gaits()));
+  GraphPlayer player(graph_of(by_speed({}), stepping_clips()));
   std::vector<Motion> walk(4), run(4);
-  Animation(limb(), *gaits(), {{.clip = 0}}).sample(0.7, walk);
-  Animation(limb(), *gaits(), {{.clip = 1}}).sample(0.7, run);
+  Animation(limb(), *stepping_clips(), {{.clip = 0}}).sample(0.7, walk);
+  Animation(limb(), *stepping_clips(), {{.clip = 1}}).sample(0.7, run);
   CHECK(same_bits(pose_at(player, 0.7), walk));
   player.set("speed", 1);
   CHECK(same_bits(pose_at(player, 0.7), walk));
@@ -41,14 +41,14 @@ TEST_CASE("at the place of a pose a space shows that pose bit for bit, and beyon
 }
 
 TEST_CASE("a space on a line and on a plane has the exact rate of what it shows, the parameters moving") {
-  GraphPlayer line(graph_of(along({}, 0.2), gaits()));
+  GraphPlayer line(graph_of(by_speed({}, 0.2), stepping_clips()));
   line.seek(0.1);
   line.set("speed", 3);
   GraphDescription plane = {
       .parameters = {{.name = "x", .half_life = 0.2}, {.name = "y", .half_life = 0.3}},
       .poses = {{"move", SpacePose{.by = {ByParameter{"x"}, ByParameter{"y"}},
                                    .entries = {{"walk", {0, 0}}, {"run", {2, 0}}, {"lean", {0, 2}}}}}}};
-  GraphPlayer both(graph_of(plane, gaits()));
+  GraphPlayer both(graph_of(plane, stepping_clips()));
   both.seek(0.1);
   both.set("x", 0.9);
   both.set("y", 0.8);
@@ -60,7 +60,7 @@ TEST_CASE("a space on a line and on a plane has the exact rate of what it shows,
 
 TEST_CASE("clips in phase run on with exact rates, whatever the frames and back") {
   for (const double half_life : {0.0, 0.15}) {
-    GraphPlayer player(graph_of(along("*", half_life), gaits())), fine(graph_of(along("*", half_life), gaits()));
+    GraphPlayer player(graph_of(by_speed("*", half_life), stepping_clips())), fine(graph_of(by_speed("*", half_life), stepping_clips()));
     for (GraphPlayer* each : {&player, &fine}) {
       for (const double time : {0.3, 0.8, 1.7}) {
         while (each == &fine && each->time() + 0.021 < time) {
@@ -88,7 +88,7 @@ TEST_CASE("clips in phase run on with exact rates, whatever the frames and back"
 }
 
 TEST_CASE("clips in phase step together: their markers fall at the same times, each told once") {
-  GraphPlayer player(graph_of(along("*"), gaits()));
+  GraphPlayer player(graph_of(by_speed("*"), stepping_clips()));
   player.set("speed", 2.5);
   std::vector<GraphEvent> events;
   for (double from = -1, to = 0.1; to < 8; from = to, to += 0.17)
@@ -108,7 +108,7 @@ TEST_CASE("what is no space is refused with its place") {
     std::string text;
     for (const GraphFault& fault :
          inspect({.parameters = {{.name = "v"}}, .poses = {{"s", space}, {"q", ClipPose{"walk", 0, 2}}}}, *limb(),
-                 *gaits())) {
+                 *stepping_clips())) {
       for (const std::string& part : fault.place) text += "/" + part;
       text += ": " + fault.message + "\n";
     }

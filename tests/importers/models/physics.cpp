@@ -126,7 +126,7 @@ double apart(const SpringJoint& a, const SpringJoint& b) {
 }
 
 /// A glTF text with two balls of 1 kg, the first 1 m above the second's node, and what a joint node on it holds.
-std::string two_balls(const std::string& limits, const std::string& more = "") {
+std::string two_jointed_balls(const std::string& limits, const std::string& more = "") {
   return R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_implicit_shapes","KHR_physics_rigid_bodies"],
 "extensions":{"KHR_implicit_shapes":{"shapes":[{"type":"sphere","sphere":{"radius":0.1}}]},
 "KHR_physics_rigid_bodies":{"physicsJoints":[{"limits":[)" +
@@ -252,7 +252,7 @@ TEST_CASE("a joint of each kind is read from glTF as it was written") {
 TEST_CASE("limits of a joint may be told one by one, along any axis") {
   const std::string places =
       lock("linearAxes", "0") + "," + lock("linearAxes", "2") + "," + lock("linearAxes", "1") + ",";
-  const Model hinge = read_text(two_balls(places + lock("angularAxes", "0") + "," + lock("angularAxes", "1")));
+  const Model hinge = read_text(two_jointed_balls(places + lock("angularAxes", "0") + "," + lock("angularAxes", "1")));
   REQUIRE(hinge.joints.size() == 1);
   const JointDescription& joint = hinge.joints.front();
   REQUIRE(std::holds_alternative<HingeJoint>(joint.kind));
@@ -260,13 +260,13 @@ TEST_CASE("limits of a joint may be told one by one, along any axis") {
   CHECK((joint.frame_a.position - Vec3(0, -0.5, 0)).norm() < 1e-12);
   CHECK((joint.frame_b.position - Vec3(0, 0.5, 0)).norm() < 1e-12);
 
-  const Model slider = read_text(two_balls(lock("linearAxes", "0,2") + R"(,{"linearAxes":[1],"min":-0.5,"max":0.25},)" +
+  const Model slider = read_text(two_jointed_balls(lock("linearAxes", "0,2") + R"(,{"linearAxes":[1],"min":-0.5,"max":0.25},)" +
                                            lock("angularAxes", "0,1,2")));
   REQUIRE(std::holds_alternative<SliderJoint>(slider.joints.at(0).kind));
   CHECK(std::get<SliderJoint>(slider.joints[0].kind).limits->low == -0.5);
   CHECK(((slider.joints[0].frame_a.rotation * Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm() < 1e-12);
 
-  const Model none = read_text(two_balls(lock("linearAxes", "0") + "," + lock("angularAxes", "0")));
+  const Model none = read_text(two_jointed_balls(lock("linearAxes", "0") + "," + lock("angularAxes", "0")));
   CHECK(none.joints.empty());
   REQUIRE_FALSE(none.repairs.empty());
   CHECK(none.repairs.back().find("no joint known here; the joint was left out") != std::string::npos);
@@ -274,7 +274,7 @@ TEST_CASE("limits of a joint may be told one by one, along any axis") {
 
 TEST_CASE("a joint to the world is held the same whichever node names it") {
   const std::string lower = R"({"name":"lower","children":[3],)";
-  std::string text = two_balls(
+  std::string text = two_jointed_balls(
       lock("linearAxes", "0,1,2") + "," + lock("angularAxes", "1,2") + R"(,{"angularAxes":[0],"min":-0.2,"max":0.7})",
       R"(,"drives":[{"type":"angular","axis":0,"velocityTarget":2,"damping":10}])");
   const std::size_t at = text.find(lower);
@@ -322,7 +322,7 @@ TEST_CASE("what a recording ran with runs the same out of its glTF") {
 }
 
 TEST_CASE("bodies in glTF that are wrong are told of, and of those that cannot be, the rest is kept") {
-  const std::string good = two_balls(lock("linearAxes", "0,1,2"));
+  const std::string good = two_jointed_balls(lock("linearAxes", "0,1,2"));
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = good;
     const std::size_t at = text.find(from);

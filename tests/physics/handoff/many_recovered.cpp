@@ -1,10 +1,10 @@
+#include "processor_time.h"
 #include "support.h"
 
 #include <tweenfall/curves/keys.h>
 #include <tweenfall/physics/stage/stage.h>
 
 #include <malloc.h>
-#include <ctime>
 
 using namespace tweenfall;
 using namespace tweenfall::test;
@@ -27,10 +27,6 @@ StageDescription thrown(std::size_t count) {
   description.clips = {clip};
   description.plays = {{.clip = 0}};
   return description;
-}
-
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 }  // namespace

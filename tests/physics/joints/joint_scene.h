@@ -7,7 +7,7 @@
 
 namespace tweenfall::jointed {
 
-inline constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 inline constexpr double g = 9.81;
 inline const WorldSettings awake{.sleep_after = HUGE_VAL};
 inline const WorldSettings weightless{.gravity = Vec3(0, 0, 0), .sleep_after = HUGE_VAL};

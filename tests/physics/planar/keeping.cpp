@@ -38,7 +38,7 @@ planar::World busy_world() {
   return world;
 }
 
-void step(planar::World& world, int n) {
+void drive_on(planar::World& world, int n) {
   const double t = (n + 1) / 60.0;
   world.set_target(world.bodies()[1], {Vec2(-3 + t, 1), 0, Vec2(1, 0), 0});
   world.step(1.0 / 60);
@@ -48,14 +48,14 @@ void step(planar::World& world, int n) {
 
 TEST_CASE("in a plane a copy and what was saved and loaded step to the same bits") {
   planar::World world = busy_world();
-  for (int i = 0; i < 150; ++i) step(world, i);
+  for (int i = 0; i < 150; ++i) drive_on(world, i);
   planar::World copy = world, loaded;
   const std::vector<std::byte> saved = world.save();
   loaded.load(saved);
   CHECK(loaded.save() == saved);
   CHECK(loaded.state_hash() == world.state_hash());
   for (int i = 150; i < 300; ++i) {
-    for (planar::World* one : {&world, &copy, &loaded}) step(*one, i);
+    for (planar::World* one : {&world, &copy, &loaded}) drive_on(*one, i);
     REQUIRE(copy.state_hash() == world.state_hash());
     REQUIRE(loaded.state_hash() == world.state_hash());
   }
@@ -64,7 +64,7 @@ TEST_CASE("in a plane a copy and what was saved and loaded step to the same bits
 
 TEST_CASE("in a plane bytes that were changed or cut are refused and change nothing") {
   planar::World world = busy_world();
-  for (int i = 0; i < 20; ++i) step(world, i);
+  for (int i = 0; i < 20; ++i) drive_on(world, i);
   const std::vector<std::byte> saved = world.save();
   planar::World other = busy_world();
   const std::uint64_t before = other.state_hash();
