@@ -249,7 +249,7 @@ await run("without WebGL", {flags: ["--disable-3d-apis"]}, async page => {
     matrixOf(recording.nodes.bob.position[90], recording.nodes.bob.rotation[90]), "places are known without WebGL");
 });
 
-await run("models and hostile recordings", {}, async page => {
+await run("models and hostile recordings", {scale: 0.5}, async page => {
   await frameModels(page, join(folder, "models"));
   await showHostile(page, join(folder, "hostile"));
   await showsJoints(page, folder);
