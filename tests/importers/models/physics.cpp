@@ -163,7 +163,7 @@ TEST_CASE("where the mass of a body is, and its inertia, go to glTF and come bac
   CHECK(same->body.mass_properties->mass == 3);
   CHECK((same->body.mass_properties->center - weighed.center).norm() < 1e-12);
   CHECK((same->body.mass_properties->inertia - weighed.inertia).norm() < 1e-6);
-  std::string text = two_balls("");
+  std::string text = two_jointed_balls("");
   const std::string mass = R"("mass":1)";
   text.replace(text.find(mass), mass.size(), mass + R"(,"inertiaDiagonal":[1,1,3])");
   const Model refused = read_text(text);

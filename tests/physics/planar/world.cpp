@@ -8,14 +8,14 @@ using namespace tweenfall::test;
 namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
-constexpr double frame = 1.0 / 60;
+constexpr double flat_step = 1.0 / 60;
 
 BodyId add_ground(planar::World& world, double friction = 0.5) {
   return world.add({.shape = {planar::HalfPlane{}}, .friction = friction, .fixed = true});
 }
 
 void run(planar::World& world, int steps) {
-  for (int i = 0; i < steps; ++i) world.step(frame);
+  for (int i = 0; i < steps; ++i) world.step(flat_step);
 }
 
 double total_energy(const planar::World& world) {
@@ -48,7 +48,7 @@ TEST_CASE("in a plane damping leaves exp(-c t), and a force gives a = F / m") {
   const BodyId pushed = world.add({.mass = 4.0, .motion = {.position = Vec2(0, 9)}});
   for (int i = 0; i < 120; ++i) {
     world.apply_force(pushed, Vec2(8, 0), world.motion(pushed).position);
-    world.step(frame);
+    world.step(flat_step);
   }
   CHECK(near(world.motion(damped).velocity.x(), 2 * std::exp(-1.4), 1e-12));
   CHECK(near(world.motion(damped).spin, 5 * std::exp(-0.6), 1e-12));
@@ -63,8 +63,8 @@ TEST_CASE("in a plane a ball rises again to e^2 of its height, at the time of th
     const BodyId ball = world.add({.restitution = e, .motion = {.position = Vec2(0, 5.5)}});
     const double fall = std::sqrt(2 * 5 / 9.81), speed = 9.81 * fall;
     for (int i = 1; i <= 150; ++i) {
-      world.step(frame);
-      const double t = i * frame;
+      world.step(flat_step);
+      const double t = i * flat_step;
       // From the first blow to the second.
       if (t < fall || t > fall + 2 * e * speed / 9.81) continue;
       const double after = t - fall;
@@ -161,7 +161,7 @@ TEST_CASE("in a plane a pyramid of twenty rows stands, presses with its weight, 
   double weight = 0;
   for (const planar::Contact& contact : world.contacts())
     if (contact.a == ground || contact.b == ground) weight += contact.impulse;
-  CHECK(near(weight, 210 * 9.81 * frame, 1e-3));
+  CHECK(near(weight, 210 * 9.81 * flat_step, 1e-3));
   run(world, 400);
   CHECK(world.asleep(top));
   // A blow wakes all.
@@ -178,10 +178,10 @@ TEST_CASE("in a plane a keyed body has its target's numbers exactly, pushes, and
   const BodyId keyed = world.add(pusher);
   const BodyId box = world.add({.shape = {planar::Box{}}, .motion = {.position = Vec2(0, 0.5)}});
   for (int i = 1; i <= 120; ++i) {
-    const double t = i * frame;
+    const double t = i * flat_step;
     const planar::Motion target{Vec2(-2 + t, 0.6), 0.1 * t, Vec2(1, 0), 0.1};
     world.set_target(keyed, target);
-    world.step(frame);
+    world.step(flat_step);
     const planar::Motion motion = world.motion(keyed);
     REQUIRE((motion.position == target.position && motion.angle == target.angle && motion.velocity == target.velocity &&
              motion.spin == target.spin));
@@ -192,7 +192,7 @@ TEST_CASE("in a plane a keyed body has its target's numbers exactly, pushes, and
   CHECK(world.motion(keyed).velocity == Vec2(1, 0));
   CHECK(world.motion(keyed).spin == 0.1);
   world.set_drive(keyed, Drive::keyed());
-  world.step(frame);
+  world.step(flat_step);
   CHECK(world.motion(keyed).velocity == Vec2(0, 0));
 }
 
@@ -262,7 +262,7 @@ TEST_CASE("in a plane sensors tell who is in them, groups who meets") {
   world.set_groups(ball, 1, 1);
   int inside = 0, began = 0;
   for (int i = 0; i < 120; ++i) {
-    world.step(frame);
+    world.step(flat_step);
     for (const SensorOverlap& overlap : world.sensor_overlaps()) {
       CHECK((overlap.sensor == sensor && overlap.body == ball));
       ++inside;
@@ -290,7 +290,7 @@ TEST_CASE("in a plane nothing that is dropped gains energy, and a fast ball does
   }
   double before = total_energy(world);
   for (int i = 0; i < 240; ++i) {
-    world.step(frame);
+    world.step(flat_step);
     const double now = total_energy(world);
     CAPTURE(i);
     // What overlap pushes apart is lifted a little.
