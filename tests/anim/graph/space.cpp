@@ -60,7 +60,8 @@ TEST_CASE("a space on a line and on a plane has the exact rate of what it shows,
 
 TEST_CASE("clips in phase run on with exact rates, whatever the frames and back") {
   for (const double half_life : {0.0, 0.15}) {
-    GraphPlayer player(graph_of(by_speed("*", half_life), stepping_clips())), fine(graph_of(by_speed("*", half_life), stepping_clips()));
+    GraphPlayer player(graph_of(by_speed("*", half_life), stepping_clips())),
+        fine(graph_of(by_speed("*", half_life), stepping_clips()));
     for (GraphPlayer* each : {&player, &fine}) {
       for (const double time : {0.3, 0.8, 1.7}) {
         while (each == &fine && each->time() + 0.021 < time) {

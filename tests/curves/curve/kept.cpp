@@ -9,7 +9,7 @@ using namespace tweenfall;
 
 namespace {
 
-constexpr std::size_t count = 200000;
+constexpr std::size_t keys_kept = 200000;
 constexpr double whole_pages = 0.1;  // bytes per key, for memory comes in whole pages
 
 double time_of(std::size_t i) {
@@ -19,11 +19,11 @@ double time_of(std::size_t i) {
 template <class T, class ValueAt>
 double bytes_per_key(const Ease& ease, const ValueAt& value_at) {
   std::vector<Key<T>> keys;
-  keys.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) keys.push_back({time_of(i), value_at(static_cast<double>(i)), ease});
+  keys.reserve(keys_kept);
+  for (std::size_t i = 0; i < keys_kept; ++i) keys.push_back({time_of(i), value_at(static_cast<double>(i)), ease});
   const std::size_t before = test::bytes_held();
   const Curve<T> curve = keyed_curve<T>(keys);
-  return static_cast<double>(test::bytes_held() - before) / static_cast<double>(count);
+  return static_cast<double>(test::bytes_held() - before) / static_cast<double>(keys_kept);
 }
 
 double number_at(double i) {

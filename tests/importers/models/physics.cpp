@@ -260,8 +260,8 @@ TEST_CASE("limits of a joint may be told one by one, along any axis") {
   CHECK((joint.frame_a.position - Vec3(0, -0.5, 0)).norm() < 1e-12);
   CHECK((joint.frame_b.position - Vec3(0, 0.5, 0)).norm() < 1e-12);
 
-  const Model slider = read_text(two_jointed_balls(lock("linearAxes", "0,2") + R"(,{"linearAxes":[1],"min":-0.5,"max":0.25},)" +
-                                           lock("angularAxes", "0,1,2")));
+  const Model slider = read_text(two_jointed_balls(
+      lock("linearAxes", "0,2") + R"(,{"linearAxes":[1],"min":-0.5,"max":0.25},)" + lock("angularAxes", "0,1,2")));
   REQUIRE(std::holds_alternative<SliderJoint>(slider.joints.at(0).kind));
   CHECK(std::get<SliderJoint>(slider.joints[0].kind).limits->low == -0.5);
   CHECK(((slider.joints[0].frame_a.rotation * Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm() < 1e-12);

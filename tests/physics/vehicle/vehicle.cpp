@@ -28,13 +28,13 @@ struct Car {
 
 /// 1000 kg on four wheels, low, at rest on ground that is tilted against its way.
 Car car_on(double tilt, double grip = 0.8) {
-  const Vec3 gravity(-g * std::sin(tilt), -g * std::cos(tilt), 0);
-  World world({.gravity = gravity, .sleep_after = std::numeric_limits<double>::infinity()});
+  const Vec3 pull(-g * std::sin(tilt), -g * std::cos(tilt), 0);
+  World world({.gravity = pull, .sleep_after = std::numeric_limits<double>::infinity()});
   world.add({.shape = {Plane{}}, .fixed = true});
   BodySettings body{.shape = {Box{Vec3(1.6, 0.1, 0.7)}}, .mass = 1000.0};
   body.motion.pose.position = Vec3(0, 0.5, 0);
   const BodyId chassis = world.add(body);
-  VehicleSettings settings{.chassis = chassis, .gravity = gravity, .wheels = {}};
+  VehicleSettings settings{.chassis = chassis, .gravity = pull, .wheels = {}};
   for (const double x : {1.3, -1.3})
     for (const double z : {-0.7, 0.7})
       settings.wheels.push_back({.mount = Vec3(x, 0, z), .grip = grip, .side_grip = grip});
