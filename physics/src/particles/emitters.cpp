@@ -120,10 +120,10 @@ void Particles::add(const Emitter& emitter) {
   sources_.push_back(std::move(source));
 }
 
-void Particles::place(std::size_t emitter, Curve<Vec3> position, Curve<Quat> rotation) {
+void Particles::place(std::size_t emitter, const Curve<Vec3>& position, const Curve<Quat>& rotation) {
   state::require(emitter < sources_.size(), "there is no emitter number " + std::to_string(emitter));
-  sources_[emitter].emitter.position = std::move(position);
-  sources_[emitter].emitter.rotation = std::move(rotation);
+  sources_[emitter].emitter.position = position;
+  sources_[emitter].emitter.rotation = rotation;
 }
 
 void Particles::halt(std::size_t emitter) {

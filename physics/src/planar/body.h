@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planar/plate.h"
+#include "planar/contacts/plate.h"
 #include "planar/turning.h"
 
 namespace tweenfall::planar::inner {

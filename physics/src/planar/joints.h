@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planar/body.h"
-#include "planar/contact_block.h"
+#include "planar/contacts/contact_block.h"
 
 namespace tweenfall::planar::inner {
 

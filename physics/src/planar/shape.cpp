@@ -10,8 +10,8 @@
 #include <string>
 
 #include "planar/checks.h"
-#include "planar/manifold.h"
-#include "planar/plate.h"
+#include "planar/contacts/manifold.h"
+#include "planar/contacts/plate.h"
 #include "planar/turning.h"
 
 namespace tweenfall::planar {

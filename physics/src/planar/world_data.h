@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "planar/body.h"
-#include "planar/contact_solver.h"
-#include "planar/near_pairs.h"
+#include "planar/contacts/contact_solver.h"
+#include "planar/contacts/near_pairs.h"
 
 namespace tweenfall::planar {
 

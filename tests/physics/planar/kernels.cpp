@@ -1,4 +1,4 @@
-#include "planar/contact_block.h"
+#include "planar/contacts/contact_block.h"
 
 #include <cstring>
 

@@ -63,7 +63,7 @@ class Particles {
   void add(const Emitter& emitter);
   /// Where an emitter is from now on. @param emitter  in the order in which they were added
   /// @throws std::invalid_argument for one that is not there
-  void place(std::size_t emitter, Curve<Vec3> position, Curve<Quat> rotation);
+  void place(std::size_t emitter, const Curve<Vec3>& position, const Curve<Quat>& rotation);
   void halt(std::size_t emitter);  ///< lets no more go. @throws std::invalid_argument for one that is not there
   /// Lets one go, now. @throws std::invalid_argument for numbers that are not finite
   void emit(const Vec3& position, const Vec3& velocity);

@@ -1,4 +1,4 @@
-#include "planar/contact_solver.h"
+#include "planar/contacts/contact_solver.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "planar/manifold.h"
+#include "planar/contacts/manifold.h"
 #include "planar/world_data.h"
 
 namespace tweenfall::planar {

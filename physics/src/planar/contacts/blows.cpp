@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planar/contact_solver.h"
+#include "planar/contacts/contact_solver.h"
 
 namespace tweenfall::planar::inner {
 

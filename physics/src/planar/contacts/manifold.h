@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "planar/plate.h"
+#include "planar/contacts/plate.h"
 #include "planar/turning.h"
 
 namespace tweenfall::planar::inner {

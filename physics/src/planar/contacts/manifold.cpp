@@ -1,4 +1,4 @@
-#include "planar/manifold.h"
+#include "planar/contacts/manifold.h"
 
 #include <algorithm>
 #include <cmath>

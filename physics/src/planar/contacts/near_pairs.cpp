@@ -1,4 +1,4 @@
-#include "planar/near_pairs.h"
+#include "planar/contacts/near_pairs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <cstddef>
 
 #include "blocks/registers.h"
-#include "planar/contact_block.h"
+#include "planar/contacts/contact_block.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
 

@@ -6,7 +6,7 @@
 
 #include "blocks/coloring.h"
 #include "planar/body.h"
-#include "planar/contact_block.h"
+#include "planar/contacts/contact_block.h"
 
 namespace tweenfall::planar::inner {
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planar/manifold.h"
+#include "planar/contacts/manifold.h"
 #include "planar/world_data.h"
 
 namespace tweenfall::planar {
