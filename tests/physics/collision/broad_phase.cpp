@@ -11,7 +11,7 @@ using namespace tweenfall;
 namespace {
 
 constexpr double margin = 2e-3;
-constexpr double dt = 1.0 / 60;
+constexpr double frame_time = 1.0 / 60;
 
 /// Bodies that go where chance takes them, and their pairs, found and counted out.
 struct Crowd {
@@ -69,7 +69,7 @@ struct Crowd {
       if (body.has_target) body.motion.pose = body.target().pose;
       body.has_target = false;
       if (!body.immovable() && !body.asleep) {
-        body.motion.pose.position += body.twist.linear * dt;
+        body.motion.pose.position += body.twist.linear * frame_time;
         body.motion.pose.rotation = random.rotation();
       }
       body.follow_motion();
@@ -134,16 +134,16 @@ struct Crowd {
       if (bodies[i].alive && (!bodies[i].immovable() || std::count(told.begin(), told.end(), i) > 0))
         changed.push_back(i);
     told.clear();
-    return broad_phase.find(bodies, changed, loads, {bodies, ignored}, margin, dt);
+    return broad_phase.find(bodies, changed, loads, {bodies, ignored}, margin, frame_time);
   }
 
   [[nodiscard]] bool near(const state::Body& a, const forces::Load& load_a, const state::Body& b,
                           const forces::Load& load_b) const {
     if (std::holds_alternative<Plane>(b.shape().solid)) return near(b, load_b, a, load_a);
-    const Bounds box = pairs::swept_bounds(b, load_b, 0.5 * margin, dt);
+    const Bounds box = pairs::swept_bounds(b, load_b, 0.5 * margin, frame_time);
     const auto* plane = std::get_if<Plane>(&a.shape().solid);
     if (!plane) {
-      const Bounds other = pairs::swept_bounds(a, load_a, 0.5 * margin, dt);
+      const Bounds other = pairs::swept_bounds(a, load_a, 0.5 * margin, frame_time);
       return (other.low.array() <= box.high.array()).all() && (box.low.array() <= other.high.array()).all();
     }
     if (a.displaces()) return true;
@@ -227,9 +227,8 @@ TEST_CASE("ten thousand at one point have no more pairs than their number allows
   std::vector<std::uint32_t> changed(10000);
   for (std::uint32_t i = 0; i < 10000; ++i) changed[i] = i;
   for (int step = 0; step < 5; ++step)
-    CHECK(
-        crowd.broad_phase.find(crowd.bodies, changed, crowd.loads, {crowd.bodies, crowd.ignored}, margin, dt).size() <=
-        10000u * pairs::BroadPhase::most_pairs);
+    CHECK(crowd.broad_phase.find(crowd.bodies, changed, crowd.loads, {crowd.bodies, crowd.ignored}, margin, frame_time)
+              .size() <= 10000u * pairs::BroadPhase::most_pairs);
 }
 
 TEST_CASE("boxes without end and numbers that are none neither hang nor lose a pair") {
@@ -265,10 +264,10 @@ TEST_CASE("nothing leaves its swept bounds within the step, cubes that spin and 
       body.target().pose.position = body.motion.pose.position + crowd.random.vector(1);
       body.target().pose.rotation = crowd.random.rotation();
     }
-    const Bounds swept = pairs::swept_bounds(body, crowd.loads[0], 1e-9, dt);
-    const collision::Course course = collision::course_of(body, crowd.loads[0], dt);
+    const Bounds swept = pairs::swept_bounds(body, crowd.loads[0], 1e-9, frame_time);
+    const collision::Course course = collision::course_of(body, crowd.loads[0], frame_time);
     for (int k = 0; k <= 20; ++k) {
-      const Bounds at = bounds(body.shape(), course.at(k * dt / 20).node(body));
+      const Bounds at = bounds(body.shape(), course.at(k * frame_time / 20).node(body));
       CAPTURE(i);
       CAPTURE(k);
       CHECK(pairs::contains(swept, at));

@@ -133,8 +133,8 @@ class DirectionOracle {
   Vec3 between_;
 };
 
-constexpr std::array<const char*, 7> kinds = {"sphere",   "box",  "capsule",        "hull",
-                                              "cylinder", "cone", "tapered capsule"};
+constexpr std::array<const char*, 7> shape_kinds = {"sphere",   "box",  "capsule",        "hull",
+                                                    "cylinder", "cone", "tapered capsule"};
 
 Solid random_solid(std::size_t kind, test::Random& random) {
   const auto size = [&] { return random.between(0.2, 0.6); };
@@ -219,10 +219,10 @@ TEST_CASE("every pair of solids is as far apart or as deep as the best of all di
   const char* many = std::getenv("TWEENFALL_ORACLE_POSES");
   const int poses = many ? std::atoi(many) : 30;
   const auto flat = [](std::size_t kind) { return kind == 1 || kind == 3; };
-  for (std::size_t first = 0; first < kinds.size(); ++first)
-    for (std::size_t second = first; second < kinds.size(); ++second) {
+  for (std::size_t first = 0; first < shape_kinds.size(); ++first)
+    for (std::size_t second = first; second < shape_kinds.size(); ++second) {
       const Disagreement worst = disagreement_of(first, second, poses, 100 * first + second);
-      const std::string pair = std::string(kinds[first]) + " - " + kinds[second];
+      const std::string pair = std::string(shape_kinds[first]) + " - " + shape_kinds[second];
       if (many)
         MESSAGE(pair << ": " << worst.gaps << " apart " << worst.apart << ", " << worst.overlaps << " deep "
                      << worst.overlapping << ", deepest point " << worst.along);
