@@ -174,7 +174,7 @@ void Particles::let_go(double until, const particles::Colliders* colliders) {
     double low = std::max(time_, emitter.start);
     const double high = std::min(until, emitter.end);
     // More than there is room for could not stay, and are not looked for one by one.
-    const std::uint64_t most = settings_.most + source.number;
+    const std::uint64_t most = settings_.most - std::min<std::uint64_t>(settings_.most, size()) + source.number;
     for (; source.number < std::min(count, most); ++source.number) {
       low = particles::time_of(emitter, source.let_go, static_cast<double>(source.number + 1), low, high);
       leaving.push_back({low, s, source.number});

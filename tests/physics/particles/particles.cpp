@@ -8,6 +8,7 @@
 #include <set>
 
 #include "physics/step/methods.h"
+#include "processor_time.h"
 #include "support.h"
 
 using namespace tweenfall;
@@ -241,6 +242,23 @@ TEST_CASE("a stream has rate times life of particles, each dies at its age, and 
   run(particles, 1, 60);
   run(copy, 1, 60);
   for (std::size_t i = 0; i < copy.size(); ++i) CHECK(particles.position(i) == copy.position(i));
+}
+
+TEST_CASE("once there are as many particles as there may be, what stays out takes no time") {
+  Emitter emitter;
+  emitter.rate = Curve<double>(1e9);
+  Particles particles({.life = std::numeric_limits<double>::infinity(), .most = 20000});
+  particles.add(emitter);
+  Particles alone({.life = std::numeric_limits<double>::infinity()});
+  for (int i = 0; i < 20000; ++i) alone.emit(Vec3(0, 0, 0), Vec3(0, 0, 0));
+  const double begin = test::processor_seconds();
+  run(alone, 1, 2000);
+  const double flown = test::processor_seconds();
+  run(particles, 1, 2000);
+  CHECK(particles.size() == 20000);
+  CHECK(particles.emitted() - particles.left_out() == 20000);
+  CHECK(std::abs(static_cast<double>(particles.emitted()) - 1e9) < 10);
+  CHECK(test::processor_seconds() - flown < 4 * (flown - begin));
 }
 
 TEST_CASE("of too many particles those that would be more stay out, and what cannot be is refused") {
