@@ -81,6 +81,21 @@ TEST_CASE("ping-pong runs every other play backwards") {
   CHECK(clock_at(play, clip, 4.5).rate == 1);
 }
 
+TEST_CASE("a clock of one speed is that of a play of this speed, whatever the loop and the side") {
+  for (const LoopMode mode : {LoopMode::once, LoopMode::repeat, LoopMode::repeat_offset, LoopMode::pingpong})
+    for (const double count : {0.0, 1.0, 2.5, 3.0, 1e17})
+      for (const double speed : {1.0, -1.0, 0.0, 0.3, -2.0})
+        for (double time = -1; time < 10; time += 0.25)
+          for (const Side side : {Side::in, Side::out}) {
+            const Clip clip = two_seconds(mode, count);
+            const ClipClock a = clock_at(0.5, speed, clip, time, side),
+                            b = clock_at({.at = 0.5, .speed = speed}, clip, time, side);
+            const bool same = a.time == b.time && a.rate == b.rate && a.cycle == b.cycle && a.side == b.side &&
+                              a.started == b.started && a.ended == b.ended;
+            if (!same) FAIL("count ", count, ", speed ", speed, " at ", time, ": ", a.time, " and ", b.time);
+          }
+}
+
 TEST_CASE("speed multiplies the rate, and a negative one runs from the end") {
   const Clip clip = two_seconds(LoopMode::once);
   CHECK(clock_at({.speed = 0.5}, clip, 1).time == 0.5);

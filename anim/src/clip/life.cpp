@@ -46,9 +46,9 @@ Rounds rounds_of(const Play& play, const Clip& clip) noexcept {
   return rounds;
 }
 
-Rounds rounds_of(const Clip& clip, bool backwards) noexcept {
-  Rounds rounds{.length = clip.duration, .mode = clip.loop.mode};
-  count_rounds(rounds, clip.loop.count, backwards);
+Rounds rounds_of(double duration, const Loop& loop, bool backwards) noexcept {
+  Rounds rounds{.length = duration, .mode = loop.mode};
+  count_rounds(rounds, loop.count, backwards);
   return rounds;
 }
 
@@ -112,34 +112,38 @@ double Course::time_of(double wanted, const Stretch& stretch) const noexcept {
   return std::clamp(late, stretch.from, stretch.to);
 }
 
-ClipClock Course::clock(double time, Side side) const noexcept {
+namespace {
+
+/// How the phase of a play runs at a time.
+struct Running {
+  double phase = 0;
+  int direction = 0;  ///< 0 at rest
+  bool backwards = false;
+  bool started = false, ended = false;
+
+  /// Of a speed that is constant, the end is told from the phase.
+  void find_ended(const Rounds& rounds, Side side) noexcept {
+    const bool below = (side == Side::in) != backwards;
+    const bool past_end = below ? phase > rounds.total : phase >= rounds.total;
+    const bool past_start = below ? phase <= rounds.low : phase < rounds.low;
+    ended = started && (direction > 0 ? past_end : direction < 0 && std::isfinite(rounds.total) && past_start);
+  }
+};
+
+/// @param pace_at  gives the speed, where it runs
+template <class PaceAt>
+ClipClock clock_of(const Rounds& rounds, const Running& at, Side side, const PaceAt& pace_at) noexcept {
   ClipClock clock;
-  clock.started = side == Side::out ? time >= at : time > at;
+  clock.started = at.started;
+  clock.ended = at.ended;
   clock.climbs = rounds.mode == LoopMode::repeat_offset;
   clock.from = rounds.from;
   clock.to = rounds.from + rounds.length;
-  const bool steady = speed.is_constant();
-  int direction = !clock.started ? speed.first_direction()
-                  : steady       ? speed.first_direction()
-                                 : speed.direction(time - speed_from, side);
-  bool backwards = direction < 0;
-  double at_phase = clock.started ? phase(time) : phase(at);
   const bool finite = std::isfinite(rounds.total);
-
+  const bool running = at.started && at.direction != 0 && !at.ended;
   // Which end of the phase the clock comes from and goes to; a clock at rest belongs to what it shows.
-  if (clock.started && steady) {
-    const bool below = (side == Side::in) != backwards;
-    const bool past_end = below ? at_phase > rounds.total : at_phase >= rounds.total;
-    const bool past_start = below ? at_phase <= rounds.low : at_phase < rounds.low;
-    clock.ended = direction > 0 ? past_end : direction < 0 && finite && past_start;
-  } else if (clock.started && (side == Side::out ? time >= end : time > end)) {
-    clock.ended = true;
-    at_phase = end_phase;
-    backwards = end_phase == rounds.low && !(end_phase == rounds.total && direction > 0);
-  }
-  const bool running = clock.started && direction != 0 && !clock.ended;
-  const bool from_below = (side == Side::in) != backwards;
-  at_phase = std::clamp(at_phase, rounds.low, rounds.total);
+  const bool from_below = (side == Side::in) != at.backwards;
+  const double at_phase = std::clamp(at.phase, rounds.low, rounds.total);
 
   double inside = at_phase;
   bool flip = rounds.reverse;
@@ -162,13 +166,43 @@ ClipClock Course::clock(double time, Side side) const noexcept {
   if (rounds.length == 0) inside = 0;
   clock.time = rounds.from + (flip ? rounds.length - inside : inside);
   if (running) {
-    const double pace = speed.at(time - speed_from, side);
+    const double pace = pace_at();
     clock.rate = flip ? -pace : pace;
     clock.side = from_below != flip ? Side::in : Side::out;
   } else {
-    clock.side = clock.ended && backwards == flip ? Side::in : Side::out;
+    clock.side = at.ended && at.backwards == flip ? Side::in : Side::out;
   }
   return clock;
+}
+
+}  // namespace
+
+ClipClock steady_clock(const Rounds& rounds, double at, double speed, double time, Side side) noexcept {
+  const double last = std::isfinite(rounds.total) ? rounds.total : std::isfinite(rounds.length) ? rounds.length : 0;
+  Running running;
+  running.started = side == Side::out ? time >= at : time > at;
+  running.direction = speed > 0 ? 1 : speed < 0 ? -1 : 0;
+  running.backwards = speed < 0;
+  running.phase = (speed < 0 ? last : 0) + ((running.started ? time : at) - at) * speed;
+  running.find_ended(rounds, side);
+  return clock_of(rounds, running, side, [&] { return speed; });
+}
+
+ClipClock Course::clock(double time, Side side) const noexcept {
+  const bool steady = speed.is_constant();
+  Running running;
+  running.started = side == Side::out ? time >= at : time > at;
+  running.direction = steady || !running.started ? speed.first_direction() : speed.direction(time - speed_from, side);
+  running.backwards = running.direction < 0;
+  running.phase = running.started ? phase(time) : phase(at);
+  if (steady) {
+    running.find_ended(rounds, side);
+  } else if (running.started && (side == Side::out ? time >= end : time > end)) {
+    running.ended = true;
+    running.phase = end_phase;
+    running.backwards = end_phase == rounds.low && !(end_phase == rounds.total && running.direction > 0);
+  }
+  return clock_of(rounds, running, side, [&] { return speed.at(time - speed_from, side); });
 }
 
 }  // namespace clips

@@ -37,8 +37,10 @@ struct Rounds {
 };
 
 [[nodiscard]] Rounds rounds_of(const Play& play, const Clip& clip) noexcept;
-/// Of a clip that is played whole, by its own loop.
-[[nodiscard]] Rounds rounds_of(const Clip& clip, bool backwards) noexcept;
+/// Of a clip that is played whole.
+[[nodiscard]] Rounds rounds_of(double duration, const Loop& loop, bool backwards) noexcept;
+/// The clock of a play at one speed that starts at `at`: what `Course` gives, without finding when it ends.
+[[nodiscard]] ClipClock steady_clock(const Rounds& rounds, double at, double speed, double time, Side side) noexcept;
 
 /// A while in which the phase goes one way.
 struct Stretch {

@@ -39,7 +39,10 @@ Timeline::Place Timeline::at(double time, bool arriving) const noexcept {
     const auto next = arriving ? std::lower_bound(first, last, time) : std::upper_bound(first, last, time);
     behind = static_cast<std::size_t>(next - knots.begin());
   } else {
-    while (behind < end && (arriving ? knots[behind] < time : knots[behind] <= time)) ++behind;
+    // All are counted: no processor could guess at which one to stop.
+    std::size_t passed = 0;
+    for (std::size_t i = behind; i < end; ++i) passed += (arriving ? knots[i] < time : knots[i] <= time) ? 1 : 0;
+    behind += passed;
   }
   Place place{};
   place.knot = std::min(behind > 0 ? behind - 1 : 0, knots.size() - 2);

@@ -1,5 +1,6 @@
 #include <tweenfall/anim/crowd.h>
 
+#include "clip/life.h"
 #include "crowd/compiled_clip.h"
 #include "crowd/sample_kernels.h"
 
@@ -22,8 +23,8 @@ double CrowdClip::error() const noexcept {
 }
 
 ClipClock CrowdClip::clock(double at, double speed, double stage_time, Side side) const noexcept {
-  const Clip timing{.duration = compiled_->duration, .loop = compiled_->loop};
-  return clock_at(at, speed, timing, stage_time, side);
+  return clips::steady_clock(clips::rounds_of(compiled_->duration, compiled_->loop, speed < 0), at, speed, stage_time,
+                             side);
 }
 
 void CrowdClip::sample(double clip_time, std::span<CrowdGroup> pose) const noexcept {

@@ -17,11 +17,6 @@ TWEENFALL_CROWD_LANES float* row(CrowdGroup& group, std::size_t i) {
 TWEENFALL_CROWD_LANES const float* row(const CrowdGroup& group, std::size_t i) {
   return reinterpret_cast<const float*>(&group) + i * lane_count;
 }
-TWEENFALL_CROWD_LANES Lanes splat(float value) {
-  float lanes[lane_count];
-  for (float& lane : lanes) lane = value;
-  return load(lanes);
-}
 TWEENFALL_CROWD_LANES Lanes dot(const Lanes* a, const Lanes* b) {
   return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
 }
@@ -45,40 +40,62 @@ TWEENFALL_CROWD_LANES void multiply(const Lanes* a, const Lanes* b, Lanes* out) 
   out[3] = (a[3] * b[3] - a[0] * b[0]) - (a[1] * b[1] + a[2] * b[2]);
 }
 
-template <bool two>
+/// How many layers are blended without looking at each group's list of them again.
+constexpr std::size_t most_known = 4;
+
+/// @param known  how many layers there are, all of which have a weight; 0 for any number, of which some may have none
+template <std::size_t known>
 TWEENFALL_CROWD_LANES void blend_groups(const CrowdLayer* layers, std::size_t layer_count, float portion,
                                         std::size_t groups, CrowdGroup* out) {
-  const std::size_t count = two ? 2 : layer_count;
+  const std::size_t count = known > 0 ? known : layer_count;
+  const CrowdGroup* poses[most_known];
+  Lanes shares[most_known];
+  for (std::size_t layer = 0; layer < known; ++layer) {
+    poses[layer] = layers[layer].pose.data();
+    shares[layer] = splat(layers[layer].weight * portion);
+  }
+  const auto pose_of = [&](std::size_t layer) { return known > 0 ? poses[layer] : layers[layer].pose.data(); };
+  const auto share_of = [&](std::size_t layer) {
+    return known > 0 ? shares[layer] : splat(layers[layer].weight * portion);
+  };
+  const auto counts = [&](std::size_t layer) { return known > 0 || layers[layer].weight > 0; };
   for (std::size_t g = 0; g < groups; ++g) {
-    Lanes sum[row_count], first[4];
-    const CrowdGroup& lowest = layers[0].pose[g];
-    const Lanes weight = splat(layers[0].weight * portion);
-    for (std::size_t i = 0; i < row_count; ++i) sum[i] = weight * load(row(lowest, i));
-    for (std::size_t c = 0; c < 4; ++c) first[c] = load(row(lowest, first_turn + c));
-    for (std::size_t layer = 1; layer < count; ++layer) {
-      if (!two && !(layers[layer].weight > 0)) continue;
-      const CrowdGroup& pose = layers[layer].pose[g];
-      const Lanes share = splat(layers[layer].weight * portion);
-      Lanes turn[4];
-      for (std::size_t c = 0; c < 4; ++c) turn[c] = load(row(pose, first_turn + c));
-      const Lanes turn_share = with_sign(share, dot(first, turn));
-      for (std::size_t c = 0; c < 3; ++c) {
-        sum[c] = sum[c] + share * load(row(pose, c));
-        sum[first_scale + c] = sum[first_scale + c] + share * load(row(pose, first_scale + c));
-      }
-      for (std::size_t c = 0; c < 4; ++c) sum[first_turn + c] = sum[first_turn + c] + turn_share * turn[c];
+    // Rotations by themselves: with the rest there would be more numbers than registers.
+    Lanes first[4], turned[4];
+    for (std::size_t c = 0; c < 4; ++c) {
+      first[c] = load(row(pose_of(0)[g], first_turn + c));
+      turned[c] = share_of(0) * first[c];
     }
-    normalize(sum + first_turn, first);
-    for (std::size_t i = 0; i < row_count; ++i) store(row(out[g], i), sum[i]);
+    for (std::size_t layer = 1; layer < count; ++layer) {
+      if (!counts(layer)) continue;
+      Lanes turn[4];
+      for (std::size_t c = 0; c < 4; ++c) turn[c] = load(row(pose_of(layer)[g], first_turn + c));
+      const Lanes share = with_sign(share_of(layer), dot(first, turn));
+      for (std::size_t c = 0; c < 4; ++c) turned[c] = turned[c] + share * turn[c];
+    }
+    normalize(turned, first);
+    Lanes moved[6];
+    const auto straight = [](std::size_t i) { return i < 3 ? i : first_scale + i - 3; };
+    for (std::size_t i = 0; i < 6; ++i) moved[i] = share_of(0) * load(row(pose_of(0)[g], straight(i)));
+    for (std::size_t layer = 1; layer < count; ++layer) {
+      if (!counts(layer)) continue;
+      for (std::size_t i = 0; i < 6; ++i)
+        moved[i] = moved[i] + share_of(layer) * load(row(pose_of(layer)[g], straight(i)));
+    }
+    // What comes out may be what went in: it is written when all is read.
+    for (std::size_t c = 0; c < 4; ++c) store(row(out[g], first_turn + c), turned[c]);
+    for (std::size_t i = 0; i < 6; ++i) store(row(out[g], straight(i)), moved[i]);
   }
 }
 
 TWEENFALL_CROWD_LANES void blend_all(const CrowdLayer* layers, std::size_t layer_count, float portion,
                                      std::size_t groups, CrowdGroup* out) {
-  if (layer_count == 2)
-    blend_groups<true>(layers, layer_count, portion, groups, out);
-  else
-    blend_groups<false>(layers, layer_count, portion, groups, out);
+  bool all_count = true;
+  for (std::size_t layer = 0; layer < layer_count; ++layer) all_count = all_count && layers[layer].weight > 0;
+  if (all_count && layer_count == 2) return blend_groups<2>(layers, layer_count, portion, groups, out);
+  if (all_count && layer_count == 3) return blend_groups<3>(layers, layer_count, portion, groups, out);
+  if (all_count && layer_count == 4) return blend_groups<4>(layers, layer_count, portion, groups, out);
+  blend_groups<0>(layers, layer_count, portion, groups, out);
 }
 
 TWEENFALL_CROWD_LANES void blend_masked_groups(const CrowdLayer* layers, std::size_t layer_count, std::size_t groups,

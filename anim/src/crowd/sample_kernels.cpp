@@ -34,19 +34,36 @@ TWEENFALL_CROWD_LANES void unpack(const std::int32_t* row, Lanes (&out)[count]) 
 
 /// The rows of `rows`, each times its weight; and for rates times the others.
 template <std::size_t count, Packing packing, int rows, bool rates>
-TWEENFALL_CROWD_LANES void weighted_rows(const std::int32_t* first, std::size_t row_words,
-                                         const float (*weights)[lane_count], const float (*rate_weights)[lane_count],
-                                         Lanes (&value)[count], Lanes (&rate)[count]) {
+TWEENFALL_CROWD_LANES void weighted_rows(const std::int32_t* first, std::size_t row_words, const Lanes* weights,
+                                         const Lanes* rate_weights, Lanes (&value)[count], Lanes (&rate)[count]) {
   for (int row = 0; row < rows; ++row) {
     Lanes part[count];
     unpack<count, packing>(first + static_cast<std::size_t>(row) * row_words, part);
     for (std::size_t c = 0; c < count; ++c) {
-      value[c] = row == 0 ? part[c] * load(weights[row]) : value[c] + part[c] * load(weights[row]);
-      if constexpr (rates)
-        rate[c] = row == 0 ? part[c] * load(rate_weights[row]) : rate[c] + part[c] * load(rate_weights[row]);
+      value[c] = row == 0 ? part[c] * weights[row] : value[c] + part[c] * weights[row];
+      if constexpr (rates) rate[c] = row == 0 ? part[c] * rate_weights[row] : rate[c] + part[c] * rate_weights[row];
     }
   }
 }
+
+/// Row weights, each once for every lane. They are made so here and not by whoever sets them: to be read at once, they
+/// must have been written as wide as they are read.
+struct LaneWeights {
+  Lanes base[4], fine[2], sum;
+};
+
+template <Packing base, Packing fine>
+TWEENFALL_CROWD_LANES void spread(const RowWeights& weights, LaneWeights& lanes) {
+  if constexpr (base != Packing::none)
+    for (std::size_t i = 0; i < 4; ++i) lanes.base[i] = splat(weights.base[i]);
+  if constexpr (fine != Packing::none)
+    for (std::size_t i = 0; i < 2; ++i) lanes.fine[i] = splat(weights.fine[i]);
+  lanes.sum = splat(weights.sum);
+}
+
+struct LanePlace {
+  LaneWeights value, tangent, value_rate, tangent_rate;
+};
 
 /// Where the kernel is: among the words of the base and fine rows, and among the numbers.
 struct Cursor {
@@ -57,8 +74,8 @@ struct Cursor {
 
 /// What the values, or the tangents, of a channel add to it; the cursor goes on.
 template <std::size_t count, Packing base, Packing fine, bool rates, bool tangents>
-TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const RowWeights& weights, const RowWeights& rate_weights,
-                                 Lanes (&value)[count], Lanes (&rate)[count]) {
+TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const LaneWeights& weights,
+                                 const LaneWeights& rate_weights, Lanes (&value)[count], Lanes (&rate)[count]) {
   constexpr bool based = base != Packing::none, has_fine = fine != Packing::none, exact = fine == Packing::exact;
   Lanes smooth[count], smooth_rate[count], rest[count], rest_rate[count];
   if constexpr (based)
@@ -72,8 +89,8 @@ TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const RowWeights& w
     } else {
       const Lanes offset = load(at.numbers);
       // The values at the two knots are mixed; of the tangents there can be more or less.
-      value[c] = tangents ? offset * load(weights.sum) : offset;
-      if constexpr (rates) rate[c] = tangents ? offset * load(rate_weights.sum) : all(0);
+      value[c] = tangents ? offset * weights.sum : offset;
+      if constexpr (rates) rate[c] = tangents ? offset * rate_weights.sum : all(0);
       if constexpr (based) {
         const Lanes step = load(at.numbers + lane_count);
         value[c] = value[c] + step * smooth[c];
@@ -116,7 +133,7 @@ TWEENFALL_CROWD_LANES void put(Lanes (&p)[4], Lanes (&rate)[4], float (*to)[lane
 }
 
 template <std::size_t count, Packing base, Packing fine, bool rates>
-TWEENFALL_CROWD_LANES void one_channel(Cursor& at, const Run& run, const RunPlace& place, float (*to)[lane_count],
+TWEENFALL_CROWD_LANES void one_channel(Cursor& at, const Run& run, const LanePlace& place, float (*to)[lane_count],
                                        float (*rate_to)[lane_count]) {
   Lanes value[count], rate[count];
   slots<count, base, fine, rates, false>(at, run, place.value, place.value_rate, value, rate);
@@ -135,17 +152,26 @@ template <Packing base, Packing fine, bool rates>
 TWEENFALL_CROWD_LANES void each_channel(const CompiledClip& clip, const Run& run, const RunPlace& place,
                                         CrowdGroup* pose, CrowdRates* moving) {
   Cursor at{place.base, place.fine, nullptr};
+  LanePlace lanes;
+  if constexpr (base != Packing::none || fine != Packing::none) {
+    spread<base, fine>(place.value, lanes.value);
+    if constexpr (rates) spread<base, fine>(place.value_rate, lanes.value_rate);
+    if (run.form.cubic) {
+      spread<base, fine>(place.tangent, lanes.tangent);
+      if constexpr (rates) spread<base, fine>(place.tangent_rate, lanes.tangent_rate);
+    }
+  }
   const Channel* const end = clip.channels.data() + run.first + run.count;
   for (const Channel* channel = end - run.count; channel != end; ++channel) {
     at.numbers = clip.numbers.data() + channel->numbers;
     CrowdGroup& group = pose[channel->group];
     CrowdRates* const moves = rates ? moving + channel->group : nullptr;
     if (channel->kind == Kind::rotation)
-      one_channel<4, base, fine, rates>(at, run, place, group.rotation, rates ? moves->angular : nullptr);
+      one_channel<4, base, fine, rates>(at, run, lanes, group.rotation, rates ? moves->angular : nullptr);
     else if (channel->kind == Kind::translation)
-      one_channel<3, base, fine, rates>(at, run, place, group.translation, rates ? moves->linear : nullptr);
+      one_channel<3, base, fine, rates>(at, run, lanes, group.translation, rates ? moves->linear : nullptr);
     else
-      one_channel<3, base, fine, rates>(at, run, place, group.scale, rates ? moves->scale : nullptr);
+      one_channel<3, base, fine, rates>(at, run, lanes, group.scale, rates ? moves->scale : nullptr);
   }
 }
 

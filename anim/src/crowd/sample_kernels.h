@@ -6,12 +6,11 @@
 
 namespace tweenfall::crowd {
 
-/// What the rows around a time are multiplied by; each once for every lane.
-struct alignas(32) RowWeights {
-  static constexpr std::size_t lanes = CrowdGroup::size;
-  float base[4][lanes];
-  float fine[2][lanes];
-  float sum[lanes];  ///< of those of the two knots; tangents have it alone
+/// What the rows around a time are multiplied by.
+struct RowWeights {
+  float base[4];
+  float fine[2];
+  float sum;  ///< of those of the two knots; tangents have it alone
 };
 
 /// A run at a time.

@@ -32,23 +32,17 @@ SegmentWeights segment_rates(bool cubic, const Timeline::Place& place) {
   return {{-end, end}, {(1 - u) * (1 - 3 * u), u * (3 * u - 2)}};
 }
 
-void set_lanes(float (&lanes)[lane_count], float weight) {
-  for (float& lane : lanes) lane = weight;
-}
-
-/// @param taps  of the base's coefficients at the first knot; those at the second follow
-void set_weights(RowWeights& weights, const Form& form, const double* of_knots, const float* taps) {
+/// @param taps  of the base's coefficients at the first knot; those at the second follow; null for no base
+RowWeights row_weights(const double* of_knots, const float* taps) {
+  RowWeights weights{};
   const float first = static_cast<float>(of_knots[0]), second = static_cast<float>(of_knots[1]);
-  if (form.base != Packing::none)
-    for (int i = 0; i < 4; ++i) set_lanes(weights.base[i], first * taps[i] + second * taps[4 + i]);
-  set_lanes(weights.fine[0], first);
-  set_lanes(weights.fine[1], second);
-}
-
-/// Of tangents, which are mixed with what does not sum to 1.
-void set_tangent_weights(RowWeights& weights, const Form& form, const double* of_knots, const float* taps) {
-  set_weights(weights, form, of_knots, taps);
-  set_lanes(weights.sum, static_cast<float>(of_knots[0] + of_knots[1]));
+  if (taps)
+    for (int i = 0; i < 4; ++i) weights.base[i] = first * taps[i] + second * taps[4 + i];
+  weights.fine[0] = first;
+  weights.fine[1] = second;
+  // Of tangents, which are mixed with what does not sum to 1.
+  weights.sum = static_cast<float>(of_knots[0] + of_knots[1]);
+  return weights;
 }
 
 void set_place(RunPlace& at, const CompiledClip& clip, const Run& run, const Timeline::Place& place, bool with_rates) {
@@ -61,12 +55,12 @@ void set_place(RunPlace& at, const CompiledClip& clip, const Run& run, const Tim
   }
   at.fine = clip.words.data() + run.fine_begin + place.knot * run.fine_row;
   const SegmentWeights weights = segment_weights(form.cubic, place);
-  set_weights(at.value, form, weights.value, taps);
-  if (form.cubic) set_tangent_weights(at.tangent, form, weights.tangent, taps);
+  at.value = row_weights(weights.value, taps);
+  if (form.cubic) at.tangent = row_weights(weights.tangent, taps);
   if (!with_rates) return;
   const SegmentWeights moving = segment_rates(form.cubic, place);
-  set_weights(at.value_rate, form, moving.value, taps);
-  if (form.cubic) set_tangent_weights(at.tangent_rate, form, moving.tangent, taps);
+  at.value_rate = row_weights(moving.value, taps);
+  if (form.cubic) at.tangent_rate = row_weights(moving.tangent, taps);
 }
 
 void scale_rates(CrowdRates* rates, std::size_t groups, float factor) {

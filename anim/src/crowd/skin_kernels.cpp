@@ -22,14 +22,20 @@ struct Blended {
   Four lower;
 };
 
-/// The matrices of joints by their weights.
+/// The matrices of joints by their weights, each of which is in both halves of a row.
 TWEENFALL_CROWD_LANES void add_joints(const CrowdMesh::Influence4& of, const CrowdMatrix* palette, bool first,
                                       Blended& matrix) {
+  const char* const begin = reinterpret_cast<const char*>(palette);
+  const Four weights = four(of.weight);
+  const Lanes both = __builtin_shufflevector(weights, weights, 0, 1, 2, 3, 0, 1, 2, 3);
+  const Lanes weight[4] = {__builtin_shufflevector(both, both, 0, 0, 0, 0, 4, 4, 4, 4),
+                           __builtin_shufflevector(both, both, 1, 1, 1, 1, 5, 5, 5, 5),
+                           __builtin_shufflevector(both, both, 2, 2, 2, 2, 6, 6, 6, 6),
+                           __builtin_shufflevector(both, both, 3, 3, 3, 3, 7, 7, 7, 7)};
   for (int i = 0; i < 4; ++i) {
-    const CrowdMatrix& joint = palette[of.joint[i]];
-    const float weight = of.weight[i];
-    const Lanes upper = load(joint.row[0]) * Lanes{weight, weight, weight, weight, weight, weight, weight, weight};
-    const Four lower = four(joint.row[2]) * Four{weight, weight, weight, weight};
+    const float* const joint = reinterpret_cast<const float*>(begin + of.offset[i]);
+    const Lanes upper = load(joint) * weight[i];
+    const Four lower = four(joint + 8) * __builtin_shufflevector(weight[i], weight[i], 0, 1, 2, 3);
     matrix.upper = first && i == 0 ? upper : matrix.upper + upper;
     matrix.lower = first && i == 0 ? lower : matrix.lower + lower;
   }

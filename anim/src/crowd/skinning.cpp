@@ -14,6 +14,8 @@ namespace crowd {
 namespace {
 
 constexpr std::size_t influences_of_row = 4;
+/// Their matrices are found by 32 bits of bytes.
+constexpr std::size_t palette_limit = 0xffffffff / sizeof(CrowdMatrix);
 
 void refuse_skin(const std::string& problems) {
   if (!problems.empty()) throw std::invalid_argument("a mesh cannot be skinned in a crowd:" + problems);
@@ -44,7 +46,7 @@ std::string wrong_vectors(const std::vector<Vec3>& vectors, const char* what) {
 CrowdMesh::Influence4 row_of(std::span<const Influence> influences, std::size_t begin) {
   CrowdMesh::Influence4 row{};
   for (std::size_t i = 0; i < influences_of_row && begin + i < influences.size(); ++i) {
-    row.joint[i] = influences[begin + i].joint;
+    row.offset[i] = influences[begin + i].joint * static_cast<std::uint32_t>(sizeof(CrowdMatrix));
     row.weight[i] = static_cast<float>(influences[begin + i].weight);
   }
   return row;
@@ -94,6 +96,9 @@ CrowdMesh::CrowdMesh(const Mesh& mesh, std::size_t joints)
     problems +=
         "\n  it has " + std::to_string(vertices_) + " vertices, and normals of " + std::to_string(mesh.normals.size());
   if (vertices_ > 0 && joints == 0) problems += "\n  there are no joints";
+  if (joints > crowd::palette_limit)
+    problems += "\n  there are " + std::to_string(joints) + " joints; at most " + std::to_string(crowd::palette_limit) +
+                " can be told apart";
   problems += crowd::wrong_influences(mesh, joints) + crowd::wrong_vectors(mesh.positions, "position") +
               crowd::wrong_vectors(mesh.normals, "normal");
   crowd::refuse_skin(problems);

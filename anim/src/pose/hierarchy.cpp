@@ -28,13 +28,14 @@ void write(const MovingFrame& frame, Mat3& linear, Mat3& rate, Vec3& origin, Vec
 }
 
 // Near a length of 1, as products of rotations are, by a step of Newton's that leaves less than a rounding.
-Quat near_unit(const Quat& q) noexcept {
+[[gnu::always_inline]] inline Quat near_unit(const Quat& q) noexcept {
   const double excess = q.squaredNorm() - 1;
   if (!(std::abs(excess) < 1e-9)) return q.normalized();
   return Quat(q.coeffs() * (1 - 0.5 * excess));
 }
 
-void place(const WorldMotion& parent, const Motion& local, WorldMotion& world) noexcept {
+// Inlined, so that what is read of the parent need not be where the child's is written.
+[[gnu::always_inline]] inline void place(const WorldMotion& parent, const Motion& local, WorldMotion& world) noexcept {
   const Motion& above = parent.motion;
   Motion& motion = world.motion;
   write(child_frame(read(parent.linear, parent.linear_rate, above.pose.position, above.twist.linear), local),

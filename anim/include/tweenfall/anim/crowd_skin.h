@@ -79,7 +79,7 @@ class CrowdMesh {
     float numbers[6][8];
   };
   struct Influence4 {
-    std::uint32_t joint[4];
+    std::uint32_t offset[4];  ///< of the joint's matrix in the palette, bytes
     float weight[4];
   };
 
