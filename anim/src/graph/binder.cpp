@@ -219,7 +219,10 @@ const LoopedClip* Binder::clip(const std::string& name, const std::optional<Loop
   if (loop) made.clip.loop = *loop;
   std::string problems;
   made.bound.emplace(made.clip, nodes_, problems);
-  if (!problems.empty()) fault(place, "the clip does not fit its nodes:" + problems);
+  if (!problems.empty()) {
+    fault(place, "the clip does not fit its nodes:" + problems);
+    return nullptr;
+  }
   made.jumps.duration = made.clip.duration;
   made.jumps.loop = made.clip.loop;
   std::vector<double> jumps = jumps_of(made.clip);

@@ -2,6 +2,7 @@
 #include <tweenfall/anim/graph_player.h>
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/curves/rotation.h>
 
 #include "graph/log_bytes.h"
 #include "graph/look.h"
@@ -193,6 +194,19 @@ std::vector<GraphEvent> GraphPlayer::events(double from, double to) {
   return events;
 }
 
+namespace graphs {
+namespace {
+
+bool is_same_place(const Motion& a, const Motion& b) noexcept {
+  const auto near = [](const Vec3& v, const Vec3& w) { return (v - w).squaredNorm() <= 1e-18 * (1 + v.squaredNorm()); };
+  const Quat &q = a.pose.rotation, &r = b.pose.rotation;
+  return near(a.pose.position, b.pose.position) && near(a.pose.scale, b.pose.scale) &&
+         (hemisphere_aligned(q, r).coeffs() - r.coeffs()).squaredNorm() <= 1e-18;
+}
+
+}  // namespace
+}  // namespace graphs
+
 std::optional<double> GraphPlayer::first_instant(double from, double to) {
   if (!(from < to) || !std::isfinite(to)) return std::nullopt;
   know(to);
@@ -203,7 +217,26 @@ std::optional<double> GraphPlayer::first_instant(double from, double to) {
   };
   for (const graphs::Record<graphs::Setting>& settings : run_->log.settings) meet(settings, &graphs::Setting::time);
   for (const graphs::Record<graphs::Passage>& passages : run_->log.passages) meet(passages, &graphs::Passage::time);
-  if (const auto jump = graph_->compiled().output->next_jump(run_->log, 0, from, first.value_or(to))) first = jump;
+  // Where ways go on over the seams of loops, what jumps in a clip may not jump in the pose. Of very many seams in one
+  // stretch the rest are told as they are.
+  constexpr int most_looked_at = 64;
+  const bool may_go_on = graph_->compiled().travels > 0;
+  std::vector<Motion> before(may_go_on ? graph_->nodes().size() : 0), behind(before.size());
+  const auto goes_on = [&](double time) {
+    evaluate(time, before, Side::in);
+    evaluate(time, behind, Side::out);
+    return std::ranges::equal(before, behind, graphs::is_same_place);
+  };
+  double after = from;
+  for (int looked_at = 0;; ++looked_at) {
+    const auto jump = graph_->compiled().output->next_jump(run_->log, 0, after, first.value_or(to));
+    if (!jump) break;
+    if (!may_go_on || looked_at == most_looked_at || !goes_on(*jump)) {
+      first = jump;
+      break;
+    }
+    after = *jump;
+  }
   for (const Curve<double>& curve : graph_->compiled().jumping)
     if (const double jump = first_jump(curve, from, first.value_or(to)); std::isfinite(jump)) first = jump;
   return first;

@@ -232,7 +232,7 @@ TEST_CASE("without weight a jiggle chain leaves the pose's bits and swings on; o
 TEST_CASE("what is wrong with a jiggle chain is told all at once") {
   const Hierarchy nodes = tail_of(4);
   CHECK_THROWS_WITH_AS(JiggleChain(nodes, {.joints = {1}}),
-                       "jiggle chain: it has 1 joints; it needs two, or one and a tip", std::invalid_argument);
+                       "jiggle chain: it has 1 joint; it needs two, or one and a tip", std::invalid_argument);
   CHECK_THROWS_WITH_AS(JiggleChain(nodes, {.joints = {2, 1, "tail"}, .spring = {.damping = -1}, .limit = 4}),
                        "jiggle chain: joint 2 (number 1) must be below the joint before it (number 2)\n"
                        "jiggle chain: joint 3 is \"tail\", and there is no such node\n"

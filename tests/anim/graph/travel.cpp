@@ -182,3 +182,31 @@ TEST_CASE(
   const Pose expected = compose(screw(around, ahead, 1), undone(screw(around, ahead, 5.5)));
   CHECK(near(carried(backwards, 5.5).position, expected.position, 1e-9));
 }
+
+TEST_CASE("the seam of a loop over which its way goes on is no instant; where anything else jumps is one") {
+  CHECK(travel_of({{"walk", ClipPose{.clip = "arc"}}}).first_instant(0, 5.5) == std::nullopt);
+  CHECK(travel_of({{"walk", ClipPose{.clip = "walk"}}}).first_instant(9998.5, 10001) == std::nullopt);
+  CHECK(GraphPlayer(graph_of({.poses = {{"walk", ClipPose{.clip = "arc"}}}}, walkers())).first_instant(0, 5.5) == 1.0);
+  GraphPlayer mixed = travel_of({{"walk", ClipPose{.clip = "walk"}},
+                                 {"run", ClipPose{.clip = "run"}},
+                                 {"both", BlendPose{.parts = {{"walk", 0.25}, {"run", 0.75}}}}});
+  CHECK(mixed.first_instant(0, 5.5) == std::nullopt);
+  std::vector<Clip> clips = *walkers();
+  clips[0].tracks[2] = {"upper", "position",
+                        keyed_curve<Vec3>({{.time = 0, .value = {0.3, 0, 0}, .ease = Ease::linear()},
+                                           {.time = 1, .value = {0.4, 0.1, 0}}})};
+  GraphPlayer limping(graph_of({.poses = {{"walk", ClipPose{.clip = "walk"}}, {"way", travelling("walk")}}},
+                               std::make_shared<const std::vector<Clip>>(clips)));
+  CHECK(limping.first_instant(0.5, 3) == 1.0);
+  CHECK(limping.first_instant(1, 3) == 2.0);
+}
+
+TEST_CASE("a way is not asked of a clip that does not fit its nodes; the clip is told") {
+  std::vector<Clip> clips = *walkers();
+  clips[0].tracks.push_back(clips[0].tracks[0]);
+  const std::vector<GraphFault> faults =
+      inspect({.poses = {{"walk", ClipPose{.clip = "walk"}}, {"way", travelling("walk")}}}, *limb(), clips);
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].place == std::vector<std::string>{"poses", "walk", "clip"});
+  CHECK(faults[0].message.starts_with("the clip does not fit its nodes:"));
+}

@@ -121,7 +121,8 @@ TEST_CASE("faults of operations are told with their places") {
   CHECK(tells("{\"look_at\": {\"joints\": [\"a\"], \"target\": \"d\", \"wieght\": 1}}", "did you mean \"weight\""));
   CHECK(tells("{\"look_at\": {\"joints\": [], \"target\": \"d\"}}", "/look_at/joints"));
   CHECK(tells("{\"look_at\": {\"joints\": [\"a\"], \"target\": \"c\"}}", "carried by what turns toward it"));
-  CHECK(tells("{\"reach\": {\"joints\": [\"a\"], \"target\": \"d\"}}", "a chain has two joints at least"));
+  CHECK(tells("{\"reach\": {\"joints\": [\"a\"], \"target\": \"d\"}}",
+              "it has 1 joint; it needs at least one that turns and the end that it carries"));
   CHECK(
       tells("{\"reach\": {\"joints\": [\"a\", {\"node\": \"b\", \"hinge\": {\"limits\": [30, -30]}}, \"c\"], "
             "\"target\": \"d\"}}",
@@ -137,7 +138,7 @@ TEST_CASE("faults of operations are told with their places") {
               "no joint is named \"x\""));
   CHECK(tells("{\"spring\": {\"node\": \"b\"}}", "neither a position nor a rotation"));
   CHECK(tells("{\"spring\": {\"node\": \"b\", \"rotation\": {\"gravity\": [0, 1, 0]}}}", "\"gravity\""));
-  CHECK(tells("{\"jiggle\": {\"joints\": [\"a\"]}}", "a chain of one joint swings only with a \"tip\""));
+  CHECK(tells("{\"jiggle\": {\"joints\": [\"a\"]}}", "it has 1 joint; it needs two, or one and a tip"));
   CHECK(tells("{\"jiggle\": {\"joints\": [\"a\", \"d\"]}}", "must be below the joint before it"));
   CHECK(tells("{\"root_motion\": {\"node\": \"b\", \"onto\": \"d\"}}", "does not carry"));
 }

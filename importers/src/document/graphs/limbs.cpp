@@ -155,8 +155,6 @@ const Table<ReachPose>& reach_table() {
   });
   const auto read = [](const json::Value& value, Pose& pose, Building& building) {
     read_joints(value, reaching_joint_table(), pose.joints, building);
-    if (!value.items().empty() && pose.joints.size() == 1)
-      building.problems.add(value, "a chain has two joints at least: the last one is carried");
   };
   static const Table<Pose> table(
       "a chain", {{"joints", joints, "from the one nearest to the root to the end, which is carried", {read}, true},

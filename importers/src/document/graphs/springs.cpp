@@ -64,11 +64,7 @@ const Form* swinging_joints_form(FormStore& store, const ValueForms& values) {
 const Table<JigglePose>& jiggle_table() {
   using Pose = JigglePose;
   static const Table<Pose> table("a chain that swings", [] {
-    const auto joints = [](const json::Value& value, Pose& pose, Building& building) {
-      pose.joints = names_of(value);
-      if (pose.joints.size() == 1 && pose.tip.isZero(0))
-        building.problems.add(value, "a chain of one joint swings only with a \"tip\"");
-    };
+    const auto joints = [](const json::Value& value, Pose& pose, Building&) { pose.joints = names_of(value); };
     std::vector<Row<Pose>> rows = {
         {"tip", &ValueForms::vector, "tail of the last joint, in its own space, m; absent: it is only a tail",
          member<Pose>(&Pose::tip)},
