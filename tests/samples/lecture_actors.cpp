@@ -1,6 +1,7 @@
 #include "support.h"
 
 #include <tweenfall/importers/document.h>
+#include <tweenfall/importers/inputs.h>
 #include <tweenfall/physics/stage/recording.h>
 
 #include <cmath>
@@ -123,4 +124,34 @@ TEST_CASE("an agent's inputs are recorded, and given again they lead to the same
   const TimedInput one{0.5, input::Push{"red", Vec3(0.4, 0, 0), Vec3(-2, 0.05, 0)}};
   static_cast<void>(advance_with(pushed, std::span(&one, 1), 1.5));
   CHECK(near(motion_of(pushed, "red").pose.position.x(), -2 + 0.4 / 0.2 * 1, 1e-9));
+}
+
+TEST_CASE("a driver's inputs lead a car around a crate, to the same bits each time, and it stands at the end") {
+  Stage first = actors_lecture("agents/driver"), second = actors_lecture("agents/driver");
+  const std::filesystem::path file = std::filesystem::path(TWEENFALL_SOURCE_DIR) / "samples/inputs/driver.json";
+  const std::vector<TimedInput> inputs = read_inputs(file, first.description());
+  CHECK(advance_with(first, inputs, 7).empty());
+  CHECK(advance_with(second, parse_inputs(inputs_json(inputs), "again", first.description()), 7).empty());
+  CHECK(first.state_hash() == second.state_hash());
+  CHECK(motion_of(first, "car").pose.position.x() > 17);
+  CHECK(near(motion_of(first, "crate").pose.position, Vec3(14, 0.5, 0.9), 1e-3));
+  CHECK(first.twist(first.node("car")).linear.norm() < 0.05);
+}
+
+TEST_CASE("a flag flies in its wind and hangs when that has died; the rope beside it lies on itself") {
+  Stage stage = actors_lecture("soft/flag");
+  const auto outer = [&] {
+    const std::vector<Vec3> places = stage.soft("flag").positions;
+    return places[places.size() - 7];  // the middle of its free side
+  };
+  stage.advance_to(3.5);
+  const double flies = outer().head<1>()(0);
+  CHECK(flies > 0.6);
+  const std::vector<Vec3> line = stage.soft("line").positions;
+  double nearest = 1;
+  for (std::size_t i = 0; i < line.size(); ++i)
+    for (std::size_t k = i + 2; k < line.size(); ++k) nearest = std::min(nearest, (line[i] - line[k]).norm());
+  CHECK(nearest > 0.02);
+  stage.advance_to(6);
+  CHECK(outer().x() < 0.4);
 }

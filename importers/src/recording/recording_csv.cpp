@@ -35,6 +35,48 @@ void append_columns(std::string& out, const Values& values, int count) {
   }
 }
 
+/// What is a point: it has a place, perhaps a velocity, and no rotation.
+void append_point(std::string& out, double time, const std::string& name, const char* kind, const Vec3& position,
+                  const Vec3* velocity) {
+  append_number(out, time);
+  (((out += ',') += field(name)) += ',') += kind;
+  append_columns(out, position, 3);
+  out += ",,,,";
+  if (velocity)
+    append_columns(out, *velocity, 3);
+  else
+    out += ",,,";
+  out += ",,,\n";
+}
+
+void append_softs(std::string& out, const Recording& recording, std::size_t frame) {
+  for (const SoftRecord& soft : recording.softs)
+    for (std::size_t i = 0; i < soft.positions[frame].size(); ++i)
+      append_point(out, recording.times[frame], soft.name + ":" + std::to_string(i), "soft", soft.positions[frame][i],
+                   nullptr);
+}
+
+void append_wheels(std::string& out, const Recording& recording, std::size_t frame) {
+  for (const VehicleRecord& vehicle : recording.vehicles)
+    for (std::size_t i = 0; i < vehicle.frame[frame].size() && i < vehicle.wheels.size(); ++i) {
+      const Pose& pose = vehicle.frame[frame][i].pose;
+      append_number(out, recording.times[frame]);
+      ((out += ',') += field(vehicle.name + "/" + vehicle.wheels[i])) += ",wheel";
+      append_columns(out, pose.position, 3);
+      append_columns(out, pose.rotation.coeffs(), 4);
+      out += ",,,,,,\n";
+    }
+}
+
+void append_particles(std::string& out, const Recording& recording, std::size_t frame) {
+  for (const ParticlesRecord& particles : recording.particles) {
+    const StageParticles& there = particles.frame[frame];
+    for (std::size_t i = 0; i < there.positions.size(); ++i)
+      append_point(out, recording.times[frame], particles.name + ":" + std::to_string(there.numbers[i]), "particle",
+                   there.positions[i], &there.velocities[i]);
+  }
+}
+
 }  // namespace
 }  // namespace recordings
 
@@ -55,6 +97,9 @@ std::string recording_csv(const Recording& recording) {
       recordings::append_columns(out, node.twist[frame].angular, 3);
       out += '\n';
     }
+    recordings::append_softs(out, recording, frame);
+    recordings::append_wheels(out, recording, frame);
+    recordings::append_particles(out, recording, frame);
   }
   return out;
 }

@@ -119,7 +119,7 @@ Model recording_model(const Recording& recording, const StageDescription& stage)
   check_drawable(recording, stage);
   if (recording.times.empty())
     throw std::invalid_argument("recording \"" + recording.name + "\" has no frames to write");
-  if (const auto dressed = with_own_meshes(recording, stage))
+  if (const auto dressed = with_own_meshes(recording, stage, true))
     return recording_model(dressed->recording, dressed->stage);
   Model model;
   model.name = recording.name.empty() ? stage.name : recording.name;

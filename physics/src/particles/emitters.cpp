@@ -44,26 +44,30 @@ std::uint64_t mixed(std::uint64_t seed, std::uint64_t with) {
 /// Whole numbers nearer than this share count as reached.
 constexpr double nearly = 1e-9;
 
-double reached_until(const Emitter& emitter, const Curve<double>& let_go, double time) {
-  const double until = std::clamp(time, emitter.start, emitter.end);
-  return let_go.value(until) - let_go.value(emitter.start);
+/// How many have left until a time within the present stretch.
+template <class Source>
+double reached_until(const Source& source, double time) {
+  const double until = std::clamp(time, source.from, std::min(source.to, source.emitter.end));
+  return source.let_go.value(until) - source.let_go.value(source.from) + source.before;
 }
 
-std::uint64_t count_until(const Emitter& emitter, const Curve<double>& let_go, double time) {
-  const double reached = reached_until(emitter, let_go, time);
+template <class Source>
+std::uint64_t count_until(const Source& source, double time) {
+  const double reached = reached_until(source, time);
   return reached > 0 ? static_cast<std::uint64_t>(reached + nearly * std::max(1.0, reached)) : 0;
 }
 
 /// When so many have left, within a stretch of time in which that happens. By Newton's steps, halved where they lead
 /// out of what is left.
-double time_of(const Emitter& emitter, const Curve<double>& let_go, double many, double low, double high) {
+template <class Source>
+double time_of(const Source& source, double many, double low, double high) {
   constexpr int most_steps = 80;
   double time = high;
   for (int step = 0; step < most_steps; ++step) {
-    const double off = reached_until(emitter, let_go, time) - many;
+    const double off = reached_until(source, time) - many;
     if (std::abs(off) <= 1e-13 * std::max(1.0, many) || !(high - low > 1e-15 * std::max(1.0, std::abs(high)))) break;
     (off > 0 ? high : low) = time;
-    const double rate = emitter.rate.value(time, off > 0 ? Side::in : Side::out);
+    const double rate = source.emitter.rate.value(time, off > 0 ? Side::in : Side::out);
     const double next = rate > 0 ? time - off / rate : low;
     time = next > low && next < high ? next : 0.5 * (low + high);
   }
@@ -86,12 +90,32 @@ Vec3 in_cone(const Vec3& along, double half_angle, double u, double turn) {
   return length * (cap.x() * side + cap.y() * axis + cap.z() * axis.cross(side));
 }
 
-/// A formula has none, and its integral needs one.
-void give_an_end(Emitter& emitter) {
-  constexpr double long_enough = 600;
-  if (std::isfinite(emitter.rate.start()) && std::isfinite(emitter.rate.end())) return;
-  if (!std::isfinite(emitter.start) || !(emitter.end > emitter.start)) return;
-  emitter.rate = trimmed(emitter.rate, emitter.start, std::min(emitter.end, emitter.start + long_enough));
+void require_rates(const Range& rates) {
+  state::require(rates.low >= 0, "the rate of an emitter must never be negative");
+  state::require(rates.high <= 1e9, "an emitter lets at most 1e9 particles go in a second");
+}
+
+/// Takes the rate's next stretch: a formula has no ends, and its integral needs some.
+template <class Source>
+void go_on(Source& source, double from) {
+  constexpr double stretch = 600, latest = 1e6;
+  Emitter& emitter = source.emitter;
+  const bool first = from == emitter.start;
+  source.from = from;
+  source.to = emitter.end;
+  emitter.rate = source.rate;
+  const bool endless = !std::isfinite(source.rate.start()) || !std::isfinite(source.rate.end());
+  if (endless && from >= latest) {
+    emitter.rate = Curve<double>(0.0);
+  } else if (endless && emitter.end > from) {
+    source.to = std::min(emitter.end, from + stretch);
+    emitter.rate = trimmed(source.rate, from, source.to);
+  }
+  const double low = std::max(from, emitter.rate.start() - 1);
+  const Range rates = range(emitter.rate, low, std::max(low, std::min(source.to, emitter.rate.end() + 1)));
+  if (first) require_rates(rates);
+  if (!(rates.low >= 0 && rates.high <= 1e9)) emitter.rate = Curve<double>(0.0);
+  source.let_go = antiderivative(emitter.rate);
 }
 
 void validate(const Emitter& emitter) {
@@ -101,22 +125,21 @@ void validate(const Emitter& emitter) {
   state::require(emitter.spread >= 0 && emitter.spread <= std::numbers::pi, "spread of an emitter must lie in 0 to pi");
   state::require(emitter.speed_spread >= 0 && emitter.speed_spread <= 1, "spread of speeds must lie in 0 to 1");
   state::require_amount(emitter.size, "size of an emitter");
-  const double low = std::max(emitter.start, emitter.rate.start() - 1);
-  const Range rates = range(emitter.rate, low, std::max(low, std::min(emitter.end, emitter.rate.end() + 1)));
-  state::require(rates.low >= 0, "the rate of an emitter must never be negative");
-  state::require(rates.high <= 1e9, "an emitter lets at most 1e9 particles go in a second");
 }
 
 }  // namespace
 }  // namespace particles
 
 void Particles::add(const Emitter& emitter) {
-  Source source{emitter, Curve<double>(0.0), 0, 0};
-  particles::give_an_end(source.emitter);
-  particles::validate(source.emitter);
-  source.let_go = antiderivative(source.emitter.rate);
+  particles::validate(emitter);
+  Source source{.emitter = emitter, .rate = emitter.rate, .let_go = Curve<double>(0.0)};
+  particles::go_on(source, emitter.start);
   source.seed = particles::mixed(settings_.seed, sources_.size() + 1);
-  source.number = particles::count_until(source.emitter, source.let_go, time_);
+  while (time_ > source.to && source.to < emitter.end) {
+    source.before = particles::reached_until(source, source.to);
+    particles::go_on(source, source.to);
+  }
+  source.number = particles::count_until(source, time_);
   sources_.push_back(std::move(source));
 }
 
@@ -170,19 +193,24 @@ void Particles::let_go(double until, const particles::Colliders* colliders) {
     Source& source = sources_[s];
     const Emitter& emitter = source.emitter;
     if (until < emitter.start || time_ > emitter.end) continue;
-    const std::uint64_t count = particles::count_until(emitter, source.let_go, until);
-    double low = std::max(time_, emitter.start);
-    const double high = std::min(until, emitter.end);
-    // More than there is room for could not stay, and are not looked for one by one.
-    const std::uint64_t most = settings_.most - std::min<std::uint64_t>(settings_.most, size()) + source.number;
-    for (; source.number < std::min(count, most); ++source.number) {
-      low = particles::time_of(emitter, source.let_go, static_cast<double>(source.number + 1), low, high);
-      leaving.push_back({low, s, source.number});
-    }
-    if (count > source.number) {
-      emitted_ += count - source.number;
-      left_out_ += count - source.number;
-      source.number = count;
+    for (;;) {
+      const double high = std::min({until, emitter.end, source.to});
+      const std::uint64_t count = particles::count_until(source, high);
+      double low = std::max({time_, emitter.start, source.from});
+      // More than there is room for could not stay, and are not looked for one by one.
+      const std::uint64_t most = settings_.most - std::min<std::uint64_t>(settings_.most, size()) + source.number;
+      for (; source.number < std::min(count, most); ++source.number) {
+        low = particles::time_of(source, static_cast<double>(source.number + 1), low, high);
+        leaving.push_back({low, s, source.number});
+      }
+      if (count > source.number) {
+        emitted_ += count - source.number;
+        left_out_ += count - source.number;
+        source.number = count;
+      }
+      if (until <= source.to || source.to >= emitter.end) break;
+      source.before = particles::reached_until(source, source.to);
+      particles::go_on(source, source.to);
     }
   }
   std::stable_sort(leaving.begin(), leaving.end(), [](const Leaving& a, const Leaving& b) { return a.time < b.time; });

@@ -359,9 +359,10 @@ void each_field(T& pin, const Visit& visit) {
 template <Is<SoftSettings> T, class Visit>
 void each_field(T& settings, const Visit& visit) {
   auto& [positions, velocities, masses, edges, bends, tetrahedra, enclosures, triangles, pins, solver, sub_step,
-         iterations, radius, friction, linear_damping, collide, groups, collides_with] = settings;
+         iterations, radius, friction, linear_damping, collide, groups, collides_with, thickness, air_drag] = settings;
   visit(positions, velocities, masses, edges, bends, tetrahedra, enclosures, triangles, pins, solver, sub_step,
         iterations, radius, friction, linear_damping, collide, groups, collides_with);
+  visit.rarely(thickness, air_drag);
 }
 
 template <Is<soft::PinState> T, class Visit>
@@ -372,11 +373,12 @@ void each_field(T& state, const Visit& visit) {
 
 template <Is<soft::SoftBody> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [alive, generation, made, positions, velocities, torn, pins, gone] = body;
+  auto& [alive, generation, made, positions, velocities, torn, pins, gone, tears] = body;
   visit(alive, generation);
   if (!alive) return;
   visit(made, positions, velocities, torn, pins);
   follows_from_others(gone);
+  leads_to_nothing(tears);
 }
 
 template <Is<WorldSettings> T, class Visit>

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "soft/apart.h"
+#include "soft/blowing.h"
 #include "soft/meetings.h"
 #include "soft/sub_step.h"
 #include "state/countable.h"
@@ -27,7 +29,7 @@ Vec3 mean_velocity(const SoftBody& body) {
 
 /// Of all edges that are stretched too far the one that is by most; it goes alone, and takes the load off its
 /// neighbors.
-void tear_one(SoftBody& body) {
+void tear_one(SoftBody& body, double time) {
   const SoftSettings& made = *body.made;
   std::size_t worst = made.edges.size();
   double most = 1;
@@ -39,14 +41,20 @@ void tear_one(SoftBody& body) {
     most = strain / edge.tear;
     worst = i;
   }
-  if (worst < made.edges.size()) tear(body, worst);
+  if (worst == made.edges.size()) return;
+  tear(body, worst);
+  const SoftEdge& edge = made.edges[worst];
+  body.tears.push_back({worst, time, 0.5 * (body.positions[edge.a] + body.positions[edge.b])});
 }
 
 /// One soft body in a step.
 class Course {
  public:
-  Course(SoftBody& body, std::vector<state::Body>& bodies, Partners& partners, const WorldSettings& settings, double dt)
-      : body_(body), bodies_(bodies), partners_(partners), settings_(settings), dt_(dt) {
+  /// @param began  when the step did, s
+  Course(SoftBody& body, std::vector<state::Body>& bodies, Partners& partners, const WorldSettings& settings,
+         const std::vector<Blowing>& winds, double began, double dt)
+      : body_(body), bodies_(bodies), partners_(partners), settings_(settings), winds_(winds), began_(began), dt_(dt) {
+    body.tears.clear();
     near_ = find_near(body, bodies, partners, settings.gravity, dt);
     for (PinState& state : body.pins) {
       state.force = Vec3(0, 0, 0);
@@ -58,10 +66,14 @@ class Course {
 
   void go(double time, double h, bool backward) {
     find_held(time);
+    blow(body_, winds_, h);
     find_contacts(body_, near_, bodies_, partners_, settings_.gravity, settings_.push_out_speed, h, contacts_);
     const Vec3 before = held_.empty() ? mean_velocity(body_) : Vec3(0, 0, 0);
     SubStep step{body_, partners_, contacts_, held_, settings_.gravity, h, backward};
+    const bool thick = body_.made->thickness > 0;
+    if (thick) places_ = body_.positions;
     (body_.made->solver == SoftSolver::positions ? solve_positions : solve_springs)(step);
+    if (thick) keep_apart(step, places_, settings_.push_out_speed);
     for (std::size_t i = 0; i < held_.size(); ++i) {
       body_.pins[i].force += held_[i].pushed / (h * dt_);
       if (held_[i].partner == Held::nobody && body_.pins[i].pin.body != BodyId{})
@@ -74,7 +86,7 @@ class Course {
       const Vec3 early = 0.5 * h * (mean_velocity(body_) - before);
       for (Vec3& place : body_.positions) place -= early;
     }
-    tear_one(body_);
+    tear_one(body_, began_ + time);
   }
 
   /// What is pinned ends exactly where it is held.
@@ -121,9 +133,11 @@ class Course {
   std::vector<state::Body>& bodies_;
   Partners& partners_;
   const WorldSettings& settings_;
-  double dt_;
+  const std::vector<Blowing>& winds_;
+  double began_, dt_;
   std::vector<Near> near_;
   std::vector<Vec3> starts_, start_rates_;  ///< of the pinned nodes
+  std::vector<Vec3> places_;                ///< of all nodes, before a sub-step
   std::vector<Held> held_;
   std::vector<NodeContact> contacts_;
 };
@@ -145,9 +159,10 @@ void World::Implementation::advance_softs(double dt) {
   if (!(longest > 0)) return;
   const double count = std::clamp(std::ceil(dt / longest - 1e-9), 1.0, soft::most_sub_steps), h = dt / count;
   soft::Partners partners(bodies, soft_starts, dt);
+  const std::vector<soft::Blowing> winds = soft::winds_at(forces, time);
   std::vector<soft::Course> courses;
   for (soft::SoftBody& body : softs)
-    if (body.alive) courses.emplace_back(body, bodies, partners, settings, dt);
+    if (body.alive) courses.emplace_back(body, bodies, partners, settings, winds, time, dt);
   for (double i = 1; i <= count; ++i) {
     const double since = i < count ? i * h : dt;
     partners.go_to(since, h);

@@ -169,6 +169,9 @@ SoftSettings checked(const SoftSettings& given) {
           "the radius of a soft body's nodes must be at least 1e-9 m, not " + number_text(settings.radius));
   state::require_amount(settings.friction, "friction of a soft body");
   state::require_amount(settings.linear_damping, "damping of a soft body");
+  state::require_amount(settings.air_drag, "air drag of a soft body");
+  require(settings.thickness == 0 || (settings.thickness >= 1e-9 && state::countable(settings.thickness)),
+          "the thickness of a soft body must be 0, or at least 1e-9 m, not " + number_text(settings.thickness));
   return settings;
 }
 

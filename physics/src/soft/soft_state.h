@@ -29,6 +29,7 @@ struct SoftBody {
   std::vector<char> torn;      ///< by edge
   std::vector<PinState> pins;  ///< by node
   Gone gone;
+  std::vector<SoftTear> tears;  ///< of the last step
 
   [[nodiscard]] const PinState* pin_of(std::uint32_t node) const;
   [[nodiscard]] PinState* pin_of(std::uint32_t node);

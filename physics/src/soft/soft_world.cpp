@@ -130,6 +130,10 @@ bool torn(const World& world, SoftId id, std::size_t edge) {
   return body.torn[edge] != 0;
 }
 
+std::span<const SoftTear> soft_tears(const World& world, SoftId id) {
+  return soft::at(world, id).tears;
+}
+
 std::vector<std::array<std::uint32_t, 3>> soft_triangles(const World& world, SoftId id) {
   const soft::SoftBody& body = soft::at(world, id);
   std::vector<std::array<std::uint32_t, 3>> left;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "stage/actors/vehicles.h"
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
@@ -47,6 +48,7 @@ struct Maker {
   void operator()(const change::Tell& tell) const {
     tell_graph(state, tell.graph, {.time = instant, .name = tell.name, .value = tell.value}, step, happenings);
   }
+  void operator()(const change::Control& told) const { control_vehicle(state, told.vehicle, told.control); }
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 // What a caller may change on a stage, as values: so that going back finds the changes again, and saving keeps them.
 
 #include <tweenfall/physics/stage/description.h>
+#include <tweenfall/physics/stage/input.h>
 
 #include <optional>
 #include <string>
@@ -59,10 +60,16 @@ struct Tell {
   std::string name;               ///< of a parameter, or of an event
   std::optional<double> value{};  ///< none: the event is sent
 };
+/// A vehicle is driven.
+struct Control {
+  std::string vehicle;
+  VehicleControl control = {};
+};
 }  // namespace change
 
-using Change = std::variant<change::None, change::Release, change::Recover, change::Arm, change::Add, change::Remove,
-                            change::Push, change::Join, change::Part, change::Ignore, change::Ask, change::Tell>;
+using Change =
+    std::variant<change::None, change::Release, change::Recover, change::Arm, change::Add, change::Remove, change::Push,
+                 change::Join, change::Part, change::Ignore, change::Ask, change::Tell, change::Control>;
 
 /// A change at an exact time. When it throws, it has changed nothing.
 struct Command {

@@ -7,6 +7,7 @@
 
 #include "stage/actors/particles.h"
 #include "stage/actors/vehicles.h"
+#include "stage/leaps.h"
 #include "stage/rules/played_tracks.h"
 #include "stage/scaled_shape.h"
 #include "stage/stage_data.h"
@@ -253,6 +254,7 @@ StageState described_state(const StageDescription& description, std::vector<Stag
       const auto body = [&](std::size_t node) { return state.bodies[body_index(state, node)].id; };
       state.world.ignore(body(description.ignored[i].first), body(description.ignored[i].second));
     });
+  state.leaps = leaps_of(description);
   state.jumps = find_jumps(state);
   start_played_tracks(state);
   for (std::size_t i = 0; i < description.rules.size(); ++i)

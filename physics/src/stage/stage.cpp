@@ -9,6 +9,7 @@
 #include "stage/actors/energy.h"
 #include "stage/actors/particles.h"
 #include "stage/actors/vehicles.h"
+#include "stage/saving/stage_hash.h"
 #include "stage/stage_implementation.h"
 #include "stage/staged_softs.h"
 
@@ -220,6 +221,10 @@ void Stage::send(std::string_view graph, std::string_view event) {
   inside().command(staging::change::Tell{std::string(graph), std::string(event), std::nullopt});
 }
 
+void Stage::control(std::string_view vehicle, const VehicleControl& control) {
+  inside().command(staging::change::Control{std::string(vehicle), control});
+}
+
 GraphPlayer Stage::graph(std::string_view name) const {
   return inside().current().animation->graph(name, time());
 }
@@ -239,6 +244,7 @@ void Stage::give(const Input& input) {
     }
     void operator()(const input::Set& set) const { stage.set(set.graph, set.parameter, set.value); }
     void operator()(const input::Send& send) const { stage.send(send.graph, send.event); }
+    void operator()(const input::Control& told) const { stage.control(told.vehicle, told.control); }
   };
   std::visit(Giver{*this}, input);
 }
@@ -314,7 +320,7 @@ void Stage::load(std::span<const std::byte> saved) {
 }
 
 std::uint64_t Stage::state_hash() const noexcept {
-  return implementation_ ? implementation_->ahead().world.state_hash() : 0;
+  return implementation_ ? staging::stage_hash(implementation_->ahead()) : 0;
 }
 
 }  // namespace tweenfall

@@ -145,6 +145,7 @@ struct StagedJoints {
 struct StagedVehicle {
   std::shared_ptr<const VehicleDescription> described;
   Vehicle vehicle;
+  VehicleControl control = {};  ///< what is held of its script
 };
 struct StagedParticles {
   std::shared_ptr<const ParticlesDescription> described;
@@ -170,11 +171,12 @@ struct StageState {
   std::shared_ptr<const PlayedTracks> tracks;
   std::shared_ptr<const StagedJoints> joints;  ///< gone ones included: the world knows which hold
   std::shared_ptr<const StagedSofts> softs;
-  std::vector<std::size_t> forces;           ///< numbers of the description's in the world
-  std::vector<StagedVehicle> vehicles;       ///< as they were described
-  std::vector<StagedParticles> particles;    ///< likewise
-  std::vector<char> present;                 ///< by node
-  std::vector<std::optional<Color>> colors;  ///< by node, where none is animated
+  std::shared_ptr<const std::vector<double>> leaps;  ///< of what is scripted, in order of time
+  std::vector<std::size_t> forces;                   ///< numbers of the description's in the world
+  std::vector<StagedVehicle> vehicles;               ///< as they were described
+  std::vector<StagedParticles> particles;            ///< likewise
+  std::vector<char> present;                         ///< by node
+  std::vector<std::optional<Color>> colors;          ///< by node, where none is animated
   std::vector<StagedBody> bodies;
   std::vector<std::size_t> unused;                ///< places in `bodies` of those that have left
   std::vector<std::size_t> body_of;               ///< by node; `no_body` for none

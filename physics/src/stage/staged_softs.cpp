@@ -138,6 +138,19 @@ void end_pins(StageState& state, double from, std::vector<Happening>& happenings
   }
 }
 
+void report_tears(const StageState& state, std::vector<Happening>& happenings) {
+  for (const auto& [name, id] : state.softs->list)
+    for (const SoftTear& tear : soft_tears(state.world, id)) {
+      StageEvent event;
+      event.time = std::min(tear.time, state.time);
+      event.name = "torn";
+      event.data = "{\"edge\": " + std::to_string(tear.edge) + ", \"at\": [" + number_text(tear.place.x()) + ", " +
+                   number_text(tear.place.y()) + ", " + number_text(tear.place.z()) + "]}";
+      event.joint = name;
+      happenings.push_back({event.time, event});
+    }
+}
+
 SoftNodes soft_nodes(const StageState& from, const StageState& to, std::string_view name, double time) {
   const auto found = std::ranges::find_if(to.softs->list, [&](const auto& soft) { return soft.first == name; });
   if (found == to.softs->list.end()) {

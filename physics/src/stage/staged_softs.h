@@ -45,6 +45,8 @@ void lead_pins(StageState& state, WholePose& pose);
 [[nodiscard]] double next_pin_end(const StageState& state, double from, double to);
 /// Takes away pins whose end is due in (from, state.handled].
 void end_pins(StageState& state, double from, std::vector<Happening>& happenings);
+/// Tells what tore in the world's last step.
+void report_tears(const StageState& state, std::vector<Happening>& happenings);
 /// Between two states that follow each other. @throws std::invalid_argument with the nearest name
 [[nodiscard]] SoftNodes soft_nodes(const StageState& from, const StageState& to, std::string_view name, double time);
 

@@ -166,6 +166,8 @@ std::vector<TimedInput> Timeline::inputs() const {
       add(input::Recover{name(recover->node), recover->settings});
     if (const auto* push = std::get_if<change::Push>(&command.change))
       add(input::Push{name(push->node), push->impulse, push->point});
+    if (const auto* told = std::get_if<change::Control>(&command.change))
+      add(input::Control{told->vehicle, told->control});
   }
   return inputs;
 }

@@ -11,6 +11,7 @@
 #include <tweenfall/importers/recording_file.h>
 #include <tweenfall/importers/shown_text.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tweenfall::cli {
@@ -97,6 +98,17 @@ std::string joints_table(const Recording& recording) {
   return table.empty() ? "" : table.text(styled_output());
 }
 
+/// What stays behind of particles in a .glb.
+void say_thinned(const Recording& recording) {
+  for (const ParticlesRecord& particles : recording.particles) {
+    std::size_t most = 0;
+    for (const StageParticles& there : particles.frame) most = std::max(most, there.numbers.size());
+    if (most > most_particles_in_glb)
+      say("of the particles \"" + terminal_text(particles.name) + "\", " + std::to_string(most) +
+          " at a time, the .glb shows " + std::to_string(most_particles_in_glb) + " at most");
+  }
+}
+
 int run_file(const RunFileOptions& options) {
   const std::vector<std::string> endings{".json", ".csv", ".svg", ".html", ".glb"};
   if (options.output) require_output(*options.output, options.file, endings);
@@ -115,6 +127,7 @@ int run_file(const RunFileOptions& options) {
   if (options.output && *options.output != "-") {
     save_recording(recording, read.stage, *options.output);
     say_written(*options.output, summary_of(recording), options.json);
+    if (options.output->ends_with(".glb")) say_thinned(recording);
   }
   if (to_stdout) {
     print(recording_json(recording));
@@ -133,7 +146,7 @@ Run declare_run(Arguments& arguments) {
   arguments.text("-o,--output", "OUT", options->output,
                  "the recording: .json .csv .svg .html or .glb; - prints the JSON; without it a summary");
   arguments.text("--inputs", "FILE", options->inputs_file,
-                 "timed inputs, JSON: what plays and bodies are asked for while it runs");
+                 "timed inputs, JSON: what plays, vehicles and bodies are asked for while it runs");
   arguments.number("--threads", "N", options->threads,
                    "threads that share a step of physics; not a bit of the recording depends on it");
   arguments.flag("--json", options->json, "print the recording as JSON");

@@ -32,7 +32,7 @@ struct Top {
   }
 };
 
-double apart(const Quat& a, const Quat& b) {
+double turn_between(const Quat& a, const Quat& b) {
   return log_map(a * b.conjugate()).norm();
 }
 
@@ -42,7 +42,7 @@ double off_after(int steps, State state, const Step& step, const ToQuaternion& t
   const Top top;
   const double dt = 1.0 / steps;
   for (int k = 0; k < steps; ++k) state = step(state, top.angular_velocity((k + 0.5) * dt), dt);
-  return apart(to_quaternion(state), top.at(1));
+  return turn_between(to_quaternion(state), top.at(1));
 }
 
 }  // namespace

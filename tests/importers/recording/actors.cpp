@@ -1,3 +1,4 @@
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/importers/document.h>
 #include <tweenfall/importers/model.h>
 #include <tweenfall/importers/recording_file.h>
@@ -6,7 +7,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <filesystem>
 #include <regex>
+#include <sstream>
 
 using namespace tweenfall;
 using namespace tweenfall::test;
@@ -142,4 +146,70 @@ TEST_CASE("energies of a run: a swing's is its spring's and its speed's, and tog
     swings = std::max(swings, kinetic);
   }
   CHECK(swings > 0.9 * first);
+}
+
+TEST_CASE("a table has a row for each particle, wheel and soft node of each frame, with what each has") {
+  const Run fountain("particles/fountain", 0.5, 20), car("vehicle/brakes", 0.2, 10),
+      rope("soft/rope_positions", 0.1, 10);
+  const std::string table = recording_csv(fountain.recording);
+  std::size_t all = 0;
+  for (const StageParticles& there : fountain.recording.particles[0].frame) all += there.numbers.size();
+  REQUIRE(all > 50);
+  CHECK(count(table, ",particle,") == all);
+  // Every row has as many fields as the header.
+  std::istringstream lines(table);
+  for (std::string line; std::getline(lines, line);) CHECK(std::ranges::count(line, ',') == 15);
+  const StageParticles& last = fountain.recording.particles[0].frame.back();
+  CHECK(table.find(number_text(fountain.recording.times.back()) + ",water:" + std::to_string(last.numbers[0]) +
+                   ",particle," + number_text(last.positions[0].x()) + ",") != std::string::npos);
+  CHECK(count(recording_csv(car.recording), "car/front left,wheel,") == car.recording.times.size());
+  CHECK(count(recording_csv(rope.recording), ",soft,") ==
+        rope.recording.times.size() * rope.recording.softs[0].positions[0].size());
+}
+
+TEST_CASE("a .glb shows particles where they are at each frame, and of too many every second or third") {
+  const Run fountain("particles/fountain", 1, 20);
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "tweenfall_fountain.glb";
+  save_recording(fountain.recording, fountain.stage, file);
+  const Model model = load_model(file);
+  std::filesystem::remove(file);
+  std::vector<std::string> dots;
+  for (const Node& node : model.nodes)
+    if (node.name.starts_with("water/")) dots.push_back(node.name);
+  REQUIRE(model.clips.size() == 1);
+  const Clip& clip = model.clips[0];
+  const auto shown_at = [&](double time) {
+    std::vector<Vec3> places;
+    for (const std::string& name : dots) {
+      Vec3 place(0, 0, 0), scale(1, 1, 1);
+      for (const Track& track : clip.tracks) {
+        if (track.node != name || track.property == "rotation") continue;
+        (track.property == "scale" ? scale : place) = std::get<Curve<Vec3>>(track.curve).value(time);
+      }
+      if (scale.x() > 0.5) places.push_back(place);
+    }
+    return places;
+  };
+  for (const std::size_t frame : {std::size_t{4}, std::size_t{11}, std::size_t{20}}) {
+    const StageParticles& there = fountain.recording.particles[0].frame[frame];
+    REQUIRE(there.positions.size() <= most_particles_in_glb);
+    const std::vector<Vec3> places = shown_at(fountain.recording.times[frame]);
+    CHECK(places.size() == there.positions.size());
+    for (const Vec3& place : there.positions)
+      CHECK(std::ranges::any_of(places, [&](const Vec3& other) { return (other - place).norm() < 1e-5; }));
+  }
+  // Of 1,200 at a time, every third.
+  Run crowd("particles/fountain", 0.1, 20);
+  for (StageParticles& there : crowd.recording.particles[0].frame) {
+    there = {};
+    for (std::uint64_t i = 0; i < 1200; ++i) {
+      there.positions.emplace_back(0.001 * static_cast<double>(i), 1, 0);
+      there.velocities.emplace_back(0, 0, 0);
+      there.numbers.push_back(i);
+    }
+  }
+  save_recording(crowd.recording, crowd.stage, file);
+  const Model thinned = load_model(file);
+  std::filesystem::remove(file);
+  CHECK(std::ranges::count_if(thinned.nodes, [](const Node& node) { return node.name.starts_with("water/"); }) == 400);
 }

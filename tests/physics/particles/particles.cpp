@@ -1,5 +1,7 @@
 #include <tweenfall/physics/particles.h>
 
+#include <tweenfall/curves/expression.h>
+#include <tweenfall/curves/functions.h>
 #include <tweenfall/curves/keys.h>
 #include <tweenfall/curves/rotation.h>
 
@@ -202,6 +204,27 @@ TEST_CASE("emitters let go when the integral of their rate says, from where thei
     }
     CHECK(near(particles.momentum(), 0.1 * Vec3(4, 1, 3), 1e-9));
   }
+}
+
+TEST_CASE("a rate by a formula goes on for hours, by its integral, and a jump of time of any length ends") {
+  Particles rain({.gravity = {0, 0, 0}, .life = 1});
+  rain.add({.rate = expression_curve(Expression("2+cos(t/100)"))});
+  Particles whole = rain;
+  for (const double time : {100.0, 599.0, 601.0, 1800.0, 5000.0}) {
+    while (rain.time() < time) rain.step(std::min(7.3, time - rain.time()));
+    CHECK(std::abs(static_cast<double>(rain.emitted()) + 0.5 - 2 * time - 100 * std::sin(time / 100)) < 0.51);
+  }
+  whole.step(5000);
+  CHECK(whole.emitted() == rain.emitted());
+  whole.step(1e300);
+  CHECK(std::isfinite(whole.time()));
+  // One that starts late begins with nothing, and one whose formula turns negative stops for that stretch.
+  Particles late({.gravity = {0, 0, 0}, .life = 1});
+  late.step(1500);
+  late.add({.rate = expression_curve(Expression("1"))});
+  late.add({.rate = expression_curve(Expression("700-t"))});
+  late.step(10);
+  CHECK(late.emitted() == 10);
 }
 
 TEST_CASE("a stream has rate times life of particles, each dies at its age, and what chance there is comes of a seed") {

@@ -39,7 +39,9 @@ void check_drawable(const Recording& recording, const StageDescription& stage);
 
 /// One row for each time and node, times outermost, under a header row. Columns: time (s), node, owner (keyed, driven,
 /// free), position_x to _z (m, of the node's origin), rotation_x to _w, velocity_x to _z (m/s, at the center of mass),
-/// angular_velocity_x to _z (rad/s); world axes. Quoting as RFC 4180.
+/// angular_velocity_x to _z (rad/s); world axes. Quoting as RFC 4180. Then, time by time, rows whose owner is "soft"
+/// (node "name:number", with a position alone), "wheel" ("vehicle/wheel", with position and rotation) and "particle"
+/// ("name:number", by which it is known for its life, with position and velocity); what they have not is empty.
 [[nodiscard]] std::string recording_csv(const Recording& recording);
 
 /// A moving picture of the recording as animated SVG (SMIL, no script), seen from the side: bodies as outlines in the
@@ -68,6 +70,9 @@ struct ShownRecording {
 
 /// How many of the recording's frames its page carries: all of them, unless they are so many that it thins them.
 [[nodiscard]] std::size_t page_frame_count(const Recording& recording);
+
+/// Of each kind of particles so many at a time are in a .glb, as nodes; of more, every second, third, ... one.
+inline constexpr std::size_t most_particles_in_glb = 500;
 
 /// By the ending of `file`: .json, .csv, .svg, .html or .glb. A .glb has the motion alone, and nothing of physics: a
 /// viewer that simulated joints would work against the motion that they made. Written whole or not at all.

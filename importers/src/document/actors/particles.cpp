@@ -176,15 +176,12 @@ const Form* particles_form(FormStore& store, const ValueForms& values) {
 }
 
 void read_particles(const json::Value& value, Building& building) {
-  for (const json::Member& member : value.members()) {
-    if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
-    ParticlesDescription particles;
-    particles.name = member.name;
+  const auto begin = [&](std::string name) {
+    ParticlesDescription particles{.name = std::move(name)};
     particles.settings.gravity = building.stage.world.gravity;
-    const std::size_t before = building.problems.size();
-    particles_table().read(member.value, particles, building);
-    if (building.problems.size() == before) building.stage.particles.push_back(std::move(particles));
-  }
+    return particles;
+  };
+  read_by_name(value, particles_table(), building, building.stage.particles, begin);
 }
 
 }  // namespace tweenfall::document::actors

@@ -66,13 +66,9 @@ const Form* wheels_form(FormStore& store, const ValueForms& values) {
 }
 
 void read_wheels(const json::Value& value, VehicleDescription& vehicle, Building& building) {
-  for (const json::Member& member : value.members()) {
-    if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
-    Wheel wheel;
-    wheel.name = member.name;
-    wheel_table().read(member.value, wheel, building);
-    vehicle.wheels.push_back(std::move(wheel));
-  }
+  const auto begin = [](std::string name) { return Wheel{.name = std::move(name)}; };
+  const auto take = [&](Wheel wheel, bool) { vehicle.wheels.push_back(std::move(wheel)); };
+  read_by_name(value, wheel_table(), building, begin, take);
 }
 
 fields::Meaning<VehicleDescription> axis(Vec3 VehicleDescription::*part, std::string standard) {
@@ -118,16 +114,12 @@ const Form* vehicles_form(FormStore& store, const ValueForms& values) {
 }
 
 void read_vehicles(const json::Value& value, Building& building) {
-  for (const json::Member& member : value.members()) {
-    if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
-    VehicleDescription vehicle;
-    vehicle.name = member.name;
-    const std::size_t before = building.problems.size();
-    vehicle_table().read(member.value, vehicle, building);
-    // Of one that could not be read there is nothing to add.
-    if (building.problems.size() == before && vehicle.chassis != no_node)
-      building.stage.vehicles.push_back(std::move(vehicle));
-  }
+  const auto begin = [](std::string name) { return VehicleDescription{.name = std::move(name)}; };
+  // Without a chassis, which is told, there is nothing to add.
+  const auto take = [&](VehicleDescription vehicle, bool whole) {
+    if (whole && vehicle.chassis != no_node) building.stage.vehicles.push_back(std::move(vehicle));
+  };
+  read_by_name(value, vehicle_table(), building, begin, take);
 }
 
 }  // namespace tweenfall::document::actors

@@ -32,10 +32,6 @@ Row<Body> combine_rule(std::string name, std::string help, Combine Body::*member
                                std::move(help), member_of_body);
 }
 
-const Form* groups_form(FormStore& store, const ValueForms& values) {
-  return store.add(list_of(values.name, "a list of names of groups", 0));
-}
-
 // The bits of groups by their names, which all files of one reading share.
 std::uint64_t bits_of(const json::Value& list, Building& building) {
   constexpr std::size_t most = 64;
@@ -68,14 +64,11 @@ const Table<Body>& body_table() {
                                 "{}"};
   constexpr auto surface = [](Body& body) -> Vec3& { return body.surface_velocity.linear; };
   constexpr auto surface_spin = [](Body& body) -> Vec3& { return body.surface_velocity.angular; };
-  const Meaning<Body> groups = {[](const json::Value& value, Body& body, Building& building) {
-                                  body.groups = bits_of(value, building);
-                                  building.reading.given_groups |= body.groups;
-                                },
-                                "[\"default\"]"};
+  const Meaning<Body> groups = {
+      [](const json::Value& value, Body& body, Building& building) { body.groups = read_groups(value, building); },
+      "[\"default\"]"};
   const Meaning<Body> collides_with = {[](const json::Value& value, Body& body, Building& building) {
-    body.collides_with = bits_of(value, building);
-    for (const json::Value& name : value.items()) building.asked_groups.push_back(name);
+    body.collides_with = read_collides_with(value, building);
   }};
   const Meaning<Body> drive = {
       [](const json::Value& value, Body& body, Building& building) { body.drive = read_owner(value, building); }};
@@ -141,6 +134,21 @@ const Form* body_form(FormStore& store, const ValueForms& values) {
   form.together = {at_most_one({"mass", "density", "mass_properties"})};
   form.definition = "body";
   return store.add(std::move(form));
+}
+
+const Form* groups_form(FormStore& store, const ValueForms& values) {
+  return store.add(list_of(values.name, "a list of names of groups", 0));
+}
+
+std::uint64_t read_groups(const json::Value& groups, Building& building) {
+  const std::uint64_t bits = bits_of(groups, building);
+  building.reading.given_groups |= bits;
+  return bits;
+}
+
+std::uint64_t read_collides_with(const json::Value& groups, Building& building) {
+  for (const json::Value& name : groups.items()) building.asked_groups.push_back(name);
+  return bits_of(groups, building);
 }
 
 void check_groups(Building& building) {

@@ -28,6 +28,10 @@ void read_density(const json::Value& density, BodyDescription& body, Building& b
 const Form* mass_properties_form(FormStore& store, const ValueForms& values);
 void read_mass_properties(const json::Value& value, BodyDescription& body, Building& building);
 
+// Groups that bodies and soft bodies belong to, and those whom they meet.
+const Form* groups_form(FormStore& store, const ValueForms& values);
+[[nodiscard]] std::uint64_t read_groups(const json::Value& groups, Building& building);
+[[nodiscard]] std::uint64_t read_collides_with(const json::Value& groups, Building& building);
 void check_groups(Building& building);  // those that bodies collide with, when all bodies are known
 [[nodiscard]] json::Value place_of_spin(const json::Value& body);  // or the body, where it says none
 

@@ -98,4 +98,15 @@ const Form* modifiers_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(list));
 }
 
+Field modifiers_field(FormStore& store, const Form* modifiers, std::size_t size) {
+  const Field over_numbers{"modifiers", modifiers, "laid over the curve"};
+  if (size == 1) return over_numbers;
+  Form parts = object_of("modifiers: a list, or lists by component", {});
+  for (std::size_t i = 0; i < size; ++i)
+    parts.fields.push_back({std::string(1, "xyzw"[i]), modifiers, "over it alone"});
+  parts.definition = "modifiers-" + std::to_string(size);
+  const Form* either = store.add(choice_of(parts.what, {modifiers, store.add(parts)}));
+  return {"modifiers", either, "laid over the curve: a list for all components alike, or lists by component"};
+}
+
 }  // namespace tweenfall::document

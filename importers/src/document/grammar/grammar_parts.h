@@ -27,6 +27,8 @@ const Form* clip_form(FormStore& store, const ValueForms& values);
 const Form* weight_keys_form(FormStore& store, const ValueForms& values);
 // What is laid over a track of numbers.
 const Form* modifiers_form(FormStore& store, const ValueForms& values);
+// Over numbers a list; over vectors one list for all components alike, or lists by component.
+[[nodiscard]] Field modifiers_field(FormStore& store, const Form* modifiers, std::size_t size);
 
 // Forms in the making
 Form bounded(std::string what, double low, bool above_low, double high = Form::infinite, bool whole = false);

@@ -403,17 +403,9 @@ class TrackForms {
             "keys of the ratio of width to height, x to y, mixed by its logarithm; the area stays 1"};
   }
 
-  // Over numbers a list; over vectors one list for all components alike, or lists by component.
   Field modifiers(std::size_t size) {
     if (!modifiers_) modifiers_ = modifiers_form(store_, values_);
-    const Field over_numbers{"modifiers", modifiers_, "laid over the curve"};
-    if (size == 1) return over_numbers;
-    Form parts = object_of("modifiers: a list, or lists by component", {});
-    for (std::size_t i = 0; i < size; ++i)
-      parts.fields.push_back({std::string(1, "xyzw"[i]), modifiers_, "over it alone"});
-    parts.definition = "modifiers-" + std::to_string(size);
-    const Form* either = store_.add(choice_of(parts.what, {modifiers_, store_.add(parts)}));
-    return {"modifiers", either, "laid over the curve: a list for all components alike, or lists by component"};
+    return modifiers_field(store_, modifiers_, size);
   }
 
   const FunctionForms functions;

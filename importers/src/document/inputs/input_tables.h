@@ -32,6 +32,12 @@ struct OfGraph {
   json::Value graph{}, name{};  // the places of both names
 };
 
+/// A vehicle is driven.
+struct Controlled {
+  input::Control input{};
+  json::Value place{};  // of the vehicle's name
+};
+
 using Started = Asked<playing::Start>;
 
 [[nodiscard]] const fields::Table<Started>& start_table();
@@ -45,5 +51,6 @@ using Started = Asked<playing::Start>;
 [[nodiscard]] const fields::Table<OfBody<input::Push>>& push_table();
 [[nodiscard]] const fields::Table<OfGraph<input::Set>>& set_table();
 [[nodiscard]] const fields::Table<OfGraph<input::Send>>& send_table();
+[[nodiscard]] const fields::Table<Controlled>& control_table();
 
 }  // namespace tweenfall::document::inputs

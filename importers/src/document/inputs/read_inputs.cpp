@@ -59,6 +59,7 @@ class Reader {
     give<input::Push>(usable(value, "push"), push_table());
     tell<input::Set>(usable(value, "set"), set_table());
     tell<input::Send>(usable(value, "send"), send_table());
+    if (const json::Value control = usable(value, "control")) read_control(control);
   }
 
   std::vector<TimedInput> inputs;
@@ -157,6 +158,29 @@ class Reader {
     inputs.push_back({time_, of.input});
   }
 
+  void read_control(const json::Value& value) {
+    Controlled controlled;
+    control_table().read(value, controlled, building_);
+    const std::vector<VehicleDescription>& vehicles = building_.stage.vehicles;
+    std::vector<std::string> names;
+    for (const VehicleDescription& vehicle : vehicles) names.push_back(vehicle.name);
+    if (controlled.place) {
+      if (std::find(names.begin(), names.end(), controlled.input.vehicle) == names.end())
+        building_.problems.add(controlled.place, "there is no vehicle " + json::in_quotes(controlled.input.vehicle) +
+                                                     suggestion(controlled.input.vehicle, names));
+    } else if (names.size() == 1) {
+      controlled.input.vehicle = names.front();
+    } else if (names.empty()) {
+      building_.problems.add(value, "the stage has no vehicle");
+    } else {
+      building_.problems.add(value, "the stage has several vehicles, " + listed(names) + "; say which \"vehicle\"");
+    }
+    const VehicleControl& told = controlled.input.control;
+    if (building_.problems.size() == problems_before_ && !told.throttle && !told.brake && !told.steer)
+      building_.problems.add(value, "a control says a \"throttle\", a \"brake\" or a \"steer\"");
+    inputs.push_back({time_, controlled.input});
+  }
+
   /// Null where there is none, which is told. @param place  of its name; none: it is the only one
   const GraphDescription* graph_called(const json::Value& place, const json::Value& whole) {
     const std::vector<GraphDescription>& graphs = building_.stage.graphs;
@@ -233,6 +257,7 @@ struct InputGrammar {
     add("push", push_table(), "an impulse");
     add("set", set_table(), "a parameter of a graph is another number, true or false");
     add("send", send_table(), "an event comes to a graph");
+    add("control", control_table(), "a vehicle is driven from outside from then on");
     std::string what = "an input: {\"at\"} and one of ";
     for (const std::string& name : names) what += (name == names.front() ? "" : ", ") + json::in_quotes(name);
     Form input = object_of(what, std::move(fields));

@@ -4,6 +4,7 @@
 #include "document/read/values.h"
 #include "json/json_string.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -196,6 +197,17 @@ struct OfInput {
     fields.add("graph", string_text(send.graph));
     fields.add("event", string_text(send.event));
     return {"send", fields.object()};
+  }
+  Said operator()(const input::Control& told) const {
+    Fields fields;
+    fields.add("vehicle", string_text(told.vehicle));
+    const auto add = [&](const char* name, const std::optional<double>& value, double low) {
+      if (value) fields.add(name, number_text(std::clamp(*value, low, 1.0)));
+    };
+    add("throttle", told.control.throttle, -1);
+    add("brake", told.control.brake, 0);
+    add("steer", told.control.steer, -1);
+    return {"control", fields.object()};
   }
 };
 

@@ -53,6 +53,7 @@ void judge(Building& building) {
   if (!building.reading.is_outermost()) return;
   judging::judge_pace(building);
   if (building.problems.empty()) judging::judge_stage(building);
+  if (building.problems.empty()) judging::judge_actors(building);
 }
 
 }  // namespace tweenfall::document

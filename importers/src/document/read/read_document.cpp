@@ -46,12 +46,12 @@ ReadDocument read_document(std::string text, const std::string& name, const std:
     building.names_are_free = !root.find("nodes") && !root.find("import");
     read_imports(building);
     read_nodes(building);
-    fields::check_groups(building);
     read_clips(building);
     systems::read(usable(root, "systems"), building);
     read_plays(building);
     graphs::read(usable(root, "graphs"), building);
     fields::read_world(usable(root, "world"), building);
+    fields::check_groups(building);
     read_rules(building);
     if (problems.empty()) judge(building);
     out.stage = std::move(building.stage);

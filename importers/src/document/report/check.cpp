@@ -149,6 +149,11 @@ class Checker {
       if (hint.empty()) hint = suggestion_of({}, form.field_names());
     }
     problems_.add_name(member, "unknown field " + json::in_quotes(member.name) + hint);
+    // What is wrong inside is wrong there, too.
+    if (homes_ && member.value.is(Kind::object))
+      if (const Form* meant = homes_->meant_form(member.name, form, around_))
+        if (const Form* chosen = resolved(*meant, member.value); chosen && chosen->kind == Form::Kind::object)
+          this->value(*meant, member.value);
     tree_.mark_faulty(member.value);
   }
 

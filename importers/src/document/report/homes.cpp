@@ -96,6 +96,20 @@ std::string Homes::meant_inside(std::string_view name, const Form& here, Meant m
   return {};
 }
 
+const Form* Homes::meant_form(std::string_view name, const Form& here, std::span<const Form* const> around) const {
+  if (const Field* const called = here.field(here.field_called(name))) return called->form;
+  const Form* found = nullptr;
+  for (const Object& object : objects_) {
+    const bool inside = object.holder && object.holder->form == &here;
+    if (!inside && std::ranges::find(around, object.form) == around.end()) continue;
+    const Field* const field = object.form->field(name);
+    if (!field || field->form == found) continue;
+    if (found) return nullptr;
+    found = field->form;
+  }
+  return found;
+}
+
 std::string Homes::of(std::string_view name, const Form& here, std::span<const Form* const> around) const {
   std::string out = suggestion_of(here.field_called(name), {});
   if (out.empty()) out = near(name, here, around);

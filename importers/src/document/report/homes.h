@@ -22,6 +22,10 @@ class Homes {
   // @param around  the objects that `here` stands in, the outermost first
   [[nodiscard]] std::string of(std::string_view name, const Form& here, std::span<const Form* const> around) const;
 
+  // What a value of this name is where it is at home, if there is but one such place near.
+  [[nodiscard]] const Form* meant_form(std::string_view name, const Form& here,
+                                       std::span<const Form* const> around) const;
+
  private:
   struct Object {
     const Form* form;

@@ -152,6 +152,12 @@ std::vector<fields::Row<Read>> own_rows() {
   };
   const auto member_of = [&](auto SoftSettings::*part) { return fields::member<Read>(of_soft(part)); };
   const auto color = [](Read& read) -> std::optional<Color>& { return read.described.color; };
+  const auto groups = [](const json::Value& value, Read& read, Building& building) {
+    read.described.soft.groups = fields::read_groups(value, building);
+  };
+  const auto collides_with = [](const json::Value& value, Read& read, Building& building) {
+    read.described.soft.collides_with = fields::read_collides_with(value, building);
+  };
   return {fields::one_of<Read, SoftSolver>(
               "solver", "a solver", {{"positions", SoftSolver::positions}, {"springs", SoftSolver::springs}},
               "constraints with compliance, or forces and backward Euler", of_soft(&SoftSettings::solver)),
@@ -162,6 +168,17 @@ std::vector<fields::Row<Read>> own_rows() {
           {"friction", &ValueForms::not_negative, "with bodies", member_of(&SoftSettings::friction)},
           {"linear_damping", &ValueForms::not_negative, "1/s", member_of(&SoftSettings::linear_damping)},
           {"collide", &ValueForms::boolean, "whether it meets bodies", member_of(&SoftSettings::collide)},
+          {"groups", fields::groups_form, "that it belongs to", {groups, "[\"default\"]"}},
+          {"collides_with", fields::groups_form, "groups of bodies; absent: all", {collides_with}},
+          {"thickness",
+           &ValueForms::not_negative,
+           "how near its nodes come to each other, m; 0: they pass through each other",
+           member_of(&SoftSettings::thickness),
+           false,
+           {},
+           {"self_collision", "self_collide"}},
+          {"air_drag", &ValueForms::not_negative, "of its faces, by which winds that name no bodies press on them",
+           member_of(&SoftSettings::air_drag)},
           {"color", &ValueForms::color, "", fields::member<Read>(color)},
           {"pins", pins_form, "what holds it", {read_pins, "[]"}}};
 }

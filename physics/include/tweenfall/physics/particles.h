@@ -41,7 +41,8 @@ struct ParticleSettings {
 struct Emitter {
   Curve<Vec3> position = Curve<Vec3>(Vec3(0, 0, 0));     ///< m
   Curve<Quat> rotation = Curve<Quat>(Quat(1, 0, 0, 0));  ///< of its axes
-  /// Particles per second; never negative. What a formula is after ten minutes it stays.
+  /// Particles per second; never negative. A formula is taken in stretches of ten minutes: where it is negative or
+  /// beyond 1e9 in a later one, none leave in that, and none after a million seconds.
   Curve<double> rate = Curve<double>(0.0);
   Curve<Vec3> velocity = Curve<Vec3>(Vec3(0, 0, 0));  ///< of particles, in its axes, m/s
   double inherit = 1;                                 ///< share of its own velocity that they take along
@@ -105,8 +106,11 @@ class Particles {
  private:
   friend struct saving::ParticleFields;
   struct Source {
-    Emitter emitter;
-    Curve<double> let_go;      ///< how many until a time
+    Emitter emitter;           ///< its rate that of the present stretch
+    Curve<double> rate;        ///< as it was given
+    Curve<double> let_go;      ///< how many until a time, within the stretch
+    double before = 0;         ///< how many until it began
+    double from = 0, to = 0;   ///< between which times it lies; infinity where it is the last
     std::uint64_t number = 0;  ///< of those that have left
     std::uint64_t seed = 0;
   };

@@ -7,7 +7,8 @@
 /// forces and finds the end of each sub-step by backward Euler; `positions` takes it as constraints with a compliance
 /// (XPBD). What is of infinite stiffness only the second knows. Nodes are balls of the soft body's radius where they
 /// meet rigid bodies, and what pushes them pushes back; what is smaller than the space between nodes slips through.
-/// Nodes do not meet each other. A rigid body that a soft one touches or holds stays awake.
+/// Nodes meet each other where a soft body has a `thickness`, and no other soft body's. A rigid body that a soft one
+/// touches or holds stays awake.
 ///
 ///     World world;
 ///     const BodyId hand = world.add({.shape = {Sphere{0.1}}, .drive = Drive::keyed()});
@@ -98,6 +99,13 @@ struct SoftSettings {
   bool collide = true;        ///< whether it meets bodies; a pinned node never does
   std::uint64_t groups = 1;   ///< as of bodies
   std::uint64_t collides_with = ~std::uint64_t{0};
+  /// How near its nodes come to each other, m, or as near as they are at rest where that is less; 0: as near as they
+  /// may. Nodes that go farther than this within a sub-step pass each other, and each heeds 64 others at most.
+  double thickness = 0;
+  /// Of its triangles, by which the world's winds press on them along their normals: 1/2 rho C A |v| v, with v how fast
+  /// the wind goes through the triangle. Heeds winds that name no bodies; of still air there must be one, of velocity
+  /// 0.
+  double air_drag = 0;
 };
 
 // Makers. All throw std::invalid_argument naming what is wrong; what they make can be changed before it is added
@@ -178,6 +186,13 @@ void remove_soft(World& world, SoftId soft);
 /// As it was added, with all lengths and volumes at rest.
 [[nodiscard]] const SoftSettings& soft_settings(const World& world, SoftId soft);
 [[nodiscard]] bool torn(const World& world, SoftId soft, std::size_t edge);
+struct SoftTear {
+  std::size_t edge = 0;
+  double time = 0;      ///< of the world, at the end of the sub-step in which it tore, s
+  Vec3 place{0, 0, 0};  ///< its middle then, m
+};
+/// What tore in the last step, in order; nothing of a world that was loaded since.
+[[nodiscard]] std::span<const SoftTear> soft_tears(const World& world, SoftId soft);
 /// Triangles that are not torn.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> soft_triangles(const World& world, SoftId soft);
 

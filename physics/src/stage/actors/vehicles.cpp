@@ -50,13 +50,32 @@ void add_vehicles(StageState& state, const StageDescription& description, std::v
   }
 }
 
+void control_vehicle(StageState& state, std::string_view name, const VehicleControl& control) {
+  StagedVehicle& staged = state.vehicles[index_called(state.vehicles, name, "vehicle")];
+  if (!control.throttle && !control.brake && !control.steer)
+    throw std::invalid_argument("a vehicle must be told a throttle, a brake or a steer");
+  const auto require = [](const std::optional<double>& value, const char* what) {
+    if (value && !std::isfinite(*value))
+      throw std::invalid_argument(std::string(what) + " of a vehicle must be finite");
+  };
+  require(control.throttle, "throttle");
+  require(control.brake, "brake");
+  require(control.steer, "steer");
+  if (control.throttle) staged.control.throttle = control.throttle;
+  if (control.brake) staged.control.brake = control.brake;
+  if (control.steer) staged.control.steer = control.steer;
+}
+
 void drive_vehicles(StageState& state, double dt) {
   for (StagedVehicle& staged : state.vehicles) {
     if (!state.world.contains(staged.vehicle.settings().chassis)) continue;
     const VehicleDescription& described = *staged.described;
-    const double throttle = std::clamp(described.throttle.at(state.time), -1.0, 1.0);
-    const double brake = std::clamp(described.brake.at(state.time), 0.0, 1.0);
-    const double steer = std::clamp(described.steer.at(state.time), -1.0, 1.0);
+    const auto held = [&](const std::optional<double>& value, const Strength& script, double low) {
+      return std::clamp(value ? *value : script.at(state.time), low, 1.0);
+    };
+    const double throttle = held(staged.control.throttle, described.throttle, -1);
+    const double brake = held(staged.control.brake, described.brake, 0);
+    const double steer = held(staged.control.steer, described.steer, -1);
     for (std::size_t i = 0; i < described.wheels.size(); ++i) {
       const WheelDescription& wheel = described.wheels[i];
       staged.vehicle.control(

@@ -8,6 +8,7 @@
 #include "stage/rules/overlaps.h"
 #include "stage/rules/sensed.h"
 #include "stage/rules/strains.h"
+#include "stage/staged_softs.h"
 
 namespace tweenfall::staging {
 
@@ -279,6 +280,7 @@ void step_told_world(StageState& state, double end, double step, std::vector<Hap
       body.saturated_for = state.world.saturated(body.id) ? body.saturated_for + (end - before.time) : 0;
   follow_blows(state, before, step, happenings);
   report_broken_joints(state, happenings);
+  report_tears(state, happenings);
   report_sensed(state, happenings);
   report_strains(state, happenings);
   end_passing(state);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stage/leaps.h"
 #include "stage/rules/sensed.h"
 #include "stage/stage_data.h"
 #include "stage/staged_softs.h"
@@ -121,6 +122,7 @@ double next_instant(const StageState& state, double to) {
   double next = first_jump(state, from, to);
   for (const ArmedRule& armed : state.armed)
     if (waits(state, armed)) next = std::min(next, first_instant(state, armed, from, std::min(next, to)));
+  next = std::min(next, next_leap(state, from, std::min(next, to)));
   next = std::min(next, next_joint_end(state, from, std::min(next, to)));
   return std::min(next, next_pin_end(state, from, std::min(next, to)));
 }

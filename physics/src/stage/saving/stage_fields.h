@@ -244,6 +244,18 @@ void each_field(T& tell, const Visit& visit) {
   visit(graph, name, value);
 }
 
+template <Is<VehicleControl> T, class Visit>
+void each_field(T& control, const Visit& visit) {
+  auto& [throttle, brake, steer] = control;
+  visit(throttle, brake, steer);
+}
+
+template <Is<staging::change::Control> T, class Visit>
+void each_field(T& told, const Visit& visit) {
+  auto& [vehicle, control] = told;
+  visit(vehicle, control);
+}
+
 template <Is<staging::Command> T, class Visit>
 void each_field(T& command, const Visit& visit) {
   auto& [time, change] = command;
@@ -432,7 +444,7 @@ template <Is<staging::StagedVehicle> T, class Visit>
 void each_field(T& staged, const Visit& visit) {
   follows_from_others(staged.described);
   auto readings = staged.vehicle.readings();
-  visit(readings);
+  visit(readings, staged.control);
   if constexpr (!std::is_const_v<T>) staged.vehicle.restore(std::move(readings));
 }
 

@@ -6,11 +6,20 @@
 #include <tweenfall/anim/player.h>
 #include <tweenfall/physics/handoff/rule.h>
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace tweenfall {
+
+/// What a driver holds of a vehicle's script, from when it is told until it is told otherwise; what is absent stays
+/// with who held it before: the driver, or the script.
+struct VehicleControl {
+  std::optional<double> throttle{};  ///< -1 to 1; what is beyond counts as these
+  std::optional<double> brake{};     ///< 0 to 1
+  std::optional<double> steer{};     ///< -1 to 1, to the left
+};
 
 namespace input {
 /// A play is asked for something.
@@ -42,9 +51,15 @@ struct Send {
   std::string graph;
   std::string event;
 };
+/// A vehicle is driven from outside.
+struct Control {
+  std::string vehicle;
+  VehicleControl control = {};
+};
 }  // namespace input
 
-using Input = std::variant<input::Ask, input::Release, input::Recover, input::Push, input::Set, input::Send>;
+using Input =
+    std::variant<input::Ask, input::Release, input::Recover, input::Push, input::Set, input::Send, input::Control>;
 
 struct TimedInput {
   double time = 0;  ///< stage time, s

@@ -42,14 +42,15 @@ struct StageEvent {
   /// `until` says; "overlap" of two bodies that lie deep in each other, and "joint_strained" of a joint that is open,
   /// beyond a limit or short of its motor's speed, for a twentieth of a second; "vetoed" of a body that lies in
   /// another and therefore stays on its path, as its rule says; "split limit" of a step with more instants than may
-  /// split it.
+  /// split it; "unpinned" of a pin that lets go, and "torn" of an edge of a soft body.
   std::string name;
   std::string data;  ///< JSON text: given with a clip event; {"depth": m}, of a joint {"gap": m}, {"beyond_limit": m or
-                     ///< rad} or {"missing_speed": m/s or rad/s}, {"splits": count}; else empty
+                     ///< rad} or {"missing_speed": m/s or rad/s}, {"splits": count}, {"node": of the soft body},
+                     ///< {"edge": of the soft body, "at": [where, m]}; else empty
   std::vector<NodeId> nodes;  ///< of a contact, an overlap or a veto: the two; of a sensor: it and the body; of a
                               ///< joint: its bodies
   double impulse = 0;         ///< of a contact: N s
-  std::string joint = {};     ///< of a joint, or of a pin that lets go ("unpinned"): its, or its soft body's, name
+  std::string joint = {};     ///< of a joint its name; of a pin that lets go, or what is torn, that of its soft body
 };
 
 /// A joint that the stage has or had, and the nodes whose bodies it holds; `no_node`: the world.
@@ -164,9 +165,14 @@ class Stage {
   /// @throws std::invalid_argument with the nearest name
   [[nodiscard]] GraphPlayer graph(std::string_view name) const;
 
+  // Vehicles, the same
+  /// Drives it in place of its script from now on.
+  /// @throws std::invalid_argument with the nearest name, for numbers that are not finite, and where nothing is told
+  void control(std::string_view vehicle, const VehicleControl& control);
+
   // Outside input as values
-  /// What plays, graphs, bodies and impulses were asked for until now, each with its time: given again at these to a
-  /// stage of the same description, it runs to the same bits.
+  /// What plays, graphs, vehicles, bodies and impulses were asked for until now, each with its time: given again at
+  /// these to a stage of the same description, it runs to the same bits.
   [[nodiscard]] std::vector<TimedInput> inputs() const;
   /// One of these, at exactly `time()`. @throws as the functions that it stands for
   void give(const Input& input);
@@ -195,7 +201,8 @@ class Stage {
   /// its time still to come. Of a pattern each body by itself.
   [[nodiscard]] std::vector<UnfiredRule> unfired_rules() const;
 
-  /// A number that changes when any bit of any body does, at the next instant or step after `time()`.
+  /// A number that changes when any bit of any body, soft body, wheel or particle does, at the next instant or step
+  /// after `time()`.
   [[nodiscard]] std::uint64_t state_hash() const noexcept;
 
   // Keeping it

@@ -1,0 +1,151 @@
+#include <tweenfall/curves/keys.h>
+#include <tweenfall/physics/stage/recording.h>
+
+#include <cmath>
+#include <limits>
+
+#include "support.h"
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// 1000 kg on four wheels that stand, with a script that says nothing.
+StageDescription parked_car() {
+  StageDescription stage;
+  stage.nodes.push_back({.name = "road", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});
+  stage.nodes.push_back({.name = "car",
+                         .rest = {.position = Vec3(0, 0.6 - 1000 * 9.81 / 120000, 0)},
+                         .body = BodyDescription{.shape = {Box{Vec3(1.6, 0.1, 0.7)}}, .mass = 1000.0}});
+  VehicleDescription car{.name = "car", .chassis = 1};
+  for (const double x : {1.3, -1.3})
+    for (const double z : {-0.7, 0.7})
+      car.wheels.push_back({.name = (x > 0 ? std::string("front") : "rear") + (z > 0 ? " right" : " left"),
+                            .wheel = {.mount = Vec3(x, 0, z), .grip = 0.8, .side_grip = 0.8},
+                            .torque = 150,
+                            .brake = 20'000,
+                            .lock = x > 0 ? 0.05 : 0});
+  stage.vehicles.push_back(std::move(car));
+  return stage;
+}
+
+/// From step to step what an agent sees decides what it does.
+void drive_on(Stage& stage, double until) {
+  while (stage.time() < until) {
+    const double ahead = stage.world(1).motion.pose.position.x();
+    if (ahead < 4)
+      stage.control("car", {.throttle = 1 - ahead / 8, .steer = 0.3 * std::sin(stage.time())});
+    else
+      stage.control("car", {.throttle = 0, .brake = 0.4});
+    stage.advance(0.0317);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a car that is driven from outside goes as its engine drives it, and stops after v^2 / (2 mu g)") {
+  Stage stage(parked_car());
+  stage.advance_to(0.2003);  // inside of a step
+  CHECK(std::abs(stage.twist(1).linear.x()) < 1e-6);
+  stage.control("car", {.throttle = 1});
+  stage.advance_to(2.2003);
+  // T / r on four wheels over the mass and that of the wheels
+  CHECK(near(stage.twist(1).linear.x(), 2 * (4 * 150 / 0.3) / (1000 + 4 / 0.09), 2e-2));
+  stage.control("car", {.throttle = 5});  // counts as 1
+  stage.advance_to(3.2003);
+  CHECK(near(stage.twist(1).linear.x(), 3 * (4 * 150 / 0.3) / (1000 + 4 / 0.09), 2e-2));
+  stage.control("car", {.throttle = 0, .brake = 1});
+  const double v = stage.twist(1).linear.x(), from = stage.world(1).motion.pose.position.x();
+  stage.advance_to(6);
+  CHECK(stage.world(1).motion.pose.position.x() - from == doctest::Approx(v * v / (2 * 0.8 * 9.81)).epsilon(0.02));
+}
+
+TEST_CASE("what drove a car, given again, leads to the same bits; so do going back, copies and what was saved") {
+  Stage played(parked_car());
+  drive_on(played, 2.5);
+  const std::vector<TimedInput> inputs = played.inputs();
+  CHECK(inputs.size() > 50);
+  CHECK(std::get<input::Control>(inputs[3].what).vehicle == "car");
+  Stage again(parked_car());
+  CHECK(advance_with(again, inputs, played.time()).empty());
+  CHECK(again.state_hash() == played.state_hash());
+  CHECK(again.world(1).motion.pose.position == played.world(1).motion.pose.position);
+
+  const std::uint64_t at_end = played.state_hash();
+  const double end = played.time();
+  played.seek(1.1);
+  const std::vector<std::byte> saved = played.save();
+  Stage loaded(parked_car());
+  loaded.load(saved);
+  CHECK(loaded.state_hash() == played.state_hash());
+  played.advance_to(end);
+  CHECK(played.state_hash() == at_end);
+  // What was held when it was saved is held on; what came later comes again.
+  loaded.advance_to(end);
+  CHECK(loaded.state_hash() == at_end);
+  // Another script does not matter while all of it is held.
+  StageDescription scripted = parked_car();
+  scripted.vehicles[0].throttle = Strength::formula("sin(t)");
+  Stage held(scripted), free(parked_car());
+  for (Stage* const stage : {&held, &free}) {
+    stage->control("car", {.throttle = 0.5, .brake = 0, .steer = 0.1});
+    stage->advance_to(1);
+  }
+  CHECK(held.state_hash() == free.state_hash());
+}
+
+TEST_CASE("a vehicle that is not there and numbers that are none are refused, and nothing has changed") {
+  Stage stage(parked_car());
+  stage.advance_to(0.1);
+  const std::uint64_t before = stage.state_hash();
+  CHECK_THROWS_WITH_AS(stage.control("cra", {.brake = 1}), doctest::Contains("did you mean \"car\"?"),
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(stage.control("car", {.steer = std::nan("")}), "steer of a vehicle must be finite",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(stage.control("car", {.throttle = -std::numeric_limits<double>::infinity()}),
+                       "throttle of a vehicle must be finite", std::invalid_argument);
+  CHECK_THROWS_WITH_AS(stage.control("car", {}), doctest::Contains("must be told"), std::invalid_argument);
+  CHECK(stage.state_hash() == before);
+  CHECK(stage.inputs().empty());
+}
+
+TEST_CASE("a stage's hash tells of its wheels and particles, not of its bodies alone") {
+  Stage still(parked_car()), turned(parked_car());
+  // In the air a wheel that spins moves nothing else.
+  for (Stage* const stage : {&still, &turned}) stage->advance_to(0.05);
+  turned.control("car", {.steer = 0.5});
+  CHECK(still.state_hash() != turned.state_hash());
+  const auto fountain = [](double rate) {
+    StageDescription stage;
+    stage.particles.push_back({.name = "spray"});
+    stage.particles[0].emitters.push_back({.rate = Curve<double>(rate), .speed = Curve<double>(2.0)});
+    Stage run(stage);
+    run.advance_to(0.5);
+    return run.state_hash();
+  };
+  CHECK(fountain(10) == fountain(10));
+  CHECK(fountain(10) != fountain(10.5));
+  CHECK(fountain(10) != fountain(0));
+}
+
+TEST_CASE("where a strength leaps inside a step, the force is there from that instant on") {
+  const double begins = 0.31371, ends = 0.71113;
+  StageDescription stage;
+  stage.step = 1.0 / 60;
+  stage.world.gravity = Vec3(0, 0, 0);
+  stage.nodes.push_back({.name = "box", .body = BodyDescription{.shape = {Box{Vec3(1, 1, 1)}}, .mass = 2.0}});
+  stage.forces = {{.force = Push{.force = Vec3(3, 0, 0)},
+                   .a = 0,
+                   .strength = Strength(keyed_curve<double>({{.time = 0, .value = 0.0, .ease = Ease::hold()},
+                                                             {.time = begins, .value = 1.0, .ease = Ease::hold()},
+                                                             {.time = ends, .value = 0.0}}))}};
+  for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::rk4, Integrator::trapezoid}) {
+    stage.world.integrator = integrator;
+    Stage run(stage);
+    run.advance_to(1);
+    CHECK(near(run.twist(0).linear.x(), 1.5 * (ends - begins), 1e-8));
+    const double gone = 0.75 * (ends - begins) * (ends - begins) + 1.5 * (ends - begins) * (1 - ends);
+    CHECK(near(run.world(0).motion.pose.position.x(), gone, 1e-8));
+  }
+}
