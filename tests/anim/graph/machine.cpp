@@ -146,6 +146,20 @@ TEST_CASE("a settle is over after its time: then the new clip shows bit for bit"
   }
 }
 
+TEST_CASE("a change of no length that could be seen is a cut, with no rate that no number holds") {
+  GraphPlayer cut(graph_of(walker({Change::fade, 0})));
+  cut.advance(0.7);
+  cut.set("speed", 1);
+  for (const Change kind : {Change::fade, Change::quintic, Change::half_life, Change::dead_blend})
+    for (const double seconds : {5e-324, 1e-300, 1e-10}) {
+      GraphPlayer player(graph_of(walker({kind, seconds})));
+      player.advance(0.7);
+      player.set("speed", 1);
+      CHECK(same_bits(pose_at(player, 0.7), pose_at(cut, 0.7)));
+      CHECK(same_bits(pose_at(player, 0.7, Side::in), pose_at(cut, 0.7, Side::in)));
+    }
+}
+
 TEST_CASE("an event of a clip leads on at its exact time, whatever the frame") {
   for (const double frame : {10.0, 1.0 / 30, 0.017}) {
     GraphPlayer player(graph_of(walker({.seconds = 0.2})));
