@@ -25,7 +25,7 @@ Sample<double> sample_of(const Setting& setting, double half_life, double time) 
 // What is seen goes on from where it is, in value and rate, whatever it follows from there.
 void add(Record<Setting>& settings, double half_life, Setting setting) {
   setting.offset = setting.rate = 0;
-  if (half_life != 0 && !settings.empty()) {
+  if (half_life >= shortest_change && !settings.empty()) {
     const Sample<double> before = sample_of(settings.back(), half_life, setting.time);
     setting.offset = before.value - setting.value;
     setting.rate = before.rate;

@@ -23,6 +23,9 @@ namespace tweenfall::graphs {
 /// What a parameter may be: beyond it, what follows it could be at no finite place or speed.
 inline constexpr double largest_parameter = 1e15;
 
+/// What takes less than this, s, is done at once: nothing of it is seen, and nothing could be as fast.
+inline constexpr double shortest_change = 1e-9;
+
 /// Where something that came in came from.
 enum class Origin {
   description,  // known beforehand

@@ -82,9 +82,7 @@ class MachineBinder {
       binder_.fault(place("ease"), "\"" + change.ease->name() +
                                        "\" looks at keys, and a fade has none; say \"linear\" "
                                        "or a shape, such as \"quad-in-out\"");
-    // Of what is shorter nothing is seen, and nothing could be as fast.
-    constexpr double shortest = 1e-9;  // s
-    if (change.seconds < shortest) return {.kind = GraphChange::Kind::fade, .seconds = 0};
+    if (change.seconds < shortest_change) return {.kind = GraphChange::Kind::fade, .seconds = 0};
     return change;
   }
 

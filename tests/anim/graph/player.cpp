@@ -138,6 +138,20 @@ TEST_CASE("what the description gives is there whatever the caller does") {
   CHECK(player.passages(0).size() == 2);
 }
 
+TEST_CASE("a half-life too short to be seen is none") {
+  for (const double half_life : {0.0, 5e-324, 1e-300, 1e-10}) {
+    GraphDescription described = rich();
+    described.parameters[0].half_life = half_life;
+    GraphPlayer player(graph_of(described));
+    player.seek(0.2);
+    player.set("speed", 1);
+    const Sample<double> now = player.parameter("speed");
+    CHECK(now.value == 1);
+    CHECK(now.rate == 0);
+    CHECK(now.acceleration == 0);
+  }
+}
+
 TEST_CASE("poses follow a parameter that was set without a jump in value or rate") {
   GraphPlayer player(graph_of(rich()));
   player.seek(0.2);
