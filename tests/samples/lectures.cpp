@@ -140,8 +140,8 @@ TEST_CASE("the bullet passes the wall where it is looked for after the step, and
   for (Stage* stage : {&discrete, &ahead, &impact}) stage->advance_to(0.1);
   CHECK(place_of(discrete, "bullet").x() > 9);
   CHECK(place_of(ahead, "bullet").x() < 5);
-  // It meets the wall at 4.975 m and goes back at half its speed; the wall gives it no turn.
-  CHECK(near(place_of(impact, "bullet").x(), 4.975 - 0.5 * (10 - 4.675), 1e-5));
+  // It meets the wall at 4.935 m and goes back at half its speed; the wall gives it no turn.
+  CHECK(near(place_of(impact, "bullet").x(), 4.935 - 0.5 * (10 - 4.635), 1e-5));
   // The ball is dropped from 2 m and keeps 0.8 of its speed.
   impact.advance_to(1);
   const double down = std::sqrt(4 / 9.81), up = 0.8 * 9.81 * down, since = 1 - down;

@@ -253,6 +253,7 @@ namespace tweenfall {
 void World::Implementation::step_in_plane(double dt) {
   flat::Flat& plane = flat.own();
   plane.take_over(*this);
+  push_in_plane(dt);
   plane.step(dt);
   plane.hand_back(*this);
   for (state::Body& body : bodies) {

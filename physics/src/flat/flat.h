@@ -35,6 +35,9 @@ class Flat {
 
   /// Tells the plane what has been done to the bodies since the last step.
   void take_over(const state::WorldState& world);
+  /// A force in N and a torque in N m through the next step; what points out of the plane is borne by it.
+  /// @param index  of the body in the world @param at  where the force acts
+  void push(std::uint32_t index, const Vec3& force, const Vec3& torque, const Vec3& at);
   /// @throws NotFinite
   void step(double dt);
   /// Tells the bodies where they are now, and the world what touches.

@@ -55,7 +55,7 @@ void Flat::read(saving::ByteReader& bytes) {
 
 void Flat::check(const state::WorldState& world) {
   plane_ = world.settings.plane;
-  state::require(world.joints.empty() && world.forces.empty(), "a world in a plane has no joints and no forces");
+  state::require(world.joints.empty(), "a world in a plane has no joints");
   std::size_t known = 0;
   for (const Entry& entry : entries_) known += entry.id == BodyId{} ? 0 : 1;
   state::require(known == world_.bodies().size() && entries_.size() <= world.bodies.size(),

@@ -57,7 +57,6 @@ std::optional<double> energy_in(const NumberedForce& entry, const Moment& moment
 
 std::size_t World::add_force(Force force, ForceSettings settings) {
   Implementation& world = changing();
-  flat::refuse(world.settings.plane, "forces");
   state::validate(force);
   const forces::Named named = forces::named(force);
   for (std::size_t i = 0; i < named.ends.size(); ++i)

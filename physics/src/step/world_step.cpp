@@ -351,6 +351,7 @@ void World::Implementation::step(double dt) {
   begin_watch();
   if (failed) check_bodies(0, time);
   if (flat.has_value()) {
+    wake_by_forces(dt);
     failed = true;
     step_in_plane(dt);
     end_watch();

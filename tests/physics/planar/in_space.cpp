@@ -155,7 +155,6 @@ TEST_CASE("what does not lie in a world's plane is refused in words") {
   check(sticky, "in a plane there is no rolling friction");
   CHECK_THROWS_WITH_AS(World({.plane = WorldPlane::xz}), Contains("gravity must lie in the world's plane, xz"),
                        std::invalid_argument);
-  CHECK_THROWS_WITH_AS(world.add_force(Drag{}), Contains("in a plane there are no forces"), std::invalid_argument);
   const BodyId a = world.add({}), b = world.add({});
   CHECK_THROWS_WITH_AS(world.add_joint({.a = a, .b = b}), Contains("in a plane there are no joints"),
                        std::invalid_argument);

@@ -1,0 +1,88 @@
+#include <algorithm>
+
+#include "flat/axes.h"
+#include "flat/flat.h"
+#include "state/world_data.h"
+
+namespace tweenfall {
+
+namespace flat {
+namespace {
+
+/// One end of a spring that is too stiff to be taken as it is at the start of a step.
+struct StiffEnd {
+  Vec3 place, velocity, arm;
+  double give = 0;  ///< of its point along the spring, 1/kg
+};
+
+StiffEnd end_of(const state::Body& body, const Vec3& local) {
+  StiffEnd end;
+  end.arm = body.motion.pose.rotation * local;
+  end.place = body.center + end.arm;
+  end.velocity = velocity_at(body.twist, end.arm);
+  return end;
+}
+
+void find_give(const state::Body& body, const Vec3& along, StiffEnd& end) {
+  if (body.immovable() || body.asleep) return;
+  const Vec3 lever = end.arm.cross(along);
+  end.give = 1 / body.mass().mass + lever.dot(body.world_inverse_inertia(body.motion.pose.rotation) * lever);
+}
+
+}  // namespace
+
+void Flat::push(std::uint32_t index, const Vec3& force, const Vec3& torque, const Vec3& at) {
+  const Axes axes = Axes::of(plane_);
+  const Vec2 along = axes.flat(force);
+  const double turning = axes.sign * torque[axes.normal];
+  if (along != Vec2::Zero()) world_.apply_force(entries_[index].id, along, axes.flat(at));
+  if (turning != 0) world_.apply_torque(entries_[index].id, turning);
+}
+
+}  // namespace flat
+
+/// What forces give bodies of a plane, through the step as one: the mean of what they are at its start and where bodies
+/// would be at its end. What resists, and springs too stiff for the step, are taken as at its end, so that nothing
+/// makes them grow; what points out of the plane is borne by it.
+void World::Implementation::push_in_plane(double dt) {
+  if (forces.empty()) return;
+  flat::Flat& plane = flat.own();
+  forces::gather_loads(bodies, watched, forces, settings, time, dt, workers(), loads, stiff_springs, flight);
+  check_loads(time + dt);
+  for (const std::uint32_t i : watched) {
+    const state::Body& body = bodies[i];
+    if (body.immovable() || body.asleep) continue;
+    const forces::Load& load = loads[i];
+    const double mass = body.mass().mass, drag = load.drag - body.makeup->linear_damping;
+    const Vec3 own = settings.gravity + body.force / mass;
+    const Vec3 steady = 0.5 * (load.acceleration + load.end_acceleration);
+    const Vec3 gain = (steady - drag * body.twist.linear) / (1 + drag * dt) - own;
+    const Mat3 inverse = body.world_inverse_inertia(body.motion.pose.rotation);
+    const Vec3 spin = body.twist.angular;
+    const double heavy = spin.squaredNorm() > 0 ? spin.dot(inverse * spin) / spin.squaredNorm() : 0;
+    const Vec3 torque = load.torque - body.torque - load.angular_drag / (1 + load.angular_drag * dt * heavy) * spin;
+    plane.push(i, mass * gain, torque, body.center);
+  }
+  for (const step::SpringRow& row : stiff_springs) {
+    const bool to_world = row.b == step::SpringRow::world;
+    flat::StiffEnd a = flat::end_of(bodies[row.a], row.local_a);
+    flat::StiffEnd b =
+        to_world ? flat::StiffEnd{row.local_b, Vec3(0, 0, 0), Vec3(0, 0, 0)} : flat::end_of(bodies[row.b], row.local_b);
+    const Vec3 between = a.place - b.place;
+    const double length = between.norm();
+    if (!(length > 0)) continue;
+    const Vec3 along = between / length;
+    flat::find_give(bodies[row.a], along, a);
+    if (!to_world) flat::find_give(bodies[row.b], along, b);
+    const double slows = row.damping + row.stiffness * dt;
+    const double pull = -(row.stiffness * (length - row.rest_length) + slows * along.dot(a.velocity - b.velocity)) /
+                        (1 + dt * slows * (a.give + b.give));
+    const auto give = [&](std::uint32_t index, const flat::StiffEnd& end, const Vec3& force) {
+      if (end.give > 0) plane.push(index, force, Vec3(0, 0, 0), end.place);
+    };
+    give(row.a, a, pull * along);
+    if (!to_world) give(row.b, b, -pull * along);
+  }
+}
+
+}  // namespace tweenfall
