@@ -19,6 +19,9 @@ namespace {
 /// A blow is handed on through so many bodies at most: in a step it comes no farther.
 constexpr int most_rounds = 8;
 
+/// What changes the way of a body in a step by less than this part of what counts as near is no blow.
+constexpr double hardly_moved = 0.25;
+
 /// Which bodies the blows of a step reach, when, and how hard at most.
 class Blows {
  public:
@@ -32,6 +35,7 @@ class Blows {
   /// others do somewhere else must not matter to it.
   void strike(std::uint32_t body, double time, double change) {
     Struck& struck = struck_[body];
+    if (!(change * (dt_ - time) > hardly_moved * near_enough)) return;
     if (!(time < struck.time - 0.01 * dt_ || change > 1.05 * struck.most)) return;
     struck.time = std::min(struck.time, time);
     struck.most = std::max(struck.most, change);
@@ -145,12 +149,12 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     for (const contacts::Link& link : touching_links) blows.hand_on(link);
     for (contacts::FoundPart& part : all) std::erase_if(part.followers, take);
   }
-  // What lies on few corners may be tilted by a blow until the others come down.
+  // What lies on few corners may be tilted by a blow until the others come down. Those that are near are known.
   for (std::size_t i = 0; i < active.size(); ++i) {
     contacts::ContactConstraint& contact = *active[i];
     if (contact.count >= 4 || contact.impact_time > 0 || !has_corners(contact)) continue;
     const double way = blows.hand_on(touching_links[i]);
-    if (way == 0) continue;
+    if (!(way > contacts::near_enough)) continue;
     const collision::Passage &way_a = passages[contact.a], &way_b = passages[contact.b];
     const Manifold wider = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
                                               contacts::near_enough, contacts::near_enough + way);

@@ -23,11 +23,12 @@ Core placed_core(Core::Kind kind, const Vec3& half, double radius, const Placed&
 
 /// The hull's vertex farthest along a direction, found by climbing from another one.
 std::uint32_t climbed(const ConvexHull& hull, const Vec3& direction, std::uint32_t from) {
-  double most = direction.dot(hull.vertices()[from]);
+  const std::span<const Vec3> vertices = hull.vertices();
+  double most = direction.dot(vertices[from]);
   for (;;) {
     const std::uint32_t here = from;
     for (const std::uint32_t neighbor : hull.neighbors(here)) {
-      const double along = direction.dot(hull.vertices()[neighbor]);
+      const double along = direction.dot(vertices[neighbor]);
       if (along > most) {
         most = along;
         from = neighbor;

@@ -42,8 +42,9 @@ void add_rim(const Core& core, double height, bool up, const Vec3& local, ClipPo
 
 void add_hull_face(const Core& core, std::uint32_t index, ClipPolygon& corners) {
   std::uint32_t side = 0;
+  const std::span<const Vec3> vertices = core.hull->vertices();
   for (const std::uint32_t corner : core.hull->corners(core.hull->faces()[index])) {
-    corners.add(core.place(core.hull->vertices()[corner]), side, side);
+    corners.add(core.place(vertices[corner]), side, side);
     ++side;
   }
 }
@@ -69,10 +70,11 @@ void add_triangle(const Core& core, ClipPolygon& corners) {
 std::uint32_t hull_face_along(const ConvexHull& hull, std::uint32_t vertex, const Vec3& local) {
   std::uint32_t best = 0;
   double most = -2;
-  for (std::uint32_t i = 0; i < hull.faces().size(); ++i) {
-    const double along = hull.faces()[i].normal.dot(local);
+  const std::span<const ConvexHull::Face> faces = hull.faces();
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    const double along = faces[i].normal.dot(local);
     if (along <= most + 1e-6) continue;
-    const std::span<const std::uint32_t> around = hull.corners(hull.faces()[i]);
+    const std::span<const std::uint32_t> around = hull.corners(faces[i]);
     if (std::find(around.begin(), around.end(), vertex) == around.end()) continue;
     most = along;
     best = i;

@@ -26,9 +26,9 @@ void visit_faces(const Core& core, const Vec3& direction, const Visit& visit) {
         visit(FlatFace{2 * i + (along > 0 ? 1 : 0), core.turn.col(static_cast<int>(i)) * (along > 0 ? 1.0 : -1.0)});
     }
   } else if (core.kind == Core::Kind::hull) {
-    for (std::uint32_t i = 0; i < core.hull->faces().size(); ++i)
-      if (core.hull->faces()[i].normal.dot(local) >= roughly)
-        visit(FlatFace{i, core.turn * core.hull->faces()[i].normal});
+    const std::span<const ConvexHull::Face> faces = core.hull->faces();
+    for (std::uint32_t i = 0; i < faces.size(); ++i)
+      if (faces[i].normal.dot(local) >= roughly) visit(FlatFace{i, core.turn * faces[i].normal});
   } else if (core.kind == Core::Kind::cylinder) {
     if (std::abs(local.y()) >= roughly)
       visit(FlatFace{local.y() > 0 ? 1u : 0u, core.turn.col(1) * (local.y() > 0 ? 1.0 : -1.0)});
