@@ -12,7 +12,9 @@ namespace tweenfall::chains {
 /// nearly opposite to the middle is let go of, so that nothing snaps from one side to the other.
 inline Arrow within_angle(const Arrow& direction, const Arrow& middle, double limit, double ease) noexcept {
   if (limit >= std::numbers::pi) return direction;
-  const double slow = std::min(ease, limit), free = limit - slow;
+  // What eases over less does so at once: nothing of it is seen, and nothing could be as fast.
+  constexpr double sharpest = 1e-9;  // rad
+  const double eases = std::min(ease, limit), slow = eases < sharpest ? 0 : eases, free = limit - slow;
   const Measured side = measured(across(direction, middle));
   const Dual angle = angle_of(side.length, dot(direction, middle));
   if (angle.v <= free) return direction;

@@ -77,9 +77,9 @@ FootPlacement::FootPlacement(const Hierarchy& nodes, const FootPlacementSettings
                        std::to_string(most_feet_placed));
   problems.require_finite(up_, "up");
   problems.require(up_.squaredNorm() > 0, "up is zero");
-  problems.require_in(lowest_, 0, 1e300, "lowest");
-  problems.require_in(highest_, 0, 1e300, "highest");
-  problems.require_in(evenness_, 0, 1e300, "evenness");
+  problems.require_in(lowest_, 0, chains::largest, "lowest");
+  problems.require_in(highest_, 0, chains::largest, "highest");
+  problems.require_in(evenness_, 0, chains::largest, "evenness");
   problems.require_in(tilt_, 0, 1.5, "tilt");
   problems.require_in(softness_, 0, 0.5, "softness");
   up_ = up_ / std::sqrt(up_.squaredNorm());
@@ -94,7 +94,7 @@ FootPlacement::FootPlacement(const Hierarchy& nodes, const FootPlacementSettings
           const WorldMotion world =
               nodes.world_motion(foot.leg.end(), [&](std::size_t node) -> const Motion& { return rest[node]; });
           foot.ankle_height = told.ankle_height.value_or(std::max(0.0, world.motion.pose.position.dot(up_)));
-          problems.require_in(foot.ankle_height, -1e300, 1e300, "ankle_height of " + name);
+          problems.require_in(foot.ankle_height, -chains::largest, chains::largest, "ankle_height of " + name);
           if (pelvis_ != no_node)
             problems.require(chains::is_below(nodes, foot.leg.start(), pelvis_),
                              name + ": its leg must be below the pelvis (" + settings.pelvis.text() + ")");

@@ -138,7 +138,7 @@ JiggleChain::JiggleChain(const Hierarchy& nodes, const JiggleSettings& settings)
   problems.include([&] { spring_ = SpringFollower(settings.spring); }, "each joint's");
   problems.require_finite(tip_, "tip");
   problems.require_in(limit_, 0, std::numbers::pi, "limit");
-  problems.require_in(ease_, 0, 1e300, "ease");
+  problems.require_in(ease_, 0, chains::largest, "ease");
   problems.report();
   if (!with_tip) {
     tail_ = joints_.back();

@@ -64,7 +64,7 @@ LookAtChain::LookAtChain(const Hierarchy& nodes, const LookAtSettings& settings)
   problems.require_finite(up_, "up");
   problems.require_finite(eye_, "eye");
   problems.require_in(limit_, 0, std::numbers::pi, "limit");
-  problems.require_in(ease_, 0, 1e300, "ease");
+  problems.require_in(ease_, 0, chains::largest, "ease");
   problems.report();
   problems.require(forward_.norm() > 0, "forward is zero");
   problems.require(up_.norm() > 0, "up is zero");

@@ -64,7 +64,8 @@ void Problems::add_all(const std::string& lines, const std::string& whose) {
 }
 
 void Problems::require_finite(const Vec3& v, const std::string& name) {
-  require(std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()), name + " must be finite");
+  if (require(std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z()), name + " must be finite"))
+    require(v.cwiseAbs().maxCoeff() <= largest, name + " has a number beyond " + number_text(largest));
 }
 
 void Problems::require_in(double number, double low, double high, const std::string& name) {

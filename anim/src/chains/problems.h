@@ -47,6 +47,9 @@ class Problems {
   std::string what_, text_;
 };
 
+/// What lengths and places are at most: squares of more, and what is made of them, would be no numbers.
+inline constexpr double largest = 1e15;
+
 /// Whether `node` is below `above`, at any depth, and not the same.
 [[nodiscard]] bool is_below(const Hierarchy& nodes, std::size_t node, std::size_t above);
 

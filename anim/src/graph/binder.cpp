@@ -240,10 +240,19 @@ std::optional<std::size_t> Binder::parameter(const std::string& name, const Plac
 
 Number Binder::number(const GraphNumber& number, const Place& place) {
   if (const double* constant = std::get_if<double>(&number)) {
-    if (!std::isfinite(*constant)) fault(place, "this is not a finite number");
+    if (!std::isfinite(*constant))
+      fault(place, "this is not a finite number");
+    else if (std::abs(*constant) > largest_parameter)
+      fault(place, "a number may be up to 1e15; this one is " + number_text(*constant));
     return Number(*constant);
   }
   if (const auto* curve = std::get_if<Curve<double>>(&number)) {
+    const auto is_too_large = [&](double knot) {
+      return std::abs(curve->value(knot, Side::in)) > largest_parameter ||
+             std::abs(curve->value(knot)) > largest_parameter;
+    };
+    if (std::ranges::any_of(curve->knots(), is_too_large))
+      fault(place, "a number may be up to 1e15, at any of its keys too");
     keep_jumps_of(*curve);
     return Number(*curve);
   }

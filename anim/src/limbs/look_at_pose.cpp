@@ -1,5 +1,6 @@
 #include <tweenfall/anim/look_at.h>
 
+#include "chains/problems.h"
 #include "limbs/place.h"
 #include "operations/account.h"
 
@@ -47,8 +48,8 @@ std::unique_ptr<Operation> bound(const LookAtPose& described, Binder& binder) {
   }
   const std::size_t first = known && !joints.empty() ? *joints.front().node.in(binder.nodes()) : no_node;
   std::optional<BoundPlace> target = bound_place(described.target, {"look_at", "target"}, first, binder);
-  if (described.upright && !(described.upright->norm() > 0))
-    binder.fault({"look_at", "upright"}, "a direction has a length");
+  if (described.upright && !(described.upright->norm() > 0 && described.upright->norm() <= chains::largest))
+    binder.fault({"look_at", "upright"}, "a direction has a length, of 1e15 at most");
   if (!known) return nullptr;
   std::optional<LookAtChain> chain;
   binder.attempt({"look_at"}, [&] {

@@ -82,6 +82,8 @@ class MachineBinder {
       binder_.fault(place("ease"), "\"" + change.ease->name() +
                                        "\" looks at keys, and a fade has none; say \"linear\" "
                                        "or a shape, such as \"quad-in-out\"");
+    constexpr double longest = 1e12;  // s; who waits for more waits for ever, and powers of more would be no numbers
+    if (change.seconds > longest) return {.kind = change.kind, .seconds = longest, .ease = change.ease};
     if (change.seconds < shortest_change) return {.kind = GraphChange::Kind::fade, .seconds = 0};
     return change;
   }

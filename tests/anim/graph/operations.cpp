@@ -235,7 +235,7 @@ TEST_CASE("an operation that asks for what is not there is refused with its plac
   LookAtPose looking = look(1.);
   looking.joints.clear();
   looking.upright = Vec3(0, 0, 0);
-  CHECK(faults_of(looking).find("/poses/changed/look_at/upright: a direction has a length\n") == 0);
+  CHECK(faults_of(looking).find("/poses/changed/look_at/upright: a direction has a length, of 1e15 at most\n") == 0);
   FeetPose feet = stand(1.);
   feet.pelvis = "head";
   feet.ground.heights.pop_back();
@@ -293,4 +293,47 @@ TEST_CASE("whatever an operation is told is in the number of its graph") {
   with(on_the_spot(1.), [](RootMotionPose& pose) { pose.parts.turn = RootParts::Turn::all; });
   std::ranges::sort(numbers);
   CHECK(std::ranges::adjacent_find(numbers) == numbers.end());
+}
+
+TEST_CASE("numbers beyond all bounds are told, and what is too sharp to be seen has numbers for rates") {
+  const auto told = [](const PoseOperation& operation) {
+    const std::vector<GraphFault> faults = inspect(graph_with(operation), *figures(), *figure_clips());
+    return faults.empty() ? std::string() : faults[0].message;
+  };
+  ReachPose chain = curl(1., ChainMethod::fabrik);
+  chain.target.at[0] = 1e300;
+  CHECK(told(chain) == "a number may be up to 1e15; this one is 1e+300");
+  chain.target.at[0] = keyed_curve<double>({{.time = 0, .value = 0}, {.time = 1, .value = -1e16}});
+  CHECK(told(chain) == "a number may be up to 1e15, at any of its keys too");
+  LookAtPose looking = look(1.);
+  looking.upright = Vec3(0, 1e300, 0);
+  CHECK(told(looking) == "a direction has a length, of 1e15 at most");
+  looking = look(1.);
+  looking.eye = Vec3(0, 1e160, 0);
+  CHECK(told(looking) == "look-at chain: eye has a number beyond 1e+15");
+
+  std::vector<PoseOperation> sharp;
+  for (const double least : {5e-324, 1e-300, 1e-10}) {
+    looking = look(1.);
+    looking.limit = least;
+    sharp.emplace_back(looking);
+    looking.limit = 1.4;
+    looking.ease = least;
+    sharp.emplace_back(looking);
+    sharp.emplace_back(JigglePose{.base = "walk", .joints = {"tail 1", "tail 2", "tail 3"}, .limit = least});
+  }
+  sharp.emplace_back(MachinePose{.start = "walk",
+                                 .states = {{"walk", "walk"}, {"dance", "dance"}},
+                                 .transitions = {{.from = {"walk"},
+                                                  .to = "dance",
+                                                  .when = {{GraphCondition::Kind::time_in_state, "", 0.1}},
+                                                  .change = {GraphChange::Kind::quintic, 1e300}}}});
+  for (const PoseOperation& operation : sharp) {
+    CAPTURE(words_of(operation));
+    GraphPlayer player(figure_graph(graph_with(operation)));
+    for (const double time : {0.0, 0.1, 0.4, 1.7})
+      for (const Motion& motion : shown(player, time))
+        CHECK(std::isfinite(motion.pose.position.sum() + motion.pose.rotation.coeffs().sum() +
+                            motion.twist.linear.sum() + motion.twist.angular.sum()));
+  }
 }
