@@ -155,3 +155,25 @@ TEST_CASE("a flag flies in its wind and hangs when that has died; the rope besid
   stage.advance_to(6);
   CHECK(outer().x() < 0.4);
 }
+
+TEST_CASE("a machine in a plane: its mill turns as its motor says, its rod and weld hold, and nothing leaves it") {
+  Stage stage = actors_lecture("plane/machine");
+  for (int frame = 1; frame <= 30; ++frame) {
+    stage.advance_to(0.1 * frame);
+    CHECK((motion_of(stage, "bob").pose.position - Vec3(-0.5, 2, 0)).norm() == doctest::Approx(1).epsilon(3e-3));
+    const Quat between = motion_of(stage, "handle").pose.rotation.conjugate() * motion_of(stage, "head").pose.rotation;
+    CHECK(std::abs(between.z()) < 0.02);
+    for (const std::string name : {"sail", "bob", "handle", "head", "buoy"})
+      CHECK(motion_of(stage, name).pose.position.z() == 0);
+  }
+  CHECK(near(stage.twist(stage.node("sail")).angular, Vec3(0, 0, pi), 1e-3));
+  CHECK(stage.joint("tether").has_value());
+  CHECK(stage.joint("eye")->position[0] < 20.5 * pi / 180);
+  const Vec3 rod = stage.joint("rod")->force;
+  const std::vector<std::byte> saved = stage.save();
+  Stage loaded = actors_lecture("plane/machine");
+  loaded.load(saved);
+  CHECK(loaded.joint("rod")->force == rod);
+  for (Stage* const one : {&stage, &loaded}) one->advance_to(3.5);
+  CHECK(stage.state_hash() == loaded.state_hash());
+}

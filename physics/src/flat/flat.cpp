@@ -159,6 +159,7 @@ void Flat::take_over(const state::WorldState& world) {
   entries_.resize(std::max(entries_.size(), world.bodies.size()));
   for (std::uint32_t i = 0; i < world.bodies.size(); ++i) take_over(world.bodies[i], i);
   take_over_ignored(world);
+  take_over_joints(world);
 }
 
 void Flat::step(double dt) {
@@ -256,6 +257,8 @@ void World::Implementation::step_in_plane(double dt) {
   push_in_plane(dt);
   plane.step(dt);
   plane.hand_back(*this);
+  plane.hand_back_joints(*this, dt);
+  break_in_plane();
   for (state::Body& body : bodies) {
     if (!body.alive) continue;
     body.placed = body.led = false;

@@ -13,6 +13,7 @@
 
 namespace tweenfall::state {
 struct Body;
+struct Joint;
 struct WorldState;
 }  // namespace tweenfall::state
 namespace tweenfall::saving {
@@ -22,11 +23,13 @@ class ByteWriter;
 
 namespace tweenfall::flat {
 
-// All four pass where there is no plane, and else throw std::invalid_argument that tells what does not lie in it.
+// All of these pass where there is no plane, and else throw std::invalid_argument that tells what does not lie in it.
 void validate(const WorldSettings& settings);
 void require_body(WorldPlane plane, const BodySettings& body);
 void require_motion(WorldPlane plane, const Motion& motion);
 void refuse(WorldPlane plane, const char* what);
+/// The same of a joint, whose rotations are of unit length.
+void require_joint(WorldPlane plane, const tweenfall::JointSettings& joint);
 
 /// What the bodies of a world are in their plane.
 class Flat {
@@ -42,6 +45,9 @@ class Flat {
   void step(double dt);
   /// Tells the bodies where they are now, and the world what touches.
   void hand_back(state::WorldState& world);
+  /// The forces of the last step of joints, and how far they have turned.
+  void hand_back_joints(state::WorldState& world, double dt) const;
+  void forget_joint(std::uint32_t index);  ///< by the world's index: it is taken over anew
   /// Keyed bodies have arrived: from here on they are where the world says.
   void settle(const state::WorldState& world);
 
@@ -58,10 +64,16 @@ class Flat {
     std::uint64_t groups = 0, collides_with = 0;
     Motion told;  ///< where the world had it when the plane last heard of it
   };
+  struct Link {
+    JointId id;                    ///< in the plane; none for a free place
+    std::uint32_t generation = 0;  ///< in the world
+  };
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
   void take_over(const state::Body& body, std::uint32_t index);
   void take_over_ignored(const state::WorldState& world);
+  void take_over_joints(const state::WorldState& world);
+  [[nodiscard]] planar::JointSettings joint_in_plane(const state::WorldState& world, const state::Joint& joint) const;
   [[nodiscard]] std::uint32_t index_of(const BodyId& id) const { return owners_[id.index]; }
   void tell_contacts(state::WorldState& world) const;
 
@@ -70,6 +82,7 @@ class Flat {
   std::vector<Entry> entries_;         ///< by the world's index
   std::vector<std::uint32_t> owners_;  ///< by the plane's index
   std::vector<Pair> ignored_;          ///< by the world's indices
+  std::vector<Link> links_;            ///< joints, by the world's index
 };
 
 }  // namespace tweenfall::flat

@@ -22,6 +22,11 @@ void Flat::write(saving::ByteWriter& bytes) const {
     bytes.number(pair.first);
     bytes.number(pair.second);
   }
+  bytes.number(static_cast<std::uint64_t>(links_.size()));
+  for (const Link& link : links_) {
+    saving::walk(bytes, link.id);
+    bytes.number(link.generation);
+  }
 }
 
 void Flat::read(saving::ByteReader& bytes) {
@@ -51,11 +56,25 @@ void Flat::read(saving::ByteReader& bytes) {
     bytes.number(pair.second);
     bytes.require(i == 0 || ignored_[i - 1] < pair, "ignored pairs of the plane are not in order");
   }
+  std::vector<char> taken;
+  bytes.number(count);
+  for (std::uint64_t i = 0; i < count; ++i) {
+    Link& link = links_.emplace_back();
+    saving::walk(bytes, link.id);
+    bytes.number(link.generation);
+    bytes.require(link.id == JointId{} || world_.contains(link.id), "the plane has no such joint");
+    if (link.id == JointId{}) continue;
+    taken.resize(std::max<std::size_t>(taken.size(), link.id.index + std::size_t{1}), 0);
+    bytes.require(taken[link.id.index] == 0, "two joints are one in the plane");
+    taken[link.id.index] = 1;
+  }
 }
 
 void Flat::check(const state::WorldState& world) {
   plane_ = world.settings.plane;
-  state::require(world.joints.empty(), "a world in a plane has no joints");
+  state::require(links_.size() <= world.joints.size(), "a saved world and its plane have not the same joints");
+  for (const state::Joint& joint : world.joints)
+    if (joint.alive) require_joint(plane_, joint.settings);
   std::size_t known = 0;
   for (const Entry& entry : entries_) known += entry.id == BodyId{} ? 0 : 1;
   state::require(known == world_.bodies().size() && entries_.size() <= world.bodies.size(),

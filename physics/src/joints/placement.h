@@ -37,5 +37,7 @@ struct Placement {
 [[nodiscard]] Placement placement_of(const JointSettings& joint, const Vec3& center_a, const Quat& rotation_a,
                                      const Vec3& mass_center_a, const Vec3& center_b, const Quat& rotation_b,
                                      const Vec3& mass_center_b);
+/// Of a joint between bodies as they stand.
+[[nodiscard]] Placement placement_in(const state::Joint& joint, const std::vector<state::Body>& bodies);
 
 }  // namespace tweenfall::joints

@@ -11,18 +11,6 @@ namespace tweenfall {
 namespace joints {
 namespace {
 
-/// The joint between the bodies as they stand.
-Placement place(const state::Joint& joint, const std::vector<state::Body>& bodies) {
-  const JointSettings& settings = joint.settings;
-  const state::Body& b = bodies[settings.b.index];
-  if (settings.a == BodyId{})
-    return placement_of(settings, Vec3(0, 0, 0), Quat(1, 0, 0, 0), Vec3(0, 0, 0), b.center, b.motion.pose.rotation,
-                        b.mass().center);
-  const state::Body& a = bodies[settings.a.index];
-  return placement_of(settings, a.center, a.motion.pose.rotation, a.mass().center, b.center, b.motion.pose.rotation,
-                      b.mass().center);
-}
-
 /// How far the frames are apart in what the kind holds together, or beyond what it allows, m.
 double gap_of(const state::Joint& joint, const Placement& at) {
   const JointKind& kind = joint.settings.kind;
@@ -127,9 +115,9 @@ void World::Implementation::end_links(double dt) {
 
 JointId World::add_joint(const JointSettings& settings) {
   Implementation& world = changing();
-  flat::refuse(world.settings.plane, "joints");
   state::Joint joint;
   joint.settings = joints::checked(settings);
+  flat::require_joint(world.settings.plane, joint.settings);
   world.at(settings.b);
   if (settings.a != BodyId{}) {
     world.at(settings.a);
@@ -141,7 +129,7 @@ JointId World::add_joint(const JointSettings& settings) {
                                   " takes no joint: join to the world instead");
   if (auto* pulley = std::get_if<PulleyJoint>(&joint.settings.kind); pulley && !pulley->length) {
     pulley->length = 0;
-    pulley->length = joints::coordinates_of(joint, joints::place(joint, world.bodies)).position[0];
+    pulley->length = joints::coordinates_of(joint, joints::placement_in(joint, world.bodies)).position[0];
   }
   joint.alive = true;
   std::uint32_t index = 0;
@@ -192,16 +180,18 @@ void World::set_joint(JointId id, const JointKind& kind) {
   JointSettings settings = joint.settings;
   settings.kind = kind;
   settings = joints::checked(settings);
+  flat::require_joint(world.settings.plane, settings);
   if (auto* pulley = std::get_if<PulleyJoint>(&settings.kind); pulley && !pulley->length)
     pulley->length = std::get<PulleyJoint>(joint.settings.kind).length;
   joint.settings = settings;
+  if (world.flat.has_value()) world.flat.own().forget_joint(id.index);
   world.wake_ends(joint);
 }
 
 JointReading World::reading(JointId id) const {
   const Implementation& world = inside();
   const state::Joint& joint = world.at(id);
-  const joints::Placement at = joints::place(joint, world.bodies);
+  const joints::Placement at = joints::placement_in(joint, world.bodies);
   const joints::Coordinates coordinates = joints::coordinates_of(joint, at);
   const Twist twist_a = joint.settings.a == BodyId{} ? Twist{} : world.bodies[joint.settings.a.index].twist;
   const Twist& twist_b = world.bodies[joint.settings.b.index].twist;

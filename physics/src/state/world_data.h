@@ -105,6 +105,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void lead_on(double h, double left);  ///< what is on its way to a target, through a part of what is left
   void step_in_plane(double dt);        ///< all of a step, where there is a plane
   void push_in_plane(double dt);        ///< forces
+  void break_in_plane();                ///< joints that bore too much
   void let_sleep(double dt);
   void remember_contacts();
   void report();

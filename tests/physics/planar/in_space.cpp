@@ -156,8 +156,15 @@ TEST_CASE("what does not lie in a world's plane is refused in words") {
   CHECK_THROWS_WITH_AS(World({.plane = WorldPlane::xz}), Contains("gravity must lie in the world's plane, xz"),
                        std::invalid_argument);
   const BodyId a = world.add({}), b = world.add({});
-  CHECK_THROWS_WITH_AS(world.add_joint({.a = a, .b = b}), Contains("in a plane there are no joints"),
-                       std::invalid_argument);
+  const auto refused = [&](const JointSettings& joint, const char* words) {
+    CHECK_THROWS_WITH_AS(world.add_joint(joint), Contains(words), std::invalid_argument);
+  };
+  refused({.a = a, .b = b, .kind = SliderJoint{}}, "in a plane joints are balls, hinges, welds and distances");
+  refused({.a = a, .b = b, .kind = HingeJoint{}}, "in a plane the axis of a hinge stands upright on it");
+  refused({.a = a, .b = b, .frame_a = {.position = Vec3(0, 0, 1)}}, "in a plane the points of a joint must lie in it");
+  refused({.a = a, .b = b, .frame_b = {.rotation = Quat(0.8, 0.6, 0, 0)}, .kind = FixedJoint{}}, "must not tilt");
+  refused({.a = a, .b = b, .kind = DistanceJoint{{0, 1, 3}}}, "limits of joints do not give way");
+  refused({.a = a, .b = b, .break_torque = 5}, "no torque breaks a joint");
 }
 
 TEST_CASE("a hull in a plane is the polygon that the plane cuts out of it") {

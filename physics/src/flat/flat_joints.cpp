@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "flat/axes.h"
+#include "flat/flat.h"
+#include "flat/sections.h"
+#include "joints/kinds/kinds.h"
+#include "state/world_data.h"
+
+namespace tweenfall {
+
+namespace flat {
+namespace {
+
+constexpr double strongest = 1e30;  // what a plane takes for a motor without bounds, N m
+
+[[noreturn]] void refuse_joint(const std::string& why) {
+  throw std::invalid_argument("in a plane " + why);
+}
+
+void require_hard(const Limits& limits) {
+  if (limits.hz != 0) refuse_joint("limits of joints do not give way");
+}
+
+/// What of a kind does not lie in a plane, or is not there.
+struct InPlane {
+  const Axes& axes;
+  const tweenfall::JointSettings& settings;
+
+  void operator()(const BallJoint&) const {}
+  void operator()(const FixedJoint&) const {
+    const Quat between = settings.frame_a.rotation * settings.frame_b.rotation.conjugate();
+    if (!turns_in(axes, between.vec())) refuse_joint("a weld must not tilt its bodies");
+  }
+  void operator()(const HingeJoint& hinge) const {
+    for (const Pose* const frame : {&settings.frame_a, &settings.frame_b})
+      if (!turns_in(axes, frame->rotation * Vec3(1, 0, 0))) refuse_joint("the axis of a hinge stands upright on it");
+    if (hinge.limits) require_hard(*hinge.limits);
+    if (hinge.motor && hinge.motor->position) refuse_joint("motors of hinges have a speed, and no position");
+  }
+  void operator()(const DistanceJoint& distance) const { require_hard(distance.limits); }
+  template <class Kind>
+  void operator()(const Kind&) const {
+    refuse_joint("joints are balls, hinges, welds and distances; no others");
+  }
+};
+
+}  // namespace
+
+void require_joint(WorldPlane plane, const tweenfall::JointSettings& settings) {
+  if (plane == WorldPlane::none) return;
+  const Axes axes = Axes::of(plane);
+  for (const Pose* const frame : {&settings.frame_a, &settings.frame_b})
+    if (!lies_in(axes, frame->position)) refuse_joint("the points of a joint must lie in it");
+  if (std::isfinite(settings.break_torque)) refuse_joint("no torque breaks a joint; a \"break_force\" does");
+  std::visit(InPlane{axes, settings}, settings.kind);
+}
+
+/// A joint as it is in the plane, its bodies as they stand.
+planar::JointSettings Flat::joint_in_plane(const state::WorldState& world, const state::Joint& joint) const {
+  const Axes axes = Axes::of(plane_);
+  const tweenfall::JointSettings& its = joint.settings;
+  planar::JointSettings out;
+  double turned = 0;  // of b against a, rad
+  if (its.a != BodyId{}) {
+    out.a = entries_[its.a.index].id;
+    turned -= world_.motion(out.a).angle;
+  }
+  out.b = entries_[its.b.index].id;
+  turned += world_.motion(out.b).angle;
+  out.anchor_a = axes.flat(its.frame_a.position);
+  out.anchor_b = axes.flat(its.frame_b.position);
+  out.collide = its.collide;
+  const joints::Placement at = joints::placement_in(joint, world.bodies);
+  if (const auto* const distance = std::get_if<DistanceJoint>(&its.kind)) {
+    out.kind = planar::Distance{distance->limits.low, distance->limits.high};
+    return out;
+  }
+  planar::Hinge in_plane;
+  if (std::holds_alternative<FixedJoint>(its.kind)) {
+    // As far as b still has to turn until the frames are one.
+    const double off = axes.angle(at.axes_a * at.axes_b.conjugate());
+    in_plane.lower = in_plane.upper = turned + off;
+  }
+  if (const auto* const hinge = std::get_if<HingeJoint>(&its.kind)) {
+    const double sign = axes.sign * std::copysign(1.0, at.x_a()[axes.normal]);
+    const double here = joints::coordinates_of(*hinge, joint, at).position[0];
+    const auto angle = [&](double value) { return turned + sign * (value - here); };
+    if (hinge->limits) {
+      in_plane.lower = angle(sign > 0 ? hinge->limits->low : hinge->limits->high);
+      in_plane.upper = angle(sign > 0 ? hinge->limits->high : hinge->limits->low);
+    }
+    if (hinge->motor) {
+      in_plane.motor_speed = sign * hinge->motor->speed;
+      in_plane.motor_torque = std::min(hinge->motor->max_force, strongest);
+    }
+  }
+  out.kind = in_plane;
+  return out;
+}
+
+void Flat::take_over_joints(const state::WorldState& world) {
+  links_.resize(std::max(links_.size(), world.joints.size()));
+  for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
+    const state::Joint& joint = world.joints[i];
+    Link& link = links_[i];
+    if (link.id != JointId{} && (!joint.alive || link.generation != joint.generation)) forget_joint(i);
+    if (joint.alive && link.id == JointId{}) link = {world_.add_joint(joint_in_plane(world, joint)), joint.generation};
+  }
+}
+
+void Flat::forget_joint(std::uint32_t index) {
+  if (index >= links_.size()) return;
+  if (world_.contains(links_[index].id)) world_.remove_joint(links_[index].id);
+  links_[index] = {};
+}
+
+void Flat::hand_back_joints(state::WorldState& world, double dt) const {
+  const Axes axes = Axes::of(plane_);
+  for (std::uint32_t i = 0; i < world.joints.size() && i < links_.size(); ++i) {
+    state::Joint& joint = world.joints[i];
+    if (!joint.alive || !world_.contains(links_[i].id)) continue;
+    joint.force = axes.space(world_.reading(links_[i].id).impulse) / dt;
+    if (const auto* const hinge = std::get_if<HingeJoint>(&joint.settings.kind))
+      joint.angles[0] = joints::coordinates_of(*hinge, joint, joints::placement_in(joint, world.bodies)).position[0];
+  }
+}
+
+}  // namespace flat
+
+void World::Implementation::break_in_plane() {
+  broken.clear();
+  for (std::uint32_t i = 0; i < joints.size(); ++i)
+    if (joints[i].alive && joints[i].force.norm() > joints[i].settings.break_force)
+      broken.push_back({i, joints[i].generation});
+  for (const JointId& id : broken) remove_joint(id.index);
+}
+
+}  // namespace tweenfall
