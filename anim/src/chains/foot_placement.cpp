@@ -51,7 +51,8 @@ Dual lowest_of(std::span<const Step> steps, double evenness) noexcept {
   Dual lowest = steps.front().rise;
   for (const Step& step : steps)
     if (step.rise.v < lowest.v) lowest = step.rise;
-  if (!(evenness > 0)) return lowest;
+  constexpr double least = 1e-9;  // m; of less nothing is seen, and nothing could be as fast
+  if (!(evenness > least)) return lowest;
   // The mean of exp(-rise / evenness), taken from the lowest on so that nothing overflows.
   Dual mean;
   for (const Step& step : steps) mean = mean + exponential((lowest - step.rise) / Dual(evenness));

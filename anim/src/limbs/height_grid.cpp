@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chains/problems.h"
+
 namespace tweenfall {
 
 namespace limbs {
@@ -58,11 +60,13 @@ std::vector<std::string> HeightGrid::problems() const {
   std::vector<std::string> problems;
   if (columns < 2 || heights.size() < 2 * columns || heights.size() % std::max<std::size_t>(columns, 1) != 0)
     problems.emplace_back("a ground has two heights along x at least, and two whole rows of them");
-  if (!(spacing_x > 0 && spacing_z > 0) || !std::isfinite(spacing_x) || !std::isfinite(spacing_z))
-    problems.emplace_back("the heights of a ground are more than 0 m apart");
-  bool finite = std::isfinite(middle.x()) && std::isfinite(middle.y()) && std::isfinite(middle.z());
-  for (const double height : heights) finite = finite && std::isfinite(height);
-  if (!finite) problems.emplace_back("the heights of a ground and its middle are finite");
+  const auto can_be_between = [](double spacing) { return spacing >= 1e-9 && spacing <= chains::largest; };
+  if (!can_be_between(spacing_x) || !can_be_between(spacing_z))
+    problems.emplace_back("the heights of a ground are from 1e-9 to 1e15 m apart");
+  const auto is_place = [](double number) { return std::abs(number) <= chains::largest; };
+  if (!is_place(middle.x()) || !is_place(middle.y()) || !is_place(middle.z()) ||
+      !std::ranges::all_of(heights, is_place))
+    problems.emplace_back("the heights of a ground and its middle are numbers up to 1e15");
   return problems;
 }
 

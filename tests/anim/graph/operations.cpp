@@ -312,6 +312,11 @@ TEST_CASE("numbers beyond all bounds are told, and what is too sharp to be seen 
   looking.eye = Vec3(0, 1e160, 0);
   CHECK(told(looking) == "look-at chain: eye has a number beyond 1e+15");
 
+  FeetPose standing = stand(1.);
+  standing.ground.spacing_x = 5e-324;
+  standing.ground.heights[3] = 1e300;
+  CHECK(told(standing).find("the heights of a ground are from 1e-9 to 1e15 m apart") == 0);
+
   std::vector<PoseOperation> sharp;
   for (const double least : {5e-324, 1e-300, 1e-10}) {
     looking = look(1.);
@@ -320,6 +325,12 @@ TEST_CASE("numbers beyond all bounds are told, and what is too sharp to be seen 
     looking.limit = 1.4;
     looking.ease = least;
     sharp.emplace_back(looking);
+    FeetPose feet = stand(1.);
+    feet.evenness = feet.softness = least;
+    sharp.emplace_back(feet);
+    TwoBonePose bones = grip(1.);
+    bones.softness = least;
+    sharp.emplace_back(bones);
     sharp.emplace_back(JigglePose{.base = "walk", .joints = {"tail 1", "tail 2", "tail 3"}, .limit = least});
   }
   sharp.emplace_back(MachinePose{.start = "walk",

@@ -8,6 +8,9 @@
 /// At one instant all parameters that are set hold first; then the events of the instant are told, those of clips
 /// before those that were sent, each in order, and each may lead a machine through one transition. An event that leads
 /// nowhere is lost. What the description has the graph do on events of clips is done before either.
+///
+/// All that came in and was passed is kept, so that it can go back; a transition that settles keeps 144 bytes for each
+/// node besides. A machine of 67 nodes that settles once a second takes 35 MB an hour.
 
 #include <tweenfall/anim/graph.h>
 #include <tweenfall/anim/node_look.h>
@@ -118,7 +121,8 @@ class GraphPlayer {
   [[nodiscard]] std::optional<double> first_event(std::string_view name, double from, double to);
 
   /// The first time in (from, to] at which something came in, a machine passed to another state, or what shows jumps: a
-  /// clip where its loop begins anew or its tracks jump, a number where its keys do.
+  /// clip where its loop begins anew or its tracks jump, a number where its keys do. Not where a way that accumulates
+  /// takes the pose over the seam of a loop.
   [[nodiscard]] std::optional<double> first_instant(double from, double to);
 
   // Looking inside. Machines are counted as they stand among the graph's poses, from 0.

@@ -7,7 +7,8 @@
 /// state that shows them, and follow from the log alone: the same bits whatever the frames. At every instant at which
 /// something comes in or a machine passes to another state their clock starts anew, their place and velocity in the
 /// world going on; between instants they see nothing of what is to come. Where a graph lies over another, only its own
-/// instants are known to it.
+/// instants are known to it, for what it shows follows from its own log, which is saved and played back by itself: what
+/// jumps in the other is a quick movement to these springs.
 
 #include <tweenfall/anim/graph_number.h>
 #include <tweenfall/anim/spring.h>
