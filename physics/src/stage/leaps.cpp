@@ -22,7 +22,7 @@ std::shared_ptr<const std::vector<double>> leaps_of(const StageDescription& desc
   for (const VehicleDescription& vehicle : description.vehicles)
     for (const Strength* const script : {&vehicle.throttle, &vehicle.brake, &vehicle.steer}) add_leaps(*script, leaps);
   std::ranges::sort(leaps);
-  leaps.erase(std::ranges::unique(leaps).begin(), leaps.end());
+  leaps.erase(std::unique(leaps.begin(), leaps.end()), leaps.end());
   return std::make_shared<const std::vector<double>>(std::move(leaps));
 }
 

@@ -11,10 +11,10 @@ using namespace tweenfall::test;
 
 namespace {
 
-constexpr double per_step = 1.0 / 240, forever = std::numeric_limits<double>::infinity();
+constexpr double per_step = 1.0 / 240, no_sleep = std::numeric_limits<double>::infinity();
 
 World weightless(WorldPlane plane = WorldPlane::xy) {
-  return World({.gravity = {0, 0, 0}, .sleep_after = forever, .plane = plane});
+  return World({.gravity = {0, 0, 0}, .sleep_after = no_sleep, .plane = plane});
 }
 
 BodyId ball_at(World& world, const Vec3& place, const Vec3& velocity = Vec3(0, 0, 0), double mass = 2) {
@@ -75,7 +75,7 @@ TEST_CASE("in a plane a moon circles an attractor, and a box floats by its densi
   sky.add_force(Attractor{.acceleration = 4});  // v^2 = a / r
   run_plane(sky, pi);
   CHECK(near(sky.motion(moon).pose.position.norm(), 1, 2e-3));
-  World sea({.sleep_after = forever, .plane = WorldPlane::xy});
+  World sea({.sleep_after = no_sleep, .plane = WorldPlane::xy});
   BodySettings raft{.shape = {Box{Vec3(0.5, 0.2, 0.5)}}, .density = 400.0};
   const BodyId floating = sea.add(raft);
   sea.add_force(Buoyancy{.drag = {.linear = 2000, .angular = 200}});

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double tick = 1.0 / 240, g_there = 9.81;
 /// Along z, as the x axis of a hinge.
-const Quat upright(std::sqrt(0.5), 0, -std::sqrt(0.5), 0);
+const Quat out_of_plane(std::sqrt(0.5), 0, -std::sqrt(0.5), 0);
 
 World upright_plane(WorldPlane plane = WorldPlane::xy) {
   const Vec3 down = plane == WorldPlane::xy ? Vec3(0, -g_there, 0) : Vec3(0, 0, -g_there);
@@ -85,7 +85,7 @@ TEST_CASE("in a plane a bob on a ball joint is a physical pendulum, and on a rod
 
 TEST_CASE("in a plane a hinge's limits stop it, its motor reaches its speed, and its angle counts whole turns") {
   for (const double sign : {1.0, -1.0}) {
-    const Quat axis = sign > 0 ? upright : Quat(std::sqrt(0.5), 0, std::sqrt(0.5), 0);
+    const Quat axis = sign > 0 ? out_of_plane : Quat(std::sqrt(0.5), 0, std::sqrt(0.5), 0);
     REQUIRE(near(axis * Vec3(1, 0, 0), Vec3(0, 0, sign), 1e-12));
     World world(
         {.gravity = {0, 0, 0}, .sleep_after = std::numeric_limits<double>::infinity(), .plane = WorldPlane::xy});
@@ -181,8 +181,8 @@ TEST_CASE("saved planes with joints whose bytes were changed are refused or go o
   world.add_joint({.b = first, .frame_b = {.position = Vec3(-0.5, 0, 0)}});
   world.add_joint({.a = first,
                    .b = second,
-                   .frame_a = {.rotation = upright},
-                   .frame_b = {.position = Vec3(-0.5, 0, 0), .rotation = upright},
+                   .frame_a = {.rotation = out_of_plane},
+                   .frame_b = {.position = Vec3(-0.5, 0, 0), .rotation = out_of_plane},
                    .kind = HingeJoint{Limits{-1, 1}}});
   world.add_force(Drag{.linear = 0.1});
   swing_on(world, 0.1);

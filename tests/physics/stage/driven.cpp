@@ -31,7 +31,7 @@ StageDescription parked_car() {
 }
 
 /// From step to step what an agent sees decides what it does.
-void drive_on(Stage& stage, double until) {
+void drive_about(Stage& stage, double until) {
   while (stage.time() < until) {
     const double ahead = stage.world(1).motion.pose.position.x();
     if (ahead < 4)
@@ -63,7 +63,7 @@ TEST_CASE("a car that is driven from outside goes as its engine drives it, and s
 
 TEST_CASE("what drove a car, given again, leads to the same bits; so do going back, copies and what was saved") {
   Stage played(parked_car());
-  drive_on(played, 2.5);
+  drive_about(played, 2.5);
   const std::vector<TimedInput> inputs = played.inputs();
   CHECK(inputs.size() > 50);
   CHECK(std::get<input::Control>(inputs[3].what).vehicle == "car");

@@ -9,7 +9,7 @@ using namespace tweenfall::test;
 namespace {
 
 /// A rope on a hand that moves and opens, above a sheet that tears under a ball, in a wind that leaps.
-StageDescription hung(SoftSolver solver) {
+StageDescription softly_hung(SoftSolver solver) {
   StageDescription stage;
   stage.nodes.push_back({.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}});
   stage.nodes.push_back({.name = "hand", .rest = {.position = Vec3(0, 2, 0)}});
@@ -52,7 +52,7 @@ bool same(const SoftNodes& a, const SoftNodes& b) {
 TEST_CASE("soft bodies on a stage go back and on, saved too, to the same bits, whoever holds, blows or tears them") {
   for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {
     CAPTURE(static_cast<int>(solver));
-    const StageDescription described = hung(solver);
+    const StageDescription described = softly_hung(solver);
     Stage stage(described);
     stage.advance_to(0.5117);
     const SoftNodes line = stage.soft("line"), sheet = stage.soft("sheet");
@@ -91,7 +91,7 @@ TEST_CASE("soft bodies on a stage go back and on, saved too, to the same bits, w
 }
 
 TEST_CASE("each edge that tears is an event with its time, its place and its soft body's name, in order") {
-  Stage stage(hung(SoftSolver::positions));
+  Stage stage(softly_hung(SoftSolver::positions));
   std::vector<StageEvent> told;
   stage.on_event([&](const StageEvent& event) {
     if (event.name == "torn") told.push_back(event);

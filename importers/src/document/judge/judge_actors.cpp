@@ -1,4 +1,5 @@
 #include <tweenfall/curves/calculus.h>
+#include <tweenfall/curves/number_text.h>
 
 #include "document/fields/things.h"
 #include "document/judge/judge.h"
