@@ -30,7 +30,7 @@ constexpr double soon = 1e-6;
 /// In shorter steps than this what trembles is no faster than in such a one, s.
 constexpr double unhurried = 1e-3;
 /// Cuts of a step; what still meets then is solved with the rest. Dull blows die away sooner.
-constexpr int most_cuts = 64, most_cuts_of_dull = 12;
+constexpr int most_cuts = 64, most_cuts_of_dull = 6;
 /// Without getting on: what is wedged would bounce to and fro for ever.
 constexpr int most_strikes = 4;
 constexpr double never = std::numeric_limits<double>::infinity();
