@@ -97,8 +97,9 @@ FootPlacement::FootPlacement(const Hierarchy& nodes, const FootPlacementSettings
           foot.ankle_height = told.ankle_height.value_or(std::max(0.0, world.motion.pose.position.dot(up_)));
           problems.require_in(foot.ankle_height, -chains::largest, chains::largest, "ankle_height of " + name);
           if (pelvis_ != no_node)
-            problems.require(chains::is_below(nodes, foot.leg.start(), pelvis_),
-                             name + ": its leg must be below the pelvis (" + settings.pelvis.text() + ")");
+            problems.require(
+                chains::is_below(nodes, foot.leg.start(), pelvis_),
+                name + ": its leg must be below the pelvis (" + chains::called(nodes, settings.pelvis) + ")");
           for (const Foot& other : feet_)
             problems.require(!chains::is_below(nodes, foot.leg.end(), other.leg.start()) &&
                                  !chains::is_below(nodes, other.leg.end(), foot.leg.start()),

@@ -20,7 +20,7 @@ JointChain::JointChain(const Hierarchy& nodes, const JointChainSettings& setting
   for (const ChainLink& link : settings.links) told.push_back(link.node);
   const std::vector<std::size_t> found = problems.chain(nodes, told);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::string name = "joint " + std::to_string(i + 1) + " (" + told[i].text() + ")";
+    const std::string name = "joint " + std::to_string(i + 1) + " (" + chains::called(nodes, told[i]) + ")";
     const JointLimit& limit = settings.links[i].limit;
     if (const auto* hinge = std::get_if<HingeLimit>(&limit)) {
       problems.require_finite(hinge->axis, "axis of " + name);
@@ -54,7 +54,7 @@ JointChain::JointChain(const Hierarchy& nodes, const JointChainSettings& setting
     if (joint.has_bone) joint.bone = bone / length;
     if (auto* hinge = std::get_if<HingeLimit>(&joint.limit)) hinge->axis = hinge->axis / hinge->axis.norm();
     problems.require(joint.has_bone || !std::holds_alternative<ConeLimit>(joint.limit),
-                     "joint " + std::to_string(i + 1) + " (" + told[i].text() +
+                     "joint " + std::to_string(i + 1) + " (" + chains::called(nodes, told[i]) +
                          ") has a cone and, at rest, no bone that could swing in it");
     limited_ = limited_ || !std::holds_alternative<std::monostate>(joint.limit);
   }

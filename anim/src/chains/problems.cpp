@@ -48,8 +48,9 @@ std::vector<std::size_t> Problems::chain(const Hierarchy& nodes, std::span<const
     const std::string name = "joint " + std::to_string(i + 1);
     const std::size_t index = node(nodes, told[i], name);
     if (i > 0 && index != no_node && result.back() != no_node)
-      require(is_below(nodes, index, result.back()),
-              name + " (" + told[i].text() + ") must be below the joint before it (" + told[i - 1].text() + ")");
+      require(is_below(nodes, index, result.back()), name + " (" + called(nodes, told[i]) +
+                                                         ") must be below the joint before it (" +
+                                                         called(nodes, told[i - 1]) + ")");
     result.push_back(index);
   }
   return result;
@@ -75,6 +76,11 @@ void Problems::require_in(double number, double low, double high, const std::str
 
 void Problems::report() const {
   if (!none()) throw std::invalid_argument(text_);
+}
+
+std::string called(const Hierarchy& nodes, const NodeRef& told) {
+  const auto found = told.in(nodes);
+  return found && !nodes[*found].name.empty() ? '"' + nodes[*found].name + '"' : told.text();
 }
 
 bool is_below(const Hierarchy& nodes, std::size_t node, std::size_t above) {

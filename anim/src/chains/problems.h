@@ -47,6 +47,9 @@ class Problems {
   std::string what_, text_;
 };
 
+/// How people know a node: by its name, where it has one.
+[[nodiscard]] std::string called(const Hierarchy& nodes, const NodeRef& told);
+
 /// What lengths and places are at most: squares of more, and what is made of them, would be no numbers.
 inline constexpr double largest = 1e15;
 

@@ -136,11 +136,13 @@ TwoBoneChain::TwoBoneChain(const Hierarchy& nodes, const TwoBoneSettings& settin
   middle_ = problems.node(nodes, settings.middle, "middle");
   end_ = problems.node(nodes, settings.end, "end");
   if (start_ != no_node && middle_ != no_node)
-    problems.require(chains::is_below(nodes, middle_, start_),
-                     "middle (" + settings.middle.text() + ") must be below start (" + settings.start.text() + ")");
+    problems.require(chains::is_below(nodes, middle_, start_), "middle (" + chains::called(nodes, settings.middle) +
+                                                                   ") must be below start (" +
+                                                                   chains::called(nodes, settings.start) + ")");
   if (middle_ != no_node && end_ != no_node)
-    problems.require(chains::is_below(nodes, end_, middle_),
-                     "end (" + settings.end.text() + ") must be below middle (" + settings.middle.text() + ")");
+    problems.require(chains::is_below(nodes, end_, middle_), "end (" + chains::called(nodes, settings.end) +
+                                                                 ") must be below middle (" +
+                                                                 chains::called(nodes, settings.middle) + ")");
   if (settings.axis) problems.require_finite(*settings.axis, "axis");
   problems.report();
 

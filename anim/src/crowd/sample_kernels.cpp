@@ -159,7 +159,12 @@ TWEENFALL_CROWD_LANES void each_channel(const CompiledClip& clip, const Run& run
     if (run.form.cubic) {
       spread<base, fine>(place.tangent, lanes.tangent);
       if constexpr (rates) spread<base, fine>(place.tangent_rate, lanes.tangent_rate);
+    } else {  // not read, which g++ does not see
+      lanes.tangent = LaneWeights();
+      if constexpr (rates) lanes.tangent_rate = LaneWeights();
     }
+  } else {
+    lanes = LanePlace();
   }
   const Channel* const end = clip.channels.data() + run.first + run.count;
   for (const Channel* channel = end - run.count; channel != end; ++channel) {

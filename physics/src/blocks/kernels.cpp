@@ -533,14 +533,10 @@ constexpr Kernels avx512 = {warm_start_avx512, solve_avx512, hold_avx512, find_m
 std::span<const Kernels* const> possible_kernels() {
 #if defined(__x86_64__) || defined(__i386__)
   static constexpr std::array all = {&plain, &avx2, &avx512};
-  static const std::size_t count = !__builtin_cpu_supports("avx2")                                            ? 1
-                                   : __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") ? 3
-                                                                                                              : 2;
-  return std::span(all).first(count);
 #else
   static constexpr std::array all = {&plain};
-  return all;
 #endif
+  return std::span(all).first(possible_versions());
 }
 
 const Kernels& fastest_kernels() {

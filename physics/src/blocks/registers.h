@@ -16,6 +16,16 @@ namespace tweenfall::blocks {
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
 
+/// How many of the versions of kernels this processor runs, that stand in the order plain, AVX2, AVX-512.
+[[nodiscard]] inline std::size_t possible_versions() noexcept {
+#if defined(__x86_64__) || defined(__i386__)
+  if (!__builtin_cpu_supports("avx2")) return 1;
+  return __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") ? 3 : 2;
+#else
+  return 1;
+#endif
+}
+
 /// What one register holds of lanes, and of masks.
 using Two = double __attribute__((vector_size(16)));
 using Four = double __attribute__((vector_size(32)));

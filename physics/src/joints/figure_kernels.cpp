@@ -307,11 +307,10 @@ TWEENFALL_FIGURE_KERNELS(avx512_figures, Eight, [[gnu::target("avx512f,avx512vl,
 std::span<const FigureKernels* const> possible_figure_kernels() {
 #if defined(__x86_64__) || defined(__i386__)
   static constexpr std::array all = {&plain_figures, &avx2_figures, &avx512_figures};
-  return std::span(all).first(blocks::possible_kernels().size());
 #else
   static constexpr std::array all = {&plain_figures};
-  return all;
 #endif
+  return std::span(all).first(blocks::possible_versions());
 }
 
 const FigureKernels& fastest_figure_kernels() {

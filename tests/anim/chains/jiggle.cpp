@@ -234,7 +234,7 @@ TEST_CASE("what is wrong with a jiggle chain is told all at once") {
   CHECK_THROWS_WITH_AS(JiggleChain(nodes, {.joints = {1}}),
                        "jiggle chain: it has 1 joint; it needs two, or one and a tip", std::invalid_argument);
   CHECK_THROWS_WITH_AS(JiggleChain(nodes, {.joints = {2, 1, "tail"}, .spring = {.damping = -1}, .limit = 4}),
-                       "jiggle chain: joint 2 (number 1) must be below the joint before it (number 2)\n"
+                       "jiggle chain: joint 2 (\"1\") must be below the joint before it (\"2\")\n"
                        "jiggle chain: joint 3 is \"tail\", and there is no such node\n"
                        "jiggle chain: each joint's spring: damping is -1; it must be from 0 to 100\n"
                        "jiggle chain: limit is 4; it must be from 0 to 3.141592653589793",

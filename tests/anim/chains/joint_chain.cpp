@@ -286,11 +286,11 @@ TEST_CASE("a chain of one joint is refused, and what else is wrong is told all a
       JointChain(nodes, {.links = {{2, HingeLimit{{0, 0, 0}, 1, 0}}, {1, ConeLimit{4, 0, 9}}, {"3", ConeLimit{}}},
                          .sweeps = -1}),
       "joint chain: sweeps is -1; it must be from 0 to 1000\n"
-      "joint chain: joint 2 (number 1) must be below the joint before it (number 2)\n"
-      "joint chain: axis of joint 1 (number 2) is zero\n"
-      "joint chain: high of joint 1 (number 2) is 0; it must be from 1 to 3.141592653589793\n"
-      "joint chain: swing of joint 2 (number 1) is 4; it must be from 0 to 3.1\n"
-      "joint chain: twist_high of joint 2 (number 1) is 9; it must be from 0 to 3.141592653589793\n"
+      "joint chain: joint 2 (\"1\") must be below the joint before it (\"2\")\n"
+      "joint chain: axis of joint 1 (\"2\") is zero\n"
+      "joint chain: high of joint 1 (\"2\") is 0; it must be from 1 to 3.141592653589793\n"
+      "joint chain: swing of joint 2 (\"1\") is 4; it must be from 0 to 3.1\n"
+      "joint chain: twist_high of joint 2 (\"1\") is 9; it must be from 0 to 3.141592653589793\n"
       "joint chain: joint 3 (\"3\") is the end, which does not turn; it takes no limit",
       std::invalid_argument);
 }

@@ -58,7 +58,8 @@ const Form* joints_form(const Table<Joint>& table, const char* what, FormStore& 
   Form full = table.listing_form(store, values);
   full.on_one_line = true;
   const std::string either = "a node's name, or " + full.what;
-  return store.add(list_of(store.add(choice_of(either, {values.name, store.add(std::move(full))})), what));
+  // How many it takes, the chain says itself.
+  return store.add(list_of(store.add(choice_of(either, {values.name, store.add(std::move(full))})), what, 0));
 }
 
 template <class Joint>

@@ -148,14 +148,10 @@ TWEENFALL_PLANE_KERNELS(avx512, Eight, [[gnu::target("avx512f,avx512vl,avx512dq"
 std::span<const Kernels* const> possible_kernels() {
 #if defined(__x86_64__) || defined(__i386__)
   static constexpr std::array all = {&plain, &avx2, &avx512};
-  static const std::size_t count = !__builtin_cpu_supports("avx2")                                            ? 1
-                                   : __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") ? 3
-                                                                                                              : 2;
-  return std::span(all).first(count);
 #else
   static constexpr std::array all = {&plain};
-  return all;
 #endif
+  return std::span(all).first(blocks::possible_versions());
 }
 
 const Kernels& kernels() {
