@@ -61,7 +61,7 @@ function(tweenfall_precompile target owner)
   set(eigen_inlined ${PROJECT_SOURCE_DIR}/.cmake/eigen_inlined.h)
   if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
     target_compile_options(${target} PRIVATE -include ${eigen_inlined})
-  elseif(target STREQUAL owner)
+  elseif(target STREQUAL owner OR NOT TARGET ${owner})
     target_precompile_headers(${target} PRIVATE
       ${eigen_inlined} <Eigen/Geometry> <algorithm> <functional> <memory> <span> <string> <vector>)
   else()

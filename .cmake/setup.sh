@@ -66,6 +66,14 @@ build() {
   } 8> "$folder/build.lock"
 }
 
+# build_readers TARGET...: what reads input that others wrote, watched by sanitizers; all else is the release build's.
+build_readers() {
+  build release
+  cmake --install "$cache_folder/release" --prefix "$cache_folder/installed" > "$cache_folder/installed.log" ||
+    { cat "$cache_folder/installed.log" >&2; fail "could not install the release build"; }
+  build readers "$@"
+}
+
 # What ninja says, less what nobody needs: progress on a terminal, else only that it builds and what compilers say.
 show_build() {
   local line told=
