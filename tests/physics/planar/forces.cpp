@@ -13,7 +13,7 @@ namespace {
 
 constexpr double per_step = 1.0 / 240, no_sleep = std::numeric_limits<double>::infinity();
 
-World weightless(WorldPlane plane = WorldPlane::xy) {
+World weightless_world(WorldPlane plane = WorldPlane::xy) {
   return World({.gravity = {0, 0, 0}, .sleep_after = no_sleep, .plane = plane});
 }
 
@@ -31,7 +31,7 @@ void run_plane(World& world, double seconds) {
 }  // namespace
 
 TEST_CASE("in a plane drag, a wind and a push do what they do in space, by closed forms") {
-  World world = weightless();
+  World world = weightless_world();
   const BodyId slow = ball_at(world, Vec3(0, 0, 0), Vec3(3, 1, 0)), blown = ball_at(world, Vec3(0, 3, 0)),
                pushed = ball_at(world, Vec3(0, 6, 0));
   world.add_force(Drag{.linear = 1.5}, {.bodies = {slow}});
@@ -49,7 +49,7 @@ TEST_CASE("in a plane drag, a wind and a push do what they do in space, by close
 
 TEST_CASE("in a plane a mass on a spring swings as a cosine, two draw each other, and a stiff spring never grows") {
   for (const WorldPlane plane : {WorldPlane::xy, WorldPlane::xz, WorldPlane::yz}) {
-    World world = weightless(plane);
+    World world = weightless_world(plane);
     const Vec3 along = plane == WorldPlane::yz ? Vec3::UnitY() : Vec3::UnitX();
     const BodyId one = ball_at(world, 1.5 * along);
     world.add_force(Spring{.a = one, .rest_length = 1, .stiffness = 50});
@@ -57,7 +57,7 @@ TEST_CASE("in a plane a mass on a spring swings as a cosine, two draw each other
     CHECK(near(world.motion(one).pose.position.dot(along), 1 + 0.5 * std::cos(5.0), 5e-3));
     CHECK(world.motion(one).pose.position.cross(along).norm() == 0);
   }
-  World world = weightless();
+  World world = weightless_world();
   const BodyId left = ball_at(world, Vec3(-1, 0, 0)), right = ball_at(world, Vec3(1, 0, 0), Vec3(0, 0, 0), 6);
   world.add_force(Spring{.a = left, .b = right, .rest_length = 1.5, .stiffness = 1e7});
   const double before = world.kinetic_energy();
@@ -70,7 +70,7 @@ TEST_CASE("in a plane a mass on a spring swings as a cosine, two draw each other
 }
 
 TEST_CASE("in a plane a moon circles an attractor, and a box floats by its density") {
-  World sky = weightless();
+  World sky = weightless_world();
   const BodyId moon = ball_at(sky, Vec3(1, 0, 0), Vec3(0, 2, 0));
   sky.add_force(Attractor{.acceleration = 4});  // v^2 = a / r
   run_plane(sky, pi);
@@ -101,7 +101,7 @@ TEST_CASE("in a plane what forces move is the same after saving, and a strength 
   CHECK(world.state_hash() == loaded.state_hash());
   CHECK(world.motion(ball).pose.position == loaded.motion(ball).pose.position);
   // Absurd numbers are told, and end nothing but the step.
-  World absurd = weightless();
+  World absurd = weightless_world();
   const BodyId thrown = ball_at(absurd, Vec3(0, 0, 0));
   absurd.add_force(Push{.body = thrown, .force = Vec3(1e30, 0, 0)});
   CHECK_THROWS_AS(for (int n = 0; n < 5000; ++n) absurd.step(1e3), NotFinite);
