@@ -50,7 +50,8 @@ std::unique_ptr<Operation> bound(const LookAtPose& described, Binder& binder) {
   std::optional<BoundPlace> target = bound_place(described.target, {"look_at", "target"}, first, binder);
   if (described.upright && !(described.upright->norm() > 0 && described.upright->norm() <= chains::largest))
     binder.fault({"look_at", "upright"}, "a direction has a length, of 1e15 at most");
-  if (!known) return nullptr;
+  if (joints.empty()) binder.fault({"look_at", "joints"}, "there is none; at least one joint looks");
+  if (!known || joints.empty()) return nullptr;
   std::optional<LookAtChain> chain;
   binder.attempt({"look_at"}, [&] {
     chain.emplace(binder.nodes(), LookAtSettings{joints, described.forward, described.up, described.eye,
