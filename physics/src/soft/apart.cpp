@@ -61,7 +61,8 @@ class NodeGrid {
     const Cell own = cell_of(node);
     // Of two cells that touch, the nodes of one look into the other.
     for (int place = 13; place < 27; ++place) {
-      const std::uint64_t key = key_of({own[0] + place / 9 - 1, own[1] + place / 3 % 3 - 1, own[2] + place % 3 - 1});
+      const int x = place / 9 - 1, y = place / 3 % 3 - 1, z = place % 3 - 1;
+      const std::uint64_t key = key_of({own[0] + x, own[1] + y, own[2] + z});
       const Entry first{key, place == 13 ? node + 1 : 0};
       for (auto it = std::lower_bound(entries_.begin(), entries_.end(), first);
            it != entries_.end() && it->first == key; ++it)

@@ -163,6 +163,7 @@ class Reader {
     control_table().read(value, controlled, building_);
     const std::vector<VehicleDescription>& vehicles = building_.stage.vehicles;
     std::vector<std::string> names;
+    names.reserve(vehicles.size());
     for (const VehicleDescription& vehicle : vehicles) names.push_back(vehicle.name);
     if (controlled.place) {
       if (std::find(names.begin(), names.end(), controlled.input.vehicle) == names.end())
