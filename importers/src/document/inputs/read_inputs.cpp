@@ -176,8 +176,8 @@ class Reader {
     } else {
       building_.problems.add(value, "the stage has several vehicles, " + listed(names) + "; say which \"vehicle\"");
     }
-    const VehicleControl& told = controlled.input.control;
-    if (building_.problems.size() == problems_before_ && !told.throttle && !told.brake && !told.steer)
+    // What says something wrong is told where it stands.
+    if (value.members().size() == (controlled.place ? 1U : 0U))
       building_.problems.add(value, "a control says a \"throttle\", a \"brake\" or a \"steer\"");
     inputs.push_back({time_, controlled.input});
   }
