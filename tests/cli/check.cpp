@@ -99,6 +99,26 @@ TEST_CASE("notes have places, are printed by every verb, and leave a document va
   CHECK(found["files"][0]["problems"][0]["line"] == 2);
 }
 
+TEST_CASE("notes are told beside errors too, after them, and are not counted with them") {
+  const Folder folder;
+  folder.write("both.json",
+               "{\"tweenfall\": 1, \"nodes\": {\"ball\": {}}, \"clips\": {\"c\": {\"tracks\": {\n"
+               "  \"ball.translation\": [[0, 1], [1, 2]], \"ball.position\": [[1, [0, 0, 0]], [0, [0, 1, 0]]]}}}}\n");
+  const Ran ran = folder.run("check both.json");
+  CHECK(ran.code == 1);
+  const std::size_t error = ran.err.find("both.json:2:76: error: "), note = ran.err.find("both.json:2:3: note: ");
+  CHECK(error != std::string::npos);
+  CHECK(note != std::string::npos);
+  CHECK(error < note);
+  CHECK(ran.err.ends_with("\n1 problem\n"));
+  CHECK(folder.run("run both.json").err == ran.err);
+  const json found = json::parse(folder.run("check --json both.json").out);
+  CHECK(found["problems"] == 1);
+  REQUIRE(found["files"][0]["problems"].size() == 2);
+  CHECK(found["files"][0]["problems"][0]["severity"] == "error");
+  CHECK(found["files"][0]["problems"][1]["severity"] == "note");
+}
+
 TEST_CASE("check --json gives the line and column of a fault in a model that is text") {
   const Folder folder;
   folder.write("bad.gltf", "{\"asset\": {\"version\": \"2.0\"},\n  \"nodes\": [{\"mesh\": 4}]}");

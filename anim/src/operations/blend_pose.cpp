@@ -83,8 +83,7 @@ void tell(const BlendPose& pose, Account& account) {
 
 std::unique_ptr<Operation> bound(const BlendPose& described, Binder& binder) {
   std::vector<Blended::Part> parts;
-  double sum = 0;
-  bool constant = true, whole = true;
+  bool nothing = true, whole = true;
   for (std::size_t i = 0; i < described.parts.size(); ++i) {
     const Place place = {"blend", std::to_string(i)};
     const Operation* pose = binder.pose(described.parts[i].pose, place);
@@ -93,13 +92,12 @@ std::unique_ptr<Operation> bound(const BlendPose& described, Binder& binder) {
     const std::optional<double> said = weight.constant();
     if (said && !(*said >= 0 && std::isfinite(*said)))
       binder.fault(place, "a weight is 0 or more; it is " + number_text(*said));
-    constant = constant && said;
-    sum += said.value_or(0);
+    nothing = nothing && (said ? *said == 0 : weight.is_nothing_throughout());
     parts.push_back({pose, std::move(weight)});
   }
   if (parts.empty())
     binder.fault({"blend"}, "a blend has poses; this one has none");
-  else if (constant && sum == 0)
+  else if (nothing)
     binder.fault({"blend"}, "these weights sum to nothing; give one above 0");
   if (parts.size() > most_blended)
     binder.fault({"blend"}, "a blend takes " + std::to_string(most_blended) + " poses at most; this one has " +

@@ -2,11 +2,14 @@
 
 // A number of an operation, whose parameter has been found.
 
+#include <tweenfall/curves/calculus.h>
+
 #include "graph/log.h"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <span>
 
 namespace tweenfall::graphs {
 
@@ -46,6 +49,13 @@ class Number {
     return next == settings.end() ? never : next->time;
   }
 
+  /// Whether it is a curve of keys that never comes above 0.
+  [[nodiscard]] bool is_nothing_throughout() const {
+    if (!curve_ || curve_->knots().empty()) return false;
+    const std::span<const double> knots = curve_->knots();
+    const double last = knots.back() + std::max(1.0, knots.back() - knots.front());
+    return range(*curve_, knots.front() - 1, last).high <= 0;
+  }
   /// Nothing for one that may change.
   [[nodiscard]] std::optional<double> constant() const noexcept {
     return curve_ || description_ ? std::nullopt : std::optional(constant_);

@@ -101,7 +101,7 @@ StageFile judged_stage_file(const std::string& file) {
     throw;
   } catch (const RecordingFault& error) {
     if (!read.document || error.node == no_node) throw Faults(faults_of(error, file));
-    throw DocumentError({read.document->problem_of_node(error.node, error.reason)});
+    throw DocumentError({read.document->problem_of_node(error.node, error.reason)}, read.notes);
   } catch (const std::exception& error) {
     throw Faults(faults_of(error, file));
   }

@@ -35,6 +35,7 @@ std::vector<std::string> faults_of(const std::exception& error, const std::strin
   if (const auto* document = dynamic_cast<const DocumentError*>(&error)) {
     std::vector<std::string> texts;
     for (const Problem& problem : document->problems()) texts.push_back(problem.text());
+    for (const Problem& note : document->notes()) texts.push_back(note.text());
     return texts;
   }
   if (dynamic_cast<const ModelError*>(&error)) return lines(error.what());

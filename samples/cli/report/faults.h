@@ -20,7 +20,7 @@ class Faults : public std::runtime_error {
   std::vector<std::string> texts_;
 };
 
-/// The texts of what a library threw; `source` stands before those that name no file.
+/// The texts of what a library threw, of a document its notes below; `source` stands before those that name no file.
 [[nodiscard]] std::vector<std::string> faults_of(const std::exception& error, const std::string& source);
 
 /// How many there are: of a document with very many, more than have a text.

@@ -80,6 +80,7 @@ Finding check_file(const std::string& file) {
   } catch (const DocumentError& error) {
     finding.texts = faults_of(error, file);
     for (const Problem& problem : error.problems()) finding.jsons.push_back(problem_json(problem));
+    for (const Problem& note : error.notes()) finding.jsons.push_back(problem_json(note));
     finding.problems = fault_count(error, file);
   } catch (const std::exception& error) {
     finding.texts = faults_of(error, file);

@@ -62,6 +62,13 @@ TEST_CASE("a play says its section, its rounds and its fades") {
   CHECK(play.fade_out.ease.name() == "sine-in-out");
   CHECK(play_of(R"({"clip": "walk", "count": 3})").loop == Loop{LoopMode::repeat, 3});
   CHECK(play_of(R"({"clip": "walk", "loop": {"mode": "repeat", "count": 2}})").loop == Loop{LoopMode::repeat, 2});
+  for (const char* const loop : {"\"repeat-offset\"", "{\"mode\": \"repeat-offset\"}"}) {
+    const std::string text = "{\"tweenfall\": 1, \"clips\": {\"c\": {\"loop\": " + std::string(loop) +
+                             ", \"tracks\": {\"a.x\": [[0, 1], [1, 2]]}}}}";
+    const Document clip = Document::parse(text, "loop.json", {});
+    CHECK(clip.stage().clips.at(0).loop == Loop{LoopMode::repeat_offset, 0});
+    CHECK(Document::parse(clip.text(), "again.json", {}).text() == clip.text());
+  }
 }
 
 TEST_CASE("keys of weight and speed run on the play's own time, unless they say the stage's") {

@@ -42,11 +42,13 @@ struct Problem {
 
 class DocumentError : public std::runtime_error {
  public:
-  explicit DocumentError(std::vector<Problem> problems);  ///< at least one
-  [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }
+  /// @param problems  at least one @param notes  what was noted before the reader gave up
+  explicit DocumentError(std::vector<Problem> problems, std::vector<Problem> notes = {});
+  [[nodiscard]] const std::vector<Problem>& problems() const noexcept { return problems_; }  ///< errors alone
+  [[nodiscard]] const std::vector<Problem>& notes() const noexcept { return notes_; }
 
  private:
-  std::vector<Problem> problems_;
+  std::vector<Problem> problems_, notes_;
 };
 
 /// Longer texts are no documents of people, and are refused before they fill memory.

@@ -28,24 +28,6 @@ const Form* play_speed_form(FormStore& store, const ValueForms& values) {
   return timed_form(store, values, "a speed", values.number);
 }
 
-const std::vector<std::pair<std::string, LoopMode>>& loop_words() {
-  static const std::vector<std::pair<std::string, LoopMode>> words{{"once", LoopMode::once},
-                                                                   {"repeat", LoopMode::repeat},
-                                                                   {"repeat-offset", LoopMode::repeat_offset},
-                                                                   {"pingpong", LoopMode::pingpong}};
-  return words;
-}
-
-const Form* play_loop_form(FormStore& store, const ValueForms& values) {
-  std::vector<std::string> words;
-  for (const auto& [word, mode] : loop_words()) words.push_back(word);
-  const Form* word = store.add(words_of("a way to loop", words));
-  Form full = object_of("a loop: {\"mode\", \"count\"}",
-                        {{"mode", word, "", true}, {"count", values.positive, "number of rounds"}});
-  full.on_one_line = true;
-  return store.add(choice_of("a way to loop, or {\"mode\", \"count\"}", {word, store.add(std::move(full))}));
-}
-
 }  // namespace
 
 const Form* fade_form(FormStore& store, const ValueForms& values) {
@@ -125,20 +107,15 @@ Loop own_loop(const Play& play, const Building& building) {
 }
 
 void read_play_loop(const json::Value& value, Play& play, Building&) {
-  const std::string said = value.is(json::Value::Kind::object) ? text_in(value, "mode") : std::string(value.text());
-  for (const auto& [word, mode] : loop_words())
-    if (said == word) play.loop = Loop{mode, value.is(json::Value::Kind::object) ? number_in(value, "count", 0) : 0};
+  play.loop = read_loop(value);
 }
 
 void read_play_count(const json::Value& value, Play& play, Building& building) {
-  Loop loop = own_loop(play, building);
-  // What is counted is played again, also where the clip by itself is not.
-  if (loop.mode == LoopMode::once && !play.loop) loop.mode = LoopMode::repeat;
-  if (play.loop && loop.count > 0)
-    building.problems.add(value, "\"count\" beside a \"loop\" that counts already; give one of them");
-  loop.count = value.number();
-  if (loop.mode == LoopMode::once)
-    building.problems.add(value, "\"count\" means nothing for what is played once; give another \"loop\"");
+  std::optional<Loop> loop = own_loop(play, building);
+  // What is counted is played again, also where the clip by itself is not; and the play's count stands over the clip's.
+  if (!play.loop && loop->mode == LoopMode::once) loop->mode = LoopMode::repeat;
+  if (!play.loop) loop->count = 0;
+  read_count_beside(value, loop, building.problems);
   play.loop = loop;
 }
 
@@ -186,7 +163,7 @@ const Table<Play>& play_table() {
                   member<Play>(&Play::offset)},
                  one_of<Play, bool>("direction", "a direction", {{"forward", false}, {"reverse", true}},
                                     "each round from its start to its end, or back", &Play::reverse),
-                 {"loop", play_loop_form, "absent: as the clip says", {read_play_loop}},
+                 {"loop", loop_or_once_form, "absent: as the clip says", {read_play_loop}},
                  {"count",
                   &ValueForms::positive,
                   "number of rounds; absent: as the clip says, or with \"loop\" without end",

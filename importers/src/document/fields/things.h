@@ -43,6 +43,13 @@ const Form* play_form(FormStore& store, const ValueForms& values);
 // Nothing for a clip that is not known, which was noted.
 [[nodiscard]] std::optional<Play> read_play(const json::Value& play, Building& building);
 
+// A way to loop, or {"mode", "count"}; a play may also say "once".
+const Form* loop_form(FormStore& store, const ValueForms& values);
+const Form* loop_or_once_form(FormStore& store, const ValueForms& values);
+[[nodiscard]] std::optional<Loop> read_loop(const json::Value& loop);
+// The "count" beside a loop, which is the loop's own.
+void read_count_beside(const json::Value& count, std::optional<Loop>& loop, Problems& problems);
+
 // Seconds over which a weight comes or goes, and how.
 const Form* fade_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] Fade read_fade(const json::Value& fade);

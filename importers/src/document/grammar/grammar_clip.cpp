@@ -1,3 +1,4 @@
+#include "document/fields/things.h"
 #include "document/grammar/grammar_parts.h"
 
 #include <utility>
@@ -26,16 +27,11 @@ const Form* event_form(FormStore& store, const ValueForms& values) {
 }  // namespace
 
 const Form* clip_form(FormStore& store, const ValueForms& values) {
-  Form loop =
-      object_of("a loop: {\"mode\", \"count\"}",
-                {{"mode", store.add(words_of("a way to loop", {"repeat", "repeat-offset", "pingpong"})), "", true},
-                 {"count", values.positive, "number of plays; absent: without end"}});
-  loop.on_one_line = true;
   Form events = list_of(event_form(store, values), "a list of events", 0);
   events.one_a_line = true;
   Form clip = object_of("a clip: {\"duration\", \"loop\", \"tracks\", \"events\"}",
                         {{"duration", values.length_of_time, "absent: the latest key or event"},
-                         {"loop", store.add(std::move(loop)), "absent: once"},
+                         {"loop", fields::loop_form(store, values), "absent: once"},
                          {"tracks", tracks_form(store, values), "", false, "{}"},
                          {"events", store.add(std::move(events)), "", false, "[]"}});
   clip.definition = "clip";

@@ -1,3 +1,4 @@
+#include "document/fields/things.h"
 #include "document/graphs/parts.h"
 
 #include <cmath>
@@ -100,21 +101,15 @@ OperationWord clip_word() {
     fields::take(value, as<ClipPose>(pose).at, building);
   };
   const auto loop = [](const json::Value& value, GraphPose& pose, Building&) {
-    const std::string_view word = value.text();
-    as<ClipPose>(pose).loop = Loop{.mode = word == "pingpong"        ? LoopMode::pingpong
-                                           : word == "repeat-offset" ? LoopMode::repeat_offset
-                                                                     : LoopMode::repeat};
+    as<ClipPose>(pose).loop = fields::read_loop(value).value_or(Loop{LoopMode::repeat, 0});
   };
   const auto count = [](const json::Value& value, GraphPose& pose, Building& building) {
-    if (std::optional<Loop>& own = as<ClipPose>(pose).loop) fields::take(value, own->count, building);
+    fields::read_count_beside(value, as<ClipPose>(pose).loop, building.problems);
   };
   return {{{"clip", &ValueForms::name, "a clip, from when its state was entered or the graph began", {clip}},
            {"speed", &ValueForms::number, "of a clip: clip seconds per second", {speed, "1"}},
            {"at", &ValueForms::number, "of a clip: seconds until it starts", {at, "0"}},
-           {"loop",
-            words_of("a way to loop", {"repeat", "repeat-offset", "pingpong"}),
-            "of a clip; absent: its own",
-            {loop}},
+           {"loop", fields::loop_form, "of a clip; absent: its own", {loop}},
            {"count", &ValueForms::positive, "number of plays; absent: without end", {count}}}};
 }
 

@@ -95,24 +95,12 @@ const Table<Started>& start_table() {
                             },
                             "0"};
   };
-  static const std::vector<std::pair<std::string, LoopMode>> loops{{"once", LoopMode::once},
-                                                                   {"repeat", LoopMode::repeat},
-                                                                   {"repeat-offset", LoopMode::repeat_offset},
-                                                                   {"pingpong", LoopMode::pingpong}};
-  const auto loop_form = [](FormStore& store, const ValueForms&) -> const Form* {
-    std::vector<std::string> words;
-    words.reserve(loops.size());
-    for (const auto& [word, mode] : loops) words.push_back(word);
-    return store.add(words_of("a way to loop", words));
-  };
   const auto read_loop = [](const json::Value& value, Started& start, Building&) {
-    for (const auto& [word, mode] : loops)
-      if (value.text() == word) start.action.loop = Loop{mode, 0};
+    start.action.loop = fields::read_loop(value);
   };
-  const auto read_count = [](const json::Value& value, Started& start, Building&) {
-    Loop loop = start.action.loop.value_or(Loop{LoopMode::repeat, 0});
-    loop.count = value.number();
-    start.action.loop = loop;
+  const auto read_count = [](const json::Value& value, Started& start, Building& building) {
+    if (!start.action.loop) start.action.loop = Loop{LoopMode::repeat, 0};
+    fields::read_count_beside(value, start.action.loop, building.problems);
   };
   const auto read_to = [](const json::Value& value, Started& start, Building&) { start.action.to = value.number(); };
   const auto read_mask = [](const json::Value& value, Started& start, Building&) {
@@ -132,7 +120,7 @@ const Table<Started>& start_table() {
        {"offset", &ValueForms::not_negative, "s", fields::member<Started>(of(&playing::Start::offset))},
        fields::one_of<Started, bool>("direction", "a direction", {{"forward", false}, {"reverse", true}}, "",
                                      of(&playing::Start::reverse)),
-       {"loop", fields::FormOf::Make(loop_form), "absent: as the clip says", {read_loop}},
+       {"loop", fields::loop_or_once_form, "absent: as the clip says", {read_loop}},
        {"count", &ValueForms::positive, "number of rounds", {read_count}},
        {"speed", speed_form, "", keys_of<Started>(false, of(&playing::Start::speed))},
        {"weight", weight_form, "", keys_of<Started>(true, of(&playing::Start::weight))},

@@ -49,6 +49,8 @@ json::Value place_of_track(const Building& building, const Clip& clip, const Tra
 
 void judge(Building& building) {
   judging::judge_tracks(building);
+  // Of what is faulty no more is known than its names.
+  if (!building.problems.empty()) return;
   // What an import is on its own does not matter: only its nodes and clips come in, and into another stage.
   if (!building.reading.is_outermost()) return;
   judging::judge_pace(building);

@@ -1,6 +1,7 @@
 #include <tweenfall/anim/component.h>
 #include <tweenfall/curves/number_text.h>
 
+#include "document/fields/things.h"
 #include "document/form.h"
 #include "document/read/values.h"
 #include "document/tracks/read_track.h"
@@ -88,11 +89,7 @@ Clip read_clip(const json::Member& member, std::optional<double> fps, Problems& 
       endless ? "this clip is endless; give it a \"duration\"" : "this clip has none; give it a \"duration\"");
 
   if (const json::Value loop = usable(value, "loop")) {
-    const std::string mode = text_in(loop, "mode");
-    clip.loop.mode = mode == "repeat-offset" ? LoopMode::repeat_offset
-                     : mode == "pingpong"    ? LoopMode::pingpong
-                                             : LoopMode::repeat;
-    clip.loop.count = number_in(loop, "count", 0);
+    clip.loop = fields::read_loop(loop).value_or(Loop{LoopMode::repeat, 0});
     if (endless) problems.add(loop, "an endless clip cannot loop; give it a \"duration\"");
     if (clip.duration <= 0) problems.add(loop, "a clip of no length cannot loop; give it a \"duration\"");
   }

@@ -53,13 +53,13 @@ ReadDocument read_document(std::string text, const std::string& name, const std:
     fields::read_world(usable(root, "world"), building);
     fields::check_groups(building);
     read_rules(building);
-    if (problems.empty()) judge(building);
+    judge(building);
     out.stage = std::move(building.stage);
     out.systems = std::move(building.systems);
     out.names_are_free = building.names_are_free;
   }
-  if (!problems.empty()) throw DocumentError(problems.located(Severity::error, name, out.tree));
   out.notes = problems.located(Severity::note, name, out.tree);
+  if (!problems.empty()) throw DocumentError(problems.located(Severity::error, name, out.tree), std::move(out.notes));
   return out;
 }
 

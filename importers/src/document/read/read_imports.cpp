@@ -153,6 +153,7 @@ class Importer {
       tell(place, json::in_quotes(place.text()) + " has " +
                       (count == 1 ? "a problem" : std::to_string(count) + " problems") + ", told below");
       building_.problems.add_foreign(error.problems());
+      building_.problems.add_foreign(error.notes());
     } catch (const ModelError& error) {
       std::string what = error.what();
       std::replace(what.begin(), what.end(), '\n', ';');

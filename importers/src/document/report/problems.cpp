@@ -46,8 +46,8 @@ std::string Problem::text() const {
   return out + std::string(before, ' ') + "^";
 }
 
-DocumentError::DocumentError(std::vector<Problem> problems)
-    : std::runtime_error(document::all_texts(problems)), problems_(std::move(problems)) {}
+DocumentError::DocumentError(std::vector<Problem> problems, std::vector<Problem> notes)
+    : std::runtime_error(document::all_texts(problems)), problems_(std::move(problems)), notes_(std::move(notes)) {}
 
 namespace document {
 

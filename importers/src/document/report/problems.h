@@ -21,7 +21,7 @@ class Problems {
   void add_name_beside(const json::Member& at, std::string message, const json::Member& other);
   // Forgets errors that another says better. @param count  errors that stay, the first
   void keep(std::size_t count);
-  // What is no fault; a document without errors keeps it.
+  // What is no fault; it is told beside errors, too.
   void note(const json::Value& at, std::string message);
   void note_name(const json::Member& at, std::string message);
   // Problems and notes of an imported file, at their places there.
