@@ -163,12 +163,16 @@ TEST_CASE("a machine in a plane: its mill turns as its motor says, its rod and w
     CHECK((motion_of(stage, "bob").pose.position - Vec3(-0.5, 2, 0)).norm() == doctest::Approx(1).epsilon(3e-3));
     const Quat between = motion_of(stage, "handle").pose.rotation.conjugate() * motion_of(stage, "head").pose.rotation;
     CHECK(std::abs(between.z()) < 0.02);
-    for (const std::string name : {"sail", "bob", "handle", "head", "buoy"})
+    for (const std::string name : {"sail", "bob", "handle", "head", "buoy", "lift", "load"})
       CHECK(motion_of(stage, name).pose.position.z() == 0);
   }
   CHECK(near(stage.twist(stage.node("sail")).angular, Vec3(0, 0, pi), 1e-3));
   CHECK(stage.joint("tether").has_value());
   CHECK(stage.joint("eye")->position[0] < 20.5 * pi / 180);
+  // A spring of 1.5 Hz for the lift's 2 kg, under 5 kg.
+  const double droop = 5 * 9.81 / (2 * (3 * pi) * (3 * pi));
+  CHECK(stage.joint("shaft")->position[0] == doctest::Approx(1.2 - droop).epsilon(2e-2));
+  CHECK(stage.joint("shaft")->torque.z() != 0);
   const Vec3 rod = stage.joint("rod")->force;
   const std::vector<std::byte> saved = stage.save();
   Stage loaded = actors_lecture("plane/machine");

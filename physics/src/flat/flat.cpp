@@ -136,7 +136,8 @@ void Flat::take_over(const state::Body& body, std::uint32_t index) {
   if (body.force != Vec3::Zero()) world_.apply_force(entry.id, axes.flat(body.force), axes.flat(body.center));
   const double torque = axes.sign * body.torque[axes.normal];
   if (torque != 0) world_.apply_torque(entry.id, torque);
-  if (!body.immovable() && !body.asleep && world_.asleep(entry.id)) world_.wake(entry.id);
+  const bool stirred = body.still_for < world_.still_for(entry.id);
+  if (!body.immovable() && !body.asleep && (stirred || world_.asleep(entry.id))) world_.wake(entry.id);
 }
 
 void Flat::take_over_ignored(const state::WorldState& world) {

@@ -38,9 +38,12 @@ class Flat {
 
   /// Tells the plane what has been done to the bodies since the last step.
   void take_over(const state::WorldState& world);
-  /// A force in N and a torque in N m through the next step; what points out of the plane is borne by it.
-  /// @param index  of the body in the world @param at  where the force acts
-  void push(std::uint32_t index, const Vec3& force, const Vec3& torque, const Vec3& at);
+  // Forces of the world through the next step. What is asleep goes on to be pulled as it was when it fell asleep.
+  void begin_pushes(const state::WorldState& world);
+  /// A force in N and a torque in N m; what points out of the plane is borne by it.
+  /// @param index  of the body in the world @param arm  from its center of mass to where the force acts
+  void push(std::uint32_t index, const Vec3& force, const Vec3& torque, const Vec3& arm);
+  void exert(const state::WorldState& world);
   /// @throws NotFinite
   void step(double dt);
   /// Tells the bodies where they are now, and the world what touches.
@@ -62,7 +65,9 @@ class Flat {
     std::uint32_t generation = 0;  ///< in the world
     Drive drive;
     std::uint64_t groups = 0, collides_with = 0;
-    Motion told;  ///< where the world had it when the plane last heard of it
+    Motion told;       ///< where the world had it when the plane last heard of it
+    Vec2 force{0, 0};  ///< that it was pushed with last, N
+    double torque = 0;
   };
   struct Link {
     JointId id;                    ///< in the plane; none for a free place

@@ -31,12 +31,28 @@ void find_give(const state::Body& body, const Vec3& along, StiffEnd& end) {
 
 }  // namespace
 
-void Flat::push(std::uint32_t index, const Vec3& force, const Vec3& torque, const Vec3& at) {
+void Flat::begin_pushes(const state::WorldState& world) {
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+    if (!world.bodies[i].asleep) {
+      entries_[i].force = Vec2(0, 0);
+      entries_[i].torque = 0;
+    }
+}
+
+void Flat::push(std::uint32_t index, const Vec3& force, const Vec3& torque, const Vec3& arm) {
   const Axes axes = Axes::of(plane_);
-  const Vec2 along = axes.flat(force);
-  const double turning = axes.sign * torque[axes.normal];
-  if (along != Vec2::Zero()) world_.apply_force(entries_[index].id, along, axes.flat(at));
-  if (turning != 0) world_.apply_torque(entries_[index].id, turning);
+  entries_[index].force += axes.flat(force);
+  entries_[index].torque += axes.sign * (torque + arm.cross(force))[axes.normal];
+}
+
+void Flat::exert(const state::WorldState& world) {
+  const Axes axes = Axes::of(plane_);
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
+    const Entry& entry = entries_[i];
+    if (!world.bodies[i].alive || world.bodies[i].immovable()) continue;
+    if (entry.force != Vec2::Zero()) world_.apply_force(entry.id, entry.force, axes.flat(world.bodies[i].center));
+    if (entry.torque != 0) world_.apply_torque(entry.id, entry.torque);
+  }
 }
 
 }  // namespace flat
@@ -45,8 +61,9 @@ void Flat::push(std::uint32_t index, const Vec3& force, const Vec3& torque, cons
 /// would be at its end. What resists, and springs too stiff for the step, are taken as at its end, so that nothing
 /// makes them grow; what points out of the plane is borne by it.
 void World::Implementation::push_in_plane(double dt) {
-  if (forces.empty()) return;
   flat::Flat& plane = flat.own();
+  plane.begin_pushes(*this);
+  if (forces.empty()) return;
   forces::gather_loads(bodies, watched, forces, settings, time, dt, workers(), loads, stiff_springs, flight);
   check_loads(time + dt);
   for (const std::uint32_t i : watched) {
@@ -61,7 +78,7 @@ void World::Implementation::push_in_plane(double dt) {
     const Vec3 spin = body.twist.angular;
     const double heavy = spin.squaredNorm() > 0 ? spin.dot(inverse * spin) / spin.squaredNorm() : 0;
     const Vec3 torque = load.torque - body.torque - load.angular_drag / (1 + load.angular_drag * dt * heavy) * spin;
-    plane.push(i, mass * gain, torque, body.center);
+    plane.push(i, mass * gain, torque, Vec3(0, 0, 0));
   }
   for (const step::SpringRow& row : stiff_springs) {
     const bool to_world = row.b == step::SpringRow::world;
@@ -78,11 +95,12 @@ void World::Implementation::push_in_plane(double dt) {
     const double pull = -(row.stiffness * (length - row.rest_length) + slows * along.dot(a.velocity - b.velocity)) /
                         (1 + dt * slows * (a.give + b.give));
     const auto give = [&](std::uint32_t index, const flat::StiffEnd& end, const Vec3& force) {
-      if (end.give > 0) plane.push(index, force, Vec3(0, 0, 0), end.place);
+      if (end.give > 0) plane.push(index, force, Vec3(0, 0, 0), end.arm);
     };
     give(row.a, a, pull * along);
     if (!to_world) give(row.b, b, -pull * along);
   }
+  plane.exert(*this);
 }
 
 }  // namespace tweenfall

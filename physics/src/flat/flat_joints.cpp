@@ -14,14 +14,8 @@ namespace tweenfall {
 namespace flat {
 namespace {
 
-constexpr double strongest = 1e30;  // what a plane takes for a motor without bounds, N m
-
 [[noreturn]] void refuse_joint(const std::string& why) {
   throw std::invalid_argument("in a plane " + why);
-}
-
-void require_hard(const Limits& limits) {
-  if (limits.hz != 0) refuse_joint("limits of joints do not give way");
 }
 
 /// What of a kind does not lie in a plane, or is not there.
@@ -30,20 +24,24 @@ struct InPlane {
   const tweenfall::JointSettings& settings;
 
   void operator()(const BallJoint&) const {}
-  void operator()(const FixedJoint&) const {
-    const Quat between = settings.frame_a.rotation * settings.frame_b.rotation.conjugate();
-    if (!turns_in(axes, between.vec())) refuse_joint("a weld must not tilt its bodies");
+  void operator()(const FixedJoint&) const { require_upright("a weld"); }
+  void operator()(const SliderJoint&) const {
+    require_upright("a slider");
+    if (!lies_in(axes, settings.frame_a.rotation * Vec3(1, 0, 0))) refuse_joint("the axis of a slider lies in it");
   }
-  void operator()(const HingeJoint& hinge) const {
+  void operator()(const HingeJoint&) const {
     for (const Pose* const frame : {&settings.frame_a, &settings.frame_b})
       if (!turns_in(axes, frame->rotation * Vec3(1, 0, 0))) refuse_joint("the axis of a hinge stands upright on it");
-    if (hinge.limits) require_hard(*hinge.limits);
-    if (hinge.motor && hinge.motor->position) refuse_joint("motors of hinges have a speed, and no position");
   }
-  void operator()(const DistanceJoint& distance) const { require_hard(distance.limits); }
+  void operator()(const DistanceJoint&) const {}
   template <class Kind>
   void operator()(const Kind&) const {
-    refuse_joint("joints are balls, hinges, welds and distances; no others");
+    refuse_joint("joints are balls, hinges, sliders, welds and distances; no others");
+  }
+
+  void require_upright(const std::string& what) const {
+    const Quat between = settings.frame_a.rotation * settings.frame_b.rotation.conjugate();
+    if (!turns_in(axes, between.vec())) refuse_joint(what + " must not tilt its bodies");
   }
 };
 
@@ -54,7 +52,6 @@ void require_joint(WorldPlane plane, const tweenfall::JointSettings& settings) {
   const Axes axes = Axes::of(plane);
   for (const Pose* const frame : {&settings.frame_a, &settings.frame_b})
     if (!lies_in(axes, frame->position)) refuse_joint("the points of a joint must lie in it");
-  if (std::isfinite(settings.break_torque)) refuse_joint("no torque breaks a joint; a \"break_force\" does");
   std::visit(InPlane{axes, settings}, settings.kind);
 }
 
@@ -74,30 +71,28 @@ planar::JointSettings Flat::joint_in_plane(const state::WorldState& world, const
   out.anchor_b = axes.flat(its.frame_b.position);
   out.collide = its.collide;
   const joints::Placement at = joints::placement_in(joint, world.bodies);
+  // As far as b still has to turn until the frames are one.
+  const auto matched = [&] { return turned + axes.angle(at.axes_a * at.axes_b.conjugate()); };
   if (const auto* const distance = std::get_if<DistanceJoint>(&its.kind)) {
-    out.kind = planar::Distance{distance->limits.low, distance->limits.high};
-    return out;
-  }
-  planar::Hinge in_plane;
-  if (std::holds_alternative<FixedJoint>(its.kind)) {
-    // As far as b still has to turn until the frames are one.
-    const double off = axes.angle(at.axes_a * at.axes_b.conjugate());
-    in_plane.lower = in_plane.upper = turned + off;
-  }
-  if (const auto* const hinge = std::get_if<HingeJoint>(&its.kind)) {
+    out.kind = planar::Distance{distance->limits};
+  } else if (const auto* const slider = std::get_if<SliderJoint>(&its.kind)) {
+    out.kind =
+        planar::Slider{axes.flat(its.frame_a.rotation * Vec3(1, 0, 0)), matched(), slider->limits, slider->motor};
+  } else if (std::holds_alternative<FixedJoint>(its.kind)) {
+    out.kind = planar::Weld{matched()};
+  } else if (const auto* const hinge = std::get_if<HingeJoint>(&its.kind)) {
     const double sign = axes.sign * std::copysign(1.0, at.x_a()[axes.normal]);
     const double here = joints::coordinates_of(*hinge, joint, at).position[0];
     const auto angle = [&](double value) { return turned + sign * (value - here); };
+    planar::Hinge in_plane{hinge->limits, hinge->motor};
     if (hinge->limits) {
-      in_plane.lower = angle(sign > 0 ? hinge->limits->low : hinge->limits->high);
-      in_plane.upper = angle(sign > 0 ? hinge->limits->high : hinge->limits->low);
+      in_plane.limits->low = angle(sign > 0 ? hinge->limits->low : hinge->limits->high);
+      in_plane.limits->high = angle(sign > 0 ? hinge->limits->high : hinge->limits->low);
     }
-    if (hinge->motor) {
-      in_plane.motor_speed = sign * hinge->motor->speed;
-      in_plane.motor_torque = std::min(hinge->motor->max_force, strongest);
-    }
+    if (hinge->motor) in_plane.motor->speed = sign * hinge->motor->speed;
+    if (hinge->motor && hinge->motor->position) in_plane.motor->position = angle(*hinge->motor->position);
+    out.kind = in_plane;
   }
-  out.kind = in_plane;
   return out;
 }
 
@@ -122,7 +117,9 @@ void Flat::hand_back_joints(state::WorldState& world, double dt) const {
   for (std::uint32_t i = 0; i < world.joints.size() && i < links_.size(); ++i) {
     state::Joint& joint = world.joints[i];
     if (!joint.alive || !world_.contains(links_[i].id)) continue;
-    joint.force = axes.space(world_.reading(links_[i].id).impulse) / dt;
+    const planar::JointReading reading = world_.reading(links_[i].id);
+    joint.force = axes.space(reading.impulse) / dt;
+    joint.torque = axes.space(reading.angular_impulse) / dt;
     if (const auto* const hinge = std::get_if<HingeJoint>(&joint.settings.kind))
       joint.angles[0] = joints::coordinates_of(*hinge, joint, joints::placement_in(joint, world.bodies)).position[0];
   }
@@ -132,9 +129,12 @@ void Flat::hand_back_joints(state::WorldState& world, double dt) const {
 
 void World::Implementation::break_in_plane() {
   broken.clear();
-  for (std::uint32_t i = 0; i < joints.size(); ++i)
-    if (joints[i].alive && joints[i].force.norm() > joints[i].settings.break_force)
-      broken.push_back({i, joints[i].generation});
+  for (std::uint32_t i = 0; i < joints.size(); ++i) {
+    const state::Joint& joint = joints[i];
+    if (!joint.alive) continue;
+    if (joint.force.norm() > joint.settings.break_force || joint.torque.norm() > joint.settings.break_torque)
+      broken.push_back({i, joint.generation});
+  }
   for (const JointId& id : broken) remove_joint(id.index);
 }
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "flat/flat.h"
 #include "saving/bytes.h"
 #include "state/checks.h"
@@ -16,6 +18,7 @@ void Flat::write(saving::ByteWriter& bytes) const {
     bytes.number(entry.groups);
     bytes.number(entry.collides_with);
     saving::walk(bytes, entry.told);
+    for (const double number : {entry.force.x(), entry.force.y(), entry.torque}) bytes.number(number);
   }
   bytes.number(static_cast<std::uint64_t>(ignored_.size()));
   for (const Pair& pair : ignored_) {
@@ -43,6 +46,8 @@ void Flat::read(saving::ByteReader& bytes) {
     bytes.number(entry.groups);
     bytes.number(entry.collides_with);
     saving::walk(bytes, entry.told);
+    for (double* const number : {&entry.force.x(), &entry.force.y(), &entry.torque}) bytes.number(*number);
+    bytes.require(entry.force.cwiseAbs().maxCoeff() <= 1e30 && std::abs(entry.torque) <= 1e30, "a force is not finite");
     if (entry.id == BodyId{}) continue;
     bytes.require(world_.contains(entry.id), "the plane has no such body");
     owners_.resize(std::max<std::size_t>(owners_.size(), entry.id.index + std::size_t{1}), 0xffffffff);

@@ -25,6 +25,8 @@ struct Body {
   double travel = 0;                            ///< how far a point of it may get in the step by itself, m
   Vec2 force{0, 0};                             ///< for the next step
   double torque = 0;
+  Vec2 borne{0, 0};  ///< the force with which it fell asleep, N
+  double borne_torque = 0;
   double still_for = 0;
   // Its box, with room to spare, in the tree of boxes: of where it was then.
   Vec2 boxed_center{0, 0};
@@ -76,12 +78,17 @@ struct Meeting {
 };
 
 struct Joint {
+  static constexpr std::size_t most_held = 3;
+
   bool alive = false;
   std::uint32_t generation = 0;
   JointSettings settings;
-  Vec2 impulse{0, 0};  ///< of the last sub-step, of what holds points together
-  double pull = 0, push = 0, motor = 0, lower = 0, upper = 0;
-  Vec2 total{0, 0};  ///< of the last step
+  // Impulses of the last sub-step: of what holds, in order, and of what moves the coordinate or bounds it
+  std::array<double, most_held> held{};
+  double motor = 0, lower = 0, upper = 0;
+  // Of the last step in which an end moved, on b
+  Vec2 total{0, 0};
+  double total_turn = 0;  ///< about its point
 };
 
 }  // namespace tweenfall::planar::inner

@@ -65,10 +65,10 @@ void each_field(T& turn, const Visit& visit) {
 template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
   auto& [center, angle, turn, velocity, spin, inverse_mass, inverse_moment, reach, skin, least, travel, force, torque,
-         still_for, boxed_center, boxed_angle, boxed_room, boxed, has_target, alive, asleep, movable, lone, driven,
-         damped, under_way] = body;
-  visit(center, angle, velocity, spin, force, torque, still_for, boxed_center, boxed_angle, boxed_room, boxed,
-        has_target, alive, asleep);
+         borne, borne_torque, still_for, boxed_center, boxed_angle, boxed_room, boxed, has_target, alive, asleep,
+         movable, lone, driven, damped, under_way] = body;
+  visit(center, angle, velocity, spin, force, torque, borne, borne_torque, still_for, boxed_center, boxed_angle,
+        boxed_room, boxed, has_target, alive, asleep);
   saving::follows_from_others(turn, inverse_mass, inverse_moment, reach, skin, least, travel, movable, lone, driven,
                               damped, under_way);
 }
@@ -89,13 +89,23 @@ void each_field(T& meeting, const Visit& visit) {
 }
 template <Is<Hinge> T, class Visit>
 void each_field(T& hinge, const Visit& visit) {
-  auto& [lower, upper, motor_speed, motor_torque] = hinge;
-  visit(lower, upper, motor_speed, motor_torque);
+  auto& [limits, motor] = hinge;
+  visit(limits, motor);
+}
+template <Is<Slider> T, class Visit>
+void each_field(T& slider, const Visit& visit) {
+  auto& [axis, angle, limits, motor] = slider;
+  visit(axis, angle, limits, motor);
+}
+template <Is<Weld> T, class Visit>
+void each_field(T& weld, const Visit& visit) {
+  auto& [angle] = weld;
+  visit(angle);
 }
 template <Is<Distance> T, class Visit>
 void each_field(T& distance, const Visit& visit) {
-  auto& [shortest, longest] = distance;
-  visit(shortest, longest);
+  auto& [limits] = distance;
+  visit(limits);
 }
 template <Is<JointSettings> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
@@ -104,8 +114,8 @@ void each_field(T& joint, const Visit& visit) {
 }
 template <Is<Joint> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
-  auto& [alive, generation, settings, impulse, pull, push, motor, lower, upper, total] = joint;
-  visit(alive, generation, settings, impulse, pull, push, motor, lower, upper, total);
+  auto& [alive, generation, settings, held, motor, lower, upper, total, total_turn] = joint;
+  visit(alive, generation, settings, held, motor, lower, upper, total, total_turn);
 }
 template <Is<ContactPoint> T, class Visit>
 void each_field(T& point, const Visit& visit) {

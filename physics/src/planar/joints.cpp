@@ -12,6 +12,9 @@ namespace {
 constexpr double joint_cycles = 0.25;
 constexpr double joint_damping = 2;
 
+/// What is left of an inverse mass by no more than this part of it is rounding.
+constexpr double new_enough = 1e-10;
+
 }  // namespace
 
 JointRows::JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups, std::vector<Joint>& joints,
@@ -45,123 +48,233 @@ JointRows::JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>&
                              row.angle_a, row.local_a);
     const bool b_moves = end(its.b, its.anchor_b, row.b, row.inverse_mass_b, row.inverse_moment_b, row.center_b,
                              row.angle_b, row.local_b);
+    const bool held_in_vain = row.inverse_mass_a + row.inverse_mass_b == 0;
+    // What sleeps goes on to bear what it bore.
+    if (!(a_moves || b_moves) && !held_in_vain) continue;
     joint.total = Vec2(0, 0);
-    if (!(a_moves || b_moves) || row.inverse_mass_a + row.inverse_mass_b == 0) continue;
-    joint.impulse *= warmth;
-    for (double* one : {&joint.pull, &joint.push, &joint.motor, &joint.lower, &joint.upper}) *one *= warmth;
+    joint.total_turn = 0;
+    if (held_in_vain) continue;
+    for (double& one : joint.held) one *= warmth;
+    for (double* one : {&joint.motor, &joint.lower, &joint.upper}) *one *= warmth;
     rows_.push_back(row);
   }
 }
 
-void JointRows::push(const Row& row, const Vec2& impulse, std::vector<BodyRow>& velocities) const {
-  BodyRow &a = velocities[row.a], &b = velocities[row.b];
-  a.x -= row.inverse_mass_a * impulse.x();
-  a.y -= row.inverse_mass_a * impulse.y();
-  a.turn -= row.inverse_moment_a * cross(row.arm_a, impulse);
-  b.x += row.inverse_mass_b * impulse.x();
-  b.y += row.inverse_mass_b * impulse.y();
-  b.turn += row.inverse_moment_b * cross(row.arm_b, impulse);
+double JointRows::coupling(const Row& row, const Line& one, const Line& other) {
+  return (row.inverse_mass_a + row.inverse_mass_b) * one.along.dot(other.along) +
+         row.inverse_moment_a * one.turn_a * other.turn_a + row.inverse_moment_b * one.turn_b * other.turn_b;
 }
 
-void JointRows::twist(const Row& row, double impulse, std::vector<BodyRow>& velocities) const {
-  velocities[row.a].turn -= row.inverse_moment_a * impulse;
-  velocities[row.b].turn += row.inverse_moment_b * impulse;
-}
-
-Vec2 JointRows::parting(const Row& row, const std::vector<BodyRow>& velocities) const {
+double JointRows::speed_of(const Row& row, const Line& line, const std::vector<BodyRow>& velocities) {
   const BodyRow &a = velocities[row.a], &b = velocities[row.b];
-  return Vec2(b.x - a.x, b.y - a.y) + b.turn * quarter(row.arm_b) - a.turn * quarter(row.arm_a);
+  return line.along.x() * (b.x - a.x) + line.along.y() * (b.y - a.y) + line.turn_b * b.turn - line.turn_a * a.turn;
+}
+
+void JointRows::push(const Row& row, const Line& line, double impulse, std::vector<BodyRow>& velocities) {
+  BodyRow &a = velocities[row.a], &b = velocities[row.b];
+  a.x -= row.inverse_mass_a * impulse * line.along.x();
+  a.y -= row.inverse_mass_a * impulse * line.along.y();
+  a.turn -= row.inverse_moment_a * impulse * line.turn_a;
+  b.x += row.inverse_mass_b * impulse * line.along.x();
+  b.y += row.inverse_mass_b * impulse * line.along.y();
+  b.turn += row.inverse_moment_b * impulse * line.turn_b;
+}
+
+void JointRows::place(Row& row, const std::vector<BodyRow>& displacements) const {
+  const JointSettings& its = row.joint->settings;
+  const BodyRow &moved_a = displacements[row.a], &moved_b = displacements[row.b];
+  row.turned_a = row.angle_a + moved_a.turn;
+  row.arm_a = its.a == BodyId{} ? Vec2(0, 0) : Turn::of(row.turned_a) * row.local_a;
+  row.arm_b = its.b == BodyId{} ? Vec2(0, 0) : Turn::of(row.angle_b + moved_b.turn) * row.local_b;
+  row.apart =
+      (row.center_b - row.center_a) + Vec2(moved_b.x - moved_a.x, moved_b.y - moved_a.y) + (row.arm_b - row.arm_a);
+  row.turned = (row.angle_b - row.angle_a) + (moved_b.turn - moved_a.turn);
+  row.count = 0;
+}
+
+void JointRows::hold(Row& row, const Line& line, double off) const {
+  row.held[row.count] = line;
+  row.off[row.count] = off;
+  ++row.count;
+}
+
+void JointRows::hold_point(Row& row) const {
+  hold(row, {Vec2(1, 0), -row.arm_a.y(), -row.arm_b.y()}, row.apart.x());
+  hold(row, {Vec2(0, 1), row.arm_a.x(), row.arm_b.x()}, row.apart.y());
+}
+
+void JointRows::lay_out(Row& row, const Hinge&) const {
+  hold_point(row);
+  row.way = {Vec2(0, 0), 1, 1};
+  row.position = row.turned;
+  weigh(row, true);
+}
+
+void JointRows::lay_out(Row& row, const Weld& weld) const {
+  hold_point(row);
+  hold(row, {Vec2(0, 0), 1, 1}, row.turned - weld.angle);
+  weigh(row, false);
+}
+
+void JointRows::lay_out(Row& row, const Distance&) const {
+  row.position = row.apart.norm();
+  const Vec2 along = row.position > 0 ? Vec2(row.apart / row.position) : Vec2(1, 0);
+  row.way = {along, cross(row.arm_a, along), cross(row.arm_b, along)};
+  weigh(row, true);
+}
+
+void JointRows::lay_out(Row& row, const Slider& slider) const {
+  const Vec2 along = Turn::of(row.turned_a) * slider.axis.normalized(), across = quarter(along);
+  // The line is fixed to a: a turn of a moves it where b is.
+  const Vec2 arm = row.arm_a + row.apart;
+  hold(row, {across, cross(arm, across), cross(row.arm_b, across)}, across.dot(row.apart));
+  hold(row, {Vec2(0, 0), 1, 1}, row.turned - slider.angle);
+  row.way = {along, cross(arm, along), cross(row.arm_b, along)};
+  row.position = along.dot(row.apart);
+  weigh(row, true);
+}
+
+/// The factor of what is held, and what it leaves of the way.
+void JointRows::weigh(Row& row, bool moves) const {
+  for (std::size_t i = 0; i < row.count; ++i)
+    for (std::size_t k = 0; k <= i; ++k) {
+      const double whole = coupling(row, row.held[i], row.held[k]);
+      double entry = whole;
+      for (std::size_t n = 0; n < k; ++n) entry -= row.root[i][n] * row.root[k][n];
+      if (k < i)
+        row.root[i][k] = row.root[k][k] > 0 ? entry / row.root[k][k] : 0;
+      else
+        row.root[i][i] = entry > new_enough * whole ? std::sqrt(entry) : 0;
+    }
+  row.inverse_mass = 0;
+  row.carried = {};
+  if (!moves) return;
+  Held together{};
+  for (std::size_t i = 0; i < row.count; ++i) together[i] = coupling(row, row.held[i], row.way);
+  row.carried = solved(row, together);
+  const double whole = coupling(row, row.way, row.way);
+  double left = whole;
+  for (std::size_t i = 0; i < row.count; ++i) {
+    left -= together[i] * row.carried[i];
+    row.carried[i] = -row.carried[i];
+  }
+  row.inverse_mass = left > new_enough * whole ? left : 0;
+}
+
+JointRows::Held JointRows::solved(const Row& row, Held right) {
+  for (std::size_t i = 0; i < row.count; ++i) {
+    for (std::size_t k = 0; k < i; ++k) right[i] -= row.root[i][k] * right[k];
+    right[i] = row.root[i][i] > 0 ? right[i] / row.root[i][i] : 0;
+  }
+  for (std::size_t i = row.count; i-- > 0;) {
+    for (std::size_t k = i + 1; k < row.count; ++k) right[i] -= row.root[k][i] * right[k];
+    right[i] = row.root[i][i] > 0 ? right[i] / row.root[i][i] : 0;
+  }
+  return right;
 }
 
 void JointRows::begin_sub_step(const std::vector<BodyRow>& displacements, std::vector<BodyRow>& velocities) {
   for (Row& row : rows_) {
+    place(row, displacements);
+    std::visit([&](const auto& kind) { lay_out(row, kind); }, row.joint->settings.kind);
     Joint& joint = *row.joint;
-    const BodyRow &moved_a = displacements[row.a], &moved_b = displacements[row.b];
-    row.arm_a = Turn::of(row.angle_a + moved_a.turn) * row.local_a;
-    row.arm_b = Turn::of(row.angle_b + moved_b.turn) * row.local_b;
-    if (joint.settings.a == BodyId{}) row.arm_a = Vec2(0, 0);
-    if (joint.settings.b == BodyId{}) row.arm_b = Vec2(0, 0);
-    row.apart =
-        (row.center_b - row.center_a) + Vec2(moved_b.x - moved_a.x, moved_b.y - moved_a.y) + (row.arm_b - row.arm_a);
-    row.turned = (row.angle_b - row.angle_a) + (moved_b.turn - moved_a.turn);
-    if (std::holds_alternative<Hinge>(joint.settings.kind)) {
-      push(row, joint.impulse, velocities);
-      twist(row, joint.motor + joint.lower - joint.upper, velocities);
-      continue;
+    if (!(row.inverse_mass > 0)) joint.motor = joint.lower = joint.upper = 0;
+    for (std::size_t i = 0; i < row.count; ++i) push(row, row.held[i], joint.held[i], velocities);
+    push(row, row.way, joint.motor + joint.lower - joint.upper, velocities);
+  }
+}
+
+void JointRows::give(Row& row, double& impulse, double next, std::vector<BodyRow>& velocities) const {
+  const double change = next - impulse;
+  impulse = next;
+  if (change == 0) return;
+  push(row, row.way, change, velocities);
+  for (std::size_t i = 0; i < row.count; ++i) {
+    push(row, row.held[i], row.carried[i] * change, velocities);
+    row.joint->held[i] += row.carried[i] * change;
+  }
+}
+
+void JointRows::hold(Row& row, std::vector<BodyRow>& velocities, bool soft) const {
+  Held speeds{};
+  for (std::size_t i = 0; i < row.count; ++i)
+    speeds[i] = speed_of(row, row.held[i], velocities) + (soft ? rate_ * row.off[i] : 0);
+  const Held solution = solved(row, speeds);
+  for (std::size_t i = 0; i < row.count; ++i) {
+    double& impulse = row.joint->held[i];
+    const double change = soft ? -firm_ * solution[i] - giving_ * impulse : -solution[i];
+    push(row, row.held[i], change, velocities);
+    impulse += change;
+  }
+}
+
+/// Source: Catto, Soft Constraints, GDC 2011: an implicit spring on the mass that it moves.
+double JointRows::drawn(const Row& row, double impulse, double speed, double error, double wanted, double hz,
+                        double zeta) const {
+  const double turn = 2 * std::numbers::pi * hz * h_, pull = turn * (2 * zeta + turn);
+  if (!(pull > 0)) return 0;
+  const double compliance = row.inverse_mass / pull, target = wanted - turn / (h_ * (2 * zeta + turn)) * error;
+  return impulse + (target - speed - compliance * impulse) / (row.inverse_mass + compliance);
+}
+
+void JointRows::drive(Row& row, const Motor& motor, std::vector<BodyRow>& velocities) const {
+  double& impulse = row.joint->motor;
+  const double speed = speed_of(row, row.way, velocities), most = motor.max_force * h_;
+  const double next =
+      motor.position ? drawn(row, impulse, speed, row.position - *motor.position, motor.speed, motor.hz, motor.zeta)
+                     : impulse + (motor.speed - speed) / row.inverse_mass;
+  give(row, impulse, std::clamp(next, -most, most), velocities);
+}
+
+/// Room that is left may be used up within the sub-step; what is too much is taken back softly, or as a spring does.
+void JointRows::bound(Row& row, const Limits& limits, std::vector<BodyRow>& velocities, bool soft) const {
+  const bool spring = limits.hz > 0, fixed = limits.low == limits.high && !spring;
+  const auto stop = [&](double& impulse, double room, double sign) {
+    if (!std::isfinite(room)) return;
+    const double speed = sign * speed_of(row, row.way, velocities);
+    double next = 0;
+    if (spring && room <= 0) {
+      next = drawn(row, impulse, speed, room, 0, limits.hz, limits.zeta);
+    } else if (!spring) {
+      const bool free = room > 0 && !fixed;
+      const double wanted = free ? room / h_ : soft ? rate_ * room : 0;
+      const double firm = free || !soft ? 1 : firm_, giving = free || !soft ? 0 : giving_;
+      next = (1 - giving) * impulse - firm * (speed + wanted) / row.inverse_mass;
     }
-    row.length = row.apart.norm();
-    row.along = row.length > 0 ? Vec2(row.apart / row.length) : Vec2(1, 0);
-    const double turn_a = cross(row.arm_a, row.along), turn_b = cross(row.arm_b, row.along);
-    row.mass = 1 / (row.inverse_mass_a + row.inverse_mass_b + row.inverse_moment_a * turn_a * turn_a +
-                    row.inverse_moment_b * turn_b * turn_b);
-    push(row, (joint.push - joint.pull) * row.along, velocities);
-  }
-}
-
-void JointRows::hold(Row& row, const Hinge& hinge, std::vector<BodyRow>& velocities, bool soft) const {
-  Joint& joint = *row.joint;
-  const double inverse_moment = row.inverse_moment_a + row.inverse_moment_b;
-  const auto spin = [&] { return velocities[row.b].turn - velocities[row.a].turn; };
-  if (hinge.motor_torque > 0 && inverse_moment > 0) {
-    const double most = hinge.motor_torque * h_;
-    const double next = std::clamp(joint.motor + (hinge.motor_speed - spin()) / inverse_moment, -most, most);
-    twist(row, next - joint.motor, velocities);
-    joint.motor = next;
-  }
-  // Room that is left may be used up within the sub-step; what is too much is taken back softly.
-  const auto limit = [&](double& impulse, double room, double sign) {
-    if (!(inverse_moment > 0)) return;
-    const double wanted = room > 0 ? room / h_ : soft ? rate_ * room : 0;
-    const double firm = room > 0 || !soft ? 1 : firm_, giving = room > 0 || !soft ? 0 : giving_;
-    const double next = std::max(0.0, (1 - giving) * impulse - firm * (sign * spin() + wanted) / inverse_moment);
-    twist(row, sign * (next - impulse), velocities);
+    if (!fixed) next = std::max(0.0, next);
+    double along = sign * impulse;
+    give(row, along, sign * next, velocities);
     impulse = next;
   };
-  if (std::isfinite(hinge.lower)) limit(joint.lower, row.turned - hinge.lower, 1);
-  if (std::isfinite(hinge.upper)) limit(joint.upper, hinge.upper - row.turned, -1);
-  const Vec2 &ra = row.arm_a, &rb = row.arm_b;
-  const double masses = row.inverse_mass_a + row.inverse_mass_b;
-  const double ia = row.inverse_moment_a, ib = row.inverse_moment_b;
-  const double xx = masses + ia * ra.y() * ra.y() + ib * rb.y() * rb.y();
-  const double yy = masses + ia * ra.x() * ra.x() + ib * rb.x() * rb.x();
-  const double xy = -(ia * ra.x() * ra.y() + ib * rb.x() * rb.y());
-  const double determinant = xx * yy - xy * xy;
-  if (!(determinant > 0)) return;
-  Vec2 speed = parting(row, velocities);
-  if (soft) speed += rate_ * row.apart;
-  const Vec2 solved = Vec2(yy * speed.x() - xy * speed.y(), xx * speed.y() - xy * speed.x()) / determinant;
-  const Vec2 change = soft ? Vec2(-firm_ * solved - giving_ * joint.impulse) : Vec2(-solved);
-  push(row, change, velocities);
-  joint.impulse += change;
-}
-
-void JointRows::hold(Row& row, const Distance& distance, std::vector<BodyRow>& velocities, bool soft) const {
-  Joint& joint = *row.joint;
-  const bool rod = distance.shortest == distance.longest;
-  const auto bound = [&](double& impulse, double room, double sign) {
-    const bool free = room > 0 && !rod;
-    const double wanted = free ? room / h_ : soft ? rate_ * room : 0;
-    const double firm = free || !soft ? 1 : firm_, giving = free || !soft ? 0 : giving_;
-    const double speed = sign * row.along.dot(parting(row, velocities));
-    double next = (1 - giving) * impulse - firm * row.mass * (speed + wanted);
-    if (!rod) next = std::max(0.0, next);
-    push(row, sign * (next - impulse) * row.along, velocities);
-    impulse = next;
-  };
-  bound(joint.push, row.length - distance.shortest, 1);
-  if (!rod) bound(joint.pull, distance.longest - row.length, -1);
+  stop(row.joint->lower, row.position - limits.low, 1);
+  if (!fixed) stop(row.joint->upper, limits.high - row.position, -1);
 }
 
 void JointRows::solve(std::vector<BodyRow>& velocities, bool soft) {
-  for (Row& row : rows_)
-    std::visit([&](const auto& kind) { hold(row, kind, velocities, soft); }, row.joint->settings.kind);
+  for (Row& row : rows_) {
+    hold(row, velocities, soft);
+    if (!(row.inverse_mass > 0)) continue;
+    const JointKind& kind = row.joint->settings.kind;
+    const auto move = [&](const auto& its) {
+      if (its.motor) drive(row, *its.motor, velocities);
+      if (its.limits) bound(row, *its.limits, velocities, soft);
+    };
+    if (const auto* const hinge = std::get_if<Hinge>(&kind)) move(*hinge);
+    if (const auto* const slider = std::get_if<Slider>(&kind)) move(*slider);
+    if (const auto* const distance = std::get_if<Distance>(&kind)) bound(row, distance->limits, velocities, soft);
+  }
 }
 
 void JointRows::end_sub_step() {
   for (Row& row : rows_) {
     Joint& joint = *row.joint;
-    const bool hinge = std::holds_alternative<Hinge>(joint.settings.kind);
-    joint.total += hinge ? joint.impulse : Vec2((joint.push - joint.pull) * row.along);
+    // Forces act at b's point: about that they turn nothing.
+    const auto add = [&](const Line& line, double impulse) {
+      joint.total += impulse * line.along;
+      if (line.along == Vec2::Zero()) joint.total_turn += impulse * line.turn_b;
+    };
+    for (std::size_t i = 0; i < row.count; ++i) add(row.held[i], joint.held[i]);
+    add(row.way, joint.motor + joint.lower - joint.upper);
   }
 }
 

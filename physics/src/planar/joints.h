@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -8,7 +9,14 @@
 
 namespace tweenfall::planar::inner {
 
-/// Joints through a step, one after the other.
+/// What a row of a joint sees and moves: speed = along . (v_b - v_a) + turn_b w_b - turn_a w_a.
+struct Line {
+  Vec2 along{0, 0};
+  double turn_a = 0, turn_b = 0;
+};
+
+/// Joints through a step, one after the other. What a joint holds is solved at once; what drives and bounds its
+/// coordinate is solved against bodies that are held so, and moves nothing that is held.
 class JointRows {
  public:
   JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups, std::vector<Joint>& joints, double h,
@@ -20,6 +28,9 @@ class JointRows {
   void end_sub_step();
 
  private:
+  static constexpr std::size_t most_held = Joint::most_held;
+  using Held = std::array<double, most_held>;
+
   struct Row {
     Joint* joint = nullptr;
     std::uint32_t a = 0, b = 0;
@@ -29,15 +40,39 @@ class JointRows {
     Vec2 local_a{0, 0}, local_b{0, 0};  ///< anchors from the centers of mass, node axes
     // As the bodies lie in the sub-step
     Vec2 arm_a{0, 0}, arm_b{0, 0}, apart{0, 0};
-    double turned = 0;            ///< b against a
-    Vec2 along{1, 0};             ///< of a distance
-    double length = 0, mass = 0;  ///< of a distance
+    double turned_a = 0, turned = 0;  ///< a, and b against a
+    std::size_t count = 0;            ///< of what is held
+    std::array<Line, most_held> held{};
+    Held off{};                          ///< by how much, m or rad
+    std::array<Held, most_held> root{};  ///< Cholesky factor of what is held
+    Line way;                            ///< of the coordinate
+    double position = 0;                 ///< m or rad
+    Held carried{};                      ///< what keeps what is held, for a unit of impulse along the way
+    double inverse_mass = 0;             ///< along the way, of what is held; 0: nothing moves that way
   };
-  void push(const Row& row, const Vec2& impulse, std::vector<BodyRow>& velocities) const;
-  void twist(const Row& row, double impulse, std::vector<BodyRow>& velocities) const;
-  [[nodiscard]] Vec2 parting(const Row& row, const std::vector<BodyRow>& velocities) const;
-  void hold(Row& row, const Hinge& hinge, std::vector<BodyRow>& velocities, bool soft) const;
-  void hold(Row& row, const Distance& distance, std::vector<BodyRow>& velocities, bool soft) const;
+
+  void place(Row& row, const std::vector<BodyRow>& displacements) const;
+  void hold(Row& row, const Line& line, double off) const;
+  void hold_point(Row& row) const;
+  void lay_out(Row& row, const Hinge& hinge) const;
+  void lay_out(Row& row, const Distance& distance) const;
+  void lay_out(Row& row, const Slider& slider) const;
+  void lay_out(Row& row, const Weld& weld) const;
+  void weigh(Row& row, bool moves) const;
+
+  [[nodiscard]] static double coupling(const Row& row, const Line& one, const Line& other);
+  [[nodiscard]] static double speed_of(const Row& row, const Line& line, const std::vector<BodyRow>& velocities);
+  static void push(const Row& row, const Line& line, double impulse, std::vector<BodyRow>& velocities);
+  [[nodiscard]] static Held solved(const Row& row, Held right);
+
+  /// Changes an impulse along the way to another, and all that is held with it.
+  void give(Row& row, double& impulse, double next, std::vector<BodyRow>& velocities) const;
+  void hold(Row& row, std::vector<BodyRow>& velocities, bool soft) const;
+  void bound(Row& row, const Limits& limits, std::vector<BodyRow>& velocities, bool soft) const;
+  void drive(Row& row, const Motor& motor, std::vector<BodyRow>& velocities) const;
+  /// The impulse of a spring, with which it ends the sub-step as it wants to.
+  [[nodiscard]] double drawn(const Row& row, double impulse, double speed, double error, double wanted, double hz,
+                             double zeta) const;
 
   std::vector<Row> rows_;
   double h_ = 0;

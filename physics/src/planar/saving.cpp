@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -17,7 +18,7 @@ namespace tweenfall::planar {
 namespace inner {
 namespace {
 
-constexpr saving::Envelope envelope{"plane", 1};
+constexpr saving::Envelope envelope{"plane", 2};
 
 template <class T>
 inline constexpr bool is_list = false;
@@ -27,6 +28,10 @@ template <class T>
 inline constexpr bool is_row = false;
 template <class T, std::size_t count>
 inline constexpr bool is_row<std::array<T, count>> = true;
+template <class T>
+inline constexpr bool is_maybe = false;
+template <class T>
+inline constexpr bool is_maybe<std::optional<T>> = true;
 template <class T>
 inline constexpr bool is_choice = false;
 template <class... T>
@@ -66,6 +71,17 @@ struct NumberByNumber {
       } else {
         for (const auto& element : value) one(element);
       }
+    } else if constexpr (is_maybe<Value>) {
+      auto there = static_cast<std::uint8_t>(value.has_value());
+      tool.number(there);
+      if constexpr (reads) {
+        tool.require(there <= 1, "something is neither there nor absent");
+        if (there == 1)
+          value.emplace();
+        else
+          value.reset();
+      }
+      if (value) one(*value);
     } else if constexpr (is_choice<Value>) {
       auto index = static_cast<std::uint8_t>(value.index());
       tool.number(index);
@@ -151,6 +167,7 @@ void World::Implementation::settle_in() {
     makeup.plate = inner::plate_of(makeup.shape, makeup.mass.center);
     expect(makeup.friction_combine <= Combine::maximum && makeup.restitution_combine <= Combine::maximum,
            "there is no such rule");
+    expect(inner::all_count({body.borne.x(), body.borne.y(), body.borne_torque}), "a number is not finite");
     expect(inner::all_count({body.force.x(), body.force.y(), body.torque, body.boxed_center.x(), body.boxed_center.y(),
                              body.boxed_angle, body.boxed_room, body.still_for}),
            "a number is not finite");
@@ -163,8 +180,8 @@ void World::Implementation::settle_in() {
     inner::validate_joint(joint.settings);
     for (const BodyId& end : {joint.settings.a, joint.settings.b})
       if (end != BodyId{}) static_cast<void>(at(end));
-    expect(inner::all_count(
-               {joint.impulse.x(), joint.impulse.y(), joint.pull, joint.push, joint.motor, joint.lower, joint.upper}),
+    expect(inner::all_count({joint.held[0], joint.held[1], joint.held[2], joint.motor, joint.lower, joint.upper,
+                             joint.total.x(), joint.total.y(), joint.total_turn}),
            "a number is not finite");
   }
   expect(inner::in_order(meetings), "its pairs are not in order");

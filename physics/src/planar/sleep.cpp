@@ -7,6 +7,15 @@
 
 namespace tweenfall::planar {
 
+namespace inner {
+namespace {
+
+/// A pull that would bring a body to this part of the speed of sleep before it fell asleep keeps it awake.
+constexpr double pulling_share = 0.1;
+
+}  // namespace
+}  // namespace inner
+
 using inner::Body;
 using inner::Joint;
 using inner::Meeting;
@@ -59,17 +68,42 @@ bool World::Implementation::rouse() {
     wake(i);
     any = true;
     body.under_way = true;
-    body.travel = settings.gravity.norm() * step_length * step_length;
-    inner::Gain& gain = solver.gains[i];
-    gain.x = settings.gravity.x();
-    gain.y = settings.gravity.y();
+    const inner::Gain& gain = solver.gains[i] = gain_of(body);
+    body.travel = (Vec2(gain.x, gain.y).norm() + body.reach * std::abs(gain.turn)) * step_length * step_length;
     if (body.damped) damp(i, h);
     moving.push_back(i);
   }
   return any;
 }
 
+/// What a change of the pull would bring a body to before it fell asleep again tells whether it matters.
+bool World::Implementation::bears_the_same(const Body& body) const {
+  if (body.force == body.borne && body.torque == body.borne_torque) return true;
+  const double change = body.inverse_mass * (body.force - body.borne).norm() +
+                        body.inverse_moment * std::abs(body.torque - body.borne_torque) * body.reach;
+  return change * settings.sleep_after < inner::pulling_share * settings.sleep_speed;
+}
+
+/// What sets out slowly under a pull is slow at first, and still not at rest.
+void World::Implementation::hold_in_the_air() {
+  held.assign(bodies.size(), 0);
+  for (const Meeting& meeting : meetings)
+    if (meeting.count > 0 && !meeting.sensing) held[meeting.a] = held[meeting.b] = 1;
+  for (const Joint& joint : joints)
+    for (const BodyId& end : {joint.settings.a, joint.settings.b})
+      if (joint.alive && end != BodyId{}) held[end.index] = 1;
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    Body& body = bodies[i];
+    if (!body.alive || !body.movable || body.driven || body.asleep || held[i]) continue;
+    if (body.force == Vec2::Zero() && body.torque == 0) continue;
+    const inner::Gain gain = gain_of(body);
+    const double pull = Vec2(gain.x, gain.y).norm() + std::abs(gain.turn) * body.reach;
+    if (!(pull * settings.sleep_after < inner::pulling_share * settings.sleep_speed)) body.still_for = 0;
+  }
+}
+
 void World::Implementation::let_sleep(double dt) {
+  bool pulled = false;
   bool drowsy = false;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
@@ -84,9 +118,11 @@ void World::Implementation::let_sleep(double dt) {
                        std::abs(body.spin) * body.reach < speed && (body.center - starts[i]).norm() <= way &&
                        std::abs(body.angle - start_angles[i]) * body.reach <= speed * dt + 1e-14 * body.reach;
     body.still_for = still ? body.still_for + dt : 0;
+    pulled = pulled || body.force != Vec2::Zero() || body.torque != 0;
     drowsy = drowsy || body.still_for >= settings.sleep_after;
   }
   if (!drowsy) return;
+  if (pulled) hold_in_the_air();
   join_islands();
   stillness.assign(bodies.size(), std::numeric_limits<double>::infinity());
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
@@ -104,6 +140,8 @@ void World::Implementation::let_sleep(double dt) {
     Body& body = bodies[i];
     if (!body.alive || !body.movable || body.asleep || !(stillness[root_of(i)] >= settings.sleep_after)) continue;
     body.asleep = true;
+    body.borne = body.force;
+    body.borne_torque = body.torque;
     ++sleepers;
     body.velocity = Vec2(0, 0);
     body.spin = 0;

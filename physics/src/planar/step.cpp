@@ -27,6 +27,11 @@ bool is_finite(const Body& body) {
 }  // namespace
 }  // namespace inner
 
+inner::Gain World::Implementation::gain_of(const Body& body) const {
+  const Vec2 acceleration = settings.gravity + body.inverse_mass * body.force;
+  return {.x = acceleration.x(), .y = acceleration.y(), .turn = body.inverse_moment * body.torque};
+}
+
 void World::Implementation::damp(std::uint32_t index, double h) {
   const Makeup& makeup = makeups[index];
   inner::Gain& gain = solver.gains[index];
@@ -58,15 +63,12 @@ void World::Implementation::set_out(double dt) {
       }
       body.under_way = body.velocity != Vec2::Zero() || body.spin != 0;
     } else {
-      if (body.asleep) continue;
+      if (body.asleep && bears_the_same(body)) continue;
+      if (body.asleep) wake(i);
       body.under_way = true;
-      inner::Gain& gain = solver.gains[i];
-      const Vec2 acceleration = settings.gravity + body.inverse_mass * body.force;
-      gain.x = acceleration.x();
-      gain.y = acceleration.y();
-      gain.turn = body.inverse_moment * body.torque;
+      inner::Gain& gain = solver.gains[i] = gain_of(body);
       if (body.damped) damp(i, h);
-      gained = (acceleration.norm() + body.reach * std::abs(gain.turn)) * dt;
+      gained = (Vec2(gain.x, gain.y).norm() + body.reach * std::abs(gain.turn)) * dt;
       if (body.driven) makeup.saturated = false;
       if (body.driven)
         gained += (makeup.target.position - motion_of(i).position).norm() / dt + makeup.target.velocity.norm();
@@ -96,8 +98,6 @@ void World::Implementation::arrive(double dt) {
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     if (!body.alive) continue;
-    body.force = Vec2(0, 0);
-    body.torque = 0;
     if (body.movable) body.has_target = false;
     if (body.movable && !body.driven) continue;
     Makeup& makeup = makeups[i];
@@ -118,6 +118,13 @@ void World::Implementation::arrive(double dt) {
     place(i, arrived);
   }
   time += dt;
+}
+
+void World::Implementation::forget_forces() {
+  for (Body& body : bodies) {
+    body.force = Vec2(0, 0);
+    body.torque = 0;
+  }
 }
 
 void World::Implementation::check_finite(double dt) {
@@ -162,6 +169,7 @@ void World::Implementation::step(double dt) {
   report();
   arrive(dt);
   if (!std::isinf(settings.sleep_after)) let_sleep(dt);
+  forget_forces();
   check_finite(0);
 }
 

@@ -316,14 +316,12 @@ void World::apply_force(BodyId id, const Vec2& force, const Vec2& point) {
   inner::demand_numbers(point, "point of a force");
   body.force += force;
   body.torque += inner::cross(point - body.center, force);
-  implementation_->wake(id.index);
 }
 
 void World::apply_torque(BodyId id, double torque) {
-  static_cast<void>(implementation_->at(id));
+  Body& body = implementation_->at(id);
   inner::demand_number(torque, "torque");
-  implementation_->at(id).torque += torque;
-  implementation_->wake(id.index);
+  body.torque += torque;
 }
 
 void World::apply_impulse(BodyId id, const Vec2& impulse, const Vec2& point) {

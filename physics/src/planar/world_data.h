@@ -40,6 +40,7 @@ struct World::Implementation {
   std::vector<char> looked_at;        ///< by meeting
   std::vector<std::uint32_t> root;    ///< of islands
   std::vector<double> stillness;
+  std::vector<char> held;    ///< by body: something touches it or is joined to it
   std::vector<Vec2> starts;  ///< centers
   std::vector<double> start_angles;
   inner::ContactSolver solver;
@@ -72,6 +73,11 @@ struct World::Implementation {
   void report(inner::Meeting& meeting, const inner::Given* given);
   void sense();
   void let_sleep(double dt);
+  void forget_forces();
+  /// Whether what pulls a sleeper is what it fell asleep with.
+  [[nodiscard]] bool bears_the_same(const inner::Body& body) const;
+  [[nodiscard]] inner::Gain gain_of(const inner::Body& body) const;
+  void hold_in_the_air();  ///< what a force pulls and nothing holds is not still
   void check_finite(double dt);
 };
 

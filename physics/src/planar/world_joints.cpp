@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "joints/validate.h"
 #include "planar/checks.h"
 #include "planar/world_data.h"
 
@@ -15,17 +16,19 @@ namespace {
 constexpr double farthest = 1e30;
 
 void check(const Hinge& hinge) {
-  demand(hinge.lower <= hinge.upper, "limits of a hinge must be in order, but are " + number_text(hinge.lower) +
-                                         " and " + number_text(hinge.upper) + " rad");
-  demand(std::abs(hinge.motor_speed) <= farthest, "motor speed of a hinge must be finite and at most 1e30 rad/s");
-  demand(hinge.motor_torque >= 0 && hinge.motor_torque <= farthest,
-         "motor torque of a hinge must lie in 0 to 1e30 N m, but is " + number_text(hinge.motor_torque));
+  joints::validate(HingeJoint{hinge.limits, hinge.motor});
+}
+void check(const Slider& slider) {
+  joints::validate(SliderJoint{slider.limits, slider.motor});
+  demand(slider.axis.norm() > 0 && slider.axis.norm() <= farthest,
+         "the axis of a slider needs a length above 0 that is finite");
+  demand_number(slider.angle, "angle of a slider");
+}
+void check(const Weld& weld) {
+  demand_number(weld.angle, "angle of a weld");
 }
 void check(const Distance& distance) {
-  demand(distance.shortest >= 0 && distance.shortest <= distance.longest && distance.longest > 0 &&
-             distance.shortest <= farthest,
-         "a distance needs 0 <= shortest <= longest, longest > 0, but has " + number_text(distance.shortest) + " and " +
-             number_text(distance.longest) + " m");
+  joints::validate(DistanceJoint{distance.limits});
 }
 void check_anchor(const Vec2& anchor) {
   demand(std::abs(anchor.x()) <= farthest && std::abs(anchor.y()) <= farthest,
@@ -114,15 +117,25 @@ JointReading World::reading(JointId id) const {
   const End a = end(joint.settings.a, joint.settings.anchor_a), b = end(joint.settings.b, joint.settings.anchor_b);
   JointReading reading;
   reading.impulse = joint.total;
-  const Vec2 apart = b.at - a.at;
+  reading.angular_impulse = joint.total_turn;
+  const Vec2 apart = b.at - a.at, parting = b.velocity - a.velocity;
   const double length = apart.norm();
-  if (const auto* distance = std::get_if<Distance>(&joint.settings.kind)) {
+  const JointKind& kind = joint.settings.kind;
+  if (const auto* const distance = std::get_if<Distance>(&kind)) {
     reading.value = length;
-    reading.rate = length > 0 ? apart.dot(b.velocity - a.velocity) / length : 0;
-    reading.gap = std::max({0.0, length - distance->longest, distance->shortest - length});
+    reading.rate = length > 0 ? apart.dot(parting) / length : 0;
+    if (!(distance->limits.hz > 0))
+      reading.gap = std::max({0.0, length - distance->limits.high, distance->limits.low - length});
+  } else if (const auto* const slider = std::get_if<Slider>(&kind)) {
+    const Vec2 along = inner::Turn::of(a.angle) * slider->axis.normalized();
+    reading.value = along.dot(apart);
+    reading.rate = along.dot(parting - a.spin * inner::quarter(apart));
+    reading.gap = std::abs(inner::cross(along, apart));
   } else {
-    reading.value = b.angle - a.angle;
-    reading.rate = b.spin - a.spin;
+    if (std::holds_alternative<Hinge>(kind)) {
+      reading.value = b.angle - a.angle;
+      reading.rate = b.spin - a.spin;
+    }
     reading.gap = length;
   }
   return reading;

@@ -31,9 +31,11 @@ planar::World busy_world() {
     if (i == 11) body.drive = {.hz = 2, .zeta = 0.7, .max_force = 500};
     bodies.push_back(world.add(body));
   }
-  world.add_joint({.a = bodies[3], .b = bodies[4], .anchor_a = Vec2(0.3, 0), .kind = planar::Distance{0.2, 1}});
-  world.add_joint(
-      {.b = bodies[5], .anchor_a = Vec2(2, 3), .anchor_b = Vec2(0.1, 0), .kind = planar::Hinge{-2, 2, 1, 5}});
+  world.add_joint({.a = bodies[3], .b = bodies[4], .anchor_a = Vec2(0.3, 0), .kind = planar::Distance{{0.2, 1}}});
+  world.add_joint({.b = bodies[5],
+                   .anchor_a = Vec2(2, 3),
+                   .anchor_b = Vec2(0.1, 0),
+                   .kind = planar::Hinge{Limits{-2, 2}, Motor{.speed = 1, .max_force = 5}}});
   world.remove(bodies[20]);
   return world;
 }
@@ -95,7 +97,7 @@ TEST_CASE("in a plane hostile numbers are refused in words, and stale handles to
   CHECK_THROWS_AS(world.step(0), std::invalid_argument);
   CHECK_THROWS_AS(world.step(NAN), std::invalid_argument);
   CHECK_THROWS_AS(world.add_joint({.a = body, .b = body}), std::invalid_argument);
-  CHECK_THROWS_AS(world.add_joint({.a = body, .kind = planar::Distance{2, 1}}), std::invalid_argument);
+  CHECK_THROWS_AS(world.add_joint({.a = body, .kind = planar::Distance{{2, 1}}}), std::invalid_argument);
   world.remove(body);
   CHECK_THROWS_WITH_AS(static_cast<void>(world.motion(body)), Contains("it was removed"), std::invalid_argument);
   const BodyId next = world.add({});

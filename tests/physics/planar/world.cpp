@@ -224,7 +224,7 @@ TEST_CASE("in a plane a hinge lets a rod swing with its closed period, a rod kee
     if (hinged)
       joint.anchor_b = Vec2(-0.5, 0);
     else
-      joint.kind = planar::Distance{1, 1};
+      joint.kind = planar::Distance{{1, 1}};
     const JointId id = world.add_joint(joint);
     const double length = hinged ? (1 + 0.01) / 3 / 0.5 : 1, period = 2 * pi * std::sqrt(length / 9.81);
     // A quarter later it hangs straight.
@@ -244,7 +244,7 @@ TEST_CASE("in a plane a hinge lets a rod swing with its closed period, a rod kee
 TEST_CASE("in a plane limits and motors of a hinge hold, and jointed bodies pass through each other") {
   planar::World world({.gravity = {0, 0}});
   const BodyId a = world.add({.shape = {planar::Box{}}, .fixed = true}), b = world.add({.shape = {planar::Box{}}});
-  world.add_joint({.a = a, .b = b, .kind = planar::Hinge{-inf, 1, 2, 4000}});
+  world.add_joint({.a = a, .b = b, .kind = planar::Hinge{Limits{-inf, 1}, Motor{.speed = 2, .max_force = 4000}}});
   run(world, 15);
   CHECK(near(world.motion(b).spin, 2, 1e-6));
   CHECK(world.contacts().empty());

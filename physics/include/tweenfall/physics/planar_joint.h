@@ -2,31 +2,43 @@
 
 /// Joints between bodies in a plane.
 
+#include <tweenfall/curves/values.h>
 #include <tweenfall/physics/force.h>
 #include <tweenfall/physics/joint.h>
 
-#include <tweenfall/curves/values.h>
-
-#include <limits>
+#include <optional>
 #include <variant>
 
 namespace tweenfall::planar {
 
-/// Two points stay together; the bodies turn about them.
+// Limits and motors are those of joints in space: hard stops or springs, a speed or a spring toward a position.
+
+/// Two points stay together; the bodies turn about them. Coordinate: b's angle against a's.
 struct Hinge {
-  double lower = -std::numeric_limits<double>::infinity();  ///< of b's angle against a's, rad
-  double upper = std::numeric_limits<double>::infinity();   ///< rad; >= lower
-  double motor_speed = 0;                                   ///< of b against a, rad/s
-  double motor_torque = 0;                                  ///< at most, N m; 0: no motor
+  std::optional<Limits> limits{};  ///< rad
+  std::optional<Motor> motor{};
 };
 
-/// Two points stay as far apart as they shall: a rod, or with room between `shortest` and `longest` a rope.
+/// b's point slides along a line through a's that is fixed to a, and b does not turn against a. Coordinate: its way
+/// along the line.
+struct Slider {
+  Vec2 axis{1, 0};                 ///< of the line, in the axes of a's node, or of the world; any length but 0
+  double angle = 0;                ///< of b's node against a's, rad
+  std::optional<Limits> limits{};  ///< m
+  std::optional<Motor> motor{};
+};
+
+/// Nothing moves. No coordinate.
+struct Weld {
+  double angle = 0;  ///< of b's node against a's, rad
+};
+
+/// Two points stay as far apart as they shall: a rod, or with room between its limits a rope. Coordinate: the distance.
 struct Distance {
-  double shortest = 1;  ///< m; >= 0
-  double longest = 1;   ///< m; >= shortest, > 0
+  Limits limits{1, 1};  ///< m
 };
 
-using JointKind = std::variant<Hinge, Distance>;
+using JointKind = std::variant<Hinge, Distance, Slider, Weld>;
 
 struct JointSettings {
   BodyId a = {};        ///< the default handle means the world

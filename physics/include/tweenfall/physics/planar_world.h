@@ -65,12 +65,13 @@ struct Contact {
   bool began = false;         ///< the pair did not touch in the step before
 };
 
-/// What a hinge or a distance does: angle and its rate, or length and its rate; and its impulse in the last step.
+/// How a joint stands after a step.
 struct JointReading {
-  double value = 0;    ///< of b's angle against a's, rad; or the distance, m
-  double rate = 0;     ///< per second
-  Vec2 impulse{0, 0};  ///< on b at its anchor, N s
-  double gap = 0;      ///< by how much the joint is violated, m
+  double value = 0;            ///< of its coordinate, rad or m; 0 for a weld, which has none
+  double rate = 0;             ///< per second
+  Vec2 impulse{0, 0};          ///< on b at its anchor, in the last step, N s
+  double angular_impulse = 0;  ///< on b about its anchor, N m s
+  double gap = 0;              ///< how far apart is what the joint holds together, m
 };
 
 /// Bodies in a plane and what acts on them. A copy steps to the same bits as the original. Every call that takes a
@@ -108,15 +109,18 @@ class World {
   [[nodiscard]] double kinetic_energy() const;  ///< of all free and driven bodies, J
   [[nodiscard]] double time() const noexcept;   ///< sum of the steps, s
 
-  // Changes; each wakes the body
+  // Changes; each wakes the body, but forces that stay as they are
   void set_motion(BodyId body, const Motion& motion);
   /// Hands the body over. Leaving `keyed`, it keeps the place and the velocity of its last target.
   void set_drive(BodyId body, const Drive& drive);
   /// Where a keyed body shall be at the end of the next step, and its path's own velocity there: it has just these
   /// numbers then. Of a driven body, where its spring pulls it.
   void set_target(BodyId body, const Motion& end_of_step);
-  void apply_force(BodyId body, const Vec2& force, const Vec2& point);  ///< N, at a world point, during the next step
-  void apply_torque(BodyId body, double torque);                        ///< N m, during the next step
+  /// N, at a world point, during the next step. What is applied step by step and stays the same lets a body that rests
+  /// fall asleep, and stay so: a sleeper wakes when it begins a step with another force or torque than it fell asleep
+  /// with.
+  void apply_force(BodyId body, const Vec2& force, const Vec2& point);
+  void apply_torque(BodyId body, double torque);                            ///< N m, during the next step
   void apply_impulse(BodyId body, const Vec2& impulse, const Vec2& point);  ///< N s, at once
   void wake(BodyId body);
   void set_groups(BodyId body, std::uint64_t groups, std::uint64_t collides_with);
@@ -152,6 +156,7 @@ class World {
   void load(std::span<const std::byte> saved);
 
  private:
+  friend struct Questions;  // of planar_query.h
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+
+#include "planar/checks.h"
+#include "planar/queries/ask.h"
+
+namespace tweenfall::planar {
+
+namespace inner {
+
+namespace {
+
+/// Parts of a size, and of a coordinate: a gap that is none.
+constexpr double met_size = 1e-13, met_place = 1e-15;
+
+Placed on_node(const Plate& plate, const Place& place) {
+  return {&plate, place.position, Turn::of(place.angle)};
+}
+
+void demand_place(const Place& place) {
+  demand_numbers(place.position, "a position");
+  demand_number(place.angle, "an angle");
+}
+
+bool is_endless(const Shape& shape) {
+  return std::holds_alternative<HalfPlane>(shape.outline);
+}
+
+}  // namespace
+
+Plate checked_plate(const Shape& shape, const Place& place) {
+  validate(shape);
+  demand_place(place);
+  return plate_of(shape, Vec2(0, 0));
+}
+
+void demand_end(const Shape& shape) {
+  demand(!is_endless(shape), "a half-plane has no end: ask with a shape that has one");
+}
+
+Plate point_plate() {
+  Plate plate;
+  plate.corners.push_back({Vec2(0, 0), Vec2(0, 0)});
+  return plate;
+}
+
+Ray checked_ray(const Vec2& from, const Vec2& direction, double length) {
+  demand_numbers(from, "start of a ray");
+  demand_numbers(direction, "direction of a ray");
+  const double size = direction.cwiseAbs().maxCoeff();
+  demand(size > 0, "direction of a ray must be longer than 0");
+  demand(length >= 0, "length of a ray must not be negative");
+  return {from, Vec2((direction / size).normalized()), length};
+}
+
+std::optional<RayHit> hit_by(const Ray& ray, const Placed& placed) {
+  const Plate point = point_plate();
+  const Difference difference({&point, ray.from, Turn{}}, placed);
+  const Difference::Nearest nearest = difference.nearest();
+  if (nearest.gap <= 0) return RayHit{0, ray.from, -ray.direction, true};
+  const std::optional<Difference::Met> met = difference.met(ray.direction, ray.length);
+  if (!met) return std::nullopt;
+  return RayHit{met->way, ray.from + met->way * ray.direction, met->normal, false};
+}
+
+std::optional<ShapeHit> hit_by(const Placed& moving, const Vec2& displacement, const Placed& placed) {
+  const Difference difference(moving, placed);
+  const Difference::Nearest nearest = difference.nearest();
+  const auto size_of = [](const Placed& one) { return one.plate->endless ? 0 : one.plate->reach; };
+  const double none = met_size * (size_of(moving) + size_of(placed)) +
+                      met_place * (moving.center.cwiseAbs().sum() + placed.center.cwiseAbs().sum());
+  const Vec2 touching = nearest.on_b + placed.plate->skin * nearest.normal;
+  if (nearest.gap < -none) return ShapeHit{0, nearest.common.value_or(touching), nearest.normal, true};
+  const double size = displacement.cwiseAbs().maxCoeff();
+  if (!(size > 0)) return std::nullopt;
+  const Vec2 direction = (displacement / size).normalized();
+  if (nearest.gap <= none) {
+    if (!(nearest.normal.dot(direction) < 0)) return std::nullopt;
+    return ShapeHit{0, touching, nearest.normal, false};
+  }
+  const double length = size * (displacement / size).norm();
+  const std::optional<Difference::Met> met = difference.met(direction, length);
+  if (!met) return std::nullopt;
+  return ShapeHit{std::min(1.0, met->way / length), met->point, met->normal, false};
+}
+
+Separation separation_of(const Placed& a, const Placed& b) {
+  const Difference::Nearest nearest = Difference(a, b).nearest();
+  if (nearest.common) return {0, *nearest.common, *nearest.common};
+  const double skin_a = a.plate->skin, skin_b = b.plate->skin;
+  if (nearest.gap > 0)
+    return {nearest.gap, nearest.on_a - skin_a * nearest.normal, nearest.on_b + skin_b * nearest.normal};
+  // Only the skins overlap: somewhere between the cores both are.
+  const double part = skin_a + skin_b > 0 ? skin_a / (skin_a + skin_b) : 0;
+  const Vec2 common = nearest.on_a + part * (nearest.on_b - nearest.on_a);
+  return {0, common, common};
+}
+
+Separation separation_of(const Vec2& point, const Placed& b) {
+  const Plate dot = point_plate();
+  const Separation apart = separation_of({&dot, point, Turn{}}, b);
+  return apart.distance > 0 ? apart : Separation{0, point, point};
+}
+
+}  // namespace inner
+
+std::optional<RayHit> cast_ray(const Shape& shape, const Place& place, const Vec2& from, const Vec2& direction,
+                               double length) {
+  const inner::Plate plate = inner::checked_plate(shape, place);
+  return inner::hit_by(inner::checked_ray(from, direction, length), inner::on_node(plate, place));
+}
+
+std::optional<ShapeHit> cast_shape(const Shape& moving, const Place& start, const Vec2& displacement,
+                                   const Shape& shape, const Place& place) {
+  inner::demand_numbers(displacement, "a displacement");
+  const inner::Plate one = inner::checked_plate(moving, start), other = inner::checked_plate(shape, place);
+  if (inner::is_endless(moving)) inner::demand_end(shape);
+  return inner::hit_by(inner::on_node(one, start), displacement, inner::on_node(other, place));
+}
+
+Separation distance(const Shape& a, const Place& place_a, const Shape& b, const Place& place_b) {
+  const inner::Plate one = inner::checked_plate(a, place_a), other = inner::checked_plate(b, place_b);
+  if (inner::is_endless(a)) inner::demand_end(b);
+  return inner::separation_of(inner::on_node(one, place_a), inner::on_node(other, place_b));
+}
+
+bool overlapping(const Shape& a, const Place& place_a, const Shape& b, const Place& place_b) {
+  return distance(a, place_a, b, place_b).distance <= 0;
+}
+
+Vec2 closest_point(const Shape& shape, const Place& place, const Vec2& point) {
+  inner::demand_numbers(point, "a point");
+  const inner::Plate plate = inner::checked_plate(shape, place);
+  return inner::separation_of(point, inner::on_node(plate, place)).on_b;
+}
+
+}  // namespace tweenfall::planar
