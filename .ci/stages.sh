@@ -7,13 +7,6 @@ cd "$source_folder"
 # Tests about the source and the page, which say the same under every compiler.
 about_source='^(headers|headers_catches|layering|page$)'
 
-# What is about numbers over long runs, whose code shorter tests run too; each takes ten seconds to minutes under
-# sanitizers.
-long_when_sanitized='^(anim/(crowd/(clip|size)|graph/random_graphs)'
-long_when_sanitized+='|importers/document/(contact_scenarios|hostile_physics)'
-long_when_sanitized+='|physics/(collision/(broad_phase|oracle|triangle_contacts)|stage/(blows|saving)|state/(copies|saving)'
-long_when_sanitized+='|step/(energy|impact|integrators|momentum|riders|small_islands)))$'
-
 # run_stages NAME...: each by its function stage_NAME, up to the first that fails.
 run_stages() {
   local stage started status timings=""

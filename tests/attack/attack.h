@@ -23,12 +23,16 @@ class Attack {
   [[nodiscard]] virtual std::string show(std::uint64_t number) = 0;
   /// How many cases so far were taken as valid, and so went all the way.
   [[nodiscard]] std::uint64_t taken() const { return taken_; }
+  /// How many cases there are; 0 where they never end.
+  [[nodiscard]] virtual std::uint64_t size() const { return 0; }
 
  protected:
   std::uint64_t taken_ = 0;
 };
 
 std::unique_ptr<Attack> attack_documents(std::uint64_t seed);
+/// Each document of the samples, the tests and ../shared once, as it is.
+std::unique_ptr<Attack> attack_unchanged();
 /// Documents with graphs, of which nothing else is changed.
 std::unique_ptr<Attack> attack_graphs(std::uint64_t seed);
 /// Files of inputs, given to the stages that they are for.

@@ -6,17 +6,24 @@
 
 namespace tweenfall::attack {
 
-ChangedDocuments::ChangedDocuments(std::uint64_t seed, std::string part) : seed_(seed), part_(std::move(part)) {
+std::vector<std::filesystem::path> documents_in(std::initializer_list<const char*> folders) {
   const std::filesystem::path source = TWEENFALL_SOURCE_DIR;
-  for (const char* folder : {"samples/documents", "tests/data/documents/good", "../shared/faults"}) {
+  std::vector<std::filesystem::path> files;
+  for (const char* folder : folders) {
     if (!std::filesystem::exists(source / folder)) continue;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(source / folder)) {
-      if (entry.path().extension() != ".json" || entry.file_size() >= 40'000) continue;
-      if (part_.empty() || bytes_of(entry.path()).find('"' + part_ + '"') != std::string::npos)
-        files_.push_back(entry.path());
-    }
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(source / folder))
+      if (entry.path().extension() == ".json" && entry.file_size() < 40'000) files.push_back(entry.path());
   }
-  std::sort(files_.begin(), files_.end());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+ChangedDocuments::ChangedDocuments(std::uint64_t seed, std::string part)
+    : seed_(seed),
+      part_(std::move(part)),
+      files_(documents_in({"samples/documents", "tests/data/documents/good", "../shared/faults"})) {
+  if (part_.empty()) return;
+  std::erase_if(files_, [&](const auto& file) { return bytes_of(file).find('"' + part_ + '"') == std::string::npos; });
 }
 
 ChangedDocument ChangedDocuments::make(std::uint64_t number) const {

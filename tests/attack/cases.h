@@ -5,10 +5,14 @@
 #include "attack/attack.h"
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <vector>
 
 namespace tweenfall::attack {
+
+/// The documents below the project's FOLDERS that are short enough, in a fixed order.
+[[nodiscard]] std::vector<std::filesystem::path> documents_in(std::initializer_list<const char*> folders);
 
 /// A document to be attacked, and the folder that its imports are relative to.
 struct ChangedDocument {

@@ -1,0 +1,95 @@
+#include "anim/player/random_plays.h"
+
+#include <algorithm>
+#include <map>
+
+using namespace tweenfall;
+using namespace tweenfall::test;
+
+namespace {
+
+/// Order within one time aside, which the pieces keep too.
+std::vector<FiredEvent> in_pieces(const Player& player, const Clip& clip, const std::vector<double>& cuts) {
+  std::vector<FiredEvent> all;
+  double from = 0;
+  bool first = true;
+  for (const double to : cuts) {
+    const std::vector<FiredEvent> piece = player.events_between(clip, from, to, first);
+    all.insert(all.end(), piece.begin(), piece.end());
+    from = to;
+    first = false;
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("however time is cut, at events and one ulp beside them too, the same events fire, and intervals in pairs") {
+  Random random(5);
+  std::size_t fired = 0;
+  for (int i = 0; i < 1500; ++i) {
+    CAPTURE(i);
+    const Clip clip = clip_with_events(random.bits() % 2 ? 1.0 : random.between(0.3, 2));
+    const Player player = random_player(random, clip);
+    const std::vector<FiredEvent> whole = player.events_between(clip, 0, 12, true);
+    fired += whole.size();
+    CHECK(std::ranges::is_sorted(whole, {}, &FiredEvent::time));
+    std::vector<double> cuts{12};
+    for (int k = 0; k < 6; ++k) cuts.push_back(random.between(0, 12));
+    for (const FiredEvent& event : whole)
+      for (const double time : {event.time, std::nextafter(event.time, -std::numeric_limits<double>::infinity()),
+                                std::nextafter(event.time, std::numeric_limits<double>::infinity())})
+        if (random.bits() % 2 && time > 0 && time < 12) cuts.push_back(time);
+    std::ranges::sort(cuts);
+    CHECK(all_told(in_pieces(player, clip, cuts)) == all_told(whole));
+    std::map<std::string, bool> open;
+    for (const FiredEvent& event : whole) {
+      if (event.kind == FiredEvent::Kind::moment) continue;
+      const bool begins = event.kind == FiredEvent::Kind::begin;
+      CAPTURE(event.name);
+      CAPTURE(event.time);
+      CHECK(open[event.name] != begins);
+      open[event.name] = begins;
+    }
+    if (player.end() < 12) {
+      for (const auto& [name, is_open] : open) CHECK_FALSE(is_open);
+    }
+  }
+  CHECK(fired > 3000);
+}
+
+TEST_CASE("an event fires as often as the clock passes it, and then it is there") {
+  Random random(17);
+  for (int i = 0; i < 400; ++i) {
+    CAPTURE(i);
+    Clip clip{.name = "walk", .duration = 1};
+    const double mark = random.between(0.05, 0.95);
+    clip.events = {{.from = mark, .to = mark, .name = "mark", .data = {}}};
+    Play play = random_play(random, clip);
+    play.loop = Loop{random.bits() % 2 ? LoopMode::once : LoopMode::pingpong, 3};
+    play.from = 0;
+    play.to.reset();
+    play.offset = 0;
+    const Player player(play, clip);
+    const std::vector<FiredEvent> fired = player.events_between(clip, 0, 8, true);
+    for (const FiredEvent& event : fired) CHECK(near(player.clock(event.time).time, mark, 1e-9));
+    int passed = 0;
+    bool close = false;
+    double before = player.clock(0).time - mark;
+    for (double t = 1e-3; t <= 8; t += 1e-3) {
+      const double now = player.clock(t).time - mark;
+      if (before * now < 0) ++passed;
+      // Where it turns just there, the steps are too wide to tell.
+      close = close || (std::abs(now) < 2e-3 && std::abs(player.clock(t).rate) < 0.3);
+      before = now;
+    }
+    if (!close) CHECK(static_cast<int>(fired.size()) == passed);
+  }
+}
+
+TEST_CASE("at speed 0 nothing fires, and what a clock stands on fires when it begins to move") {
+  const Clip clip = clip_with_events(2);
+  CHECK(events_between({.speed = 0}, clip, 0, 100, true).empty());
+  const PlayKeys waits{{0, 0, Ease::hold()}, {3, 1}};
+  CHECK(all_told(events_between({.speed = PlaySpeed(curve_of(waits))}, clip, 0, 3.2, true)) == "3:start\n");
+}
