@@ -181,3 +181,13 @@ TEST_CASE("a machine in a plane: its mill turns as its motor says, its rod and w
   for (Stage* const one : {&stage, &loaded}) one->advance_to(3.5);
   CHECK(stage.state_hash() == loaded.state_hash());
 }
+
+TEST_CASE("a net holds what is smaller than its cells between its nodes, and a rope on them") {
+  Stage stage = actors_lecture("soft/net");
+  stage.advance_to(3);
+  for (const std::string name : {"ball", "marble", "rod"}) {
+    CAPTURE(name);
+    CHECK(motion_of(stage, name).pose.position.y() > 0.6);
+  }
+  for (const Vec3& node : stage.soft("line").positions) CHECK(node.y() > 0.6);
+}

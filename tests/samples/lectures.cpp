@@ -38,7 +38,7 @@ TEST_CASE("every word of a world's strategies has a document") {
   CHECK(names_in("separation") == std::set<std::string>{"by_mass", "closest_point", "half", "positional_impulse"});
   CHECK(names_in("collision") == std::set<std::string>{"ahead", "discrete", "time_of_impact"});
   CHECK(names_in("stacking") == std::set<std::string>{"iterative", "lcp", "sequential", "shock"});
-  CHECK(names_in("soft") == std::set<std::string>{"cloth_positions", "cloth_springs", "flag", "rope_positions",
+  CHECK(names_in("soft") == std::set<std::string>{"cloth_positions", "cloth_springs", "flag", "net", "rope_positions",
                                                   "rope_springs", "tearing", "volume_positions", "volume_springs"});
   CHECK(names_in("broad_phase") ==
         std::set<std::string>{"all_pairs", "bvh", "grid", "kd_tree", "octree", "quadtree", "sweep"});

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "forces/formula_leaps.h"
 #include "state/checks.h"
 
 namespace tweenfall {
@@ -84,6 +85,11 @@ double Strength::at(double time, Side side) const noexcept {
   double value = factor_;
   if (formula_) {
     value = formula_->sample(time, side).value;
+    if (forces::may_leap(text_)) {
+      const double beside = side == Side::in ? time - forces::at_a_key : time + forces::at_a_key;
+      const double there = formula_->sample(beside, side).value;
+      if (forces::leaps(*formula_, std::min(time, beside), std::max(time, beside))) value = there;
+    }
   } else if (curve_) {
     const std::span<const double> knots = curve_->knots();
     const auto next = std::lower_bound(knots.begin(), knots.end(), time - forces::at_a_key);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "soft/apart.h"
+#include "soft/between.h"
 #include "soft/blowing.h"
 #include "soft/meetings.h"
 #include "soft/sub_step.h"
@@ -64,26 +65,35 @@ class Course {
     }
   }
 
+  /// A sub-step, but for what other soft bodies do in it.
   void go(double time, double h, bool backward) {
     find_held(time);
     blow(body_, winds_, h);
     find_contacts(body_, near_, bodies_, partners_, settings_.gravity, settings_.push_out_speed, h, contacts_);
-    const Vec3 before = held_.empty() ? mean_velocity(body_) : Vec3(0, 0, 0);
+    was_ = held_.empty() ? mean_velocity(body_) : Vec3(0, 0, 0);
     SubStep step{body_, partners_, contacts_, held_, settings_.gravity, h, backward};
-    const bool thick = body_.made->thickness > 0;
-    if (thick) places_ = body_.positions;
+    const bool between = std::ranges::any_of(near_, &Near::slips);
+    if (thick() || between) places_ = body_.positions;
     (body_.made->solver == SoftSolver::positions ? solve_positions : solve_springs)(step);
-    if (thick) keep_apart(step, places_, settings_.push_out_speed);
+    pushed_ = between && meet_between(step, near_, bodies_, places_, settings_.push_out_speed);
+    if (thick()) keep_apart(as_thick(), partners_, h, backward, settings_.push_out_speed);
+  }
+
+  [[nodiscard]] bool thick() const { return body_.made->thickness > 0; }
+  [[nodiscard]] Thick as_thick() { return {&body_, &places_, held_}; }
+
+  /// @param among  other soft bodies may have pushed it
+  void end(double time, double h, bool among) {
     for (std::size_t i = 0; i < held_.size(); ++i) {
       body_.pins[i].force += held_[i].pushed / (h * dt_);
       if (held_[i].partner == Held::nobody && body_.pins[i].pin.body != BodyId{})
         partners_[partners_.number_of(body_.pins[i].pin.body.index)].taken += held_[i].pushed / h;
     }
     const bool touches = std::ranges::any_of(contacts_, [](const NodeContact& contact) { return contact.pressed > 0; });
-    if (held_.empty() && !touches) {
+    if (held_.empty() && !touches && !pushed_ && !among) {
       // Backward Euler takes what falls too far by half of a sub-step's gain: what nothing holds falls as a whole as
       // it must.
-      const Vec3 early = 0.5 * h * (mean_velocity(body_) - before);
+      const Vec3 early = 0.5 * h * (mean_velocity(body_) - was_);
       for (Vec3& place : body_.positions) place -= early;
     }
     tear_one(body_, began_ + time);
@@ -140,7 +150,20 @@ class Course {
   std::vector<Vec3> places_;                ///< of all nodes, before a sub-step
   std::vector<Held> held_;
   std::vector<NodeContact> contacts_;
+  Vec3 was_{0, 0, 0};    ///< mean velocity before the sub-step, of what nothing holds
+  bool pushed_ = false;  ///< between its nodes, in the sub-step
 };
+
+/// Soft bodies of which any two may meet, by their numbers.
+std::vector<std::size_t> meeting_each_other(const std::vector<const SoftBody*>& bodies) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (std::ranges::any_of(bodies, [&](const SoftBody* other) {
+          return other != bodies[i] && meet_each_other(*bodies[i]->made, *other->made);
+        }))
+      found.push_back(i);
+  return found;
+}
 
 }  // namespace
 }  // namespace soft
@@ -161,12 +184,22 @@ void World::Implementation::advance_softs(double dt) {
   soft::Partners partners(bodies, soft_starts, dt);
   const std::vector<soft::Blowing> winds = soft::winds_at(forces, time);
   std::vector<soft::Course> courses;
+  std::vector<const soft::SoftBody*> there;
   for (soft::SoftBody& body : softs)
-    if (body.alive) courses.emplace_back(body, bodies, partners, settings, winds, time, dt);
+    if (body.alive) {
+      courses.emplace_back(body, bodies, partners, settings, winds, time, dt);
+      there.push_back(&body);
+    }
+  const std::vector<std::size_t> among = soft::meeting_each_other(there);
   for (double i = 1; i <= count; ++i) {
     const double since = i < count ? i * h : dt;
     partners.go_to(since, h);
-    for (soft::Course& course : courses) course.go(since, h, static_cast<int>(i) % 2 == 0);
+    const bool backward = static_cast<int>(i) % 2 == 0;
+    for (soft::Course& course : courses) course.go(since, h, backward);
+    std::vector<soft::Thick> thick;
+    for (const std::size_t member : among) thick.push_back(courses[member].as_thick());
+    if (!thick.empty()) soft::keep_apart_from_each_other(thick, partners, h, backward, settings.push_out_speed);
+    for (std::size_t k = 0; k < courses.size(); ++k) courses[k].end(since, h, std::ranges::binary_search(among, k));
     partners.accept(h);
   }
   partners.finish(h);

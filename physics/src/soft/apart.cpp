@@ -17,7 +17,8 @@ constexpr int passes = 4, most_heeded = 64;
 /// Two nodes that came too near.
 struct NodePair {
   std::uint32_t a = 0, b = 0;
-  double apart = 0;   ///< as far as they must end, m
+  double apart = 0;  ///< as far as they must end, m
+  double friction = 0;
   double rubbed = 0;  ///< push across so far, kg m
   double pressed = 0;
 };
@@ -75,26 +76,41 @@ class NodeGrid {
   std::vector<Entry> entries_;
 };
 
+/// Nodes of one soft body, or of several, that keep apart.
 class KeptApart {
  public:
-  KeptApart(SubStep& step, const std::vector<Vec3>& before)
-      : step_(step), made_(*step.body.made), before_(before), weight_(made_.masses.size()) {
-    for (std::size_t i = 0; i < weight_.size(); ++i) weight_[i] = 1 / made_.masses[i];
-    for (const Held& held : step.held) weight_[held.node] = 0;
+  KeptApart(std::span<const Thick> thick, Partners& partners, double h, bool backward)
+      : thick_(thick), partners_(partners), h_(h), backward_(backward) {
+    for (std::uint32_t member = 0; member < thick.size(); ++member) {
+      const SoftSettings& made = *thick[member].body->made;
+      widest_ = std::max(widest_, made.thickness);
+      first_.push_back(static_cast<std::uint32_t>(weight_.size()));
+      for (std::uint32_t node = 0; node < made.masses.size(); ++node) {
+        weight_.push_back(1 / made.masses[node]);
+        member_.push_back(member);
+        places_.push_back(thick[member].body->positions[node]);
+        before_.push_back((*thick[member].before)[node]);
+      }
+      for (const Held& held : thick[member].held) weight_[first_.back() + held.node] = 0;
+    }
   }
 
-  void find(double push_out_speed) {
+  /// Pairs within one soft body, or those of two.
+  void find(double push_out_speed, bool within) {
     std::vector<int> heeded(weight_.size(), 0);
-    const std::vector<Vec3>& x = step_.body.positions;
-    NodeGrid(x, made_.thickness).each_pair([&](std::uint32_t a, std::uint32_t b) {
-      if (!(weight_[a] + weight_[b] > 0)) return true;
-      const double distance = (x[a] - x[b]).norm();
-      if (!(distance < made_.thickness)) return true;
-      const double rest = (made_.positions[a] - made_.positions[b]).norm();
+    NodeGrid(places_, widest_).each_pair([&](std::uint32_t a, std::uint32_t b) {
+      if (!(weight_[a] + weight_[b] > 0) || (member_[a] == member_[b]) != within) return true;
+      const SoftSettings &one = made_of(a), &other = made_of(b);
+      if (!within && !meet_each_other(one, other)) return true;
+      const double thickness = within ? one.thickness : 0.5 * (one.thickness + other.thickness);
+      const double distance = (places_[a] - places_[b]).norm();
+      if (!(distance < thickness)) return true;
+      const double rest = within ? (at_rest(a) - at_rest(b)).norm() : thickness;
       // What lies in each other is let out at a speed that throws nothing.
       const double was = (before_[a] - before_[b]).norm();
-      const double apart = std::min({made_.thickness, rest, was + step_.h * push_out_speed});
-      if (distance < apart) pairs_.push_back({a, b, apart});
+      const double apart = std::min({thickness, rest, was + h_ * push_out_speed});
+      if (distance < apart)
+        pairs_.push_back({a, b, apart, within ? one.friction : std::sqrt(one.friction * other.friction)});
       return ++heeded[a] < most_heeded;
     });
   }
@@ -102,12 +118,19 @@ class KeptApart {
   void push() {
     for (int pass = 0; pass < passes; ++pass)
       for (std::size_t i = 0; i < pairs_.size(); ++i)
-        meet(pairs_[step_.backward == (pass % 2 == 0) ? pairs_.size() - 1 - i : i]);
+        meet(pairs_[backward_ == (pass % 2 == 0) ? pairs_.size() - 1 - i : i]);
+    for (std::uint32_t node = 0; node < places_.size(); ++node)
+      thick_[member_[node]].body->positions[node - first_[member_[node]]] = places_[node];
   }
 
  private:
+  [[nodiscard]] const SoftSettings& made_of(std::uint32_t node) const { return *thick_[member_[node]].body->made; }
+  [[nodiscard]] const Vec3& at_rest(std::uint32_t node) const {
+    return made_of(node).positions[node - first_[member_[node]]];
+  }
+
   void meet(NodePair& pair) {
-    const std::vector<Vec3>& x = step_.body.positions;
+    const std::vector<Vec3>& x = places_;
     const Vec3 between = x[pair.a] - x[pair.b];
     const double distance = between.norm(), weights = weight_[pair.a] + weight_[pair.b];
     const Vec3 normal = distance > 0 ? Vec3(between / distance) : Vec3(0, 1, 0);
@@ -117,7 +140,7 @@ class KeptApart {
     give(pair, change * normal);
     Vec3 slid = (x[pair.a] - before_[pair.a]) - (x[pair.b] - before_[pair.b]);
     slid -= normal.dot(slid) * normal;
-    const double way = slid.norm(), room = made_.friction * pair.pressed - pair.rubbed;
+    const double way = slid.norm(), room = pair.friction * pair.pressed - pair.rubbed;
     if (!(way > 0) || !(room > 0)) return;
     const double rub = std::min(way / weights, room);
     pair.rubbed += rub;
@@ -130,30 +153,49 @@ class KeptApart {
     give_one(pair.b, -push);
   }
   void give_one(std::uint32_t node, const Vec3& push) {
+    const Thick& its = thick_[member_[node]];
+    const std::uint32_t own = node - first_[member_[node]];
     if (weight_[node] > 0) {
-      step_.body.positions[node] += weight_[node] * push;
-      step_.body.velocities[node] += weight_[node] / step_.h * push;
+      places_[node] += weight_[node] * push;
+      its.body->velocities[own] += weight_[node] / h_ * push;
       return;
     }
-    for (Held& held : step_.held) {
-      if (held.node != node) continue;
+    for (Held& held : its.held) {
+      if (held.node != own) continue;
       held.pushed += push;
-      if (held.partner != Held::nobody) step_.partners[held.partner].give(push, held.arm, step_.h);
+      if (held.partner != Held::nobody) partners_[held.partner].give(push, held.arm, h_);
     }
   }
 
-  SubStep& step_;
-  const SoftSettings& made_;
-  const std::vector<Vec3>& before_;
+  std::span<const Thick> thick_;
+  Partners& partners_;
+  double h_;
+  bool backward_;
+  double widest_ = 0;
+  std::vector<std::uint32_t> first_;   ///< node of each soft body
+  std::vector<std::uint32_t> member_;  ///< whose node it is
+  std::vector<Vec3> places_, before_;
   std::vector<double> weight_;  ///< inverse masses; 0 of what is held
   std::vector<NodePair> pairs_;
 };
 
 }  // namespace
 
-void keep_apart(SubStep& step, const std::vector<Vec3>& before, double push_out_speed) {
-  KeptApart kept(step, before);
-  kept.find(push_out_speed);
+bool meet_each_other(const SoftSettings& one, const SoftSettings& other) {
+  return one.thickness > 0 && other.thickness > 0 && one.collide && other.collide &&
+         (one.groups & other.collides_with) != 0 && (other.groups & one.collides_with) != 0;
+}
+
+void keep_apart(const Thick& thick, Partners& partners, double h, bool backward, double push_out_speed) {
+  KeptApart kept({&thick, 1}, partners, h, backward);
+  kept.find(push_out_speed, true);
+  kept.push();
+}
+
+void keep_apart_from_each_other(std::span<const Thick> thick, Partners& partners, double h, bool backward,
+                                double push_out_speed) {
+  KeptApart kept(thick, partners, h, backward);
+  kept.find(push_out_speed, false);
   kept.push();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "collision/collide_pairs.h"
+#include "soft/between.h"
 
 namespace tweenfall::soft {
 
@@ -47,7 +48,8 @@ std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>
     const Bounds after = bounds(other.shape(), other.motion.pose);
     const Bounds around{before.low.cwiseMin(after.low), before.high.cwiseMax(after.high)};
     if (!overlap(all, around)) continue;
-    near.push_back({partners.number_of(i), around, std::sqrt(made.friction * other.makeup->friction)});
+    near.push_back({partners.number_of(i), around, std::sqrt(made.friction * other.makeup->friction),
+                    may_slip_between(made, other.shape())});
   }
   return near;
 }

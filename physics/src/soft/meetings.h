@@ -11,6 +11,7 @@ struct Near {
   std::uint32_t partner = 0;
   Bounds around{Vec3(0, 0, 0), Vec3(0, 0, 0)};  ///< all its way, world
   double friction = 0;                          ///< with the soft body
+  bool slips = false;                           ///< it is thinner than the space between nodes
 };
 
 /// @param bodies  all of the world, as the step has left them

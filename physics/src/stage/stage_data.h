@@ -126,6 +126,12 @@ struct PlayedTracks {
   std::vector<PlayedTrack<Vec3>> surfaces;  ///< m/s
 };
 
+/// When strengths of forces and scripts of vehicles leap from one value to another.
+struct Leaps {
+  std::vector<double> keyed;         ///< in order, s
+  std::vector<Expression> formulas;  ///< that are asked step by step
+};
+
 /// One joint that the description or the caller put into the world.
 struct StagedJoint {
   std::string name;
@@ -171,7 +177,7 @@ struct StageState {
   std::shared_ptr<const PlayedTracks> tracks;
   std::shared_ptr<const StagedJoints> joints;  ///< gone ones included: the world knows which hold
   std::shared_ptr<const StagedSofts> softs;
-  std::shared_ptr<const std::vector<double>> leaps;  ///< of what is scripted, in order of time
+  std::shared_ptr<const Leaps> leaps;  ///< of what is scripted
   std::vector<std::size_t> forces;                   ///< numbers of the description's in the world
   std::vector<StagedVehicle> vehicles;               ///< as they were described
   std::vector<StagedParticles> particles;            ///< likewise

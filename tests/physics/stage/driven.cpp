@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "forces/formula_leaps.h"
 #include "support.h"
 
 using namespace tweenfall;
@@ -135,17 +136,45 @@ TEST_CASE("where a strength leaps inside a step, the force is there from that in
   stage.step = 1.0 / 60;
   stage.world.gravity = Vec3(0, 0, 0);
   stage.nodes.push_back({.name = "box", .body = BodyDescription{.shape = {Box{Vec3(1, 1, 1)}}, .mass = 2.0}});
-  stage.forces = {{.force = Push{.force = Vec3(3, 0, 0)},
-                   .a = 0,
-                   .strength = Strength(keyed_curve<double>({{.time = 0, .value = 0.0, .ease = Ease::hold()},
-                                                             {.time = begins, .value = 1.0, .ease = Ease::hold()},
-                                                             {.time = ends, .value = 0.0}}))}};
-  for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::rk4, Integrator::trapezoid}) {
-    stage.world.integrator = integrator;
+  const Strength keyed(keyed_curve<double>({{.time = 0, .value = 0.0, .ease = Ease::hold()},
+                                            {.time = begins, .value = 1.0, .ease = Ease::hold()},
+                                            {.time = ends, .value = 0.0}}));
+  const Strength formula = Strength::formula("step(0.31371, t) - floor(t / 0.71113)");
+  const auto kinds = {Integrator::exact_quadratic, Integrator::rk4, Integrator::trapezoid};
+  for (int n = 0; n < 6; ++n) {
+    stage.world.integrator = *(kinds.begin() + n / 2);
+    stage.forces = {{.force = Push{.force = Vec3(3, 0, 0)}, .a = 0, .strength = n % 2 == 0 ? keyed : formula}};
+    CAPTURE(n);
     Stage run(stage);
     run.advance_to(1);
     CHECK(near(run.twist(0).linear.x(), 1.5 * (ends - begins), 1e-8));
     const double gone = 0.75 * (ends - begins) * (ends - begins) + 1.5 * (ends - begins) * (1 - ends);
     CHECK(near(run.world(0).motion.pose.position.x(), gone, 1e-8));
   }
+}
+
+TEST_CASE("a formula that leaps tells when, and one that is only steep does not") {
+  CHECK(forces::may_leap("2 * floor(t)"));
+  CHECK_FALSE(forces::may_leap("smoothstep(0, 1, t) + steppe"));
+  const double never = std::numeric_limits<double>::infinity();
+  const auto leap = [](const char* text, double from, double to) {
+    return forces::next_leap(Expression(text), from, to);
+  };
+  CHECK(leap("step(0.5, t)", 0.49, 0.51) == 0.5);
+  CHECK(leap("step(0.5, t)", 0.49, 0.5) == 0.5);
+  CHECK(leap("step(0.5, t)", 0.5, 0.51) == never);
+  CHECK(near(leap("floor(t / 0.1)", 0.295, 0.305), 0.3, 1e-15));
+  CHECK(near(leap("3 + 1e-6 * sign(sin(pi * t))", 0.999, 1.002), 1, 1e-15));
+  CHECK(near(leap("mod(t, 0.7) * exp(t)", 1.39, 1.41), 1.4, 1e-15));
+  CHECK(near(leap("fract(t) + 40 * sin(9 * t)", 1.999, 2.003), 2, 1e-15));
+  for (const char* text : {"sin(1000 * t)", "smoothstep(0.499, 0.501, t)", "100 * t / (1 + t)", "atan2(sin(t), cos(t))",
+                           "tanh(1e4 * (t - 0.5)) + floor(t)", "abs(t - 0.5)", "max(t, 0.5)", "1 / (t - 0.5)"})
+    CHECK_MESSAGE(leap(text, 0.4985, 0.5015) == never, text);
+  // Beside the leap each side has its own value, as far as sums of steps may be off.
+  const Strength strength = Strength::formula("floor(t)");
+  for (const double off : {-3e-10, 0.0, 3e-10}) {
+    CHECK(strength.at(2 + off, Side::out) == 2);
+    CHECK(strength.at(2 + off, Side::in) == 1);
+  }
+  CHECK(strength.at(2.5) == 2);
 }

@@ -6,9 +6,10 @@
 /// being bent, and volumes that resist being squeezed. One description serves two solvers: `springs` takes all of it as
 /// forces and finds the end of each sub-step by backward Euler; `positions` takes it as constraints with a compliance
 /// (XPBD). What is of infinite stiffness only the second knows. Nodes are balls of the soft body's radius where they
-/// meet rigid bodies, and what pushes them pushes back; what is smaller than the space between nodes slips through.
-/// Nodes meet each other where a soft body has a `thickness`, and no other soft body's. A rigid body that a soft one
-/// touches or holds stays awake.
+/// meet rigid bodies, and what pushes them pushes back. So do triangles, and edges where there are none, against bodies
+/// that are thin enough to slip between nodes; a body that goes farther than its own and that radius within a sub-step
+/// may pass. Nodes meet each other where a soft body has a `thickness`, and those of another that has one too, by the
+/// mean of both. A rigid body that a soft one touches or holds stays awake.
 ///
 ///     World world;
 ///     const BodyId hand = world.add({.shape = {Sphere{0.1}}, .drive = Drive::keyed()});
@@ -96,7 +97,7 @@ struct SoftSettings {
   double radius = 0.01;       ///< of the nodes where they meet bodies, m; > 0
   double friction = 0.5;      ///< with bodies: sqrt(f1 f2)
   double linear_damping = 0;  ///< 1/s: how fast a free node's speed fades
-  bool collide = true;        ///< whether it meets bodies; a pinned node never does
+  bool collide = true;        ///< whether it meets other bodies; a pinned node meets no rigid one
   std::uint64_t groups = 1;   ///< as of bodies
   std::uint64_t collides_with = ~std::uint64_t{0};
   /// How near its nodes come to each other, m, or as near as they are at rest where that is less; 0: as near as they

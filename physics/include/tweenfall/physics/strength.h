@@ -18,7 +18,8 @@ class Strength {
   /// of the greatest value.
   /// @throws std::invalid_argument for a formula, which has no keys, and for values beyond 1e30
   Strength(const Curve<double>& keys);
-  /// A formula of t, the world's time in s; where it has no finite value, 0 stands in.
+  /// A formula of t, the world's time in s; where it has no finite value, 0 stands in. Where it leaps (floor, step,
+  /// sign, mod, ...) times within a billionth of a second are the leap's; a stage ends a step there.
   /// @throws ExpressionError
   [[nodiscard]] static Strength formula(const std::string& text);
 
