@@ -49,7 +49,8 @@ std::string nearest_name(std::string_view wrong, std::span<const std::string> na
   for (const std::string& name : names) {
     if (name.size() > words::longest_compared) continue;
     const std::size_t edits = edit_distance(wrong, name);
-    if (edits >= fewest) continue;
+    // What has nothing in common is not near, however short it is.
+    if (edits >= fewest || edits >= std::max(wrong.size(), name.size())) continue;
     fewest = edits;
     best = name;
   }

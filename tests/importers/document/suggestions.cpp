@@ -182,3 +182,28 @@ TEST_CASE("a rotation of bare numbers is answered with the spelling that so many
   CHECK(says(said("[0, 0, 1, 0]"), "found a list of 4; say {\"quat\": [0, 0, 1, 0]} (at"));
   CHECK(says(said("[0, 0]"), "found a list of 2 (at"));
 }
+
+TEST_CASE("what others call things, or write in another form, is answered by ours") {
+  const std::string head = "{\"tweenfall\": 1, ", body = "\"nodes\": {\"a\": {\"body\": {\"shape\": ";
+  const auto said = [&](const std::string& text) { return faults_of(head + text, "others.json", {}); };
+  const auto answers = [&](const std::string& text, const std::string& words) {
+    CAPTURE(text);
+    const std::string faults = said(text);
+    CHECK_MESSAGE(faults.find(words) != std::string::npos, faults);
+  };
+  answers(body + "{\"cube\": {\"size\": [1, 1, 1]}}}}}}", "did you mean \"box\"?");
+  answers(body + "{\"box\": {\"half_extents\": [1, 1, 1]}}}}}}", "did you mean \"size\"?");
+  answers(body + "{\"convex\": {}}}}}}", "did you mean \"hull\"?");
+  answers(body + "{\"sphere\": {\"radius\": 1}}, \"spin\": [0, 0, 1]}}}}", "did you mean \"angular_velocity\"?");
+  answers(body + "{\"sphere\": {\"radius\": 1}}, \"isTrigger\": true}}}}", "did you mean \"sensor\"?");
+  answers("\"handoff\": [{\"node\": \"a\", \"when\": {\"collision\": {}}, \"to\": \"dynamic\"}]}",
+          "did you mean \"body\"?");
+  answers("\"handoff\": [{\"body\": \"a\", \"when\": {\"at\": 1}, \"to\": \"dynamic\"}]}", "did you mean \"free\"?");
+  answers("\"handoff\": {\"body\": \"a\", \"when\": {\"at\": 1}, \"to\": \"free\"}}", "write it in a list, [...]");
+  answers("\"play\": \"c\"}", "say {\"clip\": \"c\"}, in a list");
+  answers("\"world\": {\"plane\": true}}", "available: \"none\", \"xy\", \"xz\", \"yz\"");
+  answers("\"clips\": {\"c\": {\"loop\": true}}}", "available: \"repeat\", \"repeat-offset\", \"pingpong\"");
+  // What has nothing in common with a name is not taken for it.
+  const std::string keyed = said("\"clips\": {\"c\": {\"tracks\": {\"a.b\": {\"0\": 1}}}}}");
+  CHECK_MESSAGE(keyed.find("did you mean") == std::string::npos, keyed);
+}

@@ -181,6 +181,10 @@ const Table<Play>& play_table() {
 const Form* play_form(FormStore& store, const ValueForms& values) {
   Form play = play_table().listing_form(store, values);
   play.definition = "play";
+  play.instead = [](const json::Value& value) {
+    const bool named = value.is(json::Value::Kind::text);
+    return named ? "; say {\"clip\": " + json::in_quotes(value.text()) + "}" : std::string();
+  };
   return store.add(std::move(play));
 }
 

@@ -24,8 +24,7 @@ class Checker {
     if (value.is(Kind::faulty)) return;
     const Form* chosen = resolved(form, value);
     if (!chosen) {
-      fault(value, "expected " + form.what + ", found " + described(value) +
-                       (form.instead ? form.instead(value) : std::string()));
+      fault(value, "expected " + form.what + ", found " + described(value) + instead_of(form, value));
       return;
     }
     const std::string& what = chosen->what.empty() ? form.what : chosen->what;
@@ -55,6 +54,21 @@ class Checker {
   }
 
  private:
+  // What could be written in place of a value of another kind.
+  static std::string instead_of(const Form& form, const json::Value& value) {
+    if (form.instead)
+      if (std::string better = form.instead(value); !better.empty()) return better;
+    if (form.kind == Form::Kind::list && form.fewest <= 1) {
+      if (resolved(*form.element, value)) return "; write it in a list, [...]";
+      const std::string better = form.element->instead ? form.element->instead(value) : std::string();
+      return better.empty() ? better : better + ", in a list";
+    }
+    if (!form.words.empty()) return suggestion_of({}, form.words);
+    for (const Form* alternative : form.alternatives)
+      if (!alternative->words.empty()) return suggestion_of({}, alternative->words);
+    return {};
+  }
+
   void fault(const json::Value& at, std::string message) {
     problems_.add(at, std::move(message));
     tree_.mark_faulty(at);

@@ -12,7 +12,7 @@ namespace tweenfall::document {
 
 namespace {
 
-// What other programs and formats call the parts of a pose, in small letters.
+// What other programs and formats call what is ours, in small letters; heeded where ours is among what can be said.
 constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
     {"translation", "position"},
     {"translate", "position"},
@@ -31,6 +31,43 @@ constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
     {"morph", "weights"},
     {"morphs", "weights"},
     {"blendshapes", "weights"},
+    {"opacity", "color"},
+    {"alpha", "color"},
+    {"kinematic", "keyed"},
+    {"animated", "keyed"},
+    {"scripted", "keyed"},
+    {"dynamic", "free"},
+    {"physics", "free"},
+    {"simulated", "free"},
+    {"half_extents", "size"},
+    {"halfextents", "size"},
+    {"extents", "size"},
+    {"dimensions", "size"},
+    {"size", "half_extents"},
+    {"length", "height"},
+    {"half_height", "height"},
+    {"k", "stiffness"},
+    {"min", "low"},
+    {"lower", "low"},
+    {"max", "high"},
+    {"upper", "high"},
+    {"bodies", "between"},
+    {"node", "body"},
+    {"object", "body"},
+    {"other", "with"},
+    {"start", "at"},
+    {"first", "start"},
+    {"last", "end"},
+    {"loop", "repeat"},
+    {"cycle", "repeat"},
+    {"yoyo", "pingpong"},
+    {"alternate", "pingpong"},
+    {"pgs", "iterative"},
+    {"heun", "trapezoid"},
+    {"leapfrog", "verlet"},
+    {"symplectic-euler", "semi-implicit-euler"},
+    {"implicit-euler", "backward-euler"},
+    {"sap", "sweep"},
 };
 
 }  // namespace

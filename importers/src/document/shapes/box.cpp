@@ -28,8 +28,10 @@ const Form* box_form(FormStore& store, const ValueForms& values) {
 }  // namespace
 
 ShapeRow box() {
-  return fitted_or_sized<Box>("box", "of a size, or the smallest around a mesh, where that is", box_table(),
-                              fields::FormOf::Make(box_form), box_around);
+  ShapeRow row = fitted_or_sized<Box>("box", "of a size, or the smallest around a mesh, where that is", box_table(),
+                                      fields::FormOf::Make(box_form), box_around);
+  row.elsewhere = {"cube", "cuboid"};
+  return row;
 }
 
 }  // namespace tweenfall::document::shapes

@@ -49,7 +49,8 @@ ShapeRow hull() {
         hull_or_problem(given.place, building.problems, [&] { return hull_around(given.points); });
     if (made) shape.solid = std::move(*made);
   };
-  return {"hull", fields::FormOf::Make(hull_form), "the smallest convex solid around points or a mesh", {read}};
+  return {"hull", fields::FormOf::Make(hull_form), "the smallest convex solid around points or a mesh", {read}, false,
+          {},     {"convex", "convex_hull"}};
 }
 
 }  // namespace tweenfall::document::shapes
