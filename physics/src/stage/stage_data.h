@@ -177,12 +177,12 @@ struct StageState {
   std::shared_ptr<const PlayedTracks> tracks;
   std::shared_ptr<const StagedJoints> joints;  ///< gone ones included: the world knows which hold
   std::shared_ptr<const StagedSofts> softs;
-  std::shared_ptr<const Leaps> leaps;  ///< of what is scripted
-  std::vector<std::size_t> forces;                   ///< numbers of the description's in the world
-  std::vector<StagedVehicle> vehicles;               ///< as they were described
-  std::vector<StagedParticles> particles;            ///< likewise
-  std::vector<char> present;                         ///< by node
-  std::vector<std::optional<Color>> colors;          ///< by node, where none is animated
+  std::shared_ptr<const Leaps> leaps;        ///< of what is scripted
+  std::vector<std::size_t> forces;           ///< numbers of the description's in the world
+  std::vector<StagedVehicle> vehicles;       ///< as they were described
+  std::vector<StagedParticles> particles;    ///< likewise
+  std::vector<char> present;                 ///< by node
+  std::vector<std::optional<Color>> colors;  ///< by node, where none is animated
   std::vector<StagedBody> bodies;
   std::vector<std::size_t> unused;                ///< places in `bodies` of those that have left
   std::vector<std::size_t> body_of;               ///< by node; `no_body` for none
