@@ -36,8 +36,10 @@ constexpr double long_enough = 0.15;
 /// Rows are prepared again when a body has turned by this since, rad.
 constexpr double turned_enough = 0.02, turned_enough_of_small = 0.002;
 /// Rows cannot follow what turns by more than this in a sub-step, rad.
-constexpr double followable = 0.5, followable_of_small = 0.05;
+constexpr double followable = 0.5, followable_of_small = 0.05, followable_of_jointed = 0.3;
 
+/// What turns by more than this in a step does not lie, rad.
+constexpr double turns = 1e-3;
 /// Of the blows of so little restitution those that are handed on do not matter.
 constexpr double dull = 0.25;
 constexpr int passes_of_meeting = 2;
@@ -101,6 +103,16 @@ bool is_apart(const islands::IslandContents& island, const std::vector<Body>& bo
   });
 }
 
+/// Of what is jointed and has different moments about its axes, rad/s.
+double fastest_spin(const islands::IslandContents& island, const std::vector<Body>& bodies) {
+  double fastest = 0;
+  for (const joints::JointLink* link : island.joints)
+    for (const std::uint32_t end : {link->a, link->b})
+      if (end != joints::JointLink::world && !bodies[end].immovable() && !bodies[end].spherical())
+        fastest = std::max(fastest, bodies[end].twist.angular.squaredNorm());
+  return std::sqrt(fastest);
+}
+
 }  // namespace
 
 std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::IslandContents& island,
@@ -134,8 +146,9 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
     effort.alone = effort.alone || is_apart(island, bodies);
     effort.giving = giving_of_jointed;
     const int fewest = dt > long_step ? fewest_of_jointed : fewest_of_jointed_in_short;
-    effort.sub_steps = std::max(
-        fewest, static_cast<int>(std::min(std::ceil(dt / longest_of_jointed - 1e-6), double{sub_steps_of_few})));
+    const double wanted = std::max(std::ceil(dt / longest_of_jointed - 1e-6),
+                                   std::ceil(fastest_spin(island, bodies) * dt / followable_of_jointed));
+    effort.sub_steps = std::max(fewest, static_cast<int>(std::min(wanted, double{sub_steps_of_few})));
     return effort;
   }
   const std::uint32_t depth = depth_.of(island.contacts, bodies);
@@ -167,15 +180,17 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
   effort.turned_enough = turned_enough_of_small;
   const double h = dt / effort.sub_steps;
   bool meets = false;
+  double fastest = 0;
   for (ContactConstraint* contact : island.contacts) {
     if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return std::nullopt;
     const Body &a = bodies[contact->a], &b = bodies[contact->b];
     for (const Body* body : {&a, &b}) {
       if (drives(*body)) return std::nullopt;
       if (body->immovable()) continue;
-      if (body->drive.owner() == Owner::driven || body->makeup->turned ||
-          body->twist.angular.norm() * h > followable_of_small)
+      const double spin = body->twist.angular.norm();
+      if (body->drive.owner() == Owner::driven || body->makeup->turned || spin * h > followable_of_small)
         return std::nullopt;
+      if (!body->round()) fastest = std::max(fastest, spin);
     }
     const contacts::Closing closing =
         contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
@@ -185,6 +200,8 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     if (island.contacts.size() == 1 || contact->restitution > dull) return std::nullopt;
     meets = true;
   }
+  // What turns lets go of what it touches, and what then is left of an uneven push stays with it.
+  if (effort.single && fastest * dt > turns) effort.softening = effort.relaxing = 3 * settings.iterations;
   // What meets has no rest yet that many passes would find.
   if (meets) effort.softening = effort.relaxing = passes_of_meeting;
   return effort;

@@ -20,8 +20,8 @@ namespace {
 /// Up to this turn in a sub-step a pressed body's spin changes by itself as two evaluations of Euler's equations say.
 constexpr double slow_turn = 0.05;
 
-/// A change of velocity that no longer matters, m/s.
-constexpr double settled = 1e-11;
+/// Of the speed that a contact's impulses give, a change that no longer matters.
+constexpr double settled = 1e-12;
 
 /// Lanes that another lane's contact makes do more than their own adds nothing, which may turn a -0 into a 0: it must
 /// not tell which contacts share a block.
@@ -211,6 +211,13 @@ void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vec
     const Body& body = bodies[entry.index];
     const Load& load = loads[entry.index];
     const Vec3 angular = angular_of(velocity);
+    if (entry.jointed && !spins_.empty() && !(load.angular_drag > 0)) {
+      const Vec3 damped = angular / (1 + load.angular_damping * h);
+      const Vec3 spin = spins_.begin_sub_step(i, body, load, entry.rotation, damped, h);
+      if (spins_.follows(i)) return set(velocity.angular, spin);
+    } else if (!spins_.empty()) {
+      spins_.leave(i);
+    }
     const bool slow = !entry.followed && angular.squaredNorm() * h * h <= slow_turn * slow_turn;
     if (!slow || load.angular_drag > 0) {
       const forces::Spin spin = forces::turned(body, {entry.rotation, angular}, load, h);
@@ -399,6 +406,35 @@ void BlockSolver::bound_spins(const std::vector<Body>& bodies, double h) {
   });
 }
 
+/// What impulses gave to the spins of jointed bodies turns along with them. Most of it is known when the rows begin; of
+/// the rest joints see what is left with the next sub-step.
+void BlockSolver::follow_spins(const std::vector<Body>& bodies) {
+  if (spins_.empty()) return;
+  work_.ranges(uneven_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::uint32_t i = uneven_[k];
+      if (!spins_.follows(i)) continue;
+      set(velocities_[i].angular, spins_.followed(i, bodies[indices_[i]], angular_of(velocities_[i])));
+    }
+  });
+}
+
+void BlockSolver::end_jointed(const std::vector<Body>& bodies) {
+  if (joints_.empty()) return;
+  for (const std::uint32_t i : uneven_) {
+    starts_[i] = velocities_[i];
+    IslandBody& entry = bodies_[i];
+    if (entry.jointed && entry.movable)
+      entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
+  }
+  joints_.end_step(bodies, bodies_, velocities_);
+  for (const std::uint32_t i : uneven_) {
+    if (!spins_.follows(i)) continue;
+    set(velocities_[i].angular, spins_.turned_back(i, bodies[indices_[i]], bodies_[i].rotation, angular_of(starts_[i]),
+                                                   angular_of(velocities_[i])));
+  }
+}
+
 Rows BlockSolver::rows() {
   Rows rows;
   rows.blocks = contacts_.blocks.data();
@@ -451,6 +487,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   holds_.gather(contacts_, h);
   reach_.forget();
   joints_.build(island.joints, bodies, places_, bodies_, h, dt, work_);
+  spins_.begin(joints_.empty() ? 0 : bodies_.size());
   const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
   const double giving = effort.giving * softness.giving;
   PassRule soft{all(softness.rate), all(softness.speed), all(1 - giving), all(1 - giving), all(1 / h), all(settled)};
@@ -467,6 +504,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     by_color([&](const Rows& some) { kernels.warm_start(some); });
     holds_.begin_sub_step(bodies, bodies_, velocities_, dt - (sub_step + 1) * h);
     joints_.begin_sub_step(bodies, bodies_, starts_, velocities_);
+    follow_spins(bodies);
     if (bouncy_) find_rebounds(h);
     // Joints have the last word: what a contact then lacks, the next sub-step gives.
     for (int k = 0; k < softening; ++k) {
@@ -475,6 +513,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       by_color([&](const Rows& some) { kernels.solve(some, soft); });
       joints_.solve(velocities_, true, k % 2 != 0);
     }
+    follow_spins(bodies);
     find_lags();
     if (!joints_.empty()) tame_jointed(bodies, h);
     joints_.move(velocities_);
@@ -486,6 +525,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       by_color([&](const Rows& some) { kernels.solve(some, hard); });
       joints_.solve(velocities_, false, k % 2 == 0);
     }
+    follow_spins(bodies);
     if (!rebounds_.empty()) {
       rebound(bodies, loads, effort.rebound_passes);
       joints_.solve(velocities_, false, true);
@@ -497,7 +537,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   }
   contacts_.store(h, work_);
   holds_.store();
-  joints_.end_step(bodies, bodies_, velocities_);
+  end_jointed(bodies);
   // Also a body that only the last pass reached has momentum from it.
   work_.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

@@ -7,6 +7,7 @@
 #include "blocks/contact_blocks.h"
 #include "blocks/island_body.h"
 #include "blocks/island_holds.h"
+#include "blocks/jointed_spins.h"
 #include "forces/free_flight.h"
 #include "islands/island_contents.h"
 #include "islands/island_depth.h"
@@ -100,6 +101,8 @@ class BlockSolver {
   void lead(double dt, int sub_steps, int sub_step);
   void end_lead();
   void bound_spins(const std::vector<state::Body>& bodies, double h);
+  void follow_spins(const std::vector<state::Body>& bodies);
+  void end_jointed(const std::vector<state::Body>& bodies);
   [[nodiscard]] Rows rows();
   /// Calls see(rows) for all blocks, or for parts of those of one color after the other.
   template <class See>
@@ -160,6 +163,7 @@ class BlockSolver {
   std::vector<contacts::Closing> closings_;  ///< of the contacts
   ContactBlocks contacts_;
   joints::IslandJoints joints_;
+  JointedSpins spins_;  ///< empty where there are no joints
   IslandHolds holds_;
   bool bouncy_ = false;      ///< some contact has restitution
   bool conveyed_ = false;    ///< some surface moves

@@ -103,10 +103,10 @@ struct PassRule {
   Lanes firm = all(1);       ///< share of the speed error met
   Lanes keeping = all(1);    ///< share of the impulse kept
   Lanes inverse_h = all(0);  ///< of the sub-step, 1/s
-  Lanes enough = all(0);     ///< of several passes, a change of velocity that no longer matters, m/s
-  int passes = 1;            ///< more than one only where no two lanes share a movable body
-  bool note = false;         ///< notes what is pressed and held
-  bool sum_up = false;       ///< adds the impulses to the totals
+  Lanes enough = all(0);  ///< of several passes, of the speed that the impulses give: a change that no longer matters
+  int passes = 1;         ///< more than one only where no two lanes share a movable body
+  bool note = false;      ///< notes what is pressed and held
+  bool sum_up = false;    ///< adds the impulses to the totals
 };
 
 /// Rows of a whole island, and its bodies. What stands firm has the last word: contacts of one movable body come after

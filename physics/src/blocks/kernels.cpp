@@ -9,6 +9,9 @@ namespace tweenfall::blocks {
 
 namespace {
 
+/// Of a speed, the part that what is added to it and taken away again may leave.
+constexpr double rounding_of_speed = 1e-15;
+
 /// What is done with blocks, in registers of one kind.
 template <class Register>
 struct RowWork {
@@ -86,6 +89,10 @@ struct RowWork {
     }
   }
 
+  TWEENFALL_LANES static Number sum_of_sizes(const Vector& v) {
+    return greater(v.x, -v.x) + (greater(v.y, -v.y) + greater(v.z, -v.z));
+  }
+
   /// Looks on while rows change: of a single pass nothing is asked.
   struct Unwatched {
     TWEENFALL_LANES Number keep(const Number& next, const Number&) const { return next; }
@@ -96,7 +103,10 @@ struct RowWork {
     Number enough;
     Which stirs, changed;
 
-    TWEENFALL_LANES explicit Watched(const PassRule& rule) : enough(rule.enough) {
+    /// @param given  the speed that the impulses at the start have given
+    /// @param speed  the greatest there is, or more
+    TWEENFALL_LANES Watched(const PassRule& rule, const Number& given, const Number& speed)
+        : enough(rule.enough * given + Number(rounding_of_speed) * speed) {
       const Number zero(0.0);
       stirs = zero >= zero;
       changed = zero > zero;
@@ -277,7 +287,11 @@ struct RowWork {
       Unwatched watch;
       pass_over<even>(rows, block, rule, pair, watch);
     } else {
-      Watched watch(rule);
+      Number pressing(0.0);
+      for (int i = 0; i < block.points; ++i)
+        pressing = pressing + rows.points[block.point + static_cast<std::uint32_t>(i)].impulse;
+      Watched watch(rule, (Number(block.inverse_mass_a) + block.inverse_mass_b) * pressing,
+                    sum_of_sizes(pair.linear_a) + sum_of_sizes(pair.linear_b));
       for (int k = 0; k < rule.passes; ++k) {
         pass_over<even>(rows, block, rule, pair, watch);
         if (!watch.goes_on()) break;
@@ -356,7 +370,8 @@ struct RowWork {
       Unwatched watch;
       pass_over(block, rule, balls, watch);
     } else {
-      Watched watch(rule);
+      Watched watch(rule, (Number(block.inverse_mass_a) + block.inverse_mass_b) * balls.impulse,
+                    sum_of_sizes(balls.linear_a) + sum_of_sizes(balls.linear_b));
       for (int k = 0; k < rule.passes; ++k) {
         pass_over(block, rule, balls, watch);
         if (!watch.goes_on()) break;

@@ -261,7 +261,10 @@ void IslandJoints::end_step(const std::vector<state::Body>& bodies, std::vector<
   store();
   closing_ = true;
   // All see the places where the last sub-step ended.
-  each_group([&](FigureGroup& group) { write(group, blocks::all(1), bodies, island, velocities); });
+  each_group([&](FigureGroup& group) {
+    group.load_bodies(island);
+    write(group, blocks::all(1), bodies, island, velocities);
+  });
   each_group([&](FigureGroup& group) {
     close_gaps(group, bodies, island, velocities);
     Figures& figures = group.figures(velocities);

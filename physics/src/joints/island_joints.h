@@ -41,8 +41,10 @@ class IslandJoints {
       if (!group.acts(place, lane)) return;
       const Entry& entry = joints_[group.joint(place, lane)];
       island[entry.a].jointed = island[entry.b].jointed = true;
-      if (!moves(island, entry.a)) anchored(entry.b);
-      if (!moves(island, entry.b)) anchored(entry.a);
+      // Pulleys are held by nothing that moves.
+      const bool hangs = std::holds_alternative<PulleyJoint>(entry.joint->settings.kind);
+      if (hangs || !moves(island, entry.a)) anchored(entry.b);
+      if (hangs || !moves(island, entry.b)) anchored(entry.a);
     });
   }
   /// The bodies move with these velocities.

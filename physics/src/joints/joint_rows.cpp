@@ -86,10 +86,7 @@ void JointRows::hold(const Direction& direction, double error, double bend) {
 }
 
 void JointRows::hold_across(const Placement& at, const Vec3& axis) {
-  const Vec3& spin = at.twist_a.angular;
-  const Vec3 gap = at.gap();
-  hold(along(at, axis), axis.dot(gap),
-       axis.dot(at.gap_bend()) + 2 * spin.cross(axis).dot(at.gap_rate()) + spin.cross(spin.cross(axis)).dot(gap));
+  hold(along(at, axis), axis.dot(at.gap()), at.bend_along(axis));
 }
 
 void JointRows::hold_square(const Placement& at, const Vec3& axis_a, const Vec3& axis_b) {
@@ -124,7 +121,7 @@ void JointRows::hold_rotation(const Placement& at) {
   for (int i = 0; i < 3; ++i) hold(about(Vec3::Unit(i)), off[i], 0);
 }
 
-void JointRows::bound(const Direction& direction, double position, const Limits* limits) {
+void JointRows::bound(const Direction& direction, double position, const Limits* limits, double bend) {
   for (const bool low : {true, false}) {
     const double gap = !limits ? 0 : low ? position - limits->low : limits->high - position;
     if (!limits || std::isinf(gap)) {
@@ -142,7 +139,11 @@ void JointRows::bound(const Direction& direction, double position, const Limits*
       if (parts[count - 1] == Part::idle) continue;
     } else {
       Row& row = add(low ? direction : -direction);
-      row.wanted = row.wanted_after = gap > 0 ? -gap / h_ : 0;
+      // What is taut goes around as what is held does: the little that an arc leaves of a gap is taken back in the
+      // sub-step, and no speed is left of it.
+      const double around = -0.5 * h_ * (low ? bend : -bend);
+      row.wanted = around + (gap > 0 ? -gap / h_ : 0);
+      row.wanted_after = gap > h_ * std::abs(around) ? row.wanted : around;
       if (gap < 0) draw_near(row, gap, angular);
       if (gap > -far_beyond) row.left = 0;
     }
@@ -189,6 +190,14 @@ void JointRows::spring(const Direction& direction, double error, double stiffnes
   Row& row = add(direction);
   row.compliance = 1 / firmness;
   row.wanted = row.wanted_after = -stiffness / (damping + h_ * stiffness) * error;
+}
+
+double JointRows::bend_of(double length, const Vec3& side, const Vec3& rate, const Vec3& bend) const {
+  // What passes close by in the sub-step goes around for a part of it only: with the length then, by Pythagoras.
+  const double along = std::max(0.0, length + h_ * side.dot(rate));
+  const double across = rate.cross(side).squaredNorm();
+  const double lengths = along + std::sqrt(along * along + h_ * h_ * across);
+  return side.dot(bend) + (lengths > 0 ? 2 * across / lengths : 0);
 }
 
 double JointRows::coupling(const Direction& first, const Direction& second) const {

@@ -87,11 +87,18 @@ class JointRows {
   void hold_rotation(const Placement& at);  ///< three rows
 
   // What bounds or drives; the same number of rows whether they act or not
-  void bound(const Direction& direction, double position, const Limits* limits);  ///< two rows
-  void drive(const Direction& direction, double position, const Motor* motor);    ///< one row
+  /// Two rows.
+  /// @param bend  how the position accelerates when both bodies go on as they move
+  void bound(const Direction& direction, double position, const Limits* limits, double bend = 0);
+  void drive(const Direction& direction, double position, const Motor* motor);  ///< one row
   void draw(const Direction& direction, double error, double speed, double hz, double zeta, double most);
   void spring(const Direction& direction, double error, double stiffness, double damping);
   void idle(std::size_t rows = 1);
+  /// How a length accelerates in the sub-step when its ends go on as they move.
+  /// @param side  along it, of length 1
+  /// @param rate  of its ends against each other, m/s
+  /// @param bend  their acceleration against each other, m/s^2
+  [[nodiscard]] double bend_of(double length, const Vec3& side, const Vec3& rate, const Vec3& bend) const;
   /// An angle farther than this from a bound is not concerned with it, rad.
   [[nodiscard]] double far() const { return far_; }
 

@@ -24,6 +24,11 @@ struct Placement {
   [[nodiscard]] Vec3 gap_rate() const { return velocity_at(twist_b, arm_b) - velocity_at(twist_a, arm_a); }
   /// How the gap accelerates when both bodies go on as they move.
   [[nodiscard]] Vec3 gap_bend() const { return bend(twist_b, arm_b) - bend(twist_a, arm_a); }
+  /// How the gap along an axis that is fixed to a does.
+  [[nodiscard]] double bend_along(const Vec3& axis) const {
+    const Vec3& spin = twist_a.angular;
+    return axis.dot(gap_bend()) + 2 * spin.cross(axis).dot(gap_rate()) + spin.cross(spin.cross(axis)).dot(gap());
+  }
   /// Acceleration of what is carried around.
   [[nodiscard]] static Vec3 bend(const Twist& twist, const Vec3& arm) {
     return twist.angular.cross(twist.angular.cross(arm));

@@ -21,13 +21,9 @@ void write_rows(const DistanceJoint& kind, state::Joint& joint, const Placement&
   const bool rod = kind.limits.low == kind.limits.high && kind.limits.hz == 0;
   rows.keep_of_next(0, rod ? kept : std::max(0.0, kept));
   rows.keep_of_next(1, std::max(0.0, kept));
-  if (rod) {
-    const Vec3 rate = at.gap_rate();
-    const double across = rate.cross(side).squaredNorm();
-    const double bend = side.dot(at.gap_bend()) + (length.position[0] > 0 ? across / length.position[0] : 0);
-    rows.hold(length.direction[0], length.position[0] - kind.limits.low, bend);
-  }
-  rows.bound(length.direction[0], length.position[0], rod ? nullptr : &kind.limits);
+  const double bend = rows.bend_of(length.position[0], side, at.gap_rate(), at.gap_bend());
+  if (rod) rows.hold(length.direction[0], length.position[0] - kind.limits.low, bend);
+  rows.bound(length.direction[0], length.position[0], rod ? nullptr : &kind.limits, bend);
 }
 
 }  // namespace tweenfall::joints

@@ -17,7 +17,14 @@ Coordinates coordinates_of(const PulleyJoint& kind, const state::Joint&, const P
 void write_rows(const PulleyJoint& kind, state::Joint& joint, const Placement& at, JointRows& rows) {
   const Coordinates rope = coordinates_of(kind, joint, at);
   const Limits limits{0, kind.length.value_or(std::numeric_limits<double>::infinity())};
-  rows.bound(rope.direction[0], rope.position[0], &limits);
+  const auto bend_of = [&rows](const Vec3& way, const Twist& twist, const Vec3& arm) {
+    const double length = way.norm();
+    if (!(length > 0)) return 0.0;
+    return rows.bend_of(length, way / length, velocity_at(twist, arm), Placement::bend(twist, arm));
+  };
+  const double bend = bend_of(at.point_a() - kind.pulley_a, at.twist_a, at.arm_a) +
+                      kind.ratio * bend_of(at.point_b() - kind.pulley_b, at.twist_b, at.arm_b);
+  rows.bound(rope.direction[0], rope.position[0], &limits, bend);
 }
 
 }  // namespace tweenfall::joints

@@ -18,7 +18,7 @@ void write_rows(const WheelJoint& kind, state::Joint& joint, const Placement& at
     rows.draw(own.direction[1], own.position[1], 0, kind.hz, kind.zeta, std::numeric_limits<double>::infinity());
   else
     rows.idle();
-  rows.bound(own.direction[1], own.position[1], pointer_to(kind.suspension));
+  rows.bound(own.direction[1], own.position[1], pointer_to(kind.suspension), at.bend_along(at.y_a()));
   rows.drive(own.direction[0], own.position[0], pointer_to(kind.motor));
 }
 
