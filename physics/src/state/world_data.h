@@ -72,6 +72,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
                               contacts::FoundPart& part) const;
   /// Keeps what a step has deflected or driven fast from ending behind a mesh or a height field that it was before.
   void hold_before_surfaces();
+  void hold_before_walls(double dt);
   void gather_links();             ///< joints that hold something that can move
   void leave_sleeping_links();     ///< out of what is solved
   void end_links(double dt);       ///< reactions, and what breaks

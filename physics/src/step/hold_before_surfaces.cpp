@@ -15,7 +15,7 @@ namespace step {
 namespace {
 
 /// Parts of its size by which a solid must come on in a step to be looked at.
-constexpr double far_on = 0.5;
+constexpr double far_on = 0.02;
 
 /// Where a body would have been at a time in the step if nothing had touched it.
 Pose pose_then(const Start& start, const collision::Course& course, const Vec3& mass_center, double time) {

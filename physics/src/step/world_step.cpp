@@ -369,7 +369,10 @@ void World::Implementation::step(double dt) {
   failed = true;
   note_soft_starts();
   advance_bodies(dt);
-  if (!strategies::chosen(settings)) hold_before_surfaces();
+  if (!strategies::chosen(settings)) {
+    hold_before_surfaces();
+    hold_before_walls(dt);
+  }
   advance_softs(dt);
   let_sleep(dt);
   report();

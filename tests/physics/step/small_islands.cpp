@@ -118,8 +118,8 @@ TEST_CASE(
     farthest = std::max(farthest, off);
   }
   MESSAGE(left, " of ", runs, " left the plane, by at most ", farthest, " m");
-  CHECK(left <= runs / 32);
-  CHECK(farthest < 2e-3);
+  CHECK(left <= 1);
+  CHECK(farthest < 1e-4);
 }
 
 TEST_CASE("bullets of 100, 300 and 1,000 m/s do not pass a wall of a centimeter, also askew and spinning") {
@@ -154,6 +154,31 @@ TEST_CASE("bullets of 100, 300 and 1,000 m/s do not pass a wall of a centimeter,
           CHECK(farthest < 0);
           CHECK(most < 1.02 * start + 5);
         }
+}
+
+TEST_CASE("splinters that a blow spins up by thousands of radians per step do not pass thin walls, fixed or led") {
+  test::Random random(7);
+  for (int run = 0; run < 60; ++run) {
+    CAPTURE(run);
+    World world({.gravity = Vec3::Zero(), .sleep_after = forever});
+    const double thick = 0.001 + 0.004 * (run % 5), rate = run % 3 == 0 ? 30 : run % 3 == 1 ? 60 : 240;
+    const bool led = run % 4 == 0;
+    world.add({.shape = {Box{Vec3(0.5 * thick, 3, 3)}}, .fixed = !led, .drive = led ? Drive::keyed() : Drive::free()});
+    const double size = 0.006 + 0.004 * (run % 4);
+    const Solid solid = run % 2 == 0 ? Solid(Box{size * Vec3(1, 0.1, 0.1)}) : Solid(Capsule{0.1 * size, size});
+    BodySettings splinter = solid_at(solid, Vec3(-1 - random.unit(), 0, 0), 0.01);
+    splinter.motion.pose.rotation = random.rotation();
+    const double speed = 250 * (1 + run % 7), aside = 0.5 * random.unit(), up = 0.5 * random.unit();
+    splinter.motion.twist.linear = speed * Vec3(1, aside, up).normalized();
+    splinter.motion.twist.angular = random.vector(run % 3 == 0 ? 0 : 200);
+    const BodyId body = world.add(splinter);
+    double farthest = -1;
+    for (int i = 0; i < 8; ++i) {
+      world.step(1 / rate);
+      farthest = std::max(farthest, world.motion(body).pose.position.x());
+    }
+    CHECK(farthest < 0);
+  }
 }
 
 TEST_CASE("a plate that is pulled over the floor under 25 balls, and they, speed up as friction lets them, to 1e-6") {

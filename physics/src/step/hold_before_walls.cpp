@@ -1,0 +1,80 @@
+#include <algorithm>
+
+#include "queries/rays.h"
+#include "queries/sweep.h"
+#include "state/world_data.h"
+#include "surfaces/convex_piece.h"
+#include "surfaces/surface.h"
+
+/// A blow may turn what is small so fast that no row follows it to the end of the step, and its corners then pull it
+/// through what it struck. The middle of a body never passes what stands or is led: it is taken back to where it comes
+/// to touch.
+
+namespace tweenfall {
+
+namespace step {
+namespace {
+
+/// Parts of its size by which the middle of a solid must come on in a step to be looked at.
+constexpr double farther_on = 0.02;
+/// What is led and turns by more than this in the step is not looked at, rad: seen from it, straight ways are bent.
+constexpr double turns_away = 0.3;
+
+const Shape& part_of(const state::Body& body, std::uint32_t number) {
+  const auto* compound = std::get_if<Compound>(&body.shape().solid);
+  return compound ? compound->parts()[number] : body.shape();
+}
+
+}  // namespace
+}  // namespace step
+
+void World::Implementation::hold_before_walls(double dt) {
+  for (const contacts::ContactConstraint* contact : active) {
+    const bool wall_is_a = bodies[contact->a].immovable();
+    if (wall_is_a == bodies[contact->b].immovable()) continue;
+    const std::uint32_t index = wall_is_a ? contact->b : contact->a, wall_index = wall_is_a ? contact->a : contact->b;
+    state::Body& body = bodies[index];
+    const state::Body& wall = bodies[wall_index];
+    // Behind a plane there is no other side.
+    if (moved[index] == 0 || surfaces::surface_of(wall.shape().solid) ||
+        std::holds_alternative<Plane>(wall.shape().solid))
+      continue;
+    const collision::Course& course = passages[wall_index].course;
+    if (course.angular.norm() * dt > step::turns_away) continue;
+    const Shape& part = step::part_of(body, wall_is_a ? contact->part_b : contact->part_a);
+    const Shape& wall_part = step::part_of(wall, wall_is_a ? contact->part_a : contact->part_b);
+    const std::optional<convex::Core> core = surfaces::convex_piece(part.solid, {Vec3::Zero(), Mat3::Identity()});
+    if (!core) continue;
+    const Vec3 middle = surfaces::middle_of(part.solid);
+    const auto middle_at = [&](const Pose& pose) -> Vec3 {
+      const shapes::Placed placed = shapes::place(part, pose);
+      return placed.center + placed.axes * middle;
+    };
+    const step::Start& start = starts[index];
+    Pose before;
+    before.rotation = start.rotation;
+    before.position = start.center - start.rotation * body.mass().center;
+    // As the wall sees it, which may have gone on meanwhile.
+    const step::Start& wall_start = starts[wall_index];
+    const shapes::Placed wall_then = {wall_start.center, wall_start.rotation.toRotationMatrix()},
+                         wall_now = {wall.center, wall.motion.pose.rotation.toRotationMatrix()};
+    const Vec3 from =
+        wall_now.center + wall_now.axes * (wall_then.axes.transpose() * (middle_at(before) - wall_then.center));
+    const Vec3 way = middle_at(body.motion.pose) - from;
+    const double length = way.norm();
+    if (!(length > step::farther_on * core->size)) continue;
+    const std::optional<RayHit> hit = queries::first_on_ray(wall_part, wall.motion.pose, {from, way / length, length});
+    // What is jointed would be torn off.
+    const auto joins = [index](const joints::JointLink& link) { return link.a == index || link.b == index; };
+    if (!hit || hit->inside || std::any_of(links.begin(), links.end(), joins)) continue;
+    Pose back = body.motion.pose;
+    back.position -= way;
+    double share = 0.999 * hit->distance / length;
+    const std::optional<ShapeHit> touched = queries::first_on_way(part, back, way, wall_part, wall.motion.pose);
+    if (touched && !touched->inside) share = std::min(share, touched->fraction);
+    body.center -= (1 - share) * way;
+    body.follow_center(Quat(body.motion.pose.rotation));
+  }
+}
+
+}  // namespace tweenfall
