@@ -18,13 +18,19 @@ namespace {
 
 constexpr double megabyte = 1e6, most_steps = 2e7;
 
+/// How many particles there are shows only as they go: a recording of them ends with an error here, bytes.
+constexpr double most_of_particles = 4e9 / 3;
+
 /// What one frame holds of one node.
 constexpr double bytes_of_a_pose = sizeof(WorldMotion) + sizeof(Twist) + sizeof(Owner) + sizeof(Color);
 
 double bytes_of_a_frame(const StageDescription& stage) {
   double weights = 0;
   for (const Mesh& mesh : stage.meshes) weights += static_cast<double>(mesh.morphs.size()) * sizeof(double);
-  return static_cast<double>(stage.nodes.size()) * bytes_of_a_pose + weights + sizeof(double);
+  double softs = 0;
+  for (const SoftDescription& soft : stage.softs)
+    softs += static_cast<double>(soft.soft.positions.size()) * sizeof(Vec3);
+  return static_cast<double>(stage.nodes.size()) * bytes_of_a_pose + weights + softs + sizeof(double);
 }
 
 /// @throws UsageError saying how much is too much.
@@ -91,7 +97,8 @@ Recording run_stage(const StageDescription& description, const RunOptions& optio
   Stage stage = make_stage(description, options.file);
   try {
     Recording recording =
-        record(stage, until, fps, std::numeric_limits<double>::infinity(), options.details, options.inputs);
+        record(stage, until, fps, std::max(most_of_particles, options.limit.value_or(0) * megabyte * 2),
+               options.details, options.inputs);
     check_recording(recording);
     say_unfired(recording, options.file);
     return recording;

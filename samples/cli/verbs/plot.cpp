@@ -107,7 +107,12 @@ int plot_file(const PlotFileOptions& options) {
     return std::find(clips.begin(), clips.end(), play.clip) != clips.end();
   });
   std::optional<Recording> recording;
-  if (has_bodies && plays) recording = run_stage(stage, options);
+  if (has_bodies && plays) {
+    // Particles move nothing that is plotted.
+    StageDescription shown = stage;
+    shown.particles.clear();
+    recording = run_stage(shown, options);
+  }
 
   write_output(options.output, plot_svg(stage, recording ? &*recording : nullptr, plotted));
   std::size_t tracks = plotted.tracks.size();

@@ -140,6 +140,9 @@ TEST_CASE("soft bodies of a document have groups, a thickness and air drag; in v
   CHECK(notes(cloth + "}}").empty());
   CHECK(notes(cloth + R"(, "air_drag": 1}})").find("(at /world/soft/flag/air_drag)") != std::string::npos);
   CHECK(notes(cloth + R"(, "air_drag": 1}}, "forces": [{"wind": {"velocity": [5, 0, 0]}}])").empty());
+  const std::string line = R"("soft": {"line": {"rope": {"from": [0, 0, 0], "to": [1, 0, 0], "links": )";
+  CHECK(notes(line + "60000}}}").find("60001 nodes are slow") != std::string::npos);
+  CHECK(notes(line + "600}}}").empty());
   CHECK(notes(cloth + R"(, "thickness": 0.01}})").find("slips through itself") != std::string::npos);
   CHECK(notes(cloth + R"(, "thickness": 0.1}})").empty());
   const std::string emitters = R"("particles": {"rain": {"emitters": [{"rate": 1e9}], "life": 2)";

@@ -46,6 +46,10 @@ void judge_particles(Building& building, const ParticlesDescription& particles) 
 
 void judge_soft(Building& building, const SoftDescription& soft) {
   const json::Value place = fields::place_of_soft(place_of_world(building), soft.name);
+  constexpr std::size_t slow = 10'000;
+  if (soft.soft.positions.size() > slow)
+    building.problems.note(place,
+                           std::to_string(soft.soft.positions.size()) + " nodes are slow: a few thousand fill a frame");
   const auto reaches = [](const ForceDescription& force) {
     return std::holds_alternative<Wind>(force.force) && force.bodies.empty();
   };
