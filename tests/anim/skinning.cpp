@@ -12,7 +12,6 @@ struct Limb {
   Hierarchy nodes = straight_chain(6, 0.5);
   Mesh mesh;
   Skin skin;
-  Tangents tangents;
 
   explicit Limb(Random& random) {
     for (std::size_t i = 0; i < 6; ++i) {
@@ -20,16 +19,16 @@ struct Limb {
       skin.inverse_binds.push_back({Mat3::Identity(), {0, -0.5 * (5.0 - static_cast<double>(i)), 0}});
     }
     mesh.morphs.resize(2);
-    tangents.offsets.resize(2);
     for (int vertex = 0; vertex < 40; ++vertex) {
       const Vec3 place(random.between(-0.3, 0.3), random.between(0, 3), random.between(-0.3, 0.3));
       mesh.positions.push_back(place);
       mesh.normals.push_back(random.vector(1).normalized());
-      tangents.directions.push_back(random.vector(1).normalized());
+      mesh.tangents.emplace_back();
+      mesh.tangents.back() << random.vector(1).normalized(), 1;
       for (std::size_t target = 0; target < 2; ++target) {
         mesh.morphs[target].position_offsets.push_back(random.vector(0.1));
         mesh.morphs[target].normal_offsets.push_back(random.vector(0.3));
-        tangents.offsets[target].push_back(random.vector(0.3));
+        mesh.morphs[target].tangent_offsets.push_back(random.vector(0.3));
       }
       std::vector<Influence> pulls;
       double sum = 0;
@@ -101,8 +100,8 @@ TEST_CASE("velocities and the rates of normals and tangents are the derivatives 
       Lists lists(limb.mesh.positions.size());
       const Sample<double> a = first.at(t), b = second.at(t);
       const std::vector<double> weights{a.value, b.value}, rates{a.rate, b.rate};
-      deform(limb.mesh, limb.joints(swing.at(t)),
-             {.blend = blend, .weights = weights, .weight_rates = rates, .tangents = &limb.tangents}, lists.all());
+      deform(limb.mesh, limb.joints(swing.at(t)), {.blend = blend, .weights = weights, .weight_rates = rates},
+             lists.all());
       return lists;
     };
     const Lists now = at(1);
@@ -125,11 +124,11 @@ TEST_CASE("joints in their bind poses leave positions, normals and tangents as t
   const Limb limb(random);
   for (const SkinBlend blend : {SkinBlend::linear, SkinBlend::dual_quaternion}) {
     Lists lists(limb.mesh.positions.size());
-    deform(limb.mesh, limb.joints(rest_pose(limb.nodes)), {.blend = blend, .tangents = &limb.tangents}, lists.all());
+    deform(limb.mesh, limb.joints(rest_pose(limb.nodes)), {.blend = blend}, lists.all());
     for (std::size_t i = 0; i < lists.positions.size(); ++i) {
       CHECK(near(lists.positions[i], limb.mesh.positions[i], 1e-15));
       CHECK(near(lists.normals[i], limb.mesh.normals[i], 1e-15));
-      CHECK(near(lists.tangents[i], limb.tangents.directions[i], 1e-15));
+      CHECK(near(lists.tangents[i], limb.mesh.tangents[i].head<3>(), 1e-15));
     }
   }
 }
@@ -235,7 +234,7 @@ TEST_CASE("a joint that is shrunk to nothing leaves numbers") {
   pose[1].pose.scale = {1, 0, 1};
   for (const SkinBlend blend : {SkinBlend::linear, SkinBlend::dual_quaternion}) {
     Lists lists(limb.mesh.positions.size());
-    deform(limb.mesh, limb.joints(pose), {.blend = blend, .tangents = &limb.tangents}, lists.all());
+    deform(limb.mesh, limb.joints(pose), {.blend = blend}, lists.all());
     for (std::size_t i = 0; i < lists.positions.size(); ++i) {
       CHECK(lists.positions[i].allFinite());
       CHECK(lists.normals[i].allFinite());

@@ -120,11 +120,9 @@ class Molding {
     return at(mesh_.normals[vertex], vertex,
               [&](std::size_t target) { return std::span<const Vec3>(mesh_.morphs[target].normal_offsets); });
   }
-  [[nodiscard]] Arrow tangent(const Tangents& tangents, std::size_t vertex) const noexcept {
-    return at(tangents.directions[vertex], vertex, [&](std::size_t target) {
-      return target < tangents.offsets.size() ? std::span<const Vec3>(tangents.offsets[target])
-                                              : std::span<const Vec3>();
-    });
+  [[nodiscard]] Arrow tangent(std::size_t vertex) const noexcept {
+    return at(mesh_.tangents[vertex].head<3>(), vertex,
+              [&](std::size_t target) { return std::span<const Vec3>(mesh_.morphs[target].tangent_offsets); });
   }
 
  private:
@@ -189,7 +187,7 @@ void deform(const Mesh& mesh, std::span<const SkinJoint> joints, const Deformati
   const Molding molding(mesh, how.weights, how.weight_rates);
   const bool places = !out.positions.empty() || !out.velocities.empty();
   const bool normals = !mesh.normals.empty() && (!out.normals.empty() || !out.normal_rates.empty());
-  const bool tangents = how.tangents && (!out.tangents.empty() || !out.tangent_rates.empty());
+  const bool tangents = !mesh.tangents.empty() && (!out.tangents.empty() || !out.tangent_rates.empty());
   const Influence whole{0, 1};
   for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
     const std::span<const Influence> influences =
@@ -200,8 +198,7 @@ void deform(const Mesh& mesh, std::span<const SkinJoint> joints, const Deformati
     if (normals)
       write(out.normals, out.normal_rates, vertex, measured(normal_through(carried, molding.normal(vertex))).unit);
     if (tangents)
-      write(out.tangents, out.tangent_rates, vertex,
-            measured(carried.direction(molding.tangent(*how.tangents, vertex))).unit);
+      write(out.tangents, out.tangent_rates, vertex, measured(carried.direction(molding.tangent(vertex))).unit);
   }
 }
 

@@ -18,8 +18,8 @@ std::vector<Vec3> vectors(const aiVector3D* from, unsigned count) {
   return all;
 }
 
-bool finite(const std::vector<Vec3>& all) {
-  for (const Vec3& v : all)
+bool finite(const auto& all) {
+  for (const auto& v : all)
     if (!v.allFinite()) return false;
   return true;
 }
@@ -67,6 +67,12 @@ Mesh plain_mesh(const aiScene& scene, const aiMesh& from) {
   mesh.positions = vectors(from.mVertices, from.mNumVertices);
   mesh.normals = vectors(from.mNormals, from.mNumVertices);
   if (!finite(mesh.normals)) mesh.normals.clear();
+  for (unsigned i = 0; from.HasTangentsAndBitangents() && from.HasNormals() && i < from.mNumVertices; ++i) {
+    const Vec3 along = vector_of(from.mTangents[i]), across = vector_of(from.mBitangents[i]);
+    const double hand = vector_of(from.mNormals[i]).cross(along).dot(across) < 0 ? -1 : 1;
+    mesh.tangents.emplace_back(along.x(), along.y(), along.z(), hand);
+  }
+  if (!finite(mesh.tangents)) mesh.tangents.clear();
   for (unsigned i = 0; from.HasTextureCoords(0) && i < from.mNumVertices; ++i)
     mesh.texture_coordinates.push_back(vector_of(from.mTextureCoords[0][i]).head<2>());
   for (unsigned i = 0; i < from.mNumFaces; ++i) {

@@ -139,6 +139,7 @@ void put_mesh(const Mesh& mesh, Writer& to) {
   to.put(mesh.name);
   to.list(mesh.positions);
   to.list(mesh.normals);
+  to.list(mesh.tangents);
   to.list(mesh.texture_coordinates);
   to.list(mesh.triangles);
   to.list(mesh.influences, [&](std::span<const Influence> pulls) {
@@ -161,6 +162,7 @@ Mesh mesh_from(Reader& from) {
   from.get(mesh.name);
   from.list(mesh.positions);
   from.list(mesh.normals);
+  from.list(mesh.tangents);
   from.list(mesh.texture_coordinates);
   from.list(mesh.triangles);
   const std::size_t bound = from.count(8), points = mesh.positions.size();
@@ -182,8 +184,8 @@ Mesh mesh_from(Reader& from) {
   from.list(mesh.rest_weights);
   from.get(mesh.base_color.rgba);
   const auto fits = [points](std::size_t size) { return size == 0 || size == points; };
-  if (!fits(mesh.normals.size()) || !fits(mesh.texture_coordinates.size()) || !fits(bound) ||
-      mesh.rest_weights.size() != mesh.morphs.size() || mesh.triangles.size() % 3 != 0)
+  if (!fits(mesh.normals.size()) || !fits(mesh.tangents.size()) || !fits(mesh.texture_coordinates.size()) ||
+      !fits(bound) || mesh.rest_weights.size() != mesh.morphs.size() || mesh.triangles.size() % 3 != 0)
     throw Broken();
   for (const std::uint32_t corner : mesh.triangles)
     if (corner >= points) throw Broken();

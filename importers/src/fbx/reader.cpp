@@ -92,20 +92,28 @@ class SceneReader {
   static void place(const Affine& own, Mesh& mesh) {
     if (own.linear == Mat3::Identity() && own.translation.isZero(0)) return;
     for (Vec3& point : mesh.positions) point = own.linear * point + own.translation;
-    // Normals go with the inverse transpose, here its adjugate, which exists for flat scales too.
+    const double side = own.linear.determinant() < 0 ? -1 : 1;
+    // Normals go with the inverse transpose, here its adjugate, which exists for flat scales too; it turns them inward
+    // where the transform mirrors.
     Mat3 normal;
     for (int i = 0; i < 3; ++i)
-      normal.col(i) = Vec3(own.linear.col((i + 1) % 3)).cross(Vec3(own.linear.col((i + 2) % 3)));
+      normal.col(i) = side * Vec3(own.linear.col((i + 1) % 3)).cross(Vec3(own.linear.col((i + 2) % 3)));
     for (Vec3& each : mesh.normals) {
       const Vec3 turned = normal * each;
       const double length = turned.norm();
       if (length > 0) each = turned / length;
     }
+    for (Vec4& tangent : mesh.tangents) {
+      const Vec3 turned = own.linear * tangent.head<3>();
+      const double length = turned.norm();
+      if (length > 0) tangent.head<3>() = turned / length;
+      tangent[3] *= side;
+    }
     for (MorphTarget& morph : mesh.morphs) {
       for (Vec3& offset : morph.position_offsets) offset = own.linear * offset;
       for (Vec3& offset : morph.normal_offsets) offset = own.linear * offset;
     }
-    if (own.linear.determinant() < 0)
+    if (side < 0)
       for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3)
         std::swap(mesh.triangles[i], mesh.triangles[i + 1]);
   }

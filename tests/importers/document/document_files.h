@@ -6,7 +6,9 @@
 
 #include <tweenfall/importers/document.h>
 
+#include <cmath>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace tweenfall::test {
@@ -20,11 +22,32 @@ inline std::vector<std::filesystem::path> documents_in(const std::string& folder
   return files;
 }
 
+/// The document NAME of the good ones.
+inline Document good_document(const std::string& name) {
+  return Document::read(data_folder() / "documents/good" / (name + ".json"));
+}
+
+inline const Track& track_of(const Clip& clip, const std::string& name) {
+  for (const Track& each : clip.tracks)
+    if (each.name() == name) return each;
+  FAIL("no track " << name);
+  return clip.tracks.front();
+}
+
+template <class T>
+const Curve<T>& curve_of(const Clip& clip, const std::string& name) {
+  return std::get<Curve<T>>(track_of(clip, name).curve);
+}
+
 inline Document parsed(const std::string& text) {
   return Document::parse(text, "test.json", data_folder() / "documents/good");
 }
 
 inline constexpr double degree = pi / 180;
+
+inline double turn_about_z(const Quat& q) {
+  return 2 * std::atan2(q.z(), q.w());
+}
 
 /// The clip of a document of one track.
 inline Clip clip_of(const std::string& name, const std::string& track) {

@@ -18,6 +18,7 @@ struct MorphTarget {
   std::string name;
   std::vector<Vec3> position_offsets;  ///< one per vertex
   std::vector<Vec3> normal_offsets;    ///< one per vertex, or empty
+  std::vector<Vec3> tangent_offsets;   ///< one per vertex, or empty
 };
 
 /// One joint that pulls on a vertex.
@@ -51,6 +52,9 @@ struct Mesh {
   std::string name;
   std::vector<Vec3> positions;            ///< in the mesh's own space, m
   std::vector<Vec3> normals;              ///< unit; one per vertex, or empty
+  /// Unit, along the surface; one per vertex, or empty. The fourth number is 1 where the direction across it is
+  /// normal x tangent, and -1 where it is the opposite.
+  std::vector<Vec4> tangents;
   std::vector<Vec2> texture_coordinates;  ///< one per vertex, or empty
   std::vector<std::uint32_t> triangles;   ///< three vertices each, counter-clockwise seen from outside
   Influences influences;                  ///< one per vertex, or empty when not skinned

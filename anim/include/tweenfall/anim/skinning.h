@@ -28,12 +28,6 @@ void skin_joints(const Skin& skin, std::span<const WorldMotion> world, std::span
 /// The same of a mesh without skin, which its node alone carries.
 [[nodiscard]] SkinJoint skin_joint(const WorldMotion& node) noexcept;
 
-/// The tangents of a mesh, where it has some.
-struct Tangents {
-  std::vector<Vec3> directions;            ///< unit, one per vertex
-  std::vector<std::vector<Vec3>> offsets;  ///< one list for each morph target, each one per vertex or empty; or none
-};
-
 enum class SkinBlend {
   linear,           ///< the weighted mean of what the joints make of the vertex; limbs get thin where they twist
   dual_quaternion,  ///< the rigid motion between those of the joints; keeps volume
@@ -43,14 +37,13 @@ struct Deformation {
   SkinBlend blend = SkinBlend::linear;
   std::span<const double> weights{};       ///< one per morph target, or empty for the mesh's rest weights
   std::span<const double> weight_rates{};  ///< 1/s, one per weight; or empty where they do not change
-  const Tangents* tangents = nullptr;
 };
 
 /// Where the results go: one per vertex each, or empty for what is not asked for.
 struct DeformedMesh {
   std::span<Vec3> positions{};      ///< world, m
   std::span<Vec3> normals{};        ///< world, unit; for meshes with normals
-  std::span<Vec3> tangents{};       ///< world, unit; along the surface, not made to stand across the normal
+  std::span<Vec3> tangents{};       ///< world, unit; for meshes with tangents; not made to stand across the normal
   std::span<Vec3> velocities{};     ///< m/s
   std::span<Vec3> normal_rates{};   ///< 1/s
   std::span<Vec3> tangent_rates{};  ///< 1/s

@@ -56,7 +56,7 @@ class LayerElement {
 /// Everything that makes a vertex its own, to the bit.
 struct VertexKey {
   std::uint32_t point = 0;
-  double numbers[5]{};
+  double numbers[9]{};  // normal, texture coordinates, tangent and its hand
 
   bool operator==(const VertexKey& other) const {
     return point == other.point && std::memcmp(numbers, other.numbers, sizeof numbers) == 0;
@@ -86,7 +86,9 @@ class GeometryReader {
         problems_(problems),
         colors_(colors),
         normals_(record_.find("LayerElementNormal"), "Normals", "NormalsIndex", 3, objects),
-        coordinates_(record_.find("LayerElementUV"), "UV", "UVIndex", 2, objects) {
+        coordinates_(record_.find("LayerElementUV"), "UV", "UVIndex", 2, objects),
+        tangents_(record_.find("LayerElementTangent"), "Tangents", "TangentsIndex", 3, objects),
+        across_(record_.find("LayerElementBinormal"), "Binormals", "BinormalsIndex", 3, objects) {
     if (colors_.empty()) colors_.push_back(plain_color());
     find_color_parts();
   }
@@ -189,6 +191,8 @@ class GeometryReader {
       std::copy(n, n + 3, key.numbers);
     if (const double* uv = coordinates_.present() ? coordinates_.at(corner, point, polygon) : nullptr)
       std::copy(uv, uv + 2, key.numbers + 3);
+    const bool has_tangents = tangents_.present() && normals_.present();
+    if (has_tangents) copy_tangent(corner, point, polygon, key);
     Part& part = result_.parts[index];
     const auto next = static_cast<std::uint32_t>(part.control_points.size());
     const auto [found, added] = vertices_[index].emplace(key, next);
@@ -196,14 +200,30 @@ class GeometryReader {
     part.control_points.push_back(key.point);
     part.mesh.positions.push_back(points_[point]);
     if (normals_.present()) part.mesh.normals.push_back(unit({key.numbers[0], key.numbers[1], key.numbers[2]}));
+    if (has_tangents) {
+      const Vec3 along = unit({key.numbers[5], key.numbers[6], key.numbers[7]});
+      part.mesh.tangents.emplace_back(along.x(), along.y(), along.z(), key.numbers[8]);
+    }
     // Pictures begin at the top, as ours do; the file counts from the bottom.
     if (coordinates_.present()) part.mesh.texture_coordinates.emplace_back(key.numbers[3], 1 - key.numbers[4]);
     return next;
   }
 
-  static Vec3 unit(const Vec3& normal) {
-    const double length = normal.norm();
-    return length > 1e-12 && std::isfinite(length) ? Vec3(normal / length) : Vec3(0, 0, 1);
+  void copy_tangent(std::size_t corner, std::size_t point, std::size_t polygon, VertexKey& key) const {
+    key.numbers[8] = 1;
+    const double* along = tangents_.at(corner, point, polygon);
+    if (!along) return;
+    std::copy(along, along + 3, key.numbers + 5);
+    const double* across = across_.present() ? across_.at(corner, point, polygon) : nullptr;
+    if (!across) return;
+    const Vec3 normal(key.numbers[0], key.numbers[1], key.numbers[2]);
+    if (normal.cross(Vec3(along[0], along[1], along[2])).dot(Vec3(across[0], across[1], across[2])) < 0)
+      key.numbers[8] = -1;
+  }
+
+  static Vec3 unit(const Vec3& direction) {
+    const double length = direction.norm();
+    return length > 1e-12 && std::isfinite(length) ? Vec3(direction / length) : Vec3(0, 0, 1);
   }
 
   const Object& geometry_;
@@ -212,7 +232,7 @@ class GeometryReader {
   models::ModelProblems& problems_;
   std::vector<Color> colors_;
   Record stripped_;
-  LayerElement normals_, coordinates_;
+  LayerElement normals_, coordinates_, tangents_, across_;
   std::vector<Vec3> points_;
   std::vector<std::size_t> part_of_material_;
   std::vector<std::unordered_map<VertexKey, std::uint32_t, VertexHash>> vertices_;

@@ -9,38 +9,25 @@ namespace tweenfall::gltf {
 
 namespace {
 
-std::vector<Vec3> vectors(const Decoded& decoded) {
-  std::vector<Vec3> all(decoded.count);
-  for (std::size_t i = 0; i < decoded.count; ++i) all[i] = Vec3(decoded.at(i)[0], decoded.at(i)[1], decoded.at(i)[2]);
-  return all;
-}
-
-/// An attribute of one kind, one element a vertex; empty when absent or wrong.
-std::vector<Vec3> vertex_vectors(const Fields& attributes, const char* name, std::size_t vertices,
-                                 Accessors& accessors) {
+/// An attribute of vectors, one per vertex (of any count where VERTICES is 0); empty when absent or wrong.
+template <class Vector>
+std::vector<Vector> vertex_vectors(const Fields& attributes, const char* name, std::size_t vertices,
+                                   Accessors& accessors) {
+  constexpr int width = Vector::RowsAtCompileTime;
+  std::vector<Vector> all;
   const auto index = attributes.index(name, accessors.size());
-  if (!index) return {};
-  const auto decoded = accessors.read(*index, attributes.place_of(name), {"VEC3"}, Wanted::any);
-  if (!decoded) return {};
-  if (vertices == 0 || decoded->count == vertices) return vectors(*decoded);
-  attributes.problems().add(attributes.place_of(name), "has " + std::to_string(decoded->count) + " elements for " +
-                                                           std::to_string(vertices) + " vertices");
-  return {};
-}
-
-std::vector<Vec2> texture_coordinates(const Fields& attributes, std::size_t vertices, Accessors& accessors) {
-  const auto index = attributes.index("TEXCOORD_0", accessors.size());
-  if (!index) return {};
-  const auto decoded = accessors.read(*index, attributes.place_of("TEXCOORD_0"), {"VEC2"}, Wanted::any);
-  if (!decoded) return {};
-  if (decoded->count != vertices) {
+  if (!index) return all;
+  const std::string kind = "VEC" + std::to_string(width), place = attributes.place_of(name);
+  const auto decoded = accessors.read(*index, place, {kind.c_str()}, Wanted::any);
+  if (!decoded) return all;
+  if (vertices != 0 && decoded->count != vertices) {
     attributes.problems().add(
-        attributes.place_of("TEXCOORD_0"),
-        "has " + std::to_string(decoded->count) + " elements for " + std::to_string(vertices) + " vertices");
-    return {};
+        place, "has " + std::to_string(decoded->count) + " elements for " + std::to_string(vertices) + " vertices");
+    return all;
   }
-  std::vector<Vec2> all(decoded->count);
-  for (std::size_t i = 0; i < decoded->count; ++i) all[i] = Vec2(decoded->at(i)[0], decoded->at(i)[1]);
+  all.resize(decoded->count);
+  for (std::size_t i = 0; i < decoded->count; ++i)
+    for (int k = 0; k < width; ++k) all[i][k] = decoded->at(i)[k];
   return all;
 }
 
@@ -89,9 +76,10 @@ void read_targets(const Fields& primitive, const std::vector<std::string>& names
     const Fields target = primitive.at("targets", i);
     MorphTarget morph;
     morph.name = i < names.size() ? names[i] : "morph_" + std::to_string(i);
-    morph.position_offsets = vertex_vectors(target, "POSITION", vertices, accessors);
+    morph.position_offsets = vertex_vectors<Vec3>(target, "POSITION", vertices, accessors);
     morph.position_offsets.resize(vertices, Vec3(0, 0, 0));
-    morph.normal_offsets = vertex_vectors(target, "NORMAL", vertices, accessors);
+    morph.normal_offsets = vertex_vectors<Vec3>(target, "NORMAL", vertices, accessors);
+    morph.tangent_offsets = vertex_vectors<Vec3>(target, "TANGENT", vertices, accessors);
     mesh.morphs.push_back(std::move(morph));
   }
 }
@@ -162,13 +150,15 @@ class MeshReader {
   Mesh read_primitive(const Fields& primitive, const std::vector<std::string>& names, FileMesh& file_mesh) {
     const Fields attributes = primitive.inside("attributes");
     Mesh mesh;
-    mesh.positions = vertex_vectors(attributes, "POSITION", 0, accessors_);
+    mesh.positions = vertex_vectors<Vec3>(attributes, "POSITION", 0, accessors_);
     mesh.base_color = base_color(root_, primitive);
     file_mesh.joint_counts.push_back(0);
     if (mesh.positions.empty()) return mesh;
     const std::size_t vertices = mesh.positions.size();
-    mesh.normals = vertex_vectors(attributes, "NORMAL", vertices, accessors_);
-    mesh.texture_coordinates = texture_coordinates(attributes, vertices, accessors_);
+    mesh.normals = vertex_vectors<Vec3>(attributes, "NORMAL", vertices, accessors_);
+    mesh.tangents = vertex_vectors<Vec4>(attributes, "TANGENT", vertices, accessors_);
+    for (Vec4& tangent : mesh.tangents) tangent[3] = tangent[3] < 0 ? -1 : 1;
+    mesh.texture_coordinates = vertex_vectors<Vec2>(attributes, "TEXCOORD_0", vertices, accessors_);
     mesh.triangles =
         triangle_list(corners(primitive, vertices, accessors_), primitive.whole("mode").value_or(triangles));
     mesh.influences = read_influences(attributes, vertices, accessors_, file_mesh.joint_counts.back());

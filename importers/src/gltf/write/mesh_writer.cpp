@@ -30,6 +30,17 @@ std::vector<double> flat_units(const std::vector<Vec3>& vectors, std::size_t cou
   return flat(units, count);
 }
 
+std::vector<double> flat_tangents(const std::vector<Vec4>& tangents, std::size_t count) {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec4 tangent = i < tangents.size() ? tangents[i] : Vec4(1, 0, 0, 1);
+    const double length = tangent.head<3>().norm();
+    const Vec3 along = length > 0 ? Vec3(tangent.head<3>() / length) : Vec3(1, 0, 0);
+    all.insert(all.end(), {along[0], along[1], along[2], tangent[3] < 0 ? -1.0 : 1.0});
+  }
+  return all;
+}
+
 /// Joints and weights of one vertex as glTF wants them: no joint twice, weights that sum to 1 as floats; where they
 /// fill more than one set, the strongest come first.
 std::vector<Influence> tidy(std::span<const Influence> influences, std::size_t joint_count) {
@@ -145,6 +156,8 @@ class MeshWriter {
     out.attributes["POSITION"] = buffer_.add_floats(flat(mesh.positions, count), "VEC3", true, vertex_target);
     if (!mesh.normals.empty())
       out.attributes["NORMAL"] = buffer_.add_floats(flat_units(mesh.normals, count), "VEC3", false, vertex_target);
+    if (!mesh.tangents.empty() && !mesh.normals.empty())
+      out.attributes["TANGENT"] = buffer_.add_floats(flat_tangents(mesh.tangents, count), "VEC4", false, vertex_target);
     if (!mesh.texture_coordinates.empty()) {
       std::vector<double> all;
       for (const Vec2& v : mesh.texture_coordinates) all.insert(all.end(), {v[0], v[1]});
@@ -159,6 +172,8 @@ class MeshWriter {
       offsets["POSITION"] = buffer_.add_floats(flat(target.position_offsets, count), "VEC3", true, vertex_target);
       if (!target.normal_offsets.empty() && !mesh.normals.empty())
         offsets["NORMAL"] = buffer_.add_floats(flat(target.normal_offsets, count), "VEC3", false, vertex_target);
+      if (!target.tangent_offsets.empty() && out.attributes.contains("TANGENT"))
+        offsets["TANGENT"] = buffer_.add_floats(flat(target.tangent_offsets, count), "VEC3", false, vertex_target);
       out.targets.push_back(std::move(offsets));
     }
     return out;

@@ -1,4 +1,4 @@
-#include "importers/document/scenario_stages.h"
+#include "importers/scenarios/scenario_stages.h"
 
 #include <algorithm>
 #include <cmath>
