@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <iterator>
 
+template class nlohmann::basic_json<>;
+
 namespace tweenfall::test {
 
 namespace {

@@ -178,7 +178,7 @@ StageDescription with_graphs(const std::string& graphs) {
                 graphs + "}}")
       .stage();
 }
-const char* const figure = R"("figure": {"parameters": {"speed": 0, "armed": false, "wind": [[0, 0], [1, 1]]},
+const char* const figure_graph = R"("figure": {"parameters": {"speed": 0, "armed": false, "wind": [[0, 0], [1, 1]]},
     "poses": {"stand": {"rest": true}, "all": {"machine": {"start": "stand", "states": {"stand": "stand", "walk": "walk"},
       "transitions": [{"to": "walk", "when": {"event": "go"}}]}}},
     "on": [["step", "speed", 2], ["step", "halt"]]})";
@@ -195,7 +195,7 @@ std::string graph_input_faults(const std::string& rows, const std::string& graph
 }  // namespace
 
 TEST_CASE("inputs set parameters of graphs and send them events, and are written so that the same are read") {
-  const StageDescription stage = with_graphs(figure);
+  const StageDescription stage = with_graphs(figure_graph);
   CHECK(stage.graphs[0].reactions == std::vector<GraphReaction>{{"step", "speed", 2}, {"step", "halt"}});
   const std::vector<TimedInput> inputs = parse_inputs(R"({"tweenfall": 1, "inputs": [
     {"at": 0.1, "set": {"parameter": "speed", "value": 0.3}},
@@ -217,7 +217,7 @@ TEST_CASE("inputs set parameters of graphs and send them events, and are written
 }
 
 TEST_CASE("names in inputs of graphs that mean nothing are told with the nearest") {
-  const auto says = [](const std::string& rows, const std::string& part, const std::string& graphs = figure) {
+  const auto says = [](const std::string& rows, const std::string& part, const std::string& graphs = figure_graph) {
     const std::string faults = graph_input_faults(rows, graphs);
     CAPTURE(faults);
     CHECK(fault_says(faults, part));
