@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "json/json_string.h"
-#include "page/page_data.h"
+#include "page/content/page_data.h"
+#include "page/content/page_frames.h"
 #include "page/page_files.h"
-#include "page/page_frames.h"
 #include "recording/meshes/dressed.h"
 
 namespace tweenfall {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "collision/collide_pairs.h"
-#include "convex/collide_convex.h"
-#include "convex/distance.h"
-#include "surfaces/touch.h"
+#include "collision/convex/collide_convex.h"
+#include "collision/convex/distance.h"
+#include "collision/surfaces/touch.h"
 
 namespace tweenfall {
 

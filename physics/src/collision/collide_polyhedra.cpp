@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "collision/collide_pairs.h"
+#include "collision/convex/clip.h"
 #include "collision/polyhedra_separation.h"
-#include "convex/clip.h"
 #include "pairs/contact_candidates.h"
 
 namespace tweenfall::collision {

@@ -5,12 +5,12 @@
 
 #include "collision/collide_pairs.h"
 #include "collision/passage.h"
+#include "collision/surfaces/surface.h"
 #include "contacts/adopt.h"
 #include "contacts/combine.h"
 #include "contacts/followers.h"
 #include "contacts/found_manifold.h"
 #include "state/world_data.h"
-#include "surfaces/surface.h"
 
 namespace tweenfall {
 

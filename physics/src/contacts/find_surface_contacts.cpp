@@ -5,11 +5,11 @@
 
 #include "collision/collide_pairs.h"
 #include "collision/passage.h"
+#include "collision/surfaces/first_meetings.h"
+#include "collision/surfaces/touch.h"
 #include "contacts/adopt.h"
 #include "contacts/found_manifold.h"
 #include "state/world_data.h"
-#include "surfaces/first_meetings.h"
-#include "surfaces/touch.h"
 
 namespace tweenfall {
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "blocks/island_body.h"
+#include "islands/blocks/island_body.h"
 #include "joints/figure_lanes.h"
 #include "joints/figure_plan.h"
 #include "joints/joint_rows.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "blocks/contact_block.h"
+#include "islands/blocks/contact_block.h"
 #include "state/joint.h"
 
 namespace tweenfall::joints {

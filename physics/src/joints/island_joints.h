@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "blocks/contact_block.h"
-#include "blocks/island_body.h"
+#include "islands/blocks/contact_block.h"
+#include "islands/blocks/island_body.h"
 #include "joints/figure_group.h"
 #include "joints/joint_link.h"
 #include "joints/joint_rows.h"

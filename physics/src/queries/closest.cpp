@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "convex/simplex.h"
+#include "collision/convex/simplex.h"
 #include "queries/on_surface.h"
 #include "shapes/compound.h"
 

@@ -3,9 +3,9 @@
 #include <functional>
 #include <optional>
 
+#include "collision/surfaces/surface.h"
 #include "queries/closest.h"
 #include "queries/rays.h"
-#include "surfaces/surface.h"
 
 namespace tweenfall::queries {
 

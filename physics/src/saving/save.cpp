@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "collision/surfaces/surface.h"
 #include "joints/validate.h"
 #include "saving/bytes.h"
 #include "saving/envelope.h"
@@ -13,7 +14,6 @@
 #include "state/countable.h"
 #include "state/makeups.h"
 #include "state/world_data.h"
-#include "surfaces/surface.h"
 
 namespace tweenfall {
 

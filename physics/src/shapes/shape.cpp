@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "collision/surfaces/surface.h"
 #include "shapes/compound.h"
 #include "shapes/placed.h"
 #include "shapes/turned.h"
-#include "surfaces/surface.h"
 
 namespace tweenfall {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stage/roster/staged_softs.h"
 #include "stage/rules/played_tracks.h"
 #include "stage/stage_data.h"
-#include "stage/staged_softs.h"
 #include "stage/whole_pose.h"
 #include "state/countable.h"
 

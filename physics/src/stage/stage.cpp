@@ -9,9 +9,9 @@
 #include "stage/actors/energy.h"
 #include "stage/actors/particles.h"
 #include "stage/actors/vehicles.h"
+#include "stage/roster/staged_softs.h"
 #include "stage/saving/stage_hash.h"
 #include "stage/stage_implementation.h"
-#include "stage/staged_softs.h"
 
 namespace tweenfall {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stage/timeline.h"
+#include "stage/time/timeline.h"
 
 namespace tweenfall {
 

@@ -11,13 +11,13 @@
 #include <limits>
 #include <stdexcept>
 
+#include "collision/surfaces/surface.h"
 #include "flat/flat.h"
 #include "forces/integrators/integrators.h"
 #include "forces/kinds/kinds.h"
 #include "shapes/compound.h"
 #include "shapes/turned.h"
 #include "state/countable.h"
-#include "surfaces/surface.h"
 
 namespace tweenfall::state {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "small/part_of_step.h"
+#include "islands/small/part_of_step.h"
 #include "state/world_state.h"
 #include "step/workspace.h"
 

@@ -4,9 +4,9 @@
 
 #include <vector>
 
+#include "actors/soft/soft_state.h"
 #include "flat/flat.h"
 #include "forces/forces.h"
-#include "soft/soft_state.h"
 #include "state/body.h"
 #include "state/boxed.h"
 #include "state/contact_memories.h"

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <limits>
 
+#include "collision/surfaces/convex_piece.h"
+#include "collision/surfaces/touch.h"
 #include "queries/on_surface.h"
 #include "queries/sweep.h"
 #include "state/world_data.h"
-#include "surfaces/convex_piece.h"
-#include "surfaces/touch.h"
 
 namespace tweenfall {
 

@@ -1,10 +1,10 @@
 #include <algorithm>
 
+#include "collision/surfaces/convex_piece.h"
+#include "collision/surfaces/surface.h"
 #include "queries/rays.h"
 #include "queries/sweep.h"
 #include "state/world_data.h"
-#include "surfaces/convex_piece.h"
-#include "surfaces/surface.h"
 
 /// A blow may turn what is small so fast that no row follows it to the end of the step, and its corners then pull it
 /// through what it struck. The middle of a body never passes what stands or is led: it is taken back to where it comes

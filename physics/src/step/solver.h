@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "forces/free_flight.h"
-#include "small/extrapolation.h"
+#include "islands/small/extrapolation.h"
 #include "step/contact_rows.h"
 #include "step/keyed_step.h"
 #include "step/softness.h"

@@ -2,17 +2,17 @@
 
 #include <vector>
 
-#include "blocks/block_solver.h"
+#include "actors/soft/partners.h"
 #include "collision/passage.h"
 #include "contacts/found.h"
 #include "forces/flight.h"
 #include "forces/forces.h"
+#include "islands/blocks/block_solver.h"
 #include "islands/free_islands.h"
 #include "islands/island_contents.h"
 #include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
 #include "queries/lazy_scene.h"
-#include "soft/partners.h"
 #include "state/makeups.h"
 #include "step/solver.h"
 #include "strategies/island_by_strategies.h"

@@ -5,12 +5,12 @@
 #include <limits>
 #include <tuple>
 
+#include "collision/surfaces/surface.h"
 #include "contacts/meeting.h"
 #include "state/world_data.h"
 #include "step/keyed_step.h"
 #include "strategies/separations.h"
 #include "strategies/touching.h"
-#include "surfaces/surface.h"
 
 /// How a world's bodies go through a step where it asks for other strategies than the usual ones.
 

@@ -2,8 +2,8 @@
 
 #include <cstring>
 
-#include "blocks/coloring.h"
-#include "blocks/contact_block.h"
+#include "islands/blocks/coloring.h"
+#include "islands/blocks/contact_block.h"
 #include "support.h"
 
 using namespace tweenfall;

@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "small/extrapolation.h"
+#include "islands/small/extrapolation.h"
 
 namespace tweenfall::forces {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "blocks/lanes.h"
+#include "islands/blocks/lanes.h"
 
 namespace tweenfall::planar::inner {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "blocks/coloring.h"
+#include "islands/blocks/coloring.h"
 #include "planar/body.h"
 #include "planar/contacts/contact_block.h"
 

@@ -4,11 +4,11 @@
 
 #include "stage/actors/particles.h"
 #include "stage/actors/vehicles.h"
+#include "stage/roster/staged_softs.h"
 #include "stage/rules/meetings.h"
 #include "stage/rules/overlaps.h"
 #include "stage/rules/sensed.h"
 #include "stage/rules/strains.h"
-#include "stage/staged_softs.h"
 
 namespace tweenfall::staging {
 

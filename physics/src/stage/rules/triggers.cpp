@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage/leaps.h"
+#include "stage/roster/staged_softs.h"
 #include "stage/rules/sensed.h"
 #include "stage/stage_data.h"
-#include "stage/staged_softs.h"
+#include "stage/time/leaps.h"
 
 namespace tweenfall::staging {
 

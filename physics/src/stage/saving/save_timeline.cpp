@@ -4,10 +4,10 @@
 #include <string>
 
 #include "saving/envelope.h"
+#include "stage/roster/staged_softs.h"
 #include "stage/saving/fingerprint.h"
 #include "stage/saving/stage_fields.h"
-#include "stage/staged_softs.h"
-#include "stage/timeline.h"
+#include "stage/time/timeline.h"
 #include "state/countable.h"
 
 namespace tweenfall::staging {

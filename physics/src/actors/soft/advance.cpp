@@ -1,0 +1,218 @@
+#include <tweenfall/curves/hermite.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "actors/soft/apart.h"
+#include "actors/soft/between.h"
+#include "actors/soft/blowing.h"
+#include "actors/soft/meetings.h"
+#include "actors/soft/sub_step.h"
+#include "state/countable.h"
+#include "state/world_data.h"
+
+namespace tweenfall {
+
+namespace soft {
+namespace {
+
+constexpr double most_sub_steps = 1000;
+
+Vec3 mean_velocity(const SoftBody& body) {
+  Vec3 momentum(0, 0, 0);
+  double mass = 0;
+  for (std::size_t i = 0; i < body.positions.size(); ++i) {
+    momentum += body.made->masses[i] * body.velocities[i];
+    mass += body.made->masses[i];
+  }
+  return momentum / mass;
+}
+
+/// Of all edges that are stretched too far the one that is by most; it goes alone, and takes the load off its
+/// neighbors.
+void tear_one(SoftBody& body, double time) {
+  const SoftSettings& made = *body.made;
+  std::size_t worst = made.edges.size();
+  double most = 1;
+  for (std::size_t i = 0; i < made.edges.size(); ++i) {
+    const SoftEdge& edge = made.edges[i];
+    if (std::isinf(edge.tear) || body.torn[i] != 0) continue;
+    const double strain = (body.positions[edge.a] - body.positions[edge.b]).norm() / *edge.length - 1;
+    if (!(strain > most * edge.tear)) continue;
+    most = strain / edge.tear;
+    worst = i;
+  }
+  if (worst == made.edges.size()) return;
+  tear(body, worst);
+  const SoftEdge& edge = made.edges[worst];
+  body.tears.push_back({worst, time, 0.5 * (body.positions[edge.a] + body.positions[edge.b])});
+}
+
+/// One soft body in a step.
+class Course {
+ public:
+  /// @param began  when the step did, s
+  Course(SoftBody& body, std::vector<state::Body>& bodies, Partners& partners, const WorldSettings& settings,
+         const std::vector<Blowing>& winds, double began, double dt)
+      : body_(body), bodies_(bodies), partners_(partners), settings_(settings), winds_(winds), began_(began), dt_(dt) {
+    body.tears.clear();
+    near_ = find_near(body, bodies, partners, settings.gravity, dt);
+    for (PinState& state : body.pins) {
+      state.force = Vec3(0, 0, 0);
+      starts_.push_back(body.positions[state.pin.node]);
+      start_rates_.push_back(body.velocities[state.pin.node]);
+      if (state.pin.body != BodyId{}) static_cast<void>(partners.number_of(state.pin.body.index));
+    }
+  }
+
+  /// A sub-step, but for what other soft bodies do in it.
+  void go(double time, double h, bool backward) {
+    find_held(time);
+    blow(body_, winds_, h);
+    find_contacts(body_, near_, bodies_, partners_, settings_.gravity, settings_.push_out_speed, h, contacts_);
+    was_ = held_.empty() ? mean_velocity(body_) : Vec3(0, 0, 0);
+    SubStep step{body_, partners_, contacts_, held_, settings_.gravity, h, backward};
+    const bool between = std::ranges::any_of(near_, &Near::slips);
+    if (thick() || between) places_ = body_.positions;
+    (body_.made->solver == SoftSolver::positions ? solve_positions : solve_springs)(step);
+    pushed_ = between && meet_between(step, near_, bodies_, places_, settings_.push_out_speed);
+    if (thick()) keep_apart(as_thick(), partners_, h, backward, settings_.push_out_speed);
+  }
+
+  [[nodiscard]] bool thick() const { return body_.made->thickness > 0; }
+  [[nodiscard]] Thick as_thick() { return {&body_, &places_, held_}; }
+
+  /// @param among  other soft bodies may have pushed it
+  void end(double time, double h, bool among) {
+    for (std::size_t i = 0; i < held_.size(); ++i) {
+      body_.pins[i].force += held_[i].pushed / (h * dt_);
+      if (held_[i].partner == Held::nobody && body_.pins[i].pin.body != BodyId{})
+        partners_[partners_.number_of(body_.pins[i].pin.body.index)].taken += held_[i].pushed / h;
+    }
+    const bool touches = std::ranges::any_of(contacts_, [](const NodeContact& contact) { return contact.pressed > 0; });
+    if (held_.empty() && !touches && !pushed_ && !among) {
+      // Backward Euler takes what falls too far by half of a sub-step's gain: what nothing holds falls as a whole as
+      // it must.
+      const Vec3 early = 0.5 * h * (mean_velocity(body_) - was_);
+      for (Vec3& place : body_.positions) place -= early;
+    }
+    tear_one(body_, began_ + time);
+  }
+
+  /// What is pinned ends exactly where it is held.
+  void finish() {
+    for (PinState& state : body_.pins) {
+      if (state.pin.body == BodyId{}) {
+        state.velocity = Vec3(0, 0, 0);
+        continue;
+      }
+      const state::Body& holder = bodies_[state.pin.body.index];
+      const Pose& pose = holder.motion.pose;
+      body_.positions[state.pin.node] = pose.position + pose.rotation * state.pin.point;
+      if (holder.immovable())
+        body_.velocities[state.pin.node] = velocity_at(holder.twist, body_.positions[state.pin.node] - holder.center);
+    }
+  }
+
+ private:
+  void find_held(double time) {
+    held_.clear();
+    const double share = time / dt_;
+    for (std::size_t i = 0; i < body_.pins.size(); ++i) {
+      const PinState& state = body_.pins[i];
+      Held held{.node = state.pin.node};
+      if (state.pin.body == BodyId{}) {
+        const bool led = share < 1 && state.target != starts_[i];
+        const Sample<Vec3> way =
+            led ? hermite::sample<Vec3>(starts_[i], start_rates_[i], state.target, state.velocity, dt_, share)
+                : Sample<Vec3>{state.target, state.velocity, Vec3(0, 0, 0)};
+        held.place = way.value;
+        held.velocity = way.rate;
+      } else {
+        const std::uint32_t number = partners_.number_of(state.pin.body.index);
+        const Partner& partner = partners_[number];
+        held.arm = partner.now.rotation * (state.pin.point - bodies_[partner.body].mass().center);
+        held.place = partner.now.center + held.arm;
+        if (partner.moves()) held.partner = number;
+      }
+      held_.push_back(held);
+    }
+  }
+
+  SoftBody& body_;
+  std::vector<state::Body>& bodies_;
+  Partners& partners_;
+  const WorldSettings& settings_;
+  const std::vector<Blowing>& winds_;
+  double began_, dt_;
+  std::vector<Near> near_;
+  std::vector<Vec3> starts_, start_rates_;  ///< of the pinned nodes
+  std::vector<Vec3> places_;                ///< of all nodes, before a sub-step
+  std::vector<Held> held_;
+  std::vector<NodeContact> contacts_;
+  Vec3 was_{0, 0, 0};    ///< mean velocity before the sub-step, of what nothing holds
+  bool pushed_ = false;  ///< between its nodes, in the sub-step
+};
+
+/// Soft bodies of which any two may meet, by their numbers.
+std::vector<std::size_t> meeting_each_other(const std::vector<const SoftBody*>& bodies) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    if (std::ranges::any_of(bodies, [&](const SoftBody* other) {
+          return other != bodies[i] && meet_each_other(*bodies[i]->made, *other->made);
+        }))
+      found.push_back(i);
+  return found;
+}
+
+}  // namespace
+}  // namespace soft
+
+void World::Implementation::note_soft_starts() {
+  soft_starts.clear();
+  if (std::ranges::none_of(softs, &soft::SoftBody::alive)) return;
+  for (const state::Body& body : bodies) soft_starts.push_back({body.center, body.motion.pose.rotation, body.twist});
+}
+
+void World::Implementation::advance_softs(double dt) {
+  if (softs.empty()) return;
+  double longest = 0;
+  for (const soft::SoftBody& body : softs)
+    if (body.alive) longest = longest > 0 ? std::min(longest, *body.made->sub_step) : *body.made->sub_step;
+  if (!(longest > 0)) return;
+  const double count = std::clamp(std::ceil(dt / longest - 1e-9), 1.0, soft::most_sub_steps), h = dt / count;
+  soft::Partners partners(bodies, soft_starts, dt);
+  const std::vector<soft::Blowing> winds = soft::winds_at(forces, time);
+  std::vector<soft::Course> courses;
+  std::vector<const soft::SoftBody*> there;
+  for (soft::SoftBody& body : softs)
+    if (body.alive) {
+      courses.emplace_back(body, bodies, partners, settings, winds, time, dt);
+      there.push_back(&body);
+    }
+  const std::vector<std::size_t> among = soft::meeting_each_other(there);
+  for (double i = 1; i <= count; ++i) {
+    const double since = i < count ? i * h : dt;
+    partners.go_to(since, h);
+    const bool backward = static_cast<int>(i) % 2 == 0;
+    for (soft::Course& course : courses) course.go(since, h, backward);
+    std::vector<soft::Thick> thick;
+    for (const std::size_t member : among) thick.push_back(courses[member].as_thick());
+    if (!thick.empty()) soft::keep_apart_from_each_other(thick, partners, h, backward, settings.push_out_speed);
+    for (std::size_t k = 0; k < courses.size(); ++k) courses[k].end(since, h, std::ranges::binary_search(among, k));
+    partners.accept(h);
+  }
+  partners.finish(h);
+  for (soft::Course& course : courses) course.finish();
+}
+
+void World::Implementation::check_softs() const {
+  for (std::uint32_t i = 0; i < softs.size(); ++i) {
+    if (!softs[i].alive) continue;
+    for (std::uint32_t node = 0; node < softs[i].positions.size(); ++node)
+      if (!state::countable(softs[i].positions[node]) || !state::countable(softs[i].velocities[node]))
+        throw SoftNotFinite({i, softs[i].generation}, node, time);
+  }
+}
+
+}  // namespace tweenfall

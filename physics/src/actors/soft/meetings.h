@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "actors/soft/sub_step.h"
+
+namespace tweenfall::soft {
+
+/// A body that a soft one may meet in a step.
+struct Near {
+  std::uint32_t partner = 0;
+  Bounds around{Vec3(0, 0, 0), Vec3(0, 0, 0)};  ///< all its way, world
+  double friction = 0;                          ///< with the soft body
+  bool slips = false;                           ///< it is thinner than the space between nodes
+};
+
+/// @param bodies  all of the world, as the step has left them
+[[nodiscard]] std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>& bodies,
+                                          Partners& partners, const Vec3& gravity, double dt);
+
+/// The planes that nodes must end a sub-step before. A node that is fast enough to get to a surface meets its plane
+/// before it is there: so none passes a thin wall.
+void find_contacts(const SoftBody& body, const std::vector<Near>& near, const std::vector<state::Body>& bodies,
+                   const Partners& partners, const Vec3& gravity, double push_out_speed, double h,
+                   std::vector<NodeContact>& contacts);
+
+}  // namespace tweenfall::soft

@@ -1,0 +1,239 @@
+// Constraints with compliance. A constraint C(x) with energy k C^2 / 2 moves the nodes along its gradients, each by its
+// share of the inverse masses w, so far that what is left of C is held by the compliance 1 / k:
+//
+//   change of the multiplier = (-C - a multiplier) / (sum of w |gradient|^2 + a),  a = 1 / (k h^2)
+//
+// Sources: Macklin, Mueller, Chentanez, XPBD: Position-Based Simulation of Compliant Constrained Dynamics, 2016,
+// equations 18 and 26 (damping); Macklin, Storey, Lu, Terdiman, Chentanez, Jeschke, Mueller, Small Steps in Physics
+// Simulation, 2019; for rigid bodies Mueller, Macklin, Chentanez, Jeschke, Kim, Detailed Rigid Body Simulation with
+// Extended Position Based Dynamics, 2020.
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "actors/soft/sub_step.h"
+
+namespace tweenfall::soft {
+
+namespace {
+
+class Positions {
+ public:
+  explicit Positions(SubStep& step) : step_(step), made_(*step.body.made), x_(step.body.positions) {}
+
+  void solve() {
+    predict();
+    for (int i = 0; i < made_.iterations; ++i) pass();
+    SoftBody& body = step_.body;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      body.velocities[i] = (p_[i] - x_[i]) / step_.h;
+      x_[i] = p_[i];
+    }
+    hold_together();
+    for (Held& held : step_.held) {
+      if (held.partner != Held::nobody) continue;
+      // What held it has made its momentum what it is: against what it would have been, and what its edges gave.
+      const double mass = made_.masses[held.node] * (1 + step_.h * made_.linear_damping);
+      held.pushed += pull_[held.node] - mass * (held.place - free_[held.node]);
+      body.velocities[held.node] = held.velocity;
+    }
+  }
+
+ private:
+  void predict() {
+    // A drag of m c v at the end of the sub-step is as if the mass were by c h larger, and fell that much less.
+    const double h = step_.h, kept = 1 / (1 + h * made_.linear_damping);
+    const std::size_t count = x_.size();
+    p_.resize(count);
+    weight_.resize(count);
+    pull_.assign(count, Vec3(0, 0, 0));
+    for (std::size_t i = 0; i < count; ++i) {
+      p_[i] = x_[i] + h * kept * (step_.body.velocities[i] + h * step_.gravity);
+      weight_[i] = kept / made_.masses[i];
+    }
+    free_ = p_;
+    for (const Held& held : step_.held) {
+      if (held.partner != Held::nobody) continue;
+      p_[held.node] = held.place;
+      weight_[held.node] = 0;
+    }
+    edge_multipliers_.assign(made_.edges.size(), 0);
+    bend_multipliers_.assign(made_.bends.size(), Vec3(0, 0, 0));
+    solid_multipliers_.assign(made_.tetrahedra.size(), 0);
+    enclosure_multipliers_.assign(made_.enclosures.size(), 0);
+  }
+
+  /// A sub-step in which nodes pass by their neighbors many times over tells nothing of what holds them together, and
+  /// would throw them ever faster: against its center of mass nothing goes farther in one than all edges are long.
+  void hold_together() {
+    if (made_.edges.empty()) return;
+    std::vector<Vec3>& v = step_.body.velocities;
+    double reach = 0, mass = 0, fastest = 0;
+    for (const SoftEdge& edge : made_.edges) reach += *edge.length;
+    Vec3 mean(0, 0, 0);
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      mean += made_.masses[i] * v[i];
+      mass += made_.masses[i];
+    }
+    mean /= mass;
+    for (const Vec3& one : v) fastest = std::max(fastest, (one - mean).norm());
+    if (!(fastest * step_.h > reach)) return;
+    const double kept = reach / (step_.h * fastest);
+    for (Vec3& one : v) one = mean + kept * (one - mean);
+  }
+
+  template <class Meet>
+  void each(std::size_t count, const Meet& meet) {
+    for (std::size_t i = 0; i < count; ++i) meet(step_.backward ? count - 1 - i : i);
+  }
+
+  void pass() {
+    each(made_.edges.size(), [this](std::size_t i) { meet_edge(i); });
+    each(made_.bends.size(), [this](std::size_t i) { meet_bend(i); });
+    each(made_.tetrahedra.size(), [this](std::size_t i) { meet_solid(i); });
+    each(made_.enclosures.size(), [this](std::size_t i) { meet_enclosure(i); });
+    for (Held& held : step_.held)
+      if (held.partner != Held::nobody) meet_pin(held);
+    for (NodeContact& contact : step_.contacts) meet_contact(contact);
+  }
+
+  /// A push on a node, kg m.
+  void push(std::uint32_t node, const Vec3& by) {
+    p_[node] += weight_[node] * by;
+    pull_[node] += by;
+  }
+
+  [[nodiscard]] double compliance(double stiffness) const { return 1 / (stiffness * step_.h * step_.h); }
+
+  void meet_edge(std::size_t i) {
+    const SoftEdge& edge = made_.edges[i];
+    const double weights = weight_[edge.a] + weight_[edge.b];
+    const Vec3 between = p_[edge.a] - p_[edge.b];
+    const double length = between.norm();
+    if (step_.body.torn[i] != 0 || !(weights > 0) || !(length > 0)) return;
+    const Vec3 normal = between / length;
+    const double soft = compliance(edge.stiffness), damped = edge.damping / (edge.stiffness * step_.h);
+    const double drawn = normal.dot((p_[edge.a] - x_[edge.a]) - (p_[edge.b] - x_[edge.b]));
+    double& multiplier = edge_multipliers_[i];
+    const double change =
+        (*edge.length - length - soft * multiplier - damped * drawn) / ((1 + damped) * weights + soft);
+    multiplier += change;
+    push(edge.a, change * normal);
+    push(edge.b, -change * normal);
+  }
+
+  void meet_bend(std::size_t i) {
+    const SoftBend& bend = made_.bends[i];
+    if (step_.body.gone.bends[i] != 0) return;
+    Vec3 off(0, 0, 0);
+    double weights = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      off += bend.weights[k] * p_[bend.nodes[k]];
+      weights += bend.weights[k] * bend.weights[k] * weight_[bend.nodes[k]];
+    }
+    if (!(weights > 0)) return;
+    const double soft = compliance(bend.stiffness);
+    const Vec3 change = (-off - soft * bend_multipliers_[i]) / (weights + soft);
+    bend_multipliers_[i] += change;
+    for (std::size_t k = 0; k < 4; ++k)
+      if (bend.weights[k] != 0) push(bend.nodes[k], bend.weights[k] * change);
+  }
+
+  void meet_solid(std::size_t i) {
+    const SoftTetrahedron& solid = made_.tetrahedra[i];
+    if (step_.body.gone.tetrahedra[i] != 0) return;
+    const auto& n = solid.nodes;
+    const Vec3 b = p_[n[1]] - p_[n[0]], c = p_[n[2]] - p_[n[0]], d = p_[n[3]] - p_[n[0]];
+    std::array<Vec3, 4> gradients{Vec3(0, 0, 0), c.cross(d) / 6, d.cross(b) / 6, b.cross(c) / 6};
+    gradients[0] = -(gradients[1] + gradients[2] + gradients[3]);
+    double weights = 0;
+    for (std::size_t k = 0; k < 4; ++k) weights += weight_[n[k]] * gradients[k].squaredNorm();
+    if (!(weights > 0)) return;
+    const double soft = *solid.volume * compliance(solid.stiffness);
+    const double volume = b.dot(c.cross(d)) / 6;
+    double& multiplier = solid_multipliers_[i];
+    const double change = (*solid.volume - volume - soft * multiplier) / (weights + soft);
+    multiplier += change;
+    for (std::size_t k = 0; k < 4; ++k) push(n[k], change * gradients[k]);
+  }
+
+  void meet_enclosure(std::size_t i) {
+    const SoftEnclosure& enclosure = made_.enclosures[i];
+    if (step_.body.gone.enclosures[i] != 0) return;
+    gradients_.assign(p_.size(), Vec3(0, 0, 0));
+    const Vec3 origin = p_[enclosure.triangles[0][0]];
+    double volume = 0;
+    for (const auto& triangle : enclosure.triangles) {
+      const Vec3 a = p_[triangle[0]] - origin, b = p_[triangle[1]] - origin, c = p_[triangle[2]] - origin;
+      volume += a.dot(b.cross(c)) / 6;
+      gradients_[triangle[0]] += b.cross(c) / 6;
+      gradients_[triangle[1]] += c.cross(a) / 6;
+      gradients_[triangle[2]] += a.cross(b) / 6;
+    }
+    double weights = 0;
+    for (std::size_t k = 0; k < p_.size(); ++k) weights += weight_[k] * gradients_[k].squaredNorm();
+    if (!(weights > 0)) return;
+    const double soft = *enclosure.volume * compliance(enclosure.stiffness);
+    double& multiplier = enclosure_multipliers_[i];
+    const double change = (*enclosure.volume - volume - soft * multiplier) / (weights + soft);
+    multiplier += change;
+    for (std::uint32_t k = 0; k < p_.size(); ++k)
+      if (gradients_[k] != Vec3::Zero()) push(k, change * gradients_[k]);
+  }
+
+  void meet_pin(Held& held) {
+    Partner& partner = step_.partners[held.partner];
+    Mat3 lever;
+    lever << 0, -held.arm.z(), held.arm.y(), held.arm.z(), 0, -held.arm.x(), -held.arm.y(), held.arm.x(), 0;
+    const Mat3 give =
+        (weight_[held.node] + partner.inverse_mass) * Mat3::Identity() - lever * partner.inverse_inertia * lever;
+    const Vec3 change = give.inverse() * (partner.point(held.arm) - p_[held.node]);
+    push(held.node, change);
+    partner.give(-change, held.arm, step_.h);
+    held.pushed -= change;
+  }
+
+  void meet_contact(NodeContact& contact) {
+    Partner& partner = step_.partners[contact.partner];
+    const double weight = weight_[contact.node];
+    const Vec3& normal = contact.normal;
+    const double gap = normal.dot(p_[contact.node] - partner.point(contact.arm)) - made_.radius - contact.least;
+    const double change = std::max(-gap / (weight + partner.give_along(normal, contact.arm)), -contact.pressed);
+    if (change == 0) return;
+    contact.pressed += change;
+    push(contact.node, change * normal);
+    partner.give(-change * normal, contact.arm, step_.h);
+    // What slides is held back by at most friction times that.
+    const Vec3 carried = contact.carried + partner.moved + partner.turned.cross(contact.arm);
+    Vec3 slid = p_[contact.node] - x_[contact.node] - carried;
+    slid -= normal.dot(slid) * normal;
+    const double way = slid.norm();
+    const double room = contact.friction * contact.pressed - contact.rubbed;
+    if (!(way > 0) || !(room > 0)) return;
+    const Vec3 along = slid / way;
+    const double rub = std::min(way / (weight + partner.give_along(along, contact.arm)), room);
+    contact.rubbed += rub;
+    push(contact.node, -rub * along);
+    partner.give(rub * along, contact.arm, step_.h);
+  }
+
+  SubStep& step_;
+  const SoftSettings& made_;
+  std::vector<Vec3>& x_;        ///< at the start
+  std::vector<Vec3> p_;         ///< at the end
+  std::vector<Vec3> free_;      ///< at the end, if nothing acted but gravity
+  std::vector<Vec3> pull_;      ///< by constraints, kg m
+  std::vector<double> weight_;  ///< inverse masses; 0 of what is led
+  std::vector<double> edge_multipliers_, solid_multipliers_, enclosure_multipliers_;
+  std::vector<Vec3> bend_multipliers_;
+  std::vector<Vec3> gradients_;
+};
+
+}  // namespace
+
+void solve_positions(SubStep& step) {
+  Positions(step).solve();
+}
+
+}  // namespace tweenfall::soft

@@ -1,0 +1,348 @@
+// Backward Euler: the velocities v at the end of the sub-step are those at which
+//
+//   1/2 (v - v_free)' M (v - v_free) + V(x + h v) + what damping takes
+//
+// is least, which Newton's method finds; v_free is what gravity alone leads to. Each of its linear systems,
+// (M + h^2 K + h D) change = -gradient, is solved by conjugate gradients. K is the second derivative of the energy
+// without what would make it indefinite: an edge under pressure does not push its ends aside.
+//
+// Sources: Baraff, Witkin, Large Steps in Cloth Simulation, 1998; Choi, Ko, Stable but Responsive Cloth, 2002 (the edge
+// under pressure); Martin, Thomaszewski, Grinspun, Gross, Example-Based Elastic Materials, 2011, equation 6 (as what is
+// least); Shewchuk, An Introduction to the Conjugate Gradient Method Without the Agonizing Pain, 1994.
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "actors/soft/energies.h"
+#include "actors/soft/sub_step.h"
+
+namespace tweenfall::soft {
+
+namespace {
+
+constexpr int most_newton_steps = 12, most_halvings = 12;
+/// Against the mass that a contact moves in a sub-step: how stiff it is.
+constexpr double contact_stiffness = 1e4;
+
+/// Velocities of all nodes, and then of the bodies: linear and angular ones in turn.
+using Rates = std::vector<Vec3>;
+
+double dot(const Rates& a, const Rates& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+  return sum;
+}
+
+Mat3 crossing(const Vec3& arm) {
+  Mat3 lever;
+  lever << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+  return lever;
+}
+
+class Springs {
+ public:
+  explicit Springs(SubStep& step)
+      : step_(step), made_(*step.body.made), x_(step.body.positions), nodes_(x_.size()), energies_(step.body, step.h) {}
+
+  void solve() {
+    begin();
+    for (int i = 0; i < most_newton_steps && improve(); ++i) {
+    }
+    if (step_.held.empty() && !touches()) keep_momentum();
+    end();
+  }
+
+ private:
+  [[nodiscard]] std::size_t linear_of(std::uint32_t partner) const { return nodes_ + 2 * std::size_t{partner}; }
+
+  void begin() {
+    // A drag of m c v at the end of the sub-step is as if the mass were by c h larger, and fell that much less.
+    const double h = step_.h, kept = 1 / (1 + h * made_.linear_damping);
+    for (const double mass : made_.masses) mass_.push_back(mass / kept);
+    const std::size_t all = nodes_ + 2 * step_.partners.size();
+    free_.assign(all, Vec3(0, 0, 0));
+    for (std::size_t i = 0; i < nodes_; ++i) free_[i] = kept * (step_.body.velocities[i] + h * step_.gravity);
+    v_ = free_;
+    for (std::size_t i = 0; i < nodes_; ++i) v_[i] = step_.body.velocities[i];
+    for (std::uint32_t p = 0; p < step_.partners.size(); ++p) {
+      const Partner& partner = step_.partners[p];
+      v_[linear_of(p)] = free_[linear_of(p)] = partner.moved / h;
+      v_[linear_of(p) + 1] = free_[linear_of(p) + 1] = partner.turned / h;
+    }
+    stiffness_.clear();
+    for (const NodeContact& contact : step_.contacts) {
+      const Partner& partner = step_.partners[contact.partner];
+      const double give = 1 / mass_[contact.node] + partner.give_along(contact.normal, contact.arm);
+      stiffness_.push_back(contact_stiffness / (give * h * h));
+    }
+    lead(v_);
+  }
+
+  /// Gives nodes that are held the velocities of what holds them.
+  void lead(Rates& v) const {
+    for (const Held& held : step_.held) {
+      Vec3 at = (held.place - x_[held.node]) / step_.h;
+      if (held.partner != Held::nobody) at += follow(v, held);
+      v[held.node] = at;
+    }
+  }
+  [[nodiscard]] Vec3 follow(const Rates& v, const Held& held) const {
+    return v[linear_of(held.partner)] + v[linear_of(held.partner) + 1].cross(held.arm);
+  }
+  /// What acts on nodes that are held acts on what holds them.
+  void hand_on(Rates& forces) const {
+    for (const Held& held : step_.held) {
+      if (held.partner != Held::nobody) {
+        forces[linear_of(held.partner)] += forces[held.node];
+        forces[linear_of(held.partner) + 1] += held.arm.cross(forces[held.node]);
+      }
+      forces[held.node] = Vec3(0, 0, 0);
+    }
+    for (std::uint32_t p = 0; p < step_.partners.size(); ++p)
+      if (!step_.partners[p].moves()) forces[linear_of(p)] = forces[linear_of(p) + 1] = Vec3(0, 0, 0);
+  }
+
+  [[nodiscard]] double gap(const NodeContact& contact, const Rates& v) const {
+    const Partner& partner = step_.partners[contact.partner];
+    const std::size_t linear = linear_of(contact.partner);
+    const Vec3 given = step_.h * (v[linear] + v[linear + 1].cross(contact.arm));
+    const Vec3 surface = partner.now.center + contact.arm + given;
+    return contact.normal.dot(x_[contact.node] + step_.h * v[contact.node] - surface) - made_.radius - contact.least;
+  }
+
+  /// What is to be least.
+  [[nodiscard]] double measure(const Rates& v) {
+    double sum = 0;
+    for (std::size_t i = 0; i < nodes_; ++i) sum += 0.5 * mass_[i] * (v[i] - free_[i]).squaredNorm();
+    for (std::uint32_t p = 0; p < step_.partners.size(); ++p) {
+      const Partner& partner = step_.partners[p];
+      const Vec3 linear = v[linear_of(p)] - free_[linear_of(p)];
+      const Vec3 angular = v[linear_of(p) + 1] - free_[linear_of(p) + 1];
+      sum += 0.5 * (partner.mass * linear.squaredNorm() + angular.dot(partner.inertia * angular));
+    }
+    for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
+      const double depth = std::min(0.0, gap(step_.contacts[k], v));
+      sum += 0.5 * stiffness_[k] * depth * depth;
+    }
+    return sum + energies_.at(x_, v);
+  }
+
+  /// Its derivative, by the velocity of each node as if nothing held it.
+  void find_gradient(const Rates& v, Rates& gradient) {
+    gradient.assign(v.size(), Vec3(0, 0, 0));
+    energies_.add_gradient(gradient);
+    for (std::size_t i = 0; i < nodes_; ++i) gradient[i] += mass_[i] * (v[i] - free_[i]);
+    for (std::uint32_t p = 0; p < step_.partners.size(); ++p) {
+      const Partner& partner = step_.partners[p];
+      gradient[linear_of(p)] += partner.mass * (v[linear_of(p)] - free_[linear_of(p)]);
+      gradient[linear_of(p) + 1] += partner.inertia * (v[linear_of(p) + 1] - free_[linear_of(p) + 1]);
+    }
+    pressing_.assign(step_.contacts.size(), 0);
+    for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
+      const NodeContact& contact = step_.contacts[k];
+      const double depth = gap(contact, v);
+      if (!(depth < 0)) continue;
+      pressing_[k] = 1;
+      add_along(contact, step_.h * stiffness_[k] * depth, gradient);
+    }
+  }
+  /// Adds a push along a contact's normal, against the body.
+  void add_along(const NodeContact& contact, double push, Rates& out) const {
+    out[contact.node] += push * contact.normal;
+    out[linear_of(contact.partner)] -= push * contact.normal;
+    out[linear_of(contact.partner) + 1] -= push * contact.arm.cross(contact.normal);
+  }
+
+  /// The second derivative times a change.
+  void multiply(const Rates& change, Rates& out) {
+    spread_ = change;
+    for (const Held& held : step_.held)
+      spread_[held.node] = held.partner == Held::nobody ? Vec3(0, 0, 0) : follow(change, held);
+    out.assign(change.size(), Vec3(0, 0, 0));
+    for (std::size_t i = 0; i < nodes_; ++i) out[i] = mass_[i] * spread_[i];
+    energies_.add_product(spread_, out);
+    for (std::uint32_t p = 0; p < step_.partners.size(); ++p) {
+      const Partner& partner = step_.partners[p];
+      out[linear_of(p)] += partner.mass * spread_[linear_of(p)];
+      out[linear_of(p) + 1] += partner.inertia * spread_[linear_of(p) + 1];
+    }
+    for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
+      if (pressing_[k] == 0) continue;
+      const NodeContact& contact = step_.contacts[k];
+      const std::size_t linear = linear_of(contact.partner);
+      const Vec3 apart = spread_[contact.node] - spread_[linear] - spread_[linear + 1].cross(contact.arm);
+      add_along(contact, step_.h * step_.h * stiffness_[k] * contact.normal.dot(apart), out);
+    }
+    hand_on(out);
+  }
+
+  /// The inverse of its blocks of three.
+  void find_blocks() {
+    blocks_.assign(v_.size(), Mat3::Zero());
+    for (std::size_t i = 0; i < nodes_; ++i) blocks_[i] = mass_[i] * Mat3::Identity();
+    energies_.add_blocks(blocks_);
+    for (std::uint32_t p = 0; p < step_.partners.size(); ++p) {
+      const Partner& partner = step_.partners[p];
+      blocks_[linear_of(p)] = partner.moves() ? Mat3(partner.mass * Mat3::Identity()) : Mat3(Mat3::Identity());
+      blocks_[linear_of(p) + 1] = partner.moves() ? partner.inertia : Mat3(Mat3::Identity());
+    }
+    for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
+      if (pressing_[k] == 0) continue;
+      const NodeContact& contact = step_.contacts[k];
+      const double stiff = step_.h * step_.h * stiffness_[k];
+      const Vec3 lever = contact.arm.cross(contact.normal);
+      blocks_[contact.node] += stiff * contact.normal * contact.normal.transpose();
+      if (!step_.partners[contact.partner].moves()) continue;
+      blocks_[linear_of(contact.partner)] += stiff * contact.normal * contact.normal.transpose();
+      blocks_[linear_of(contact.partner) + 1] += stiff * lever * lever.transpose();
+    }
+    for (const Held& held : step_.held) {
+      if (held.partner == Held::nobody) continue;
+      const Mat3 lever = crossing(held.arm);
+      blocks_[linear_of(held.partner)] += blocks_[held.node];
+      blocks_[linear_of(held.partner) + 1] += lever.transpose() * blocks_[held.node] * lever;
+    }
+    for (Mat3& block : blocks_) block = block.inverse().eval();
+  }
+
+  /// Solves for the change against a gradient.
+  void find_change(const Rates& gradient) {
+    const std::size_t size = gradient.size();
+    change_.assign(size, Vec3(0, 0, 0));
+    rest_.resize(size);
+    toward_.resize(size);
+    for (std::size_t i = 0; i < size; ++i) rest_[i] = -gradient[i];
+    const auto steer = [&] {
+      for (std::size_t i = 0; i < size; ++i) steered_[i] = blocks_[i] * rest_[i];
+    };
+    steered_.resize(size);
+    steer();
+    toward_ = steered_;
+    double left = dot(rest_, steered_);
+    const double enough = 1e-16 * left;
+    const int most = static_cast<int>(std::min<std::size_t>(3 * size + 20, 1000));
+    for (int i = 0; i < most && left > enough; ++i) {
+      multiply(toward_, product_);
+      const double curve = dot(toward_, product_);
+      if (!(curve > 0)) break;
+      const double way = left / curve;
+      for (std::size_t k = 0; k < size; ++k) {
+        change_[k] += way * toward_[k];
+        rest_[k] -= way * product_[k];
+      }
+      steer();
+      const double next = dot(rest_, steered_), keep = next / left;
+      for (std::size_t k = 0; k < size; ++k) toward_[k] = steered_[k] + keep * toward_[k];
+      left = next;
+    }
+  }
+
+  /// @return whether another step may be worth it
+  bool improve() {
+    const double before = measure(v_);
+    find_gradient(v_, gradient_);
+    hand_on(gradient_);
+    find_blocks();
+    find_change(gradient_);
+    double fastest = 0, largest = 0;
+    for (std::size_t i = 0; i < v_.size(); ++i) {
+      fastest = std::max(fastest, v_[i].norm());
+      largest = std::max(largest, change_[i].norm());
+    }
+    const bool last = largest <= 1e-9 * fastest + 1e-11;
+    double part = 1;
+    for (int i = 0; i < most_halvings; ++i, part *= 0.5) {
+      trial_ = v_;
+      for (std::size_t k = 0; k < v_.size(); ++k) trial_[k] += part * change_[k];
+      lead(trial_);
+      const double after = measure(trial_);
+      if (!(after <= before + 1e-13 * std::abs(before))) continue;
+      v_ = trial_;
+      return !last;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool touches() {
+    for (const NodeContact& contact : step_.contacts)
+      if (gap(contact, v_) < 0) return true;
+    return false;
+  }
+
+  /// What nothing holds or touches keeps its momentum, whatever is left undone inside.
+  void keep_momentum() {
+    Vec3 off(0, 0, 0);
+    double mass = 0;
+    for (std::size_t i = 0; i < nodes_; ++i) {
+      off += mass_[i] * (v_[i] - free_[i]);
+      mass += mass_[i];
+    }
+    for (std::size_t i = 0; i < nodes_; ++i) v_[i] -= off / mass;
+  }
+
+  void end() {
+    static_cast<void>(measure(v_));
+    find_gradient(v_, gradient_);
+    for (Held& held : step_.held) held.pushed -= step_.h * gradient_[held.node];
+    for (std::uint32_t p = 0; p < step_.partners.size(); ++p) {
+      Partner& partner = step_.partners[p];
+      if (!partner.moves()) continue;
+      const Vec3 linear = v_[linear_of(p)] - free_[linear_of(p)];
+      partner.moved += step_.h * linear;
+      partner.turned += step_.h * (v_[linear_of(p) + 1] - free_[linear_of(p) + 1]);
+      partner.taken += partner.mass * linear;
+    }
+    for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
+      NodeContact& contact = step_.contacts[k];
+      const double depth = gap(contact, v_);
+      if (!(depth < 0)) continue;
+      contact.pressed = -step_.h * step_.h * stiffness_[k] * depth;
+      Partner& partner = step_.partners[contact.partner];
+      if (!partner.moves()) partner.taken -= contact.pressed / step_.h * contact.normal;
+    }
+    for (NodeContact& contact : step_.contacts)
+      if (contact.pressed > 0) rub(contact);
+    for (std::size_t i = 0; i < nodes_; ++i) x_[i] += step_.h * v_[i];
+    for (const Held& held : step_.held) {
+      if (held.partner != Held::nobody) continue;
+      x_[held.node] = held.place;
+      v_[held.node] = held.velocity;
+    }
+    for (std::size_t i = 0; i < nodes_; ++i) step_.body.velocities[i] = v_[i];
+  }
+
+  /// Friction, as far as the push along the normal bears it.
+  void rub(NodeContact& contact) {
+    Partner& partner = step_.partners[contact.partner];
+    const Vec3 carried = contact.carried + partner.moved + partner.turned.cross(contact.arm);
+    Vec3 slid = step_.h * v_[contact.node] - carried;
+    slid -= contact.normal.dot(slid) * contact.normal;
+    const double way = slid.norm();
+    if (!(way > 0)) return;
+    const Vec3 along = slid / way;
+    const double give = 1 / mass_[contact.node] + partner.give_along(along, contact.arm);
+    contact.rubbed = std::min(way / give, contact.friction * contact.pressed);
+    v_[contact.node] -= contact.rubbed / (mass_[contact.node] * step_.h) * along;
+    partner.give(contact.rubbed * along, contact.arm, step_.h);
+  }
+
+  SubStep& step_;
+  const SoftSettings& made_;
+  std::vector<Vec3>& x_;  ///< at the start
+  std::size_t nodes_;
+  std::vector<double> mass_;
+  Energies energies_;
+  Rates v_, free_, gradient_, change_, rest_, steered_, toward_, product_, trial_, spread_;
+  std::vector<Mat3> blocks_;
+  std::vector<double> stiffness_;  ///< by contact, N/m
+  std::vector<char> pressing_;     ///< by contact
+};
+
+}  // namespace
+
+void solve_springs(SubStep& step) {
+  Springs(step).solve();
+}
+
+}  // namespace tweenfall::soft

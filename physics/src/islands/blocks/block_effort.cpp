@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "islands/blocks/block_solver.h"
+#include "step/solver.h"
+
+/// Which islands are solved in blocks, and how thoroughly.
+
+namespace tweenfall::blocks {
+
+using contacts::ContactConstraint;
+using state::Body;
+
+namespace {
+
+/// Sub-steps in a step. Tall stacks need many, and few contacts can afford them: a stack of forty falls with sixteen
+/// and stands with 24 to a fifth of a millimeter; a pyramid of fifty rows leans and falls with eight. What carries
+/// itself over fewer contacts needs fewer.
+constexpr std::size_t few = 128;
+constexpr std::uint32_t deep_of_few = 20, deep_of_many = 50;
+constexpr int sub_steps_of_few = 24, fewest_of_few = 14;
+constexpr int sub_steps_of_many = 10, fewest_of_many = 5;
+/// Of so few contacts they are those of `Solver`, with several passes in each; of a single one with as many passes as
+/// it takes. With half as many, what a press squeezes is shot away, and a stack of two sinks a tenth of a millimeter.
+constexpr std::size_t small = 8;
+constexpr int sub_steps_of_small = 8;
+/// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s. Whoever takes
+/// short steps wants to be nearer.
+constexpr double longest_of_jointed = 1.0 / 180, long_step = 1.0 / 100;
+constexpr int fewest_of_jointed = 3, fewest_of_jointed_in_short = 4;
+/// On what a hand touches the whole figure may rest: as soft as for the hand alone, it would sink in.
+constexpr double giving_of_jointed = 0.25;
+/// Impulses of much longer sub-steps would bring their rounding along.
+constexpr double long_enough = 0.15;
+/// Rows are prepared again when a body has turned by this since, rad.
+constexpr double turned_enough = 0.02, turned_enough_of_small = 0.002;
+/// Rows cannot follow what turns by more than this in a sub-step, rad.
+constexpr double followable = 0.5, followable_of_small = 0.05, followable_of_jointed = 0.3;
+
+/// What turns by more than this in a step does not lie, rad.
+constexpr double turns = 1e-3;
+/// Of the blows of so little restitution those that are handed on do not matter.
+constexpr double dull = 0.25;
+constexpr int passes_of_meeting = 2;
+
+/// Even numbers: islands with the same are solved together.
+int sub_steps_of_depth(std::uint32_t depth) {
+  const std::uint32_t deep = std::min(depth, deep_of_few);
+  const std::uint32_t steps = deep * deep * (sub_steps_of_few - fewest_of_few) / (deep_of_few * deep_of_few);
+  return fewest_of_few + static_cast<int>((steps + 1) / 2 * 2);
+}
+
+int sub_steps_of_deep_heap(std::uint32_t depth) {
+  const std::uint32_t steps = std::min(depth, deep_of_many) * (sub_steps_of_many - fewest_of_many);
+  return fewest_of_many + static_cast<int>((steps + deep_of_many - 1) / deep_of_many);
+}
+
+/// Whether it is moved by its own will, or its surface is.
+bool drives(const Body& body) {
+  return body.displaces() || body.conveys;
+}
+
+/// Whether the heaviest is more than so many times the lightest: few passes do not come near what that one bears.
+bool unlike(const islands::IslandContents& island, const std::vector<Body>& bodies, double most) {
+  double least = std::numeric_limits<double>::infinity(), greatest = 0;
+  for (const ContactConstraint* contact : island.contacts)
+    for (const std::uint32_t index : {contact->a, contact->b}) {
+      const Body& body = bodies[index];
+      if (body.immovable()) continue;
+      least = std::min(least, body.mass().mass);
+      greatest = std::max(greatest, body.mass().mass);
+    }
+  return greatest > most * least;
+}
+
+/// Whether nearly all contacts are those of one body, which few passes do not bring together: each undoes what the ones
+/// before it did.
+bool has_hub(const islands::IslandContents& island, const std::vector<Body>& bodies) {
+  const std::size_t count = island.contacts.size();
+  for (const std::size_t i : {std::size_t{0}, count / 2, count - 1})
+    for (const std::uint32_t end : {island.contacts[i]->a, island.contacts[i]->b}) {
+      if (bodies[end].immovable()) continue;
+      const auto its = std::count_if(island.contacts.begin(), island.contacts.end(),
+                                     [end](const auto* contact) { return contact->a == end || contact->b == end; });
+      if (4 * static_cast<std::size_t>(its) >= 3 * count) return true;
+    }
+  return false;
+}
+
+/// Whether a jointed island holds what acts on all that is solved with it: rebounds, drives, springs, what is led.
+bool is_apart(const islands::IslandContents& island, const std::vector<Body>& bodies) {
+  const auto acts = [&](std::uint32_t index) {
+    return drives(bodies[index]) || bodies[index].drive.owner() == Owner::driven;
+  };
+  if (!island.springs.empty()) return true;
+  for (const ContactConstraint* contact : island.contacts)
+    if (contact->restitution > 0 || contact->rolling_friction > 0 || contact->spinning_friction > 0 ||
+        acts(contact->a) || acts(contact->b))
+      return true;
+  return std::any_of(island.joints.begin(), island.joints.end(), [&](const joints::JointLink* link) {
+    return acts(link->b) || (link->a != joints::JointLink::world && acts(link->a));
+  });
+}
+
+/// Of what is jointed and has different moments about its axes, rad/s.
+double fastest_spin(const islands::IslandContents& island, const std::vector<Body>& bodies) {
+  double fastest = 0;
+  for (const joints::JointLink* link : island.joints)
+    for (const std::uint32_t end : {link->a, link->b})
+      if (end != joints::JointLink::world && !bodies[end].immovable() && !bodies[end].spherical())
+        fastest = std::max(fastest, bodies[end].twist.angular.squaredNorm());
+  return std::sqrt(fastest);
+}
+
+}  // namespace
+
+std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::IslandContents& island,
+                                                           const std::vector<Body>& bodies,
+                                                           const std::vector<forces::Load>& loads,
+                                                           const WorldSettings& settings, double dt) {
+  if (island.joints.empty() && !island.springs.empty()) return std::nullopt;
+  if (island.joints.empty() && island.contacts.size() <= step::Solver::to_the_end &&
+      unlike(island, bodies, island.contacts.size() <= small ? 10 : 30))
+    return std::nullopt;
+  if (island.joints.empty() && island.contacts.size() > small && island.contacts.size() <= step::Solver::to_the_end &&
+      has_hub(island, bodies))
+    return std::nullopt;
+  if (island.joints.empty() && island.contacts.size() <= small)
+    return effort_of_small(island, bodies, loads, settings, dt);
+  return effort_of_large(island, bodies, settings, dt);
+}
+
+std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::IslandContents& island,
+                                                                const std::vector<Body>& bodies,
+                                                                const WorldSettings& settings, double dt) {
+  const int passes = std::max(2, settings.iterations / sub_steps_of_many);
+  Effort effort;
+  effort.softening = passes - passes / 2;
+  effort.relaxing = passes / 2;
+  effort.rebound_passes = std::max(1, settings.iterations / 4);
+  effort.turned_enough = turned_enough;
+  effort.heap = island.contacts.size() > few;
+  effort.alone = effort.heap;
+  if (!island.joints.empty()) {
+    effort.alone = effort.alone || is_apart(island, bodies);
+    effort.giving = giving_of_jointed;
+    const int fewest = dt > long_step ? fewest_of_jointed : fewest_of_jointed_in_short;
+    const double wanted = std::max(std::ceil(dt / longest_of_jointed - 1e-6),
+                                   std::ceil(fastest_spin(island, bodies) * dt / followable_of_jointed));
+    effort.sub_steps = std::max(fewest, static_cast<int>(std::min(wanted, double{sub_steps_of_few})));
+    return effort;
+  }
+  const std::uint32_t depth = depth_.of(island.contacts, bodies);
+  effort.sub_steps = effort.heap ? sub_steps_of_deep_heap(depth) : sub_steps_of_depth(depth);
+  const double h = dt / effort.sub_steps;
+  for (const ContactConstraint* contact : island.contacts) {
+    if (contact->rolling_friction > 0 || contact->spinning_friction > 0 || h < long_enough * contact->kept_step)
+      return std::nullopt;
+    for (const std::uint32_t index : {contact->a, contact->b}) {
+      const Body& body = bodies[index];
+      effort.alone = effort.alone || drives(body);
+      if (body.immovable()) continue;
+      if (body.drive.owner() == Owner::driven || body.twist.angular.norm() * h > followable) return std::nullopt;
+    }
+  }
+  return effort;
+}
+
+std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::IslandContents& island,
+                                                                const std::vector<Body>& bodies,
+                                                                const std::vector<forces::Load>& loads,
+                                                                const WorldSettings& settings, double dt) const {
+  Effort effort;
+  effort.single = island.contacts.size() == 1;
+  effort.sub_steps = sub_steps_of_small;
+  effort.softening = std::max(1, settings.iterations / (effort.single ? 5 : 10));
+  effort.relaxing = 2 * effort.softening;
+  effort.rebound_passes = settings.iterations;
+  effort.turned_enough = turned_enough_of_small;
+  const double h = dt / effort.sub_steps;
+  bool meets = false;
+  double fastest = 0;
+  for (ContactConstraint* contact : island.contacts) {
+    if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return std::nullopt;
+    const Body &a = bodies[contact->a], &b = bodies[contact->b];
+    for (const Body* body : {&a, &b}) {
+      if (drives(*body)) return std::nullopt;
+      if (body->immovable()) continue;
+      const double spin = body->twist.angular.norm();
+      if (body->drive.owner() == Owner::driven || body->makeup->turned || spin * h > followable_of_small)
+        return std::nullopt;
+      if (!body->round()) fastest = std::max(fastest, spin);
+    }
+    const contacts::Closing closing =
+        contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+    contacts::foresee(*contact, a.twist, b.twist, closing, dt);
+    if (!contact->impact) continue;
+    // The blow of two bodies, and what comes back from it, is solved to the end.
+    if (island.contacts.size() == 1 || contact->restitution > dull) return std::nullopt;
+    meets = true;
+  }
+  // What turns lets go of what it touches, and what then is left of an uneven push stays with it.
+  if (effort.single && fastest * dt > turns) effort.softening = effort.relaxing = 3 * settings.iterations;
+  // What meets has no rest yet that many passes would find.
+  if (meets) effort.softening = effort.relaxing = passes_of_meeting;
+  return effort;
+}
+
+}  // namespace tweenfall::blocks

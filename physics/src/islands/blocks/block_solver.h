@@ -1,0 +1,181 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "forces/free_flight.h"
+#include "islands/blocks/contact_blocks.h"
+#include "islands/blocks/island_body.h"
+#include "islands/blocks/island_holds.h"
+#include "islands/blocks/jointed_spins.h"
+#include "islands/island_contents.h"
+#include "islands/island_depth.h"
+#include "islands/island_energy.h"
+#include "islands/rebounds/rebound_reach.h"
+#include "joints/island_joints.h"
+
+namespace tweenfall::blocks {
+
+/// Contacts of islands in sub-steps, eight at a time: what `Solver` does, with rows prepared once for a step (and
+/// again when a body has turned), few passes, and friction at the middle of what does not slide.
+/// Sources: Macklin and others, Small Steps in Physics Simulation, SCA 2019; Catto, Solver2D, 2024, and SIMD Matters,
+/// 2024.
+class BlockSolver {
+ public:
+  /// How thoroughly an island is solved.
+  struct Effort {
+    int sub_steps = 1;
+    int softening = 1, relaxing = 1;  ///< passes in each that take overlaps apart, and the speed of that away again
+    int rebound_passes = 1;
+    double giving = 1;         ///< share of their softness that contacts have
+    double turned_enough = 0;  ///< rows are prepared again when a body has turned by so much, rad
+    bool heap = false;         ///< many press on each other
+    bool alone = false;        ///< not together with others
+    bool single = false;       ///< one contact: all passes over it are made at once, and no more than change anything
+
+    bool operator==(const Effort&) const = default;
+  };
+
+  /// Nothing for an island that is for `Solver`: bodies that drives, stiff springs or rolling friction hold, steps far
+  /// shorter than those before them; of few contacts also what meets and springs back, two that meet by themselves,
+  /// and what spins or is moved by its own will.
+  [[nodiscard]] std::optional<Effort> effort_for(const islands::IslandContents& island,
+                                                 const std::vector<state::Body>& bodies,
+                                                 const std::vector<forces::Load>& loads, const WorldSettings& settings,
+                                                 double dt);
+
+  /// Before the islands of a step.
+  void begin(std::size_t bodies) { places_.assign(bodies, 0); }
+  /// Moves the bodies of islands by `dt`; fills in the impulses of their contacts and joints. What one island does
+  /// depends on none of the others.
+  /// @param moved  by index: set for the bodies that were moved
+  void solve(std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+             std::span<const islands::IslandContents> islands, const Effort& effort, const WorldSettings& settings,
+             double dt, std::vector<char>& moved, const threads::Workers& workers = {});
+
+ private:
+  /// A point that would rebound in this sub-step.
+  struct Rebound {
+    std::uint32_t lane, point;  ///< 8 * block + lane, and which of the contact's points
+    double speed;               ///< wanted at the end of the sub-step, m/s
+    double time;                ///< how long it moves the bodies, s
+    double speed_before = 0;    ///< m/s
+  };
+
+  /// What is found of a body, or of a contact, by whichever thread gets to it, and then looked at in order.
+  struct Traits {
+    bool conveys = false, uneven = false, immovable = false, driven = false;
+  };
+  struct Marks {
+    bool impact = false, springs_back = false, pushed = false;
+  };
+  /// What joints hold together in an island.
+  struct JointedFlight {
+    bool free = true;      ///< it flies
+    bool wild = false;     ///< something moves further than can be followed
+    double mass = 0;       ///< kg
+    Vec3 gained{0, 0, 0};  ///< kg m/s
+  };
+
+  [[nodiscard]] std::optional<Effort> effort_of_small(const islands::IslandContents& island,
+                                                      const std::vector<state::Body>& bodies,
+                                                      const std::vector<forces::Load>& loads,
+                                                      const WorldSettings& settings, double dt) const;
+  [[nodiscard]] std::optional<Effort> effort_of_large(const islands::IslandContents& island,
+                                                      const std::vector<state::Body>& bodies,
+                                                      const WorldSettings& settings, double dt);
+  void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
+              std::span<const islands::IslandContents> islands, Integrator integrator, double dt);
+  void number(std::span<const islands::IslandContents> islands);
+  void take(std::size_t place, const state::Body& body, const forces::Load& load, Integrator integrator);
+  void foresee(std::span<contacts::ContactConstraint* const> contacts, const std::vector<forces::Load>& loads,
+               double trembling, double dt);
+  void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, double dt,
+                      int sub_steps, int sub_step);
+  void prepare_again(const std::vector<state::Body>& bodies);
+  void find_lags();
+  void find_lags_of_jointed();
+  void tame_jointed(const std::vector<state::Body>& bodies, double h);
+  void end_sub_step(double h);
+  void lead(double dt, int sub_steps, int sub_step);
+  void end_lead();
+  void bound_spins(const std::vector<state::Body>& bodies, double h);
+  void follow_spins(const std::vector<state::Body>& bodies);
+  void end_jointed(const std::vector<state::Body>& bodies);
+  [[nodiscard]] Rows rows();
+  /// Calls see(rows) for all blocks, or for parts of those of one color after the other.
+  template <class See>
+  void by_color(const See& see) {
+    const Rows all = rows();
+    if (work_.threads() == 1) {
+      see(all);
+      return;
+    }
+    for (const ContactBlocks::Phase& phase : contacts_.phases) {
+      const std::size_t count = phase.end - phase.begin;
+      work_.ranges(count, phase.divisible ? blocks_worth_a_part : count, [&](std::size_t begin, std::size_t end) {
+        see(part_of(all, phase.of_balls, phase.begin + begin, phase.begin + end));
+      });
+    }
+  }
+  /// Calls see(place) for all bodies.
+  template <class See>
+  void each_body(const See& see) const {
+    work_.ranges(bodies_.size() - 1, worth_a_part, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin + 1; i < end + 1; ++i) see(i);
+    });
+  }
+
+  // Rebound
+  void find_rebounds(double h);
+  void find_rebounds(const Rows& rows, std::size_t first, double h, std::vector<Rebound>& found);
+  void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes);
+  template <class Contact>
+  void move_by(const Rebound& rebound, const Contact& contact);
+  [[nodiscard]] double work_of_driven() const;
+  void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads);
+
+  /// Bodies, or contacts, that are worth a part of their own; and blocks.
+  static constexpr std::size_t worth_a_part = 48;
+  static constexpr std::size_t blocks_worth_a_part = 24;
+
+  threads::Workers work_;               ///< within the island that is being solved
+  std::vector<std::uint32_t> places_;   ///< from a body's index into bodies_; 0 for none
+  std::vector<std::uint32_t> indices_;  ///< by place: of the bodies
+  std::vector<Traits> traits_;          ///< by place
+  std::vector<Marks> marks_;            ///< of the contacts
+  std::vector<IslandBody> bodies_;      ///< the first is nobody: that of empty lanes
+  std::vector<BodyPace> paces_;
+  std::vector<BodyLanes> velocities_, starts_, displacements_;
+  std::vector<step::LedBody> led_;  ///< of bodies_
+  std::vector<BodyLag> lags_;
+  std::vector<BodyLag> sub_starts_;  ///< linear displacements at the start of the sub-step
+  islands::IslandDepth depth_;
+  std::vector<std::uint32_t> island_of_;              ///< of bodies_: which of those that are solved now
+  std::vector<islands::IslandEnergy> energies_;       ///< of them
+  std::vector<char> reached_;                         ///< by a rebound
+  std::vector<double> shares_;                        ///< of the rebound, that they let through
+  std::vector<contacts::ContactConstraint*> listed_;  ///< contacts of all of them
+  std::vector<joints::JointLink*> listed_joints_;     ///< and joints
+  std::vector<JointedFlight> jointed_;                ///< what joints hold together in each of them
+  std::vector<std::uint32_t> uneven_;        ///< places of movable bodies with different moments about their axes
+  std::vector<contacts::Closing> closings_;  ///< of the contacts
+  ContactBlocks contacts_;
+  joints::IslandJoints joints_;
+  JointedSpins spins_;  ///< empty where there are no joints
+  IslandHolds holds_;
+  bool bouncy_ = false;      ///< some contact has restitution
+  bool conveyed_ = false;    ///< some surface moves
+  bool driven_ = false;      ///< a drive holds some body
+  std::vector<char> stale_;  ///< by part of the bodies: one of them has
+  std::vector<char> wild_;   ///< by part of the bodies: one of them moves further than can be followed
+  double turned_enough_ = 0;
+  bool any_stale_ = false;               ///< a body has turned since its rows were prepared
+  std::vector<std::uint32_t> meetings_;  ///< lanes
+  std::vector<Rebound> rebounds_;
+  std::vector<std::vector<Rebound>> rebound_parts_;  ///< of parts of the blocks, in order
+  ReboundReach reach_;
+};
+
+}  // namespace tweenfall::blocks

@@ -1,0 +1,463 @@
+#include "islands/blocks/contact_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "step/contact_rows.h"
+
+namespace tweenfall::blocks {
+
+using contacts::ContactConstraint;
+using contacts::PointConstraint;
+
+namespace {
+
+void put(Lanes3& lanes, int lane, const Vec3& value) {
+  lanes.x[lane] = value.x();
+  lanes.y[lane] = value.y();
+  lanes.z[lane] = value.z();
+}
+
+void put(LanesSymmetric& lanes, int lane, const Mat3& value) {
+  lanes.xx[lane] = value(0, 0);
+  lanes.yy[lane] = value(1, 1);
+  lanes.zz[lane] = value(2, 2);
+  lanes.xy[lane] = value(0, 1);
+  lanes.xz[lane] = value(0, 2);
+  lanes.yz[lane] = value(1, 2);
+}
+
+void put(MeetingRow& row, int lane, const contacts::Closing& closing, double restitution) {
+  row.pull[lane] = closing.pull;
+  row.tremble[lane] = closing.tremble;
+  row.restitution[lane] = restitution;
+}
+
+/// Two bodies as the rows of a contact see them.
+struct Masses {
+  const IslandBody &a, &b;
+  bool isotropic = a.isotropic && b.isotropic;
+  double inverse_mass = a.inverse_mass + b.inverse_mass;
+
+  /// How fast a unit of impulse makes two points move against each other by turning the bodies: of arm x direction.
+  [[nodiscard]] double turning(const Vec3& a1, const Vec3& b1, const Vec3& a2, const Vec3& b2) const {
+    if (isotropic) return a.inverse_moment * a1.dot(a2) + b.inverse_moment * b1.dot(b2);
+    return a1.dot(a.inverse_inertia * a2) + b1.dot(b.inverse_inertia * b2);
+  }
+};
+
+// Kinds of contacts: balls, or three grips, even or not, of up to four points. Contacts of one grip share blocks: those
+// with the most to do come first, so that of blocks nearly all lanes are full and hardly any does more than it must.
+enum class Grip { none, central, points, balls };
+constexpr std::uint32_t kinds_of_grip = 8, kinds = 4 * kinds_of_grip;
+constexpr std::uint32_t ball_kind = static_cast<std::uint32_t>(Grip::balls) * kinds_of_grip;
+
+int points_of(std::uint32_t kind) {
+  return 4 - static_cast<int>(kind % 4);
+}
+
+bool is_even(std::uint32_t kind) {
+  return kind / 4 % 2 == 1;
+}
+
+/// A contact that slides is held point by point, for only so does the spin of what slides die with its slide.
+Grip grip_of(const ContactConstraint& contact) {
+  if (!(contact.friction > 0)) return Grip::none;
+  return contact.count > 1 && !contact.slid && !contact.began ? Grip::central : Grip::points;
+}
+
+std::uint32_t kind_of(const ContactConstraint& contact, const IslandBody& a, const IslandBody& b) {
+  const auto smooth = [](const IslandBody& body) { return body.movable ? body.round : body.led == step::not_led; };
+  if (contact.count == 1 && !a.conveys && !b.conveys && smooth(a) && smooth(b)) return ball_kind;
+  return static_cast<std::uint32_t>(grip_of(contact)) * kinds_of_grip + (a.isotropic && b.isotropic ? 4u : 0u) +
+         static_cast<std::uint32_t>(4 - contact.count);
+}
+
+/// One row of friction at an arm from each body.
+void prepare_friction(FrictionRow& row, int lane, const step::Tangents& along, const Masses& masses, const Vec3& arm_a,
+                      const Vec3& arm_b) {
+  const Vec3 a1 = arm_a.cross(along.first), a2 = arm_a.cross(along.second);
+  const Vec3 b1 = arm_b.cross(along.first), b2 = arm_b.cross(along.second);
+  put(row.first_a, lane, a1);
+  put(row.second_a, lane, a2);
+  put(row.first_b, lane, b1);
+  put(row.second_b, lane, b2);
+  const double k11 = masses.inverse_mass + masses.turning(a1, b1, a1, b1);
+  const double k22 = masses.inverse_mass + masses.turning(a2, b2, a2, b2);
+  const double k12 = masses.turning(a2, b2, a1, b1);
+  const double determinant = k11 * k22 - k12 * k12;
+  const bool solvable = determinant > 0;
+  const double inverse = solvable ? 1 / determinant : 0;
+  row.inverse11[lane] = k22 * inverse;
+  row.inverse12[lane] = -k12 * inverse;
+  row.inverse22[lane] = k11 * inverse;
+  row.firm[lane] = solvable ? 1 / (0.5 * (k11 + k22) + std::sqrt(0.25 * (k11 - k22) * (k11 - k22) + k12 * k12)) : 0;
+}
+
+template <class Visit>
+void each_lane(const std::vector<ContactBlocks::Origin>& origins, const threads::Workers& work, const Visit& visit) {
+  constexpr std::size_t worth_a_part = 16;
+  work.ranges(origins.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (int lane = 0; lane < lane_count; ++lane)
+        if (ContactConstraint* contact = origins[i][static_cast<std::size_t>(lane)]) visit(i, lane, *contact);
+  });
+}
+
+}  // namespace
+
+void ContactBlocks::build(std::span<ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
+                          const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h,
+                          const threads::Workers& work) {
+  find_keys(contacts, places, bodies, work);
+  sort_by_key();
+  drifting_ =
+      std::ranges::any_of(bodies, [](const IslandBody& body) { return body.conveys || body.led != step::not_led; });
+  room = static_cast<std::uint32_t>(bodies.size());
+  lay_out();
+  find_phases();
+  constexpr std::size_t worth_a_part = 16;
+  work.ranges(fillings_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Filling& filling = fillings_[i];
+      for (std::uint32_t lane = 0; lane < filling.count; ++lane) {
+        const std::uint32_t number = sorted_[filling.first + lane];
+        if (filling.of_balls)
+          fill_ball(filling.index, static_cast<int>(lane), *contacts[number], bodies, ends[number], closings[number],
+                    h);
+        else
+          fill(filling.index, static_cast<int>(lane), *contacts[number], bodies, ends[number], closings[number], h);
+      }
+      const auto to_nobody = [&filling](auto& block) {
+        for (std::uint32_t* to : {block.to_a, block.to_b})
+          for (int lane = 0; lane < lane_count; ++lane)
+            if (to[lane] == 0) to[lane] = filling.room;
+      };
+      if (filling.of_balls)
+        to_nobody(balls[filling.index]);
+      else
+        to_nobody(blocks[filling.index]);
+    }
+  });
+}
+
+void ContactBlocks::find_keys(std::span<ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
+                              const std::vector<IslandBody>& bodies, const threads::Workers& work) {
+  constexpr std::size_t worth_a_part = 64;
+  ends.resize(contacts.size());
+  work.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const ContactConstraint& contact = *contacts[i];
+      const std::uint32_t place_a = places[contact.a], place_b = places[contact.b];
+      const IslandBody &a = bodies[place_a], &b = bodies[place_b];
+      ends[i] = {place_a, place_b, kind_of(contact, a, b), a.movable, b.movable};
+    }
+  });
+  coloring_.reset(bodies.size());
+  keys_.clear();
+  keys_.reserve(contacts.size());
+  for (const Ends& one : ends)
+    keys_.push_back(coloring_.color(one.a, one.a_moves, one.b, one.b_moves) * kinds + one.kind);
+}
+
+/// Opens all blocks and balls, and says what is to be filled in.
+void ContactBlocks::lay_out() {
+  blocks.clear();
+  balls.clear();
+  points.clear();
+  frictions.clear();
+  drifts.clear();
+  inertias.clear();
+  meetings.clear();
+  ball_meetings.clear();
+  origins.clear();
+  ball_origins.clear();
+  color_blocks_.clear();
+  color_balls_.clear();
+  fillings_.clear();
+  std::uint32_t colors = 0;
+  const auto open_colors = [&](std::uint32_t end) {
+    for (; colors < end; ++colors) {
+      color_blocks_.push_back(blocks.size());
+      color_balls_.push_back(balls.size());
+      if (colors != Coloring::half) continue;
+      pairs = blocks.size();
+      ball_pairs = balls.size();
+    }
+  };
+  for (std::uint32_t next = 0; next < sorted_.size();) {
+    const std::uint32_t first = keys_[sorted_[next]], color = first / kinds;
+    open_colors(color + 1);
+    const std::uint32_t most = color >= Coloring::none ? 1 : lane_count;
+    Filling filling{first % kinds == ball_kind, 0, next, 0, room};
+    Makeup makeup{static_cast<int>(first % kinds / kinds_of_grip)};
+    for (; filling.count < most && next < sorted_.size(); ++next, ++filling.count) {
+      const std::uint32_t key = keys_[sorted_[next]];
+      if (key / kinds_of_grip != first / kinds_of_grip) break;
+      makeup.points = std::max(makeup.points, points_of(key));
+      makeup.even = makeup.even && is_even(key);
+    }
+    open(makeup);
+    filling.index = static_cast<std::uint32_t>((filling.of_balls ? balls.size() : blocks.size()) - 1);
+    fillings_.push_back(filling);
+    // Where all lanes have two movable bodies nothing is left over.
+    if (filling.count < lane_count || color >= Coloring::half) ++room;
+  }
+  open_colors(Coloring::none + 1);
+}
+
+/// Those of one key in their order. There are thousands of keys, and of most islands' contacts only few.
+void ContactBlocks::sort_by_key() {
+  constexpr std::size_t few_contacts = 256;
+  sorted_.resize(keys_.size());
+  if (keys_.size() <= few_contacts) {
+    std::iota(sorted_.begin(), sorted_.end(), std::uint32_t{0});
+    std::sort(sorted_.begin(), sorted_.end(), [this](std::uint32_t left, std::uint32_t right) {
+      return keys_[left] != keys_[right] ? keys_[left] < keys_[right] : left < right;
+    });
+    return;
+  }
+  counts_.assign((Coloring::none + 1) * kinds + 1, 0);
+  for (const std::uint32_t key : keys_) ++counts_[key + 1];
+  for (std::size_t i = 1; i < counts_.size(); ++i) counts_[i] += counts_[i - 1];
+  for (std::uint32_t i = 0; i < keys_.size(); ++i) sorted_[counts_[keys_[i]]++] = i;
+}
+
+void ContactBlocks::find_phases() {
+  phases.clear();
+  color_blocks_.push_back(blocks.size());
+  color_balls_.push_back(balls.size());
+  const auto add = [this](bool of_balls, std::uint32_t from, std::uint32_t to) {
+    const std::vector<std::size_t>& starts = of_balls ? color_balls_ : color_blocks_;
+    for (std::uint32_t color = from; color < to; ++color)
+      if (starts[color] < starts[color + 1])
+        phases.push_back({of_balls, color != Coloring::none, starts[color], starts[color + 1]});
+  };
+  add(true, 0, Coloring::half);
+  add(false, 0, Coloring::half);
+  add(true, Coloring::half, Coloring::none + 1);
+  add(false, Coloring::half, Coloring::none + 1);
+}
+
+void ContactBlocks::open(const Makeup& makeup) {
+  const auto grip = static_cast<Grip>(makeup.grip);
+  if (grip == Grip::balls) {
+    balls.emplace_back();
+    ball_meetings.emplace_back();
+    ball_origins.emplace_back();
+    return;
+  }
+  ContactBlock& block = blocks.emplace_back();
+  meetings.emplace_back();
+  origins.emplace_back();
+  block.even = makeup.even;
+  block.points = static_cast<std::int8_t>(makeup.points);
+  block.frictions = grip == Grip::none ? std::int8_t{0} : grip == Grip::central ? std::int8_t{1} : block.points;
+  block.point = static_cast<std::uint32_t>(points.size());
+  block.friction = static_cast<std::uint32_t>(frictions.size());
+  points.resize(points.size() + static_cast<std::size_t>(block.points));
+  frictions.resize(frictions.size() + static_cast<std::size_t>(block.frictions));
+  if (drifting_) drifts.resize(frictions.size());
+  if (block.even) return;
+  block.inertia = static_cast<std::uint32_t>(inertias.size());
+  inertias.emplace_back();
+}
+
+void ContactBlocks::fill_ball(std::size_t ball, int lane, ContactConstraint& contact,
+                              const std::vector<IslandBody>& bodies, const Ends& own, const contacts::Closing& closing,
+                              double h) {
+  BallBlock& block = balls[ball];
+  const IslandBody& a = bodies[block.a[lane] = own.a];
+  const IslandBody& b = bodies[block.b[lane] = own.b];
+  if (a.movable) block.to_a[lane] = block.a[lane];
+  if (b.movable) block.to_b[lane] = block.b[lane];
+  const Vec3& normal = contact.manifold.normal;
+  const PointConstraint& point = contact.points[0];
+  const double ratio = contact.kept_step > h ? h / contact.kept_step : 1;
+  const double arm_a = a.movable ? normal.dot(point.start_arm_a) : 0;
+  const double arm_b = b.movable ? -normal.dot(point.start_arm_b) : 0;
+  const double inverse_mass = a.inverse_mass + b.inverse_mass;
+  put(block.normal, lane, normal);
+  block.inverse_mass_a[lane] = a.inverse_mass;
+  block.inverse_mass_b[lane] = b.inverse_mass;
+  block.arm_a[lane] = arm_a;
+  block.arm_b[lane] = arm_b;
+  block.spin_a[lane] = arm_a * a.inverse_moment;
+  block.spin_b[lane] = arm_b * b.inverse_moment;
+  block.mass[lane] = 1 / inverse_mass;
+  block.slip_mass[lane] = 1 / (inverse_mass + arm_a * arm_a * a.inverse_moment + arm_b * arm_b * b.inverse_moment);
+  block.coefficient[lane] = contact.friction;
+  block.hard[lane] = contact.impact || a.pulled || b.pulled ? -1 : 0;
+  block.base[lane] = point.start_gap;
+  block.impulse[lane] = ratio * point.kept_normal;
+  put(block.friction, lane, ratio * (point.kept_friction - normal * normal.dot(point.kept_friction)));
+  put(ball_meetings[ball], lane, closing, contact.restitution);
+  ball_origins[ball][static_cast<std::size_t>(lane)] = &contact;
+}
+
+void ContactBlocks::fill(std::size_t index, int lane, ContactConstraint& contact, const std::vector<IslandBody>& bodies,
+                         const Ends& own, const contacts::Closing& closing, double h) {
+  ContactBlock& block = blocks[index];
+  const IslandBody& a = bodies[block.a[lane] = own.a];
+  const IslandBody& b = bodies[block.b[lane] = own.b];
+  if (a.movable) block.to_a[lane] = block.a[lane];
+  if (b.movable) block.to_b[lane] = block.b[lane];
+  origins[index][static_cast<std::size_t>(lane)] = &contact;
+  const Vec3& normal = contact.manifold.normal;
+  const step::Tangents along = step::tangents_of(normal);
+  put(block.normal, lane, normal);
+  put(block.tangent1, lane, along.first);
+  put(block.tangent2, lane, along.second);
+  block.round_a[lane] = a.round ? -1 : 0;
+  block.round_b[lane] = b.round ? -1 : 0;
+  block.inverse_mass_a[lane] = a.inverse_mass;
+  block.inverse_mass_b[lane] = b.inverse_mass;
+  block.inverse_moment_a[lane] = a.inverse_moment;
+  block.inverse_moment_b[lane] = b.inverse_moment;
+  block.coefficient[lane] = contact.friction;
+  put(meetings[index], lane, closing, contact.restitution);
+  block.hard[lane] = contact.impact || a.pulled || b.pulled ? -1 : 0;
+  const double ratio = contact.kept_step > h ? h / contact.kept_step : 1;
+  block.twist[lane] = block.central() ? ratio * contact.kept_twist : 0;
+  Vec3 friction = Vec3::Zero();
+  for (int i = 0; i < contact.count; ++i) {
+    const PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
+    PointRow& row = points[block.point + static_cast<std::uint32_t>(i)];
+    row.base[lane] = point.start_gap;
+    row.impulse[lane] = ratio * point.kept_normal;
+    friction += point.kept_friction;
+    if (block.frictions != block.points) continue;
+    FrictionRow& grip = frictions[block.friction + static_cast<std::uint32_t>(i)];
+    grip.first[lane] = ratio * along.first.dot(point.kept_friction);
+    grip.second[lane] = ratio * along.second.dot(point.kept_friction);
+  }
+  if (block.central()) {
+    frictions[block.friction].first[lane] = ratio * along.first.dot(friction);
+    frictions[block.friction].second[lane] = ratio * along.second.dot(friction);
+  }
+  prepare(index, lane, bodies, nullptr);
+}
+
+void ContactBlocks::prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a,
+                                  const IslandBody& b, const Vec3& arm_a, const Vec3& arm_b) {
+  if (!a.conveys && !b.conveys && a.led == step::not_led && b.led == step::not_led) return;
+  block.drifts = true;
+  const Vec3 drift = step::drift_at(a.surface, arm_a, b.surface, arm_b);
+  drifts[row].first[lane] = drifts[row].later_first[lane] = lane_of(block.tangent1, lane).dot(drift);
+  drifts[row].second[lane] = drifts[row].later_second[lane] = lane_of(block.tangent2, lane).dot(drift);
+  drifts[row].twist[lane] = lane_of(block.normal, lane).dot(b.surface.angular - a.surface.angular);
+}
+
+void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<IslandBody>& bodies,
+                            const BodyLanes* displacements) {
+  ContactBlock& block = blocks[index];
+  const ContactConstraint& contact = *origins[index][static_cast<std::size_t>(lane)];
+  const IslandBody& a = bodies[block.a[lane]];
+  const IslandBody& b = bodies[block.b[lane]];
+  const Vec3& normal = contact.manifold.normal;
+  const Masses masses{a, b};
+  if (!block.even) {
+    // Of two isotropic bodies as where the block is even, to the bit.
+    put(inertias[block.inertia].inverse_a, lane,
+        masses.isotropic ? Mat3(a.inverse_moment * Mat3::Identity()) : a.inverse_inertia);
+    put(inertias[block.inertia].inverse_b, lane,
+        masses.isotropic ? Mat3(b.inverse_moment * Mat3::Identity()) : b.inverse_inertia);
+  }
+  Vec3 middle_a = Vec3::Zero(), middle_b = Vec3::Zero();
+  std::array<Vec3, 4> arms;
+  const step::Tangents along{lane_of(block.tangent1, lane), lane_of(block.tangent2, lane)};
+  const double share = 1.0 / contact.count;
+  for (int i = 0; i < contact.count; ++i) {
+    const PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
+    PointRow& row = points[block.point + static_cast<std::uint32_t>(i)];
+    Vec3 arm_a = point.start_arm_a, arm_b = point.start_arm_b;
+    if (displacements) {
+      arm_a = state::carried(a.rotation * a.start_rotation.conjugate(), arm_a, point.skin_a * normal);
+      arm_b = state::carried(b.rotation * b.start_rotation.conjugate(), arm_b, -point.skin_b * normal);
+    }
+    const Vec3 across_a = arm_a.cross(normal), across_b = arm_b.cross(normal);
+    put(row.turn_a, lane, across_a);
+    put(row.turn_b, lane, across_b);
+    const double inverse = masses.inverse_mass + masses.turning(across_a, across_b, across_a, across_b);
+    row.mass[lane] = inverse > 0 ? 1 / inverse : 0;
+    if (displacements) {
+      // The rows add the whole displacement of the step to it.
+      row.base[lane] = point.start_gap + normal.dot((arm_b - point.start_arm_b) - (arm_a - point.start_arm_a)) -
+                       (across_b.dot(angular_of(displacements[block.b[lane]])) -
+                        across_a.dot(angular_of(displacements[block.a[lane]])));
+    }
+    if (block.frictions == block.points) {
+      const std::uint32_t grip = block.friction + static_cast<std::uint32_t>(i);
+      prepare_friction(frictions[grip], lane, along, masses, arm_a, arm_b);
+      prepare_drift(block, grip, lane, a, b, arm_a, arm_b);
+    }
+    arms[static_cast<std::size_t>(i)] = arm_b;
+    middle_a += share * arm_a;
+    middle_b += share * arm_b;
+  }
+  if (!block.central()) return;
+  for (int i = 0; i < contact.count; ++i)
+    points[block.point + static_cast<std::uint32_t>(i)].lever[lane] =
+        (arms[static_cast<std::size_t>(i)] - middle_b).norm();
+  prepare_friction(frictions[block.friction], lane, along, masses, middle_a, middle_b);
+  prepare_drift(block, block.friction, lane, a, b, middle_a, middle_b);
+  const double inverse = masses.turning(normal, normal, normal, normal);
+  block.twist_mass[lane] = inverse > 0 ? 1 / inverse : 0;
+}
+
+void ContactBlocks::store(double h, const threads::Workers& work) {
+  /// Parts of the grip from which a contact counts as sliding.
+  constexpr double sliding = 0.999;
+  const auto begin = [h](ContactConstraint& contact) {
+    contact.kept_step = h;
+    contact.passed_over = 0;
+    contact.kept_twist = 0;
+    contact.slid = false;
+  };
+  each_lane(ball_origins, work, [&](std::size_t i, int lane, ContactConstraint& contact) {
+    const BallBlock& block = balls[i];
+    begin(contact);
+    PointConstraint& point = contact.points[0];
+    point.kept_normal = block.impulse[lane];
+    point.total_normal = block.total[lane];
+    point.kept_friction = lane_of(block.friction, lane);
+    point.total_friction = lane_of(block.total_friction, lane);
+    const double most = sliding * contact.friction * point.kept_normal;
+    contact.slid = most > 0 && point.kept_friction.squaredNorm() >= most * most;
+  });
+  each_lane(origins, work, [&](std::size_t i, int lane, ContactConstraint& contact) {
+    const ContactBlock& block = blocks[i];
+    begin(contact);
+    contact.kept_twist = block.twist[lane];
+    const Vec3 along1 = lane_of(block.tangent1, lane), along2 = lane_of(block.tangent2, lane);
+    double pressing = 0, twisting = 0;
+    for (int k = 0; k < contact.count; ++k) {
+      PointConstraint& point = contact.points[static_cast<std::size_t>(k)];
+      const PointRow& row = points[block.point + static_cast<std::uint32_t>(k)];
+      point.kept_normal = row.impulse[lane];
+      point.total_normal = row.total[lane];
+      point.kept_friction = point.total_friction = Vec3::Zero();
+      pressing += point.kept_normal;
+      twisting += point.kept_normal * row.lever[lane];
+      if (block.frictions == 0) continue;
+      // Friction at the middle is shared out evenly.
+      const double share = block.central() ? 1.0 / contact.count : 1;
+      const FrictionRow& grip = frictions[block.friction + (block.central() ? 0u : static_cast<std::uint32_t>(k))];
+      point.kept_friction = share * (grip.first[lane] * along1 + grip.second[lane] * along2) + Vec3::Zero();
+      point.total_friction =
+          share * (grip.total_first[lane] * along1 + grip.total_second[lane] * along2) + Vec3::Zero();
+      const double most = sliding * contact.friction * point.kept_normal;
+      if (!block.central() && point.kept_normal > 0 && point.kept_friction.squaredNorm() >= most * most)
+        contact.slid = true;
+    }
+    if (!block.central() || !(pressing > 0)) return;
+    const FrictionRow& grip = frictions[block.friction];
+    const double most = sliding * contact.friction * pressing;
+    const double turning = sliding * contact.friction * twisting;
+    contact.slid = grip.first[lane] * grip.first[lane] + grip.second[lane] * grip.second[lane] >= most * most ||
+                   (turning > 0 && std::abs(contact.kept_twist) >= turning);
+  });
+}
+
+}  // namespace tweenfall::blocks

@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "contacts/contact_constraint.h"
+#include "contacts/meeting.h"
+#include "islands/blocks/coloring.h"
+#include "islands/blocks/contact_block.h"
+#include "islands/blocks/island_body.h"
+#include "step/keyed_step.h"
+#include "threads/workers.h"
+
+namespace tweenfall::blocks {
+
+/// The contacts of an island, eight at a time, by color.
+class ContactBlocks {
+ public:
+  /// Which contacts a block holds; null for an empty lane.
+  using Origin = std::array<contacts::ContactConstraint*, lane_count>;
+
+  /// Sorts the contacts and begins with the impulses that they kept.
+  /// @param places    from a body's index to its place in `bodies`
+  /// @param closings  of the contacts
+  void build(std::span<contacts::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
+             const std::vector<IslandBody>& bodies, std::span<const contacts::Closing> closings, double h,
+             const threads::Workers& work);
+  /// Tells the rows of one contact how its bodies lie now.
+  void prepare(std::size_t block, int lane, const std::vector<IslandBody>& bodies, const BodyLanes* displacements);
+  /// In a sub-step with bodies that are led: what their riders' slip lacks.
+  void ride(const std::vector<IslandBody>& bodies, std::span<const step::LedBody> led,
+            const std::vector<BodyLanes>& starts, double h);
+  /// The bodies have been moved.
+  void end_ride();
+  /// Gives the impulses back to the contacts.
+  void store(double h, const threads::Workers& work);
+
+  [[nodiscard]] std::size_t size() const { return blocks.size() + balls.size(); }
+  /// Of blocks, and after them of balls.
+  [[nodiscard]] const Origin& origin(std::size_t i) const {
+    return i < blocks.size() ? origins[i] : ball_origins[i - blocks.size()];
+  }
+
+  /// Of a point of the contact in a lane, 8 * block + lane, N s.
+  [[nodiscard]] double impulse(std::uint32_t lane, std::uint32_t point) const {
+    const std::size_t i = lane / lane_count;
+    return i < blocks.size() ? points[blocks[i].point + point].impulse[lane % lane_count]
+                             : balls[i - blocks.size()].impulse[lane % lane_count];
+  }
+
+  /// The places of a contact's bodies, and the kind of its block.
+  struct Ends {
+    std::uint32_t a, b, kind;
+    bool a_moves, b_moves;
+  };
+  std::vector<Ends> ends;  ///< of the contacts, in their order
+  std::vector<ContactBlock> blocks;
+  std::vector<BallBlock> balls;
+  std::size_t pairs = 0, ball_pairs = 0;  ///< those of two movable bodies come first
+  std::vector<PointRow> points;
+  std::vector<FrictionRow> frictions;
+  std::vector<DriftRow> drifts;  ///< beside `frictions`, or none where no surface moves and nothing is led
+  std::vector<InertiaRow> inertias;
+  std::vector<MeetingRow> meetings, ball_meetings;
+  std::vector<Origin> origins, ball_origins;
+
+  /// Blocks, or balls, of one color, in the order in which they are solved. They share no body that moves, unless they
+  /// found no color.
+  struct Phase {
+    bool of_balls = false;
+    bool divisible = true;
+    std::size_t begin = 0, end = 0;
+  };
+  std::vector<Phase> phases;
+  std::uint32_t room = 0;  ///< of bodies, and after them of what is written and not read
+
+ private:
+  /// Which contacts a block or ball gets, and where what nobody reads is written.
+  struct Filling {
+    bool of_balls;
+    std::uint32_t index, first, count, room;  ///< `first` in `sorted_`
+  };
+
+  /// Of a block: as much of each as that of its lanes needs which needs most.
+  struct Makeup {
+    int grip = 0, points = 1;
+    bool even = true;
+  };
+
+  void sort_by_key();
+  void find_keys(std::span<contacts::ContactConstraint* const> contacts, const std::vector<std::uint32_t>& places,
+                 const std::vector<IslandBody>& bodies, const threads::Workers& work);
+  void lay_out();
+  void open(const Makeup& makeup);
+  void find_phases();
+  void fill(std::size_t block, int lane, contacts::ContactConstraint& contact, const std::vector<IslandBody>& bodies,
+            const Ends& own, const contacts::Closing& closing, double h);
+  void fill_ball(std::size_t ball, int lane, contacts::ContactConstraint& contact,
+                 const std::vector<IslandBody>& bodies, const Ends& own, const contacts::Closing& closing, double h);
+
+  void prepare_drift(ContactBlock& block, std::uint32_t row, int lane, const IslandBody& a, const IslandBody& b,
+                     const Vec3& arm_a, const Vec3& arm_b);
+
+  bool drifting_ = false;  ///< some surface moves, or something is led
+  Coloring coloring_;
+  std::vector<Filling> fillings_;
+  std::vector<std::uint32_t> keys_, counts_, sorted_;
+  std::vector<std::size_t> color_blocks_, color_balls_;  ///< by color: where its blocks begin
+};
+
+}  // namespace tweenfall::blocks

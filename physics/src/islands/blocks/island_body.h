@@ -1,0 +1,69 @@
+#pragma once
+
+#include "forces/free_flight.h"
+#include "islands/blocks/contact_block.h"
+#include "step/solver_body.h"
+
+namespace tweenfall::blocks {
+
+[[nodiscard]] inline Vec3 linear_of(const BodyLanes& body) {
+  return {body.linear[0], body.linear[1], body.linear[2]};
+}
+[[nodiscard]] inline Vec3 angular_of(const BodyLanes& body) {
+  return {body.angular[0], body.angular[1], body.angular[2]};
+}
+[[nodiscard]] inline Vec3 lane_of(const Lanes3& lanes, int lane) {
+  return {lanes.x[lane], lanes.y[lane], lanes.z[lane]};
+}
+inline void add(double (&lanes)[4], const Vec3& value) {
+  for (int i = 0; i < 3; ++i) lanes[i] += value[i];
+}
+inline void set(double (&lanes)[4], const Vec3& value) {
+  for (int i = 0; i < 3; ++i) lanes[i] = value[i];
+}
+
+/// What every sub-step needs of a body of an island; of most it needs nothing else.
+struct alignas(64) BodyPace {
+  double acceleration[4] = {};  ///< mean of the step, free of contacts: x, y, z and nothing
+  double mass = 0;              ///< kg
+  double moment = 0;            ///< of an even body, kg m^2
+  bool movable = false;
+  bool even = false;      ///< the same moment about every axis, and no torque: its spin changes by contacts alone
+  bool steady = false;    ///< even, and no drag: its velocity changes by the acceleration and by contacts alone
+  bool unturned = false;  ///< a steady ball: how it lies is found when the step is over
+  bool impact = false;    ///< meets something in this step: its velocity jumps
+  bool touched = false;   ///< an impulse reached it in this step
+  bool pressed = false;   ///< an impulse reached it in this sub-step
+};
+
+/// A body of an island while its contacts are being solved; its velocity is kept apart.
+struct alignas(64) IslandBody {
+  std::uint32_t index = 0;
+  bool movable = false;
+  bool isotropic = true;   ///< the same moment about every axis, or none
+  bool followed = false;   ///< nothing pressed it in the sub-step before: its spin is followed exactly
+  bool round = false;      ///< a ball: no contact can rock it, and none sees it turn
+  bool stale = false;      ///< has turned since its rows were prepared
+  bool jointed = false;    ///< a joint holds it
+  bool held = false;       ///< a drive or a stiff spring holds it
+  bool pulled = false;     ///< by a drive without a limit: a soft contact would not hold against it
+  bool saturated = false;  ///< its drive is at its limit
+  bool conveys = false;    ///< its surface moves against it
+  Twist surface;           ///< so, at the center of mass, world axes
+  double given = 1;        ///< share of an impulse that such a drive lets through
+  double turned = 0;       ///< since its rows were prepared, rad
+  double drag = 0;         ///< 1/s, taken implicitly
+  double inverse_mass = 0;
+  double inverse_moment = 0;            ///< of an isotropic body
+  Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared
+  Vec3 center{0, 0, 0}, start_center{0, 0, 0};
+  Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
+  Quat free_rotation{1, 0, 0, 0};     ///< at the end of the sub-step if nothing touches it
+  std::uint32_t led = step::not_led;  ///< which of those that are led
+
+  // At the start of the sub-step
+  Vec3 sub_step_center{0, 0, 0};
+  Quat sub_step_rotation{1, 0, 0, 0};
+};
+
+}  // namespace tweenfall::blocks

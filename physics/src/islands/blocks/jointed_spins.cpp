@@ -1,0 +1,70 @@
+#include "islands/blocks/jointed_spins.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tweenfall::blocks {
+
+namespace {
+
+/// In a sub-step, rad: what turns further is not followed, and what turns by less has nothing worth following.
+constexpr double followable_turn = 1, noticeable_turn = 0.02;
+/// Pieces of half a sub-step: with so little of a turn in each, a spin loses less than a millionth in a thousand.
+constexpr double turn_of_a_piece = 0.15;
+
+}  // namespace
+
+/// By Euler's equations and the classic method of Runge and Kutta.
+Vec3 JointedSpins::after_half(const Spin& spin, const state::Body& body, const Vec3& start) {
+  const Mat3& inertia = body.mass().inertia;
+  const auto rate = [&](const Vec3& at) -> Vec3 {
+    return body.inverse_inertia() * (spin.torque - at.cross(inertia * at));
+  };
+  const double turn = start.norm() * spin.half;
+  const int pieces = std::max(1, static_cast<int>(std::ceil(turn / turn_of_a_piece)));
+  const double h = spin.half / pieces;
+  Vec3 at = start;
+  for (int piece = 0; piece < pieces; ++piece) {
+    const Vec3 k1 = rate(at), k2 = rate(at + 0.5 * h * k1), k3 = rate(at + 0.5 * h * k2), k4 = rate(at + h * k3);
+    at += h / 6 * (k1 + 2 * (k2 + k3) + k4);
+  }
+  return at;
+}
+
+Vec3 JointedSpins::begin_sub_step(std::size_t place, const state::Body& body, const forces::Load& load,
+                                  const Quat& rotation, const Vec3& angular, double h) {
+  Spin& spin = spins_[place];
+  spin.half = 0;
+  const double turn = angular.squaredNorm() * h * h;
+  if (!(turn <= followable_turn * followable_turn) || turn < noticeable_turn * noticeable_turn) return angular;
+  spin.half = 0.5 * h;
+  spin.rotation = rotation;
+  spin.torque = rotation.conjugate() * load.torque;
+  spin.bent = Vec3::Zero();
+  // Body axes of the middles and of the instant between see the spin alike: it turns the body about itself.
+  spin.at_impulse = after_half(spin, body, rotation.conjugate() * angular);
+  spin.flown = after_half(spin, body, spin.at_impulse);
+  return rotation * spin.flown;
+}
+
+Vec3 JointedSpins::followed(std::size_t place, const state::Body& body, const Vec3& angular) {
+  Spin& spin = spins_[place];
+  const Vec3 given = spin.rotation.conjugate() * angular - spin.flown - spin.bent;
+  const Vec3 start = spin.at_impulse + given;
+  if (!(start.squaredNorm() * 4 * spin.half * spin.half <= followable_turn * followable_turn)) return angular;
+  const Vec3 bent = after_half(spin, body, start) - spin.flown - given;
+  const Vec3 change = bent - spin.bent;
+  spin.bent = bent;
+  return angular + spin.rotation * change;
+}
+
+Vec3 JointedSpins::turned_back(std::size_t place, const state::Body& body, const Quat& rotation, const Vec3& before,
+                               const Vec3& after) const {
+  const Spin& spin = spins_[place];
+  const Vec3 start = rotation.conjugate() * before, given = rotation.conjugate() * after - start;
+  const double turn = 2 * spin.half * std::max(start.norm(), (start + given).norm());
+  if (!(turn <= followable_turn)) return after;
+  return after - rotation * (after_half(spin, body, start + given) - after_half(spin, body, start) - given);
+}
+
+}  // namespace tweenfall::blocks

@@ -1,0 +1,250 @@
+#include <tweenfall/curves/rotation.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "islands/blocks/block_solver.h"
+#include "islands/island_energy.h"
+
+/// The rebound of the sub-step, contact by contact: only few take part.
+
+namespace tweenfall::blocks {
+
+namespace {
+
+/// A change of velocity of this part of what counts as a tremble is left to the next sub-step.
+constexpr double quiet = 0.1;
+
+double dot(const double (&a)[4], const double (&b)[4]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double kinetic(const BodyPace& pace, const BodyLanes& velocity) {
+  return 0.5 *
+         (pace.mass * dot(velocity.linear, velocity.linear) + pace.moment * dot(velocity.angular, velocity.angular));
+}
+
+}  // namespace
+
+void BlockSolver::find_rebounds(double h) {
+  const Rows all = rows();
+  const std::size_t blocks = contacts_.blocks.size();
+  meetings_.resize(contacts_.size() * lane_count);
+  rebound_parts_.resize(std::max(rebound_parts_.size(), work_.range_count(contacts_.size(), blocks_worth_a_part)));
+  for (std::vector<Rebound>& part : rebound_parts_) part.clear();
+  work_.numbered_ranges(
+      contacts_.size(), blocks_worth_a_part, [&](std::size_t part, std::size_t begin, std::size_t end) {
+        if (begin < blocks)
+          find_rebounds(part_of(all, false, begin, std::min(end, blocks)), begin, h, rebound_parts_[part]);
+        const std::size_t first = std::max(begin, blocks);
+        if (first < end)
+          find_rebounds(part_of(all, true, first - blocks, end - blocks), first, h, rebound_parts_[part]);
+      });
+  rebounds_.clear();
+  for (const std::vector<Rebound>& part : rebound_parts_) rebounds_.insert(rebounds_.end(), part.begin(), part.end());
+}
+
+/// @param first  how many blocks and balls come before these rows
+void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, std::vector<Rebound>& found) {
+  std::uint32_t* meetings = meetings_.data() + first * lane_count;
+  const std::size_t count = fastest_kernels().find_meetings(rows, starts_.data(), h, meetings);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t at = meetings[i] + static_cast<std::uint32_t>(first * lane_count);
+    const std::size_t index = at / lane_count;
+    const int lane = static_cast<int>(at % lane_count);
+    contacts::ContactConstraint& contact = *contacts_.origin(index)[static_cast<std::size_t>(lane)];
+    const bool ball = index >= contacts_.blocks.size();
+    const std::size_t ball_index = index - contacts_.blocks.size();
+    const MeetingRow& meeting = ball ? contacts_.ball_meetings[ball_index] : contacts_.meetings[index];
+    const auto meet = [&](std::uint32_t k, double closing, double gap) {
+      const auto [time, speed] = contacts::meeting_of(gap, closing, meeting.pull[lane], h);
+      if (!(speed > meeting.tremble[lane])) return;
+      contacts::PointConstraint& point = contact.points[k];
+      point.approach = std::max(point.approach, speed);
+      const double left = h - time;
+      const double back = contact.restitution * speed;
+      const double speed_at_end = back - meeting.pull[lane] * left;
+      if (back <= 0 || speed_at_end <= 0) return;
+      found.push_back({at, k, speed_at_end, left * (back - 0.5 * meeting.pull[lane] * left) / speed_at_end});
+    };
+    if (ball) {
+      const BallBlock& block = contacts_.balls[ball_index];
+      meet(0, lane_of(block.normal, lane).dot(linear_of(starts_[block.a[lane]]) - linear_of(starts_[block.b[lane]])),
+           block.gap[lane]);
+      continue;
+    }
+    const ContactBlock& block = contacts_.blocks[index];
+    const BodyLanes& a = starts_[block.a[lane]];
+    const BodyLanes& b = starts_[block.b[lane]];
+    const double along = lane_of(block.normal, lane).dot(linear_of(a) - linear_of(b));
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(contact.count); ++k) {
+      const PointRow& row = contacts_.points[block.point + k];
+      meet(k, along + lane_of(row.turn_a, lane).dot(angular_of(a)) - lane_of(row.turn_b, lane).dot(angular_of(b)),
+           row.gap[lane]);
+    }
+  }
+}
+
+/// See Solver::move_by_rebound.
+template <class Contact>
+void BlockSolver::move_by(const Rebound& rebound, const Contact& contact) {
+  const double part = rebound.speed / (rebound.speed - std::min(0.0, rebound.speed_before));
+  const double most = contact.mass(rebound.point) * rebound.speed;
+  const double own = std::clamp(contact.given(rebound.point) * part, -most, most) * rebound.time;
+  if (own == 0) return;
+  const auto move = [&](std::uint32_t place, double by, const Vec3& turn) {
+    IslandBody& body = bodies_[place];
+    if (!body.movable) return;
+    const Vec3 moved = body.inverse_mass * by * contact.normal();
+    BodyLanes& displacement = displacements_[place];
+    for (int i = 0; i < 3; ++i) displacement.linear[i] += moved[i];
+    if (paces_[place].unturned) return;
+    body.center += moved;
+    const Vec3 turning = body.inverse_inertia * (by * turn);
+    if (turning == Vec3::Zero()) return;
+    for (int i = 0; i < 3; ++i) displacement.angular[i] += turning[i];
+    if (!body.round) body.turned += turning.norm();
+    // Its rows are prepared again whether or not another body turns that is solved at the same time.
+    any_stale_ = any_stale_ || body.turned > turned_enough_;
+    body.rotation = exp_map(turning) * body.rotation;
+    body.rotation.normalize();
+  };
+  move(contact.a(), -own, contact.turn_a(rebound.point));
+  move(contact.b(), own, contact.turn_b(rebound.point));
+}
+
+/// What moves by its own will does work on what it pushes, J.
+double BlockSolver::work_of_driven() const {
+  double sum = 0;
+  for (std::size_t i = contacts_.pairs; i < contacts_.blocks.size(); ++i)
+    for (int lane = 0; lane < lane_count; ++lane) {
+      const ContactBlock& block = contacts_.blocks[i];
+      const std::uint32_t a = block.a[lane], b = block.b[lane];
+      if (!contacts_.origins[i][static_cast<std::size_t>(lane)] || bodies_[a].movable == bodies_[b].movable) continue;
+      const bool a_moves = bodies_[a].movable;
+      const IslandBody& driven = bodies_[a_moves ? b : a];
+      if (driven.led == step::not_led) continue;
+      const BodyLanes& will = velocities_[a_moves ? b : a];
+      const Vec3 linear = linear_of(will), angular = angular_of(will);
+      const auto work = [&](double impulse, const Vec3& direction, const Lanes3& turn) {
+        sum += (a_moves ? -impulse : impulse) * (direction.dot(linear) + lane_of(turn, lane).dot(angular));
+      };
+      for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(block.points); ++k) {
+        const PointRow& row = contacts_.points[block.point + k];
+        work(row.impulse[lane], lane_of(block.normal, lane), a_moves ? row.turn_b : row.turn_a);
+      }
+      for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(block.frictions); ++k) {
+        const FrictionRow& row = contacts_.frictions[block.friction + k];
+        work(row.first[lane], lane_of(block.tangent1, lane), a_moves ? row.first_b : row.first_a);
+        work(row.second[lane], lane_of(block.tangent2, lane), a_moves ? row.second_b : row.second_a);
+      }
+      sum += (a_moves ? -1 : 1) * block.twist[lane] * lane_of(block.normal, lane).dot(angular);
+    }
+  return sum;
+}
+
+/// Takes back as much of the rebound as would leave an island more energy than it had and than was put into it.
+void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads) {
+  // The work of a surface is not known: the island is left as it is.
+  if (conveyed_) return;
+  energies_.assign(island_of_.back() + std::size_t{1}, {});
+  // An island in which nothing was reached has what it had.
+  reached_.assign(energies_.size(), 0);
+  for (std::uint32_t i = 1; i < bodies_.size(); ++i)
+    if (paces_[i].movable && reach_.before(i)) reached_[island_of_[i]] = 1;
+  for (std::uint32_t i = 1; i < bodies_.size(); ++i) {
+    const BodyPace& pace = paces_[i];
+    if (!pace.movable || reached_[island_of_[i]] == 0) continue;
+    islands::IslandEnergy& energy = energies_[island_of_[i]];
+    const BodyLanes* reached = reach_.before(i);
+    const BodyLanes& before = reached ? *reached : velocities_[i];
+    if (pace.even) {
+      double moved[4];
+      for (int k = 0; k < 4; ++k) moved[k] = displacements_[i].linear[k] - sub_starts_[i].lanes[k];
+      energy.limit += kinetic(pace, starts_[i]) + pace.mass * dot(pace.acceleration, moved);
+      energy.without += kinetic(pace, before);
+      if (!reached) continue;
+      BodyLanes change;
+      for (int k = 0; k < 4; ++k) {
+        change.linear[k] = velocities_[i].linear[k] - before.linear[k];
+        change.angular[k] = velocities_[i].angular[k] - before.angular[k];
+      }
+      energy.slope += pace.mass * dot(change.linear, before.linear) + pace.moment * dot(change.angular, before.angular);
+      energy.curvature += kinetic(pace, change);
+      continue;
+    }
+    const IslandBody& entry = bodies_[i];
+    islands::BodyCourse course;
+    course.start = {linear_of(starts_[i]), angular_of(starts_[i])};
+    course.start_center = entry.sub_step_center;
+    course.start_rotation = entry.sub_step_rotation;
+    course.before = {linear_of(before), angular_of(before)};
+    course.after = {linear_of(velocities_[i]), angular_of(velocities_[i])};
+    course.center = entry.center;
+    course.rotation = entry.rotation;
+    energy.add(bodies[entry.index], loads[entry.index], course);
+  }
+  // What moves by its own will is in islands that are solved alone.
+  if (!led_.empty()) {
+    islands::IslandEnergy& energy = energies_.front();
+    energy.limit += work_of_driven();
+    for (const ReboundContact& contact : reach_.contacts()) {
+      const bool a_moves = bodies_[contact.a()].movable;
+      const std::uint32_t driven = a_moves ? contact.b() : contact.a();
+      if (!bodies_[driven].movable) energy.limit += contact.work(velocities_[driven], a_moves);
+    }
+  }
+  shares_.clear();
+  shares_.reserve(energies_.size());
+  for (const islands::IslandEnergy& energy : energies_) shares_.push_back(energy.share_within());
+  for (std::uint32_t i = 1; i < bodies_.size(); ++i) {
+    const BodyLanes* before = reach_.before(i);
+    const double share = shares_[island_of_[i]];
+    if (share == 1 || !bodies_[i].movable || !before) continue;
+    const auto back = [share](double(&lanes)[4], const double(&start)[4]) {
+      for (int k = 0; k < 3; ++k) lanes[k] = start[k] + share * (lanes[k] - start[k]);
+    };
+    back(velocities_[i].linear, before->linear);
+    back(velocities_[i].angular, before->angular);
+  }
+  const auto take_back = [this](auto& contact) {
+    const double share = shares_[island_of_[bodies_[contact.a()].movable ? contact.a() : contact.b()]];
+    if (share != 1) contact.take_back(share);
+  };
+  std::ranges::for_each(reach_.contacts(), take_back);
+  std::ranges::for_each(reach_.balls(), take_back);
+}
+
+void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes) {
+  const auto pressed = [this](const Rebound& rebound) { return contacts_.impulse(rebound.lane, rebound.point) > 0; };
+  if (std::none_of(rebounds_.begin(), rebounds_.end(), pressed)) return;
+  reach_.begin(contacts_, bodies_);
+  const auto reach = [this](std::uint32_t lane, const auto& act) {
+    return reach_.reach(lane, contacts_, bodies_, velocities_, act);
+  };
+  for (Rebound& rebound : rebounds_) {
+    rebound.speed_before = reach(rebound.lane, [&](auto& contact) {
+      contact.want(rebound.point, rebound.speed);
+      return contact.speed(rebound.point, velocities_);
+    });
+    if (pressed(rebound)) reach_.look_at(rebound.lane);
+  }
+  for (int pass = 0; pass < passes; ++pass) {
+    const bool any = reach_.visit([&](std::uint32_t lane) {
+      reach(lane, [&](auto& contact) {
+        // Where it pushes on, the neighbors are to be looked at, too.
+        if (contact.solve(velocities_) > quiet * contact.tremble())
+          for (const std::uint32_t place : {contact.a(), contact.b()})
+            if (bodies_[place].movable) reach_.push(place);
+      });
+      reach_.pass_by(lane);
+    });
+    if (!any) break;
+  }
+  for (const Rebound& rebound : rebounds_) reach(rebound.lane, [&](const auto& contact) { move_by(rebound, contact); });
+  bound_energy(bodies, loads);
+  for (const ReboundContact& contact : reach_.contacts()) contact.put_back(contacts_);
+  for (const ReboundBall& ball : reach_.balls()) ball.put_back(contacts_);
+}
+
+}  // namespace tweenfall::blocks

@@ -1,0 +1,132 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "collision/surfaces/surface.h"
+#include "contacts/meeting.h"
+#include "islands/small/part_of_step.h"
+#include "state/world_data.h"
+#include "step/solver.h"
+
+/// Small islands in which something that is struck strikes on: the step is cut where bodies meet, and there each blow
+/// is that of two bodies alone, the hardest first, for as long as any two still close. A row of balls that touch so
+/// hands a blow on as one whose balls stand apart.
+
+namespace tweenfall {
+
+namespace small {
+namespace {
+
+using contacts::ContactConstraint;
+using state::Body;
+
+/// Restitution of which blows that are handed on hardly matter, but for so many contacts.
+constexpr double dull = 0.25;
+constexpr std::size_t many = 5;
+constexpr std::size_t most_contacts_of_blows = 24;
+/// What meets within this part of a step meets now.
+constexpr double soon = 1e-6;
+/// In shorter steps than this what trembles is no faster than in such a one, s.
+constexpr double unhurried = 1e-3;
+/// Cuts of a step; what still meets then is solved with the rest. Dull blows die away sooner.
+constexpr int most_cuts = 64, most_cuts_of_dull = 6;
+/// Without getting on: what is wedged would bounce to and fro for ever.
+constexpr int most_strikes = 4;
+constexpr double never = std::numeric_limits<double>::infinity();
+constexpr int usual_sub_steps = step::Solver::usual_sub_steps;
+
+/// When the first of a contact's points meet within `left` seconds, faster than a tremble.
+double time_of_blow(const ContactConstraint& contact, const std::vector<Body>& bodies,
+                    const std::vector<forces::Load>& loads, double left, double dt) {
+  const Body &a = bodies[contact.a], &b = bodies[contact.b];
+  const Vec3& normal = contact.manifold.normal;
+  const contacts::Closing closing =
+      contacts::closing_of(normal, loads[contact.a], loads[contact.b], std::max(dt, unhurried));
+  double first = never;
+  for (int i = 0; i < contact.count; ++i) {
+    const contacts::PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
+    const Vec3 at_a = a.twist.linear + a.twist.angular.cross(point.start_arm_a);
+    const Vec3 at_b = b.twist.linear + b.twist.angular.cross(point.start_arm_b);
+    const auto [time, speed] = contacts::meeting_of(point.start_gap, normal.dot(at_a - at_b), closing.pull, left);
+    if (speed > closing.tremble) first = std::min(first, time);
+  }
+  return first;
+}
+
+}  // namespace
+}  // namespace small
+
+bool World::Implementation::hands_on_blows(const islands::IslandContents& island, double dt) const {
+  if (island.contacts.size() < 2 || island.contacts.size() > small::most_contacts_of_blows || !island.springs.empty() ||
+      !island.joints.empty())
+    return false;
+  // Of little restitution what is handed on matters where it goes far: in what stands on one foot.
+  const auto feet = std::count_if(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
+    return bodies[contact->a].immovable() || bodies[contact->b].immovable();
+  });
+  const double least = island.contacts.size() >= small::many && feet == 1 ? 0 : small::dull;
+  const bool bounces = std::any_of(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
+    return contact->restitution > least &&
+           small::time_of_blow(*contact, bodies, loads, (1 + small::soon) * dt, dt) < small::never;
+  });
+  if (!bounces) return false;
+  for (const contacts::ContactConstraint* contact : island.contacts)
+    for (const std::uint32_t index : {contact->a, contact->b}) {
+      const state::Body& body = bodies[index];
+      if (body.displaces() || body.conveys || body.drive.owner() == Owner::driven ||
+          surfaces::surface_of(body.shape().solid))
+        return false;
+    }
+  return true;
+}
+
+void World::Implementation::solve_by_blows(const islands::IslandContents& island, double dt, step::Solver& solver) {
+  using contacts::ContactConstraint;
+  small::PartsOfStep parts(island, bodies);
+  const double soon = small::soon * dt;
+  // Between blows nothing bounces: what is slower than a blow would only tremble.
+  const auto calmly = [&](std::span<ContactConstraint* const> blown, double h) {
+    std::vector<double> restitutions;
+    restitutions.reserve(blown.size());
+    for (ContactConstraint* contact : blown) restitutions.push_back(std::exchange(contact->restitution, 0));
+    go_on(parts, blown, h, std::max(1, static_cast<int>(std::ceil(small::usual_sub_steps * h / dt))), solver);
+    for (std::size_t i = 0; i < blown.size(); ++i) blown[i]->restitution = restitutions[i];
+  };
+  std::vector<ContactConstraint*> slow;
+  const bool springs_back = std::any_of(island.contacts.begin(), island.contacts.end(),
+                                        [](const auto* contact) { return contact->restitution > small::dull; });
+  const int most_cuts = springs_back ? small::most_cuts : small::most_cuts_of_dull;
+  double left = dt;
+  int strikes = 0;  // since the last cut
+  for (int cut = 0; cut < most_cuts && strikes < small::most_strikes; ++cut) {
+    // What meets right at the end of the step does so in it.
+    const double span = left + soon;
+    double first = small::never;
+    slow.clear();
+    for (ContactConstraint* contact : find_again(island, parts, span)) {
+      const double meeting = small::time_of_blow(*contact, bodies, loads, span, dt);
+      if (meeting == small::never) slow.push_back(contact);
+      first = std::min(first, meeting);
+    }
+    if (first == small::never) break;
+    if (first <= soon) {
+      for (const step::Blow& blow : solver.strike(bodies, loads, parts.near, std::max(dt, small::unhurried)))
+        parts.add(*blow.contact, blow.impulse, blow.normal, blow.approach);
+      ++strikes;
+      continue;
+    }
+    strikes = 0;
+    const double h = std::min(first - 0.5 * soon, left);
+    calmly(slow, h);
+    left -= h;
+  }
+  if (left > soon)
+    calmly(find_again(island, parts, left), left);
+  else
+    calmly({}, left);
+  parts.finish(dt);
+  for (const std::uint32_t index : parts.movable()) moved[index] = 1;
+}
+
+}  // namespace tweenfall

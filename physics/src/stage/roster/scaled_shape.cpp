@@ -1,0 +1,152 @@
+#include "stage/roster/scaled_shape.h"
+
+#include <Eigen/LU>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "collision/surfaces/surface.h"
+#include "shapes/compound.h"
+#include "shapes/turn_onto.h"
+
+namespace tweenfall::staging {
+
+namespace {
+
+constexpr double hairline = 1e-9;  // relative to the largest factor
+
+std::string number(double value) {
+  std::array<char, 32> digits;
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+std::string triple(const Vec3& value) {
+  return "(" + number(value.x()) + ", " + number(value.y()) + ", " + number(value.z()) + ")";
+}
+
+bool is_diagonal(const Mat3& matrix) {
+  const Mat3 rest = matrix - Mat3(matrix.diagonal().asDiagonal());
+  return rest.cwiseAbs().maxCoeff() <= hairline * matrix.cwiseAbs().maxCoeff();
+}
+
+/// Files hold scales as floats, and products of them.
+constexpr double even_enough = 1e-6;
+
+double uniform(const Vec3& scale, const char* what) {
+  const Vec3 size = scale.cwiseAbs();
+  if (size.maxCoeff() - size.minCoeff() > even_enough * size.maxCoeff())
+    throw std::invalid_argument(std::string(what) + " takes the same scale along all axes, but its node is scaled by " +
+                                triple(scale) + "; make it a hull, or scale its node evenly");
+  return size.x();
+}
+
+/// A solid turned about y, mirrored by an even scale, points where its mirrored axis does.
+void mirror(Shape& shape, const Vec3& scale) {
+  const Vec3 axis = shape.offset.rotation * Vec3(0, 1, 0);
+  const Vec3 mirrored = axis.cwiseProduct(scale.cwiseQuotient(scale.cwiseAbs()));
+  if (mirrored == axis) return;
+  shape.offset.rotation = (shapes::turn_onto(axis, mirrored) * shape.offset.rotation).normalized();
+}
+
+/// A height field stays one where its grid does.
+Solid scaled_surface(const Solid& solid, const Mat3& own) {
+  const auto* field = std::get_if<HeightField>(&solid);
+  if (field && is_diagonal(own) && own.diagonal().minCoeff() > 0) {
+    std::vector<double> heights(field->heights().begin(), field->heights().end());
+    for (double& height : heights) height *= own(1, 1);
+    return HeightField(field->columns(), heights, field->spacing_x() * own(0, 0), field->spacing_z() * own(2, 2));
+  }
+  SurfaceMesh mesh = field ? field->surface() : std::get<TriangleMesh>(solid).surface();
+  for (Vec3& position : mesh.positions) position = own * position;
+  // A mirror image runs the other way around.
+  if (own.determinant() < 0)
+    for (std::size_t i = 0; i + 2 < mesh.triangles.size(); i += 3) std::swap(mesh.triangles[i], mesh.triangles[i + 1]);
+  return TriangleMesh(mesh);
+}
+
+}  // namespace
+
+Vec3 rest_scale(const Hierarchy& nodes, std::size_t node) {
+  bool scaled = false;
+  for (std::size_t i = node; i != no_node && !scaled; i = nodes[i].parent)
+    scaled = nodes[i].rest.scale != Vec3(1, 1, 1);
+  if (!scaled) return {1, 1, 1};
+  Mat3 linear = Mat3::Identity(), turn = Mat3::Identity();
+  for (std::size_t i = node; i != no_node; i = nodes[i].parent) {
+    const Pose& rest = nodes[i].rest;
+    const Mat3 rotation = rest.rotation.toRotationMatrix();
+    linear = (rotation * Mat3(rest.scale.asDiagonal()) * linear).eval();
+    turn = (rotation * turn).eval();
+  }
+  const Mat3 own = turn.transpose() * linear;
+  if (!is_diagonal(own))
+    throw std::invalid_argument(
+        "a scaled parent shears its node, and a body keeps its angles; scale that parent evenly");
+  const Vec3 scale = own.diagonal();
+  if (!scale.allFinite() || scale.cwiseAbs().minCoeff() == 0)
+    throw std::invalid_argument("its node is scaled by " + triple(scale) + "; a body needs factors other than 0");
+  return scale;
+}
+
+Shape scaled(const Shape& shape, const Vec3& scale) {
+  if (scale == Vec3(1, 1, 1)) return shape;
+  Shape result = shape;
+  result.offset.position = scale.cwiseProduct(shape.offset.position);
+  // In the axes of the solid, which may be turned on its node.
+  const Mat3 turn = shape.offset.rotation.normalized().toRotationMatrix();
+  const Mat3 own = turn.transpose() * Mat3(scale.asDiagonal()) * turn;
+  if (auto* sphere = std::get_if<Sphere>(&result.solid)) {
+    sphere->radius *= uniform(scale, "a sphere");
+  } else if (auto* capsule = std::get_if<Capsule>(&result.solid)) {
+    const double factor = uniform(scale, "a capsule");
+    capsule->radius *= factor;
+    capsule->half_height *= factor;
+    mirror(result, scale);
+  } else if (auto* cylinder = std::get_if<Cylinder>(&result.solid)) {
+    const double factor = uniform(scale, "a cylinder");
+    cylinder->radius *= factor;
+    cylinder->half_height *= factor;
+    mirror(result, scale);
+  } else if (auto* cone = std::get_if<Cone>(&result.solid)) {
+    const double factor = uniform(scale, "a cone");
+    cone->radius *= factor;
+    cone->half_height *= factor;
+    mirror(result, scale);
+  } else if (auto* tapered = std::get_if<TaperedCapsule>(&result.solid)) {
+    const double factor = uniform(scale, "a tapered capsule");
+    tapered->bottom_radius *= factor;
+    tapered->top_radius *= factor;
+    tapered->half_height *= factor;
+    mirror(result, scale);
+  } else if (auto* box = std::get_if<Box>(&result.solid)) {
+    if (!is_diagonal(own))
+      throw std::invalid_argument(
+          "a box that is turned on its node takes the same scale along all axes, but its node is "
+          "scaled by " +
+          triple(scale) + "; turn the node, or make it a hull");
+    box->half_extents = box->half_extents.cwiseProduct(Vec3(own.diagonal().cwiseAbs()));
+  } else if (auto* plane = std::get_if<Plane>(&result.solid)) {
+    if (!is_diagonal(own)) (void)uniform(scale, "a plane that is turned on its node");
+    const Vec3 normal = plane->normal.cwiseQuotient(Vec3(own.diagonal()));
+    plane->offset /= normal.norm();
+    plane->normal = normal.normalized();
+  } else if (const auto* compound = std::get_if<Compound>(&shape.solid)) {
+    std::vector<Shape> parts;
+    parts.reserve(compound->parts().size());
+    for (const Shape& part : compound->parts()) parts.push_back(scaled(shapes::on_node(part, shape.offset), scale));
+    return {Compound(std::move(parts))};
+  } else if (surfaces::surface_of(shape.solid)) {
+    return {scaled_surface(shape.solid, own), result.offset};
+  } else if (auto* hull = std::get_if<Hull>(&result.solid)) {
+    std::vector<Vec3> points;
+    for (const Vec3& point : hull->convex.vertices()) points.push_back(own * point);
+    hull->convex = ConvexHull(points);
+  }
+  return result;
+}
+
+}  // namespace tweenfall::staging

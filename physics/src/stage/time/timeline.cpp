@@ -1,0 +1,197 @@
+#include "stage/time/timeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace tweenfall::staging {
+
+Timeline::Timeline(StageDescription described)
+    : description(std::move(described)), initial_(initial_state(description)), from_(initial_), to_(initial_) {
+  take(to_);
+}
+
+void Timeline::take(StageState& state) {
+  take(state, commands_, happenings_, arrived_);
+}
+
+void Timeline::take(StageState& state, std::span<const Command> commands, std::vector<Happening>& happenings,
+                    std::optional<StageState>& arrived) const {
+  try {
+    take_piece(state, description.step, commands, happenings, arrived);
+  } catch (const NodeNotFinite&) {
+    throw;
+  } catch (const NotFinite& fault) {
+    const std::size_t index = fault.body.index;
+    const NodeId node = index < state.node_of.size() ? state.node_of[index] : no_node;
+    throw NodeNotFinite(node, node == no_node ? std::string("a body") : (*state.nodes)[node].name, fault);
+  }
+}
+
+void Timeline::keep_told() {
+  happenings_.erase(happenings_.begin(), happenings_.begin() + static_cast<std::ptrdiff_t>(told_));
+  told_ = 0;
+  of_piece_ = happenings_.size();
+}
+
+void Timeline::next_piece() {
+  keep_told();
+  from_ = to_;
+  try {
+    take(to_);
+  } catch (...) {
+    // As before the piece, and at its beginning: whoever goes on meets the same fault.
+    to_ = from_;
+    now_ = std::max(now_, to_.time);
+    happenings_.resize(of_piece_);
+    throw;
+  }
+}
+
+void Timeline::tell(bool aloud, double until) {
+  struct Telling {
+    bool& flag;
+    const bool before = std::exchange(flag, true);
+    ~Telling() { flag = before; }
+  } guard{telling_};
+  while (!abandoned && told_ < happenings_.size() && happenings_[told_].time <= until) {
+    const Happening happening = happenings_[told_++];
+    now_ = std::max(now_, happening.time);
+    scene.forget();
+    // Copies of the callbacks: they may put others in their place.
+    if (const auto* handoff = std::get_if<HandOff>(&happening.what)) {
+      handoffs.push_back(*handoff);
+      const auto callback = on_handoff;
+      if (aloud && callback) callback(*handoff);
+    } else {
+      const StageEvent& event = std::get<StageEvent>(happening.what);
+      events.push_back(event);
+      const auto callback = event.name == "contact" && !event.nodes.empty() ? on_contact : on_event;
+      if (aloud && callback) callback(event);
+    }
+  }
+}
+
+void Timeline::run_to(double target, bool aloud) {
+  for (;;) {
+    tell(aloud, target);
+    scene.forget();
+    if (abandoned || to_.time >= target) break;
+    next_piece();
+  }
+  now_ = std::max(now_, target);
+}
+
+/// Makes `to_` the state on which a change at `now` acts, its future forgotten.
+void Timeline::reach_now() {
+  const double end = static_cast<double>(to_.steps) * description.step;
+  if (now_ >= to_.time || (to_.time == end && now_ >= end - sliver)) return;
+  const std::size_t kept = std::max(told_, of_piece_);
+  if (now_ <= from_.handled) {
+    happenings_.resize(kept);
+    std::swap(from_, to_);
+    return;
+  }
+  StageState piece = from_;
+  std::vector<Happening> again;
+  const std::vector<Command> stop{{now_, change::None{}}};
+  std::optional<StageState> unchanged;
+  while (piece.time < now_) take(piece, stop, again, unchanged);
+  // What the piece has told stays told and is not told again.
+  for (std::size_t i = of_piece_; i < told_; ++i) {
+    const auto* told = std::get_if<StageEvent>(&happenings_[i].what);
+    const auto twin = std::ranges::find_if(again, [&](const Happening& other) {
+      const auto* event = std::get_if<StageEvent>(&other.what);
+      return told && event && event->time == told->time && event->name == told->name && event->nodes == told->nodes;
+    });
+    if (twin != again.end()) again.erase(twin);
+  }
+  happenings_.resize(kept);
+  happenings_.insert(happenings_.end(), std::make_move_iterator(again.begin()), std::make_move_iterator(again.end()));
+  to_ = std::move(piece);
+}
+
+void Timeline::command(Change change) {
+  scene.forget();
+  // What is not there yet when the change turns out to be impossible comes as it would have.
+  const auto untold = happenings_.begin() + static_cast<std::ptrdiff_t>(told_);
+  const std::vector<Happening> coming(untold, happenings_.end());
+  const bool ahead = now_ < to_.time;
+  const std::shared_ptr<const StageState> aside = ahead ? std::make_shared<const StageState>(to_) : nullptr;
+  const double began = from_.time;
+  reach_now();
+  Command command{now_, std::move(change)};
+  std::vector<Happening> caused;
+  try {
+    make_change(to_, command, description.step, caused);
+  } catch (...) {
+    if (ahead) {
+      if (from_.time != began) std::swap(from_, to_);
+      to_ = *aside;
+    }
+    happenings_.resize(told_);
+    happenings_.insert(happenings_.end(), coming.begin(), coming.end());
+    throw;
+  }
+  // A change made in the past begins another future.
+  while (!commands_.empty() && commands_.back().time > to_.handled) commands_.pop_back();
+  commands_.insert(std::ranges::upper_bound(commands_, now_, {}, &Command::time), std::move(command));
+  to_.jumped = true;
+  for (Happening& happening : caused) {
+    const auto place = std::ranges::upper_bound(happenings_.begin() + static_cast<std::ptrdiff_t>(told_),
+                                                happenings_.end(), happening.time, {}, &Happening::time);
+    if (place - happenings_.begin() < static_cast<std::ptrdiff_t>(of_piece_)) ++of_piece_;
+    happenings_.insert(place, std::move(happening));
+  }
+  if (!telling_) tell(true, now_);
+}
+
+std::vector<TimedInput> Timeline::inputs() const {
+  std::vector<TimedInput> inputs;
+  const auto name = [&](NodeId node) { return (*current().nodes)[node].name; };
+  for (const Command& command : commands_) {
+    if (command.time > now_) break;
+    const auto add = [&](Input what) { inputs.push_back({command.time, std::move(what)}); };
+    if (const auto* ask = std::get_if<change::Ask>(&command.change)) add(input::Ask{ask->play, ask->action});
+    if (const auto* tell = std::get_if<change::Tell>(&command.change)) {
+      if (tell->value)
+        add(input::Set{tell->graph, tell->name, *tell->value});
+      else
+        add(input::Send{tell->graph, tell->name});
+    }
+    if (const auto* release = std::get_if<change::Release>(&command.change))
+      add(input::Release{name(release->node), release->settings});
+    if (const auto* recover = std::get_if<change::Recover>(&command.change))
+      add(input::Recover{name(recover->node), recover->settings});
+    if (const auto* push = std::get_if<change::Push>(&command.change))
+      add(input::Push{name(push->node), push->impulse, push->point});
+    if (const auto* told = std::get_if<change::Control>(&command.change))
+      add(input::Control{told->vehicle, told->control});
+  }
+  return inputs;
+}
+
+void Timeline::restart() {
+  scene.forget();
+  from_ = initial_;
+  to_ = initial_;
+  happenings_.clear();
+  events.clear();
+  handoffs.clear();
+  told_ = of_piece_ = 0;
+  now_ = 0;
+  next_piece();
+}
+
+std::pair<const StageState*, const StageState*> Timeline::around() const noexcept {
+  const double end = static_cast<double>(to_.steps) * description.step;
+  if (now_ >= to_.time || (to_.time == end && now_ >= end - sliver)) return {&to_, &to_};
+  return {&from_, arrived_ ? &*arrived_ : &to_};
+}
+
+void Timeline::require_not_telling(const char* what) const {
+  if (telling_) throw std::logic_error(std::string("a callback cannot ") + what + " the stage that called it");
+}
+
+}  // namespace tweenfall::staging
