@@ -40,7 +40,7 @@ TEST_CASE("all faults of a graph are listed, each with its place") {
         "/poses/e/machine/states/two: there is no pose or clip \"runn\"\n"
         "/poses/e/machine/transitions/0/to: there is no state \"tow\"; did you mean \"two\"?\n"
         "/poses/e/machine/transitions/0/when: there is no parameter \"sped\"; did you mean \"speed\"?\n"
-        "/output: there is no pose \"z\"; did you mean \"a\"?\n");
+        "/output: there is no pose \"z\"\n");
   CHECK_THROWS_WITH_AS(Graph(limb(), three_clips(), faulty), doctest::Contains("/poses/c/blend: these weights"),
                        std::invalid_argument);
 }

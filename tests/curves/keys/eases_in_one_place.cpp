@@ -13,9 +13,9 @@ namespace {
 
 // Words that mean something else too: splines, rules beyond the keys, a key's member, the ease of a key without one,
 // the degree of a polynomial.
-const std::set<std::string> shared_words = {"hold",    "linear",         "ease",    "natural",     "clamped",
-                                            "uniform", "centripetal",    "chordal", "catmull-rom", "not-a-knot",
-                                            "smooth",  "smooth-clamped", "spring",  "bezier",      "cubic"};
+const std::set<std::string> shared_words = {
+    "hold",        "linear",     "ease",   "natural",        "clamped", "uniform", "centripetal", "chordal",
+    "catmull-rom", "not-a-knot", "smooth", "smooth-clamped", "spring",  "bezier",  "cubic",       "bounce"};
 
 // The words that stand as such in a source: a family's without the directions, a call's without its numbers.
 std::set<std::string> source_words() {
