@@ -22,6 +22,12 @@ inline void set(double (&lanes)[4], const Vec3& value) {
   for (int i = 0; i < 3; ++i) lanes[i] = value[i];
 }
 
+/// Lanes that another lane's contact makes do more than their own adds nothing, which may turn a -0 into a 0: it must
+/// not tell which contacts share a block.
+[[nodiscard]] inline Vec3 without_sign_of_zero(const Vec3& value) {
+  return {value.x() + 0.0, value.y() + 0.0, value.z() + 0.0};
+}
+
 /// What every sub-step needs of a body of an island; of most it needs nothing else.
 struct alignas(64) BodyPace {
   double acceleration[4] = {};  ///< mean of the step, free of contacts: x, y, z and nothing

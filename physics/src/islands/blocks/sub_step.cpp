@@ -1,0 +1,191 @@
+#include "islands/blocks/block_solver.h"
+
+#include <tweenfall/curves/rotation.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+
+/// How bodies move through a sub-step: begun by forces, ended by the velocities that the rows leave.
+
+namespace tweenfall::blocks {
+
+using forces::Load;
+using state::Body;
+
+namespace {
+
+/// Up to this turn in a sub-step a pressed body's spin changes by itself as two evaluations of Euler's equations say.
+constexpr double slow_turn = 0.05;
+
+/// Angular velocity after the time h in which a body's spin and the torque on it change it, to second order.
+Vec3 spun(const Body& body, const Quat& rotation, const Vec3& angular, const Vec3& torque, double h) {
+  const Quat back = rotation.conjugate();
+  const Vec3 spin = back * angular;
+  const Vec3 turning = back * torque;
+  const auto rate = [&](const Vec3& at) -> Vec3 {
+    return body.inverse_inertia() * (turning - at.cross(body.mass().inertia * at));
+  };
+  Vec3 next = spin + h * rate(spin + 0.5 * h * rate(spin));
+  if (torque == Vec3::Zero())
+    next = forces::bounded_spin(body.mass().inertia, 0.5 * spin.dot(body.mass().inertia * spin), next);
+  return rotation * next;
+}
+
+}  // namespace
+
+void BlockSolver::begin_sub_step(const std::vector<Body>& bodies, const std::vector<Load>& loads, double dt,
+                                 int sub_steps, int sub_step) {
+  const double h = dt / sub_steps;
+  lead(dt, sub_steps, sub_step);
+  each_body([&](std::size_t i) {
+    BodyPace& pace = paces_[i];
+    BodyLanes& velocity = velocities_[i];
+    BodyLanes& start = starts_[i];
+    std::copy_n(displacements_[i].linear, 4, sub_starts_[i].lanes);
+    if (pace.steady) {
+      start = velocity;
+      for (int k = 0; k < 4; ++k) velocity.linear[k] += pace.acceleration[k] * h;
+      return;
+    }
+    IslandBody& entry = bodies_[i];
+    entry.sub_step_center = entry.center;
+    entry.sub_step_rotation = entry.rotation;
+    if (!pace.movable) {
+      if (entry.led == step::not_led) start = {};
+      return;
+    }
+    start = velocity;
+    for (int k = 0; k < 3; ++k)
+      velocity.linear[k] = (velocity.linear[k] + pace.acceleration[k] * h) / (1 + entry.drag * h);
+    entry.followed = !pace.pressed && !pace.even && !entry.jointed;
+    pace.pressed = false;
+    if (pace.even) return;
+    const Body& body = bodies[entry.index];
+    const Load& load = loads[entry.index];
+    const Vec3 angular = angular_of(velocity);
+    if (entry.jointed && !spins_.empty() && !(load.angular_drag > 0)) {
+      const Vec3 damped = angular / (1 + load.angular_damping * h);
+      const Vec3 spin = spins_.begin_sub_step(i, body, load, entry.rotation, damped, h);
+      if (spins_.follows(i)) return set(velocity.angular, spin);
+    } else if (!spins_.empty()) {
+      spins_.leave(i);
+    }
+    const bool slow = !entry.followed && angular.squaredNorm() * h * h <= slow_turn * slow_turn;
+    if (!slow || load.angular_drag > 0) {
+      const forces::Spin spin = forces::turned(body, {entry.rotation, angular}, load, h);
+      set(velocity.angular, spin.angular);
+      entry.free_rotation = spin.rotation;
+    } else {
+      const Vec3 damped = angular / (1 + load.angular_damping * h);
+      set(velocity.angular, spun(body, entry.rotation, damped, load.torque, h));
+    }
+  });
+}
+
+/// What is led goes through the sub-step by its mean velocity, so that it is where its path is at the end.
+void BlockSolver::lead(double dt, int sub_steps, int sub_step) {
+  const double from = static_cast<double>(sub_step) / sub_steps;
+  const double to = static_cast<double>(sub_step + 1) / sub_steps;
+  for (step::LedBody& led : led_) {
+    set(starts_[led.place].linear, led.ending.linear);
+    set(starts_[led.place].angular, led.ending.angular);
+    led.mean = led.course.mean_between(from, to, dt);
+    led.ending = led.course.velocity(to, dt);
+    set(velocities_[led.place].linear, led.mean.linear);
+    set(velocities_[led.place].angular, led.mean.angular);
+  }
+}
+
+/// Then what it carries gets its velocity there.
+void BlockSolver::end_lead() {
+  for (const step::LedBody& led : led_) {
+    set(velocities_[led.place].linear, led.ending.linear);
+    set(velocities_[led.place].angular, led.ending.angular);
+  }
+  if (!led_.empty()) contacts_.end_ride();
+}
+
+void BlockSolver::prepare_again(const std::vector<Body>& bodies) {
+  if (!any_stale_ && joints_.empty()) return;
+  any_stale_ = false;
+  each_body([&](std::size_t i) {
+    IslandBody& entry = bodies_[i];
+    entry.stale = !entry.round && entry.turned > (entry.led == step::not_led ? turned_enough_ : 0);
+    if (entry.stale) entry.turned = 0;
+    if (!entry.movable) return;
+    if (entry.stale || (!joints_.empty() && !bodies[entry.index].spherical()))
+      entry.inverse_inertia = entry.given * bodies[entry.index].world_inverse_inertia(entry.rotation);
+  });
+  work_.ranges(contacts_.blocks.size(), blocks_worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const ContactBlock& block = contacts_.blocks[i];
+      for (int lane = 0; lane < lane_count; ++lane)
+        if (contacts_.origins[i][static_cast<std::size_t>(lane)] &&
+            (bodies_[block.a[lane]].stale || bodies_[block.b[lane]].stale))
+          contacts_.prepare(i, lane, bodies_, displacements_.data());
+    }
+  });
+}
+
+void BlockSolver::end_sub_step(double h) {
+  stale_.assign(work_.range_count(bodies_.size() - 1, worth_a_part), 0);
+  work_.numbered_ranges(bodies_.size() - 1, worth_a_part, [&](std::size_t part, std::size_t begin, std::size_t end) {
+    bool stale = false;
+    for (std::size_t i = begin + 1; i < end + 1; ++i) {
+      BodyPace& pace = paces_[i];
+      const BodyLanes& velocity = velocities_[i];
+      BodyLanes& displacement = displacements_[i];
+      pace.pressed = pace.movable && lags_[i].lanes[3] != 0;
+      pace.touched = pace.touched || pace.pressed;
+      double moved[3];
+      for (int k = 0; k < 3; ++k) {
+        moved[k] = (velocity.linear[k] + lags_[i].lanes[k]) * h;
+        displacement.linear[k] += moved[k];
+      }
+      if (pace.unturned) {
+        // What rolls has the mean of its spins.
+        const double kept = pace.impact ? 1 : 0.5;
+        for (int k = 0; k < 3; ++k)
+          displacement.angular[k] += (kept * velocity.angular[k] + (1 - kept) * starts_[i].angular[k]) * h;
+        continue;
+      }
+      IslandBody& entry = bodies_[i];
+      for (int k = 0; k < 3; ++k) entry.center[k] += moved[k];
+      Vec3 angular = angular_of(velocity);
+      if (entry.movable && entry.round && !pace.impact && !entry.jointed)
+        angular = 0.5 * (angular + angular_of(starts_[i]));
+      if (angular == Vec3::Zero()) continue;
+      const Vec3 turning = angular * h;
+      for (int k = 0; k < 3; ++k) displacement.angular[k] += turning[k];
+      if (!entry.round) {
+        entry.turned += turning.norm();
+        stale = stale || entry.turned > (entry.led == step::not_led ? turned_enough_ : 0);
+      }
+      if (entry.followed && !pace.pressed) {
+        // The spin of free flight keeps its energy only with the rotation that belongs to it.
+        entry.rotation = entry.free_rotation;
+        continue;
+      }
+      entry.rotation = exp_map(turning) * entry.rotation;
+      entry.rotation.normalize();
+    }
+    stale_[part] = stale ? 1 : 0;
+  });
+  for (const char stale : stale_) any_stale_ = any_stale_ || stale != 0;
+}
+
+/// See Solver::bound_spins.
+void BlockSolver::bound_spins(const std::vector<Body>& bodies, double h) {
+  work_.ranges(uneven_.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      BodyLanes& velocity = velocities_[uneven_[k]];
+      const Vec3 angular = angular_of(velocity);
+      if (!(angular.squaredNorm() * h * h > 1)) continue;
+      const IslandBody& entry = bodies_[uneven_[k]];
+      const double energy = 0.5 * angular.dot(entry.inverse_inertia.inverse() * angular);
+      set(velocity.angular, forces::bounded_spin(bodies[entry.index].world_inertia(entry.rotation), energy, angular));
+    }
+  });
+}
+
+}  // namespace tweenfall::blocks
