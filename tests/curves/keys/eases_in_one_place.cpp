@@ -12,7 +12,7 @@ using namespace tweenfall;
 namespace {
 
 // Words that mean something else too: splines, rules beyond the keys, a key's member, the ease of a key without one,
-// the degree of a polynomial.
+// the degree of a polynomial, what others call restitution.
 const std::set<std::string> shared_words = {
     "hold",        "linear",     "ease",   "natural",        "clamped", "uniform", "centripetal", "chordal",
     "catmull-rom", "not-a-knot", "smooth", "smooth-clamped", "spring",  "bezier",  "cubic",       "bounce"};
