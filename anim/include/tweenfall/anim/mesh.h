@@ -50,8 +50,8 @@ class Influences {
 
 struct Mesh {
   std::string name;
-  std::vector<Vec3> positions;            ///< in the mesh's own space, m
-  std::vector<Vec3> normals;              ///< unit; one per vertex, or empty
+  std::vector<Vec3> positions;  ///< in the mesh's own space, m
+  std::vector<Vec3> normals;    ///< unit; one per vertex, or empty
   /// Unit, along the surface; one per vertex, or empty. The fourth number is 1 where the direction across it is
   /// normal x tangent, and -1 where it is the opposite.
   std::vector<Vec4> tangents;
