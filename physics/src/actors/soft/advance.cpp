@@ -191,12 +191,14 @@ void World::Implementation::advance_softs(double dt) {
       there.push_back(&body);
     }
   const std::vector<std::size_t> among = soft::meeting_each_other(there);
+  std::vector<soft::Thick> thick;
+  thick.reserve(among.size());
   for (double i = 1; i <= count; ++i) {
     const double since = i < count ? i * h : dt;
     partners.go_to(since, h);
     const bool backward = static_cast<int>(i) % 2 == 0;
     for (soft::Course& course : courses) course.go(since, h, backward);
-    std::vector<soft::Thick> thick;
+    thick.clear();
     for (const std::size_t member : among) thick.push_back(courses[member].as_thick());
     if (!thick.empty()) soft::keep_apart_from_each_other(thick, partners, h, backward, settings.push_out_speed);
     for (std::size_t k = 0; k < courses.size(); ++k) courses[k].end(since, h, std::ranges::binary_search(among, k));
