@@ -18,7 +18,6 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
-#include <mutex>
 #include <thread>
 
 #ifndef __has_feature
@@ -95,11 +94,18 @@ struct Result {
   std::uint64_t faults = 0, taken = 0, most_kilobytes = 0;
 };
 
+/// Memory that a process and those that it starts see alike.
+template <class T>
+T* shared(std::size_t count) {
+  void* memory = mmap(nullptr, count * sizeof(T), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  T* first = static_cast<T*>(memory);
+  for (std::size_t i = 0; i < count; ++i) new (first + i) T;
+  return first;
+}
+
 /// Runs one worker until its cases are through, over crashes and hangs.
 Result watch(const std::string& kind, std::uint64_t seed, std::uint64_t from, std::uint64_t to, std::uint64_t stride) {
-  auto* progress = static_cast<Progress*>(
-      mmap(nullptr, sizeof(Progress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));
-  new (progress) Progress;
+  Progress* const progress = shared<Progress>(1);
   Result result;
   while (from < to) {
     progress->next = from;
@@ -167,19 +173,24 @@ int run(int argc, char** argv) {
   if (const std::uint64_t size = attack_of(kind, seed)->size(); size > 0)
     count = std::min(counting->count() ? count : size, size - std::min(from, size));
 
-  Result all;
-  std::vector<std::thread> watchers;
-  std::mutex mutex;
+  // Processes and no threads: what starts a process while another thread asks for memory leaves it a lock for ever.
+  Result* const results = shared<Result>(jobs);
+  std::vector<pid_t> watchers;
   for (unsigned job = 0; job < jobs; ++job) {
-    watchers.emplace_back([&, job] {
-      const Result result = watch(kind, seed, from + job, from + count, jobs);
-      const std::lock_guard lock(mutex);
-      all.faults += result.faults;
-      all.taken += result.taken;
-      all.most_kilobytes = std::max(all.most_kilobytes, result.most_kilobytes);
-    });
+    watchers.push_back(fork());
+    if (watchers.back() != 0) continue;
+    results[job] = watch(kind, seed, from + job, from + count, jobs);
+    std::fflush(nullptr);
+    _exit(0);
   }
-  for (std::thread& watcher : watchers) watcher.join();
+  Result all;
+  for (unsigned job = 0; job < jobs; ++job) {
+    int status = 0;
+    waitpid(watchers[job], &status, 0);
+    all.faults += results[job].faults + (WIFEXITED(status) && WEXITSTATUS(status) == 0 ? 0 : 1);
+    all.taken += results[job].taken;
+    all.most_kilobytes = std::max(all.most_kilobytes, results[job].most_kilobytes);
+  }
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   std::printf("%s: %llu cases, %llu of them taken, %llu went wrong, at most %llu MB\n", kind.c_str(), number(count),
               number(all.taken), number(all.faults), number(all.most_kilobytes / 1024));
