@@ -57,6 +57,19 @@ TEST_CASE("tangents of FBX files are unit, and say by the binormals which way li
   CHECK(other.tangents[3] == Vec4(1, 0, 0, -1));
 }
 
+TEST_CASE("tangents that are not finite are left out of an FBX file with a word, and all else is read") {
+  const ScratchFolder folder("fbx-broken-tangents");
+  for (const char* broken : {"0,1e999,0", "0,nan,0"}) {
+    CAPTURE(std::string(broken));
+    const Model model = square(folder, "", broken);
+    CHECK(model.meshes.at(0).positions.size() == 4);
+    CHECK(model.meshes[0].normals.size() == 4);
+    CHECK(model.meshes[0].tangents.empty());
+    REQUIRE(model.repairs.size() == 1);
+    CHECK(model.repairs[0].find("tangents that are not finite") != std::string::npos);
+  }
+}
+
 TEST_CASE("a geometry that is mirrored keeps its normals outward, and its tangents along the texture") {
   const ScratchFolder folder("fbx-mirrored");
   const Mesh mirrored = square(folder, FbxText::vector("GeometricScaling", {-2, 1, 1}), "0,1,0").meshes.at(0);

@@ -2,6 +2,7 @@
 
 #include "fbx/surface/triangles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <unordered_map>
@@ -13,7 +14,10 @@ namespace {
 /// Values laid over the corners of a mesh, as one of the file's "layer elements" says.
 class LayerElement {
  public:
-  LayerElement(const Record* layer, const char* values, const char* indices, std::size_t width, const Objects& objects)
+  enum class Need { must_be_finite, may_be_left_out };
+
+  LayerElement(const Record* layer, const char* values, const char* indices, std::size_t width, const Objects& objects,
+               Need need = Need::must_be_finite)
       : width_(width) {
     if (!layer) return;
     const auto word = [&](const char* name) {
@@ -29,12 +33,13 @@ class LayerElement {
     if (reference == "IndexToDirect" || reference == "Index") indices_ = layer->integers(indices);
     indexed_ = !indices_.empty();
     present_ = (by_point_ || by_polygon_ || all_same_ || by_corner) && values_.size() >= width_;
-    for (const double value : values_)
-      if (!std::isfinite(value))
-        objects.source().fail(layer->at, "a value in \"" + std::string(values) + "\" is not finite");
+    broken_ = std::ranges::any_of(values_, [](double value) { return !std::isfinite(value); });
+    if (broken_ && need == Need::must_be_finite)
+      objects.source().fail(layer->at, "a value in \"" + std::string(values) + "\" is not finite");
   }
 
-  [[nodiscard]] bool present() const { return present_; }
+  [[nodiscard]] bool present() const { return present_ && !broken_; }
+  [[nodiscard]] bool broken() const { return broken_; }  ///< some value is not finite
 
   /// Where the values of a corner begin; null where the element has none for it.
   [[nodiscard]] const double* at(std::size_t corner, std::size_t point, std::size_t polygon) const {
@@ -50,7 +55,7 @@ class LayerElement {
   std::size_t width_;
   Reals values_;
   Integers indices_;
-  bool by_point_ = false, by_polygon_ = false, all_same_ = false, indexed_ = false, present_ = false;
+  bool by_point_ = false, by_polygon_ = false, all_same_ = false, indexed_ = false, present_ = false, broken_ = false;
 };
 
 /// Everything that makes a vertex its own, to the bit.
@@ -87,8 +92,14 @@ class GeometryReader {
         colors_(colors),
         normals_(record_.find("LayerElementNormal"), "Normals", "NormalsIndex", 3, objects),
         coordinates_(record_.find("LayerElementUV"), "UV", "UVIndex", 2, objects),
-        tangents_(record_.find("LayerElementTangent"), "Tangents", "TangentsIndex", 3, objects),
-        across_(record_.find("LayerElementBinormal"), "Binormals", "BinormalsIndex", 3, objects) {
+        tangents_(record_.find("LayerElementTangent"), "Tangents", "TangentsIndex", 3, objects,
+                  LayerElement::Need::may_be_left_out),
+        across_(record_.find("LayerElementBinormal"), "Binormals", "BinormalsIndex", 3, objects,
+                LayerElement::Need::may_be_left_out) {
+    // Exporters write such where a texture has no extent.
+    has_tangents_ = tangents_.present() && normals_.present() && !across_.broken();
+    if (tangents_.broken() || across_.broken())
+      problems_.repair("mesh \"" + geometry_.name + "\"", "has tangents that are not finite; they were left out");
     if (colors_.empty()) colors_.push_back(plain_color());
     find_color_parts();
   }
@@ -191,8 +202,7 @@ class GeometryReader {
       std::copy(n, n + 3, key.numbers);
     if (const double* uv = coordinates_.present() ? coordinates_.at(corner, point, polygon) : nullptr)
       std::copy(uv, uv + 2, key.numbers + 3);
-    const bool has_tangents = tangents_.present() && normals_.present();
-    if (has_tangents) copy_tangent(corner, point, polygon, key);
+    if (has_tangents_) copy_tangent(corner, point, polygon, key);
     Part& part = result_.parts[index];
     const auto next = static_cast<std::uint32_t>(part.control_points.size());
     const auto [found, added] = vertices_[index].emplace(key, next);
@@ -200,7 +210,7 @@ class GeometryReader {
     part.control_points.push_back(key.point);
     part.mesh.positions.push_back(points_[point]);
     if (normals_.present()) part.mesh.normals.push_back(unit({key.numbers[0], key.numbers[1], key.numbers[2]}));
-    if (has_tangents) {
+    if (has_tangents_) {
       const Vec3 along = unit({key.numbers[5], key.numbers[6], key.numbers[7]});
       part.mesh.tangents.emplace_back(along.x(), along.y(), along.z(), key.numbers[8]);
     }
@@ -233,6 +243,7 @@ class GeometryReader {
   std::vector<Color> colors_;
   Record stripped_;
   LayerElement normals_, coordinates_, tangents_, across_;
+  bool has_tangents_ = false;
   std::vector<Vec3> points_;
   std::vector<std::size_t> part_of_material_;
   std::vector<std::unordered_map<VertexKey, std::uint32_t, VertexHash>> vertices_;
