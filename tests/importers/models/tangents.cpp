@@ -3,7 +3,9 @@
 #include "importers/models/fbx_files.h"
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <limits>
 
 using namespace tweenfall;
 using namespace tweenfall::test;
@@ -106,6 +108,18 @@ TEST_CASE("tangents and how morph targets bend them are saved in glTF and read b
   REQUIRE(back.tangents.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) CHECK(near(back.tangents[i], mesh.tangents[i], 1e-7));
   CHECK(back.morphs.at(0).tangent_offsets == bent);
+
+  // A number of the second tangent, as the file holds it, becomes none.
+  std::string bytes = text_of(folder / "leaf.glb");
+  const float numbers[2] = {0.6F, 0.8F}, none = std::numeric_limits<float>::quiet_NaN();
+  const std::size_t place = bytes.find(std::string(reinterpret_cast<const char*>(numbers), sizeof numbers));
+  REQUIRE(place != std::string::npos);
+  std::memcpy(bytes.data() + place, &none, sizeof none);
+  const Model broken = load_model(folder.file("broken.glb", bytes));
+  CHECK(broken.meshes.at(0).tangents.empty());
+  CHECK(broken.meshes[0].normals.size() == 3);
+  REQUIRE(broken.repairs.size() == 1);
+  CHECK(broken.repairs[0].find("element 1 is not a finite number") != std::string::npos);
 }
 
 TEST_CASE("tangents of public models lie along their textures") {

@@ -164,10 +164,11 @@ std::optional<Decoded> Accessors::read(std::size_t accessor, const std::string& 
   const bool real = component == float_component || normalized;
   const bool unsigned_whole = component == unsigned_byte_component || component == unsigned_short_component ||
                               component == unsigned_int_component;
-  if ((wanted == Wanted::reals && !real) || (wanted == Wanted::indices && (!unsigned_whole || normalized))) {
+  const bool reals = wanted == Wanted::reals || wanted == Wanted::spare;
+  if ((reals && !real) || (wanted == Wanted::indices && (!unsigned_whole || normalized))) {
     problems_.add(user, "accessor " + std::to_string(accessor) + " must hold " +
-                            (wanted == Wanted::reals ? "floats or normalized integers" : "unsigned integers") +
-                            ", not component type " + std::to_string(component));
+                            (reals ? "floats or normalized integers" : "unsigned integers") + ", not component type " +
+                            std::to_string(component));
     return std::nullopt;
   }
   Decoded decoded;
@@ -199,7 +200,11 @@ std::optional<Decoded> Accessors::read(std::size_t accessor, const std::string& 
     return std::nullopt;
   for (std::size_t i = 0; i < decoded.numbers.size(); ++i)
     if (!std::isfinite(decoded.numbers[i])) {
-      problems_.add(fields.place(), "element " + std::to_string(i / decoded.parts) + " is not a finite number");
+      const std::string fault = "element " + std::to_string(i / decoded.parts) + " is not a finite number";
+      if (wanted == Wanted::spare)
+        problems_.repair(user, fault + "; all of them were left out");
+      else
+        problems_.add(fields.place(), fault);
       return std::nullopt;
     }
   return decoded;

@@ -14,6 +14,7 @@ enum class Wanted {
   reals,    ///< floats, or integers with "normalized"
   any,      ///< the same, or plain integers
   indices,  ///< unsigned integers
+  spare,    ///< reals that are left out with a word where one is not finite
 };
 
 struct Decoded {

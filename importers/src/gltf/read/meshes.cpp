@@ -12,13 +12,13 @@ namespace {
 /// An attribute of vectors, one per vertex (of any count where VERTICES is 0); empty when absent or wrong.
 template <class Vector>
 std::vector<Vector> vertex_vectors(const Fields& attributes, const char* name, std::size_t vertices,
-                                   Accessors& accessors) {
+                                   Accessors& accessors, Wanted wanted = Wanted::any) {
   constexpr int width = Vector::RowsAtCompileTime;
   std::vector<Vector> all;
   const auto index = attributes.index(name, accessors.size());
   if (!index) return all;
   const std::string kind = "VEC" + std::to_string(width), place = attributes.place_of(name);
-  const auto decoded = accessors.read(*index, place, {kind.c_str()}, Wanted::any);
+  const auto decoded = accessors.read(*index, place, {kind.c_str()}, wanted);
   if (!decoded) return all;
   if (vertices != 0 && decoded->count != vertices) {
     attributes.problems().add(
@@ -79,7 +79,7 @@ void read_targets(const Fields& primitive, const std::vector<std::string>& names
     morph.position_offsets = vertex_vectors<Vec3>(target, "POSITION", vertices, accessors);
     morph.position_offsets.resize(vertices, Vec3(0, 0, 0));
     morph.normal_offsets = vertex_vectors<Vec3>(target, "NORMAL", vertices, accessors);
-    morph.tangent_offsets = vertex_vectors<Vec3>(target, "TANGENT", vertices, accessors);
+    morph.tangent_offsets = vertex_vectors<Vec3>(target, "TANGENT", vertices, accessors, Wanted::spare);
     mesh.morphs.push_back(std::move(morph));
   }
 }
@@ -156,7 +156,7 @@ class MeshReader {
     if (mesh.positions.empty()) return mesh;
     const std::size_t vertices = mesh.positions.size();
     mesh.normals = vertex_vectors<Vec3>(attributes, "NORMAL", vertices, accessors_);
-    mesh.tangents = vertex_vectors<Vec4>(attributes, "TANGENT", vertices, accessors_);
+    mesh.tangents = vertex_vectors<Vec4>(attributes, "TANGENT", vertices, accessors_, Wanted::spare);
     for (Vec4& tangent : mesh.tangents) tangent[3] = tangent[3] < 0 ? -1 : 1;
     mesh.texture_coordinates = vertex_vectors<Vec2>(attributes, "TEXCOORD_0", vertices, accessors_);
     mesh.triangles =
