@@ -87,7 +87,11 @@ Mat3 renormalized(const Mat3& matrix) {
   const double length = first.norm();
   Mat3 result;
   result.col(0) = first / length;
-  const Vec3 second = Vec3(matrix.col(1)) - Vec3(result.col(0)).dot(Vec3(matrix.col(1))) * Vec3(result.col(0));
+  const auto part_across = [&](const Vec3& column) {
+    return Vec3(column - Vec3(result.col(0)).dot(column) * Vec3(result.col(0)));
+  };
+  // Of columns that are nearly one, rounding leaves a part along the first: taken away again, nothing is left of it.
+  const Vec3 second = part_across(part_across(matrix.col(1)));
   const double across = second.norm();
   // What rounding leaves of a column along the first is no direction.
   if (!(length > 0) || !(across > 1e-12 * matrix.col(1).norm()) || !std::isfinite(length) || !std::isfinite(across))

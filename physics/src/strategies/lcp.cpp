@@ -8,11 +8,18 @@ namespace tweenfall::strategies {
 
 namespace {
 
-/// Up to so many touches the problem is solved by Lemke's pivots, beyond by projected Gauss-Seidel.
-constexpr std::size_t most_pivoted = 96;
+/// Up to so many touches the problem is solved by Lemke's pivots, beyond by projected Gauss-Seidel; but up to so many
+/// by pivots, too, where a few passes of that do not end it, as where what is heavy lies on what is light.
+constexpr std::size_t few_touches = 96, most_pivoted = 512;
 /// How far off projected Gauss-Seidel may end, m/s, and passes that it may take.
 constexpr double near_enough_to_end = 2e-10;
-constexpr int most_sweeps = 20000;
+constexpr int few_sweeps = 400, most_sweeps = 20000;
+/// Where a body stands on more points than it needs, what each bears is not told by the problem. With this part of its
+/// own ease added to each touch it is, and none is far from what it was: then the addition is taken away again, by
+/// solving anew for the impulses that came out, until they stay the same.
+/// Source: Rockafellar, Monotone Operators and the Proximal Point Algorithm, SIAM J. Control 14, 1976.
+constexpr double softness = 1e-6;
+constexpr int most_hardenings = 12;
 /// Between these the other half is solved: normals with friction as it is, friction with normals as they are.
 constexpr int most_rounds = 12;
 
@@ -27,16 +34,17 @@ double residual(const Gathering& island) {
   return most;
 }
 
+/// By Lemke's pivots. @return whether that solved it; else all is as it was.
 bool pivoted(Gathering& island) {
   const std::size_t count = island.touches.size();
   // A unit of impulse is such that it adds a unit of speed by itself.
-  std::vector<double> units(count), matrix(count * count), offsets(count), impulses(count);
+  std::vector<double> units(count), matrix(count * count), offsets(count), softened(count), impulses(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double give = island.ease(island.touches[i], island.touches[i].normal);
     if (!(give > 0)) return false;
     units[i] = 1 / std::sqrt(give);
   }
-  std::vector<Party> parties = island.parties;
+  const Gathering before = island;
   for (Party& party : island.parties) party.linear = party.angular = Vec3::Zero();
   for (std::size_t column = 0; column < count; ++column) {
     const Touch& pushed = island.touches[column];
@@ -46,37 +54,52 @@ bool pivoted(Gathering& island) {
     for (const std::uint32_t end : {pushed.a, pushed.b})
       island.parties[end].linear = island.parties[end].angular = Vec3::Zero();
   }
-  island.parties = std::move(parties);
+  island.parties = before.parties;
   for (std::size_t row = 0; row < count; ++row) {
     const Touch& touch = island.touches[row];
+    impulses[row] = touch.impulse / units[row];
     offsets[row] = units[row] * (island.parting(touch) - touch.wanted);
     for (std::size_t column = 0; column < count; ++column)
       offsets[row] -= matrix[row * count + column] * island.touches[column].impulse / units[column];
   }
-  if (!solve_by_lemke(matrix, offsets, impulses)) return false;
+  for (std::size_t i = 0; i < count; ++i) matrix[i * count + i] += softness;
+  for (int k = 0; k < most_hardenings; ++k) {
+    for (std::size_t i = 0; i < count; ++i) softened[i] = offsets[i] - softness * impulses[i];
+    const std::vector<double> last = impulses;
+    if (!solve_by_lemke(matrix, softened, impulses)) return false;
+    double change = 0;
+    for (std::size_t i = 0; i < count; ++i) change = std::max(change, std::abs(impulses[i] - last[i]) / units[i]);
+    if (softness * change < 0.01 * near_enough_to_end) break;
+  }
   for (std::size_t i = 0; i < count; ++i) {
     Touch& touch = island.touches[i];
     const double pressed = units[i] * impulses[i];
     island.push(touch, (pressed - touch.impulse) * touch.normal);
     touch.impulse = pressed;
   }
-  return true;
+  if (residual(island) < near_enough_to_end) return true;
+  island = before;
+  return false;
 }
 
-void swept(Gathering& island) {
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+/// @param left  passes that may still be made: fewer afterwards
+/// @return whether that solved it
+bool swept(Gathering& island, int most, int& left) {
+  for (int sweep = 0; sweep < most && left > 0; ++sweep, --left) {
     // There and back, so that what is carried goes up as fast as down.
     if (sweep % 2 == 0)
       for (Touch& touch : island.touches) island.press(touch);
     else
       for (std::size_t i = island.touches.size(); i-- > 0;) island.press(island.touches[i]);
-    if (sweep % 8 == 7 && residual(island) < near_enough_to_end) return;
+    if (sweep % 8 == 7 && residual(island) < near_enough_to_end) return true;
   }
+  return false;
 }
 
-void solve_normals(Gathering& island) {
-  if (island.touches.empty()) return;
-  if (island.touches.size() > most_pivoted || !pivoted(island)) swept(island);
+void solve_normals(Gathering& island, int& left) {
+  const std::size_t count = island.touches.size();
+  if (count == 0 || (count <= few_touches && pivoted(island)) || swept(island, few_sweeps, left)) return;
+  if (count <= few_touches || count > most_pivoted || !pivoted(island)) swept(island, most_sweeps, left);
 }
 
 }  // namespace
@@ -87,8 +110,9 @@ void solve_normals(Gathering& island) {
 /// Sources: Baraff, Fast Contact Force Computation for Nonpenetrating Rigid Bodies, SIGGRAPH 1994; Kaufman and others,
 /// Staggered Projections for Frictional Contact in Multibody Systems, SIGGRAPH Asia 2008.
 void lcp(Gathering& island) {
+  int left = most_sweeps;
   island.begin_where_it_ended();
-  solve_normals(island);
+  solve_normals(island, left);
   const bool rubs =
       std::any_of(island.touches.begin(), island.touches.end(), [](const Touch& touch) { return touch.friction > 0; });
   for (int round = 0; rubs && round < most_rounds; ++round) {
@@ -99,7 +123,7 @@ void lcp(Gathering& island) {
         island.rub(touch);
         if (pass == 0) change = std::max(change, (touch.rubbing - before).norm() * island.ease(touch, touch.normal));
       }
-    solve_normals(island);
+    solve_normals(island, left);
     if (change < near_enough_to_end) break;
   }
   island.complementarity = residual(island);

@@ -140,6 +140,12 @@ TEST_CASE("products drift by rounding alone, and what is renormalized is a rotat
     CHECK((made - bent).cwiseAbs().maxCoeff() < 0.3);
     CHECK(std::abs(drift(quaternion_of(bent))) < 1e-15);
   }
+  // Columns that are nearly one still make a rotation.
+  for (const double apart : {1e-3, 1e-7, 1e-11}) {
+    Mat3 flat = matrix_of(within(random, 3));
+    flat.col(1) = flat.col(0) + apart * flat.col(1);
+    CHECK(drift(renormalized(flat)) < 1e-15);
+  }
 }
 
 TEST_CASE("a top that nothing turns is led to where its closed form says, by the order of each way") {

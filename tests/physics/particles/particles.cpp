@@ -124,6 +124,30 @@ TEST_CASE("a particle bounces off a plane when the closed form says, as often as
   }
 }
 
+TEST_CASE("a particle that wind presses into a corner comes to rest on the ground and at the wall") {
+  World world = with_floor(0, 0);
+  BodySettings wall;
+  wall.shape.solid = Box{Vec3(1, 1, 1)};
+  wall.fixed = true;
+  wall.motion.pose.position = Vec3(5, 1, 0);
+  world.add(wall);
+  Particles particles({.radius = 0.01});
+  particles.add_force(Wind{.velocity = Vec3(1, 0, 0), .linear = 1e-3});
+  for (int i = 0; i < 5; ++i) particles.emit(Vec3(3.5 + 0.05 * i, 0.5 + 0.1 * i, 0.2 * i), Vec3(0.2 * i, -0.5 * i, 0));
+  for (int step = 0; step < 360; ++step) {
+    particles.step(1.0 / 60, world);
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      REQUIRE(particles.y()[i] > 0.01 - 1e-9);
+      REQUIRE(particles.x()[i] < 3.99 + 1e-8);
+    }
+  }
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    CHECK(near(particles.x()[i], 3.99, 1e-9));
+    CHECK(near(particles.y()[i], 0.01, 1e-9));
+    CHECK(particles.velocity(i).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("friction takes mu (1 + e) v of what slides, and a particle at rest on a slope stays below atan mu alone") {
   World world = with_floor(0.5, 0.2);
   Particles particles({.gravity = Vec3(0, 0, 0), .restitution = 0.5, .friction = 0.2});

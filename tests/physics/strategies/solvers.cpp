@@ -155,6 +155,44 @@ TEST_CASE("complementarity is met below 1e-9 m/s by pivots and by sweeps, whatev
   }
 }
 
+TEST_CASE("stacks of any height stand under the complementarity problem, however their overlap is found and parted") {
+  for (const int count : {2, 8, 12})
+    for (const Parting parting : {Parting::half, Parting::positional_impulse})
+      for (const Detection detection : {Detection::ahead, Detection::discrete, Detection::time_of_impact}) {
+        CAPTURE(count);
+        CAPTURE(static_cast<int>(parting));
+        CAPTURE(static_cast<int>(detection));
+        WorldSettings settings = test::with(ContactSolver::lcp, parting);
+        settings.collision = detection;
+        settings.sleep_after = std::numeric_limits<double>::infinity();
+        World world(settings);
+        test::add_floor(world);
+        std::vector<BodyId> boxes;
+        for (int i = 0; i < count; ++i)
+          boxes.push_back(world.add(test::solid_at(Box{Vec3(0.25, 0.25, 0.25)}, Vec3(0, 0.25 + 0.5 * i, 0))));
+        double most = 0;
+        for (int step = 0; step < 120; ++step) {
+          world.step(1.0 / 60);
+          most = std::max(most, complementarity_residual(world));
+        }
+        CHECK(most < 1e-9);
+        CHECK(near(world.motion(boxes.back()).pose.position.y(), 0.5 * count - 0.25, 0.01));
+      }
+}
+
+TEST_CASE("what is a hundred times as heavy lies on what is light, and complementarity is met below 1e-9 m/s") {
+  for (const int count : {10, 30}) {
+    World world(test::with(ContactSolver::lcp, Parting::positional_impulse));
+    test::add_floor(world);
+    for (int i = 0; i < count; ++i)
+      world.add(test::solid_at(Box{Vec3(0.25, 0.25, 0.25)}, Vec3(0, 0.25 + 0.5 * i, 0), i % 2 == 0 ? 1 : 100));
+    for (int step = 0; step < 5; ++step) {
+      world.step(1.0 / 240);
+      CHECK(complementarity_residual(world) < 1e-9);
+    }
+  }
+}
+
 TEST_CASE("Lemke's pivots find what trying every choice of pressing rows finds, and of what has none say so") {
   test::Random random(11);
   int solved = 0;

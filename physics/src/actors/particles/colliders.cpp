@@ -180,11 +180,10 @@ bool Colliders::answer(const Meeting& meeting, Way& way) const {
   const Vec3 unslowed = along + way.dt * (way.acceleration + pressed * normal);
   const double speed = unslowed.norm(), lost = meeting.with->friction * pressed * way.dt;
   const Vec3 after = speed > lost ? Vec3(unslowed * (1 - lost / speed)) : Vec3(0, 0, 0);
-  way.from += way.dt * (moving + 0.5 * (along + after));
-  way.with = moving + after;
-  way.acceleration = Vec3::Zero();
-  way.dt = 0;
-  return false;
+  // Another surface may be in its way: in a corner it comes to rest on both.
+  way.with = moving + along;
+  way.acceleration = way.dt > 0 ? Vec3((after - along) / way.dt) : Vec3(0, 0, 0);
+  return way.dt > 0;
 }
 
 }  // namespace tweenfall::particles
