@@ -206,8 +206,14 @@ class Swinging {
   void at(double time, const Visit& visit) noexcept {
     const SpringFollower& spring = chain_.spring();
     const std::size_t count = chain_.joints().size();
+    const double seconds = seconds_into(spring, state_.step, time);
+    if (seconds == 0) {
+      // At a point of the grid what comes next does not matter yet.
+      for (std::size_t i = 0; i < count; ++i) visit(i, Arrow{state_.offsets[i], state_.rates[i]});
+      return;
+    }
     pose_at_(spring.time_of(state_.step + 1), to_);
-    const SpringShares shares = spring.shares(seconds_into(spring, state_.step, time));
+    const SpringShares shares = spring.shares(seconds);
     Walk before(chain_, from_), after(chain_, to_);
     for (std::size_t i = 0; i < count; ++i) {
       const Arrow offset{state_.offsets[i], state_.rates[i]};

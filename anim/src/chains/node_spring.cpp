@@ -4,6 +4,8 @@
 #include "chains/spring_forcing.h"
 #include "chains/state_bytes.h"
 
+#include <array>
+
 namespace tweenfall {
 namespace chains {
 namespace {
@@ -39,28 +41,73 @@ struct Away {
   Arrow place, turn;
 };
 
+// Where the script has the node, of late: at a point of the grid and the next, for both springs.
+class Script {
+ public:
+  Script(const NodeSpring& spring, const PoseAt& pose_at, std::span<Motion> scratch) noexcept
+      : spring_(spring), pose_at_(pose_at), scratch_(scratch.first(spring.nodes().size())) {}
+
+  const Motion& at(double time) noexcept {
+    for (const Seen& each : seen_)
+      if (each.any && each.time == time) return each.motion;
+    Seen& next = seen_[next_];
+    next_ = (next_ + 1) % seen_.size();
+    pose_at_(time, scratch_);
+    next = {true, time,
+            spring_.nodes()
+                .world_motion(spring_.node(), [&](std::size_t i) -> const Motion& { return scratch_[i]; })
+                .motion};
+    return next.motion;
+  }
+
+ private:
+  struct Seen {
+    bool any = false;
+    double time = 0;
+    Motion motion{};
+  };
+  const NodeSpring& spring_;
+  const PoseAt& pose_at_;
+  std::span<Motion> scratch_;
+  std::array<Seen, 4> seen_{};
+  std::size_t next_ = 0;
+};
+
 Away away_at(const NodeSpring& spring, NodeSpringState& state, double time, const PoseAt& pose_at,
              std::span<Motion> scratch) noexcept {
-  const Hierarchy& nodes = spring.nodes();
-  const auto world_at = [&](double t) {
-    pose_at(t, scratch.first(nodes.size()));
-    return nodes.world_motion(spring.node(), [&](std::size_t i) -> const Motion& { return scratch[i]; }).motion;
+  Script script(spring, pose_at, scratch);
+  const auto world_at = [&](double t) { return script.at(t); };
+  const auto place_forcing = [&](const Motion& from, const Motion& to) {
+    const SpringSettings& settings = spring.position()->settings();
+    return forcing(position_of(from), position_of(to), 1 / settings.steps_per_second, settings.gravity);
   };
   const Vec3 none(0, 0, 0);
+  const auto turn_forcing = [&](const Motion& from, const Motion& to) {
+    const Vec3 way = log_map(to.pose.rotation * from.pose.rotation.conjugate());
+    return forcing(Arrow{none, from.twist.angular}, Arrow{way, to.twist.angular},
+                   1 / spring.rotation()->settings().steps_per_second, none);
+  };
+  // Both go hand in hand, so that the script is asked for each point once.
+  if (spring.position() && spring.rotation()) {
+    constexpr std::int64_t most = 1'000'000;
+    const std::int64_t last = spring.position()->step_at(time);
+    if (state.position.step < last && last - state.position.step < most)
+      for (std::int64_t step = state.position.step + 1; step <= last; ++step) {
+        const double point = spring.position()->time_of(step);
+        bring_to(*spring.position(), state.position, point, world_at, place_forcing);
+        if (point >= spring.rotation()->time_of(state.rotation.step))
+          bring_to(*spring.rotation(), state.rotation, point, world_at, turn_forcing);
+      }
+  }
+  const auto offset = [&](const SpringFollower& follower, SpringState& of, const auto& forcing) {
+    bring_to(follower, of, time, world_at, forcing);
+    // At a point of the grid what comes next does not matter yet.
+    if (seconds_into(follower, of.step, time) == 0) return Arrow{of.offset, of.rate};
+    return offset_at(follower, of, time, world_at, forcing);
+  };
   Away away;
-  if (spring.position())
-    away.place =
-        offset_at(*spring.position(), state.position, time, world_at, [&](const Motion& from, const Motion& to) {
-          const SpringSettings& settings = spring.position()->settings();
-          return forcing(position_of(from), position_of(to), 1 / settings.steps_per_second, settings.gravity);
-        });
-  if (spring.rotation())
-    away.turn =
-        offset_at(*spring.rotation(), state.rotation, time, world_at, [&](const Motion& from, const Motion& to) {
-          const Vec3 way = log_map(to.pose.rotation * from.pose.rotation.conjugate());
-          return forcing(Arrow{none, from.twist.angular}, Arrow{way, to.twist.angular},
-                         1 / spring.rotation()->settings().steps_per_second, none);
-        });
+  if (spring.position()) away.place = offset(*spring.position(), state.position, place_forcing);
+  if (spring.rotation()) away.turn = offset(*spring.rotation(), state.rotation, turn_forcing);
   return away;
 }
 

@@ -67,6 +67,21 @@ inline double seconds_into(const SpringFollower& spring, std::int64_t step, doub
   return std::clamp(time - spring.time_of(step), 0.0, 1 / spring.settings().steps_per_second);
 }
 
+/// Brings a state to the last point of the grid up to `time`.
+/// @param at, forcing  as below
+template <class At, class ForcingOf>
+void bring_to(const SpringFollower& spring, SpringState& state, double time, const At& at,
+              const ForcingOf& forcing) noexcept {
+  const auto rest = [&] { state.offset = state.rate = Vec3(0, 0, 0); };
+  advance_to(spring, state.step, time, rest, [&](std::int64_t step) {
+    const auto from = at(spring.time_of(step));
+    const Arrow next =
+        carried(spring.of_step(), {state.offset, state.rate}, forcing(from, at(spring.time_of(step + 1))));
+    state.offset = next.v;
+    state.rate = next.d;
+  });
+}
+
 /// The offset of a spring at `time`, its state brought to the point before.
 /// @param at       the target at a time
 /// @param forcing  what two targets one step apart drive the spring by

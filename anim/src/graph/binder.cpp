@@ -4,6 +4,9 @@
 #include <tweenfall/curves/nearest_name.h>
 #include <tweenfall/curves/number_text.h>
 
+#include "operations/account.h"
+#include "operations/remembered.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -54,6 +57,7 @@ Binder::Binder(const GraphDescription& description, const Hierarchy& nodes, std:
 }
 
 void Binder::bind_all() {
+  count_askers();
   bind_parameters();
   bind_inputs();
   bind_reactions();
@@ -188,11 +192,7 @@ const Operation* Binder::pose(const std::string& name, const Place& place) {
     }
     outer.size += 1;
     outer.depth = std::max<std::size_t>(outer.depth, 2);
-    const Operation*& played = played_[clip_index];
-    if (!played)
-      if (std::unique_ptr<Operation> operation = bound(ClipPose{.clip = name}, *this))
-        played = add(std::move(operation));
-    return played;
+    return seen(bind_clip(clip_index), name);
   }
   if (made_[index].stage == Made::Stage::making) {
     std::string way;
@@ -206,7 +206,31 @@ const Operation* Binder::pose(const std::string& name, const Place& place) {
   outer.size += made_[index].size;
   outer.depth = std::max(outer.depth, made_[index].depth + 1);
   outer.rooms = std::max(outer.rooms, found->rooms());
-  return found;
+  return seen(found, name);
+}
+
+const Operation* Binder::bind_clip(std::size_t index) {
+  const Operation*& played = played_[index];
+  if (!played)
+    if (std::unique_ptr<Operation> operation = bound(ClipPose{.clip = clips_[index].name}, *this))
+      played = add(std::move(operation));
+  return played;
+}
+
+// Springs ask for a pose at every point of their grid, and for the next.
+void Binder::count_askers() {
+  for (const GraphPose& pose : description_.poses) {
+    const bool often =
+        std::holds_alternative<SpringPose>(pose.operation) || std::holds_alternative<JigglePose>(pose.operation);
+    for (const GraphOperand& operand : operands_of(pose.operation)) askers_[operand.pose] += often ? 2 : 1;
+  }
+}
+
+const Operation* Binder::seen(const Operation* operation, const std::string& name) {
+  if (!operation || askers_[name] < 2) return operation;
+  const Operation*& remembered = remembered_[operation];
+  if (!remembered) remembered = add(std::make_unique<Remembered>(*operation, compiled_->recent++));
+  return remembered;
 }
 
 const LoopedClip* Binder::clip(const std::string& name, const std::optional<Loop>& loop, const Place& place) {

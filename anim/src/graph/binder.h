@@ -34,6 +34,7 @@ struct Graph::Compiled {
   std::size_t phases = 0;                            // of clips that run in phase
   std::size_t swings = 0;                            // operations with springs
   std::size_t travels = 0;                           // operations that accumulate a way
+  std::size_t recent = 0;                            // operations that remember what they showed of late
   std::vector<char> moved;                           // by node: whether an operation moves it
   std::vector<Curve<double>> jumping;                // numbers over the graph's time that jump
   std::vector<std::optional<std::size_t>> reacting;  // by reaction: the parameter that it sets
@@ -46,7 +47,9 @@ struct Graph::Compiled {
       return clip->bound->entries()[entry].has_color() || clip->bound->entries()[entry].weights;
     });
   }
-  [[nodiscard]] graphs::LogSizes sizes() const noexcept { return {machines.size(), phases, swings, travels}; }
+  [[nodiscard]] graphs::LogSizes sizes() const noexcept {
+    return {moved.size(), machines.size(), phases, swings, travels, recent};
+  }
 };
 
 }  // namespace tweenfall
@@ -102,6 +105,10 @@ class Binder {
   void bind_reactions();
   void keep_jumps_of(const Curve<double>& curve);
   const Operation* bind_pose(std::size_t index);
+  const Operation* bind_clip(std::size_t index);
+  void count_askers();
+  /// As whoever names it sees it.
+  [[nodiscard]] const Operation* seen(const Operation* operation, const std::string& name);
   const Operation* add(std::unique_ptr<Operation> operation);
 
   const GraphDescription& description_;
@@ -119,7 +126,9 @@ class Binder {
   };
   std::vector<Made> made_;                          // by pose
   std::map<std::size_t, const Operation*> played_;  // clips that are named as poses
-  std::vector<std::size_t> making_;                 // poses, the outermost first
+  std::map<std::string, int> askers_;               // by name: how often it is asked for one pose, or more often
+  std::map<const Operation*, const Operation*> remembered_;
+  std::vector<std::size_t> making_;  // poses, the outermost first
 };
 
 }  // namespace tweenfall::graphs

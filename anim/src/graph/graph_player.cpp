@@ -280,7 +280,10 @@ std::vector<std::byte> GraphPlayer::save() const {
 
 void GraphPlayer::load(std::span<const std::byte> saved) {
   graphs::SavedLog read = graphs::log_of(saved, graph_->description(), graph_->compiled().sizes());
+  // To make known what happened forgets how far springs had come.
+  std::vector<graphs::SwingMemory> swings = read.log.swings;
   graphs::make_known(read.log, *graph_, read.time, run_->ground, run_->room);
+  read.log.swings = std::move(swings);
   run_->log = std::move(read.log);
   run_->time = read.time;
 }

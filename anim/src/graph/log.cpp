@@ -33,23 +33,6 @@ void add(Record<Setting>& settings, double half_life, Setting setting) {
   settings.push_back(setting);
 }
 
-// Where phases, springs and figures have come until `time` does not hang on what is later.
-void forget_marks(Log& log, double time) noexcept {
-  for (auto& marks : log.marks)
-    for (PhaseMark& mark : marks)
-      if (mark.time > time) mark = {};
-  for (auto& marks : log.travels)
-    for (TravelMark& mark : marks)
-      if (mark.time > time) mark = {};
-  for (SwingMemory& memory : log.swings)
-    for (SwingCourse& course : memory.courses) {
-      for (SwingMark& mark : course.latest)
-        if (mark.instant >= time) mark.time = mark.instant = -1;
-      while (course.marked > 0 && course.markers[course.marked - 1].instant >= time) --course.marked;
-      if (course.start >= time) course.start = -1;
-    }
-}
-
 /// Index of the first entry of which `is_late` holds; only of those whose time is `time` or later it may.
 template <class T, class Late>
 std::size_t first_late(const Record<T>& list, double time, const Late& is_late) {
@@ -81,11 +64,27 @@ void forget(Log& log, const GraphDescription& description, double time, const La
 
 }  // namespace
 
+// Where phases, springs and figures have come until `time` does not hang on what is later.
+void forget_marks(const Log& log, double time) noexcept {
+  for (PhaseTrails& trails : log.phases) trails.forget_after(time);
+  for (TravelTrails& trails : log.travels) trails.forget_after(time);
+  for (RecentPoses& recent : log.recent) recent.forget_from(time);
+  for (SwingMemory& memory : log.swings)
+    for (SwingCourse& course : memory.courses) {
+      for (SwingMark& mark : course.latest)
+        if (mark.instant >= time) mark.time = mark.instant = -1;
+      while (course.marked > 0 && course.markers[course.marked - 1].instant >= time) --course.marked;
+      if (course.start >= time) course.start = -1;
+    }
+}
+
 Log fresh_log(const GraphDescription& description, const LogSizes& sizes) {
   Log log;
-  log.marks.resize(sizes.phases);
+  log.phases.resize(sizes.phases);
   log.swings.resize(sizes.swings);
   log.travels.resize(sizes.travels);
+  log.recent.resize(sizes.recent);
+  for (RecentPoses& each : log.recent) each.make_room(sizes.nodes);
   log.passages.resize(sizes.machines);
   for (const GraphParameter& parameter : description.parameters)
     log.settings.emplace_back().push_back({.time = 0, .value = parameter.start, .origin = Origin::description});

@@ -7,7 +7,9 @@
 #include <tweenfall/anim/jiggle.h>
 #include <tweenfall/curves/pose.h>
 
+#include "graph/recent_poses.h"
 #include "graph/record.h"
+#include "graph/trail.h"
 
 #include <array>
 #include <cstddef>
@@ -58,11 +60,8 @@ struct Passage : GraphPassage {
   std::shared_ptr<const std::vector<Offset>> offsets = {};  // one per node, where the difference settles; else null
 };
 
-/// How far a phase has come; see `Phase`.
-struct PhaseMark {
-  static constexpr std::size_t kept = 8;
-  double start = -1, time = -1, phase = 0;
-};
+/// How far phases have come; see `Phase`.
+using PhaseTrails = Trails<double, 256>;
 
 /// How far springs have come, on the clock that began at an instant; see `Swing`.
 using SwingState = std::variant<NodeSpringState, JiggleState>;
@@ -86,16 +85,12 @@ struct SwingMemory {
   bool prepared = false;  // the states of all marks have their size
 };
 
-/// How far a figure has come on its way; see `Travel`.
-struct TravelMark {
-  static constexpr std::size_t kept = 8;
-  double start = -1, time = -1;
-  Pose reached{};
-};
+/// How far figures have come on their way; see `Travel`.
+using TravelTrails = Trails<Pose, 64>;
 
 /// How much there is of what a log remembers.
 struct LogSizes {
-  std::size_t machines = 0, phases = 0, swings = 0, travels = 0;
+  std::size_t nodes = 0, machines = 0, phases = 0, swings = 0, travels = 0, recent = 0;
 };
 
 struct Log {
@@ -104,11 +99,13 @@ struct Log {
   std::vector<Record<Passage>> passages;  // by machine, in order of time
   std::vector<GraphStop> stops;
   /// By phase of the graph: where to go on from, so that not all its way is gone again. Says nothing new.
-  mutable std::vector<std::array<PhaseMark, PhaseMark::kept>> marks;
+  mutable std::vector<PhaseTrails> phases;
   /// By operation with springs: where to go on from. Says nothing new.
   mutable std::vector<SwingMemory> swings;
   /// By operation that accumulates a way: where to go on from. Says nothing new.
-  mutable std::vector<std::array<TravelMark, TravelMark::kept>> travels;
+  mutable std::vector<TravelTrails> travels;
+  /// By operation that is asked for the same again and again. Says nothing new.
+  mutable std::vector<RecentPoses> recent;
   /// What comes later is not seen: poses go on as if nothing happened. Springs look a little ahead so.
   mutable double until = std::numeric_limits<double>::infinity();
   double known = -1;  // all that happens until then, and at that time, is known; below 0: nothing is
@@ -136,6 +133,9 @@ struct Sight {
 void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value,
          Origin origin);
 void send(Log& log, double time, std::string_view event, Origin origin);
+
+/// Forgets how far anything has come beyond `time`, at which something happens: it is found again.
+void forget_marks(const Log& log, double time) noexcept;
 
 /// Forgets what follows from anything at `time` or later.
 void forget_course(Log& log, const GraphDescription& description, double time);

@@ -136,6 +136,7 @@ class Course {
       machine.measure(log_, passage, in, out, &ground_.pose, room_.data() + 2 * nodes);
     }
     log_.passages[number].push_back(std::move(passage));
+    forget_marks(log_, time);
   }
 
   Log& log_;

@@ -74,6 +74,9 @@ class Operation {
   virtual void pose(const Log& log, const Moment& moment, const Scratch& scratch,
                     std::span<Motion> out) const noexcept = 0;
 
+  /// Whether it remembers a pose; then it is written.
+  [[nodiscard]] virtual bool recall(const Log&, const Moment&, std::span<Motion>) const noexcept { return false; }
+
   /// The poses that it is made of.
   [[nodiscard]] virtual std::vector<const Operation*> operands() const { return {}; }
 

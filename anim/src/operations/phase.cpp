@@ -85,32 +85,19 @@ double Phase::advanced(const Log& log, double phase, double from, double to) con
 }
 
 double Phase::at(const Log& log, double start, double time) const noexcept {
-  std::array<PhaseMark, PhaseMark::kept>& marks = log.marks[number_];
-  PhaseMark here{start, start, sync_.phase_at(0, 0)};
+  auto& trail = log.phases[number_].since(start);
   // Beyond what is seen, what is marked counts only where nothing was set in between.
-  const double sure = weights_.first_unseen(log);
-  for (const PhaseMark& mark : marks)
-    if (mark.start == start && mark.time <= time && mark.time > here.time && mark.time < sure) here = mark;
-  const double began = here.time;
-  for (double stop = next_stop(log, start, here.time); stop < time; stop = next_stop(log, start, here.time))
-    here = {start, stop, advanced(log, here.phase, here.time, stop)};
-  if (here.time > began && here.time < sure) {
-    // The marks of this start move on, half of all at most, for who looks ahead comes back; else the one that was least
-    // far takes its place.
-    const auto least = [](auto& found, PhaseMark& mark) {
-      if (!found || mark.time < found->time) found = &mark;
-    };
-    PhaseMark *own = nullptr, *any = nullptr;
-    std::size_t count = 0;
-    for (PhaseMark& mark : marks) {
-      least(any, mark);
-      if (mark.start != start) continue;
-      least(own, mark);
-      ++count;
-    }
-    *(count < PhaseMark::kept / 2 ? any : own) = here;
+  const double sure = std::nextafter(weights_.first_unseen(log), -1.0);
+  const auto* const mark = trail.last_mark(std::min(time, sure));
+  double here = mark ? mark->time : start, phase = mark ? mark->place : sync_.phase_at(0, 0);
+  const double began = here;
+  for (double stop = next_stop(log, start, here); stop < time; stop = next_stop(log, start, here)) {
+    phase = advanced(log, phase, here, stop);
+    here = stop;
+    if (here <= sure) trail.pass(here, phase);
   }
-  return time > here.time ? advanced(log, here.phase, here.time, time) : here.phase;
+  if (here > began && here <= sure) trail.stay(here, phase);
+  return time > here ? advanced(log, phase, here, time) : phase;
 }
 
 double Phase::way(std::size_t clip, double duration, double phase) const noexcept {

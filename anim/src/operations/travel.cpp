@@ -166,32 +166,30 @@ Pose Travel::place_at_start(const Log& log, double start, std::span<Motion> room
 Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) const noexcept {
   // What is not seen has not happened, and what is marked beyond it counts for nothing.
   const double unseen = log.until < never ? next_instant(log, log.until) : never;
-  TravelMark here{moment.start, moment.start, {}};
-  for (const TravelMark& mark : log.travels[number_])
-    if (mark.start == moment.start && mark.time > here.time && mark.time <= unseen &&
-        (mark.time < moment.time || (mark.time == moment.time && moment.side == Side::out)))
-      here = mark;
-  const double began = here.time;
-  if (began == moment.start) here.reached = place_at_start(log, moment.start, room);
+  auto& trail = log.travels[number_].since(moment.start);
+  const double sure = std::nextafter(unseen, -1.0);
+  const double limit = std::min(moment.time, sure);
+  const auto* const mark = trail.last_mark(limit, limit < moment.time || moment.side == Side::out);
+  const double began = mark ? mark->time : moment.start;
+  double here = began;
+  Pose reached = mark ? mark->place : place_at_start(log, moment.start, room);
   for (;;) {
-    const Bearers bearers = bearers_at(log, {here.time, Side::out, moment.start});
-    double next = next_instant(log, here.time);
+    const Bearers bearers = bearers_at(log, {here, Side::out, moment.start});
+    double next = next_instant(log, here);
     if (next >= unseen) next = never;
     const bool alone = bearers.count == 0 || (bearers.count == 1 && is_whole(bearers.list[0].weight));
     if (bearers.flow || !alone) {
-      next = std::min(next, next_stop(last_instant(log, moment.start, here.time, Side::out), here.time));
+      next = std::min(next, next_stop(last_instant(log, moment.start, here, Side::out), here));
     }
     if (next > moment.time || (next == moment.time && moment.side == Side::in)) {
-      if (here.time > began && here.time <= unseen) {
-        auto& marks = log.travels[number_];
-        *std::ranges::min_element(marks, {}, &TravelMark::time) = here;
-      }
-      Motion reached;
-      reached.pose = here.reached;
-      return compose(reached, step(log, bearers, moment.start, here.time, moment.time, moment.side, room));
+      if (here > began && here <= sure) trail.stay(here, reached);
+      Motion from;
+      from.pose = reached;
+      return compose(from, step(log, bearers, moment.start, here, moment.time, moment.side, room));
     }
-    here.reached = compose(here.reached, step(log, bearers, moment.start, here.time, next, Side::in, room).pose);
-    here.time = next;
+    reached = compose(reached, step(log, bearers, moment.start, here, next, Side::in, room).pose);
+    here = next;
+    if (here <= sure) trail.pass(here, reached);
   }
 }
 

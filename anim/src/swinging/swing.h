@@ -91,8 +91,10 @@ class Swing : public Changing {
     Scratch free;
 
     void at(double time, Side side, std::span<Motion> out) const noexcept {
+      const Moment moment{time, side, start};
+      if (swing.base() && swing.base()->recall(log, moment, out)) return;
       (*free.source)(time, side, below);
-      swing.show_base(log, {time, side, start}, {below, free.free, free.source}, out);
+      swing.show_base(log, moment, {below, free.free, free.source}, out);
     }
   };
   struct Clock {
