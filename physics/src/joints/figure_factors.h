@@ -226,6 +226,17 @@ struct FigureFactors {
     return sum + mass * dot(linear1, Vector(linear2));
   }
 
+  /// Speed that a row gains by a unit of its own impulse.
+  TWEENFALL_LANES static Number inverse_of(const Figures& figures, std::uint32_t place, std::uint32_t row) {
+    const FigureJoint& joint = figures.joints[place];
+    const FigureRow* rows = rows_of(figures, place);
+    const FigureBody &a = figures.bodies[joint.a], &b = figures.bodies[joint.b];
+    const Vector turn_a = turn_of(joint, rows, row, false), turn_b = turn_of(joint, rows, row, true);
+    Number sum = dot(turn_a, a.inverse_inertia * turn_a) + dot(turn_b, b.inverse_inertia * turn_b);
+    sum = with_push(sum, a.inverse_mass, joint, rows, row, false, joint, rows, row, false);
+    return with_push(sum, b.inverse_mass, joint, rows, row, true, joint, rows, row, true);
+  }
+
   TWEENFALL_LANES static void lay_out(Figures& figures) {
     std::uint32_t value = 0, block = 0;
     for (std::uint32_t place = 0; place < figures.joint_count; ++place) {

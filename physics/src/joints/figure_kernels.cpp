@@ -12,6 +12,11 @@ namespace {
 constexpr int most_rounds = 4;
 /// What is passed by less than this is not, m/s or rad/s.
 constexpr double passable = 1e-10;
+/// What stayed where it was and presses on although it parts, or moves as it is driven, faster by more than this has
+/// come out of rounds that led astray, m/s or rad/s.
+constexpr double astray = 0.02;
+/// So often such rows are then met one after another.
+constexpr int most_passes = 12;
 
 /// How what is in and what is beside change places, in registers of one kind.
 template <class Register>
@@ -21,6 +26,7 @@ struct FigureWork : FigureWriting<Register> {
   using Vector = typename Factors::Vector;
   using Ends = typename Factors::Ends;
   using Sum = typename Factors::Sum;
+  using Which = typename Factors::Which;
   using Factors::add;
   using Factors::any;
   using Factors::apply;
@@ -28,6 +34,7 @@ struct FigureWork : FigureWriting<Register> {
   using Factors::factor;
   using Factors::give_to;
   using Factors::give_values;
+  using Factors::inverse_of;
   using Factors::lack_of;
   using Factors::no_vector;
   using Factors::nothing;
@@ -151,6 +158,65 @@ struct FigureWork : FigureWriting<Register> {
     return changed;
   }
 
+  /// @return of these lanes those in which something presses where it should pull
+  TWEENFALL_LANES static Number led_astray(const Figures& figures, const Number& live, bool moving) {
+    Number found = nothing();
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      const FigureRow* rows = rows_of(figures, place);
+      const Ends ends = ends_of(figures, joint);
+      for (std::uint32_t i = joint.holds; i < joint.count; ++i) {
+        const FigureRow& row = rows[i];
+        const Number rest = lack_of(row, speed_of(row, joint.turning[i], ends), moving);
+        const Number presses = one_if(row.impulse > nothing()) * one_if(rest < Number(-astray));
+        const Number pulls = one_if(row.impulse < nothing()) * one_if(rest > Number(astray));
+        found = greater(found, Number(row.present) * Number(row.bounded) * (presses + pulls));
+      }
+    }
+    return live * found;
+  }
+
+  /// Begins anew without what bounds or drives, and meets it row by row, all that holds between: far slower to agree,
+  /// but every row lets energy go, as it should.
+  /// Source: Cottle, Pang and Stone, The Linear Complementarity Problem, 1992, 5.2 (projected Gauss-Seidel).
+  TWEENFALL_LANES static void begin_anew(Figures& figures, const Number& live, bool moving) {
+    for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+      const FigureJoint& joint = figures.joints[place];
+      FigureRow* rows = rows_of(figures, place);
+      for (std::uint32_t i = joint.holds; i < joint.count; ++i) {
+        FigureRow& row = rows[i];
+        const Number its = live * Number(row.present) * Number(row.bounded);
+        const Number dropped = select(its > nothing(), row.impulse, nothing());
+        apply(figures, joint, i, row, -dropped);
+        select(its > nothing(), nothing(), row.impulse).put(row.impulse);
+        select(its > nothing(), nothing(), row.in).put(row.in);
+      }
+    }
+    figures.stale = true;
+    factor(figures);
+    static_cast<void>(solve_in(figures, live, moving));
+    for (int pass = 0; pass < most_passes; ++pass) {
+      for (std::uint32_t place = 0; place < figures.joint_count; ++place) {
+        const FigureJoint& joint = figures.joints[place];
+        FigureRow* rows = rows_of(figures, place);
+        for (std::uint32_t i = joint.holds; i < joint.count; ++i) {
+          FigureRow& row = rows[i];
+          const Number its = live * Number(row.present) * Number(row.bounded);
+          const Number inverse = inverse_of(figures, place, i) + Number(row.compliance);
+          const Which moves = its * inverse > nothing();
+          const Ends ends = ends_of(figures, joint);
+          const Number rest = lack_of(row, speed_of(row, joint.turning[i], ends), moving);
+          const Number wanted = Number(row.impulse) + rest / select(moves, inverse, Number(1.0));
+          const Number within = lesser(greater(wanted, row.low), row.high);
+          const Number change = select(moves, within - Number(row.impulse), nothing());
+          apply(figures, joint, i, row, change);
+          select(moves, within, row.impulse).put(row.impulse);
+        }
+      }
+      static_cast<void>(solve_in(figures, live, moving));
+    }
+  }
+
   TWEENFALL_LANES static void solve(Figures& figures, bool moving) {
     read(figures);
     Number live = used_of(figures);
@@ -160,7 +226,10 @@ struct FigureWork : FigureWriting<Register> {
     for (int round = 0;; ++round) {
       factor(figures);
       const Number bounded = solve_in(figures, again, moving);
-      if (finished) break;
+      if (finished) {
+        if (const Number lost = led_astray(figures, again, moving); any(lost)) begin_anew(figures, lost, moving);
+        break;
+      }
       Number changed;
       if (round == most_rounds) {
         // What holds has the last word.

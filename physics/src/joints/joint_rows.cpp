@@ -121,7 +121,8 @@ void JointRows::hold_rotation(const Placement& at) {
   for (int i = 0; i < 3; ++i) hold(about(Vec3::Unit(i)), off[i], 0);
 }
 
-void JointRows::bound(const Direction& direction, double position, const Limits* limits, double bend) {
+Allowed JointRows::bound(const Direction& direction, double position, const Limits* limits, double bend) {
+  Allowed allowed;
   for (const bool low : {true, false}) {
     const double gap = !limits ? 0 : low ? position - limits->low : limits->high - position;
     if (!limits || std::isinf(gap)) {
@@ -146,20 +147,24 @@ void JointRows::bound(const Direction& direction, double position, const Limits*
       row.wanted_after = gap > h_ * std::abs(around) ? row.wanted : around;
       if (gap < 0) draw_near(row, gap, angular);
       if (gap > -far_beyond) row.left = 0;
+      (low ? allowed.low : allowed.high) = low ? row.wanted : -row.wanted;
+      (low ? allowed.low_after : allowed.high_after) = low ? row.wanted_after : -row.wanted_after;
     }
     rows[count - 1].low = 0;
     place_last();
   }
+  return allowed;
 }
 
-void JointRows::drive(const Direction& direction, double position, const Motor* motor) {
+void JointRows::drive(const Direction& direction, double position, const Motor* motor, const Allowed& allowed) {
   if (!motor || errors_only_) {
     idle();
   } else if (motor->position) {
     draw(direction, position - *motor->position, motor->speed, motor->hz, motor->zeta, motor->max_force);
   } else {
     Row& row = add(direction);
-    row.wanted = row.wanted_after = motor->speed;
+    row.wanted = std::max(allowed.low, std::min(motor->speed, allowed.high));
+    row.wanted_after = std::max(allowed.low_after, std::min(motor->speed, allowed.high_after));
     row.high = motor->max_force * h_;
     row.low = -row.high;
     place_last();

@@ -53,6 +53,12 @@ struct Row {
   double low = 0, high = 0;  ///< of the impulse, N s or N m s
 };
 
+/// Speeds between which the hard bounds of a coordinate let it be, while errors are taken apart and after.
+struct Allowed {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  double low_after = low, high_after = high;
+};
+
 enum class Part : char {
   idle,    ///< does nothing, and is not written
   beside,  ///< its impulse stays where it is: at a bound
@@ -89,8 +95,10 @@ class JointRows {
   // What bounds or drives; the same number of rows whether they act or not
   /// Two rows.
   /// @param bend  how the position accelerates when both bodies go on as they move
-  void bound(const Direction& direction, double position, const Limits* limits, double bend = 0);
-  void drive(const Direction& direction, double position, const Motor* motor);  ///< one row
+  Allowed bound(const Direction& direction, double position, const Limits* limits, double bend = 0);
+  /// One row. A speed that bounds do not allow is not asked for: what pushes against each other without end is too much
+  /// for the rounds in which rows change places.
+  void drive(const Direction& direction, double position, const Motor* motor, const Allowed& allowed = {});
   void draw(const Direction& direction, double error, double speed, double hz, double zeta, double most);
   void spring(const Direction& direction, double error, double stiffness, double damping);
   void idle(std::size_t rows = 1);

@@ -13,8 +13,8 @@ void write_rows(const HingeJoint& kind, state::Joint& joint, const Placement& at
   rows.hold_square(at, at.y_a(), at.x_b());
   rows.hold_square(at, at.z_a(), at.x_b());
   const Coordinates angle = coordinates_of(kind, joint, at);
-  rows.bound(angle.direction[0], angle.position[0], pointer_to(kind.limits));
-  rows.drive(angle.direction[0], angle.position[0], pointer_to(kind.motor));
+  const Allowed allowed = rows.bound(angle.direction[0], angle.position[0], pointer_to(kind.limits));
+  rows.drive(angle.direction[0], angle.position[0], pointer_to(kind.motor), allowed);
 }
 
 }  // namespace tweenfall::joints

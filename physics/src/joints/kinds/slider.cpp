@@ -13,8 +13,9 @@ void write_rows(const SliderJoint& kind, state::Joint& joint, const Placement& a
   for (const Vec3& axis : {at.y_a(), at.z_a()}) rows.hold_across(at, axis);
   rows.hold_rotation(at);
   const Coordinates way = coordinates_of(kind, joint, at);
-  rows.bound(way.direction[0], way.position[0], pointer_to(kind.limits), at.bend_along(at.x_a()));
-  rows.drive(way.direction[0], way.position[0], pointer_to(kind.motor));
+  const Allowed allowed =
+      rows.bound(way.direction[0], way.position[0], pointer_to(kind.limits), at.bend_along(at.x_a()));
+  rows.drive(way.direction[0], way.position[0], pointer_to(kind.motor), allowed);
 }
 
 }  // namespace tweenfall::joints

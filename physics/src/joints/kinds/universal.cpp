@@ -22,10 +22,10 @@ void write_rows(const UniversalJoint& kind, state::Joint& joint, const Placement
   rows.hold_point(at);
   rows.hold_square(at, at.x_a(), at.y_b());
   const Coordinates angles = coordinates_of(kind, joint, at);
-  rows.bound(angles.direction[0], angles.position[0], pointer_to(kind.first_limits));
-  rows.drive(angles.direction[0], angles.position[0], pointer_to(kind.first_motor));
-  rows.bound(angles.direction[1], angles.position[1], pointer_to(kind.second_limits));
-  rows.drive(angles.direction[1], angles.position[1], pointer_to(kind.second_motor));
+  const Allowed first = rows.bound(angles.direction[0], angles.position[0], pointer_to(kind.first_limits));
+  rows.drive(angles.direction[0], angles.position[0], pointer_to(kind.first_motor), first);
+  const Allowed second = rows.bound(angles.direction[1], angles.position[1], pointer_to(kind.second_limits));
+  rows.drive(angles.direction[1], angles.position[1], pointer_to(kind.second_motor), second);
 }
 
 }  // namespace tweenfall::joints
