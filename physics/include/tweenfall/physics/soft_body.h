@@ -91,8 +91,9 @@ struct SoftSettings {
   /// Longest sub-step, s; absent: 1/1920 of constraints, 1/240 of springs. All soft bodies of a world go by the
   /// shortest; no step takes more than 1000.
   std::optional<double> sub_step{};
-  /// Passes over all constraints in a sub-step, 1 to 1000; springs do not read it. What bends stiffly, is damped hard
-  /// or bears far more than its own mass needs several, or shorter sub-steps: until they agree it gives way too much.
+  /// Passes over all constraints in a sub-step, there and back, 1 to 1000; springs do not read it. What bends stiffly,
+  /// is damped hard or bears far more than its own mass needs several, or shorter sub-steps: until they agree it gives
+  /// way too much.
   int iterations = 1;
   double radius = 0.01;       ///< of the nodes where they meet bodies, m; > 0
   double friction = 0.5;      ///< with bodies: sqrt(f1 f2)
