@@ -86,25 +86,29 @@ struct Bend {
 template <class Vector, class Number>
 Bend bent(const Axes<Vector>& bone, const Number& a, const Number& b, const Arrow& second, const Arrow& along,
           const Dual& d, const Turned& turn, const Inward& inward, const TwoBoneGoal& goal) noexcept {
-  // The triangle of the two bones and the line to the target, by Heron's formula.
-  const Dual reach = a + b, least = Dual(a).v >= Dual(b).v ? a - b : b - a;
-  Dual distance = softened(d, reach, goal.softness);
-  Dual area;  // four times
-  if (distance.v >= reach.v)
-    distance = reach;
-  else if (distance.v <= least.v)
-    distance = least;
-  else
-    area = root((reach - distance) * (reach + distance) * (distance - least) * (distance + least));
-  const Dual square = distance * distance;
-  Dual cosine(0), sine(1);  // of the angle at the start
-  if (distance.v > nothing * reach.v) {
+  // The triangle of the two bones and the line to the target, by Heron's formula. Cosines are told by how far they are
+  // from where the chain is folded or stretched: else bones of very unequal lengths would lose which of them it is.
+  const bool first_longer = Dual(a).v >= Dual(b).v;
+  const Dual reach = a + b, least = first_longer ? a - b : b - a;
+  const Dual distance = softened(d, reach, goal.softness);
+  Dual cosine(first_longer ? 1 : -1), sine(0);  // of the angle at the start
+  Dual bend_cosine(-1), bend_sine(0);
+  if (distance.v >= reach.v) {
+    cosine = bend_cosine = Dual(1);
+  } else if (distance.v > least.v) {
+    const Dual left = reach - distance, over = distance - least, both = reach + distance;
+    const Dual folded = over * (distance + least), area = root(left * both * folded);  // four times
     const Dual inverse = Dual(0.5) / (distance * a);
-    cosine = (square + (a - b) * (a + b)) * inverse;
+    const Number inverse_of_bones = 0.5 / (a * b);
+    cosine = first_longer ? Dual(1) - left * over * inverse : over * both * inverse - Dual(1);
     sine = area * inverse;
+    bend_cosine = folded * inverse_of_bones - Dual(1);
+    bend_sine = area * inverse_of_bones;
   }
-  const Number inverse = 0.5 / (a * b);
-  const Dual bend_cosine = (square - a * a - b * b) * inverse, bend_sine = area * inverse;
+  if (distance.v <= nothing * reach.v && least.v <= nothing * reach.v) {
+    cosine = Dual(0);  // folded onto the start, to the side
+    sine = Dual(1);
+  }
 
   const Plane plane =
       goal.pole ? pole_plane(inward.direction(arrow(*goal.pole)), along, turn, bone) : own_plane(along, turn, bone);

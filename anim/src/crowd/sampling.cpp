@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "crowd/sample_kernels.h"
 
@@ -76,6 +77,7 @@ void scale_rates(CrowdRates* rates, std::size_t groups, float factor) {
 
 void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double time, bool arriving, double rate,
                  CrowdGroup* pose, CrowdRates* rates) noexcept {
+  if (std::isnan(time)) time = 0;  // which is none
   RunPlace at;
   at.base = at.fine = nullptr;
   std::uint32_t timeline = Form::no_timeline;

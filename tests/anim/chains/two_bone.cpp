@@ -247,6 +247,30 @@ TEST_CASE("straight, folded, collapsed and overbent poses are all answered") {
   }
 }
 
+TEST_CASE("bones of any lengths fold up toward a target that is too near, and reach one just beyond that") {
+  Random random(31);
+  for (const double ratio : {1e-6, 1e-5, 1e-4, 9.4e-4, 3e-3, 0.02, 0.3, 0.9, 1.1, 4., 70., 333., 2e4, 1e6})
+    for (int i = 0; i < 40; ++i) {
+      const double thigh = random.between(0.1, 1), shin = ratio * thigh, least = std::abs(thigh - shin);
+      const Hierarchy nodes({{"thigh", no_node, {}},
+                             {"shin", 0, {.position = {0, -thigh, 0}}},
+                             {"foot", 1, {.position = {0, -shin, 0}}}});
+      const TwoBoneChain chain(nodes, {"thigh", "shin", "foot", Vec3(1, 0, 0)});
+      const Vec3 way = random.vector(1).normalized();
+      CAPTURE(ratio);
+      for (const double part : {0., 0.3, 0.999999, 1., 1.0000001}) {
+        if (part > 1 && part * least > thigh + shin) continue;
+        std::vector<Motion> pose = rest_pose(nodes);
+        reach(chain, {.target = still(part * least * way)}, fully, pose);
+        const Vec3 foot = world_of_node(nodes, 2, pose).motion.pose.position;
+        CHECK(std::abs(foot.norm() - std::max(part, 1.) * least) < 1e-10 * (thigh + shin));
+        // At the border itself the bend turns by the root of what the lengths are rounded by.
+        const double error = (part == 1 ? 1e-6 : 1e-10) * (thigh + shin);
+        if (part > 0) CHECK(near(foot, std::max(part, 1.) * least * way, error));
+      }
+    }
+}
+
 TEST_CASE("a bone without length leaves the other to point at the target") {
   const Hierarchy nodes = leg();
   const TwoBoneChain chain(nodes, {"thigh", "shin", "foot"});

@@ -158,6 +158,11 @@ TEST_CASE("clips without tracks, joints or length compile, and rest") {
     CHECK(near(pose_of(pose, i).rotation, (*nodes)[i].rest.rotation, 2e-7));
     CHECK(pose_of(pose, i).scale == Vec3(1, 1, 1));
   }
+  std::vector<CrowdGroup> first(still.groups());
+  still.sample(0, first);
+  still.sample(NAN, pose);  // no time is the start
+  CHECK(std::memcmp(pose.data(), first.data(), first.size() * sizeof(CrowdGroup)) == 0);
+
   const CrowdClip nobody = compile(Clip{.name = "nobody", .duration = 1}, Hierarchy{});
   CHECK(nobody.groups() == 0);
   nobody.sample(0.5, std::span<CrowdGroup>());
