@@ -169,11 +169,17 @@ class Toucher {
     if (-core_.height(-normal) - offset > reach_) return;
     convex::Core flat = convex::core_of(triangle.corners, normal);
     const double near = reach_ + core_.radius;
-    const convex::Nearness nearness = convex::nearness_of(flat, core_, near);
+    convex::Nearness nearness = convex::nearness_of(flat, core_, near);
+    if (nearness.distance > 0 && nearness.normal.dot(normal) < -rising) {
+      // Its nearest place is behind: it came around a border, or through another triangle of the plane.
+      if (!(-core_.height(-normal) < offset)) return;
+      if (nearness.distance > near)
+        nearness = convex::nearness_of(flat, core_, std::numeric_limits<double>::infinity());
+      if (goes_through(normal, offset, nearness.on_b))
+        add_face(index, triangle, normal, offset, sides_of(index, triangle, normal));
+      return;
+    }
     if (nearness.distance > near) return;
-    const bool apart = nearness.distance > 0;
-    // Its nearest place is behind: it came around a border.
-    if (apart && nearness.normal.dot(normal) < -rising) return;
     const Sides sides = sides_of(index, triangle, normal);
     if (sides.sharp) {
       const convex::Meeting meeting = met(flat, nearness);
@@ -184,6 +190,32 @@ class Toucher {
       }
     }
     add_face(index, triangle, normal, offset, sides);
+  }
+
+  /// Whether the straight way from the solid's middle to a place behind a plane leads through the surface there.
+  [[nodiscard]] bool goes_through(const Vec3& normal, double offset, const Vec3& behind) const {
+    const double above = normal.dot(middle_) - offset, below = offset - normal.dot(behind);
+    if (!(above > 0 && below > 0)) return false;
+    const Vec3 crossing = middle_ + above / (above + below) * (behind - middle_);
+    const Vec3 room = Vec3::Constant(1e-9 * (size_ + place_.cwiseAbs().maxCoeff()));
+    const Vec3 low = crossing + place_ - room, high = crossing + place_ + room;
+    bool found = false;
+    surface_.walk(
+        [&](const Bounds& box) {
+          return !found && (box.low.array() <= high.array()).all() && (low.array() <= box.high.array()).all();
+        },
+        [&](std::uint32_t index) {
+          const SurfaceTriangle triangle = seen(index);
+          const Vec3 its = triangle.normal();
+          if (!(its.dot(normal) >= one_direction)) return;
+          bool inside = std::abs(its.dot(crossing - triangle.corners[0])) <= 1e-3 * size_;
+          for (std::size_t i = 0; i < 3; ++i) {
+            const Vec3 along = triangle.corners[(i + 1) % 3] - triangle.corners[i];
+            inside = inside && along.cross(its).dot(crossing - triangle.corners[i]) <= room[0] * along.norm();
+          }
+          found = found || inside;
+        });
+    return found;
   }
 
   /// The shortest way out of a triangle toward its front.
