@@ -156,6 +156,18 @@ TEST_CASE("a flag flies in its wind and hangs when that has died; the rope besid
   CHECK(outer().x() < 0.4);
 }
 
+TEST_CASE("springs in a plane swing about where the weight holds them, settle there, or hardly give way") {
+  Stage stage = actors_lecture("plane/springs");
+  const double sag = 2 * g / 80, w = std::sqrt(80 / 2.0);
+  stage.advance_to(pi / w);
+  CHECK(near(motion_of(stage, "swinging").pose.position.y(), 1 - 2 * sag, 0.02 * sag));
+  const double settled = 1 - (1 + pi) * std::exp(-pi);
+  CHECK(near(motion_of(stage, "damped").pose.position.y(), 1 - sag * settled, 0.01 * sag));
+  stage.advance_to(3);
+  CHECK(near(motion_of(stage, "damped").pose.position.y(), 1 - sag, 1e-6));
+  CHECK(near(motion_of(stage, "stiff").pose.position.y(), 1, 1e-6));
+}
+
 TEST_CASE("a machine in a plane: its mill turns as its motor says, its rod and weld hold, and nothing leaves it") {
   Stage stage = actors_lecture("plane/machine");
   for (int frame = 1; frame <= 30; ++frame) {

@@ -34,9 +34,10 @@ struct InPlane {
       if (!turns_in(axes, frame->rotation * Vec3(1, 0, 0))) refuse_joint("the axis of a hinge stands upright on it");
   }
   void operator()(const DistanceJoint&) const {}
+  void operator()(const SpringJoint&) const {}
   template <class Kind>
   void operator()(const Kind&) const {
-    refuse_joint("joints are balls, hinges, sliders, welds and distances; no others");
+    refuse_joint("joints are balls, hinges, sliders, welds, distances and springs; no others");
   }
 
   void require_upright(const std::string& what) const {
@@ -75,6 +76,8 @@ planar::JointSettings Flat::joint_in_plane(const state::WorldState& world, const
   const auto matched = [&] { return turned + axes.angle(at.axes_a * at.axes_b.conjugate()); };
   if (const auto* const distance = std::get_if<DistanceJoint>(&its.kind)) {
     out.kind = planar::Distance{distance->limits};
+  } else if (const auto* const spring = std::get_if<SpringJoint>(&its.kind)) {
+    out.kind = planar::Spring{spring->length, spring->stiffness, spring->damping};
   } else if (const auto* const slider = std::get_if<SliderJoint>(&its.kind)) {
     out.kind =
         planar::Slider{axes.flat(its.frame_a.rotation * Vec3(1, 0, 0)), matched(), slider->limits, slider->motor};

@@ -107,6 +107,11 @@ void each_field(T& distance, const Visit& visit) {
   auto& [limits] = distance;
   visit(limits);
 }
+template <Is<Spring> T, class Visit>
+void each_field(T& spring, const Visit& visit) {
+  auto& [length, stiffness, damping] = spring;
+  visit(length, stiffness, damping);
+}
 template <Is<JointSettings> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
   auto& [a, b, anchor_a, anchor_b, kind, collide] = joint;

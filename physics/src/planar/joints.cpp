@@ -117,6 +117,14 @@ void JointRows::lay_out(Row& row, const Weld& weld) const {
 }
 
 void JointRows::lay_out(Row& row, const Distance&) const {
+  lay_out_distance(row);
+}
+
+void JointRows::lay_out(Row& row, const Spring&) const {
+  lay_out_distance(row);
+}
+
+void JointRows::lay_out_distance(Row& row) const {
   row.position = row.apart.norm();
   const Vec2 along = row.position > 0 ? Vec2(row.apart / row.position) : Vec2(1, 0);
   row.way = {along, cross(row.arm_a, along), cross(row.arm_b, along)};
@@ -226,6 +234,17 @@ void JointRows::drive(Row& row, const Motor& motor, std::vector<BodyRow>& veloci
   give(row, impulse, std::clamp(next, -most, most), velocities);
 }
 
+/// By the force at the end of the sub-step: -k (x + h v) - c v. Source: Catto, Soft Constraints, GDC 2011.
+void JointRows::pull(Row& row, const Spring& spring, std::vector<BodyRow>& velocities) const {
+  const double firmness = spring.damping + h_ * spring.stiffness;
+  if (!(firmness > 0)) return;
+  double& impulse = row.joint->motor;
+  const double compliance = 1 / (h_ * firmness),
+               wanted = (spring.length - row.position) * (spring.stiffness / firmness);
+  const double speed = speed_of(row, row.way, velocities);
+  give(row, impulse, impulse + (wanted - speed - compliance * impulse) / (row.inverse_mass + compliance), velocities);
+}
+
 /// Room that is left may be used up within the sub-step; what is too much is taken back softly, or as a spring does.
 void JointRows::bound(Row& row, const Limits& limits, std::vector<BodyRow>& velocities, bool soft) const {
   const bool spring = limits.hz > 0, fixed = limits.low == limits.high && !spring;
@@ -262,6 +281,7 @@ void JointRows::solve(std::vector<BodyRow>& velocities, bool soft) {
     if (const auto* const hinge = std::get_if<Hinge>(&kind)) move(*hinge);
     if (const auto* const slider = std::get_if<Slider>(&kind)) move(*slider);
     if (const auto* const distance = std::get_if<Distance>(&kind)) bound(row, distance->limits, velocities, soft);
+    if (const auto* const spring = std::get_if<Spring>(&kind)) pull(row, *spring, velocities);
   }
 }
 

@@ -58,6 +58,8 @@ class JointRows {
   void lay_out(Row& row, const Distance& distance) const;
   void lay_out(Row& row, const Slider& slider) const;
   void lay_out(Row& row, const Weld& weld) const;
+  void lay_out(Row& row, const Spring& spring) const;
+  void lay_out_distance(Row& row) const;
   void weigh(Row& row, bool moves) const;
 
   [[nodiscard]] static double coupling(const Row& row, const Line& one, const Line& other);
@@ -70,6 +72,7 @@ class JointRows {
   void hold(Row& row, std::vector<BodyRow>& velocities, bool soft) const;
   void bound(Row& row, const Limits& limits, std::vector<BodyRow>& velocities, bool soft) const;
   void drive(Row& row, const Motor& motor, std::vector<BodyRow>& velocities) const;
+  void pull(Row& row, const Spring& spring, std::vector<BodyRow>& velocities) const;
   /// The impulse of a spring, with which it ends the sub-step as it wants to.
   [[nodiscard]] double drawn(const Row& row, double impulse, double speed, double error, double wanted, double hz,
                              double zeta) const;

@@ -30,6 +30,9 @@ void check(const Weld& weld) {
 void check(const Distance& distance) {
   joints::validate(DistanceJoint{distance.limits});
 }
+void check(const Spring& spring) {
+  joints::validate(SpringJoint{spring.length, spring.stiffness, spring.damping});
+}
 void check_anchor(const Vec2& anchor) {
   demand(std::abs(anchor.x()) <= farthest && std::abs(anchor.y()) <= farthest,
          "anchors of a joint must be finite and at most 1e30 m");
@@ -126,6 +129,9 @@ JointReading World::reading(JointId id) const {
     reading.rate = length > 0 ? apart.dot(parting) / length : 0;
     if (!(distance->limits.hz > 0))
       reading.gap = std::max({0.0, length - distance->limits.high, distance->limits.low - length});
+  } else if (std::holds_alternative<Spring>(kind)) {
+    reading.value = length;
+    reading.rate = length > 0 ? apart.dot(parting) / length : 0;
   } else if (const auto* const slider = std::get_if<Slider>(&kind)) {
     const Vec2 along = inner::Turn::of(a.angle) * slider->axis.normalized();
     reading.value = along.dot(apart);

@@ -159,7 +159,8 @@ TEST_CASE("what does not lie in a world's plane is refused in words") {
   const auto refused = [&](const JointSettings& joint, const char* words) {
     CHECK_THROWS_WITH_AS(world.add_joint(joint), Contains(words), std::invalid_argument);
   };
-  refused({.a = a, .b = b, .kind = GearJoint{}}, "in a plane joints are balls, hinges, sliders, welds and distances");
+  refused({.a = a, .b = b, .kind = GearJoint{}},
+          "in a plane joints are balls, hinges, sliders, welds, distances and springs");
   const Quat upright(std::sqrt(0.5), 0, -std::sqrt(0.5), 0);
   refused({.a = a, .b = b, .frame_a = {.rotation = upright}, .frame_b = {.rotation = upright}, .kind = SliderJoint{}},
           "in a plane the axis of a slider lies in it");

@@ -120,6 +120,55 @@ TEST_CASE("in a plane a motor that may push by so much lifts by what is left, an
   CHECK(near(world.motion(lift).position.y(), 2, 1e-3));
 }
 
+TEST_CASE("in a plane springs hang, swing and settle as their closed forms say, and none is too stiff") {
+  planar::World world({.sleep_after = ever});
+  const auto hung = [&](double x, const planar::Spring& spring, double y) {
+    const BodyId ball = world.add({.shape = {planar::Circle{0.1}}, .mass = 2.0, .motion = {.position = Vec2(x, y)}});
+    return world.add_joint({.b = ball, .anchor_a = {x, 0}, .kind = spring});
+  };
+  // At rest m g / k below its length; let go there, it stays.
+  const JointId still = hung(0, {0.7, 130, 0}, -0.7 - 2 * 9.81 / 130);
+  const JointId swinging = hung(2, {1, 80, 0}, -1), damped = hung(4, {1, 80, 2 * std::sqrt(160.0)}, -1);
+  const JointId stiff = hung(6, {0.5, 1e12, 0}, -0.5), pulled = hung(8, {0, 80, 3}, -0.3);
+  const double w = std::sqrt(80 / 2.0), sag = 9.81 / (w * w);
+  for (int n = 1; n <= 480; ++n) {
+    world.step(beat);
+    REQUIRE(near(world.reading(still).value, 0.7 + 2 * 9.81 / 130, 1e-9));
+    REQUIRE(near(world.reading(stiff).value, 0.5, 1e-6));
+    // The end of each sub-step is heeded: so it dies away by exp(-w^2 h t / 2).
+    const double fading = std::exp(-w * w * beat / 4 * n * beat / 2);
+    REQUIRE(near(world.reading(swinging).value, 1 + sag * (1 - fading * std::cos(w * n * beat)), 0.01 * sag + 2e-3));
+    REQUIRE(near(world.reading(damped).value, 1 + sag * (1 - settling(w, 1, n * beat)), 1e-3));
+  }
+  CHECK(near(world.reading(still).impulse.y() / beat, 2 * 9.81, 1e-6));
+  pass(world, 20);
+  CHECK(near(world.reading(pulled).value, sag, 1e-6));
+  CHECK_THROWS_AS(hung(9, {1, -1, 0}, 0), std::invalid_argument);
+}
+
+TEST_CASE("in a plane two that a spring joins swing about their center of mass, which stays, and turn by its lever") {
+  World world({.gravity = Vec3(0, 0, 0), .sleep_after = ever, .plane = WorldPlane::xy});
+  BodySettings body{.shape = {Box{Vec3(0.3, 0.1, 0.2)}}, .mass = 1.0};
+  const BodyId a = world.add(body);
+  body.mass = 3;
+  body.motion.pose.position = Vec3(2, 0, 0);
+  const BodyId b = world.add(body);
+  const JointId spring = world.add_joint({.a = a,
+                                          .b = b,
+                                          .frame_a = {.position = Vec3(0, 0.1, 0)},
+                                          .frame_b = {.position = Vec3(0, 0.1, 0)},
+                                          .kind = SpringJoint{1.8, 30, 0}});
+  world.step(beat);
+  const double inertia = (0.36 + 0.04) / 12, force = 30 * 0.2;
+  CHECK(near(world.twist(a).linear.x(), force * beat, 0.01 * force * beat));
+  CHECK(near(world.twist(a).angular.z(), -0.1 * force * beat / inertia, 0.02 * 0.1 * force * beat / inertia));
+  CHECK(near(world.reading(spring).force.x(), -force, 0.02 * force));
+  for (int n = 0; n < 480; ++n) {
+    world.step(beat);
+    REQUIRE(near(Vec3(world.twist(a).linear + 3 * world.twist(b).linear), Vec3(0, 0, 0), 1e-12));
+  }
+}
+
 TEST_CASE("in a plane limits give way as springs do, of a hinge, a slider and a distance") {
   planar::World world;
   const double w = 2 * pi * 3, give = 9.81 / (w * w);

@@ -32,6 +32,7 @@ planar::World busy_world() {
     bodies.push_back(world.add(body));
   }
   world.add_joint({.a = bodies[3], .b = bodies[4], .anchor_a = Vec2(0.3, 0), .kind = planar::Distance{{0.2, 1}}});
+  world.add_joint({.a = bodies[4], .b = bodies[5], .kind = planar::Spring{0.5, 40, 1}});
   world.add_joint({.b = bodies[5],
                    .anchor_a = Vec2(2, 3),
                    .anchor_b = Vec2(0.1, 0),

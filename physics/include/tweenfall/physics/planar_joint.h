@@ -38,7 +38,15 @@ struct Distance {
   Limits limits{1, 1};  ///< m
 };
 
-using JointKind = std::variant<Hinge, Distance, Slider, Weld>;
+/// A damped spring between two points, as stiff as one likes: within each sub-step it is taken as it will be at the
+/// end, which damps a little what swings fast. Coordinate: the distance.
+struct Spring {
+  double length = 0;     ///< at rest, m
+  double stiffness = 0;  ///< N/m
+  double damping = 0;    ///< N s/m
+};
+
+using JointKind = std::variant<Hinge, Distance, Slider, Weld, Spring>;
 
 struct JointSettings {
   BodyId a = {};        ///< the default handle means the world
