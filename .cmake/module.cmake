@@ -73,10 +73,9 @@ endfunction()
 function(tweenfall_flags target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   # Eigen adds in another order where it vectorizes, and what is not inlined is one weak symbol for the whole program:
-  # a consumer's own, compiled with other flags, would take the place of ours. So ours is scalar, and inlined always;
-  # eigen_inlined.h, among the precompiled headers, does the rest of that.
-  target_compile_definitions(${target} PRIVATE
-    EIGEN_DONT_VECTORIZE "EIGEN_STRONG_INLINE=__attribute__((always_inline)) inline")
+  # a consumer's own, compiled with other flags, would take the place of ours. So ours is scalar, and inlined always,
+  # which eigen_inlined.h, the first of the precompiled headers, sees to.
+  target_compile_definitions(${target} PRIVATE EIGEN_DONT_VECTORIZE)
   # Settings are aggregates with defaults, so leaving members out is the manner, not a slip.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wno-missing-field-initializers
     -ffp-contract=off
