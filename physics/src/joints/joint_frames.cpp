@@ -6,20 +6,32 @@
 
 namespace tweenfall {
 
+namespace joints {
+namespace {
+
+/// Of the same direction, its greatest part 1, so that no square of it leaves the range of numbers; or zero.
+Vec3 scaled(const Vec3& direction) {
+  const double most = direction.cwiseAbs().maxCoeff();
+  return most > 0 ? Vec3(direction / most) : Vec3(0, 0, 0);
+}
+
+}  // namespace
+}  // namespace joints
+
 JointFrames joint_frames(const Pose& a, const Pose& b, const Vec3& point, const Vec3& axis, const Vec3& second) {
   if (!point.allFinite() || !axis.allFinite() || !second.allFinite())
     throw std::invalid_argument("point and axes of a joint must be finite");
-  const double length = axis.stableNorm();
-  if (!(length > 0)) throw std::invalid_argument("the axis of a joint must have a length");
-  const Vec3 x = axis / length;
-  Vec3 y = second - x * x.dot(second);
-  if (!(y.stableNorm() > 1e-9 * second.stableNorm())) {
+  const Vec3 along = joints::scaled(axis), across = joints::scaled(second);
+  if (along == Vec3::Zero()) throw std::invalid_argument("the axis of a joint must have a length");
+  const Vec3 x = along / along.norm();
+  Vec3 y = across - x * x.dot(across);
+  if (!(y.norm() > 1e-9 * across.norm())) {
     // The axis of the world that lies farthest off x.
     Vec3::Index least = 0;
     x.cwiseAbs().minCoeff(&least);
     y = Vec3::Unit(least) - x * x[least];
   }
-  y.stableNormalize();
+  y /= y.norm();
   Mat3 axes;
   axes << x, y, x.cross(y);
   const Quat rotation = normalized(Quat(axes));
