@@ -205,6 +205,7 @@ void append_event(std::string& out, const Recording& recording, const StageEvent
   append_number(out, event.time);
   out += ", \"name\": ";
   json::append_string(out, event.name);
+  if (event.kind != EventKind::moment) ((out += ", \"kind\": \"") += kind_word(event.kind)) += '"';
   if (!event.data.empty()) (out += ", \"data\": ") += event.data;
   if (!event.nodes.empty()) {
     out += ", \"nodes\": ";

@@ -44,4 +44,16 @@ const char* cause_word(Cause cause) noexcept {
   return "caller";
 }
 
+const char* kind_word(EventKind kind) noexcept {
+  switch (kind) {
+    case EventKind::begin:
+      return "begin";
+    case EventKind::end:
+      return "end";
+    case EventKind::moment:
+      break;
+  }
+  return "";
+}
+
 }  // namespace tweenfall::recordings

@@ -15,7 +15,8 @@ void tell(std::vector<FiredEvent> fired, std::vector<Happening>& happenings) {
   for (FiredEvent& event : fired) {
     Happening& happening = happenings.emplace_back();
     happening.time = event.time;
-    happening.what = StageEvent{.time = event.time, .name = event.name, .data = event.data, .nodes = {}};
+    happening.what =
+        StageEvent{.time = event.time, .name = event.name, .data = event.data, .nodes = {}, .kind = event.kind};
   }
 }
 
@@ -29,7 +30,7 @@ void report_events(const StageState& state, double from, double to, std::vector<
     fired.insert(fired.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   }
   for (GraphEvent& event : state.animation->graph_events(from, to))
-    fired.push_back({event.time, std::move(event.name), std::move(event.data), event.clip});
+    fired.push_back({event.time, std::move(event.name), std::move(event.data), event.clip, event.kind});
   tell(std::move(fired), happenings);
 }
 
@@ -47,7 +48,7 @@ std::vector<FiredEvent> news_of_graphs(const Animation& before, const Animation&
     if (twin != told.end())
       told.erase(twin);
     else
-      news.push_back({event.time, std::move(event.name), std::move(event.data), event.clip});
+      news.push_back({event.time, std::move(event.name), std::move(event.data), event.clip, event.kind});
   }
   return news;
 }

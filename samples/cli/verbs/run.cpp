@@ -52,7 +52,8 @@ std::string events_table(const Recording& recording) {
     const StageEvent& event = recording.events[i];
     std::string nodes;
     for (const NodeId node : event.nodes) nodes += (nodes.empty() ? "" : ", ") + recording.nodes[node].name;
-    table.row({brief_text(event.time), event.name, nodes, event.nodes.empty() ? "" : brief_text(event.impulse)});
+    const std::string kind = event.kind == EventKind::begin ? ": begin" : event.kind == EventKind::end ? ": end" : "";
+    table.row({brief_text(event.time), event.name + kind, nodes, event.nodes.empty() ? "" : brief_text(event.impulse)});
   }
   if (table.empty()) table.note("none");
   if (recording.events.size() > most)

@@ -91,6 +91,15 @@ TEST_CASE("a recording as JSON names owners, hand-offs and events as the format 
         nlohmann::json::parse(R"({"time": 1.2, "name": "contact", "nodes": ["bob", "floor"], "impulse": 0.125})"));
 }
 
+TEST_CASE("a recording as JSON says of an interval whether it begins or ends") {
+  Recording recording = example_recording(10);
+  recording.events = {{.time = 0.25, .name = "loud", .data = {}, .nodes = {}, .kind = EventKind::begin},
+                      {.time = 0.5, .name = "loud", .data = {}, .nodes = {}, .kind = EventKind::end}};
+  const nlohmann::json events = nlohmann::json::parse(recording_json(recording))["events"];
+  CHECK(events[0] == nlohmann::json::parse(R"({"time": 0.25, "name": "loud", "kind": "begin"})"));
+  CHECK(events[1] == nlohmann::json::parse(R"({"time": 0.5, "name": "loud", "kind": "end"})"));
+}
+
 TEST_CASE("names with quotes, line breaks and angle brackets survive JSON and CSV") {
   Recording recording = example_recording(10);
   recording.nodes[2].name = "a \"b\", <c>\n\\d";

@@ -71,6 +71,22 @@ TEST_CASE("an event fires once across a change of speed, at its new time") {
   CHECK(near(stage.events()[1].time, 0.4, 1e-12));
 }
 
+TEST_CASE("an interval is told where it begins and where it ends, each as what it is, and after loading too") {
+  StageDescription stage = carried();
+  stage.clips[0].events.push_back({.from = 0.2, .to = 0.7, .name = "loud", .data = {}});
+  Stage straight(stage), saved(stage), loaded(stage);
+  straight.advance_to(1);
+  saved.advance_to(0.31);
+  loaded.load(saved.save());
+  loaded.advance_to(1);
+  for (const Stage* each : {&straight, &loaded}) {
+    std::string told;
+    for (const StageEvent& event : each->events())
+      told += event.name + (event.kind == EventKind::begin ? "( " : event.kind == EventKind::end ? ") " : " ");
+    CHECK(told == "off loud( half loud) ");
+  }
+}
+
 TEST_CASE("a play started with a fade leads the body over with the weight's own rate") {
   Stage stage(carried());
   stage.advance_to(0.2);

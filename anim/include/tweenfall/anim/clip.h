@@ -19,6 +19,9 @@ struct ClipEvent {
   [[nodiscard]] bool is_interval() const noexcept { return to > from; }
 };
 
+/// What is told of an event: that it happened, or, of an interval, that it begins or ends.
+enum class EventKind { moment, begin, end };
+
 enum class LoopMode { once, repeat, repeat_offset, pingpong };
 
 struct Loop {

@@ -52,7 +52,8 @@ struct GraphEvent {
   std::string name;
   std::string data;
   std::size_t clip = 0;
-  enum class Kind { moment, begin, end } kind = Kind::moment;
+  using Kind = EventKind;
+  Kind kind = Kind::moment;
   double weight = 1;  ///< how much of its clip shows then, above 0, as far as blends and layers say
 };
 

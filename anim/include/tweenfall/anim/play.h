@@ -124,8 +124,9 @@ struct FiredEvent {
   double time = 0;  ///< stage time, s
   std::string name;
   std::string data;
-  std::size_t clip = 0;                                        ///< index of the clip
-  enum class Kind { moment, begin, end } kind = Kind::moment;  ///< `begin` and `end` of an interval
+  std::size_t clip = 0;  ///< index of the clip
+  using Kind = EventKind;
+  Kind kind = Kind::moment;
 };
 
 /// Events in (from, to] of stage time, in order, each once, also across loops; [from, to] when

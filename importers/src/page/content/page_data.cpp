@@ -255,6 +255,7 @@ std::string handoff_json(const HandOff& handoff) {
 std::string event_json(const StageEvent& event) {
   std::string out = "{\"time\":" + number_text(event.time) + ",\"name\":";
   json::append_string(out, event.name);
+  append_quoted(out, "kind", recordings::kind_word(event.kind));
   out += ",\"nodes\":[";
   for (std::size_t i = 0; i < event.nodes.size(); ++i) out += (i > 0 ? "," : "") + std::to_string(event.nodes[i]);
   return out + "],\"impulse\":" + short_text(event.impulse, 6) + "}";

@@ -1,6 +1,6 @@
 // What is drawn along time: the ruler with its events, bars of owners, keys; and what each says when pointed at.
 
-const eventText = event => `${event.time.toFixed(3)} s  ${event.name}` +
+const eventText = event => `${event.time.toFixed(3)} s  ${event.name}` + (event.kind && ": " + event.kind) +
   (event.nodes.length ? "\n" + event.nodes.map(node => nodes[node].name).join(" and ") : "") +
   (event.impulse ? `, ${number(event.impulse, 3)} N s` : "");
 const handoffText = handoff => `${handoff.time.toFixed(4)} s  ${nodes[handoff.node].name}\n` +

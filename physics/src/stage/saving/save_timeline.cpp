@@ -14,7 +14,7 @@ namespace tweenfall::staging {
 
 namespace {
 
-constexpr saving::Envelope stage_envelope{"stage", 3};
+constexpr saving::Envelope stage_envelope{"stage", 4};
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("a saved stage has a bad " + what);

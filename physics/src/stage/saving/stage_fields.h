@@ -22,6 +22,8 @@ inline constexpr int last_of<HandBack::Clock> = static_cast<int>(HandBack::Clock
 template <>
 inline constexpr int last_of<HandBack::Anchor> = static_cast<int>(HandBack::Anchor::ground);
 template <>
+inline constexpr int last_of<EventKind> = static_cast<int>(EventKind::end);
+template <>
 inline constexpr int last_of<LoopMode> = static_cast<int>(LoopMode::pingpong);
 template <>
 inline constexpr int last_of<Combine> = static_cast<int>(Combine::maximum);
@@ -266,8 +268,8 @@ void each_field(T& command, const Visit& visit) {
 
 template <Is<StageEvent> T, class Visit>
 void each_field(T& event, const Visit& visit) {
-  auto& [time, name, data, nodes, impulse, joint] = event;
-  visit(time, name, data, impulse, joint);
+  auto& [time, name, data, nodes, impulse, joint, kind] = event;
+  visit(time, name, data, impulse, joint, kind);
   constexpr std::size_t most = 2;
   auto count = static_cast<std::uint8_t>(nodes.size());
   visit(count);

@@ -51,6 +51,7 @@ struct StageEvent {
                               ///< joint: its bodies
   double impulse = 0;         ///< of a contact: N s
   std::string joint = {};     ///< of a joint its name; of a pin that lets go, or what is torn, that of its soft body
+  EventKind kind = EventKind::moment;  ///< of a clip's interval `begin` or `end`
 };
 
 /// A joint that the stage has or had, and the nodes whose bodies it holds; `no_node`: the world.
