@@ -34,6 +34,11 @@ export async function showsTwoBesideEachOther(page, folder) {
   near(await page.evaluate(`${right}.look.target`), await page.evaluate(`${left}.look.target`), "at one place", 1e-9);
   await page.evaluate(`${left}.set({trail: false})`);
   equal(await page.evaluate(`${right}.state.trail`), false, "what is shown, too");
+  await page.visit("about:blank");
+  await page.visit(pathToFileURL(join(folder, "beside.html")).href + "#t=0.6&node=crate");
+  check(await page.until("window.beside && beside.ready"), "with an instant in the address both pages come up");
+  near(await times(), [0.6, 0.6], "at that instant", 0);
+  equal(await page.evaluate(`${right}.chosen`), "crate", "with that node chosen where there is one");
   equal(page.problems.length, 0, `the pages report no errors: ${page.problems}`);
   check(page.requests.filter(url => !url.startsWith("about:")).length === 1, `and ask for nothing: ${page.requests}`);
 }

@@ -37,6 +37,10 @@ function join(pages) {
   }
   if (first.nodes.includes(second.chosen)) first.choose(second.chosen);
   second.look = first.look;
+  // #t=0.8&node=ball opens both at that time, with that node chosen where there is one.
+  const asked = new URLSearchParams(location.hash.slice(1)), node = asked.get("node");
+  for (const page of pages) if (page.nodes.includes(node)) page.choose(node);
+  if (asked.has("t") && Number.isFinite(Number(asked.get("t")))) first.seek(Number(asked.get("t")));
   window.beside = {ready: true, pages, first, second};
 }
 
