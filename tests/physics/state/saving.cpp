@@ -40,7 +40,7 @@ TEST_CASE("a world that was saved at any step and loaded goes on in the same bit
     for (int n = 0; n < scenario.steps; ++n) {
       const std::vector<std::byte> saved = relay.save();
       REQUIRE(saved == original.save());
-      if (n % 40 == 10) branches.push_back(loaded(saved));
+      if (n % 80 == 10) branches.push_back(loaded(saved));
       relay = loaded(saved);
       REQUIRE(relay.save() == saved);
       scenario.step(original, n);
