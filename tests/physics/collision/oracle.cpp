@@ -213,8 +213,8 @@ Disagreement disagreement_of(std::size_t first, std::size_t second, int poses, s
 
 }  // namespace
 
-// Over 500 random poses of each pair, and 3,000 of most with a ball or a box, the worst disagreement was 9e-10 of the
-// size apart and 9.4e-8 deep (of a ball whose center lies in a cylinder); of two polyhedra 2.3e-3 deep.
+// Over 5,000 random poses of each pair, 140,000 in all, the worst disagreement was 5.2e-9 of the size apart (of two
+// cones) and 1.5e-7 deep (of a capsule and a cylinder); of two polyhedra 2.3e-3 deep.
 TEST_CASE("every pair of solids is as far apart or as deep as the best of all directions says") {
   const char* many = std::getenv("TWEENFALL_ORACLE_POSES");
   const int poses = many ? std::atoi(many) : 30;
