@@ -111,6 +111,19 @@ struct Log {
   double known = -1;  // all that happens until then, and at that time, is known; below 0: nothing is
 };
 
+/// What comes after an instant is not seen while it is looked ahead.
+class Blinkers {
+ public:
+  Blinkers(const Log& log, double until) noexcept : log_(log), before_(log.until) { log.until = until; }
+  ~Blinkers() { log_.until = before_; }
+  Blinkers(const Blinkers&) = delete;
+  Blinkers& operator=(const Blinkers&) = delete;
+
+ private:
+  const Log& log_;
+  double before_;
+};
+
 /// The time at which what happened is looked up for a pose at a time.
 struct Sight {
   double time;

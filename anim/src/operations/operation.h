@@ -50,6 +50,10 @@ struct Bearer {
   std::size_t clip;  // by number among those of the operation
   double start;      // of the state around it
   Sample<double> weight;
+
+  [[nodiscard]] bool is(const Bearer& other) const noexcept {
+    return operation == other.operation && clip == other.clip && start == other.start;
+  }
 };
 /// Those that show at a time; what is left of 1 stands still.
 struct Bearers {
@@ -58,7 +62,19 @@ struct Bearers {
   std::size_t count = 0;
   bool flow = false;  // their weights may change without anything that happens
 
+  [[nodiscard]] const Bearer* find(const Bearer& wanted) const noexcept {
+    for (std::size_t i = 0; i < count; ++i)
+      if (list[i].is(wanted)) return &list[i];
+    return nullptr;
+  }
+  /// One that shows in several places is one, with all its weight.
   void add(const Bearer& bearer) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!list[i].is(bearer)) continue;
+      list[i].weight.value += bearer.weight.value;
+      list[i].weight.rate += bearer.weight.rate;
+      return;
+    }
     if (count < most) list[count++] = bearer;
   }
 };

@@ -26,39 +26,90 @@ Motion standing() noexcept {
   return {};
 }
 
-/// Steps as seen half way through their turns, where those that turn evenly go straight; their mean and its rates.
-class MeanStep {
- public:
-  void add(const Motion& step, double share, double share_rate) noexcept {
-    const Vec3 turn = log_map(step.pose.rotation);
-    const Vec3 turn_rate = right_jacobian_inverse(Vec3(-turn)) * step.twist.angular;
-    const Quat back = exp_map(Vec3(-0.5 * turn));
-    const Vec3 spin = right_jacobian(Vec3(0.5 * turn)) * Vec3(-0.5 * turn_rate);  // of `back`
-    const Vec3 way = back * step.pose.position;
-    const Vec3 way_rate = back * step.twist.linear + spin.cross(way);
-    turn_ += share * turn;
-    turn_rate_ += share * turn_rate + share_rate * turn;
-    way_ += share * way;
-    way_rate_ += share * way_rate + share_rate * way;
-  }
+/// A step, or a sum of parts of steps, as seen half way through its turn, where what turns evenly goes straight.
+struct Stride {
+  Vec3 turn{0, 0, 0}, way{0, 0, 0};
 
-  [[nodiscard]] Motion mean() const noexcept {
-    Motion mean;
-    const Quat half = exp_map(Vec3(0.5 * turn_));
-    const Vec3 spin = right_jacobian(Vec3(-0.5 * turn_)) * Vec3(0.5 * turn_rate_);
-    mean.pose.rotation = exp_map(turn_);
-    mean.twist.angular = right_jacobian(Vec3(-turn_)) * turn_rate_;
-    mean.pose.position = half * way_;
-    mean.twist.linear = half * way_rate_ + spin.cross(mean.pose.position);
-    return mean;
-  }
+  friend Stride operator+(const Stride& a, const Stride& b) noexcept { return {a.turn + b.turn, a.way + b.way}; }
+  friend Stride operator-(const Stride& a, const Stride& b) noexcept { return {a.turn - b.turn, a.way - b.way}; }
+  friend Stride operator*(double factor, const Stride& a) noexcept { return {factor * a.turn, factor * a.way}; }
+};
+struct MovingStride {
+  Stride at, rate;
 
- private:
-  Vec3 turn_{0, 0, 0}, turn_rate_{0, 0, 0}, way_{0, 0, 0}, way_rate_{0, 0, 0};
+  void add(const MovingStride& other) noexcept {
+    at = at + other.at;
+    rate = rate + other.rate;
+  }
 };
 
-bool same(const Bearer& a, const Bearer& b) noexcept {
-  return a.operation == b.operation && a.clip == b.clip && a.start == b.start;
+MovingStride stride_of(const Motion& step) noexcept {
+  MovingStride stride;
+  const Vec3 turn = log_map(step.pose.rotation);
+  const Quat back = exp_map(Vec3(-0.5 * turn));
+  stride.at = {turn, back * step.pose.position};
+  stride.rate.turn = right_jacobian_inverse(Vec3(-turn)) * step.twist.angular;
+  const Vec3 spin = right_jacobian(Vec3(0.5 * turn)) * Vec3(-0.5 * stride.rate.turn);  // of `back`
+  stride.rate.way = back * step.twist.linear + spin.cross(stride.at.way);
+  return stride;
+}
+
+/// In the axes that it has itself.
+Stride own_velocity(const Motion& motion) noexcept {
+  const Quat back = motion.pose.rotation.conjugate();
+  return {back * motion.twist.angular, back * motion.twist.linear};
+}
+
+Motion motion_of(const MovingStride& stride) noexcept {
+  Motion motion;
+  const Vec3& turn = stride.at.turn;
+  const Quat half = exp_map(Vec3(0.5 * turn));
+  const Vec3 spin = right_jacobian(Vec3(-0.5 * turn)) * Vec3(0.5 * stride.rate.turn);
+  motion.pose.rotation = exp_map(turn);
+  motion.twist.angular = right_jacobian(Vec3(-turn)) * stride.rate.turn;
+  motion.pose.position = half * stride.at.way;
+  motion.twist.linear = half * stride.rate.way + spin.cross(motion.pose.position);
+  return motion;
+}
+
+/// A cubic from 0 at 0 s, by its rates at 0 s and at h and its value at h: first x + second x^2 + third x^3.
+template <class Value>
+struct Cubic {
+  Value first, second, third;
+
+  Cubic(const Value& rate, const Value& last, const Value& last_rate, double h) noexcept
+      : first(rate),
+        second((1 / h) * ((3 / h) * last - 2 * rate - last_rate)),
+        third((1 / (h * h)) * (rate + last_rate - (2 / h) * last)) {}
+};
+
+/// What a clip contributes to a step from 0 to h: the integral of its weight over its stride d, by parts
+/// (W(0) + W)/2 d + 1/2 of the integral of (W - W(0)) d' - W' d, where W is the cubic by the weights and their rates at
+/// both ends, and the second integral, which is nothing where the weight does not change, has the cubic for d too. So
+/// its rate is W d' at both ends, and everywhere that of its value.
+MovingStride part_of(const Sample<double>& before, const Sample<double>& after, const Stride& first_rate,
+                     const MovingStride& last, const MovingStride& now, double x, double h) noexcept {
+  const Cubic<double> weight(before.rate, after.value - before.value, after.rate, h);
+  const Cubic<Stride> way(first_rate, last.at, last.rate, h);
+  const double mean = before.value + 0.5 * x * (weight.first + x * (weight.second + x * weight.third));
+  const double mean_rate = 0.5 * (weight.first + x * (2 * weight.second + x * (3 * weight.third)));
+  const Stride second = weight.first * way.second - weight.second * way.first,
+               third = weight.first * way.third - weight.third * way.first,
+               fourth = weight.second * way.third - weight.third * way.second;
+  const double x2 = x * x;
+  return {mean * now.at + (0.5 * x2 * x) * ((1. / 3) * second + (0.5 * x) * third + (0.2 * x2) * fourth),
+          mean * now.rate + mean_rate * now.at + (0.5 * x2) * (second + (2 * x) * third + x2 * fourth)};
+}
+
+/// What must be added to the rate of a stride so that it goes, in its own axes, at the velocity of `own`.
+Stride missing(const MovingStride& stride, const Stride& own) noexcept {
+  const Vec3& turn = stride.at.turn;
+  const Quat half = exp_map(Vec3(0.5 * turn)), whole = exp_map(turn);
+  Stride rate;
+  rate.turn = right_jacobian_inverse(Vec3(-turn)) * Vec3(whole * own.turn);
+  const Vec3 spin = right_jacobian(Vec3(-0.5 * turn)) * Vec3(0.5 * rate.turn);
+  rate.way = half.conjugate() * Vec3(whole * own.way - spin.cross(Vec3(half * stride.at.way)));
+  return rate - stride.rate;
 }
 
 }  // namespace
@@ -108,49 +159,69 @@ std::vector<Travel::Known>::const_iterator Travel::known_of(const Bearer& bearer
       known_, [&](const Known& each) { return each.operation == bearer.operation && each.clip == bearer.clip; });
 }
 
-Motion Travel::step_of(const Log& log, const Bearer& bearer, double from, double to, Side side,
-                       std::span<Motion> room) const noexcept {
-  const auto known = known_of(bearer);
-  if (known == known_.end()) return standing();
-  const auto clock_at = [&](double time, Side of) {
-    ClipClock clock = bearer.operation->clock_of(log, bearer.clip, {time, of, bearer.start});
-    clock.climbs = false;  // the travel does
-    return clock;
-  };
-  const LoopMode mode = known->bound->clip().loop.mode;
-  const bool goes_on = mode == LoopMode::repeat || mode == LoopMode::repeat_offset;
-  const ClipClock first = clock_at(from, Side::out), last = clock_at(to, side);
-  const Pose begin = carried(*known->bound, first, room).pose;
-  const Motion end = carried(*known->bound, last, room);
-  return known->travel.step(begin, goes_on ? first.cycle : 0, end, goes_on ? last.cycle : 0);
+ClipClock Travel::clock_of(const Log& log, const Bearer& bearer, double time, Side side) const noexcept {
+  ClipClock clock = bearer.operation->clock_of(log, bearer.clip, {time, side, bearer.start});
+  clock.climbs = false;  // the travel does
+  return clock;
 }
 
-Motion Travel::step(const Log& log, const Bearers& first, double start, double from, double to, Side side,
+Motion Travel::step_of(const Known& known, const Place& from, const Place& to) noexcept {
+  const LoopMode mode = known.bound->clip().loop.mode;
+  const bool goes_on = mode == LoopMode::repeat || mode == LoopMode::repeat_offset;
+  return known.travel.step(from.motion.pose, goes_on ? from.cycle : 0, to.motion, goes_on ? to.cycle : 0);
+}
+
+Motion Travel::step(const Log& log, const Bearers& first, const Step& step, double to, Side side,
                     std::span<Motion> room) const noexcept {
-  if (first.count == 1 && !first.flow && is_whole(first.list[0].weight))
-    return step_of(log, first.list[0], from, to, side, room);
-  const Bearers last = bearers_at(log, {to, side, start});
-  MeanStep mean;
-  const auto add = [&](const Bearer& bearer, double before, const Sample<double>& after) {
-    mean.add(step_of(log, bearer, from, to, side, room), 0.5 * (before + after.value), 0.5 * after.rate);
+  const auto place = [&](const Known& known, const Bearer& bearer, double time, Side of) {
+    const ClipClock clock = clock_of(log, bearer, time, of);
+    return Place{carried(*known.bound, clock, room), static_cast<double>(clock.cycle)};
   };
+  if (step.alone) {
+    const auto known = known_of(first.list[0]);
+    if (first.count == 0 || known == known_.end()) return standing();
+    return step_of(*known, place(*known, first.list[0], step.from, Side::out), place(*known, first.list[0], to, side));
+  }
+  // How it goes on to its end if nothing more happens: the way until the next instant follows from what is known here.
+  const double h = step.end - step.from, x = to - step.from;
+  const auto at_end = [&](const auto& ask) {
+    const Blinkers blinkers(log, std::min(log.until, step.from));
+    return ask();
+  };
+  const Bearers last = at_end([&] { return bearers_at(log, {step.end, Side::in, step.start}); });
+  MovingStride sum, whole;
+  Stride own;  // velocity at the end, in the axes that it has there
+  const auto add = [&](const Bearer& bearer, const Sample<double>& before, const Sample<double>& after) {
+    const auto known = known_of(bearer);
+    if (known == known_.end()) return;
+    const Place begin = place(*known, bearer, step.from, Side::out);
+    const Place finish = at_end([&] { return place(*known, bearer, step.end, Side::in); });
+    const Motion done = step_of(*known, begin, finish);
+    const MovingStride end = stride_of(done);
+    const Stride velocity = own_velocity(begin.motion);
+    own = own + after.value * own_velocity(done);
+    whole.add(part_of(before, after, velocity, end, end, h, h));
+    if (x < h)
+      sum.add(part_of(before, after, velocity, end, stride_of(step_of(*known, begin, place(*known, bearer, to, side))),
+                      x, h));
+  };
+  constexpr Sample<double> nothing{0, 0, 0};
   for (std::size_t i = 0; i < first.count; ++i) {
-    const auto* const end = last.list.data() + last.count;
-    const auto* const found =
-        std::find_if(last.list.data(), end, [&](const Bearer& b) { return same(b, first.list[i]); });
-    add(first.list[i], first.list[i].weight.value, found == end ? Sample<double>{0, 0, 0} : found->weight);
+    const Bearer* const found = last.find(first.list[i]);
+    add(first.list[i], first.list[i].weight, found ? found->weight : nothing);
   }
-  for (std::size_t i = 0; i < last.count; ++i) {
-    const auto* const end = first.list.data() + first.count;
-    if (std::find_if(first.list.data(), end, [&](const Bearer& b) { return same(b, last.list[i]); }) == end)
-      add(last.list[i], 0, last.list[i].weight);
-  }
-  return mean.mean();
+  for (std::size_t i = 0; i < last.count; ++i)
+    if (!first.find(last.list[i])) add(last.list[i], nothing, last.list[i].weight);
+  // Strides that turn differently are added half way through; at the end it is to have the velocities' mean.
+  const Stride lag = missing(whole, own);
+  if (!(x < h)) return motion_of({whole.at, whole.rate + lag});
+  const double u = x / h;
+  return motion_of({sum.at + (x * u * (u - 1)) * lag, sum.rate + (u * (3 * u - 2)) * lag});
 }
 
 Pose Travel::place_at_start(const Log& log, double start, std::span<Motion> room) const noexcept {
   const Bearers bearers = bearers_at(log, {start, Side::out, start});
-  MeanStep mean;
+  MovingStride mean;
   for (std::size_t i = 0; i < bearers.count; ++i) {
     const Bearer& each = bearers.list[i];
     const auto known = known_of(each);
@@ -158,9 +229,9 @@ Pose Travel::place_at_start(const Log& log, double start, std::span<Motion> room
     const ClipClock clock = each.operation->clock_of(log, each.clip, {start, Side::out, each.start});
     const Motion frame = carried(*known->bound, clock, room);
     if (bearers.count == 1 && is_whole(each.weight)) return frame.pose;
-    mean.add(frame, each.weight.value, 0);
+    mean.at = mean.at + each.weight.value * stride_of(frame).at;
   }
-  return mean.mean().pose;
+  return motion_of(mean).pose;
 }
 
 Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) const noexcept {
@@ -177,17 +248,19 @@ Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) 
     const Bearers bearers = bearers_at(log, {here, Side::out, moment.start});
     double next = next_instant(log, here);
     if (next >= unseen) next = never;
-    const bool alone = bearers.count == 0 || (bearers.count == 1 && is_whole(bearers.list[0].weight));
-    if (bearers.flow || !alone) {
-      next = std::min(next, next_stop(last_instant(log, moment.start, here, Side::out), here));
+    Step own{moment.start, here, never, true};
+    own.alone = !bearers.flow && (bearers.count == 0 || (bearers.count == 1 && is_whole(bearers.list[0].weight)));
+    if (!own.alone) {
+      own.end = next_stop(last_instant(log, moment.start, here, Side::out), here);
+      next = std::min(next, own.end);
     }
     if (next > moment.time || (next == moment.time && moment.side == Side::in)) {
       if (here > began && here <= sure) trail.stay(here, reached);
       Motion from;
       from.pose = reached;
-      return compose(from, step(log, bearers, moment.start, here, moment.time, moment.side, room));
+      return compose(from, step(log, bearers, own, moment.time, moment.side, room));
     }
-    reached = compose(reached, step(log, bearers, moment.start, here, next, Side::in, room).pose);
+    reached = compose(reached, step(log, bearers, own, next, Side::in, room).pose);
     here = next;
     if (here <= sure) trail.pass(here, reached);
   }

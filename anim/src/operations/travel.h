@@ -9,7 +9,9 @@
 namespace tweenfall::graphs {
 
 /// It runs from the start of the state around it, from where the clips have the figure then. The ways of several clips
-/// are mixed step by step, each step with the mean of the weights at its ends: 480 times a second from each instant on.
+/// are mixed step by step, 480 times a second from each instant on: on a step weights are cubics by what they and their
+/// rates are at its ends, so that the way has no sudden changes of velocity that the clips do not have, and its rate is
+/// everywhere that of its value.
 /// Where one clip bears it alone, its loops are repeated in closed form, so that nothing drifts.
 class Travel {
  public:
@@ -33,10 +35,21 @@ class Travel {
   [[nodiscard]] Bearers bearers_at(const Log& log, const Moment& moment) const noexcept;
   [[nodiscard]] Motion carried(const pose::BoundClip& clip, const ClipClock& clock,
                                std::span<Motion> room) const noexcept;
-  [[nodiscard]] Motion step_of(const Log& log, const Bearer& bearer, double from, double to, Side side,
-                               std::span<Motion> room) const noexcept;
+  /// Where a clip has the figure, and in which of its loops.
+  struct Place {
+    Motion motion;
+    double cycle;
+  };
+  /// From one stop to the next.
+  struct Step {
+    double start, from, end;  // `end`: unless something happens before
+    bool alone;               // no more than one clip bears it, and that fully, until something happens
+  };
+  [[nodiscard]] ClipClock clock_of(const Log& log, const Bearer& bearer, double time, Side side) const noexcept;
+  [[nodiscard]] static Motion step_of(const Known& known, const Place& from, const Place& to) noexcept;
   [[nodiscard]] Pose place_at_start(const Log& log, double start, std::span<Motion> room) const noexcept;
-  [[nodiscard]] Motion step(const Log& log, const Bearers& first, double start, double from, double to, Side side,
+  /// @param first  those at its beginning
+  [[nodiscard]] Motion step(const Log& log, const Bearers& first, const Step& step, double to, Side side,
                             std::span<Motion> room) const noexcept;
 
   const Hierarchy& nodes_;

@@ -9,19 +9,6 @@
 
 namespace tweenfall::graphs {
 
-/// What comes after an instant is not seen while it is looked ahead.
-class Blinkers {
- public:
-  Blinkers(const Log& log, double until) noexcept : log_(log), before_(log.until) { log.until = until; }
-  ~Blinkers() { log_.until = before_; }
-  Blinkers(const Blinkers&) = delete;
-  Blinkers& operator=(const Blinkers&) = delete;
-
- private:
-  const Log& log_;
-  double before_;
-};
-
 /// Springs go by a clock that begins at the last instant, and see the base as it goes on from there if nothing more
 /// happens: what they do until the next instant follows from what happened before it, whatever is to come.
 template <class State>
