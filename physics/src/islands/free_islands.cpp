@@ -42,6 +42,14 @@ bool disturbs(const forces::Load& load, const Vec3& acceleration) {
          load.drag > 0 || load.angular_drag > 0 || load.angular_damping > 0;
 }
 
+/// Whether what a joint does to one end it takes from the other; what reaches the world by a housing or a pulley does
+/// not.
+bool between_bodies(const joints::JointLink& link) {
+  const JointKind& kind = link.joint->settings.kind;
+  return link.a != joints::JointLink::world && !std::holds_alternative<GearJoint>(kind) &&
+         !std::holds_alternative<PulleyJoint>(kind);
+}
+
 /// Angular momentum about the common center of mass, but for spins that nothing changed.
 struct Whole {
   double mass = 0;
@@ -53,7 +61,7 @@ struct Whole {
 
 bool FreeIslands::gather(const IslandContents& island, const std::vector<Body>& bodies,
                          const std::vector<forces::Load>& loads, const std::vector<char>& moved) {
-  if (!island.joints.empty() || !island.springs.empty()) return false;
+  if (!island.springs.empty()) return false;
   members_.clear();
   const auto clear = [this] {
     for (const Member& member : members_) slots_[member.index] = nobody;
@@ -69,14 +77,29 @@ bool FreeIslands::gather(const IslandContents& island, const std::vector<Body>& 
   const auto joins = [&](const contacts::ContactConstraint& contact) {
     return pushed(contact) || (moved[contact.a] != 0 && moved[contact.b] != 0);
   };
+  const auto held = [&](std::uint32_t index, std::uint32_t other) {
+    const Body& body = bodies[index];
+    return moved[index] == 0 || body.drive.owner() == Owner::driven || body.conveys ||
+           disturbs(loads[index], loads[other].acceleration);
+  };
+  // What did nothing left at least one of its ends alone.
+  const auto acted = [&](const joints::JointLink& link) {
+    const auto has_moved = [&](std::uint32_t end) {
+      return end == joints::JointLink::world || bodies[end].immovable() || moved[end] != 0;
+    };
+    return has_moved(link.a) && has_moved(link.b);
+  };
+  for (const joints::JointLink* link : island.joints) {
+    if (!acted(*link)) continue;
+    if (!between_bodies(*link) || held(link->a, link->b) || held(link->b, link->b)) {
+      clear();
+      return false;
+    }
+    for (const std::uint32_t index : {link->a, link->b}) members_[slot_of(index)].gripped = true;
+  }
   for (const contacts::ContactConstraint* contact : island.contacts) {
     if (!joins(*contact)) continue;
-    const Body &a = bodies[contact->a], &b = bodies[contact->b];
-    const auto held = [&](std::uint32_t index, const Body& body) {
-      return moved[index] == 0 || body.drive.owner() == Owner::driven || body.conveys ||
-             disturbs(loads[index], loads[contact->a].acceleration);
-    };
-    if (held(contact->a, a) || held(contact->b, b)) {
+    if (held(contact->a, contact->a) || held(contact->b, contact->a)) {
       clear();
       return false;
     }
@@ -88,6 +111,8 @@ bool FreeIslands::gather(const IslandContents& island, const std::vector<Body>& 
   }
   if (members_.empty()) return false;
   groups_.reset(members_.size());
+  for (const joints::JointLink* link : island.joints)
+    if (acted(*link)) groups_.join(slots_[link->a], slots_[link->b]);
   for (const contacts::ContactConstraint* contact : island.contacts)
     if (joins(*contact)) groups_.join(slots_[contact->a], slots_[contact->b]);
   clear();

@@ -16,10 +16,11 @@ struct FreeStart {
   Twist twist;
 };
 
-/// Bodies that have pushed only each other in a step keep their angular momentum. Impulses act where the bodies lay
-/// when the contact was found, and the bodies go on from there while the impulses are being found: what that leaves
-/// open is given back to all of them together as a turn about their common center of mass, which no contact feels, and
-/// the energy for it is taken from what they do besides. And that center goes where their momentum takes it.
+/// Bodies that have pushed, or hold by joints, only each other in a step keep their angular momentum. Impulses act
+/// where the bodies lay when the contact was found, joints hold but to what is left of their gaps, and the bodies go on
+/// from there while the impulses are being found: what that leaves open is given back to all of them together as a turn
+/// about their common center of mass, which no contact feels, and the energy for it is taken from what they do besides.
+/// And that center goes where their momentum takes it.
 class FreeIslands {
  public:
   /// Before the bodies of a step.

@@ -47,6 +47,14 @@ class IslandJoints {
       if (hangs || !moves(island, entry.b)) anchored(entry.a);
     });
   }
+  /// Calls `acts(place, place)` for both ends of the joints that act in this sub-step.
+  template <class Acts>
+  void each_acting(const Acts& acts) const {
+    each([&](const FigureGroup& group, std::uint32_t place, int lane) {
+      const Entry& entry = joints_[group.joint(place, lane)];
+      if (group.acts(place, lane)) acts(entry.a, entry.b);
+    });
+  }
   /// The bodies move with these velocities.
   void move(const std::vector<blocks::BodyLanes>& velocities);
   /// Adds up what the sub-step did.

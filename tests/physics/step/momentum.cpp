@@ -73,6 +73,41 @@ TEST_CASE("a cloud that falls together keeps its momentum and its angular moment
         }
 }
 
+TEST_CASE(
+    "what joints alone hold together keeps its momentum and its angular momentum to 1e-12, ropes and motors too") {
+  HingeJoint driven;
+  driven.motor = Motor{.speed = 5, .max_force = 3};
+  const JointKind kinds[] = {BallJoint{},      HingeJoint{}, SliderJoint{},
+                             UniversalJoint{}, driven,       DistanceJoint{{0, 0.3}}};
+  for (const JointKind& kind : kinds) {
+    World world({.gravity = Vec3::Zero(), .sleep_after = without_end});
+    test::Random random(3);
+    BodyId last;
+    for (int i = 0; i < 5; ++i) {
+      BodySettings body;
+      body.shape.solid = Box{Vec3(0.3, 0.1 + 0.02 * i, 0.08)};
+      body.mass = 1 + i % 3;
+      body.motion.pose.position.x() = 0.7 * i;
+      const Vec3 astray = random.vector(3), spin = random.vector(15);
+      body.motion.twist = {astray, spin};
+      const BodyId next = world.add(body);
+      if (i > 0)
+        world.add_joint({.a = last,
+                         .b = next,
+                         .frame_a = {.position = Vec3(0.35, 0, 0)},
+                         .frame_b = {.position = Vec3(-0.35, 0, 0)},
+                         .kind = kind});
+      last = next;
+    }
+    const Momenta start = momenta_of(world);
+    for (int i = 0; i < 240; ++i) world.step(1.0 / 240);
+    const Momenta end = momenta_of(world);
+    CAPTURE(kind.index());
+    CHECK((end.linear - start.linear).norm() < 1e-12 * start.linear.norm());
+    CHECK((end.angular - start.angular).norm() < 1e-12 * start.size);
+  }
+}
+
 TEST_CASE("bodies that meet in free fall turn about where gravity takes them") {
   for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::semi_implicit_euler}) {
     World world({.integrator = integrator, .sleep_after = without_end});

@@ -217,6 +217,8 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       joints_.solve(velocities_, false, true);
     }
     if (!joints_.empty()) tame_jointed(bodies, h);
+    // Also a rope that only the last pass tightened has pulled at both ends.
+    joints_.each_acting([this](std::uint32_t a, std::uint32_t b) { paces_[a].touched = paces_[b].touched = true; });
     joints_.end_sub_step();
     holds_.add_up();
     bound_spins(bodies, h);
