@@ -12,12 +12,14 @@ namespace tweenfall {
 Vec3 wrapped(const Vec3& rotation_vector) noexcept {
   const double angle = rotation_vector.norm();
   if (angle <= std::numbers::pi) return rotation_vector;
+  if (!std::isfinite(angle)) return log_map(exp_map(rotation_vector));
   return std::remainder(angle, 2 * std::numbers::pi) / angle * rotation_vector;
 }
 
 Mat3 matrix_of(const Vec3& rotation_vector) noexcept {
   const double angle = rotation_vector.norm();
   if (!(angle > 0)) return Mat3::Identity();
+  if (!std::isfinite(angle)) return matrix_of(exp_map(rotation_vector));
   const Vec3 n = rotation_vector / angle;
   const auto [s, c] = elementary::sin_cos(angle);
   const double rest = 1 - c;

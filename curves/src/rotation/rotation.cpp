@@ -17,6 +17,22 @@ Quat negated(const Quat& q) noexcept {
   return Quat(-q.w(), -q.x(), -q.y(), -q.z());
 }
 
+/// Beyond this square of a length the vector is scaled before its length is taken, which would overflow.
+constexpr double largest_square = 1e300;
+
+/// A rotation vector of any finite length, taken apart.
+struct FarTurn {
+  Vec3 axis;
+  double half;  ///< of its angle, rad: the whole may be beyond all numbers
+};
+
+FarTurn far_turn(const Vec3& rotation_vector) noexcept {
+  const double largest = rotation_vector.cwiseAbs().maxCoeff();
+  const Vec3 scaled = rotation_vector / largest;
+  const double length = std::sqrt(scaled.squaredNorm());
+  return {scaled / length, 0.5 * length * largest};
+}
+
 }  // namespace
 }  // namespace tweenfall::rotations
 
@@ -28,6 +44,11 @@ Quat exp_map(const Vec3& rotation_vector) noexcept {
     const rotations::HalfTurn half = rotations::half_turn(square);
     const double k = half.sine_share;
     return Quat(half.cosine, k * rotation_vector.x(), k * rotation_vector.y(), k * rotation_vector.z());
+  }
+  if (!(square <= rotations::largest_square)) {
+    const rotations::FarTurn turn = rotations::far_turn(rotation_vector);
+    const elementary::SinCos half = elementary::sin_cos(turn.half);
+    return Quat(half.cos, half.sin * turn.axis.x(), half.sin * turn.axis.y(), half.sin * turn.axis.z());
   }
   const double angle = std::sqrt(square);
   const elementary::SinCos half = elementary::sin_cos(angle / 2);
@@ -50,7 +71,13 @@ Vec3 log_map(const Quat& q) noexcept {
 }
 
 Mat3 right_jacobian(const Vec3& r) noexcept {
-  const rotations::RotationSeries c(r.squaredNorm());
+  const double square = r.squaredNorm();
+  if (!(square <= rotations::largest_square)) {
+    // All but the axis cancels over so many turns: what is left beside it is below 1e-149.
+    const Vec3 axis = rotations::far_turn(r).axis;
+    return axis * axis.transpose();
+  }
+  const rotations::RotationSeries c(square);
   const Mat3 k = math::cross_matrix(r);
   return Mat3::Identity() - c.a * k + c.b * (k * k);
 }

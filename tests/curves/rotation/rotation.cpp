@@ -1,3 +1,4 @@
+#include <tweenfall/curves/orientation.h>
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
@@ -83,6 +84,22 @@ TEST_CASE("the exponential is that of mpmath to the last digit, from the smalles
     CHECK(std::abs(q.squaredNorm() - 1) < 5e-16);
   }
   CHECK(exp_map({0, 0, 0}).coeffs() == Vec4(0, 0, 0, 1));
+}
+
+TEST_CASE("rotation vectors whose square is beyond all numbers turn as mpmath says, and are numbers in every form") {
+  // sin(x/2), cos(x/2) with 600 digits of pi
+  for (const auto& [length, sine, cosine] : {std::array{1e160, -0.19712707965349915, -0.9803779447066744},
+                                             std::array{1.7e308, -0.3134198014740629, 0.9496146734565336}}) {
+    const Quat q = exp_map({0, -length, 0});
+    CHECK(std::abs(q.y() + sine) <= 3e-16);
+    CHECK(std::abs(q.w() - cosine) <= 3e-16);
+    const Vec3 skew = Vec3(1, 1, -1) * length;
+    CHECK(std::abs(exp_map(skew).squaredNorm() - 1) < 1e-15);
+    CHECK(near(matrix_of(skew), matrix_of(exp_map(skew)), 1e-15));
+    CHECK(wrapped(skew).norm() <= test::pi);
+    CHECK(near(exp_map(wrapped(skew)).toRotationMatrix(), matrix_of(skew), 1e-14));
+    CHECK(near(right_jacobian(skew), Vec3(1, 1, -1) * Vec3(1, 1, -1).transpose() / 3, 1e-15));
+  }
 }
 
 TEST_CASE("Euler angles agree with scipy in all orders, turning and fixed axes") {

@@ -157,3 +157,24 @@ TEST_CASE("a clip with faults is told of once, not again by the graphs that play
 "graphs": {"g": {"poses": {"a": {"clip": "walk"}}}}})";
   CHECK(count(faults_of(text, "g.json", {}), "error:") == 1);
 }
+
+TEST_CASE("what a fault leaves out of a graph is not told as missing beside it") {
+  const std::string parts[] = {
+      // An entry of a space, its parameters, its places; a parameter; what waits for an event; what adds
+      R"("a": {"space": {"by": "v", "poses": [[0, 7], [1, "walk"]]}}}, "parameters": {"v": 0)",
+      R"("a": {"space": {"by": ["v", 7], "poses": [[[0, 0], "walk"], [[1, 0], "walk"]]}}}, "parameters": {"v": 0)",
+      R"("a": {"space": {"by": ["v", "v"], "poses": [[true, "walk"], [[1, 0], "walk"]]}}}, "parameters": {"v": 0)",
+      R"("a": {"base": "walk", "layers": [{"over": "walk", "weight": {"parameter": "v"}}]}}, "parameters": {"v": "none")",
+      R"("a": {"machine": {"start": "s", "states": {"s": "walk"}, "transitions": [{"to": "s", "when": {"event": 7}}]}}},
+         "inputs": [[0, "go"]], "parameters": {)",
+      R"("a": {"base": "walk", "layers": [{"add": 7, "reference": "walk"}]}}, "parameters": {)"};
+  for (const std::string& part : parts) {
+    const std::string told = graph_faults(part);
+    CAPTURE(told);
+    CHECK(count(told, "error:") == 1);
+  }
+  // What is wrong elsewhere in the graph is told all the same.
+  CHECK(count(graph_faults(R"("a": {"space": {"by": "v", "poses": [[0, 7], [1, "walk"]]}}, "b": {"clip": "wlak"}},
+                              "parameters": {"v": 0)"),
+              "error:") == 2);
+}

@@ -108,17 +108,18 @@ TEST_CASE("a thin bar is caught by a rope between its nodes, on a rope that noth
 TEST_CASE("soft bodies with a thickness meet each other, by the mean of both and as their groups say") {
   const auto apart = [](double one, double other, std::uint64_t others_groups, bool collides = true) {
     World world({.gravity = {0, 0, 0}, .sleep_after = hold_on});
+    // Its other node is far off, and takes no part.
     SoftSettings bead;
-    bead.masses = {0.2};
-    bead.positions = {Vec3(-0.3, 0, 0)};
-    bead.velocities = {Vec3(2, 0, 0)};
+    bead.masses = {0.2, 1};
+    bead.positions = {Vec3(-0.3, 0, 0), Vec3(0, 9, 0)};
+    bead.velocities = {Vec3(2, 0, 0), Vec3(0, 0, 0)};
     bead.thickness = one;
     bead.sub_step = 1.0 / 1920;
     bead.collides_with = 1;
     const SoftId a = add_soft(world, bead);
-    bead.masses = {0.6};
-    bead.positions = {Vec3(0.3, 0, 0)};
-    bead.velocities = {Vec3(-1, 0, 0)};
+    bead.masses = {0.6, 1};
+    bead.positions = {Vec3(0.3, 0, 0), Vec3(0, -9, 0)};
+    bead.velocities = {Vec3(-1, 0, 0), Vec3(0, 0, 0)};
     bead.thickness = other;
     bead.groups = others_groups;
     bead.collides_with = ~std::uint64_t{0};

@@ -109,6 +109,8 @@ TEST_CASE("what makes no soft body is refused in words") {
   SoftSettings bad = line;
   bad.positions.clear();
   refused(bad, "needs nodes");
+  bad = {.positions = {Vec3(0, 1, 0)}, .masses = {1}};
+  refused(bad, "at least two nodes");
   bad = line;
   bad.masses.pop_back();
   refused(bad, "3 nodes has 2 masses");

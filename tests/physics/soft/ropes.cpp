@@ -61,6 +61,19 @@ TEST_CASE("a rope between two hooks hangs as a catenary, by either solver") {
   }
 }
 
+// A rope of weight W and stiffness EA that hangs from one end is longer by W / EA half its length; steps far longer
+// than its slowest mode lead there at once, if the last node hears of the first.
+TEST_CASE("a rope of thousands of springs is as long as its weight makes it, after a few long steps") {
+  SoftSettings line = rope({.to = {0, -1, 0}, .links = 4000, .mass = 0.4, .stiffness = 1000, .bending = 1e-4});
+  line.solver = SoftSolver::springs;
+  line.sub_step = 1;
+  line.pins = {{.node = 0, .in_place = true}};
+  World world;
+  const SoftId id = add_soft(world, line);
+  step(world, 8, 1);
+  CHECK(soft_positions(world, id).back().y() == doctest::Approx(-1 - 0.4 * 9.81 / 2000).epsilon(1e-7));
+}
+
 // Twenty equal masses at the ends of twenty links: the first mode's square over g is 20 x, with x the smallest zero of
 // the Laguerre polynomial L20 (Abramowitz, Stegun, table 25.9: 0.070539889692), for links of 1/20 m.
 TEST_CASE("a plucked rope swings in its first mode, and its hook bears its weight") {

@@ -4,6 +4,7 @@
 #include "document/read/clip_times.h"
 #include "document/tracks/read_track.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace tweenfall::document::graphs {
@@ -161,6 +162,34 @@ std::pair<json::Value, bool> place_in(json::Value value, const std::vector<std::
   return {value, true};
 }
 
+// Where a graph was told faults of before it is held against its clips and nodes: what they leave out is missing there,
+// too, and is no fault of its own.
+class Told {
+ public:
+  Told(const json::Value& graph, const Problems& problems) : graph_(graph), places_(problems.places()) {}
+
+  // Whether what is missed at a place may be so by a fault that was told.
+  [[nodiscard]] bool leads_to(const GraphFault& fault) const {
+    if (places_.empty()) return false;
+    if (is_spoiled("parameters") || is_spoiled("poses")) return true;
+    // Of a pose by what else stands in it; elsewhere by any pose, as only a pose that was read is there to be named.
+    const bool in_pose = fault.place.size() > 1 && fault.place[0] == "poses";
+    const json::Value poses = graph_.find("poses");
+    return holds_any(in_pose ? poses.find(fault.place[1]) : poses);
+  }
+
+ private:
+  [[nodiscard]] bool is_spoiled(const char* part) const { return graph_.find(part).is(Kind::faulty); }
+  [[nodiscard]] bool holds_any(const json::Value& value) const {
+    if (!value) return false;
+    const auto first = std::ranges::lower_bound(places_, value.offset());
+    return first != places_.end() && *first < value.offset() + value.length();
+  }
+
+  json::Value graph_;
+  std::vector<std::size_t> places_;  // in order
+};
+
 Hierarchy hierarchy_of(const Building& building) {
   std::vector<Node> nodes;
   nodes.reserve(building.stage.nodes.size());
@@ -185,10 +214,10 @@ void tell_faults(const json::Value& value, const GraphDescription& graph, Buildi
   } catch (const std::invalid_argument&) {
     return;  // of the nodes, which are told of elsewhere
   }
-  // Beside other faults, what is missing may only be faulty.
   const bool sound = building.problems.empty();
+  const Told told(value, building.problems);
   for (GraphFault& fault : faults)
-    if (const auto [place, whole] = place_in(value, fault.place); whole || sound)
+    if (const auto [place, whole] = place_in(value, fault.place); (whole || sound) && !told.leads_to(fault))
       building.problems.add(place, std::move(fault.message));
 }
 

@@ -37,7 +37,9 @@ const Form* sync_form(FormStore& store, const ValueForms& values) {
 
 const Table<SpacePose>& space_table() {
   const auto by = [](const json::Value& value, SpacePose& space, Building&) {
-    for (const std::string& name : names_of(value)) space.by.emplace_back(ByParameter{name});
+    if (value.is(json::Value::Kind::text)) space.by.emplace_back(ByParameter{std::string(value.text())});
+    // One that is faulty counts: it is a space of two all the same.
+    for (const json::Value& item : value.items()) space.by.emplace_back(ByParameter{std::string(item.text())});
   };
   const auto poses = [](const json::Value& value, SpacePose& space, Building& building) {
     for (const json::Value& item : value.items()) {
@@ -47,6 +49,7 @@ const Table<SpacePose>& space_table() {
       entry.pose = item.items()[1].text();
       const bool on_plane = place.is(json::Value::Kind::list) && place.items().size() == 2;
       entry.place = on_plane ? Vec2(place.items()[0].number(), place.items()[1].number()) : Vec2(place.number(), 0);
+      if (place.is(json::Value::Kind::faulty) || space.by.empty()) continue;
       if (on_plane != (space.by.size() == 2))
         building.problems.add(place, on_plane ? "a space of one parameter has numbers for places"
                                               : "a space of two parameters has places [x, y]");

@@ -140,6 +140,14 @@ void Problems::add_foreign(const std::vector<Problem>& problems) {
     (problem.severity == Severity::note ? notes_ : errors_).foreign.push_back(problem);
 }
 
+std::vector<std::size_t> Problems::places() const {
+  std::vector<std::size_t> out;
+  out.reserve(errors_.entries.size());
+  for (const Entry& entry : errors_.entries) out.push_back(entry.fault.offset);
+  std::ranges::sort(out);
+  return out;
+}
+
 std::vector<Problem> Problems::located(Severity severity, const std::string& file, const json::Tree& tree) const {
   const Told& told = severity == Severity::note ? notes_ : errors_;
   std::vector<const Entry*> ordered;

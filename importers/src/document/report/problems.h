@@ -31,6 +31,9 @@ class Problems {
   [[nodiscard]] bool empty() const { return size() == 0; }
   [[nodiscard]] std::size_t size() const { return errors_.entries.size() + errors_.foreign.size(); }
 
+  // Where errors of this text stand, in its order
+  [[nodiscard]] std::vector<std::size_t> places() const;
+
   // Whether suggestions, which look at all names, are no longer worth their time.
   [[nodiscard]] bool crowded() const { return size() > most_listed || looked_at_ > most_looked_at; }
   // Names were looked at for a suggestion.

@@ -49,6 +49,7 @@ void require_nodes(const std::array<std::uint32_t, count>& nodes, std::size_t si
 void check_nodes(const SoftSettings& settings) {
   const std::size_t size = settings.positions.size();
   require(size >= 1, "a soft body needs nodes");
+  require(size >= 2, "a soft body needs at least two nodes; of one alone a rigid body or a particle is made");
   require(size <= most_nodes, "a soft body of " + std::to_string(size) + " nodes; a million are allowed");
   require(settings.masses.size() == size, "a soft body of " + std::to_string(size) + " nodes has " +
                                               std::to_string(settings.masses.size()) + " masses");

@@ -151,11 +151,16 @@ void Energies::add_product(const std::vector<Vec3>& change, std::vector<Vec3>& o
   }
 }
 
+Mat3 Energies::block_of(const Edge& edge) const {
+  const Mat3 line = edge.normal * edge.normal.transpose();
+  Mat3 block = h_ * h_ * (edge.along * line + edge.across * (Mat3::Identity() - line));
+  if (edge.damping > 0) block += h_ * edge.damping * edge.damped_normal * edge.damped_normal.transpose();
+  return block;
+}
+
 void Energies::add_blocks(std::vector<Mat3>& blocks) const {
   for (const Edge& edge : edges_) {
-    const Mat3 line = edge.normal * edge.normal.transpose();
-    Mat3 block = h_ * h_ * (edge.along * line + edge.across * (Mat3::Identity() - line));
-    if (edge.damping > 0) block += h_ * edge.damping * edge.damped_normal * edge.damped_normal.transpose();
+    const Mat3 block = block_of(edge);
     blocks[edge.a] += block;
     blocks[edge.b] += block;
   }
@@ -166,6 +171,30 @@ void Energies::add_blocks(std::vector<Mat3>& blocks) const {
   for (const Amount& amount : amounts_)
     for (const auto& [node, direction] : amount.gradients)
       blocks[node] += h_ * h_ * amount.stiffness * direction * direction.transpose();
+}
+
+void Energies::add_all_blocks(ChainFactor& matrix) const {
+  for (const Edge& edge : edges_) {
+    const Mat3 block = block_of(edge);
+    matrix.add(edge.a, edge.a, block);
+    matrix.add(edge.b, edge.b, block);
+    matrix.add(edge.a, edge.b, -block);
+  }
+  for (const Bend& bend : bends_)
+    for (std::size_t k = 0; k < 4; ++k)
+      for (std::size_t other = 0; other <= k; ++other) {
+        const double weights = bend.bend->weights[k] * bend.bend->weights[other];
+        if (weights == 0) continue;
+        const Mat3 block = h_ * h_ * bend.bend->stiffness * weights * Mat3::Identity();
+        matrix.add(bend.bend->nodes[k], bend.bend->nodes[other], block);
+      }
+  for (const Amount& amount : amounts_)
+    for (std::size_t k = 0; k < amount.gradients.size(); ++k)
+      for (std::size_t other = 0; other <= k; ++other) {
+        const auto& [a, of_a] = amount.gradients[k];
+        const auto& [b, of_b] = amount.gradients[other];
+        matrix.add(a, b, h_ * h_ * amount.stiffness * of_a * of_b.transpose());
+      }
 }
 
 }  // namespace tweenfall::soft

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "actors/soft/chain_factor.h"
 #include "actors/soft/soft_state.h"
 
 namespace tweenfall::soft {
@@ -20,7 +21,8 @@ class Energies {
   [[nodiscard]] double at(const std::vector<Vec3>& x, const std::vector<Vec3>& v);
   void add_gradient(std::vector<Vec3>& gradient) const;
   void add_product(const std::vector<Vec3>& change, std::vector<Vec3>& out) const;
-  void add_blocks(std::vector<Mat3>& blocks) const;
+  void add_blocks(std::vector<Mat3>& blocks) const;  ///< those on the diagonal alone
+  void add_all_blocks(ChainFactor& matrix) const;
 
  private:
   struct Edge {
@@ -43,6 +45,7 @@ class Energies {
     std::vector<std::pair<std::uint32_t, Vec3>> gradients;
   };
 
+  [[nodiscard]] Mat3 block_of(const Edge& edge) const;
   void take_edges(const std::vector<Vec3>& x, const std::vector<Vec3>& v);
   void take_amounts();
 

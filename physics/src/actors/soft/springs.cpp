@@ -3,8 +3,9 @@
 //   1/2 (v - v_free)' M (v - v_free) + V(x + h v) + what damping takes
 //
 // is least, which Newton's method finds; v_free is what gravity alone leads to. Each of its linear systems,
-// (M + h^2 K + h D) change = -gradient, is solved by conjugate gradients. K is the second derivative of the energy
-// without what would make it indefinite: an edge under pressure does not push its ends aside.
+// (M + h^2 K + h D) change = -gradient, is solved by conjugate gradients, which the matrix of a chain steers as a
+// whole, and else its blocks. K is the second derivative of the energy without what would make it indefinite: an edge
+// under pressure does not push its ends aside.
 //
 // Sources: Baraff, Witkin, Large Steps in Cloth Simulation, 1998; Choi, Ko, Stable but Responsive Cloth, 2002 (the edge
 // under pressure); Martin, Thomaszewski, Grinspun, Gross, Example-Based Elastic Materials, 2011, equation 6 (as what is
@@ -43,7 +44,12 @@ Mat3 crossing(const Vec3& arm) {
 class Springs {
  public:
   explicit Springs(SubStep& step)
-      : step_(step), made_(*step.body.made), x_(step.body.positions), nodes_(x_.size()), energies_(step.body, step.h) {}
+      : step_(step),
+        made_(*step.body.made),
+        x_(step.body.positions),
+        nodes_(x_.size()),
+        energies_(step.body, step.h),
+        reach_(ChainFactor::reach_of(made_)) {}
 
   void solve() {
     begin();
@@ -204,6 +210,22 @@ class Springs {
       blocks_[linear_of(held.partner) + 1] += lever.transpose() * blocks_[held.node] * lever;
     }
     for (Mat3& block : blocks_) block = block.inverse().eval();
+    chained_ = reach_ > 0 && factor_chain();
+  }
+
+  /// All of the nodes together, but for what moves with a partner.
+  [[nodiscard]] bool factor_chain() {
+    chain_.clear(nodes_, reach_);
+    for (std::size_t i = 0; i < nodes_; ++i) chain_.add(i, i, mass_[i] * Mat3::Identity());
+    energies_.add_all_blocks(chain_);
+    for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
+      if (pressing_[k] == 0) continue;
+      const NodeContact& contact = step_.contacts[k];
+      const double stiff = step_.h * step_.h * stiffness_[k];
+      chain_.add(contact.node, contact.node, stiff * contact.normal * contact.normal.transpose());
+    }
+    for (const Held& held : step_.held) chain_.fix(held.node);
+    return chain_.factor();
   }
 
   /// Solves for the change against a gradient.
@@ -214,7 +236,11 @@ class Springs {
     toward_.resize(size);
     for (std::size_t i = 0; i < size; ++i) rest_[i] = -gradient[i];
     const auto steer = [&] {
-      for (std::size_t i = 0; i < size; ++i) steered_[i] = blocks_[i] * rest_[i];
+      if (chained_) {
+        steered_ = rest_;
+        chain_.solve(steered_);
+      }
+      for (std::size_t i = chained_ ? nodes_ : 0; i < size; ++i) steered_[i] = blocks_[i] * rest_[i];
     };
     steered_.resize(size);
     steer();
@@ -337,6 +363,9 @@ class Springs {
   std::vector<Mat3> blocks_;
   std::vector<double> stiffness_;  ///< by contact, N/m
   std::vector<char> pressing_;     ///< by contact
+  std::size_t reach_;
+  ChainFactor chain_;
+  bool chained_ = false;
 };
 
 }  // namespace
