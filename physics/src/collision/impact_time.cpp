@@ -17,6 +17,15 @@ namespace {
 
 constexpr int most_advances = 48;
 
+/// A plane is taken not to spin.
+double swing_of(const Body& body, const Vec3& angular) {
+  const double spin = angular.norm();
+  if (spin == 0 || std::isinf(body.radius())) return 0;
+  // A ball's surface stays where it is when it spins about its center.
+  if (std::holds_alternative<Sphere>(body.shape().solid)) return 0;
+  return spin * body.radius();
+}
+
 }  // namespace
 
 Pose Prediction::node(const Body& body) const {
@@ -36,24 +45,20 @@ Prediction Course::at(double time) const {
 }
 
 Course course_of(const Body& body, const forces::Load& load, double dt) {
+  Course course{&body, &body.shape(), body.twist.linear, body.twist.angular, load.acceleration};
   if (body.immovable() || body.asleep) {
-    const step::KeyedCourse course = body.immovable() ? step::keyed_course(body, dt) : step::KeyedCourse{};
-    return {&body, &body.shape(), course.mean.linear - 0.5 * course.gain.linear, course.mean.angular,
-            course.gain.linear / dt};
+    const step::KeyedCourse keyed = body.immovable() ? step::keyed_course(body, dt) : step::KeyedCourse{};
+    course.linear = keyed.mean.linear - 0.5 * keyed.gain.linear;
+    course.angular = keyed.mean.angular;
+    course.acceleration = keyed.gain.linear / dt;
+  } else if (body.drive.owner() == Owner::driven) {
+    // A drive may be stiff enough to take the body anywhere within the step.
+    course.linear = load.pulled.linear;
+    course.angular = load.pulled.angular;
+    course.acceleration = Vec3::Zero();
   }
-  // A drive may be stiff enough to take the body anywhere within the step.
-  if (body.drive.owner() == Owner::driven)
-    return {&body, &body.shape(), load.pulled.linear, load.pulled.angular, Vec3::Zero()};
-  return {&body, &body.shape(), body.twist.linear, body.twist.angular, load.acceleration};
-}
-
-double swing_speed(const Course& course) {
-  const Body& body = *course.body;
-  const double spin = course.angular.norm();
-  if (spin == 0 || std::isinf(body.radius())) return 0;
-  // A ball's surface stays where it is when it spins about its center.
-  if (std::holds_alternative<Sphere>(body.shape().solid)) return 0;
-  return spin * body.radius();
+  course.swing = swing_of(body, course.angular);
+  return course;
 }
 
 namespace {
@@ -67,8 +72,8 @@ struct GapAlong {
   double bent = 0;
 
   GapAlong(const Course& first, const Course& second, const Vec3& along) : a(first), b(second), direction(along) {
-    bent = std::abs(direction.dot(a.acceleration - b.acceleration)) + a.angular.norm() * swing_speed(a) +
-           b.angular.norm() * swing_speed(b);
+    bent = std::abs(direction.dot(a.acceleration - b.acceleration)) + a.angular.norm() * a.swing +
+           b.angular.norm() * b.swing;
   }
   /// The gap at a time, by no more than its rounding too small; -infinity where it is not known, m.
   [[nodiscard]] double at(double time) const {
@@ -97,7 +102,7 @@ bool stay_apart(const Course& a, const Course& b, const Vec3& direction, double 
   const double left = dt - from;
   const Vec3 speed = a.linear - b.linear, gain = a.acceleration - b.acceleration;
   const double closing = std::max(direction.dot(speed + gain * from), direction.dot(speed + gain * dt));
-  const double swing_a = swing_speed(a), swing_b = swing_speed(b);
+  const double swing_a = a.swing, swing_b = b.swing;
   if (gap > 2 * hair + std::max(0.0, closing + swing_a + swing_b) * left) return true;
   if (swing_a + swing_b == 0) return false;
   // What is apart by more than it bends at both ends is so between them.
@@ -107,7 +112,7 @@ bool stay_apart(const Course& a, const Course& b, const Vec3& direction, double 
 }
 
 std::optional<double> impact_time(const Course& a, const Course& b, double dt) {
-  const double swing = swing_speed(a) + swing_speed(b);
+  const double swing = a.swing + b.swing;
   double time = 0;
   // How far to look ahead: first to the end, then to where the gap should have closed.
   double stretch = dt;

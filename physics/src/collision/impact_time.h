@@ -20,6 +20,7 @@ struct Course {
   Vec3 linear{0, 0, 0};
   Vec3 angular{0, 0, 0};
   Vec3 acceleration{0, 0, 0};
+  double swing = 0;  ///< how fast a surface point can move along any direction because the body spins, m/s
   [[nodiscard]] Prediction at(double time) const;
 };
 
@@ -27,9 +28,6 @@ struct Course {
 constexpr double hair = 1e-7;
 
 [[nodiscard]] Course course_of(const state::Body& body, const forces::Load& load, double dt);
-
-/// How fast a surface point can move along any direction because the body spins, m/s. A plane is taken not to spin.
-[[nodiscard]] double swing_speed(const Course& course);
 
 /// Whether shapes with such a gap along a unit direction stay apart along it by more than two hairs from a time on
 /// until `dt`.

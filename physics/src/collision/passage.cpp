@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "collision/surfaces/surface.h"
 #include "shapes/placed.h"
 
 namespace tweenfall::collision {
@@ -40,7 +41,10 @@ std::optional<Vec3> face_along(const Passage& passage, const Vec3& normal) {
 Passage passage_of(const state::Body& body, const forces::Load& load, double dt) {
   Passage passage{&body, shapes::place(body.shape(), body.motion.pose), course_of(body, load, dt)};
   passage.spin = passage.course.angular.norm();
-  passage.swing = swing_speed(passage.course);
+  passage.swing = passage.course.swing;
+  const Solid& solid = body.shape().solid;
+  passage.simple = !surfaces::surface_of(solid) && !std::holds_alternative<Compound>(solid);
+  passage.boundless = std::isinf(body.radius());
   return passage;
 }
 
@@ -65,7 +69,7 @@ double gap_along(const Passage& a, const Passage& b, const Vec3& direction) {
 bool stay_apart(const Passage& a, const Passage& b, const Vec3& direction, double gap, double near_enough, double dt) {
   const double rounding = 1e-14 * (a.placed.center.norm() + b.placed.center.norm());
   if (!(gap > 1.000001 * near_enough + rounding)) return false;
-  if ((std::isinf(a.body->radius()) && a.spin > 0) || (std::isinf(b.body->radius()) && b.spin > 0)) return false;
+  if ((a.boundless && a.spin > 0) || (b.boundless && b.spin > 0)) return false;
   return stay_apart(a.course, b.course, direction, gap - rounding, 0, dt);
 }
 

@@ -10,8 +10,10 @@ struct Passage {
   const state::Body* body = nullptr;
   shapes::Placed placed;  ///< at the start
   Course course;
-  double spin = 0;   ///< rad/s
-  double swing = 0;  ///< how fast its spin moves a point of its surface, m/s
+  double spin = 0;         ///< rad/s
+  double swing = 0;        ///< how fast its spin moves a point of its surface, m/s
+  bool simple = false;     ///< neither a surface nor of several parts
+  bool boundless = false;  ///< a plane
 };
 
 [[nodiscard]] Passage passage_of(const state::Body& body, const forces::Load& load, double dt);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "state/contact_memories.h"
+#include "state/prefetch.h"
 
 namespace tweenfall::contacts {
 
@@ -45,5 +46,13 @@ struct ContactConstraint : ContactHead {
   Manifold manifold;
   std::array<PointConstraint, 4> points{};  ///< so many as `count` says
 };
+
+/// It will be looked at soon, and its first points.
+inline void fetch(const ContactConstraint& contact) {
+  state::fetch<ContactHead>(&contact);
+  state::fetch(&contact.manifold.normal);
+  state::fetch(contact.points.data());
+  state::fetch(contact.points.data() + 1);
+}
 
 }  // namespace tweenfall::contacts

@@ -10,6 +10,7 @@
 #include "contacts/combine.h"
 #include "contacts/followers.h"
 #include "contacts/found_manifold.h"
+#include "state/prefetch.h"
 #include "state/world_data.h"
 
 namespace tweenfall {
@@ -242,6 +243,21 @@ void World::Implementation::find_contacts_of_parts(const contacts::PairInContact
   }
 }
 
+/// What the pairs after the i-th will look at.
+void World::Implementation::fetch_ahead(std::span<const pairs::Pair> pairs,
+                                        std::span<const contacts::PairMemories> memories_of, std::size_t i) const {
+  constexpr std::size_t far = 8, near = 4;
+  const auto memory_of = [&](std::size_t number) -> const state::ContactMemory* {
+    return memories_of[number].count > 0 ? &memories[memories.sorted()[memories_of[number].first]] : nullptr;
+  };
+  if (i + far < pairs.size()) {
+    state::fetch(&passages[pairs[i + far].second]);
+    if (const state::ContactMemory* memory = memory_of(i + far)) state::fetch(memory);
+  }
+  if (i + near >= pairs.size()) return;
+  if (const state::ContactMemory* memory = memory_of(i + near)) memory->more.fetch();
+}
+
 void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
                                       std::span<const contacts::PairMemories> memories_of, bool crowded, double dt,
                                       contacts::FoundPart& part) {
@@ -255,21 +271,18 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
                                                        return known.pair < pair;
                                                      });
   for (std::size_t i = 0; i < pairs.size(); ++i) {
+    fetch_ahead(pairs, memories_of, i);
     const auto [index_a, index_b] = pairs[i];
-    const state::Body& a = bodies[index_a];
-    const state::Body& b = bodies[index_b];
+    const collision::Passage& way_a = passages[index_a];
+    const collision::Passage& way_b = passages[index_b];
     if (crowded && contact_counts[index_a] >= contacts::most_contacts &&
-        contact_counts[index_b] >= contacts::most_contacts && !a.immovable() && !b.immovable())
+        contact_counts[index_b] >= contacts::most_contacts && !way_a.body->immovable() && !way_b.body->immovable())
       continue;
     contacts::PairInContact pair;
     pair.a = index_a;
     pair.b = index_b;
     const std::size_t before = part.contacts.size();
-    if (surfaces::surface_of(a.shape().solid) || surfaces::surface_of(b.shape().solid)) {
-      find_contacts_with_surface(pair, memories_of[i], dt, part);
-    } else if (contacts::parts_of(a).empty() && contacts::parts_of(b).empty()) {
-      const collision::Passage& way_a = passages[index_a];
-      const collision::Passage& way_b = passages[index_b];
+    if (way_a.simple && way_b.simple) {
       while (next_apart != aparts.cend() && next_apart->pair < pairs[i]) ++next_apart;
       if (next_apart != aparts.cend() && next_apart->pair == pairs[i]) {
         const Vec3 direction = next_apart->apart.in_world(way_a, way_b);
@@ -286,13 +299,15 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
       }
       if (memories_of[i].count > 0) pair.memory = memories.sorted()[memories_of[i].first];
       find_contact(pair, way_a, way_b, dt, true, part);
+    } else if (surfaces::surface_of(way_a.body->shape().solid) || surfaces::surface_of(way_b.body->shape().solid)) {
+      find_contacts_with_surface(pair, memories_of[i], dt, part);
     } else {
       find_contacts_of_parts(pair, memories_of[i], dt, part);
     }
     if (part.contacts.size() == before) continue;
-    if (contacts::may_strike(passages[index_a], passages[index_b], dt))
+    if (contacts::may_strike(way_a, way_b, dt))
       for (const contacts::ContactConstraint& contact : part.contacts.all().subspan(before))
-        contacts::note_blow(contact, passages[index_a], passages[index_b], dt, part.blows);
+        contacts::note_blow(contact, way_a, way_b, dt, part.blows);
     if (!crowded) continue;
     ++contact_counts[index_a];
     ++contact_counts[index_b];

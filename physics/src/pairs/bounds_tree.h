@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "state/prefetch.h"
+
 namespace tweenfall::pairs {
 
 [[nodiscard]] inline bool overlap(const Bounds& a, const Bounds& b) {
@@ -27,6 +29,10 @@ class BoundsTree {
   void remove(std::uint32_t item);
   [[nodiscard]] bool has(std::uint32_t item) const { return item < leaves_.size() && leaves_[item] != none; }
   [[nodiscard]] const Bounds& of(std::uint32_t item) const { return nodes_[leaves_[item]].bounds; }
+  /// It will be asked for this item soon.
+  void fetch(std::uint32_t item) const {
+    if (has(item)) state::fetch(&nodes_[leaves_[item]]);
+  }
   [[nodiscard]] std::size_t size() const { return size_; }
 
   /// Takes in what is new, and builds the tree again when it has changed too much to be good.

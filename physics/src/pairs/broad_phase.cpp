@@ -262,8 +262,14 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
   entries_.resize(std::max(entries_.size(), bodies.size()));
   looks_.resize(changed.size());
   work.ranges(changed.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; i < end; ++i) {
+      constexpr std::size_t ahead = 6;
+      if (i + ahead < end) {
+        movable_.fetch(changed[i + ahead]);
+        state::fetch(&bodies[changed[i + ahead]]);
+      }
       looks_[i] = look_at(bodies[changed[i]], changed[i], loads[changed[i]], margin, dt);
+    }
   });
   for (std::size_t i = 0; i < changed.size(); ++i) follow(looks_[i], changed[i]);
   movable_.settle();

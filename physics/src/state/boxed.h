@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "state/prefetch.h"
+
 namespace tweenfall::state {
 
 /// A value that most have not, in a place of its own; copied like any other value.
@@ -34,6 +36,8 @@ class Boxed {
     return *value_;
   }
   void reset() { value_.reset(); }
+  /// It will be asked for soon.
+  void fetch() const { state::fetch(value_.get()); }
 
  private:
   std::unique_ptr<T> value_;

@@ -54,6 +54,8 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// a pair may each have as many contacts as a body can
   bool recall(std::span<const pairs::Pair> pairs);
   void find_memories(std::span<const pairs::Pair> pairs);
+  void fetch_ahead(std::span<const pairs::Pair> pairs, std::span<const contacts::PairMemories> memories_of,
+                   std::size_t i) const;
   void find_part(std::span<const pairs::Pair> pairs, std::span<const contacts::PairMemories> memories_of, bool crowded,
                  double dt, contacts::FoundPart& part);
   /// The contact of two bodies, or of two of their parts, if there is one.

@@ -223,6 +223,15 @@ void World::Implementation::remember_contacts() {
   };
   workers().ranges(active.size(), step::worth_sharing, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
+      constexpr std::size_t far = 8, near = 4;
+      if (k + far < end) {
+        const std::uint32_t place = active[k + far]->memory;
+        if (place != state::ContactMemories::nowhere) state::fetch(&memories[place]);
+      }
+      if (k + near < end) {
+        const std::uint32_t place = active[k + near]->memory;
+        if (place != state::ContactMemories::nowhere) memories[place].more.fetch();
+      }
       const contacts::ContactConstraint& constraint = *active[k];
       step::Outcome& outcome = outcomes[k];
       double normal = 0;

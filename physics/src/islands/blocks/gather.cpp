@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "contacts/meeting.h"
+#include "state/prefetch.h"
 
 /// What the rows need of bodies and contacts, gathered before the sub-steps.
 
@@ -96,7 +97,14 @@ void BlockSolver::gather(const std::vector<Body>& bodies, const std::vector<Load
   paces_[0] = {};
   velocities_[0] = displacements_[0] = {};
   lags_[0] = {};
-  each_body([&](std::size_t i) { take(i, bodies[indices_[i]], loads[indices_[i]], integrator); });
+  each_body([&](std::size_t i) {
+    constexpr std::size_t ahead = 4;
+    if (i + ahead < count) {
+      state::fetch(&bodies[indices_[i + ahead]]);
+      state::fetch(&loads[indices_[i + ahead]]);
+    }
+    take(i, bodies[indices_[i]], loads[indices_[i]], integrator);
+  });
   uneven_.clear();
   rebounds_.clear();  // of the island before
   led_.clear();
@@ -128,6 +136,8 @@ void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const st
   marks_.resize(contacts.size());
   work_.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      constexpr std::size_t ahead = 4;
+      if (i + ahead < end) contacts::fetch(*contacts[i + ahead]);
       ContactConstraint& contact = *contacts[i];
       const std::uint32_t a = places_[contact.a], b = places_[contact.b];
       closings_[i] = contacts::closing_of(contact.manifold.normal, loads[contact.a], loads[contact.b], dt);
