@@ -4,7 +4,6 @@ import {readFileSync} from "node:fs";
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";
 import {check, equal, near} from "./checks.mjs";
-import {readPng} from "./png.mjs";
 
 async function opens(page, folder, name) {
   await page.visit(pathToFileURL(join(folder, name + ".html")).href);
@@ -35,7 +34,8 @@ export async function showsActors(page, folder) {
 
   await opens(page, folder, "cloth");
   await page.evaluate("tweenfall.seek(0.4)");
-  const picture = readPng(await page.screenshot()), box = await page.evaluate("(({left, top, width, height}) => ({left, top, width, height}))" +
+  await page.drawn();
+  const picture = await page.picture(), box = await page.evaluate("(({left, top, width, height}) => ({left, top, width, height}))" +
     "(document.getElementById('view').getBoundingClientRect())");
   for (const [x, y] of [[0.05, 0.1], [0.95, 0.1], [0.05, 0.9], [0.95, 0.9]]) {
     const pixel = picture.at(box.left + x * box.width, box.top + y * box.height);

@@ -4,6 +4,7 @@ import {spawn, spawnSync} from "node:child_process";
 import {mkdtempSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
+import {readPng} from "./png.mjs";
 
 // The browser's name, or null where there is none. CHROMIUM names another.
 export function findBrowser() {
@@ -112,8 +113,12 @@ export class Page {
 
   // What is on the screen, as PNG bytes.
   async screenshot() {
-    await this.drawn();
     return Buffer.from((await this.send("Page.captureScreenshot", {format: "png"})).data, "base64");
+  }
+
+  // The same as pixels, by places on the page.
+  async picture() {
+    return readPng(await this.screenshot(), this.scale);
   }
 
   async mouse(type, x, y, buttons = 0) {

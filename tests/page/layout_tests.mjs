@@ -1,7 +1,6 @@
 // Nothing overlaps and nothing is cut off, from a desk's screen to a phone's, by the rectangles of the elements.
 
 import {check} from "./checks.mjs";
-import {readPng} from "./png.mjs";
 
 const parts = ["header", "#view", "#readout", "#curves", "#transport", "#timeline"];
 const controls = "header h1, header #legend, header button, #transport button, #clock, #transport label, #transport select, #find";
@@ -59,7 +58,7 @@ export async function isNeverEmpty(page) {
   await page.evaluate("window.next = window.requestAnimationFrame; window.held = []; " +
     "window.requestAnimationFrame = frame => held.push(frame); document.getElementById('view').style.marginRight = '90px'");
   await page.evaluate("new Promise(done => next.call(window, () => next.call(window, () => done(1))))");
-  const picture = readPng(Buffer.from((await page.send("Page.captureScreenshot", {format: "png"})).data, "base64"));
+  const picture = await page.picture();
   const [left, top, right, bottom] = (await rectangles(page, "#view"))[0].box;
   for (const [x, y] of [[0.1, 0.1], [0.9, 0.1], [0.1, 0.9], [0.9, 0.9]]) {
     const pixel = picture.at(left + x * (right - left), top + y * (bottom - top));

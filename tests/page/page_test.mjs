@@ -11,7 +11,6 @@ import {showHostile, showLarge} from "./hostile_tests.mjs";
 import {fitsAllWidths, isNeverEmpty} from "./layout_tests.mjs";
 import {showsTwoBesideEachOther} from "./beside_tests.mjs";
 import {showsJoints, showsSteps} from "./overlay_tests.mjs";
-import {readPng} from "./png.mjs";
 import {drivesTheTimeline} from "./timeline_tests.mjs";
 
 const browser = findBrowser();
@@ -108,7 +107,8 @@ async function paintsOwners(page) {
   await page.evaluate("tweenfall.choose('floor')");
   for (const time of [0.3, 1.3, 2]) {
     await page.evaluate(`tweenfall.seek(${time})`);
-    const picture = readPng(await page.screenshot());
+    await page.drawn();
+    const picture = await page.picture();
     for (const name of moves) {
       const place = await page.evaluate(`tweenfall.screenPositionOf("${name}")`);
       const owner = recording.nodes[name].owner[await page.evaluate("tweenfall.frame")];
@@ -119,7 +119,8 @@ async function paintsOwners(page) {
   }
   // With their own colors the bodies, which have none, are gray.
   await page.evaluate("tweenfall.set({byOwner: false})");
-  const picture = readPng(await page.screenshot()), place = await page.evaluate("tweenfall.screenPositionOf('roller')");
+  await page.drawn();
+  const picture = await page.picture(), place = await page.evaluate("tweenfall.screenPositionOf('roller')");
   const pixel = picture.at(place.x, place.y);
   check(Math.max(...pixel) - Math.min(...pixel) < 12, `without owners' colors the roller is gray: ${pixel}`);
   await page.evaluate("tweenfall.set({byOwner: true})");
@@ -231,7 +232,7 @@ async function run(title, options, test) {
   console.log(`${title}: ${((Date.now() - started) / 1000).toFixed(1)} s`);
 }
 
-await run("with WebGL", {}, async page => {
+await run("with WebGL", {scale: 0.5}, async page => {
   check(await page.evaluate("tweenfall.ready"), "the page is ready once it is loaded");
   check(await page.evaluate("tweenfall.webgl"), "the browser draws WebGL");
   for (const test of [showsTheRecording, movesBetweenFrames, bendsTheMesh, paintsOwners, stepsAndPlays, scrubs, showsKeys, chooses,

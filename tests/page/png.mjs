@@ -8,7 +8,8 @@ const paeth = (a, b, c) => {
   return pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
 };
 
-export function readPng(bytes) {
+// A picture of `scale` pixels for each of the page's; at(x, y) takes those of the page.
+export function readPng(bytes, scale = 1) {
   let width = 0, height = 0, channels = 0;
   const packed = [];
   for (let at = 8; at < bytes.length;) {
@@ -34,7 +35,9 @@ export function readPng(bytes) {
     }
   }
   return {width, height, at: (x, y) => {
-    const start = Math.round(y) * stride + Math.round(x) * channels;
+    const column = Math.round(x * scale), row = Math.round(y * scale);
+    if (!(column >= 0 && column < width && row >= 0 && row < height)) throw new Error(`(${x}, ${y}) is not in the picture`);
+    const start = row * stride + column * channels;
     return [...pixels.subarray(start, start + 3)];
   }};
 }

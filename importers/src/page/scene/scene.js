@@ -4,10 +4,18 @@ const scene = new THREE.Scene();
 const camera = new THREE.PerspectiveCamera(38, 1, 0.01, 1000);
 const view = document.getElementById("view");
 let renderer = null;
+
+function isSoftware(context) {
+  const info = context.getExtension("WEBGL_debug_renderer_info");
+  return !!info && /swiftshader|llvmpipe|softpipe|software|basic render/i.test(context.getParameter(info.UNMASKED_RENDERER_WEBGL));
+}
+
 try {
   // Asked first, because three.js complains aloud.
-  if (!document.createElement("canvas").getContext("webgl")) throw new Error("no WebGL");
-  renderer = new THREE.WebGLRenderer({canvas: document.getElementById("scene"), antialias: true});
+  const context = document.createElement("canvas").getContext("webgl");
+  if (!context) throw new Error("no WebGL");
+  // Without a graphics card smooth edges take as long as all the rest.
+  renderer = new THREE.WebGLRenderer({canvas: document.getElementById("scene"), antialias: !isSoftware(context)});
   renderer.gammaOutput = true;
   renderer.gammaFactor = 2.2;
   renderer.shadowMap.enabled = true;
