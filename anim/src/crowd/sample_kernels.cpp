@@ -111,9 +111,14 @@ TWEENFALL_CROWD_LANES void slots(Cursor& at, const Run& run, const LaneWeights& 
 template <bool rates>
 TWEENFALL_CROWD_LANES void put(Lanes (&value)[3], Lanes (&rate)[3], float (*to)[lane_count],
                                float (*rate_to)[lane_count]) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    store(to[c], value[c]);
-    if constexpr (rates) store(rate_to[c], rate[c]);
+  // Not in a loop: g++ 12 would copy what a loop of three stores through memory, in halves.
+  store(to[0], value[0]);
+  store(to[1], value[1]);
+  store(to[2], value[2]);
+  if constexpr (rates) {
+    store(rate_to[0], rate[0]);
+    store(rate_to[1], rate[1]);
+    store(rate_to[2], rate[2]);
   }
 }
 
@@ -132,12 +137,12 @@ TWEENFALL_CROWD_LANES void put(Lanes (&p)[4], Lanes (&rate)[4], float (*to)[lane
   }
 }
 
-template <std::size_t count, Packing base, Packing fine, bool rates>
+template <std::size_t count, Packing base, Packing fine, bool cubic, bool rates>
 TWEENFALL_CROWD_LANES void one_channel(Cursor& at, const Run& run, const LanePlace& place, float (*to)[lane_count],
                                        float (*rate_to)[lane_count]) {
   Lanes value[count], rate[count];
   slots<count, base, fine, rates, false>(at, run, place.value, place.value_rate, value, rate);
-  if (run.form.cubic) {
+  if constexpr (cubic) {
     Lanes more[count], more_rate[count];
     slots<count, base, fine, rates, true>(at, run, place.tangent, place.tangent_rate, more, more_rate);
     for (std::size_t c = 0; c < count; ++c) {
@@ -148,23 +153,16 @@ TWEENFALL_CROWD_LANES void one_channel(Cursor& at, const Run& run, const LanePla
   put<rates>(value, rate, to, rate_to);
 }
 
-template <Packing base, Packing fine, bool rates>
+template <Packing base, Packing fine, bool cubic, bool rates>
 TWEENFALL_CROWD_LANES void each_channel(const CompiledClip& clip, const Run& run, const RunPlace& place,
                                         CrowdGroup* pose, CrowdRates* moving) {
   Cursor at{place.base, place.fine, nullptr};
   LanePlace lanes;
-  if constexpr (base != Packing::none || fine != Packing::none) {
-    spread<base, fine>(place.value, lanes.value);
-    if constexpr (rates) spread<base, fine>(place.value_rate, lanes.value_rate);
-    if (run.form.cubic) {
-      spread<base, fine>(place.tangent, lanes.tangent);
-      if constexpr (rates) spread<base, fine>(place.tangent_rate, lanes.tangent_rate);
-    } else {  // not read, which g++ does not see
-      lanes.tangent = LaneWeights();
-      if constexpr (rates) lanes.tangent_rate = LaneWeights();
-    }
-  } else {
-    lanes = LanePlace();
+  spread<base, fine>(place.value, lanes.value);
+  if constexpr (cubic) spread<base, fine>(place.tangent, lanes.tangent);
+  if constexpr (rates) {
+    spread<base, fine>(place.value_rate, lanes.value_rate);
+    if constexpr (cubic) spread<base, fine>(place.tangent_rate, lanes.tangent_rate);
   }
   const Channel* const end = clip.channels.data() + run.first + run.count;
   for (const Channel* channel = end - run.count; channel != end; ++channel) {
@@ -172,12 +170,21 @@ TWEENFALL_CROWD_LANES void each_channel(const CompiledClip& clip, const Run& run
     CrowdGroup& group = pose[channel->group];
     CrowdRates* const moves = rates ? moving + channel->group : nullptr;
     if (channel->kind == Kind::rotation)
-      one_channel<4, base, fine, rates>(at, run, lanes, group.rotation, rates ? moves->angular : nullptr);
+      one_channel<4, base, fine, cubic, rates>(at, run, lanes, group.rotation, rates ? moves->angular : nullptr);
     else if (channel->kind == Kind::translation)
-      one_channel<3, base, fine, rates>(at, run, lanes, group.translation, rates ? moves->linear : nullptr);
+      one_channel<3, base, fine, cubic, rates>(at, run, lanes, group.translation, rates ? moves->linear : nullptr);
     else
-      one_channel<3, base, fine, rates>(at, run, lanes, group.scale, rates ? moves->scale : nullptr);
+      one_channel<3, base, fine, cubic, rates>(at, run, lanes, group.scale, rates ? moves->scale : nullptr);
   }
+}
+
+template <Packing base, Packing fine, bool rates>
+TWEENFALL_CROWD_LANES void each_channel(const CompiledClip& clip, const Run& run, const RunPlace& place,
+                                        CrowdGroup* pose, CrowdRates* moving) {
+  if (run.form.cubic)
+    each_channel<base, fine, true, rates>(clip, run, place, pose, moving);
+  else
+    each_channel<base, fine, false, rates>(clip, run, place, pose, moving);
 }
 
 template <bool rates>
@@ -200,26 +207,31 @@ TWEENFALL_CROWD_LANES void whole_run(const CompiledClip& clip, const Run& run, c
   else if (fine == Packing::exact)
     each_channel<none, Packing::exact, rates>(clip, run, place, pose, moving);
   else
-    each_channel<none, none, rates>(clip, run, place, pose, moving);
+    each_channel<none, none, false, rates>(clip, run, place, pose, moving);
+}
+
+template <bool rates>
+TWEENFALL_CROWD_LANES void all_runs(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose,
+                                    CrowdRates* moving) {
+  for (const RunPlace& place : places) whole_run<rates>(clip, *place.run, place, pose, moving);
 }
 
 // The same source for each instruction set. None of them has a fused multiply and add, so the bits are the same.
-void pose_plain(const CompiledClip& clip, const Run& run, const RunPlace& place, CrowdGroup* pose) {
-  whole_run<false>(clip, run, place, pose, nullptr);
+void pose_plain(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose) {
+  all_runs<false>(clip, places, pose, nullptr);
 }
-void pose_and_rates_plain(const CompiledClip& clip, const Run& run, const RunPlace& place, CrowdGroup* pose,
+void pose_and_rates_plain(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose,
                           CrowdRates* rates) {
-  whole_run<true>(clip, run, place, pose, rates);
+  all_runs<true>(clip, places, pose, rates);
 }
 
 #if defined(__x86_64__) || defined(__i386__)
-[[gnu::target("avx2")]] void pose_avx2(const CompiledClip& clip, const Run& run, const RunPlace& place,
-                                       CrowdGroup* pose) {
-  whole_run<false>(clip, run, place, pose, nullptr);
+[[gnu::target("avx2")]] void pose_avx2(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose) {
+  all_runs<false>(clip, places, pose, nullptr);
 }
-[[gnu::target("avx2")]] void pose_and_rates_avx2(const CompiledClip& clip, const Run& run, const RunPlace& place,
+[[gnu::target("avx2")]] void pose_and_rates_avx2(const CompiledClip& clip, std::span<const RunPlace> places,
                                                  CrowdGroup* pose, CrowdRates* rates) {
-  whole_run<true>(clip, run, place, pose, rates);
+  all_runs<true>(clip, places, pose, rates);
 }
 #endif
 

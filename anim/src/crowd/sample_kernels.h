@@ -4,6 +4,8 @@
 
 #include "crowd/compiled_clip.h"
 
+#include <span>
+
 namespace tweenfall::crowd {
 
 /// What the rows around a time are multiplied by.
@@ -15,6 +17,7 @@ struct RowWeights {
 
 /// A run at a time.
 struct RunPlace {
+  const Run* run;
   const std::int32_t* base;             ///< the first of four rows
   const std::int32_t* fine;             ///< the first of two
   RowWeights value, tangent;            ///< for the values; the tangents' are not set where there are none
@@ -22,8 +25,8 @@ struct RunPlace {
 };
 
 struct SampleKernels {
-  void (*pose)(const CompiledClip& clip, const Run& run, const RunPlace& place, CrowdGroup* pose);
-  void (*pose_and_rates)(const CompiledClip& clip, const Run& run, const RunPlace& place, CrowdGroup* pose,
+  void (*pose)(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose);
+  void (*pose_and_rates)(const CompiledClip& clip, std::span<const RunPlace> places, CrowdGroup* pose,
                          CrowdRates* rates);
 };
 

@@ -78,19 +78,25 @@ void scale_rates(CrowdRates* rates, std::size_t groups, float factor) {
 void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double time, bool arriving, double rate,
                  CrowdGroup* pose, CrowdRates* rates) noexcept {
   if (std::isnan(time)) time = 0;  // which is none
-  RunPlace at;
-  at.base = at.fine = nullptr;
+  // Of several runs where they are is found first: then their words come from memory side by side.
+  constexpr std::size_t at_once = 8;
+  RunPlace places[at_once];
   std::uint32_t timeline = Form::no_timeline;
   Timeline::Place place{};
-  for (const Run& run : clip.runs) {
-    if (run.form.timeline != Form::no_timeline) {
+  for (std::size_t first = 0; first < clip.runs.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, clip.runs.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Run& run = clip.runs[first + i];
+      places[i].run = &run;
+      places[i].base = places[i].fine = nullptr;
+      if (run.form.timeline == Form::no_timeline) continue;
       if (run.form.timeline != timeline) place = clip.timelines[timeline = run.form.timeline].at(time, arriving);
-      set_place(at, clip, run, place, rates != nullptr);
+      set_place(places[i], clip, run, place, rates != nullptr);
     }
     if (rates)
-      kernels.pose_and_rates(clip, run, at, pose, rates);
+      kernels.pose_and_rates(clip, {places, count}, pose, rates);
     else
-      kernels.pose(clip, run, at, pose);
+      kernels.pose(clip, {places, count}, pose);
   }
   if (rates && rate != 1) scale_rates(rates, crowd_groups(clip.joints), static_cast<float>(rate));
 }

@@ -16,6 +16,14 @@ TWEENFALL_CROWD_LANES Four four(const float* from) {
   return numbers;
 }
 
+/// Four numbers in both halves: read so it is one instruction.
+TWEENFALL_CROWD_LANES Lanes twice(const float* from) {
+  float lanes[lane_count];
+  __builtin_memcpy(lanes, from, sizeof(Four));
+  __builtin_memcpy(lanes + 4, from, sizeof(Four));
+  return load(lanes);
+}
+
 /// The matrix of a vertex: its first two rows, and the third.
 struct Blended {
   Lanes upper;
@@ -26,8 +34,7 @@ struct Blended {
 TWEENFALL_CROWD_LANES void add_joints(const CrowdMesh::Influence4& of, const CrowdMatrix* palette, bool first,
                                       Blended& matrix) {
   const char* const begin = reinterpret_cast<const char*>(palette);
-  const Four weights = four(of.weight);
-  const Lanes both = __builtin_shufflevector(weights, weights, 0, 1, 2, 3, 0, 1, 2, 3);
+  const Lanes both = twice(of.weight);
   const Lanes weight[4] = {__builtin_shufflevector(both, both, 0, 0, 0, 0, 4, 4, 4, 4),
                            __builtin_shufflevector(both, both, 1, 1, 1, 1, 5, 5, 5, 5),
                            __builtin_shufflevector(both, both, 2, 2, 2, 2, 6, 6, 6, 6),
@@ -86,9 +93,14 @@ TWEENFALL_CROWD_LANES void put_points(const Lanes& x, const Lanes& y, const Lane
   }
 }
 
-/// The normal by the cofactors of a matrix: the cross products of its rows, mixed.
-TWEENFALL_CROWD_LANES void put_normals(const Lanes (&m)[3][4], const Lanes* n, CrowdPoint* out) {
-  Lanes turned[3];
+/// Normals of a block on their way: what takes long, their lengths, is asked for and used a block later.
+struct Normals {
+  Lanes turned[3], shrink;
+};
+
+/// By the cofactors of a matrix: the cross products of its rows, mixed.
+TWEENFALL_CROWD_LANES void turn_normals(const Lanes (&m)[3][4], const Lanes* n, Normals& out) {
+  Lanes* const turned = out.turned;
   for (int r = 0; r < 3; ++r) {
     const Lanes *const a = m[(r + 1) % 3], *const b = m[(r + 2) % 3];
     turned[r] =
@@ -96,13 +108,16 @@ TWEENFALL_CROWD_LANES void put_normals(const Lanes (&m)[3][4], const Lanes* n, C
   }
   const Lanes squared = (turned[0] * turned[0] + turned[1] * turned[1]) + turned[2] * turned[2];
   const Words there = squared > all(1e-36F);
-  const Lanes shrink = select(there, all(1) / root(squared), all(0));
-  put_points(turned[0] * shrink, turned[1] * shrink, turned[2] * shrink, out);
+  out.shrink = select(there, all(1) / root(squared), all(0));
+}
+TWEENFALL_CROWD_LANES void put_normals(const Normals& of, CrowdPoint* out) {
+  put_points(of.turned[0] * of.shrink, of.turned[1] * of.shrink, of.turned[2] * of.shrink, out);
 }
 
+/// @param before  where the normals on their way belong; null for none
 template <bool many, bool with_normals>
 TWEENFALL_CROWD_LANES void skin_block(const SkinWork& work, std::size_t block, CrowdPoint* positions,
-                                      CrowdPoint* normals) {
+                                      CrowdPoint* before, Normals& normals) {
   Blended matrices[lane_count];
   const std::size_t first = block * lane_count;
   for (std::size_t i = 0; i < lane_count; ++i) {
@@ -111,26 +126,36 @@ TWEENFALL_CROWD_LANES void skin_block(const SkinWork& work, std::size_t block, C
       for (std::uint32_t k = work.more[first + i]; k < work.more[first + i + 1]; ++k)
         add_joints(work.more_influences[k], work.palette, false, matrices[i]);
   }
+  if constexpr (with_normals)
+    if (before) put_normals(normals, before);
   Lanes m[3][4];
   all_columns(matrices, m);
   Lanes numbers[6];
   for (int i = 0; i < 6; ++i) numbers[i] = load(work.blocks[block].numbers[i]);
+  if constexpr (with_normals) turn_normals(m, numbers + 3, normals);
   Lanes moved[3];
   for (int r = 0; r < 3; ++r)
     moved[r] = (m[r][0] * numbers[0] + m[r][1] * numbers[1]) + (m[r][2] * numbers[2] + m[r][3]);
   put_points(moved[0], moved[1], moved[2], positions);
-  if constexpr (with_normals) put_normals(m, numbers + 3, normals);
 }
 
 template <bool many, bool with_normals>
 TWEENFALL_CROWD_LANES void skin_blocks(const SkinWork& work) {
   const std::size_t whole = work.vertices / lane_count, rest = work.vertices % lane_count;
-  for (std::size_t block = 0; block < whole; ++block)
-    skin_block<many, with_normals>(work, block, work.positions + block * lane_count,
-                                   with_normals ? work.normals + block * lane_count : nullptr);
-  if (rest == 0) return;
+  Normals on_their_way{};
+  CrowdPoint* before = nullptr;
+  for (std::size_t block = 0; block < whole; ++block) {
+    skin_block<many, with_normals>(work, block, work.positions + block * lane_count, before, on_their_way);
+    if constexpr (with_normals) before = work.normals + block * lane_count;
+  }
+  if (rest == 0) {
+    if constexpr (with_normals)
+      if (before) put_normals(on_their_way, before);
+    return;
+  }
   CrowdPoint positions[lane_count], normals[lane_count];
-  skin_block<many, with_normals>(work, whole, positions, normals);
+  skin_block<many, with_normals>(work, whole, positions, before, on_their_way);
+  if constexpr (with_normals) put_normals(on_their_way, normals);
   for (std::size_t i = 0; i < rest; ++i) {
     work.positions[whole * lane_count + i] = positions[i];
     if constexpr (with_normals) work.normals[whole * lane_count + i] = normals[i];
