@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "strategies/block_pivots.h"
 #include "strategies/lemke.h"
 #include "strategies/solvers.h"
 
@@ -9,8 +10,8 @@ namespace tweenfall::strategies {
 namespace {
 
 /// Up to so many touches the problem is solved by Lemke's pivots, beyond by projected Gauss-Seidel; but up to so many
-/// by pivots, too, where a few passes of that do not end it, as where what is heavy lies on what is light.
-constexpr std::size_t few_touches = 96, most_pivoted = 512;
+/// by blocks of pivots, where a few passes of that do not end it, as where what is heavy lies on what is light.
+constexpr std::size_t few_touches = 96, most_pivoted = 1024;
 /// How far off projected Gauss-Seidel may end, m/s, and passes that it may take.
 constexpr double near_enough_to_end = 2e-10;
 constexpr int few_sweeps = 400, most_sweeps = 20000;
@@ -20,6 +21,7 @@ constexpr int few_sweeps = 400, most_sweeps = 20000;
 /// Source: Rockafellar, Monotone Operators and the Proximal Point Algorithm, SIAM J. Control 14, 1976.
 constexpr double softness = 1e-6;
 constexpr int most_hardenings = 12;
+constexpr double less_and_less[] = {1e-6, 1e-8, 1e-10};
 /// Between these the other half is solved: normals with friction as it is, friction with normals as they are.
 constexpr int most_rounds = 12;
 
@@ -34,17 +36,23 @@ double residual(const Gathering& island) {
   return most;
 }
 
-/// By Lemke's pivots. @return whether that solved it; else all is as it was.
-bool pivoted(Gathering& island) {
+/// The problem of an island, in units in which an impulse of one adds a speed of one by itself.
+struct Pivoting {
+  std::vector<double> units, matrix, offsets, impulses;
+};
+
+/// @return whether each touch gives way at all
+bool state_problem(Gathering& island, Pivoting& problem) {
   const std::size_t count = island.touches.size();
-  // A unit of impulse is such that it adds a unit of speed by itself.
-  std::vector<double> units(count), matrix(count * count), offsets(count), softened(count), impulses(count);
+  problem = {std::vector<double>(count), std::vector<double>(count * count), std::vector<double>(count),
+             std::vector<double>(count)};
+  auto& [units, matrix, offsets, impulses] = problem;
   for (std::size_t i = 0; i < count; ++i) {
     const double give = island.ease(island.touches[i], island.touches[i].normal);
     if (!(give > 0)) return false;
     units[i] = 1 / std::sqrt(give);
   }
-  const Gathering before = island;
+  const std::vector<Party> before = island.parties;
   for (Party& party : island.parties) party.linear = party.angular = Vec3::Zero();
   for (std::size_t column = 0; column < count; ++column) {
     const Touch& pushed = island.touches[column];
@@ -54,7 +62,7 @@ bool pivoted(Gathering& island) {
     for (const std::uint32_t end : {pushed.a, pushed.b})
       island.parties[end].linear = island.parties[end].angular = Vec3::Zero();
   }
-  island.parties = before.parties;
+  island.parties = before;
   for (std::size_t row = 0; row < count; ++row) {
     const Touch& touch = island.touches[row];
     impulses[row] = touch.impulse / units[row];
@@ -62,23 +70,74 @@ bool pivoted(Gathering& island) {
     for (std::size_t column = 0; column < count; ++column)
       offsets[row] -= matrix[row * count + column] * island.touches[column].impulse / units[column];
   }
-  for (std::size_t i = 0; i < count; ++i) matrix[i * count + i] += softness;
-  for (int k = 0; k < most_hardenings; ++k) {
-    for (std::size_t i = 0; i < count; ++i) softened[i] = offsets[i] - softness * impulses[i];
-    const std::vector<double> last = impulses;
-    if (!solve_by_lemke(matrix, softened, impulses)) return false;
-    double change = 0;
-    for (std::size_t i = 0; i < count; ++i) change = std::max(change, std::abs(impulses[i] - last[i]) / units[i]);
-    if (softness * change < 0.01 * near_enough_to_end) break;
-  }
-  for (std::size_t i = 0; i < count; ++i) {
+  return true;
+}
+
+/// @return whether that leaves nothing; else all is as it was
+bool accept(Gathering& island, const Pivoting& problem) {
+  const Gathering before = island;
+  for (std::size_t i = 0; i < island.touches.size(); ++i) {
     Touch& touch = island.touches[i];
-    const double pressed = units[i] * impulses[i];
+    const double pressed = problem.units[i] * problem.impulses[i];
     island.push(touch, (pressed - touch.impulse) * touch.normal);
     touch.impulse = pressed;
   }
   if (residual(island) < near_enough_to_end) return true;
   island = before;
+  return false;
+}
+
+/// @param solve  for the matrix with a softness on its diagonal: of offsets, whether it solved them, and impulses
+/// @return whether impulses stay the same at last
+template <class Solve>
+bool hardened(Pivoting& problem, double soft, const Solve& solve) {
+  const std::size_t count = problem.units.size();
+  std::vector<double> softened(count);
+  for (int k = 0; k < most_hardenings; ++k) {
+    for (std::size_t i = 0; i < count; ++i) softened[i] = problem.offsets[i] - soft * problem.impulses[i];
+    const std::vector<double> last = problem.impulses;
+    if (!solve(softened, problem.impulses)) return false;
+    double change = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      change = std::max(change, std::abs(problem.impulses[i] - last[i]) / problem.units[i]);
+    if (soft * change < 0.01 * near_enough_to_end) return true;
+  }
+  return true;
+}
+
+void soften(Pivoting& problem, double by) {
+  const std::size_t count = problem.units.size();
+  for (std::size_t i = 0; i < count; ++i) problem.matrix[i * count + i] += by;
+}
+
+/// By Lemke's pivots. @return whether that solved it; else all is as it was.
+bool pivoted(Gathering& island) {
+  Pivoting problem;
+  if (!state_problem(island, problem)) return false;
+  soften(problem, softness);
+  const auto by_lemke = [&](const std::vector<double>& offsets, std::vector<double>& impulses) {
+    return solve_by_lemke(problem.matrix, offsets, impulses);
+  };
+  return hardened(problem, softness, by_lemke) && accept(island, problem);
+}
+
+/// The same by whole blocks of pivots, which hold where what is light bears what is ten thousand times as heavy: there
+/// a softness of one part in a million is still much, and less of it is tried.
+bool pivoted_by_blocks(Gathering& island) {
+  Pivoting problem;
+  if (!state_problem(island, problem)) return false;
+  std::vector<double> slack(problem.units);
+  for (double& each : slack) each *= 0.05 * near_enough_to_end;
+  double soft = 0;
+  for (const double next : less_and_less) {
+    soften(problem, next - soft);
+    soft = next;
+    BlockPivots pivots(problem.matrix, slack);
+    const auto by_blocks = [&](const std::vector<double>& offsets, std::vector<double>& impulses) {
+      return pivots.solve(offsets, impulses);
+    };
+    if (hardened(problem, soft, by_blocks) && accept(island, problem)) return true;
+  }
   return false;
 }
 
@@ -99,7 +158,7 @@ bool swept(Gathering& island, int most, int& left) {
 void solve_normals(Gathering& island, int& left) {
   const std::size_t count = island.touches.size();
   if (count == 0 || (count <= few_touches && pivoted(island)) || swept(island, few_sweeps, left)) return;
-  if (count <= few_touches || count > most_pivoted || !pivoted(island)) swept(island, most_sweeps, left);
+  if (count > most_pivoted || !pivoted_by_blocks(island)) swept(island, most_sweeps, left);
 }
 
 }  // namespace

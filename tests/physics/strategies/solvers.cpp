@@ -193,6 +193,25 @@ TEST_CASE("what is a hundred times as heavy lies on what is light, and complemen
   }
 }
 
+TEST_CASE(
+    "what is ten thousand times as heavy lies on what is light, however high, and complementarity is below 1e-9 m/s") {
+  for (const int count : {24, 40, 100})
+    for (const bool alternating : {true, false}) {
+      CAPTURE(count);
+      CAPTURE(alternating);
+      World world(test::with(ContactSolver::lcp, Parting::positional_impulse));
+      test::add_floor(world);
+      for (int i = 0; i < count; ++i) {
+        const bool heavy = alternating ? i % 2 == 1 : i == count - 1;
+        world.add(test::solid_at(Box{Vec3(0.25, 0.25, 0.25)}, Vec3(0, 0.25 + 0.5 * i, 0), heavy ? 1e4 : 1));
+      }
+      for (int step = 0; step < 5; ++step) {
+        world.step(1.0 / 240);
+        CHECK(complementarity_residual(world) < 1e-9);
+      }
+    }
+}
+
 TEST_CASE("Lemke's pivots find what trying every choice of pressing rows finds, and of what has none say so") {
   test::Random random(11);
   int solved = 0;

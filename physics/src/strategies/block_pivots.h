@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tweenfall::strategies {
+
+/// The linear complementarity problem of a positive definite matrix: z and w = A z + q with none negative and, one by
+/// one, one of the two 0. All rows that are on the wrong side change it at once, and only where that leads nowhere the
+/// last of them alone: a few factorizations where Lemke's pivots are as many as rows.
+/// Source: Judice, Pires, A Block Principal Pivoting Algorithm for Large-Scale Strictly Monotone Linear Complementarity
+/// Problems, Computers & Operations Research 21, 1994.
+class BlockPivots {
+ public:
+  /// @param matrix  A, row by row; symmetric
+  /// @param slack   by row: what counts as nothing
+  BlockPivots(std::span<const double> matrix, std::span<const double> slack);
+
+  /// @param z  a guess, and then the solution: rows above 0 are tried first
+  /// @return whether there is one within what rounding allows
+  [[nodiscard]] bool solve(std::span<const double> q, std::span<double> z);
+
+ private:
+  [[nodiscard]] bool factor();
+  void find(std::span<const double> q);
+
+  std::size_t count_;
+  std::span<const double> matrix_, slack_;
+  std::vector<char> pressing_, factored_;  ///< by row; those for which there is a factor
+  std::vector<std::uint32_t> rows_;        ///< that press
+  std::vector<double> factor_;             ///< of the rows and columns that press, as L D L'
+  std::vector<double> values_, parting_, left_;
+};
+
+}  // namespace tweenfall::strategies
