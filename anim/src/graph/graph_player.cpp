@@ -79,7 +79,24 @@ GraphPlayer::GraphPlayer(GraphPlayer&&) noexcept = default;
 GraphPlayer& GraphPlayer::operator=(GraphPlayer&&) noexcept = default;
 
 void GraphPlayer::know(double time) {
-  if (run_->log.known < time) graphs::make_known(run_->log, *graph_, time, run_->ground, run_->room);
+  graphs::Log& log = run_->log;
+  if (log.known >= time) return;
+  if (log.keeps_all) {
+    log.keeps_all = false;
+    for (graphs::Record<graphs::Passage>& passages : log.passages) graphs::let_go(passages, true);
+  }
+  graphs::make_known(log, *graph_, time, run_->ground, run_->room);
+  if (log.lacks) recall();
+}
+
+// All that was passed follows from what came in: it is passed again.
+void GraphPlayer::recall() {
+  graphs::Log& log = run_->log;
+  const double known = log.known;
+  log.keeps_all = true;
+  graphs::forget_course(log, graph_->description(), 0);
+  graphs::make_known(log, *graph_, known, run_->ground, run_->room);
+  log.lacks = false;
 }
 
 void GraphPlayer::set(std::string_view name, double value) {
@@ -164,9 +181,15 @@ void GraphPlayer::pose_at(double time, std::span<Motion> local, Side side) {
 void GraphPlayer::evaluate(double time, std::span<Motion> local, Side side) noexcept {
   const std::size_t nodes = graph_->nodes().size();
   const std::span<Motion> below(run_->room.data(), nodes);
-  run_->ground.pose(time, side, below);
-  graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes, &run_->ground.pose},
-                                  local);
+  const auto show = [&] {
+    run_->ground.pose(time, side, below);
+    graph_->compiled().output->pose(run_->log, {time, side, 0}, {below, run_->room.data() + nodes, &run_->ground.pose},
+                                    local);
+  };
+  show();
+  if (!run_->log.lacks) return;
+  recall();
+  show();
 }
 
 NodeLook GraphPlayer::look_at(std::size_t node, double time, Side side) {

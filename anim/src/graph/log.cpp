@@ -100,6 +100,19 @@ Log fresh_log(const GraphDescription& description, const LogSizes& sizes) {
   return log;
 }
 
+void let_go(Record<Passage>& passages, bool all) {
+  constexpr std::size_t kept_pages = 4;
+  for (std::size_t count = passages.full_pages(); count > kept_pages; --count) {
+    const std::size_t i = count - kept_pages - 1;
+    if (std::ranges::any_of(passages.page(i), [](const Passage& passage) { return passage.offsets != nullptr; })) {
+      std::vector<Passage> page = passages.page(i);
+      for (Passage& passage : page) passage.offsets = nullptr;
+      passages.replace_page(i, std::move(page));
+    }
+    if (!all) return;
+  }
+}
+
 void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value,
          Origin origin) {
   forget_marks(log, time);

@@ -57,7 +57,9 @@ struct Offset {
 
 struct Passage : GraphPassage {
   GraphChange change = {};
-  std::shared_ptr<const std::vector<Offset>> offsets = {};  // one per node, where the difference settles; else null
+  // One per node, where the difference settles, and of late; else null. What was let go follows from the inputs again.
+  std::shared_ptr<const std::vector<Offset>> offsets = {};
+  std::uint64_t trace = 0;  // of the offsets, whether they are there or not
 };
 
 /// How far phases have come; see `Phase`.
@@ -108,7 +110,9 @@ struct Log {
   mutable std::vector<RecentPoses> recent;
   /// What comes later is not seen: poses go on as if nothing happened. Springs look a little ahead so.
   mutable double until = std::numeric_limits<double>::infinity();
-  double known = -1;  // all that happens until then, and at that time, is known; below 0: nothing is
+  bool keeps_all = false;      // offsets of all passages, not only of the latest
+  mutable bool lacks = false;  // a pose was asked for whose offsets were let go
+  double known = -1;           // all that happens until then, and at that time, is known; below 0: nothing is
 };
 
 /// What comes after an instant is not seen while it is looked ahead.
@@ -141,6 +145,9 @@ struct Sight {
 
 /// A log in which nothing has happened yet but what the description gives.
 [[nodiscard]] Log fresh_log(const GraphDescription& description, const LogSizes& sizes);
+
+/// Lets go of the offsets of passages but the last few hundred. @param all  also of those that had been let go before
+void let_go(Record<Passage>& passages, bool all);
 
 /// Puts it in, in order; of equal times behind those that are there.
 void set(Log& log, const GraphDescription& description, std::size_t parameter, double time, double value,

@@ -202,11 +202,7 @@ std::uint64_t hash_of(const Log& log, double time) noexcept {
       digest.number(each.time);
       digest.number(std::uint64_t{each.state});
       digest.number(std::uint64_t{each.transition});
-      if (!each.offsets) continue;
-      for (const Offset& offset : *each.offsets)
-        for (const Vec3* part :
-             {&offset.position, &offset.velocity, &offset.turn, &offset.turn_rate, &offset.scale, &offset.scale_rate})
-          for (int i = 0; i < 3; ++i) digest.number((*part)[i]);
+      digest.number(each.trace);
     }
   return digest.value();
 }

@@ -75,6 +75,14 @@ class Record {
     full_.push_back(std::make_shared<const std::vector<T>>(std::move(last_)));
     last_.clear();
   }
+  /// Those that copies share stand in so many pages of `page_size`, the first ones in the first.
+  [[nodiscard]] std::size_t full_pages() const noexcept { return full_.size(); }
+  [[nodiscard]] const std::vector<T>& page(std::size_t i) const noexcept { return *full_[i]; }
+  /// Copies keep theirs.
+  void replace_page(std::size_t i, std::vector<T> page) {
+    full_[i] = std::make_shared<const std::vector<T>>(std::move(page));
+  }
+
   /// Those from `count` on are no more.
   void truncate(std::size_t count) {
     if (count / page_size < full_.size()) {

@@ -135,7 +135,10 @@ class Course {
       ground_.pose(time, Side::out, out);
       machine.measure(log_, passage, in, out, &ground_.pose, room_.data() + 2 * nodes);
     }
-    log_.passages[number].push_back(std::move(passage));
+    Record<Passage>& passages = log_.passages[number];
+    const std::size_t pages = passages.full_pages();
+    passages.push_back(std::move(passage));
+    if (passages.full_pages() > pages && !log_.keeps_all) let_go(passages, false);
     forget_marks(log_, time);
   }
 

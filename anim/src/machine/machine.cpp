@@ -2,6 +2,7 @@
 
 #include <tweenfall/anim/blend.h>
 
+#include "graph/digest.h"
 #include "machine/inertia.h"
 
 #include <algorithm>
@@ -73,8 +74,12 @@ void Machine::show(const Log& log, const Passages& passages, const Moment& momen
     const Moment own{moment.time, moment.side, passage.time};
     states_[passage.state]->pose(log, own, lowest ? scratch : scratch.rest(), motions);
     const double since = moment.time - passage.time;
-    if (passage.offsets && since < settling_time(passage.change))
-      settle(passage.change, *passage.offsets, since, motions);
+    if (passage.settles && since < settling_time(passage.change)) {
+      if (passage.offsets)
+        settle(passage.change, *passage.offsets, since, motions);
+      else
+        log.lacks = true;
+    }
     if (!lowest) cross_fade(out, motions, shown[i].weight, out);
   }
 }
@@ -116,7 +121,7 @@ std::vector<GraphActivity> Machine::activity(const Log& log, double time) const 
     const Passage& passage = *shown[i].passage;
     const Sample<double>& weight = shown[i].weight;
     const double since = time - passage.time;
-    const bool settles = passage.offsets && since < settling_time(passage.change);
+    const bool settles = passage.settles && since < settling_time(passage.change);
     out.push_back({.state = passage.state,
                    .since = passage.time,
                    .weight = {left.value * weight.value, left.rate * weight.value + left.value * weight.rate, 0},
@@ -242,6 +247,12 @@ void Machine::measure(const Log& log, Passage& passage, std::span<const Motion> 
   show(log, until(log.passages[number_], time, Side::in), {time, Side::in, time}, {below_in, rest, below}, shown);
   states_[passage.state]->pose(log, {time, Side::out, time}, {below_out, rest, below}, next);
   passage.offsets = std::make_shared<const std::vector<Offset>>(offsets_of(passage.change, shown, next));
+  Digest digest;
+  for (const Offset& offset : *passage.offsets)
+    for (const Vec3* part :
+         {&offset.position, &offset.velocity, &offset.turn, &offset.turn_rate, &offset.scale, &offset.scale_rate})
+      for (int i = 0; i < 3; ++i) digest.number((*part)[i]);
+  passage.trace = digest.value();
 }
 
 }  // namespace tweenfall::graphs

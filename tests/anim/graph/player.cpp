@@ -243,3 +243,31 @@ TEST_CASE("a player refuses what is no input, and stays as it was") {
   CHECK_THROWS_AS(player.seek(-0.1), std::invalid_argument);
   CHECK(player.hash() == before);
 }
+
+TEST_CASE("a machine that settles for ever keeps little, and goes back far to the same bits, under springs too") {
+  const GraphChange settle{GraphChange::Kind::quintic, 0.3};
+  const GraphDescription description{
+      .poses = {
+          {"legs",
+           MachinePose{.start = "idle",
+                       .states = {{"idle", "idle"}, {"walk", "walk"}},
+                       .transitions = {{{"idle"}, "walk", {{GraphCondition::Kind::time_in_state, {}, 0.2}}, settle},
+                                       {{"walk"}, "idle", {{GraphCondition::Kind::time_in_state, {}, 0.37}}, settle}}}},
+          {"hat", SpringPose{.base = "legs", .node = "upper", .position = SpringSettings{.hz = 2}}}}};
+  GraphPlayer player(graph_of(description)), other(graph_of(description));
+  std::vector<std::vector<Motion>> seen;
+  for (int i = 0; i < 20; ++i) seen.push_back(pose_at(player, 0.25 * i));
+  player.seek(120);  // it keeps no more than 320 offsets
+  const std::vector<Motion> last = pose_at(player, 120);
+  const std::uint64_t hash = player.hash();
+  for (const int i : {3, 19, 0, 11}) CHECK(same_bits(pose_at(player, 0.25 * i), seen[static_cast<std::size_t>(i)]));
+  CHECK(player.hash() == hash);
+  CHECK(same_bits(pose_at(player, 120), last));
+  CHECK(same_bits(pose_at(other, 120), last));
+  other.seek(30);
+  player.seek(30);
+  other.seek(130);
+  player.advance(100);
+  CHECK(other.hash() == player.hash());
+  CHECK(same_bits(pose_at(player, 130), pose_at(other, 130)));
+}

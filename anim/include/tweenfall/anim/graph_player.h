@@ -9,8 +9,9 @@
 /// before those that were sent, each in order, and each may lead a machine through one transition. An event that leads
 /// nowhere is lost. What the description has the graph do on events of clips is done before either.
 ///
-/// All that came in and was passed is kept, so that it can go back; a transition that settles keeps 144 bytes for each
-/// node besides. A machine of 67 nodes that settles once a second takes 35 MB an hour.
+/// All that came in and was passed is kept, so that it can go back: some 150 bytes each. Transitions that settle keep
+/// 144 bytes for each node besides, the last 256 to 320 of each machine: whoever goes back further waits, the first
+/// time, until all has been passed again from the start, with the same bits.
 
 #include <tweenfall/anim/graph.h>
 #include <tweenfall/anim/node_look.h>
@@ -105,7 +106,8 @@ class GraphPlayer {
   [[nodiscard]] double time() const noexcept;
 
   // Reading
-  /// Local motion of every node at `time()`. @param local  written, one per node, in order. Allocates nothing.
+  /// Local motion of every node at `time()`. @param local  written, one per node, in order. Allocates nothing,
+  /// but where it was gone far back.
   void pose(std::span<Motion> local, Side side = Side::out) noexcept;
   /// The same at any time, which makes it known what happens until then.
   void pose_at(double time, std::span<Motion> local, Side side = Side::out);
@@ -149,6 +151,7 @@ class GraphPlayer {
 
  private:
   void know(double time);
+  void recall();
   void lie_on(GraphGround ground);
   void evaluate(double time, std::span<Motion> local, Side side) noexcept;
 
