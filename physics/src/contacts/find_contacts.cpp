@@ -80,7 +80,7 @@ bool World::Implementation::find_manifold(contacts::ContactConstraint& constrain
     const std::optional<double> meeting =
         apart_now ? std::nullopt : collision::impact_time(way_a.course, way_b.course, dt);
     if (!meeting) {
-      if (told_apart && contacts::may_follow(way_a, way_b, dt))
+      if (told_apart && contacts::may_follow(way_a, way_b, dt) && contacts::follow(way_a, way_b, gap, dt))
         told_apart->followers.push_back(
             {contacts::link_of(constraint.a, way_a, constraint.b, way_b, manifold.normal, gap), constraint.memory});
       return false;
@@ -289,7 +289,8 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
         const double gap = collision::gap_along(way_a, way_b, direction);
         if (collision::stay_apart(way_a, way_b, direction, gap, contacts::near_enough, dt)) {
           part.aparts.push_back(*next_apart);
-          if (contacts::may_follow(way_a, way_b, dt)) {
+          if (contacts::may_follow(way_a, way_b, dt) &&
+              (!contacts::tell_all(way_a, way_b) || contacts::follow(way_a, way_b, contacts::surely * gap, dt))) {
             if (memories_of[i].count > 0) pair.memory = memories.sorted()[memories_of[i].first];
             part.followers.push_back(
                 {contacts::link_of(index_a, way_a, index_b, way_b, direction, gap), pair.memory, false});

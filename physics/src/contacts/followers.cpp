@@ -43,6 +43,11 @@ class Blows {
   }
   /// Whether a blow reaches one of two.
   [[nodiscard]] bool reach(const Link& link) const { return struck_[link.a].time < dt_ || struck_[link.b].time < dt_; }
+  /// Whether a blow can bring two together that are no nearer than `gap`.
+  [[nodiscard]] bool may_bring(const Link& link, double closing) const {
+    const Struck &a = struck_[link.a], &b = struck_[link.b];
+    return surely * link.gap < (closing + a.most + b.most) * (dt_ - std::min(a.time, b.time));
+  }
   /// What a blow makes of a pair. @return how far the two may come towards each other in what is left of the step, m; 0
   /// where they do not meet
   double hand_on(const Link& link) {
@@ -94,7 +99,10 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
       for (const std::uint32_t end : {blow.a, blow.b})
         if (!bodies[end].immovable()) blows.strike(end, blow.time, blow.change);
   touching_links.clear();
-  for (const contacts::ContactConstraint* contact : active) {
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    constexpr std::size_t ahead = 4;
+    if (k + ahead < active.size()) contacts::fetch(*active[k + ahead]);
+    const contacts::ContactConstraint* contact = active[k];
     double gap = contact->points[0].start_gap;
     for (std::size_t i = 1; i < static_cast<std::size_t>(contact->count); ++i)
       gap = std::min(gap, contact->points[i].start_gap);
@@ -103,11 +111,11 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
   }
   const auto has_corners = [this](const contacts::ContactConstraint& contact) {
     const auto polyhedron = [this](std::uint32_t body) {
-      const Solid& solid = bodies[body].shape().solid;
+      const Solid& solid = passages[body].body->shape().solid;
       return std::holds_alternative<Box>(solid) || std::holds_alternative<Hull>(solid);
     };
     const auto level = [&](std::uint32_t body) {
-      return polyhedron(body) || std::holds_alternative<Plane>(bodies[body].shape().solid);
+      return polyhedron(body) || passages[body].boundless;
     };
     return (polyhedron(contact.a) && level(contact.b)) || (polyhedron(contact.b) && level(contact.a));
   };
@@ -125,6 +133,8 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     if (!blows.reach(pair.link)) return false;
     const collision::Passage &way_a = passages[pair.link.a], &way_b = passages[pair.link.b];
     if (!pair.known) {
+      const double fastest = (way_a.course.linear - way_b.course.linear).norm();
+      if (contacts::tell_all(way_a, way_b) && !blows.may_bring(pair.link, fastest)) return false;
       // By a direction of steps before; what comes of this one must not depend on them.
       const Manifold apart = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
                                                 contacts::near_enough, contacts::near_enough);
@@ -152,8 +162,9 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
   // What lies on few corners may be tilted by a blow until the others come down. Those that are near are known.
   for (std::size_t i = 0; i < active.size(); ++i) {
     contacts::ContactConstraint& contact = *active[i];
-    if (contact.count >= 4 || contact.impact_time > 0 || !has_corners(contact)) continue;
-    const double way = blows.hand_on(touching_links[i]);
+    const contacts::Link& link = touching_links[i];
+    if (!blows.reach(link) || contact.count >= 4 || contact.impact_time > 0 || !has_corners(contact)) continue;
+    const double way = blows.hand_on(link);
     if (!(way > contacts::near_enough)) continue;
     const collision::Passage &way_a = passages[contact.a], &way_b = passages[contact.b];
     const Manifold wider = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,

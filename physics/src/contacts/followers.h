@@ -23,6 +23,18 @@ namespace tweenfall::contacts {
          (gap * gap < faster * faster * square && gap < close * std::min(a.body->radius(), b.body->radius()));
 }
 
+/// Whether `collide` tells how far apart two bodies are, so that no direction tells of a wider gap. Of other solids it
+/// takes the first direction that parts them.
+[[nodiscard]] inline bool tell_all(const collision::Passage& a, const collision::Passage& b) {
+  const auto is_round = [](const collision::Passage& way) {
+    const Solid& solid = way.course.shape->solid;
+    return std::holds_alternative<Sphere>(solid) || std::holds_alternative<Capsule>(solid);
+  };
+  return is_round(a) && is_round(b);
+}
+/// But for what it leaves to rounding: of a gap that some direction told of, the part that it tells of too.
+constexpr double surely = 0.999;
+
 /// Whether two bodies are so fast that they may meet with a blow.
 [[nodiscard]] inline bool may_strike(const collision::Passage& a, const collision::Passage& b, double dt) {
   const auto fast = [dt](const collision::Passage& way) {
