@@ -114,9 +114,7 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
       const Solid& solid = passages[body].body->shape().solid;
       return std::holds_alternative<Box>(solid) || std::holds_alternative<Hull>(solid);
     };
-    const auto level = [&](std::uint32_t body) {
-      return polyhedron(body) || passages[body].boundless;
-    };
+    const auto level = [&](std::uint32_t body) { return polyhedron(body) || passages[body].boundless; };
     return (polyhedron(contact.a) && level(contact.b)) || (polyhedron(contact.b) && level(contact.a));
   };
   // As the bodies lie at the start of the step.

@@ -15,8 +15,9 @@ using state::Body;
 
 namespace {
 
-/// Of the speed that a contact's impulses give, a change that no longer matters.
-constexpr double settled = 1e-12;
+/// Of the speed that the impulses of a contact give in a sub-step, a change that no longer matters: of a body that
+/// lies, or rolls, a few hundredths of a micrometer per second.
+constexpr double settled = 1e-6;
 
 constexpr BodyLag pressed_still = {{0, 0, 0, 1}};
 
