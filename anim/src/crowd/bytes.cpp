@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -194,13 +195,71 @@ void read_run(Reader& from, CompiledClip& clip, std::vector<bool>& seen, std::ui
   clip.runs.push_back(run);
 }
 
-void require_finite_floats(const Reader& from, const CompiledClip& clip) {
+/// The largest number that a component of a packing is read as.
+double largest_field(Packing packing, std::size_t component_count, std::size_t component) {
+  const Field field = field_of(packing, component_count, component);
+  return std::ldexp(1.0, field.at_top() ? 31 : field.at + field.bits);
+}
+
+/// What the values of a channel, or its tangents, are at most: of any of its components.
+double largest_of(const CompiledClip& clip, const Run& run, const Channel& channel, bool tangents) {
+  const std::size_t count = components(channel.kind), each = run.form.numbers_per_slot();
+  double largest = 0;
+  for (std::size_t c = 0; c < count; ++c)
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const float* number =
+          clip.numbers.data() + channel.numbers + ((tangents ? count : 0) + c) * each * lane_count + lane;
+      double sum = std::abs(*number);
+      for (const Packing packing : {run.form.base, run.form.fine})
+        if (packing != Packing::none) sum += std::abs(*(number += lane_count)) * largest_field(packing, count, c);
+      largest = std::max(largest, sum);
+    }
+  return largest;
+}
+/// The same of one whose numbers are floats. @param column  where it begins in a row
+double largest_exact(const CompiledClip& clip, const Run& run, std::size_t column, std::size_t width) {
+  double largest = 0;
+  for (std::size_t knot = 0; knot < clip.timelines[run.form.timeline].knots.size(); ++knot)
+    for (std::size_t i = 0; i < width; ++i) {
+      const float value = std::bit_cast<float>(clip.words[run.fine_begin + knot * run.fine_row + column + i]);
+      if (!std::isfinite(value)) return std::numeric_limits<double>::infinity();
+      largest = std::max<double>(largest, std::abs(value));
+    }
+  return largest;
+}
+
+/// No number that can be read may lead to one, or to a rate, that float cannot hold.
+void require_bounded(const Reader& from, const CompiledClip& clip) {
   for (const float value : clip.numbers) from.require(std::isfinite(value), "a number is not finite");
   for (const Run& run : clip.runs) {
-    if (run.form.fine != Packing::exact) continue;
-    const std::size_t many = run.fine_row * clip.timelines[run.form.timeline].knots.size();
-    for (std::size_t i = 0; i < many; ++i)
-      from.require(std::isfinite(std::bit_cast<float>(clip.words[run.fine_begin + i])), "a number is not finite");
+    double slowest = 1, quickest = 1;
+    if (run.form.timeline != Form::no_timeline) {
+      const std::vector<double>& knots = clip.timelines[run.form.timeline].knots;
+      for (std::size_t i = 1; i < knots.size(); ++i) {
+        const double length = knots[i] - knots[i - 1];
+        slowest = std::max(slowest, length);
+        if (length > 0) quickest = std::max(quickest, std::min(1 / length, steepest));
+      }
+    }
+    const bool exact = run.form.fine == Packing::exact;
+    std::size_t column = 0;
+    for (std::uint32_t i = run.first; i < run.first + run.count; ++i) {
+      const Channel& channel = clip.channels[i];
+      const std::size_t width = lane_count * run.form.lines(run.form.fine, components(channel.kind));
+      double value, tangent = 0;
+      if (exact) {
+        value = largest_exact(clip, run, column, width);
+        if (run.form.cubic) tangent = value;
+      } else {
+        value = largest_of(clip, run, channel, false);
+        if (run.form.cubic) tangent = largest_of(clip, run, channel, true);
+      }
+      column += width;
+      const double far = value + tangent * slowest, fast = value * quickest + tangent;
+      // Rotations are squared, and multiplied by their rates.
+      const bool fits = channel.kind != Kind::rotation || (far <= 1e15 && far * fast <= 1e36);
+      from.require(far <= 1e36 && fast <= 1e36 && fits, "a number is too large");
+    }
   }
 }
 
@@ -212,6 +271,8 @@ void read_climbs(Reader& from, CompiledClip& clip) {
     from.require(climb.joint < clip.joints, "there is no such joint");
     for (double& part : climb.gain) part = from.finite();
     for (double& part : climb.turn) part = from.finite();
+    for (const double part : climb.gain) from.require(std::abs(part) <= 1e20, "a number is too large");
+    for (const double part : climb.turn) from.require(std::abs(part) <= 1e5, "a number is too large");
   }
 }
 
@@ -236,7 +297,7 @@ void read(Reader& from, CompiledClip& clip) {
   from.require(clip.channels.size() == channels, "some joints have no values");
   from.all(clip.numbers, numbers);
   from.all(clip.words, lay_out(clip));
-  require_finite_floats(from, clip);
+  require_bounded(from, clip);
   read_climbs(from, clip);
   from.require(from.left() == 0, "it should end");
 }

@@ -23,6 +23,9 @@ namespace tweenfall::crowd {
 
 inline constexpr std::size_t lane_count = CrowdGroup::size;
 
+/// What the quotient of two nearly equal times is at most, so that products with it stay finite in float.
+inline constexpr double steepest = 1e30;
+
 enum class Kind : std::uint8_t { translation, rotation, scale };
 
 [[nodiscard]] constexpr std::size_t components(Kind kind) {

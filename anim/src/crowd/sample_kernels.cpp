@@ -126,10 +126,13 @@ TWEENFALL_CROWD_LANES void put(Lanes (&value)[3], Lanes (&rate)[3], float (*to)[
 template <bool rates>
 TWEENFALL_CROWD_LANES void put(Lanes (&p)[4], Lanes (&rate)[4], float (*to)[lane_count], float (*rate_to)[lane_count]) {
   const Lanes squared = (p[0] * p[0] + p[1] * p[1]) + (p[2] * p[2] + p[3] * p[3]);
-  const Lanes shrink = all(1) / root(squared);
-  for (std::size_t c = 0; c < 4; ++c) store(to[c], p[c] * shrink);
+  // No clip that was compiled comes so near to no rotation at all; bytes that somebody forged may.
+  const Words there = squared > all(1e-4F);
+  const Lanes shrink = select(there, all(1) / root(squared), all(0));
+  for (std::size_t c = 0; c < 3; ++c) store(to[c], p[c] * shrink);
+  store(to[3], select(there, p[3] * shrink, all(1)));
   if constexpr (rates) {
-    const Lanes twice = all(2) / squared;
+    const Lanes twice = select(there, all(2) / squared, all(0));
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t a = (c + 1) % 3, b = (c + 2) % 3;
       store(rate_to[c], twice * ((p[3] * rate[c] - rate[3] * p[c]) - (rate[a] * p[b] - rate[b] * p[a])));

@@ -10,9 +10,6 @@ namespace tweenfall::crowd {
 
 namespace {
 
-/// What the quotient of two nearly equal times is at most, so that products with it stay finite in float.
-constexpr double steepest = 1e30;
-
 /// Of the values and of the tangents at a segment's two knots.
 struct SegmentWeights {
   double value[2], tangent[2];

@@ -1,6 +1,8 @@
 #include <tweenfall/anim/crowd.h>
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -50,7 +52,16 @@ void sample_all(const CrowdClip& clip) {
   if (clip.joints() > 1000) return;
   std::vector<CrowdGroup> pose(clip.groups());
   std::vector<CrowdRates> rates(clip.groups());
-  for (const double time : {-1.0, 0.0, 0.3, 0.8, 1e9}) clip.sample(clip.clock(0, 1, time), pose, rates);
+  const auto finite = [](const auto& groups) {
+    const float* const numbers = reinterpret_cast<const float*>(groups.data());
+    return std::all_of(numbers, numbers + groups.size() * sizeof groups[0] / sizeof(float),
+                       [](float number) { return std::isfinite(number); });
+  };
+  for (const double time : {-1.0, 0.0, 0.3, 0.8, 1e9}) {
+    clip.sample(clip.clock(0, 1, time), pose, rates);
+    REQUIRE(finite(pose));
+    REQUIRE(finite(rates));
+  }
 }
 
 }  // namespace
@@ -128,6 +139,12 @@ TEST_CASE("forged bytes with a right checksum are refused or can be sampled, and
     for (int changes = 1 + static_cast<int>(4 * random.unit()); changes > 0; --changes)
       forged[header + static_cast<std::size_t>(random.unit() * static_cast<double>(bytes.size() - header))] =
           static_cast<std::byte>(random.bits());
+    attempt(sealed_again(forged));
+  }
+  for (int i = 0; i < 500; ++i) {  // rotations that are none among them
+    std::vector<std::byte> forged = bytes;
+    const double at = random.unit() * static_cast<double>(bytes.size() - header - 100);
+    std::fill_n(forged.begin() + header + static_cast<std::ptrdiff_t>(at), 8 * (i % 12), std::byte{0});
     attempt(sealed_again(forged));
   }
   CHECK(refused > 500);
