@@ -169,6 +169,40 @@ void clip_faces(Manifold& manifold, const Box& reference, const Placed& at_refer
               candidates[i].feature | tag << 28, margin);
 }
 
+/// Corners past each other: the sides of the face leave nothing, yet no axis tells the boxes apart by more. What
+/// reaches deepest under the face, a corner or both ends of an edge, brought back to its sides.
+/// `normal` points out of the reference box.
+void take_deepest(Manifold& manifold, const Box& reference, const Placed& at_reference, int axis, const Vec3& normal,
+                  const Box& incident, const Placed& at_incident, double gap, double reach) {
+  constexpr double level = 1e-4;  // of a size
+  const Vec3 corner = support(incident, at_incident, -normal);
+  const auto back_to_face = [&](const Vec3& place) -> Vec3 {
+    Vec3 at = at_reference.axes.transpose() * (place - at_reference.center);
+    for (int i = 0; i < 3; ++i)
+      if (i != axis) at[i] = std::clamp(at[i], -reference.half_extents[i], reference.half_extents[i]);
+    return at_reference.center + at_reference.axes * at;
+  };
+  int lying = -1;
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(at_incident.axes.col(i).dot(normal)) < level &&
+        (lying < 0 || incident.half_extents[i] > incident.half_extents[lying]))
+      lying = i;
+  if (lying < 0) {
+    add_point(manifold, corner - 0.5 * gap * normal, -gap, 0x3000000u, reach);
+    return;
+  }
+  const Vec3 along = at_incident.axes.col(lying);
+  const double middle = along.dot(corner - at_incident.center);
+  std::uint32_t feature = 0x3000000u;
+  for (const double end : {-incident.half_extents[lying], incident.half_extents[lying]}) {
+    Vec3 place = back_to_face(corner + (end - middle) * along);
+    place -= (normal.dot(place - corner) + 0.5 * gap) * normal;
+    if (manifold.count > 0 && (place - manifold.points[0].position).norm() <= level * incident.half_extents[lying])
+      return;
+    add_point(manifold, place, -gap, ++feature, reach);
+  }
+}
+
 /// Two edges that cross: their nearest points.
 void cross_edges(Manifold& manifold, const Separation& separation, const Box& a, const Placed& at_a, const Box& b,
                  const Placed& at_b, double margin) {
@@ -201,11 +235,13 @@ Manifold collide(const Box& a, const Placed& at_a, const Box& b, const Placed& a
     cross_edges(manifold, separation, a, at_a, b, at_b, reach);
   }
   if (manifold.count == 0) {
-    // Corners past each other: the face's sides leave nothing, yet no axis tells the boxes apart by more.
-    const Vec3 corner = separation.kind == Separation::face_b ? support(a, at_a, separation.normal)
-                                                              : support(b, at_b, -separation.normal);
-    const double half = separation.kind == Separation::face_b ? 0.5 : -0.5;
-    add_point(manifold, corner + half * separation.gap * separation.normal, -separation.gap, 0x3000000u, reach);
+    if (separation.kind == Separation::edges)
+      add_point(manifold, support(b, at_b, -separation.normal) - 0.5 * separation.gap * separation.normal,
+                -separation.gap, 0x3000000u, reach);
+    else if (separation.kind == Separation::face_b)
+      take_deepest(manifold, b, at_b, separation.second, -separation.normal, a, at_a, separation.gap, reach);
+    else
+      take_deepest(manifold, a, at_a, separation.first, separation.normal, b, at_b, separation.gap, reach);
   }
   return manifold;
 }

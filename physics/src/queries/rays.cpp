@@ -7,7 +7,7 @@
 
 #include "queries/checked.h"
 #include "queries/on_surface.h"
-#include "queries/sweep.h"
+#include "queries/turned_rays.h"
 #include "shapes/compound.h"
 #include "shapes/placed.h"
 
@@ -15,12 +15,6 @@ namespace tweenfall::queries {
 
 namespace {
 
-/// Where a ray, in a solid's own axes, first meets it.
-struct Entry {
-  double distance = 0;
-  Vec3 normal{0, 1, 0};
-  bool inside = false;
-};
 using MaybeEntry = std::optional<Entry>;
 
 const Entry from_inside = {0, {0, 1, 0}, true};
@@ -121,38 +115,12 @@ MaybeEntry enters(const Capsule& capsule, const Vec3& from, const Vec3& directio
 }
 
 template <class T>
-concept IsTurned = std::same_as<T, Cylinder> || std::same_as<T, Cone> || std::same_as<T, TaperedCapsule>;
-
-/// Not asked for: a ray meets them step by step.
-template <IsTurned Turned>
-MaybeEntry enters(const Turned&, const Vec3&, const Vec3&) {
-  return std::nullopt;
-}
-
-template <class T>
 concept IsMany = std::same_as<T, Compound> || std::same_as<T, TriangleMesh> || std::same_as<T, HeightField>;
 
 /// Not asked for: its parts or triangles are.
 template <IsMany Many>
 MaybeEntry enters(const Many&, const Vec3&, const Vec3&) {
   return std::nullopt;
-}
-
-/// Where a point that goes along the ray meets what is near.
-std::optional<RayHit> first_by_steps(const Shape& shape, const Pose& pose, const Ray& ray) {
-  const Bounds box = bounds(shape, pose);
-  const double past = (0.5 * (box.low + box.high) - ray.from).norm() + (box.high - box.low).norm();
-  const double length = std::min(ray.length, past);
-  Pose start;
-  start.position = ray.from;
-  const std::optional<ShapeHit> met = first_on_way({Sphere{0}}, start, length * ray.direction, shape, pose);
-  if (!met) return std::nullopt;
-  RayHit hit;
-  hit.distance = met->fraction * length;
-  hit.inside = met->inside;
-  hit.point = ray.from + hit.distance * ray.direction;
-  hit.normal = met->inside ? Vec3(-ray.direction) : met->normal;
-  return hit;
 }
 
 }  // namespace
@@ -179,8 +147,6 @@ std::optional<RayHit> first_on_ray(const Shape& shape, const Pose& pose, const R
   }
   if (const surfaces::Surface* surface = surfaces::surface_of(shape.solid))
     return first_on_surface(*surface, shapes::place(shape, pose), ray);
-  const auto is_turned = [](const auto& solid) { return IsTurned<std::decay_t<decltype(solid)>>; };
-  if (std::visit(is_turned, shape.solid)) return first_by_steps(shape, pose, ray);
   const shapes::Placed at = shapes::place(shape, pose);
   const Vec3 from = at.axes.transpose() * (ray.from - at.center);
   const Vec3 direction = at.axes.transpose() * ray.direction;

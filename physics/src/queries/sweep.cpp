@@ -12,6 +12,8 @@ namespace {
 constexpr int most_advances = 100;
 /// Parts of a size: a gap that is none, and one that still tells its direction.
 constexpr double met = 1e-13, tells = 1e-9;
+/// How far before it one looks where round cores will touch, of which chords alone tell where they do; parts of a size.
+constexpr double just_before = 1e-8;
 /// Of a coordinate.
 constexpr double coordinate_rounding = 1e-15;
 
@@ -32,8 +34,9 @@ ShapeHit stuck(const Shape& moving, const Pose& start, const Vec3& displacement,
 /// The way until two convex shapes meet. `closest_after(gone, first, inside)` tells how they lie to each other when one
 /// has gone so far, the one that stands still as a; where they overlap at first, it may fill in what that means.
 template <class ClosestAfter>
-std::optional<ShapeHit> advance(const Vec3& displacement, double size, double none, const ClosestAfter& closest_after) {
-  double fraction = 0;
+std::optional<ShapeHit> advance(const Vec3& displacement, double size, double none, bool round,
+                                const ClosestAfter& closest_after) {
+  double fraction = 0, core_distance = 0;
   ShapeHit hit, inside;
   for (int i = 0; i < most_advances; ++i) {
     const Closest closest = closest_after(Vec3(fraction * displacement), i == 0, inside);
@@ -41,6 +44,7 @@ std::optional<ShapeHit> advance(const Vec3& displacement, double size, double no
     if (i == 0 || closest.core_distance > tells * size) hit.normal = closest.normal;
     hit.fraction = fraction;
     hit.point = closest.on_a;
+    core_distance = closest.core_distance;
     const double closing = -displacement.dot(hit.normal);
     if (closest.gap <= none) break;
     if (!(closing > 0)) return std::nullopt;
@@ -48,7 +52,16 @@ std::optional<ShapeHit> advance(const Vec3& displacement, double size, double no
     if (!(fraction <= 1)) return std::nullopt;
   }
   // What only touches and leaves, or slides along, is not met.
-  if (!(displacement.dot(hit.normal) < 0)) return std::nullopt;
+  const double closing = -displacement.dot(hit.normal);
+  if (!(closing > 0)) return std::nullopt;
+  if (round && core_distance <= tells * size && fraction > 0) {
+    const double before = std::max(0.0, fraction - just_before * size / closing);
+    const Closest closest = closest_after(Vec3(before * displacement), false, inside);
+    if (closest.core_distance > tells * size) {
+      hit.point = closest.on_a;
+      hit.normal = closest.normal;
+    }
+  }
   return hit;
 }
 
@@ -74,13 +87,22 @@ std::optional<ShapeHit> first_on_way(const Shape& moving, const Pose& start, con
     return first_of_parts(*compound, moving.offset,
                           [&](const Shape& part) { return first_on_way(part, start, displacement, shape, pose); });
   const bool endless = std::holds_alternative<Plane>(moving.solid);
-  const Bounds box = endless ? bounds(shape, pose) : bounds(moving, start);
-  const double size = (box.high - box.low).norm();
+  const auto size_of = [](const Shape& one, const Pose& at) {
+    if (std::holds_alternative<Plane>(one.solid) || surfaces::surface_of(one.solid)) return 0.0;
+    const Bounds box = bounds(one, at);
+    return (box.high - box.low).norm();
+  };
+  const double size = size_of(shape, pose) + size_of(moving, start);
   const double none = met * size + coordinate_rounding * (start.position.norm() + pose.position.norm());
+  const auto is_round = [](const Solid& solid) {
+    return std::holds_alternative<Cylinder>(solid) || std::holds_alternative<Cone>(solid) ||
+           std::holds_alternative<TaperedCapsule>(solid);
+  };
+  const bool round = is_round(shape.solid) || is_round(moving.solid);
   const surfaces::Surface* still = surfaces::surface_of(shape.solid);
   const surfaces::Surface* surface = still ? still : surfaces::surface_of(moving.solid);
   if (!surface || endless || std::holds_alternative<Plane>(shape.solid))
-    return advance(displacement, size, none, [&](const Vec3& gone, bool first, ShapeHit& inside) {
+    return advance(displacement, size, none, round, [&](const Vec3& gone, bool first, ShapeHit& inside) {
       Pose at = start;
       at.position += gone;
       const Closest closest = closest_between(shape, pose, moving, at);
@@ -100,11 +122,12 @@ std::optional<ShapeHit> first_on_way(const Shape& moving, const Pose& start, con
   std::optional<ShapeHit> best;
   const auto meet_all = [&](const Core& core) {
     visit_on_way(*surface, shapes::place(shape, pose), core, displacement, [&](const Core& triangle) {
-      const std::optional<ShapeHit> hit = advance(displacement, size, none, [&](const Vec3& gone, bool, ShapeHit&) {
-        Core at = core;
-        at.at.center += gone;
-        return closest_between(triangle, at);
-      });
+      const std::optional<ShapeHit> hit =
+          advance(displacement, size, none, round, [&](const Vec3& gone, bool, ShapeHit&) {
+            Core at = core;
+            at.at.center += gone;
+            return closest_between(triangle, at);
+          });
       if (hit && (!best || hit->fraction < best->fraction)) best = hit;
       return best ? best->fraction : 1;
     });

@@ -1,6 +1,7 @@
 #include <tweenfall/curves/rotation.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,30 @@ bool rebounds(const SolvedContact& contact) {
   return false;
 }
 
+/// What the rebound added to the impulses of a contact's points. Four points of one plane can press in more ways than
+/// one with the same effect: of them the one that spreads the impulse most evenly, whatever order they were solved in.
+std::array<double, 4> gained(const SolvedContact& contact) {
+  std::array<double, 4> gain{};
+  const auto count = static_cast<std::size_t>(contact.count);
+  for (std::size_t i = 0; i < count; ++i)
+    gain[i] = contact.points[i].normal_impulse - contact.points[i].normal_before_rebound;
+  if (count < 4) return gain;
+  // Parts without effect, by Cramer's rule: to each point belongs the area that the other three span.
+  std::array<double, 4> idle{};
+  double along = 0, square = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Vec3 &first = contact.points[(i + 1) % 4].arm_a, &second = contact.points[(i + 2) % 4].arm_a,
+               &third = contact.points[(i + 3) % 4].arm_a;
+    const double area = contact.normal.dot((second - first).cross(third - first));
+    idle[i] = i % 2 == 0 ? area : -area;
+    along += idle[i] * gain[i];
+    square += idle[i] * idle[i];
+  }
+  if (square > 0)
+    for (std::size_t i = 0; i < 4; ++i) gain[i] -= along / square * idle[i];
+  return gain;
+}
+
 }  // namespace
 
 double Solver::rebound_pass(Contacts contacts, bool backward) {
@@ -46,7 +71,9 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
       if (constraint.friction > 0 && constraint.impact)
         change = std::max(
             change, solve_friction(a, b, rows[i], point.friction_impulse, constraint.friction * point.normal_impulse));
-      if (point.normal_impulse == 0 && point.gap > 0) continue;
+      point.wanted = point.rebound;
+      point.firm = point.normal_impulse == 0 && point.gap > 0 ? 0 : 1;
+      if (point.firm == 0) continue;
       change = std::max(change, solve_normal(a, b, rows[i], point.normal_impulse, point.rebound, normal));
     }
     if (change > quiet) {
@@ -62,6 +89,7 @@ double Solver::rebound_pass(Contacts contacts, bool backward) {
 void Solver::move_by_rebound(const SolvedContact& constraint, const PointRows* rows) {
   SolverBody& a = at(constraint.a);
   SolverBody& b = at(constraint.b);
+  const std::array<double, 4> gain = gained(constraint);
   for (int i = 0; i < constraint.count; ++i) {
     const SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
     if (!(point.rebound > 0)) continue;
@@ -70,7 +98,7 @@ void Solver::move_by_rebound(const SolvedContact& constraint, const PointRows* r
     // A rebound that gravity nearly uses up lasts long and takes little impulse: what neighbors pass on through the
     // point is none of it.
     const double most = rows[i].mass * point.rebound;
-    const double own = std::clamp((point.normal_impulse - point.normal_before_rebound) * part, -most, most);
+    const double own = std::clamp(gain[static_cast<std::size_t>(i)] * part, -most, most);
     const Vec3 moved = own * point.rebound_time * constraint.normal;
     if (moved == Vec3::Zero()) continue;
     const auto move = [](SolverBody& body, const Vec3& by, const Vec3& arm) {

@@ -10,6 +10,8 @@ struct SolvedPoint : contacts::PointConstraint {
   double gap = 0;
   double normal_impulse = 0;        ///< of one sub-step, N s
   Vec3 friction_impulse{0, 0, 0};   ///< of one sub-step, world, N s
+  double wanted = 0;                ///< normal speed that the last pass asked for, m/s
+  double firm = 0;                  ///< share of its error that the last pass met: none where it left the point out
   double rebound = 0;               ///< normal speed wanted at the end of the sub-step, m/s
   double rebound_time = 0;          ///< how long the rebound moves the bodies in this sub-step, s
   double speed_before_rebound = 0;  ///< m/s

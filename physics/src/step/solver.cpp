@@ -288,8 +288,9 @@ double Solver::solve_contact(SolvedContact& constraint, const PointRows* rows, c
     // A gap may close within the sub-step, but not further.
     const bool soft = softness.giving > 0 && point.gap <= 0 && !constraint.impact && !a.pulled && !b.pulled;
     const double wanted = point.gap > 0 ? -point.gap / h : std::min(-softness.rate * point.gap, softness.speed);
-    change =
-        std::max(change, solve_normal(a, b, rows[i], point.normal_impulse, wanted, normal, soft ? rows[i].firm : 1));
+    point.wanted = wanted;
+    point.firm = soft ? rows[i].firm : 1;
+    change = std::max(change, solve_normal(a, b, rows[i], point.normal_impulse, wanted, normal, point.firm));
   }
   return change;
 }

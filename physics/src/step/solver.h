@@ -75,6 +75,8 @@ class Solver {
   double solve_contact(SolvedContact& constraint, const PointRows* rows, const Softness& softness, double h);
   /// Passes until one changes nothing: so many, or where the island is small as many as it takes.
   void settle(int passes, const std::function<double(bool backward)>& pass);
+  /// The normal impulses that do what the last pass asked for, with friction as it is.
+  void press_at_once(SolvedContact& contact, const PointRows* rows);
   [[nodiscard]] bool extrapolates(const std::vector<state::Body>& bodies, Springs springs) const;
   void read_impulses(std::vector<double>& impulses) const;
   void read_holds(std::vector<char>& holds) const;

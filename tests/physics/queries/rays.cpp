@@ -21,7 +21,8 @@ TEST_CASE("a ray meets each solid where its closed form says") {
   };
   for (const Case& c :
        {Case{Sphere{1}, {-3, 0, 0}, {1, 0, 0}, 2, {-1, 0, 0}},
-        Case{Sphere{1}, {-3, r, 0}, {2, 0, 0}, 3 - r, {-r, r, 0}}, Case{Sphere{1}, {-3, 1, 0}, {1, 0, 0}, 3, {0, 1, 0}},
+        Case{Sphere{1}, {-3, r, 0}, {2, 0, 0}, 3 - r, {-r, r, 0}},
+        Case{Sphere{1}, {-3, 1, 0}, {1, 0, 0}, 3, {0, 1, 0}},
         Case{Box{{1, 2, 3}}, {5, 1, 2}, {-3, 0, 0}, 4, {1, 0, 0}},
         Case{Box{{1, 2, 3}}, {4, 4, 0}, {-1, -1, 0}, 3 / r, {1, 0, 0}},
         Case{Box{{1, 2, 3}}, {0, 0, -9}, {0, 0, 1e-200}, 6, {0, 0, -1}},
@@ -32,6 +33,19 @@ TEST_CASE("a ray meets each solid where its closed form says") {
         Case{Capsule{0.5, 1}, {0, -9, 0.3}, {0, 1, 0}, 9 - 1.4, {0, -0.8, 0.6}},
         Case{Plane{{0, 1, 0}, 2}, {0, 5, 0}, {0, -4, 0}, 3, {0, 1, 0}},
         Case{Plane{{0, 1, 0}, 2}, {0, 5, 0}, {1, -1, 0}, 3 / r, {0, 1, 0}},
+        Case{Cylinder{0.5, 1}, {3, 0.9, 0}, {-1, 0, 0}, 2.5, {1, 0, 0}},
+        Case{Cylinder{0.5, 1}, {0.1, 9, 0.2}, {0, -1, 0}, 8, {0, 1, 0}},
+        Case{Cylinder{0.5, 1}, {3, 2, 0}, {-1, -1, 0}, 2.5 / r, {1, 0, 0}},
+        Case{Cone{1, 1}, {3, 0, 0}, {-1, 0, 0}, 2.5, Vec3(2, 1, 0) / std::sqrt(5.0)},
+        Case{Cone{1, 1}, {0.25, 9, 0}, {0, -1, 0}, 8.5, Vec3(2, 1, 0) / std::sqrt(5.0)},
+        Case{Cone{1, 1}, {0.25, -5, 0}, {0, 2, 0}, 4, {0, -1, 0}},
+        Case{TaperedCapsule{0.5, 0.25, 1}, {0, 9, 0}, {0, -1, 0}, 7.75, {0, 1, 0}},
+        Case{TaperedCapsule{0.5, 0.25, 1}, {3, -1, 0}, {-3, 0, 0}, 2.5, {1, 0, 0}},
+        Case{TaperedCapsule{0.5, 0.25, 1},
+             {3, 0, 0},
+             {-1, 0, 0},
+             3 - 3 / std::sqrt(63.0),
+             Vec3(std::sqrt(63.0) / 8, 0.125, 0)},
         Case{Hull{octahedron_hull()}, {3, 0.25, 0.25}, {-1, 0, 0}, 2.5, Vec3(1, 1, 1) / std::sqrt(3.0)}}) {
     CAPTURE(c.solid.index());
     CAPTURE(c.from.x());
@@ -67,7 +81,7 @@ TEST_CASE("a ray meets each solid where its closed form says") {
 
 TEST_CASE("a ray that starts in a solid hits it at once, and one that starts on its surface has no way to go") {
   for (const Solid& solid : {Solid{Sphere{1}}, Solid{Box{{1, 1, 1}}}, Solid{Capsule{1, 0.5}},
-                             Solid{Plane{{1, 0, 0}, 1}}, Solid{Hull{octahedron_hull()}}}) {
+                             Solid{Plane{{1, 0, 0}, 1}}, Solid{Hull{octahedron_hull()}}, Solid{Cylinder{1, 2}}}) {
     CAPTURE(solid.index());
     const Vec3 direction(3, 4, 0);
     const std::optional<RayHit> hit = cast_ray({solid}, {}, Vec3(0.1, 0.2, 0.1), direction, 0);
@@ -129,6 +143,47 @@ TEST_CASE("what is no ray is refused") {
                   std::invalid_argument);
   CHECK_THROWS_AS((void)cast_ray(ball, {.rotation = Quat(0, 0, 0, 0)}, Vec3(0, 0, 0), Vec3(1, 0, 0)),
                   std::invalid_argument);
+}
+
+TEST_CASE("a ray meets what is turned about an axis where one through its outline's corners would") {
+  // As many sides as there may be, from inside and from outside.
+  Random random(5);
+  for (int i = 0; i < 60; ++i) {
+    const double size = std::pow(10, random.between(-4, 4));
+    const double bottom = size * random.between(0.2, 1), top = i % 3 == 0 ? bottom : i % 3 == 1 ? 0 : 0.5 * bottom;
+    const double half = size * random.between(0.6, 1), lean = i % 3 == 2 ? (bottom - top) / (2 * half) : 0;
+    const double upright = std::sqrt(1 - lean * lean);
+    const Solid solid = i % 3 == 0   ? Solid{Cylinder{bottom, half}}
+                        : i % 3 == 1 ? Solid{Cone{bottom, half}}
+                                     : Solid{TaperedCapsule{bottom, top, half}};
+    constexpr int sides = 64;
+    std::vector<Vec3> inner, outer;
+    for (int k = 0; k < sides; ++k) {
+      const double angle = 2 * pi * k / sides;
+      const Vec3 around(std::cos(angle), 0, std::sin(angle));
+      for (const double end : {-1.0, 1.0}) {
+        const double radius = upright * (end < 0 ? bottom : top), height = end * half + lean * (end < 0 ? bottom : top);
+        if (radius == 0 && k > 0) continue;
+        inner.push_back(radius * around + Vec3(0, height, 0));
+        outer.push_back(radius / std::cos(pi / sides) * around + Vec3(0, height, 0));
+      }
+    }
+    const Shape within{Hull{ConvexHull(inner)}}, around{Hull{ConvexHull(outer)}};
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 from = random.vector(4 * size), direction = random.vector(0.7 * size) - from;
+      const auto hit = cast_ray({solid}, {}, from, direction), inner_hit = cast_ray(within, {}, from, direction),
+                 outer_hit = cast_ray(around, {}, from, direction);
+      CAPTURE(i);
+      CAPTURE(k);
+      if (inner_hit) {
+        REQUIRE(hit.has_value());
+        CHECK(hit->distance <= inner_hit->distance + 1e-12 * size);
+      }
+      if (i % 3 == 2) continue;
+      CHECK(outer_hit.has_value() >= hit.has_value());
+      if (hit && outer_hit) CHECK(hit->distance >= outer_hit->distance - 1e-12 * size);
+    }
+  }
 }
 
 TEST_CASE("along every ray nothing of a solid comes before the hit, and the hit is on its surface") {

@@ -127,6 +127,24 @@ TEST_CASE("whatever moves is free until it is hit, and touches there; what hits 
   CHECK(misses > 0.2 * count);
 }
 
+TEST_CASE("what is turned about an axis touches where it is told to, on both surfaces") {
+  Random random(9);
+  for (int i = 0; i < 60; ++i) {
+    const Solid solids[] = {Cylinder{0.3, 0.5}, Cone{0.5, 0.4}, TaperedCapsule{0.4, 0.2, 0.5}, Box{{0.3, 0.6, 0.2}}};
+    const Shape moving{solids[i % 3]}, shape{solids[i / 3 % 4]};
+    const Pose start = any_pose(random, 4), pose = any_pose(random, 1);
+    const Vec3 way = 1.5 * (pose.position - start.position);
+    const std::optional<ShapeHit> hit = cast_shape(moving, start, way, shape, pose);
+    REQUIRE(hit.has_value());
+    Pose there = start;
+    there.position += hit->fraction * way;
+    CAPTURE(i);
+    CHECK(distance(moving, there, shape, pose).distance < 1e-9);
+    CHECK((closest_point(shape, pose, hit->point) - hit->point).norm() < 1e-6);
+    CHECK((closest_point(moving, there, hit->point) - hit->point).norm() < 1e-6);
+  }
+}
+
 TEST_CASE("what lies on a surface goes along it and off it freely, and not into it") {
   const Shape box{Box{{1, 1, 1}}}, floor{Plane{}}, ball{Sphere{1}};
   for (const double gap : {1e-12, 1e-9, 1e-3}) {

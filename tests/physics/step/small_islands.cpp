@@ -90,8 +90,7 @@ TEST_CASE("a thousand kilograms rest on ten boxes of one, in a column or a pyram
     }
 }
 
-TEST_CASE(
-    "of boxes, capsules and balls that meet in a plane nearly all stay in it to a billionth of a meter, and all near") {
+TEST_CASE("boxes, capsules and balls that meet in a plane stay in it to a billionth of a meter") {
   test::Random random(11);
   const Solid solids[] = {Box{Vec3(0.3, 0.2, 0.35)}, Capsule{0.15, 0.3}, Sphere{0.3}, Box{Vec3(0.15, 0.25, 0.4)}};
   constexpr int runs = 160;
@@ -118,8 +117,7 @@ TEST_CASE(
     farthest = std::max(farthest, off);
   }
   MESSAGE(left, " of ", runs, " left the plane, by at most ", farthest, " m");
-  CHECK(left <= 1);
-  CHECK(farthest < 1e-4);
+  CHECK(left == 0);
 }
 
 TEST_CASE("bullets of 100, 300 and 1,000 m/s do not pass a wall of a centimeter, also askew and spinning") {

@@ -20,6 +20,8 @@ constexpr int plain_passes = 6;
 constexpr int most_passes = 160, most_far_apart = 500;
 /// Passes in which nothing gets better, so that nothing will.
 constexpr int most_idle = 40, idle_far_apart = 200;
+/// Times that normals and friction of a single contact take turns.
+constexpr int most_turns = 40;
 /// A change that is so many times the least before.
 constexpr double wild = 100;
 
@@ -167,6 +169,13 @@ void Solver::settle(int passes, const std::function<double(bool backward)>& pass
     }
     set_impulses(next);
     read_impulses(from_);
+  }
+  if (contacts_.size() == 1) {
+    set_impulses(best_);
+    for (int k = 0; k < most_turns; ++k) {
+      press_at_once(contacts_.front(), rows_.data());
+      if (pass(false) < enough) return;
+    }
   }
   // Where no end is in sight it is worth as much as the last pass.
   if (pass(false) > before) set_impulses(best_);

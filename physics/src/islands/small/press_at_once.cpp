@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "step/solver.h"
+
+/// The normal impulses of one contact, all at once: points that lie near each other are in each other's way point by
+/// point.
+
+namespace tweenfall::small {
+
+namespace {
+
+/// Of each point's own ease: with so much more of it no set of points is one too many, and it is taken away again by
+/// solving anew about the impulses that came out.
+/// Source: Rockafellar, Monotone Operators and the Proximal Point Algorithm, SIAM J. Control 14, 1976.
+constexpr double softness = 1e-9;
+constexpr int most_hardenings = 8;
+
+using Numbers = std::array<double, 4>;
+
+/// How impulses of points change their speeds: rows of a positive definite matrix.
+using Eases = std::array<Numbers, 4>;
+
+/// Impulses of the pressing points, set bit by bit, that leave them no speed; none of the others.
+Numbers pressed_by(unsigned pressing, int count, const Eases& eases, const Numbers& speeds) {
+  Eases left = eases;
+  Numbers impulses{};
+  const auto presses = [pressing](int i) { return (pressing >> static_cast<unsigned>(i) & 1u) != 0; };
+  const auto at = [](auto& numbers, int i) -> auto& {
+    return numbers[static_cast<std::size_t>(i)];
+  };
+  for (int i = 0; i < count; ++i) at(impulses, i) = presses(i) ? -at(speeds, i) : 0;
+  for (int i = 0; i < count; ++i)
+    for (int k = i + 1; presses(i) && k < count; ++k) {
+      if (!presses(k)) continue;
+      const double part = at(at(left, k), i) / at(at(left, i), i);
+      for (int n = i; n < count; ++n) at(at(left, k), n) -= part * at(at(left, i), n);
+      at(impulses, k) -= part * at(impulses, i);
+    }
+  for (int i = count; i-- > 0;) {
+    if (!presses(i)) continue;
+    for (int k = i + 1; k < count; ++k)
+      if (presses(k)) at(impulses, i) -= at(at(left, i), k) * at(impulses, k);
+    at(impulses, i) /= at(at(left, i), i);
+  }
+  return impulses;
+}
+
+/// Of all sets of points that may press the one that none pulls and that lets none of the others close.
+Numbers pressed(int count, const Eases& eases, const Numbers& speeds) {
+  Numbers best{};
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned pressing = 0; pressing < 1u << static_cast<unsigned>(count); ++pressing) {
+    Numbers impulses = pressed_by(pressing, count, eases, speeds);
+    double wrong = 0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      double speed = speeds[i];
+      for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) speed += eases[i][k] * impulses[k];
+      wrong = std::max(wrong, (pressing >> i & 1u) != 0 ? -impulses[i] : -speed);
+    }
+    if (!(wrong < least)) continue;
+    least = wrong;
+    for (double& impulse : impulses) impulse = std::max(0.0, impulse);
+    best = impulses;
+  }
+  return best;
+}
+
+}  // namespace
+
+}  // namespace tweenfall::small
+
+namespace tweenfall::step {
+
+void Solver::press_at_once(SolvedContact& contact, const PointRows* rows) {
+  SolverBody& a = at(contact.a);
+  SolverBody& b = at(contact.b);
+  const auto count = static_cast<std::size_t>(contact.count);
+  const Vec3& normal = contact.normal;
+  small::Eases eases{};
+  small::Numbers start{}, speeds{};
+  // A unit of impulse is such that it adds a unit of speed by itself.
+  for (std::size_t i = 0; i < count; ++i) {
+    const SolvedPoint& point = contact.points[i];
+    const PointRows& row = rows[i];
+    const double speed =
+        normal.dot(b.linear - a.linear) + row.turn_b.dot(b.angular) - row.turn_a.dot(a.angular) - point.wanted;
+    start[i] = point.normal_impulse * row.scale;
+    speeds[i] = speed / row.scale;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double ease =
+          a.inverse_mass + b.inverse_mass + row.turn_a.dot(rows[k].spin_a) + row.turn_b.dot(rows[k].spin_b);
+      eases[i][k] = ease / (row.scale * rows[k].scale);
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < count; ++k) speeds[i] -= eases[i][k] * start[k];
+    const double firm = contact.points[i].firm;
+    // What is left out gives way to anything.
+    eases[i][i] += firm > 0 ? (1 - firm) / firm + small::softness : 1 / small::softness;
+    if (!(firm > 0)) speeds[i] = 0;
+  }
+  small::Numbers impulses = start;
+  for (int k = 0; k < small::most_hardenings; ++k) {
+    small::Numbers wanted = speeds;
+    for (std::size_t i = 0; i < count; ++i) wanted[i] -= small::softness * impulses[i];
+    impulses = small::pressed(contact.count, eases, wanted);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    SolvedPoint& point = contact.points[i];
+    const double next = point.firm > 0 ? impulses[i] / rows[i].scale : point.normal_impulse;
+    const Vec3 change = (next - point.normal_impulse) * normal;
+    point.normal_impulse = next;
+    push(a, -change, point.arm_a);
+    push(b, change, point.arm_b);
+  }
+}
+
+}  // namespace tweenfall::step
