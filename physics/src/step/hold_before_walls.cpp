@@ -20,6 +20,26 @@ constexpr double farther_on = 0.02;
 /// What is led and turns by more than this in the step is not looked at, rad: seen from it, straight ways are bent.
 constexpr double turns_away = 0.3;
 
+/// About from a solid's middle to the nearest place of its surface, m; 0 where only its core tells.
+double thickness(const Solid& solid) {
+  if (const auto* box = std::get_if<Box>(&solid)) return box->half_extents.minCoeff();
+  if (const auto* sphere = std::get_if<Sphere>(&solid)) return sphere->radius;
+  if (const auto* capsule = std::get_if<Capsule>(&solid)) return capsule->radius;
+  if (const auto* hull = std::get_if<Hull>(&solid)) return hull->convex.inner_radius();
+  return 0;
+}
+
+/// Not less than what a place of the body came on in the step, m.
+double came_on(const state::Body& body, const Start& start) {
+  // A chord of a turn is no longer than that of the whole turn of a quaternion, which turns by half of it.
+  const Vec4 turned = body.motion.pose.rotation.coeffs() - start.rotation.coeffs();
+  return (body.center - start.center).norm() + 2 * body.radius() * turned.norm();
+}
+
+bool stands(const state::Body& body, const Start& start) {
+  return body.center == start.center && body.motion.pose.rotation.coeffs() == start.rotation.coeffs();
+}
+
 const Shape& part_of(const state::Body& body, std::uint32_t number) {
   const auto* compound = std::get_if<Compound>(&body.shape().solid);
   return compound ? compound->parts()[number] : body.shape();
@@ -39,9 +59,14 @@ void World::Implementation::hold_before_walls(double dt) {
     if (moved[index] == 0 || surfaces::surface_of(wall.shape().solid) ||
         std::holds_alternative<Plane>(wall.shape().solid))
       continue;
+    const Shape& part = step::part_of(body, wall_is_a ? contact->part_b : contact->part_a);
+    // Most have not come far enough, which is told without their cores.
+    const step::Start& start = starts[index];
+    const step::Start& wall_start = starts[wall_index];
+    if (step::stands(wall, wall_start) && step::came_on(body, start) <= step::farther_on * step::thickness(part.solid))
+      continue;
     const collision::Course& course = passages[wall_index].course;
     if (course.angular.norm() * dt > step::turns_away) continue;
-    const Shape& part = step::part_of(body, wall_is_a ? contact->part_b : contact->part_a);
     const Shape& wall_part = step::part_of(wall, wall_is_a ? contact->part_a : contact->part_b);
     const std::optional<convex::Core> core = surfaces::convex_piece(part.solid, {Vec3::Zero(), Mat3::Identity()});
     if (!core) continue;
@@ -50,12 +75,10 @@ void World::Implementation::hold_before_walls(double dt) {
       const shapes::Placed placed = shapes::place(part, pose);
       return placed.center + placed.axes * middle;
     };
-    const step::Start& start = starts[index];
     Pose before;
     before.rotation = start.rotation;
     before.position = start.center - start.rotation * body.mass().center;
     // As the wall sees it, which may have gone on meanwhile.
-    const step::Start& wall_start = starts[wall_index];
     const shapes::Placed wall_then = {wall_start.center, wall_start.rotation.toRotationMatrix()},
                          wall_now = {wall.center, wall.motion.pose.rotation.toRotationMatrix()};
     const Vec3 from =
