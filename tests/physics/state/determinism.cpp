@@ -68,6 +68,39 @@ TEST_CASE("two runs and a copy stepped on end in the same bits") {
   }
 }
 
+TEST_CASE("bodies a million times as heavy, or beside others far away, go the same ways to the bit") {
+  const auto places = [](double mass, bool far) {
+    World world;
+    world.add({.shape = {Plane{}}, .fixed = true});
+    for (int i = 0; far && i < 3; ++i)
+      world.add({.shape = {Box{}}, .motion = {.pose = {.position = Vec3(500, i, 20)}}});
+    const Solid solids[] = {Sphere{0.3}, Box{Vec3(0.3, 0.2, 0.3)}, Capsule{0.2, 0.2}, Cone{0.3, 0.3}};
+    std::vector<BodyId> bodies;
+    for (int i = 0; i < 9; ++i) {
+      BodySettings body;
+      body.shape.solid = solids[i % 4];
+      body.mass = mass * (1 + i % 3);
+      body.restitution = 0.2;
+      body.motion.pose.position = Vec3(0.1 * (i % 2), 0.5 + 0.7 * i, 0.05 * (i % 3));
+      bodies.push_back(world.add(body));
+      if (i % 4 == 3)
+        world.add_joint({.a = bodies[bodies.size() - 2],
+                         .b = bodies.back(),
+                         .frame_a = {.position = Vec3(0, 0.35, 0)},
+                         .frame_b = {.position = Vec3(-0.1, -0.35, 0)}});
+    }
+    for (int i = 0; i < 240; ++i) world.step(1.0 / 240);
+    std::vector<Vec3> ends;
+    for (const BodyId body : bodies) ends.push_back(world.motion(body).pose.position);
+    return ends;
+  };
+  const std::vector<Vec3> usual = places(1, false);
+  // By powers of two no number of a mass is rounded otherwise.
+  CHECK(places(1048576, false) == usual);
+  CHECK(places(1.0 / 1048576, false) == usual);
+  CHECK(places(1, true) == usual);
+}
+
 TEST_CASE("the handle of a removed body is refused, and is not taken for its successor") {
   World world;
   const BodyId first = world.add({});
