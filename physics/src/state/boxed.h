@@ -37,7 +37,9 @@ class Boxed {
   }
   void reset() { value_.reset(); }
   /// It will be asked for soon.
-  void fetch() const { state::fetch(value_.get()); }
+  void fetch() const {
+    if (value_) state::fetch(value_.get());
+  }
 
  private:
   std::unique_ptr<T> value_;
