@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "actors/soft/partners.h"
+#include "actors/soft/meetings/partners.h"
 #include "collision/passage.h"
 #include "contacts/found.h"
 #include "forces/flight.h"

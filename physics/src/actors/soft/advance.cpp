@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "actors/soft/apart.h"
-#include "actors/soft/between.h"
 #include "actors/soft/blowing.h"
-#include "actors/soft/meetings.h"
+#include "actors/soft/meetings/apart.h"
+#include "actors/soft/meetings/between.h"
+#include "actors/soft/meetings/meetings.h"
 #include "actors/soft/sub_step.h"
 #include "state/countable.h"
 #include "state/world_data.h"

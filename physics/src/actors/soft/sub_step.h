@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "actors/soft/partners.h"
+#include "actors/soft/meetings/partners.h"
 #include "actors/soft/soft_state.h"
 
 namespace tweenfall::soft {

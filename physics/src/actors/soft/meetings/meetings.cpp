@@ -1,9 +1,9 @@
-#include "actors/soft/meetings.h"
+#include "actors/soft/meetings/meetings.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "actors/soft/between.h"
+#include "actors/soft/meetings/between.h"
 #include "collision/collide_pairs.h"
 
 namespace tweenfall::soft {

@@ -1,7 +1,7 @@
 // Source of the grid: Teschner, Heidelberger, Mueller, Pomeranets, Gross, Optimized Spatial Hashing for Collision
 // Detection of Deformable Objects, 2003; here cells are sorted, so that pairs come in one order everywhere.
 
-#include "actors/soft/apart.h"
+#include "actors/soft/meetings/apart.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "actors/soft/between.h"
+#include "actors/soft/meetings/between.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "actors/soft/meetings.h"
+#include "actors/soft/meetings/meetings.h"
 
 namespace tweenfall::soft {
 

@@ -1,4 +1,4 @@
-#include "actors/soft/partners.h"
+#include "actors/soft/meetings/partners.h"
 
 #include <tweenfall/curves/hermite.h>
 #include <tweenfall/curves/rotation.h>
