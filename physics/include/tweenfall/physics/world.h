@@ -211,7 +211,7 @@ class World {
   [[nodiscard]] std::uint64_t collides_with(BodyId body) const;
   void ignore(BodyId a, BodyId b);   ///< they pass through each other. @throws std::invalid_argument for the same body
   void collide(BodyId a, BodyId b);  ///< takes back `ignore`
-  /// Whether they may meet: by their groups, and because neither the caller nor a joint says otherwise.
+  /// Whether they may meet: two bodies, neither a sensor, that no groups, no joint and no call of `ignore` keep apart.
   [[nodiscard]] bool collides(BodyId a, BodyId b) const;
 
   // Joints; all throw std::invalid_argument for a stale handle. Removing a body removes its joints
