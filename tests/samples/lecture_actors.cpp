@@ -168,6 +168,22 @@ TEST_CASE("springs in a plane swing about where the weight holds them, settle th
   CHECK(near(motion_of(stage, "stiff").pose.position.y(), 1, 1e-6));
 }
 
+TEST_CASE("in a plane balls that resist rolling stop after v^2 / 2a, and stay on a ramp of less than c / r") {
+  Stage stage = actors_lecture("plane/rolling");
+  const auto speed = [&](const char* node) { return stage.twist(stage.node(node)).linear.norm(); };
+  // 7/5 m a = c m g / r on the level; on the ramp of 1 in 10 what pulls is g (sin - c / r cos).
+  const double slows = 5 * g * 0.01 / (7 * 0.25), slides = 5 * g * (0.1 - 0.01 / 0.25) / (7 * std::sqrt(1.01));
+  stage.advance_to(1);
+  CHECK(near(speed("free"), 1, 1e-6));
+  CHECK(near(speed("slowed"), 1 - slows, 1e-6));
+  CHECK(near(speed("stopped"), 1 - 2 * slows, 1e-6));
+  CHECK(near(speed("leaving"), slides, 2e-2 * slides));
+  stage.advance_to(3);
+  CHECK(near(motion_of(stage, "stopped").pose.position.x(), 1 / (4 * slows), 0.01));
+  CHECK(speed("stopped") < 1e-6);
+  CHECK(std::abs(motion_of(stage, "held").pose.position.x() + 3.0248759297552505) < 1e-3);
+}
+
 TEST_CASE("a machine in a plane: its mill turns as its motor says, its rod and weld hold, and nothing leaves it") {
   Stage stage = actors_lecture("plane/machine");
   for (int frame = 1; frame <= 30; ++frame) {

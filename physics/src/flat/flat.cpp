@@ -39,6 +39,7 @@ planar::BodySettings settings_of(const state::Body& body, const Axes& axes) {
   }
   its.friction = makeup.friction;
   its.restitution = makeup.restitution;
+  its.rolling_friction = makeup.rolling_friction;
   its.friction_combine = makeup.friction_combine;
   its.restitution_combine = makeup.restitution_combine;
   its.sensor = makeup.sensor;
@@ -73,7 +74,8 @@ void require_body(WorldPlane plane, const BodySettings& body) {
   planar::validate(section_of(body.shape, axes));
   require(body.surface_velocity.linear == Vec3::Zero() && body.surface_velocity.angular == Vec3::Zero(),
           "in a plane there are no moving surfaces");
-  require(body.rolling_friction == 0 && body.spinning_friction == 0, "in a plane there is no rolling friction");
+  require(body.spinning_friction == 0,
+          "in a plane nothing spins about the normal of a contact: there is no spinning friction");
   require_motion(plane, body.motion);
 }
 

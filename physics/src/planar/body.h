@@ -49,7 +49,7 @@ struct Makeup {
   Shape shape;
   Plate plate;
   MassProperties mass;
-  double friction = 0, restitution = 0;
+  double friction = 0, restitution = 0, rolling_friction = 0;
   Combine friction_combine = Combine::usual, restitution_combine = Combine::usual;
   double linear_damping = 0, angular_damping = 0;
   bool fixed = false, sensor = false, saturated = false;
@@ -63,7 +63,7 @@ struct Makeup {
 /// Two bodies whose boxes meet, and how they touch.
 struct Meeting {
   std::uint32_t a = 0, b = 0;  ///< a < b
-  double friction = 0, restitution = 0;
+  double friction = 0, restitution = 0, rolling_friction = 0;
   bool sensing = false;   ///< one is a sensor
   bool touching = false;  ///< in the last step
   int count = 0;          ///< of points, in contact or about to be
@@ -75,6 +75,7 @@ struct Meeting {
   std::array<Vec2, 2> core_a{Vec2(0, 0), Vec2(0, 0)}, core_b{Vec2(0, 0), Vec2(0, 0)};  ///< in a's axes, and in b's
   std::array<std::uint32_t, 2> feature{};
   std::array<double, 2> pressing{}, dragging{};  ///< impulses of the last sub-step, N s
+  double rolling = 0;                            ///< the couple's on b, likewise, N m s
 };
 
 struct Joint {

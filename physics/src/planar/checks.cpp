@@ -56,6 +56,7 @@ void demand_body(const BodySettings& body) {
   demand_amount(body.friction, "friction");
   demand(body.restitution >= 0 && body.restitution <= 1,
          "restitution must lie in 0 to 1, but is " + number_text(body.restitution));
+  demand_amount(body.rolling_friction, "rolling friction");
   demand_amount(body.linear_damping, "linear damping");
   demand_amount(body.angular_damping, "angular damping");
   if (body.mass)

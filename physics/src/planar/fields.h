@@ -74,18 +74,20 @@ void each_field(T& body, const Visit& visit) {
 }
 template <Is<Makeup> T, class Visit>
 void each_field(T& makeup, const Visit& visit) {
-  auto& [generation, shape, plate, mass, friction, restitution, friction_combine, restitution_combine, linear_damping,
-         angular_damping, fixed, sensor, saturated, groups, collides_with, drive, motion, target, reaction] = makeup;
-  visit(generation, shape, mass, friction, restitution, friction_combine, restitution_combine, linear_damping,
-        angular_damping, fixed, sensor, saturated, groups, collides_with, drive, motion, target, reaction);
+  auto& [generation, shape, plate, mass, friction, restitution, rolling_friction, friction_combine, restitution_combine,
+         linear_damping, angular_damping, fixed, sensor, saturated, groups, collides_with, drive, motion, target,
+         reaction] = makeup;
+  visit(generation, shape, mass, friction, restitution, rolling_friction, friction_combine, restitution_combine,
+        linear_damping, angular_damping, fixed, sensor, saturated, groups, collides_with, drive, motion, target,
+        reaction);
   saving::follows_from_others(plate);
 }
 template <Is<Meeting> T, class Visit>
 void each_field(T& meeting, const Visit& visit) {
-  auto& [a, b, friction, restitution, sensing, touching, count, exact, apart, relative, normal, core_a, core_b, feature,
-         pressing, dragging] = meeting;
-  visit(a, b, friction, restitution, sensing, touching, count, exact, apart, relative, normal, core_a, core_b, feature,
-        pressing, dragging);
+  auto& [a, b, friction, restitution, rolling_friction, sensing, touching, count, exact, apart, relative, normal,
+         core_a, core_b, feature, pressing, dragging, rolling] = meeting;
+  visit(a, b, friction, restitution, rolling_friction, sensing, touching, count, exact, apart, relative, normal, core_a,
+        core_b, feature, pressing, dragging, rolling);
 }
 template <Is<Hinge> T, class Visit>
 void each_field(T& hinge, const Visit& visit) {

@@ -18,7 +18,7 @@ namespace tweenfall::planar {
 namespace inner {
 namespace {
 
-constexpr saving::Envelope envelope{"plane", 2};
+constexpr saving::Envelope envelope{"plane", 3};
 
 template <class T>
 inline constexpr bool is_list = false;
@@ -150,6 +150,7 @@ void World::Implementation::settle_in() {
     its.shape = makeup.shape;
     its.friction = makeup.friction;
     its.restitution = makeup.restitution;
+    its.rolling_friction = makeup.rolling_friction;
     its.linear_damping = makeup.linear_damping;
     its.angular_damping = makeup.angular_damping;
     its.fixed = makeup.fixed;
@@ -190,9 +191,12 @@ void World::Implementation::settle_in() {
            "a pair is of no bodies");
     expect(meeting.sensing || bodies[meeting.a].movable || bodies[meeting.b].movable, "a pair never moves");
     expect(meeting.count >= 0 && meeting.count <= 2, "a contact has 0 to 2 points");
-    expect(meeting.friction >= 0 && meeting.restitution >= 0 && meeting.restitution <= 1, "a surface cannot be");
-    expect(inner::all_count({meeting.friction, meeting.apart.x(), meeting.apart.y(), meeting.relative.cos,
-                             meeting.relative.sin, meeting.normal.x(), meeting.normal.y()}),
+    expect(
+        meeting.friction >= 0 && meeting.restitution >= 0 && meeting.restitution <= 1 && meeting.rolling_friction >= 0,
+        "a surface cannot be");
+    expect(inner::all_count({meeting.friction, meeting.rolling_friction, meeting.rolling, meeting.apart.x(),
+                             meeting.apart.y(), meeting.relative.cos, meeting.relative.sin, meeting.normal.x(),
+                             meeting.normal.y()}),
            "a number is not finite");
     for (std::size_t i = 0; i < 2; ++i)
       expect(inner::all_count({meeting.core_a[i].x(), meeting.core_a[i].y(), meeting.core_b[i].x(),

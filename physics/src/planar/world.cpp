@@ -132,6 +132,7 @@ BodyId World::add(const BodySettings& settings) {
   makeup.plate = inner::plate_of(settings.shape, makeup.mass.center);
   makeup.friction = settings.friction;
   makeup.restitution = settings.restitution;
+  makeup.rolling_friction = settings.rolling_friction;
   makeup.friction_combine = settings.friction_combine;
   makeup.restitution_combine = settings.restitution_combine;
   makeup.linear_damping = settings.linear_damping;
@@ -283,7 +284,10 @@ void World::set_drive(BodyId id, const Drive& drive) {
   const Motion motion = world.motion_of(id.index);
   if (makeup.drive.owner() != drive.owner()) {
     for (Meeting& meeting : world.meetings)
-      if (meeting.a == id.index || meeting.b == id.index) meeting.pressing = meeting.dragging = {};
+      if (meeting.a == id.index || meeting.b == id.index) {
+        meeting.pressing = meeting.dragging = {};
+        meeting.rolling = 0;
+      }
     makeup.drive = drive;
     world.give_mass(id.index);
     const bool keeps = world.bodies[id.index].has_target;

@@ -20,7 +20,9 @@ planar::World busy_world() {
       {.shape = {planar::Box{Vec2(2, 0.2)}}, .sensor = true, .fixed = true, .motion = {.position = Vec2(2, 0.5)}});
   std::vector<BodyId> bodies;
   for (int i = 0; i < 40; ++i) {
-    planar::BodySettings body{.restitution = i % 5 == 0 ? 0.6 : 0, .linear_damping = i % 7 == 0 ? 0.1 : 0};
+    planar::BodySettings body{.restitution = i % 5 == 0 ? 0.6 : 0,
+                              .rolling_friction = i % 3 == 1 ? 0.05 : 0,
+                              .linear_damping = i % 7 == 0 ? 0.1 : 0};
     const std::vector<planar::Shape> shapes{
         {planar::Box{Vec2(0.3, 0.2)}},
         {planar::Circle{0.25}},

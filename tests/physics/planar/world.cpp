@@ -143,6 +143,49 @@ TEST_CASE("in a plane a disc rolls down by 2/3 g sin without slip") {
   CHECK(near(world.motion(disc).spin, -2 * world.motion(disc).velocity.x(), 1e-4));
 }
 
+TEST_CASE("in a plane rolling friction slows a disc by c g / (r (1 + k)), and holds it on slopes of up to c / r") {
+  // About the point of contact: (k m r^2 + m r^2) a / r = c m g. It stops after v / a, v^2 / (2 a) away.
+  const double radius = 0.5, resistance = 0.03, a = resistance * 9.81 / (1.5 * radius);
+  planar::World world({.sleep_after = inf});
+  add_ground(world);
+  planar::BodySettings disc{.shape = {planar::Circle{radius}}, .rolling_friction = resistance};
+  disc.motion = {Vec2(0, radius), 0, Vec2(1, 0), -1 / radius};
+  const BodyId rolling = world.add(disc);
+  for (int i = 1; i <= 120; ++i) {
+    world.step(flat_step);
+    CHECK(near(world.motion(rolling).velocity.x(), 1 - a * i * flat_step, 1e-9));
+  }
+  run(world, 120);
+  CHECK(near(world.motion(rolling).position.x(), 0.5 / a, 0.01));
+  CHECK(std::abs(world.motion(rolling).velocity.x()) < 1e-9);
+  // Given to the ground, or to a disc and to what it rolls on: the larger counts. Of 1 and 1e6 kg alike, at 1e-3 m too.
+  for (const double size : {0.001, 1.0}) {
+    for (const double mass : {1.0, 1e6}) {
+      for (const double steep : {0.9, 1.2}) {
+        const double c = 0.1 * size, slope = std::atan(steep * 0.1);
+        planar::World tilted({.gravity = 9.81 * Vec2(std::sin(slope), -std::cos(slope)), .sleep_after = inf});
+        tilted.add({.shape = {planar::HalfPlane{}}, .friction = 1, .rolling_friction = c, .fixed = true});
+        const BodyId body = tilted.add({.shape = {planar::Circle{size}},
+                                        .mass = mass,
+                                        .friction = 1,
+                                        .rolling_friction = 0.5 * c,
+                                        .motion = {.position = Vec2(0, size)}});
+        run(tilted, 60);
+        const double before = tilted.motion(body).velocity.x();
+        run(tilted, 60);
+        const double pull = 9.81 * (std::sin(slope) - 0.1 * std::cos(slope)) / 1.5;
+        CAPTURE(size);
+        CAPTURE(mass);
+        CAPTURE(steep);
+        CHECK(near(tilted.motion(body).velocity.x() - before, steep < 1 ? 0 : pull, 1e-6));
+        if (steep < 1) CHECK(std::abs(before) < 1e-6);
+      }
+    }
+  }
+  CHECK_THROWS_WITH_AS(world.add({.rolling_friction = -1}), doctest::Contains("rolling friction must lie in 0"),
+                       std::invalid_argument);
+}
+
 TEST_CASE("in a plane a pyramid of twenty rows stands, presses with its weight, and falls asleep") {
   planar::World world({.sleep_after = 4});
   const BodyId ground = add_ground(world, 0.6);

@@ -44,6 +44,11 @@ struct BodySettings {
   double restitution = 0;          ///< 0 to 1; a pair takes the larger unless told otherwise
   Combine friction_combine = Combine::usual;
   Combine restitution_combine = Combine::usual;
+  /// Resistance to rolling, as a length: the couple against the spin of a pair is at most this times the force that
+  /// presses the two together, m; a pair takes the larger. A wheel of radius r whose moment is k m r^2 loses c g / (r
+  /// (1
+  /// + k)) of its speed in a second, and stays on a slope of at most c / r.
+  double rolling_friction = 0;
   bool sensor = false;         ///< reports what overlaps it, and neither pushes nor is pushed
   double linear_damping = 0;   ///< 1/s: what is left of a velocity after t seconds is exp(-damping t)
   double angular_damping = 0;  ///< 1/s

@@ -71,7 +71,7 @@ struct WorldSettings {
   PairSearch broad_phase{};     ///< how pairs are found that may meet
   /// Where bodies meet as their sections do, by the solver of `planar_world.h`; nothing leaves the plane by a bit.
   /// There `iterations`, `threads` and what of forces points out of it are not read, the strategies above must be the
-  /// usual ones, joints are balls, hinges, sliders, welds, distances, springs, and no surface moves, rolls or is of
+  /// usual ones, joints are balls, hinges, sliders, welds, distances, springs, and no surface moves, spins or is of
   /// faces.
   WorldPlane plane{};
   int threads = 0;  ///< that share a step, 0 to 256; 0 and 1: the one that calls. No bit depends on it

@@ -112,10 +112,15 @@ void ContactSolver::build(const Scene& scene) {
   color(scene);
   given.assign(scene.active.size(), {});
   bouncy_.clear();
+  rolling_.clear();
   for (std::uint32_t k = 0; k < scene.active.size(); ++k) {
     fill(scene, k);
     const Meeting& meeting = scene.meetings[scene.active[k]];
     if (meeting.restitution > 0) bouncy_.push_back({places_[k], k, meeting.restitution, meeting.count});
+    if (meeting.rolling_friction > 0) {
+      const double inverse = scene.bodies[meeting.a].inverse_moment + scene.bodies[meeting.b].inverse_moment;
+      rolling_.push_back({places_[k], k, meeting.rolling_friction, 1 / inverse, scene.warmth * meeting.rolling});
+    }
   }
 }
 
@@ -194,6 +199,7 @@ void ContactSolver::store(const Scene& scene) {
       given[k].sideways[i] += block.point[i].total_sideways[lane];
     }
   }
+  for (const Rolling& rolling : rolling_) scene.meetings[scene.active[rolling.active]].rolling = rolling.impulse;
 }
 
 void ContactSolver::finish(const Scene& scene) {
@@ -224,11 +230,14 @@ void ContactSolver::solve(Scene scene) {
     unpushed_ = velocities_;
     joints.begin_sub_step(displacements_, velocities_);
     kernel.warm_start(blocks_.data(), blocks_.size(), velocities_.data());
+    warm_start_rolling();
     joints.solve(velocities_, true);
+    resist_rolling();
     kernel.solve(blocks_.data(), blocks_.size(), velocities_.data(), displacements_.data(), soft);
     move(scene, h);
     joints.solve(velocities_, false);
     kernel.solve(blocks_.data(), blocks_.size(), velocities_.data(), displacements_.data(), hard);
+    resist_rolling();
     joints.end_sub_step();
   }
   store(scene);

@@ -52,6 +52,14 @@ class ContactSolver {
     double restitution = 0;
     int count = 0;
   };
+  /// A contact that resists rolling.
+  struct Rolling {
+    std::uint32_t place = 0;  ///< block times lanes plus lane
+    std::uint32_t active = 0;
+    double friction = 0;  ///< m
+    double mass = 0;      ///< that the couple turns, kg m^2
+    double impulse = 0;   ///< on b, of the sub-step, N m s
+  };
   /// Where the bodies of a bouncy contact meet.
   struct Arrival {
     double when = 0;   ///< s from the start of the sub-step
@@ -67,6 +75,8 @@ class ContactSolver {
   bool strike(const Bouncy& bouncy, double h);
   [[nodiscard]] Arrival arrival(const ContactBlock& block, int lane, int point, double h) const;
   void knock(const ContactBlock& block, int lane, double along, double across, int point, double when);
+  void warm_start_rolling();
+  void resist_rolling();
   void move(const Scene& scene, double h);
   void store(const Scene& scene);
   void finish(const Scene& scene);
@@ -76,6 +86,7 @@ class ContactSolver {
   std::vector<ContactBlock> blocks_;
   std::vector<std::uint32_t> colors_, places_;
   std::vector<Bouncy> bouncy_;
+  std::vector<Rolling> rolling_;
   blocks::Coloring coloring_;
 };
 

@@ -37,8 +37,10 @@ bool keeps_its_points(const Meeting& meeting, const Body& a, const Body& b) {
   return off.cos > 0 && std::abs(off.sin) <= kept_turn;
 }
 
-/// Points that were there before begin with the impulses that they had.
+/// Points that were there before begin with the impulses that they had. What none of them is left of is not the
+/// contact that resisted rolling.
 void take_over(const Meeting& before, Meeting& meeting) {
+  meeting.rolling = 0;
   for (int i = 0; i < meeting.count; ++i) {
     const auto n = static_cast<std::size_t>(i);
     meeting.pressing[n] = meeting.dragging[n] = 0;
@@ -46,6 +48,7 @@ void take_over(const Meeting& before, Meeting& meeting) {
       if (before.feature[k] != meeting.feature[n]) continue;
       meeting.pressing[n] = before.pressing[k];
       meeting.dragging[n] = before.dragging[k];
+      meeting.rolling = before.rolling;
     }
   }
 }

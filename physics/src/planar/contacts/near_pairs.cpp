@@ -112,6 +112,7 @@ void NearPairs::merge(const std::vector<Body>& bodies, const std::vector<Makeup>
     meeting.friction = contacts::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
     meeting.restitution =
         contacts::combined_restitution(a.restitution, a.restitution_combine, b.restitution, b.restitution_combine);
+    meeting.rolling_friction = std::max(a.rolling_friction, b.rolling_friction);
     meeting.sensing = a.sensor || b.sensor;
     merged_.push_back(meeting);
   };
