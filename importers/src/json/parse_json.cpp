@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -47,21 +48,23 @@ class NamesOnce {
     constexpr std::size_t most_looked_through = 16;
     kept_ = first;
     size_ = 0;
-    if (count > most_looked_through) {
-      std::size_t places = 64;
-      while (places < 2 * count) places *= 2;
-      table_.assign(places, {0, 0});
+    if (count <= most_looked_through) {
+      for (std::size_t i = 0; i < count; ++i) keep(first[i], looked_through(first[i]));
+      return size_;
     }
+    std::size_t places = 64;
+    while (places < 2 * count) places *= 2;
+    table_.assign(places, {0, 0});
+    // A few at a time: their places come from memory side by side.
+    constexpr std::size_t at_once = 16;
+    std::array<std::size_t, at_once> hashes;
     for (std::size_t i = 0; i < count; ++i) {
-      Node* const same = count > most_looked_through ? known(first[i]) : looked_through(first[i]);
-      if (!same) {
-        first[size_++] = first[i];
-      } else if (content_.rules.names_twice) {
-        *same = first[i];
-      } else {
-        faults_.push_back({first[i].offset, first[i].name_length + std::size_t{2},
-                           in_quotes(content_.name(first[i])) + " is given twice in one object; keep one of them"});
-      }
+      if (i % at_once == 0)
+        for (std::size_t k = 0; k < std::min(at_once, count - i); ++k) {
+          hashes[k] = std::hash<std::string_view>{}(content_.name(first[i + k]));
+          fetch(place_of(hashes[k]));
+        }
+      keep(first[i], known(first[i], hashes[i % at_once]));
     }
     return size_;
   }
@@ -69,22 +72,37 @@ class NamesOnce {
  private:
   [[nodiscard]] Node* looked_through(const Node& node) const {
     const std::string_view name = content_.name(node);
-    for (std::size_t i = 0; i < size_; ++i)
-      if (content_.name(kept_[i]) == name) return kept_ + i;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const Node& kept = kept_[i];
+      // Without escapes names of other lengths are others.
+      if (kept.name_length != node.name_length && !kept.name_escaped && !node.name_escaped) continue;
+      if (content_.name(kept) == name) return kept_ + i;
+    }
     return nullptr;
   }
 
-  [[nodiscard]] Node* known(const Node& node) {
-    const std::string_view name = content_.name(node);
-    const std::size_t hash = std::hash<std::string_view>{}(name);
+  [[nodiscard]] Node* known(const Node& node, std::size_t hash) {
     const auto tag = static_cast<std::uint32_t>(hash >> (std::numeric_limits<std::size_t>::digits / 2));
     for (std::size_t place = hash;; ++place) {
-      Place& entry = table_[place & (table_.size() - 1)];
+      Place& entry = place_of(place);
       if (entry.number == 0) {
         entry = {tag, static_cast<std::uint32_t>(size_ + 1)};
         return nullptr;
       }
-      if (entry.tag == tag && content_.name(kept_[entry.number - 1]) == name) return kept_ + entry.number - 1;
+      if (entry.tag == tag && content_.name(kept_[entry.number - 1]) == content_.name(node))
+        return kept_ + entry.number - 1;
+    }
+  }
+
+  /// @param same  the kept one of the same name; null for none
+  void keep(const Node& node, Node* same) {
+    if (!same) {
+      kept_[size_++] = node;
+    } else if (content_.rules.names_twice) {
+      *same = node;
+    } else {
+      faults_.push_back({node.offset, node.name_length + std::size_t{2},
+                         in_quotes(content_.name(node)) + " is given twice in one object; keep one of them"});
     }
   }
 
@@ -92,6 +110,16 @@ class NamesOnce {
   struct Place {
     std::uint32_t tag, number;  // of the kept ones, from 1; 0 is free
   };
+
+  Place& place_of(std::size_t hash) { return table_[hash & (table_.size() - 1)]; }
+
+  static void fetch(const Place& place) {
+#if defined(__GNUC__)
+    __builtin_prefetch(&place, 1);
+#else
+    static_cast<void>(place);
+#endif
+  }
 
   const Content& content_;
   std::vector<Fault>& faults_;
@@ -262,12 +290,16 @@ class Builder {
     const auto [bottom, opened] = open_.back();
     open_.pop_back();
     Node node = opened;
-    Node* const first = content_.nodes.get() + top_;
+    Node *const first = content_.nodes.get() + top_, *const kept = content_.nodes.get() + content_.size;
     std::size_t count = bottom - top_;
-    std::reverse(first, first + count);
-    if (static_cast<Kind>(node.kind) == Kind::object) count = names_.left_of(first, count);
+    if (kept + count <= first) {
+      std::reverse_copy(first, first + count, kept);
+    } else {  // the ends are so near that they share places
+      std::reverse(first, first + count);
+      std::copy(first, first + count, kept);
+    }
+    if (static_cast<Kind>(node.kind) == Kind::object) count = names_.left_of(kept, count);
     node.children = {static_cast<std::uint32_t>(content_.size), static_cast<std::uint32_t>(count)};
-    std::copy(first, first + count, content_.nodes.get() + content_.size);
     content_.size += count;
     top_ = bottom;
     return push(node);
