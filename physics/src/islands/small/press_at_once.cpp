@@ -48,23 +48,37 @@ Numbers pressed_by(unsigned pressing, int count, const Eases& eases, const Numbe
   return impulses;
 }
 
-/// Of all sets of points that may press the one that none pulls and that lets none of the others close.
-Numbers pressed(int count, const Eases& eases, const Numbers& speeds) {
+/// How far a set of pressing points is from one of which none pulls and that lets none of the others close; 0 at best.
+double wrong_of(unsigned pressing, int count, const Eases& eases, const Numbers& speeds, const Numbers& impulses) {
+  double wrong = 0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+    double speed = speeds[i];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) speed += eases[i][k] * impulses[k];
+    wrong = std::max(wrong, (pressing >> i & 1u) != 0 ? -impulses[i] : -speed);
+  }
+  return wrong;
+}
+
+/// The impulses of the best of all sets of points that may press.
+/// @param likely  tried first, since most often it is the one; the best set
+Numbers pressed(int count, const Eases& eases, const Numbers& speeds, unsigned& likely) {
   Numbers best{};
   double least = std::numeric_limits<double>::infinity();
-  for (unsigned pressing = 0; pressing < 1u << static_cast<unsigned>(count); ++pressing) {
+  unsigned found = likely;
+  const auto is_right = [&](unsigned pressing) {
     Numbers impulses = pressed_by(pressing, count, eases, speeds);
-    double wrong = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      double speed = speeds[i];
-      for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) speed += eases[i][k] * impulses[k];
-      wrong = std::max(wrong, (pressing >> i & 1u) != 0 ? -impulses[i] : -speed);
-    }
-    if (!(wrong < least)) continue;
+    const double wrong = wrong_of(pressing, count, eases, speeds, impulses);
+    if (!(wrong < least)) return false;
     least = wrong;
+    found = pressing;
     for (double& impulse : impulses) impulse = std::max(0.0, impulse);
     best = impulses;
-  }
+    return least == 0;
+  };
+  if (!is_right(likely))
+    for (unsigned pressing = 0; pressing < 1u << static_cast<unsigned>(count); ++pressing)
+      if (pressing != likely && is_right(pressing)) break;
+  likely = found;
   return best;
 }
 
@@ -103,10 +117,13 @@ void Solver::press_at_once(SolvedContact& contact, const PointRows* rows) {
     if (!(firm > 0)) speeds[i] = 0;
   }
   small::Numbers impulses = start;
+  unsigned pressing = (1u << static_cast<unsigned>(count)) - 1;
   for (int k = 0; k < small::most_hardenings; ++k) {
     small::Numbers wanted = speeds;
     for (std::size_t i = 0; i < count; ++i) wanted[i] -= small::softness * impulses[i];
-    impulses = small::pressed(contact.count, eases, wanted);
+    const small::Numbers before = impulses;
+    impulses = small::pressed(contact.count, eases, wanted, pressing);
+    if (impulses == before) break;
   }
   for (std::size_t i = 0; i < count; ++i) {
     SolvedPoint& point = contact.points[i];
