@@ -54,11 +54,16 @@ std::vector<Vec2> outlined(const std::vector<Vec2>& points, std::size_t vertices
   for (std::size_t i = 0; i < hull_outline; ++i) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(hull_outline);
     const auto [sine, cosine] = elementary::sin_cos(angle);
-    const Vec2 direction(cosine, sine);
-    Vec2 farthest = points[1];
-    for (std::size_t k = 2; k <= vertices; ++k)
-      if (direction.dot(points[k]) > direction.dot(farthest) + 1e-9) farthest = points[k];
-    result.push_back(farthest);
+    std::size_t farthest = 1;
+    double reach = 0;
+    for (std::size_t k = 1; k <= vertices; ++k) {
+      const double* const point = points[k].data();
+      const double along = cosine * point[0] + sine * point[1];
+      if (k > 1 && !(along > reach + 1e-9)) continue;
+      farthest = k;
+      reach = along;
+    }
+    result.push_back(points[farthest]);
   }
   result.insert(result.end(), points.begin() + 1 + static_cast<std::ptrdiff_t>(vertices), points.end());
   return result;
