@@ -120,6 +120,7 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
   // As the bodies lie at the start of the step.
   const auto meet_at_start = [this](contacts::ContactConstraint& contact, const Manifold& manifold) {
     contact.manifold = manifold;
+    contact.kept = false;  // the memory has to find this one, of more points
     const state::Body &a = bodies[contact.a], &b = bodies[contact.b];
     contacts::adopt(contact, passages[contact.a], {a.center, a.motion.pose.rotation}, passages[contact.b],
                     {b.center, b.motion.pose.rotation});
