@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "blending/parts.h"
 #include "blending/shares.h"
 
 namespace tweenfall {
@@ -258,7 +259,7 @@ double MarkerSync::advanced(double phase, double seconds, std::span<const double
   };
   const bool steady = std::ranges::equal(from, to);
   // The middle's shares held for each of some equal parts are right to the second order, and wrong by even powers of
-  // their length alone: Romberg's scheme takes away the first two.
+  // their length alone.
   const auto in_parts = [&](int parts) noexcept {
     double at = phase;
     for (int k = 0; k < parts; ++k) {
@@ -270,11 +271,7 @@ double MarkerSync::advanced(double phase, double seconds, std::span<const double
     }
     return at;
   };
-  const double one = in_parts(1);
-  if (steady) return one;
-  const double two = in_parts(2), four = in_parts(4);
-  const double better = two + (two - one) / 3, best = four + (four - two) / 3;
-  return best + (best - better) / 15;
+  return steady ? in_parts(1) : blending::extrapolated(in_parts);
 }
 
 SyncedTime MarkerSync::time(std::size_t clip, const Sample<double>& phase) const noexcept {

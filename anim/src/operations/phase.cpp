@@ -1,5 +1,7 @@
 #include "operations/phase.h"
 
+#include "blending/parts.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -58,46 +60,124 @@ bool SpaceWeights::flows() const noexcept {
   return std::ranges::any_of(by_, [](const Number& number) { return number.flows(); });
 }
 
+/// From one stop to the next, and how the shares go until it is reached: as if nothing more were set, so that what is
+/// set later changes nothing before it.
+class Phase::Step {
+ public:
+  Step(const Phase& phase, const Log& log, double start, const Stop& from) noexcept
+      : sync_(phase.sync_), from_(from), size_(phase.weights_.size()) {
+    std::array<Sample<double>, most_blended> first, last;
+    phase.weights_.sample(log, from.time, Side::out, {first.data(), size_});
+    const double end = phase.next_beat(start, from.time);
+    if (std::isfinite(end)) {
+      length_ = end - from.time;
+      const Blinkers blinkers(log, std::min(log.until, from.time));
+      phase.weights_.sample(log, end, Side::in, {last.data(), size_});
+    }
+    // A cubic runs between the four values that say it: as long as none of them is below 0, no share is.
+    double bend = 1;
+    std::array<std::array<double, 2>, most_blended> bends;
+    for (std::size_t i = 0; i < size_; ++i) {
+      const double a = std::max(first[i].value, 0.0), b = length_ > 0 ? std::max(last[i].value, 0.0) : a;
+      const double third = (b - a) / 3;
+      shares_[i] = {a, a + third, b - third, b};
+      if (!(length_ > 0)) continue;
+      bends[i] = {first[i].rate * length_ / 3 - third, third - last[i].rate * length_ / 3};
+      for (const std::size_t k : {0U, 1U}) {
+        const double straight = shares_[i][k + 1], by = bends[i][k];
+        if (!std::isfinite(by)) bend = 0;
+        if (straight + by < 0) bend = std::min(bend, straight / -by);
+      }
+    }
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (bend > 0 && length_ > 0)
+        for (const std::size_t k : {0U, 1U}) shares_[i][k + 1] = std::max(shares_[i][k + 1] + bend * bends[i][k], 0.0);
+      for (const double value : shares_[i]) steady_ = steady_ && value == shares_[i][0];
+    }
+  }
+
+  [[nodiscard]] double at(double time) const noexcept {
+    const double passed = time - from_.time;
+    std::array<double, most_blended> held;
+    const std::span<const double> own(held.data(), size_);
+    const auto in_parts = [&](int parts) noexcept {
+      double phase = from_.phase;
+      for (int part = 0; part < parts; ++part) {
+        const double middle = steady_ ? 0 : (part + 0.5) / parts * passed / length_;
+        for (std::size_t i = 0; i < size_; ++i) held[i] = share(i, middle).value;
+        phase = sync_.advanced(phase, passed / parts, own);
+      }
+      return phase;
+    };
+    return steady_ ? in_parts(1) : blending::extrapolated(in_parts);
+  }
+
+  [[nodiscard]] Sample<double> sample(double time) const noexcept {
+    std::array<Sample<double>, most_blended> shares;
+    const double part = steady_ ? 0 : (time - from_.time) / length_;
+    for (std::size_t i = 0; i < size_; ++i) shares[i] = share(i, part);
+    return sync_.running(at(time), {shares.data(), size_});
+  }
+
+ private:
+  [[nodiscard]] Sample<double> share(std::size_t i, double u) const noexcept {
+    const std::array<double, 4>& c = shares_[i];
+    if (steady_) return {c[0], 0, 0};
+    const double v = 1 - u;
+    return {v * v * v * c[0] + 3 * u * v * (v * c[1] + u * c[2]) + u * u * u * c[3],
+            (3 / length_) * (v * v * (c[1] - c[0]) + 2 * u * v * (c[2] - c[1]) + u * u * (c[3] - c[2])), 0};
+  }
+
+  const MarkerSync& sync_;
+  Stop from_;
+  std::size_t size_;
+  double length_ = 0;  // s; 0: shares stay as they are
+  bool steady_ = true;
+  std::array<std::array<double, 4>, most_blended> shares_;  // Bernstein's coefficients
+};
+
 Phase::Phase(MarkerSync sync, SpaceWeights weights, std::size_t number)
     : sync_(std::move(sync)), weights_(std::move(weights)), number_(number) {}
 
+double Phase::next_beat(double start, double after) const noexcept {
+  if (weights_.flows()) {
+    const double passed = std::floor((after - start) * stops_a_second);
+    for (double count = std::max(passed, 0.0); count <= passed + 2; ++count)
+      if (const double stop = start + count / stops_a_second; stop > after) return stop;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 double Phase::next_stop(const Log& log, double start, double after) const noexcept {
-  double next = weights_.next_setting(log, after);
-  if (!weights_.flows()) return next;
-  const double passed = std::floor((after - start) * stops_a_second);
-  for (double count = std::max(passed, 0.0); count <= passed + 2; ++count)
-    if (const double stop = start + count / stops_a_second; stop > after) return std::min(next, stop);
-  return next;
+  return std::min(weights_.next_setting(log, after), next_beat(start, after));
 }
 
-double Phase::advanced(const Log& log, double phase, double from, double to) const noexcept {
-  std::array<Sample<double>, most_blended> samples;
-  std::array<double, most_blended> first, last;
-  const std::span<Sample<double>> own(samples.data(), weights_.size());
-  const auto take = [&](double time, Side side, std::array<double, most_blended>& values) {
-    weights_.sample(log, time, side, own);
-    for (std::size_t i = 0; i < own.size(); ++i) values[i] = own[i].value;
-    return std::span<const double>(values.data(), own.size());
-  };
-  const std::span<const double> leaving = take(from, Side::out, first);
-  if (!weights_.flows()) return sync_.advanced(phase, to - from, leaving);
-  return sync_.advanced(phase, to - from, leaving, take(to, Side::in, last));
-}
-
-double Phase::at(const Log& log, double start, double time) const noexcept {
+Phase::Stop Phase::last_stop(const Log& log, double start, double time, Side side) const noexcept {
   auto& trail = log.phases[number_].since(start);
   // Beyond what is seen, what is marked counts only where nothing was set in between.
-  const double sure = std::nextafter(weights_.first_unseen(log), -1.0);
-  const auto* const mark = trail.last_mark(std::min(time, sure));
-  double here = mark ? mark->time : start, phase = mark ? mark->place : sync_.phase_at(0, 0);
-  const double began = here;
-  for (double stop = next_stop(log, start, here); stop < time; stop = next_stop(log, start, here)) {
-    phase = advanced(log, phase, here, stop);
-    here = stop;
-    if (here <= sure) trail.pass(here, phase);
+  const double sure = std::nextafter(weights_.first_unseen(log), -1.0), limit = std::min(time, sure);
+  const auto* const mark = trail.last_mark(limit, limit < time || side == Side::out);
+  Stop here = mark ? Stop{mark->time, mark->place} : Stop{start, sync_.phase_at(0, 0)};
+  const double began = here.time;
+  for (;;) {
+    const double next = next_stop(log, start, here.time);
+    if (next > time || (next == time && side == Side::in)) break;
+    here = {next, Step(*this, log, start, here).at(next)};
+    if (next <= sure) trail.pass(next, here.phase);
   }
-  if (here > began && here <= sure) trail.stay(here, phase);
-  return time > here ? advanced(log, phase, here, time) : phase;
+  if (here.time > began && here.time <= sure) trail.stay(here.time, here.phase);
+  return here;
+}
+
+Sample<double> Phase::at(const Log& log, const Moment& moment) const noexcept {
+  if (moment.time > moment.start) {
+    const Stop from = last_stop(log, moment.start, moment.time, moment.side);
+    return Step(*this, log, moment.start, from).sample(moment.time);
+  }
+  std::array<Sample<double>, most_blended> weights;
+  const std::span<Sample<double>> own(weights.data(), weights_.size());
+  weights_.sample(log, moment.time, moment.side, own);
+  return sync_.running(sync_.phase_at(0, 0), own);
 }
 
 double Phase::way(std::size_t clip, double duration, double phase) const noexcept {
@@ -120,12 +200,14 @@ void Phase::each_event(const Log& log, std::size_t clip, const Clip& described, 
   }
   std::ranges::stable_sort(round, {}, &Meeting::way);
   const double duration = described.duration;
-  double begin = std::max(from, start), phase = at(log, start, begin);
+  double begin = std::max(from, start);
   bool closed = from < start;
-  while (begin < to || closed) {
-    const double end = std::max(begin, std::min(next_stop(log, start, begin), to));
-    const double last = end > begin ? advanced(log, phase, begin, end) : phase;
-    const double low = way(clip, duration, phase), high = way(clip, duration, last);
+  Stop stop = last_stop(log, start, begin, Side::out);
+  for (;;) {
+    const Step step(*this, log, start, stop);
+    const double next = next_stop(log, start, stop.time), end = std::max(begin, std::min(next, to));
+    const double last = step.at(end);
+    const double low = way(clip, duration, step.at(begin)), high = way(clip, duration, last);
     for (double turn = std::floor(low / duration) - 1; turn * duration <= high; ++turn)
       for (const Meeting& meeting : round) {
         const double met = meeting.way + turn * duration;
@@ -135,13 +217,13 @@ void Phase::each_event(const Log& log, std::size_t clip, const Clip& described, 
         for (;;) {
           const double middle = before + (time - before) / 2;
           if (!(middle > before && middle < time)) break;
-          (way(clip, duration, advanced(log, phase, begin, middle)) < met ? before : time) = middle;
+          (way(clip, duration, step.at(middle)) < met ? before : time) = middle;
         }
         if (!visit(time, *meeting.event, meeting.kind)) return;
       }
     if (!(end < to)) return;
     begin = end;
-    phase = last;
+    stop = {end, last};
     closed = false;
   }
 }

@@ -6,6 +6,7 @@
 #include <tweenfall/anim/marker_sync.h>
 
 #include "operations/number.h"
+#include "operations/operation.h"
 
 #include <functional>
 #include <variant>
@@ -34,7 +35,8 @@ class SpaceWeights {
 };
 
 /// It runs from the start of the state around it, with the first clip at its beginning. On the way it stops at every
-/// setting and, where the weights flow, 480 times a second: wherever it is asked from, it comes the same way.
+/// setting and, where the weights flow, 480 times a second: wherever it is asked from, it comes the same way. On a step
+/// shares are cubics by what they and their rates are at its ends, so that its rate is everywhere that of its value.
 class Phase {
  public:
   /// @param number  among the phases of the graph
@@ -43,7 +45,8 @@ class Phase {
   [[nodiscard]] const MarkerSync& sync() const noexcept { return sync_; }
   [[nodiscard]] const SpaceWeights& weights() const noexcept { return weights_; }
 
-  [[nodiscard]] double at(const Log& log, double start, double time) const noexcept;
+  /// With its rate.
+  [[nodiscard]] Sample<double> at(const Log& log, const Moment& moment) const noexcept;
 
   /// Calls `visit(time, event, kind)` with the events of a clip in (from, to], and at `start` where `from` is before
   /// it, in order, until it returns false.
@@ -52,8 +55,15 @@ class Phase {
                   const Visit& visit) const;
 
  private:
+  class Step;
+  struct Stop {
+    double time, phase;
+  };
+  /// The last stop from `start` to a time; at that time itself only where it leaves.
+  [[nodiscard]] Stop last_stop(const Log& log, double start, double time, Side side) const noexcept;
+  /// The next stop where nothing is set.
+  [[nodiscard]] double next_beat(double start, double after) const noexcept;
   [[nodiscard]] double next_stop(const Log& log, double start, double after) const noexcept;
-  [[nodiscard]] double advanced(const Log& log, double phase, double from, double to) const noexcept;
   [[nodiscard]] double way(std::size_t clip, double duration, double phase) const noexcept;
 
   MarkerSync sync_;

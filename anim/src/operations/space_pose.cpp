@@ -72,7 +72,7 @@ class SyncedSpace : public Operation {
     std::array<PoseLayer, most_blended> layers;
     const std::span<Sample<double>> own(weights.data(), clips_.size());
     phase_.weights().sample(log, moment.time, moment.side, own);
-    const Sample<double> phase = phase_.sync().running(phase_.at(log, moment.start, moment.time), own);
+    const Sample<double> phase = phase_.at(log, moment);
     std::size_t count = 0;
     Scratch free = scratch;
     for (std::size_t i = 0; i < clips_.size(); ++i) {
@@ -101,10 +101,7 @@ class SyncedSpace : public Operation {
     return own;
   }
   [[nodiscard]] ClipClock clock_of(const Log& log, std::size_t clip, const Moment& moment) const noexcept override {
-    std::array<Sample<double>, most_blended> weights;
-    const std::span<Sample<double>> own(weights.data(), clips_.size());
-    phase_.weights().sample(log, moment.time, moment.side, own);
-    return clock_in(clip, phase_.sync().running(phase_.at(log, moment.start, moment.time), own), moment.side);
+    return clock_in(clip, phase_.at(log, moment), moment.side);
   }
 
   void events(const Log& log, const Stretch& stretch, std::vector<GraphEvent>& out) const override {

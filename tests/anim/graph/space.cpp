@@ -88,6 +88,47 @@ TEST_CASE("clips in phase run on with exact rates, whatever the frames and back"
   }
 }
 
+TEST_CASE("the rate of a phase is that of its value in a step in which weights kink too, events once each") {
+  // The parameter kinks, passes the place of a pose and is set, each within a step of 1/480 s.
+  GraphDescription keyed = by_speed("*");
+  keyed.parameters[0].curve = keyed_curve<double>({{.time = 0, .value = 0.2, .ease = Ease::linear()},
+                                                   {.time = 0.3007, .value = 4.3, .ease = Ease::linear()},
+                                                   {.time = 0.9, .value = 1.1}});
+  GraphDescription set = by_speed("*", 0.1);
+  set.inputs = {{0.2004, "speed", 5}, {0.6003, "speed", 0.5}};
+  for (const GraphDescription& description : {keyed, set}) {
+    GraphPlayer player(graph_of(description, stepping_clips()));
+    std::vector<double> kinks = {0.3007, 0.2004, 0.6003, 0.2, 1.2};  // and where markers are
+    std::vector<GraphEvent> apart_told;
+    for (double from = -1, to = 0.0037; from < 0.9; from = to, to += 0.0037)
+      for (const GraphEvent& event : player.events(from, to)) apart_told.push_back(event);
+    const std::vector<GraphEvent> told = player.events(-1, apart_told.empty() ? 0 : apart_told.back().time);
+    REQUIRE(told.size() == apart_told.size());
+    for (std::size_t i = 0; i < told.size(); ++i) {
+      CHECK(near(told[i].time, apart_told[i].time, 1e-12));
+      kinks.push_back(told[i].time);
+    }
+    // Where else rates of weights change at once: the parameter at 1 and at 4.
+    double before = -1;
+    for (int i = 1; i < 18'000; ++i) {
+      const double time = 0.9 * i / 18'000;
+      player.seek(time);
+      const double speed = player.parameter("speed").value, zone = speed < 1 ? 0 : speed < 4 ? 1 : 2;
+      if (before >= 0 && zone != before) kinks.push_back(time - 0.9 / 36'000);
+      before = zone;
+    }
+    CHECK(kinks.size() >= 8);
+    double most = 0;
+    for (const double kink : kinks)
+      for (int i = -24; i <= 24; ++i)
+        if (const double time = kink + 1e-4 * i + 3e-5; time > 1e-3)
+          if (std::ranges::none_of(kinks, [&](double each) { return std::abs(each - time) < 2.8e-5; }))
+            most = std::max(most, rate_error(player, time, 1e-6));
+    CAPTURE(most);
+    CHECK(most < 2e-7);
+  }
+}
+
 TEST_CASE("clips in phase step together: their markers fall at the same times, each told once") {
   GraphPlayer player(graph_of(by_speed("*"), stepping_clips()));
   player.set("speed", 2.5);
