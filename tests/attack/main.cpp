@@ -18,6 +18,7 @@
 #include <csignal>
 #include <cstdio>
 #include <ctime>
+#include <exception>
 #include <thread>
 
 #ifndef __has_feature
@@ -202,5 +203,10 @@ int run(int argc, char** argv) {
 }  // namespace tweenfall::attack
 
 int main(int argc, char** argv) {
-  return tweenfall::attack::run(argc, argv);
+  try {
+    return tweenfall::attack::run(argc, argv);
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "attack: %s\n", problem.what());
+    return 2;
+  }
 }
