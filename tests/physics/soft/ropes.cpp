@@ -111,6 +111,37 @@ TEST_CASE("a plucked rope swings in its first mode, and its hook bears its weigh
   }
 }
 
+// What swings on a rope is as fast as it has fallen, however stiff the rope: its springs keep next to nothing.
+TEST_CASE("springs of any stiffness give what hangs on them no energy") {
+  for (const double stiffness : {1e6, 1e11, 1e12, 1e15}) {
+    CAPTURE(stiffness);
+    World world;
+    SoftSettings line = rope({.to = {1, 0, 0}, .links = 10, .mass = 0.1, .stiffness = stiffness});
+    line.solver = SoftSolver::springs;
+    line.collide = false;
+    const BodyId lamp = world.add(
+        {.shape = {Box{{0.08, 0.08, 0.08}}}, .mass = 0.2, .motion = {.pose = {.position = Vec3(1.08, 0, 0)}}});
+    line.pins = {{.node = 0, .in_place = true}, {.node = 10, .body = lamp, .point = {-0.08, 0, 0}}};
+    const SoftId id = add_soft(world, line);
+    const double inertia = 0.2 * 0.16 * 0.16 / 6;
+    double lowest = 0, least = 0, most = -1;
+    for (int n = 0; n < 300; ++n) {
+      world.step(1.0 / 240);
+      const SoftEnergy rope_has = soft_energy(world, id);
+      const Motion motion = world.motion(lamp);
+      const double moves = rope_has.kinetic + 0.1 * motion.twist.linear.squaredNorm() +
+                           0.5 * inertia * motion.twist.angular.squaredNorm();
+      const double height = rope_has.weight + 0.2 * 9.81 * motion.pose.position.y();
+      lowest = std::min(lowest, motion.pose.position.y());
+      least = std::min(least, height);
+      most = std::max(most, moves + height);
+    }
+    CHECK(most < 0);
+    CHECK(lowest == doctest::Approx(-1.08).epsilon(0.002));
+    CHECK(least < -2);
+  }
+}
+
 TEST_CASE("a rope follows the hand that holds it, and falls as one body when the hand opens") {
   for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {
     CAPTURE(static_cast<int>(solver));

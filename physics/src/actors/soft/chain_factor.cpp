@@ -42,6 +42,17 @@ void ChainFactor::add(std::size_t i, std::size_t j, const Mat3& block) {
     }
 }
 
+Mat3 ChainFactor::block(std::size_t i, std::size_t j) const {
+  Mat3 found = Mat3::Zero();
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) {
+      const std::size_t row = 3 * i + static_cast<std::size_t>(r), column = 3 * j + static_cast<std::size_t>(c);
+      const std::size_t low = std::max(row, column), high = std::min(row, column);
+      if (low - high <= band_) found(r, c) = rows_[low * width_ + high + band_ - low];
+    }
+  return found;
+}
+
 void ChainFactor::fix(std::size_t node) {
   for (std::size_t own = 3 * node; own < 3 * node + 3; ++own) {
     for (std::size_t other = own - std::min(own, band_); other <= own; ++other) at(own, other) = 0;

@@ -20,6 +20,9 @@ class ChainFactor {
   void clear(std::size_t nodes, std::size_t reach);
   /// @param i, j  their blocks are added on both sides of the diagonal; each pair is told once
   void add(std::size_t i, std::size_t j, const Mat3& block);
+  /// As it was filled in; zero for those farther apart than it reaches.
+  [[nodiscard]] Mat3 block(std::size_t i, std::size_t j) const;
+  [[nodiscard]] std::size_t reach() const { return band_ / 3; }
   /// Takes a node out: it stays where it is.
   void fix(std::size_t node);
 

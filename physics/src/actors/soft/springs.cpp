@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actors/soft/chain_holders.h"
 #include "actors/soft/energies.h"
 #include "actors/soft/sub_step.h"
 
@@ -22,7 +23,7 @@ namespace tweenfall::soft {
 
 namespace {
 
-constexpr int most_newton_steps = 12, most_halvings = 12;
+constexpr int most_newton_steps = 12, most_halvings = 12, most_ventured = 2;
 /// Against the mass that a contact moves in a sub-step: how stiff it is.
 constexpr double contact_stiffness = 1e4;
 
@@ -55,6 +56,7 @@ class Springs {
     begin();
     for (int i = 0; i < most_newton_steps && improve(); ++i) {
     }
+    if (ventured_ > 0) v_ = trusted_.v;
     if (step_.held.empty() && !touches()) keep_momentum();
     end();
   }
@@ -203,6 +205,7 @@ class Springs {
       blocks_[linear_of(contact.partner)] += stiff * contact.normal * contact.normal.transpose();
       blocks_[linear_of(contact.partner) + 1] += stiff * lever * lever.transpose();
     }
+    chained_ = reach_ > 0 && factor_chain();
     for (const Held& held : step_.held) {
       if (held.partner == Held::nobody) continue;
       const Mat3 lever = crossing(held.arm);
@@ -210,22 +213,21 @@ class Springs {
       blocks_[linear_of(held.partner) + 1] += lever.transpose() * blocks_[held.node] * lever;
     }
     for (Mat3& block : blocks_) block = block.inverse().eval();
-    chained_ = reach_ > 0 && factor_chain();
   }
 
-  /// All of the nodes together, but for what moves with a partner.
+  /// All of the nodes together, with what moves them.
   [[nodiscard]] bool factor_chain() {
-    chain_.clear(nodes_, reach_);
-    for (std::size_t i = 0; i < nodes_; ++i) chain_.add(i, i, mass_[i] * Mat3::Identity());
-    energies_.add_all_blocks(chain_);
+    ChainFactor& chain = all_.chain();
+    chain.clear(nodes_, reach_);
+    for (std::size_t i = 0; i < nodes_; ++i) chain.add(i, i, mass_[i] * Mat3::Identity());
+    energies_.add_all_blocks(chain);
     for (std::size_t k = 0; k < step_.contacts.size(); ++k) {
       if (pressing_[k] == 0) continue;
       const NodeContact& contact = step_.contacts[k];
       const double stiff = step_.h * step_.h * stiffness_[k];
-      chain_.add(contact.node, contact.node, stiff * contact.normal * contact.normal.transpose());
+      chain.add(contact.node, contact.node, stiff * contact.normal * contact.normal.transpose());
     }
-    for (const Held& held : step_.held) chain_.fix(held.node);
-    return chain_.factor();
+    return all_.factor(step_.held, blocks_, nodes_);
   }
 
   /// Solves for the change against a gradient.
@@ -238,9 +240,10 @@ class Springs {
     const auto steer = [&] {
       if (chained_) {
         steered_ = rest_;
-        chain_.solve(steered_);
+        all_.solve(steered_);
       }
-      for (std::size_t i = chained_ ? nodes_ : 0; i < size; ++i) steered_[i] = blocks_[i] * rest_[i];
+      for (std::size_t i = chained_ ? nodes_ : 0; i < size; ++i)
+        if (!chained_ || !all_.solves(i)) steered_[i] = blocks_[i] * rest_[i];
     };
     steered_.resize(size);
     steer();
@@ -266,7 +269,7 @@ class Springs {
 
   /// @return whether another step may be worth it
   bool improve() {
-    const double before = measure(v_);
+    const double now = measure(v_);
     find_gradient(v_, gradient_);
     hand_on(gradient_);
     find_blocks();
@@ -277,17 +280,35 @@ class Springs {
       largest = std::max(largest, change_[i].norm());
     }
     const bool last = largest <= 1e-9 * fastest + 1e-11;
-    double part = 1;
-    for (int i = 0; i < most_halvings; ++i, part *= 0.5) {
-      trial_ = v_;
-      for (std::size_t k = 0; k < v_.size(); ++k) trial_[k] += part * change_[k];
-      lead(trial_);
-      const double after = measure(trial_);
-      if (!(after <= before + 1e-13 * std::abs(before))) continue;
+    if (ventured_ == 0) trusted_ = {v_, change_, now};
+    if (take(v_, change_, 1)) return !last;
+    // Whoever goes straight along what turns stiff edges stretches them: what is least lies in a narrow valley that
+    // bends. A step or two more lead back into it, farther on; if not, a shorter one from where it was left.
+    if (ventured_ < most_ventured && !last) {
+      ++ventured_;
       v_ = trial_;
-      return !last;
+      return true;
     }
+    return step_back();
+  }
+  bool step_back() {
+    ventured_ = 0;
+    double part = 0.5;
+    v_ = trusted_.v;
+    for (int i = 1; i < most_halvings; ++i, part *= 0.5)
+      if (take(trusted_.v, trusted_.change, part)) return true;
     return false;
+  }
+  /// Whether what lies there is less than at the last place that was trusted.
+  bool take(const Rates& from, const Rates& change, double part) {
+    trial_ = from;
+    for (std::size_t k = 0; k < from.size(); ++k) trial_[k] += part * change[k];
+    lead(trial_);
+    const double after = measure(trial_);
+    if (!(after <= trusted_.measure + 1e-13 * std::abs(trusted_.measure))) return false;
+    v_ = trial_;
+    ventured_ = 0;
+    return true;
   }
 
   [[nodiscard]] bool touches() {
@@ -364,8 +385,14 @@ class Springs {
   std::vector<double> stiffness_;  ///< by contact, N/m
   std::vector<char> pressing_;     ///< by contact
   std::size_t reach_;
-  ChainFactor chain_;
+  ChainAndHolders all_;
   bool chained_ = false;
+  /// Where Newton's steps last came to less than before, and where they went from there.
+  struct {
+    Rates v, change;
+    double measure = 0;
+  } trusted_;
+  int ventured_ = 0;  ///< steps since
 };
 
 }  // namespace
