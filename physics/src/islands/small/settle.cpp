@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "collision/surfaces/surface.h"
 #include "step/solver.h"
@@ -20,8 +21,8 @@ constexpr int plain_passes = 6;
 constexpr int most_passes = 160, most_far_apart = 500;
 /// Passes in which nothing gets better, so that nothing will.
 constexpr int most_idle = 40, idle_far_apart = 200;
-/// Times that normals and friction of a single contact take turns.
-constexpr int most_turns = 40;
+/// Times that normals and friction of a single contact take turns; and those in which nothing gets better.
+constexpr int most_turns = 40, most_idle_turns = 5;
 /// A change that is so many times the least before.
 constexpr double wild = 100;
 
@@ -172,9 +173,14 @@ void Solver::settle(int passes, const std::function<double(bool backward)>& pass
   }
   if (contacts_.size() == 1) {
     set_impulses(best_);
-    for (int k = 0; k < most_turns; ++k) {
+    // What leads and turns asks its points for slips of which no body is capable: then each turn is like the last.
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int k = 0, since = 0; k < most_turns && since < most_idle_turns; ++k) {
       press_at_once(contacts_.front(), rows_.data());
-      if (pass(false) < enough) return;
+      const double change = pass(false);
+      if (change < enough) return;
+      since = change < 0.5 * nearest ? 0 : since + 1;
+      nearest = std::min(nearest, change);
     }
   }
   // Where no end is in sight it is worth as much as the last pass.
