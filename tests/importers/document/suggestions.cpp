@@ -123,6 +123,7 @@ TEST_CASE("errors say what to write where other words are used") {
       "\"a\", \"to\": \"free\", \"when\": ";
   CHECK(says(said(nodes + "\"let go\"}]"), "say {\"marker\": \"let go\"} for"));
   CHECK(says(said(nodes + "\"let go\"}]"), "or {\"event\": \"let go\"}"));
+  CHECK(says(said(nodes + "\"contact\"}]"), "; say {\"contact\": {}}"));
   CHECK(says(said(nodes + "0.5}]"), "say {\"at\": 0.5}"));
   CHECK(says(said("\"nodes\": {\"a\": {"), "1:"));
 }

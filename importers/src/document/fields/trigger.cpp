@@ -38,6 +38,7 @@ std::string known_event(const json::Value& name, const RuleBeingRead& rule, Buil
 std::string trigger_instead_of(const json::Value& value) {
   if (value.is(json::Value::Kind::number)) return "; say {\"at\": " + json::on_one_line(value) + "}";
   if (!value.is(json::Value::Kind::text)) return {};
+  if (value.text() == "contact") return "; say {\"contact\": {}}";
   const std::string name = json::on_one_line(value);
   return "; say {\"marker\": " + name + "} for an event of a clip that animates the body, or {\"event\": " + name +
          "} for one of any clip";
