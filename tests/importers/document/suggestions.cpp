@@ -114,6 +114,8 @@ TEST_CASE("errors say what to write where other words are used") {
       says(said("\"clips\": {\"c\": {}}, \"play\": [{\"clip\": \"fox/walk\"}]"), "come in with \"import\": {\"fox\""));
   CHECK(says(said("\"clips\": {\"c\": {\"tracks\": {\"hinge.rot\": {\"axis\": \"z\", \"keys\": [[0, 0], [1, 90]]}}}}"),
              "did you mean \"hinge.rotation\"?"));
+  CHECK(says(said("\"clips\": {\"c\": {\"tracks\": {\"a.b\": {\"keyframes\": [[0, 0], [1, 90]]}}}}"),
+             "unknown field \"keyframes\"; did you mean \"keys\"?"));
   const std::string keys = said("\"clips\": {\"c\": {\"tracks\": {\"a.b\": [{\"time\": 0, \"value\": 1}]}}}");
   CHECK(says(keys, "unknown field \"time\"; did you mean \"t\"?"));
   CHECK(says(keys, "unknown field \"value\"; did you mean \"v\"?"));
