@@ -155,6 +155,8 @@ class SceneReader {
         ++count[object.kind];
       } else if (object.kind == "Deformer" && object.form == "VertexCacheDeformer") {
         ++count["Cache"];
+      } else if (object.kind == "Model" && nodes_.of(i) == no_node) {
+        ++count["Model"];
       }
     }
     const auto tell = [&](std::string_view kind, const std::string& one, const std::string& many) {
@@ -165,6 +167,8 @@ class SceneReader {
          "textures are not read; materials show their base color alone");
     tell("Camera", "camera is read as a plain node", "cameras are read as plain nodes");
     tell("Light", "light is read as a plain node", "lights are read as plain nodes");
+    tell("Model", "view of the program that wrote it (\"Producer ...\") is left out",
+         "views of the program that wrote it (\"Producer ...\") are left out");
     tell("Constraint", "constraint is not read; nodes move as their own keys say",
          "constraints are not read; nodes move as their own keys say");
     tell("Cache", "cache of vertices is not read", "caches of vertices are not read");

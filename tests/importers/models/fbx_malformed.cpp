@@ -130,7 +130,8 @@ TEST_CASE("FBX names that are not UTF-8 are taken for Latin-1") {
         "chel");
 }
 
-TEST_CASE("of FBX cameras those that became nodes are noted, not the authoring program's own") {
+TEST_CASE(
+    "of FBX cameras those that became nodes are noted, and how many of the authoring program's own are left out") {
   const ScratchFolder folder("fbx-cameras");
   FbxText file;
   file.object("NodeAttribute", "NodeAttribute::eye", "Camera", "", file.model("eye", ""));
@@ -138,6 +139,7 @@ TEST_CASE("of FBX cameras those that became nodes are noted, not the authoring p
     file.object("NodeAttribute", "NodeAttribute::" + name, "Camera", "", file.model(name, ""));
   const Model model = load_model(folder.file("cameras.fbx", file.text()));
   CHECK(model.nodes.size() == 1);
-  REQUIRE(model.repairs.size() == 1);
+  REQUIRE(model.repairs.size() == 2);
   CHECK(model.repairs[0].find("1 camera is read as a plain node") != std::string::npos);
+  CHECK(model.repairs[1].find("2 views of the program that wrote it") != std::string::npos);
 }
