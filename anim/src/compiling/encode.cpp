@@ -53,15 +53,13 @@ Grid grid_over(const Range& range, int limit) {
 /// What a base of some stride leaves of a channel.
 class Based {
  public:
-  Based(const Fitted& fitted, std::size_t stride)
-      : fitted_(fitted), spline_(fitted.knots.size(), stride), stride_(stride) {
+  Based(const Fitted& fitted, std::size_t stride) : fitted_(fitted), spline_(fitted.knots.size(), stride) {
     const std::size_t sequences = fitted.slots() * lane_count;
     coefficients_.resize(sequences * spline_.coefficients());
     for (std::size_t i = 0; i < sequences; ++i) spline_.fit(fitted.values.data() + i, sequences, coefficients(i));
   }
 
   [[nodiscard]] std::size_t rows() const { return spline_.coefficients(); }
-  [[nodiscard]] std::size_t stride() const { return stride_; }
 
   void round(Packing base) {
     const std::size_t sequences = fitted_.slots() * lane_count;
@@ -92,7 +90,6 @@ class Based {
 
   const Fitted& fitted_;
   SmoothBase spline_;
-  std::size_t stride_;
   std::vector<double> coefficients_;
   std::vector<int> rounded_;
   std::vector<Grid> grids_;

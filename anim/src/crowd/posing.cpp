@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
 #include "crowd/compiled_clip.h"
 #include "crowd/pose_kernels.h"
@@ -40,6 +42,9 @@ void add_with(const PoseKernels& kernels, std::span<const CrowdGroup> base, std:
 }  // namespace crowd
 
 std::vector<float> crowd_mask(const JointMask& mask, std::size_t joints) {
+  if (mask.size() != 0 && mask.size() != joints)
+    throw std::invalid_argument("a mask of " + std::to_string(mask.size()) + " nodes does not fit " +
+                                std::to_string(joints) + " joints");
   std::vector<float> lanes(crowd_groups(joints) * CrowdGroup::size, 0.0F);
   for (std::size_t joint = 0; joint < joints; ++joint) lanes[joint] = static_cast<float>(mask[joint]);
   return lanes;

@@ -236,3 +236,18 @@ TEST_CASE("a crowd on many threads has the bits of a crowd on one, and asks for 
   CHECK(equal_bytes(alone.first, together.first));
   CHECK(alone.second == 0);
 }
+
+TEST_CASE("a joint mask reaches the lanes of a crowd's joints, and none beyond the last") {
+  std::vector<double> weights(11);
+  for (std::size_t joint = 0; joint < weights.size(); ++joint) weights[joint] = 0.0625 * static_cast<double>(joint);
+  const std::vector<float> lanes = crowd_mask(JointMask(weights), weights.size());
+  REQUIRE(lanes.size() == crowd_groups(weights.size()) * CrowdGroup::size);
+  for (std::size_t lane = 0; lane < lanes.size(); ++lane)
+    CHECK(static_cast<double>(lanes[lane]) == (lane < weights.size() ? weights[lane] : 0));
+
+  const std::vector<float> whole = crowd_mask(JointMask(), 3);
+  CHECK(std::ranges::count(whole, 1.0F) == 3);
+  CHECK(std::ranges::count(whole, 0.0F) == static_cast<std::ptrdiff_t>(whole.size() - 3));
+  CHECK_THROWS_WITH_AS(static_cast<void>(crowd_mask(JointMask(weights), 12)),
+                       "a mask of 11 nodes does not fit 12 joints", std::invalid_argument);
+}

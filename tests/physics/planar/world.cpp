@@ -41,6 +41,21 @@ TEST_CASE("in a plane what nothing touches flies by x + v t + g t^2 / 2 and spin
   CHECK(motion.spin == 7);
 }
 
+TEST_CASE("in a plane the center of mass goes straight where the node's origin swings about it") {
+  planar::World world({.gravity = {0, 0}});
+  const Vec2 center(0.4, 0);
+  planar::BodySettings body{.shape = {planar::Polygon{.corners = {{0.3, -0.1}, {0.5, -0.1}, {0.5, 0.1}, {0.3, 0.1}}}}};
+  body.motion = {.velocity = Vec2(1, 0), .spin = 2};
+  const BodyId id = world.add(body);
+  // v + w x r
+  const Vec2 expected(1, 2 * center.x());
+  CHECK(near(world.mass(id).center, center, 1e-15));
+  for (int i = 0; i < 60; ++i) {
+    REQUIRE(near(world.center_velocity(id), expected, 1e-13));
+    world.step(flat_step);
+  }
+}
+
 TEST_CASE("in a plane damping leaves exp(-c t), and a force gives a = F / m") {
   planar::World world({.gravity = {0, 0}});
   const BodyId damped =

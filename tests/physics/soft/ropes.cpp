@@ -174,6 +174,47 @@ TEST_CASE("a rope follows the hand that holds it, and falls as one body when the
   }
 }
 
+TEST_CASE("a node pinned on the way holds, follows where its pin is led, and flies on when it is let go") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {
+    World world;
+    SoftSettings line = rope({.to = {0, -1, 0}, .links = 10, .mass = 0.2, .stiffness = 1e4});
+    line.solver = solver;
+    line.collide = false;
+    const SoftId id = add_soft(world, line);
+    step(world, 0.25);
+    pin(world, id, {.node = 3, .in_place = true});
+    const Vec3 held = soft_positions(world, id)[3];
+    REQUIRE(soft_pins(world, id).size() == 1);
+    step(world, 0.5);
+    CHECK(near(soft_positions(world, id)[3], held, 1e-12));
+    CHECK(soft_velocities(world, id)[3].norm() < 1e-12);
+
+    for (int n = 1; n <= 60; ++n) {
+      const double time = n / 240.0;
+      const Vec3 point = held + Vec3(0.1 * (1 - std::cos(6 * time)), 0, 0.05 * std::sin(6 * time) - 0.3 * time);
+      const Vec3 velocity(0.6 * std::sin(6 * time), 0, 0.3 * std::cos(6 * time) - 0.3);
+      lead_pin(world, id, 3, point, velocity);
+      world.step(1.0 / 240);
+      REQUIRE(near(soft_positions(world, id)[3], point, 1e-12));
+      REQUIRE(near(soft_velocities(world, id)[3], velocity, 1e-9));
+    }
+
+    // Of two pins of one node the later holds.
+    const Vec3 elsewhere = soft_positions(world, id)[3] + Vec3(0, 0.01, 0);
+    pin(world, id, {.node = 3, .point = elsewhere});
+    CHECK(soft_pins(world, id).size() == 1);
+    step(world, 0.1);
+    CHECK(near(soft_positions(world, id)[3], elsewhere, 1e-12));
+    unpin(world, id, 3);
+    CHECK(soft_pins(world, id).empty());
+    const Vec3 momentum = momentum_of(world, id);
+    step(world, 0.5);
+    CHECK(near(momentum_of(world, id), momentum + 0.2 * 0.5 * Vec3(0, -9.81, 0), 1e-9));
+    CHECK_THROWS_AS(lead_pin(world, id, 3, Vec3::Zero(), Vec3::Zero()), std::invalid_argument);
+    CHECK_THROWS_AS(pin(world, id, {.node = 11}), std::invalid_argument);
+  }
+}
+
 TEST_CASE("a hanging spring is longer by the weight over its stiffness, however many sub-steps it takes") {
   // One mass on one edge, and a chain: under its own weight and a load, sum of what each link bears over its stiffness.
   for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs})

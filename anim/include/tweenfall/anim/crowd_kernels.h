@@ -22,7 +22,8 @@
 namespace tweenfall {
 
 // Masks
-/// The weights of a mask lane by lane, as kernels take them. @param joints  as many as a mask with a size has
+/// The weights of a mask lane by lane, as kernels take them; 0 in the lanes beyond the last joint.
+/// @throws std::invalid_argument where the mask has a size, and it is not `joints`.
 [[nodiscard]] std::vector<float> crowd_mask(const JointMask& mask, std::size_t joints);
 
 // Blending
