@@ -2,7 +2,7 @@
 
 /// What is done with rows of figures: their speeds and impulses, and the factors of all that are in.
 
-#include "islands/blocks/registers.h"
+#include "islands/blocks/kernels/registers.h"
 #include "joints/figure_lanes.h"
 #include "joints/joint_rows.h"
 

@@ -1,7 +1,7 @@
 #include <array>
 #include <cstddef>
 
-#include "islands/blocks/registers.h"
+#include "islands/blocks/kernels/registers.h"
 #include "planar/contacts/contact_block.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"
