@@ -2,12 +2,14 @@
 
 #include <vector>
 
+#include "forces/forces.h"
 #include "queries/lazy_scene.h"
 #include "state/body.h"
 
 namespace tweenfall::queries {
 
 [[nodiscard]] const std::vector<state::Body>& bodies_of(const World& world);
+[[nodiscard]] const std::vector<forces::NumberedForce>& forces_of(const World& world);
 
 /// A world's bodies, by index.
 inline void arrange_bodies(Scene& scene, const std::vector<state::Body>& bodies) {

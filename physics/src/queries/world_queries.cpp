@@ -60,6 +60,10 @@ const std::vector<state::Body>& queries::bodies_of(const World& world) {
   return Inside::of(world).bodies;
 }
 
+const std::vector<forces::NumberedForce>& queries::forces_of(const World& world) {
+  return Inside::of(world).forces;
+}
+
 std::vector<BodyDetail> body_details(const World& asked) {
   const auto& world = queries::Inside::of(asked);
   const std::vector<state::Body>& bodies = world.bodies;

@@ -288,6 +288,9 @@ void end_joints(StageState& state, double from, std::vector<Happening>& happenin
 void report_broken_joints(const StageState& state, std::vector<Happening>& happenings);
 /// How the description's joints stand at the start where that is not as they hold.
 void find_joint_starts(const StageState& state, const StageDescription& description, StageInspection& out);
+// inspection/extremes.cpp
+/// What is beyond numbers or steps.
+void find_extremes(const StageState& state, const StageDescription& description, StageInspection& out);
 /// @throws std::invalid_argument with the nearest name
 [[nodiscard]] std::optional<JointReading> joint_reading(const StageState& state, std::string_view name);
 

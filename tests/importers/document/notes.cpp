@@ -156,3 +156,23 @@ TEST_CASE("files that import each other twice are read once each, and what they 
   CHECK(test::processor_seconds() - start < 5);
   std::filesystem::remove_all(folder);
 }
+
+TEST_CASE("what numbers or steps cannot follow is noted where it stands") {
+  const auto ball = [](const std::string& rest) {
+    return notes_of(
+        "{\"tweenfall\": 1, \"nodes\": {\"b\": {\"body\": {\"shape\": {\"sphere\": {\"radius\": 0.5}}, "
+        "\"mass\": 2, \"velocity\": [12, 0, 0]}}}, \"world\": {" +
+        rest + "}}");
+  };
+  const std::string drag = "\"forces\": [{\"drag\": {\"quadratic\": 200}}]";
+  CHECK(ball(drag).empty());
+  CHECK(has(ball("\"integrator\": \"rk4\", " + drag), "this force slows \"b\" at a rate of 2400/s"));
+  CHECK(has(ball("\"integrator\": \"rk4\", " + drag), "(at /world/forces/0)"));
+  CHECK(has(ball("\"gravity\": [0, -1e30, 0]"), "(at /world/gravity)"));
+  const auto rope = [](const std::string& length) {
+    return notes_of("{\"tweenfall\": 1, \"world\": {\"soft\": {\"r\": {\"rope\": {\"from\": [0, 0, 0], \"to\": [" +
+                    length + ", 0, 0]}}}}}");
+  };
+  CHECK(rope("10").empty());
+  CHECK(has(rope("1e12"), "(at /world/soft/r)"));
+}

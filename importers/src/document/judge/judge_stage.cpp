@@ -16,9 +16,9 @@ json::Value item_of(const json::Value& list, std::size_t index) {
   return list.is(json::Value::Kind::list) && index < list.items().size() ? list.items()[index] : list;
 }
 
-json::Value place_of_fault(const Building& building, const StageFault& fault) {
+json::Value place_of_part(const Building& building, StageFault::Part part, std::size_t index) {
   const json::Value world = place_of_world(building);
-  switch (fault.part) {
+  switch (part) {
     case StageFault::Part::world:
       return fields::place_of_gravity(world);
     case StageFault::Part::step:
@@ -26,21 +26,21 @@ json::Value place_of_fault(const Building& building, const StageFault& fault) {
     case StageFault::Part::clips:
       return below(building.root, {"clips"});
     case StageFault::Part::node:
-      return below(place_of_node(building, fault.index), {"body"});
+      return below(place_of_node(building, index), {"body"});
     case StageFault::Part::force:
-      return fields::place_of_force(world, fault.index);
+      return fields::place_of_force(world, index);
     case StageFault::Part::joint:
-      return place_of_joint(building, fault.index);
+      return place_of_joint(building, index);
     case StageFault::Part::soft:
-      return fields::place_of_soft(world, building.stage.softs[fault.index].name);
+      return fields::place_of_soft(world, building.stage.softs[index].name);
     case StageFault::Part::vehicle:
-      return fields::place_of_vehicle(world, building.stage.vehicles[fault.index].name);
+      return fields::place_of_vehicle(world, building.stage.vehicles[index].name);
     case StageFault::Part::particles:
-      return fields::place_of_particles(world, building.stage.particles[fault.index].name);
+      return fields::place_of_particles(world, building.stage.particles[index].name);
     case StageFault::Part::ignored:
       return fields::place_of_ignored(world);
     case StageFault::Part::rule:
-      return item_of(below(building.root, {"handoff"}), fault.index);
+      return item_of(below(building.root, {"handoff"}), index);
   }
   return building.root;
 }
@@ -81,7 +81,8 @@ void note_joint_starts(Building& building, const StageInspection& found) {
 
 void judge_stage(Building& building) {
   const StageInspection found = inspect(building.stage);
-  for (const StageFault& fault : found.faults) building.problems.add(place_of_fault(building, fault), fault.message);
+  for (const StageFault& fault : found.faults)
+    building.problems.add(place_of_part(building, fault.part, fault.index), fault.message);
   const std::vector<NodeDescription>& nodes = building.stage.nodes;
   for (const StartOverlap& overlap : found.overlaps)
     building.problems.note(below(place_of_node(building, overlap.a), {"position"}),
@@ -96,6 +97,8 @@ void judge_stage(Building& building) {
                                step_text(building.stage.step) +
                                " s; it holds, but its swing is damped away. Steps of " + step_text(stiff.longest_step) +
                                " s or less show it");
+  for (const Extreme& extreme : found.extremes)
+    building.problems.note(place_of_part(building, extreme.part, extreme.index), extreme.message);
 }
 
 }  // namespace tweenfall::document::judging

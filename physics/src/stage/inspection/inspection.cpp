@@ -100,6 +100,7 @@ StageInspection inspect(const StageDescription& description) {
   out.overlaps = staging::overlaps_in(state);
   out.stiff_springs = staging::stiff_springs_in(state, description);
   staging::find_joint_starts(state, description, out);
+  staging::find_extremes(state, description, out);
   return out;
 }
 

@@ -45,12 +45,22 @@ struct PassedLimit {
   bool length = false;       ///< whether it is a length, m, and no angle
 };
 
+/// Something so large, small, far or fast, or so strong for the step, that numbers or steps cannot follow it: it may
+/// run astray.
+struct Extreme {
+  StageFault::Part part = StageFault::Part::node;
+  std::size_t index = 0;  ///< of the node, force or soft body
+  std::string message;    ///< what it is, and up to where it goes well
+};
+
 struct StageInspection {
   std::vector<StageFault> faults;      ///< none: `Stage` takes the description
   std::vector<StartOverlap> overlaps;  ///< deeper than a hundredth of the smaller body; the first 100
   std::vector<StiffSpring> stiff_springs;
   std::vector<OpenJoint> open_joints;  ///< by more than a thousandth of the smaller body, or of a radian
   std::vector<PassedLimit> passed_limits;
+  std::vector<Extreme>
+      extremes;  ///< by places, sizes, masses and speeds, by rates of forces, and by a few steps on trial
 };
 
 /// Holds a description against everything that `Stage` asks of it.

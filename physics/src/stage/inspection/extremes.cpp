@@ -1,0 +1,199 @@
+#include <tweenfall/curves/number_text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "forces/integrators/integrators.h"
+#include "forces/pace.h"
+#include "queries/body_scene.h"
+#include "stage/roster/staged_softs.h"
+#include "stage/stage_data.h"
+
+namespace tweenfall::staging {
+
+namespace {
+
+constexpr double thinnest = 1e-6, farthest = 1e9;    // m
+constexpr double lightest = 1e-12, heaviest = 1e18;  // kg
+constexpr double fastest = 1e6;                      // m/s
+constexpr double finest = 1e-6;                      // of a body's size: what numbers of its place must tell apart
+constexpr std::size_t most_extremes = 100;
+
+using Part = StageFault::Part;
+
+/// Whether what a force takes along is endlessly far away after a finite time, by whatever steps.
+bool runs_away(const Force& force) {
+  if (const auto* vortex = std::get_if<Vortex>(&force)) return vortex->acceleration != 0 && vortex->power < -1;
+  if (const auto* attractor = std::get_if<Attractor>(&force))
+    return attractor->acceleration < 0 && attractor->power < -1;
+  return false;
+}
+
+class Finder {
+ public:
+  Finder(const StageState& state, const StageDescription& description, StageInspection& out)
+      : state_(state), description_(description), out_(out) {}
+
+  void find() {
+    if (const double gain = state_.gravity.norm() * description_.step; gain > fastest)
+      tell(Part::world, 0,
+           "gravity makes bodies faster by " + brief_text(gain) + " m/s in each step; up to 1e6 m/s goes well");
+    for (const StagedBody& body : state_.bodies) look_at(body);
+    for (std::size_t i = 0; i < description_.softs.size(); ++i) look_at(i);
+    for (std::size_t i = 0; i < description_.forces.size(); ++i) follow(i);
+    try_steps();
+  }
+
+ private:
+  void tell(Part part, std::size_t index, std::string message) {
+    if (out_.extremes.size() < most_extremes && told_.insert({part, index}).second)
+      out_.extremes.push_back({part, index, std::move(message)});
+  }
+  void tell_body(const StagedBody& body, const std::string& what) {
+    tell(Part::node, body.node, "\"" + description_.nodes[body.node].name + "\" " + what);
+  }
+
+  // Places, sizes, masses and speeds
+
+  void look_at(const StagedBody& body) {
+    const Shape& shape = state_.world.shape(body.id);
+    const Motion motion = state_.world.motion(body.id);
+    const double away = motion.pose.position.cwiseAbs().maxCoeff();
+    if (is_scenery(shape.solid)) {
+      if (away > farthest) tell_body(body, "is " + brief_text(away) + " m from the origin; up to 1e9 m goes well");
+      return;
+    }
+    const Bounds room = bounds(shape, {});
+    const Vec3 size = room.high - room.low;
+    const double least = size.minCoeff(), most = size.maxCoeff(), mass = state_.world.mass(body.id).mass;
+    const double speed = state_.world.twist(body.id).linear.norm();
+    if (least < thinnest || least < finest * most)
+      tell_body(body, "is " + brief_text(least) + " m thin and " + brief_text(most) +
+                          " m long; forces and contacts may throw what is thinner than 1e-6 m, or than a millionth of "
+                          "its length");
+    else if (most > farthest)
+      tell_body(body, "is " + brief_text(most) + " m large; up to 1e9 m goes well");
+    else if (away > farthest || away > least * finest / 1e-16)
+      tell_body(body, "is " + brief_text(away) +
+                          " m from the origin, where numbers are too far apart for its size of " + brief_text(least) +
+                          " m; forces and contacts may throw it");
+    else if (mass < lightest || mass > heaviest)
+      tell_body(body, "has a mass of " + brief_text(mass) + " kg; 1e-12 to 1e18 kg go well");
+    else if (speed > fastest)
+      tell_body(body, "moves at " + brief_text(speed) + " m/s; up to 1e6 m/s goes well");
+    const BodyDescription& described = *description_.nodes[body.node].body;
+    const double damping = std::max(described.linear_damping, described.angular_damping);
+    if (forces::asking(description_.world.integrator) && !forces::implicit(description_.world.integrator) &&
+        damping * description_.step > 1)
+      tell_body(body, "is damped at a rate of " + brief_text(damping) + beyond_step(damping));
+  }
+
+  void look_at(std::size_t soft) {
+    double away = 0;
+    for (const Vec3& place : description_.softs[soft].soft.positions)
+      away = std::max(away, place.cwiseAbs().maxCoeff());
+    if (away > farthest)
+      tell(Part::soft, soft, "reaches " + brief_text(away) + " m from the origin; up to 1e9 m goes well");
+  }
+
+  // Forces that change faster than steps
+
+  class Present : public forces::Moment {
+   public:
+    using Moment::Moment;
+    [[nodiscard]] forces::Glimpse of(std::uint32_t body) const override { return forces::now(bodies[body]); }
+  };
+
+  [[nodiscard]] std::string beyond_step(double rate) const {
+    return "/s, which steps of " + brief_text(description_.step) +
+           " s cannot follow: the motion may grow until the run fails. Steps of less than " + brief_text(1 / rate) +
+           " s show it";
+  }
+
+  void follow(std::size_t index) {
+    if (runs_away(description_.forces[index].force))
+      tell(Part::force, index,
+           "this force drives outward and grows faster than the distance: what it takes along is beyond all numbers "
+           "after a finite time");
+    constexpr std::uint32_t most_looked_at = 1000;
+    const Integrator integrator = description_.world.integrator;
+    const forces::NumberedForce& force = queries::forces_of(state_.world)[index];
+    if (forces::implicit(integrator) || std::holds_alternative<Field>(force.force)) return;
+    const std::vector<state::Body>& bodies = queries::bodies_of(state_.world);
+    const bool resistance = forces::asking(integrator) != nullptr;
+    const Present moment(bodies, state_.gravity, 0);
+    std::vector<std::uint32_t> all;
+    for (const StagedBody& body : state_.bodies)
+      if (all.size() < most_looked_at && !bodies[body.id.index].immovable()) all.push_back(body.id.index);
+    forces::Pace pace;
+    std::uint32_t whom = 0;
+    forces::each_acted(force, bodies, all, [&](std::uint32_t i) {
+      const state::Body& body = bodies[i];
+      if (body.immovable()) return;
+      const auto see = [&](const Vec3& linear) {
+        const forces::Pace other = forces::pace_of(force, body, linear, moment, resistance);
+        if (std::max(other.damping, other.swing) > std::max(pace.damping, pace.swing)) pace = other, whom = i;
+      };
+      see(body.twist.linear);
+      if (!resistance) return;
+      if (const double speed = forces::falling_speed(force, body, moment); std::isfinite(speed))
+        see(state_.gravity.normalized() * speed);
+    });
+    const double rate = std::max(pace.damping, pace.swing);
+    if (!(rate * description_.step > 1)) return;
+    tell(Part::force, index,
+         std::string("this force ") + (pace.damping > pace.swing ? "slows" : "swings") + " \"" +
+             description_.nodes[state_.node_of[whom]].name + "\" at a rate of " + brief_text(rate) + beyond_step(rate) +
+             (pace.damping > pace.swing && resistance ? ", and exact-quadratic is stable at any" : ""));
+  }
+
+  // What none of that tells: the first steps of a copy, without clips and rules
+
+  void try_steps() {
+    constexpr std::size_t worth = 20'000, most_steps = 16;
+    const auto asks_caller = [](const ForceDescription& force) { return std::holds_alternative<Field>(force.force); };
+    if (!out_.extremes.empty() || std::ranges::any_of(description_.forces, asks_caller)) return;
+    World trial = state_.world;
+    const std::size_t steps = std::clamp(worth / (state_.bodies.size() + 1), std::size_t{1}, most_steps);
+    const auto node_of = [&](const BodyId& body) -> const StagedBody& {
+      return *state_.body(state_.node_of[body.index]);
+    };
+    for (std::size_t i = 1; i <= steps; ++i) {
+      try {
+        trial.step(description_.step);
+      } catch (const SoftNotFinite& fault) {
+        for (std::size_t soft = 0; soft < state_.softs->list.size(); ++soft)
+          if (state_.softs->list[soft].second == fault.soft) tell(Part::soft, soft, "will not last: " + fault.cause);
+        return;
+      } catch (const NotFinite& fault) {
+        tell_body(node_of(fault.body), "will not last: at " + brief_text(fault.time) + " s " + fault.cause);
+        return;
+      }
+      for (const StagedBody& body : state_.bodies)
+        if (const double speed = trial.twist(body.id).linear.norm(); speed > fastest)
+          tell_body(body, "is thrown: after " + brief_text(trial.time()) + " s it moves at " + brief_text(speed) +
+                              " m/s, by forces, joints or contacts that are too strong for the step");
+      for (std::size_t soft = 0; soft < state_.softs->list.size(); ++soft)
+        for (const Vec3& velocity : soft_velocities(trial, state_.softs->list[soft].second))
+          if (velocity.norm() > fastest)
+            tell(Part::soft, soft,
+                 "is thrown: after " + brief_text(trial.time()) + " s it moves at " + brief_text(velocity.norm()) +
+                     " m/s, by what is too strong for the step");
+      if (!out_.extremes.empty()) return;
+    }
+  }
+
+  const StageState& state_;
+  const StageDescription& description_;
+  StageInspection& out_;
+  std::set<std::pair<Part, std::size_t>> told_;
+};
+
+}  // namespace
+
+void find_extremes(const StageState& state, const StageDescription& description, StageInspection& out) {
+  Finder(state, description, out).find();
+}
+
+}  // namespace tweenfall::staging
