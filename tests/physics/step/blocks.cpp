@@ -16,14 +16,14 @@ TEST_CASE("no two contacts of one color share a movable body, whatever touches w
     for (char& moves : movable) moves = random.between(0, 1) < 0.8;
     blocks::Coloring coloring;
     coloring.reset(bodies);
-    std::vector<std::vector<char>> seen(blocks::Coloring::none, std::vector<char>(bodies));
-    for (int i = 0; i < 400; ++i) {
+    std::vector<std::vector<char>> seen;
+    for (int i = 0; i < 4000; ++i) {
       const auto a = static_cast<std::uint32_t>(random.between(0, bodies - 1e-9));
       const auto b = static_cast<std::uint32_t>(random.between(0, bodies - 1e-9));
       if (a == b || !(movable[a] || movable[b])) continue;
       const std::uint32_t color = coloring.color(a, movable[a] != 0, b, movable[b] != 0);
-      if (color == blocks::Coloring::none) continue;
-      REQUIRE(color < blocks::Coloring::none);
+      REQUIRE(color < coloring.end());
+      if (seen.size() <= color) seen.resize(color + 1, std::vector<char>(bodies));
       for (const std::uint32_t body : {a, b}) {
         if (!movable[body]) continue;
         REQUIRE(!seen[color][body]);
@@ -31,6 +31,25 @@ TEST_CASE("no two contacts of one color share a movable body, whatever touches w
       }
     }
   }
+}
+
+TEST_CASE("contacts among many at one place share colors: few more of them than one body has contacts") {
+  blocks::Coloring coloring;
+  for (const bool again : {false, true}) {
+    CAPTURE(again);
+    coloring.reset(400);
+    std::uint32_t contacts = 0;
+    for (std::uint32_t a = 0; a < 400; ++a)
+      for (std::uint32_t b = a + 1; b < std::min(400u, a + 100); ++b, ++contacts)
+        static_cast<void>(coloring.color(a, true, b, true));
+    // A body has up to 198 contacts, and colors taken in order at most twice as many but one.
+    CHECK(coloring.end() >= 198);
+    CHECK(coloring.end() - blocks::Coloring::half <= 2 * 198 - 1);
+    CHECK(contacts > 30'000);
+  }
+  coloring.reset(400);
+  CHECK(coloring.color(0, true, 1, true) == 0);
+  CHECK(coloring.end() == blocks::Coloring::late);
 }
 
 TEST_CASE("rows are solved to the same bits with every instruction set") {

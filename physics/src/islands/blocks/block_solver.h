@@ -113,8 +113,7 @@ class BlockSolver {
       return;
     }
     for (const ContactBlocks::Phase& phase : contacts_.phases) {
-      const std::size_t count = phase.end - phase.begin;
-      work_.ranges(count, phase.divisible ? blocks_worth_a_part : count, [&](std::size_t begin, std::size_t end) {
+      work_.ranges(phase.end - phase.begin, blocks_worth_a_part, [&](std::size_t begin, std::size_t end) {
         see(part_of(all, phase.of_balls, phase.begin + begin, phase.begin + end));
       });
     }

@@ -13,18 +13,25 @@ class Coloring {
  public:
   /// Colors of contacts between two movable bodies come first, then those with one: what stands firm has the last word.
   static constexpr std::uint32_t half = 64;
-  /// Contacts that found no color: to be solved one by one.
-  static constexpr std::uint32_t none = 2 * half;
+  /// From here on, as many as are needed, those of contacts of either sort whose bodies have none of the others left.
+  static constexpr std::uint32_t late = 2 * half;
 
-  void reset(std::size_t bodies) { taken_.assign(bodies, {}); }
+  void reset(std::size_t bodies);
   /// @return the color of the next contact
   [[nodiscard]] std::uint32_t color(std::uint32_t a, bool a_moves, std::uint32_t b, bool b_moves);
+  /// All colors are below this; at least `late`.
+  [[nodiscard]] std::uint32_t end() const { return end_; }
 
  private:
+  [[nodiscard]] std::uint32_t late_color(std::uint32_t a, bool a_moves, std::uint32_t b, bool b_moves);
+
   struct Taken {
     std::uint64_t pairs = 0, singles = 0;  ///< bits of the colors that the body has contacts in
   };
   std::vector<Taken> taken_;
+  std::vector<std::vector<std::uint64_t>> taken_late_;  ///< by body, as far as any needed it
+  std::vector<std::uint32_t> with_late_;                ///< the bodies that did
+  std::uint32_t end_ = late;
 };
 
 }  // namespace tweenfall::blocks

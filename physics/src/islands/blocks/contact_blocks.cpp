@@ -189,10 +189,9 @@ void ContactBlocks::lay_out() {
   for (std::uint32_t next = 0; next < sorted_.size();) {
     const std::uint32_t first = keys_[sorted_[next]], color = first / kinds;
     open_colors(color + 1);
-    const std::uint32_t most = color >= Coloring::none ? 1 : lane_count;
     Filling filling{first % kinds == ball_kind, 0, next, 0, room};
     Makeup makeup{static_cast<int>(first % kinds / kinds_of_grip)};
-    for (; filling.count < most && next < sorted_.size(); ++next, ++filling.count) {
+    for (; filling.count < lane_count && next < sorted_.size(); ++next, ++filling.count) {
       const std::uint32_t key = keys_[sorted_[next]];
       if (key / kinds_of_grip != first / kinds_of_grip) break;
       makeup.points = std::max(makeup.points, points_of(key));
@@ -204,7 +203,7 @@ void ContactBlocks::lay_out() {
     // Where all lanes have two movable bodies nothing is left over.
     if (filling.count < lane_count || color >= Coloring::half) ++room;
   }
-  open_colors(Coloring::none + 1);
+  open_colors(coloring_.end());
 }
 
 /// Those of one key in their order. There are thousands of keys, and of most islands' contacts only few.
@@ -218,7 +217,7 @@ void ContactBlocks::sort_by_key() {
     });
     return;
   }
-  counts_.assign((Coloring::none + 1) * kinds + 1, 0);
+  counts_.assign(std::size_t{coloring_.end()} * kinds + 1, 0);
   for (const std::uint32_t key : keys_) ++counts_[key + 1];
   for (std::size_t i = 1; i < counts_.size(); ++i) counts_[i] += counts_[i - 1];
   for (std::uint32_t i = 0; i < keys_.size(); ++i) sorted_[counts_[keys_[i]]++] = i;
@@ -231,13 +230,12 @@ void ContactBlocks::find_phases() {
   const auto add = [this](bool of_balls, std::uint32_t from, std::uint32_t to) {
     const std::vector<std::size_t>& starts = of_balls ? color_balls_ : color_blocks_;
     for (std::uint32_t color = from; color < to; ++color)
-      if (starts[color] < starts[color + 1])
-        phases.push_back({of_balls, color != Coloring::none, starts[color], starts[color + 1]});
+      if (starts[color] < starts[color + 1]) phases.push_back({of_balls, starts[color], starts[color + 1]});
   };
   add(true, 0, Coloring::half);
   add(false, 0, Coloring::half);
-  add(true, Coloring::half, Coloring::none + 1);
-  add(false, Coloring::half, Coloring::none + 1);
+  add(true, Coloring::half, coloring_.end());
+  add(false, Coloring::half, coloring_.end());
 }
 
 void ContactBlocks::open(const Makeup& makeup) {

@@ -69,7 +69,6 @@ class ContactBlocks {
   /// found no color.
   struct Phase {
     bool of_balls = false;
-    bool divisible = true;
     std::size_t begin = 0, end = 0;
   };
   std::vector<Phase> phases;

@@ -1,7 +1,6 @@
 #include "planar/contacts/contact_solver.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -26,19 +25,18 @@ void ContactSolver::color(const Scene& scene) {
   const std::size_t count = scene.active.size();
   colors_.resize(count);
   places_.resize(count);
-  std::array<std::uint32_t, blocks::Coloring::none + 1> counts{};
   for (std::size_t k = 0; k < count; ++k) {
     const Meeting& meeting = scene.meetings[scene.active[k]];
     colors_[k] =
         coloring_.color(meeting.a, scene.bodies[meeting.a].movable, meeting.b, scene.bodies[meeting.b].movable);
-    ++counts[colors_[k]];
   }
-  // Those without a color come last, each alone.
+  color_counts_.assign(coloring_.end(), 0);
+  for (const std::uint32_t color : colors_) ++color_counts_[color];
+  next_places_.clear();
   std::uint32_t total = 0;
-  std::array<std::uint32_t, blocks::Coloring::none + 1> next{};
-  for (std::size_t c = 0; c < counts.size(); ++c) {
-    next[c] = total * lane_count;
-    total += c == blocks::Coloring::none ? counts[c] : (counts[c] + lane_count - 1) / lane_count;
+  for (const std::uint32_t of_color : color_counts_) {
+    next_places_.push_back(total * lane_count);
+    total += (of_color + lane_count - 1) / lane_count;
   }
   blocks_.resize(total);
   const auto nobody = static_cast<std::uint32_t>(scene.bodies.size());
@@ -46,15 +44,10 @@ void ContactSolver::color(const Scene& scene) {
     blocks_[block] = {};
     for (int lane = 0; lane < lane_count; ++lane) blocks_[block].a[lane] = blocks_[block].b[lane] = nobody;
   };
-  for (std::size_t c = 0; c + 1 < counts.size(); ++c)
-    if (counts[c] % lane_count != 0) clear((next[c] + counts[c]) / lane_count);
-  for (std::uint32_t i = total - counts.back(); i < total; ++i) clear(i);
+  for (std::size_t c = 0; c < color_counts_.size(); ++c)
+    if (color_counts_[c] % lane_count != 0) clear((next_places_[c] + color_counts_[c]) / lane_count);
   for (ContactBlock& block : blocks_) block.points = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    std::uint32_t& place = next[colors_[k]];
-    places_[k] = place;
-    place += colors_[k] == blocks::Coloring::none ? lane_count : 1;
-  }
+  for (std::size_t k = 0; k < count; ++k) places_[k] = next_places_[colors_[k]]++;
 }
 
 void ContactSolver::fill(const Scene& scene, std::uint32_t k) {

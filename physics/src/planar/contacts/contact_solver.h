@@ -85,6 +85,7 @@ class ContactSolver {
   std::vector<double> struck_at_;
   std::vector<ContactBlock> blocks_;
   std::vector<std::uint32_t> colors_, places_;
+  std::vector<std::uint32_t> color_counts_, next_places_;  ///< by color
   std::vector<Bouncy> bouncy_;
   std::vector<Rolling> rolling_;
   blocks::Coloring coloring_;
