@@ -73,3 +73,55 @@ export async function fitsAllWidths(page) {
     await fitsTheWindow(page, width, height);
   await page.resize(1280, 800);
 }
+
+// The names of eases stand below the curves, at any size. What is drawn is caught where it is drawn.
+export async function easesCoverNoCurve(page) {
+  await page.evaluate(`(() => {
+    const own = CanvasRenderingContext2D.prototype, words = new Set(tweenfall.lanes.flatMap(lane => lane.eases));
+    window.caught = {eases: [], curves: []};
+    window.released = () => { Object.assign(own, {fillText, lineTo}); };
+    const {fillText, lineTo} = own;
+    const inCurves = context => context.canvas.parentElement && context.canvas.parentElement.id === "curves";
+    const at = (context, y) => context.canvas.offsetTop + y;
+    own.fillText = function (text, x, y) {
+      if (inCurves(this) && words.has(text)) caught.eases.push(at(this, y));
+      return fillText.call(this, text, x, y);
+    };
+    own.lineTo = function (x, y) {
+      if (inCurves(this) && this.lineWidth > 1.55 && this.lineWidth < 1.65) caught.curves.push(at(this, y));
+      return lineTo.call(this, x, y);
+    };
+  })()`);
+  await page.evaluate("tweenfall.choose('floor'); tweenfall.choose('crate'); tweenfall.showAllTime()");
+  for (const width of [1280, 640, 390]) {
+    await page.resize(width, 800);
+    await page.evaluate("caught.eases = []; caught.curves = []; tweenfall.seek(tweenfall.time === 1 ? 1.25 : 1)");
+    await page.drawn();
+    const {eases, curves} = await page.evaluate("caught");
+    check(eases.length >= 2 && curves.length > 100, `eases and curves are drawn at ${width}: ${eases.length} and ${curves.length}`);
+    const near = eases.map(ease => Math.min(...curves.map(y => Math.abs(y - ease))));
+    check(Math.min(...near) > 6, `no ease covers a curve at ${width}: ${Math.min(...near)} px`);
+  }
+  await page.evaluate("released()");
+  await page.resize(1280, 800);
+}
+
+// The column of names is as wide as they need, can be dragged, and shows the longest on a double click.
+export async function namesFit(page) {
+  const cut = () => page.evaluate("[...document.querySelectorAll('#rows .name')].filter(name => name.scrollWidth > name.clientWidth).map(name => name.textContent)");
+  const column = () => page.evaluate("document.querySelector('#rows .label').getBoundingClientRect().right");
+  for (const width of [1280, 640, 390]) {
+    await page.resize(width, 800);
+    check((await cut()).length === 0, `names are not cut at ${width}: ${await cut()}`);
+  }
+  const y = await page.evaluate("document.getElementById('timeline').getBoundingClientRect().top + 60");
+  await page.drag(await column(), y, 90, y);
+  await page.drawn();
+  check(Math.abs(await column() - 90) < 2, `the column of names is dragged: ${await column()}`);
+  check((await cut()).length > 0, "what is dragged too narrow cuts names");
+  await page.evaluate("document.getElementById('divider').dispatchEvent(new MouseEvent('dblclick'))");
+  await page.drawn();
+  check((await cut()).length === 0, `a double click shows the longest name: ${await cut()}`);
+  await page.evaluate("tweenfall.set({labels: null})");
+  await page.resize(1280, 800);
+}

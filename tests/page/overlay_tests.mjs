@@ -71,4 +71,6 @@ export async function showsSteps(page, folder) {
   await page.key("w");
   equal(await page.evaluate("document.getElementById('boxes').checked"), true, "W shows the boxes");
   await page.key("w");
+  near(await page.evaluate("['lower', 'alone', 'upper'].map(tweenfall.drawnAlphaOf)"), [1, 0.25, 0],
+    "bodies are seen through by the last part of their colors, and with none of it not at all", 1e-3);
 }

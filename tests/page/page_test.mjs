@@ -8,7 +8,7 @@ import {check, equal, near, summary} from "./checks.mjs";
 import {frameModels} from "./model_tests.mjs";
 import {showsActors} from "./actor_tests.mjs";
 import {showHostile, showLarge} from "./hostile_tests.mjs";
-import {fitsAllWidths, isNeverEmpty} from "./layout_tests.mjs";
+import {easesCoverNoCurve, fitsAllWidths, isNeverEmpty, namesFit} from "./layout_tests.mjs";
 import {showsTwoBesideEachOther} from "./beside_tests.mjs";
 import {showsJoints, showsSteps} from "./overlay_tests.mjs";
 import {drivesTheTimeline} from "./timeline_tests.mjs";
@@ -251,7 +251,7 @@ await run("without WebGL", {flags: ["--disable-3d-apis", "--disable-gpu"]}, asyn
     matrixOf(recording.nodes.bob.position[90], recording.nodes.bob.rotation[90]), "places are known without WebGL");
   await page.key("Home");
   await drivesTheTimeline(page);
-  await fitsAllWidths(page);
+  for (const test of [fitsAllWidths, namesFit, easesCoverNoCurve]) await test(page);
   await frameModels(page, join(folder, "models"));
   await showLarge(page, join(folder, "hostile"));
   await page.visit(address);

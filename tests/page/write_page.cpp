@@ -72,16 +72,17 @@ void write_stacked(const fs::path& folder) {
   StageDescription stage;
   stage.name = "stacked";
   stage.nodes = {{.name = "floor", .body = BodyDescription{.shape = {Plane{}}, .fixed = true}}};
-  const auto lay = [&](const char* name, double x, double y) {
+  const auto lay = [&](const char* name, double x, double y, double alpha) {
     NodeDescription box;
     box.name = name;
+    box.color = Color{Vec4(0.5, 0.5, 0.5, alpha)};
     box.rest.position = Vec3(x, y, 0);
     box.body = BodyDescription{.shape = {Box{{0.2, 0.2, 0.2}}}};
     stage.nodes.push_back(box);
   };
-  lay("lower", 0, 0.2);
-  lay("upper", 0, 0.6);
-  lay("alone", 1.5, 0.2);
+  lay("lower", 0, 0.2, 1);
+  lay("upper", 0, 0.6, 0);
+  lay("alone", 1.5, 0.2, 0.25);
   Stage run(stage);
   const Recording recording = record(run, 2, 30, 1e9, true);
   save_recording(recording, stage, folder / "stacked.html");

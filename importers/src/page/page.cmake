@@ -5,7 +5,7 @@ set(page_scripts
   controls/store.js controls/playback.js
   timeline/canvas.js
   scene/geometry.js scene/deform.js scene/bounds.js scene/orbit.js scene/particles.js scene/cast.js scene/scene.js scene/looking.js scene/joints.js scene/steps.js scene/overlay.js
-  timeline/axis.js timeline/graphs.js timeline/rows.js timeline/strips.js timeline/timeline.js timeline/series.js timeline/curves.js
+  timeline/axis.js timeline/graphs.js timeline/rows.js timeline/labels.js timeline/strips.js timeline/timeline.js timeline/series.js timeline/curves.js
   controls/readout.js controls/actions.js controls/controls.js controls/main.js)
 find_file(TWEENFALL_THREE three.min.js PATHS /usr/share/javascript/three NO_DEFAULT_PATH
           DOC "three.js as Debian's libjs-three installs it; the 3-D page carries it")

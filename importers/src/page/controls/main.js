@@ -172,6 +172,11 @@ window.tweenfall = {
   asleep: name => isAsleep(known(name)),
   boxOf: name => { const detail = detailOf(known(name)); return detail && boxAt(detail, detailFrame()); },
   drawnColorOf: name => colorAt(known(name)),
+  // How opaque the solid of a node is drawn, 0 where it is not.
+  drawnAlphaOf: name => {
+    const {mesh} = cast.solids.find(({node}) => node === known(name));
+    return mesh.visible ? mesh.material.opacity : 0;
+  },
   // What the curves show of all frames, panel by panel: position [x, y, z], velocity, rotation, angular velocity, ...
   curvesOf: name => gather(known(name)).panels.map(panel => panel.series.map(values => Array.from(values))),
   panelsOf: name => gather(known(name)).panels.map(({name: panel, unit, names}) => ({name: panel, unit, names})),

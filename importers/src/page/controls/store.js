@@ -21,9 +21,10 @@ class Store {
 const recording = new Recording(JSON.parse(document.getElementById("data").textContent));
 const {nodes, times} = recording;
 
-// `led`: another page's clock moves the time; `from` and `until`: what the timeline and the curves show; `folded`: nodes whose rows are hidden below them.
+// `led`: another page's clock moves the time; `from` and `until`: what the timeline and the curves show; `folded`: nodes whose rows are hidden below them;
+// `labels`: px of the column of names, null: as its names need, within bounds, Infinity: as the longest needs.
 const store = new Store({time: recording.startTime, playing: false, led: false, speed: 1, loop: true, snap: true, chosen: null, byOwner: true,
-  trail: true, skeleton: false, colliders: false, joints: false, contacts: false, islands: false, boxes: false, sleepers: false, follow: false, local: false, help: false, find: "", folded: new Set(),
+  trail: true, skeleton: false, colliders: false, joints: false, contacts: false, islands: false, boxes: false, sleepers: false, follow: false, local: false, help: false, find: "", folded: new Set(), labels: null,
   from: recording.startTime, until: recording.endTime});
 const state = store.values;
 const change = values => store.change(values);

@@ -19,6 +19,15 @@ function dressedNodes() {
   return dressed;
 }
 
+// What is seen through casts no shadow, and what is not seen at all is not drawn.
+function fade(mesh, alpha) {
+  mesh.visible = alpha > 0;
+  mesh.castShadow = alpha >= 1 && !(mesh.userData.node && mesh.userData.node.shape.plane);
+  mesh.material.transparent = alpha < 1;
+  mesh.material.opacity = alpha;
+  for (const line of mesh.children) line.material.opacity = 0.3 * alpha;
+}
+
 class Cast {
   constructor() {
     this.root = new THREE.Group();
@@ -75,7 +84,7 @@ class Cast {
     if (shape.box || shape.hull || shape.turned || shape.corners) mesh.add(new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 20),
       new THREE.LineBasicMaterial({color: 0x000000, transparent: true, opacity: 0.3})));
     if (shape.plane && node.fixed) this.grounds.push({node, mesh, material});
-    else this.solids.push({node, material});
+    else this.solids.push({node, mesh, material});
   }
 
   addMesh(held) {
@@ -86,6 +95,7 @@ class Cast {
     mesh.castShadow = mesh.receiveShadow = true;
     mesh.frustumCulled = false;
     mesh.userData.deformed = held;
+    held.drawn = mesh;
     (held.skin ? this.root : this.groupOf(held.node)).add(mesh);
   }
 
@@ -113,13 +123,14 @@ class Cast {
     this.root.add(this.linkLines);
   }
 
-  update(cursor, colorAt) {
+  update(cursor, colorAt, alphaAt) {
     if (state.colliders && !this.wires) this.addWires();
     for (const [node, group] of this.groups) {
       matrixAt(recording, node, cursor, group.matrix.elements);
       group.matrixWorldNeedsUpdate = true;
     }
-    for (const {node, material} of this.solids) {
+    for (const {node, mesh, material} of this.solids) {
+      fade(mesh, alphaAt(node));
       material.color.fromArray(colorAt(node));
       material.emissive.copy(material.color).multiplyScalar(node === state.chosen ? 0.22 : 0);
     }
@@ -130,7 +141,9 @@ class Cast {
     }
     for (const held of this.deformed) {
       held.update(cursor);
-      if (held.shown) held.paint(node => colorAt(node, held.mesh.color.slice(0, 3)));
+      if (!held.shown) continue;
+      held.paint(node => colorAt(node, held.mesh.color.slice(0, 3)));
+      if (held.node) fade(held.drawn, alphaAt(held.node));
     }
     for (const each of this.particles) each.update(cursor);
     this.linkLines.visible = state.skeleton;

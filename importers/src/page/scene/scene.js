@@ -63,13 +63,22 @@ Object.assign(sun.shadow.camera, {left: -1.6 * cast.radius, right: 1.6 * cast.ra
 scene.add(skyLight, sun, sun.target);
 
 const neutral = [0.55, 0.55, 0.55];
-function ownColor(node) {
+function ownColorAndAlpha(node) {
   for (let n = node; n; n = nodes[n.parent]) {
-    if (n.colors) return valuesAt(recording, n, n.colors, 4, cursorNow()).slice(0, 3);
-    if (n.color) return n.color.slice(0, 3);
+    if (n.colors) return valuesAt(recording, n, n.colors, 4, cursorNow());
+    if (n.color) return n.color;
     if (n.hasBody) break;
   }
   return null;
+}
+function ownColor(node) {
+  const color = ownColorAndAlpha(node);
+  return color && Array.from(color).slice(0, 3);
+}
+// How much of a node is seen, 0 to 1, whatever its color stands for.
+function alphaAt(node) {
+  const color = ownColorAndAlpha(node);
+  return color ? Math.min(1, Math.max(0, color[3])) : 1;
 }
 const usualColor = (node, material) =>
   (state.byOwner ? ownerColors[recording.shownOwner(node, state.time)] : ownColor(node) || material || neutral);
@@ -90,7 +99,7 @@ function applyColors() {
 }
 
 function updateScene() {
-  cast.update(cursorNow(), colorAt);
+  cast.update(cursorNow(), colorAt, alphaAt);
   updateBoxes();
   scene.updateMatrixWorld();
 }

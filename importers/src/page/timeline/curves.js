@@ -4,7 +4,22 @@ const curvesBox = document.getElementById("curves");
 const margin = {left: 46, right: 10, top: 24, bottom: 6};
 const leastPanel = 96;   // px
 const markApart = 9;     // px from key to key, below which curves have no marks
+const easeHigh = 12;     // px of a line of eases below the curves
+const leastEase = 24;    // px of a word, below which none is cut
 
+// The keys of a lane in the stretch that is shown, and whether each has room for a mark. `x`: from time to px.
+function marksOf(lane, x) {
+  const seen = [];
+  lane.times.forEach((time, i) => { if (time >= state.from && time <= state.until) seen.push(i); });
+  const wide = seen.length ? x(lane.times[seen[seen.length - 1]]) - x(lane.times[seen[0]]) : 0;
+  return {lane, seen, dense: seen.length > 2 && wide < markApart * (seen.length - 1)};
+}
+// Lines of eases below the curves: one per lane whose keys have marks and eases.
+const easeLines = marks => marks.filter(({lane, seen, dense}) => !dense && seen.length && lane.keys.some(key => key.ease));
+
+// Which of a panel's numbers a lane drives; -1: all.
+const seriesOf = (panel, lane) => (lane.property === panel.track ? -1
+  : lane.property.endsWith(".a") ? 3 : "xyzrgba".indexOf(lane.property.slice(-1)) % 3);
 const colorOfSeries = (panel, i) => colors[seriesColors[i % seriesColors.length]];
 
 class Curves {
@@ -40,21 +55,24 @@ class Curves {
     this.axis.hidden = !panels.length;
     this.nothing.textContent = state.chosen ? "This node is beyond what a page can show." : "Click a node to see its curves.";
     const high = Math.max(leastPanel, Math.floor((curvesBox.clientHeight - 18) / Math.max(1, panels.length)));
+    const x = time => xOfTime(time, curvesBox.clientWidth, margin.left, margin.right);
     panels.forEach((panel, i) => {
-      const canvas = this.canvasFor(i);
+      const canvas = this.canvasFor(i), marks = panel.lanes.map(lane => marksOf(lane, x)), below = easeHigh * easeLines(marks).length;
+      const tall = Math.max(high, leastPanel + below);
       canvas.hidden = false;
-      if (canvas.style.height !== high + "px") canvas.style.height = high + "px";
+      if (canvas.style.height !== tall + "px") canvas.style.height = tall + "px";
       const top = canvas.offsetTop - curvesBox.scrollTop;
-      if (top + high > -20 && top < curvesBox.clientHeight + 20) this.drawPanel(canvas, panel);
+      if (top + tall > -20 && top < curvesBox.clientHeight + 20) this.drawPanel(canvas, panel, marks, below);
     });
     for (const canvas of this.canvases.slice(panels.length)) canvas.hidden = true;
     this.drawAxis();
   }
 
-  drawPanel(canvas, panel) {
+  // `below`: px that are left to the eases, so that these cover no curve.
+  drawPanel(canvas, panel, marks, below) {
     const context = prepared(canvas);
     if (!context) return;
-    const left = margin.left, right = context.width - margin.right, top = margin.top, bottom = context.height - margin.bottom;
+    const left = margin.left, right = context.width - margin.right, top = margin.top, bottom = context.height - margin.bottom - below;
     const x = time => xOfTime(time, context.width, margin.left, margin.right);
     const y = value => bottom - (value - panel.low) / (panel.high - panel.low) * (bottom - top);
     this.drawHead(context, panel, left, right);
@@ -78,7 +96,7 @@ class Curves {
       for (const {time, numbers} of along) context.lineTo(x(time), y(numbers[panel.name][i]));
       context.stroke();
     });
-    for (const lane of panel.lanes) this.drawKeys(context, panel, lane, gathered, x, y, bottom);
+    for (const mark of marks) this.drawKeys(context, panel, mark, gathered, x, y, bottom);
     line(context, x(state.time), top - 3, x(state.time), bottom, colors.accent, 1);
     const now = gatheredAt(gathered, state.time)[panel.name];
     panel.names.forEach((_, i) => {
@@ -88,6 +106,7 @@ class Curves {
       context.fill();
     });
     context.restore();
+    easeLines(marks).forEach((mark, k) => this.drawEases(context, panel, mark, x, bottom + margin.bottom + easeHigh * (k + 0.5)));
   }
 
   drawHead(context, panel, left, right) {
@@ -126,36 +145,35 @@ class Curves {
     }
   }
 
-  drawKeys(context, panel, lane, gathered, x, y, bottom) {
-    const seen = [], only = lane.property === panel.track ? -1 : "xyzrgba".indexOf(lane.property.slice(-1)) % 3;
-    const series = lane.property.endsWith(".a") ? 3 : only;
-    lane.times.forEach((time, i) => { if (time >= state.from && time <= state.until) seen.push(i); });
-    if (seen.length > 2 && x(lane.times[seen[seen.length - 1]]) - x(lane.times[seen[0]]) < markApart * (seen.length - 1)) return drawTicks(context, seen.map(i => x(lane.times[i])), bottom);
+  drawKeys(context, panel, {lane, seen, dense}, gathered, x, y, bottom) {
+    if (dense) return drawTicks(context, seen.map(i => x(lane.times[i])), bottom);
+    const only = seriesOf(panel, lane);
     for (const i of seen) {
       const values = gatheredAt(gathered, lane.times[i])[panel.name];
       values.forEach((value, axis) => {
-        if (series >= 0 && axis !== series) return;
+        if (only >= 0 && axis !== only) return;
         context.fillStyle = colors.panel;
         diamond(context, x(lane.times[i]), y(value), 5);
         context.fillStyle = colorOfSeries(panel, axis);
         diamond(context, x(lane.times[i]), y(value), 3.5);
       });
     }
-    // The ease's word between two keys, where there is room for it.
+  }
+
+  // The ease's word between two keys, as much of it as there is room for.
+  drawEases(context, panel, {lane, seen}, x, y) {
+    const only = seriesOf(panel, lane);
     context.font = font(9.5);
     context.textAlign = "center";
+    context.textBaseline = "middle";
     seen.forEach((i, k) => {
-      const key = lane.keys[lane.keyOf[i]], next = k + 1 < seen.length ? x(lane.times[seen[k + 1]]) : null;
-      const wide = key ? context.measureText(key.ease).width : 0;
-      if (next === null || wide === 0 || wide + 12 >= next - x(lane.times[i])) return;
-      const middle = (x(lane.times[i]) + next) / 2;
-      // On a patch of the ground, so that curves below leave it readable.
-      context.globalAlpha = 0.8;
-      context.fillStyle = colors.panel;
-      context.fillRect(middle - wide / 2 - 3, bottom - 11, wide + 6, 12);
-      context.globalAlpha = 1;
-      context.fillStyle = colors.quiet;
-      context.fillText(key.ease, middle, bottom - 5);
+      const key = lane.keys[lane.keyOf[i]], from = x(lane.times[i]);
+      if (k + 1 >= seen.length || !key || !key.ease) return;
+      const to = x(lane.times[seen[k + 1]]), room = to - from - 5, word = fitted(context, key.ease, room);
+      line(context, from, y - 3, from, y + 3, colors.line);
+      line(context, to, y - 3, to, y + 3, colors.line);
+      context.fillStyle = only < 0 ? colors.quiet : colorOfSeries(panel, only);
+      if (word === key.ease || room > leastEase) context.fillText(word, (from + to) / 2, y);
     });
   }
 

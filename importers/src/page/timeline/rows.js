@@ -6,6 +6,11 @@ const standsThere = node => node.fixed && !node.children.length;
 const rootNodes = nodes.filter(node => node.parent < 0).sort((a, b) => standsThere(a) - standsThere(b));
 const rowHeight = row => (row.lane || (row.part && !row.part.states) ? 18 : 23);
 
+const rowLabel = row => (row.graph ? (row.part ? row.part.name : row.graph.name)
+  : row.lane ? row.lane.property : row.node.name) || "(no name)";
+const rowName = row => (row.graph ? graphRowName(row) : row.lane ? `${row.node.name}.${row.lane.property}` : row.node.name);
+const indentOf = row => 4 + 11 * Math.min(6, row.depth + (row.lane ? 1 : 0));  // px
+
 function visibleRows() {
   const rows = [], wanted = state.find.trim().toLowerCase();
   let top = 0;

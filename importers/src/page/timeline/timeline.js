@@ -10,6 +10,7 @@ class Timeline {
     this.pool = [];
     this.list = visibleRows();
     rowsBox.addEventListener("scroll", () => this.place());
+    wireLabels();
     wireAxis(ruler, {hover: x => rulerTip(x, ruler.clientWidth), snaps: () => allEventTimes().concat(
       state.chosen ? keyTimesOf(state.chosen) : [])});
   }
@@ -54,12 +55,12 @@ class Timeline {
     if (row.graph) return this.fillGraph(held, row);
     element.className = "row" + (row.lane ? " lane" : "") + (row.node === state.chosen ? " chosen" : "");
     element.style.transform = `translateY(${row.top}px)`;
-    label.style.paddingLeft = 4 + 11 * Math.min(6, row.depth + (row.lane ? 1 : 0)) + "px";
-    label.title = row.lane ? `${row.node.name}.${row.lane.property}` : row.node.name;
+    label.style.paddingLeft = indentOf(row) + "px";
+    label.title = rowName(row);
     fold.textContent = row.folds ? row.folded ? "\u25b8" : "\u25be" : "";
     dot.hidden = !!row.lane;
     dot.style.background = row.node.hasBody ? colors[recording.shownOwner(row.node, state.time)] : "";
-    name.textContent = (row.lane ? row.lane.property : row.node.name) || "(no name)";
+    name.textContent = rowLabel(row);
     drawStrip(canvas, row);
   }
 
@@ -67,8 +68,8 @@ class Timeline {
     const {element, label, fold, dot, canvas} = held;
     element.className = "row graph" + (row.part && !row.part.states ? " lane" : "");
     element.style.transform = `translateY(${row.top}px)`;
-    label.style.paddingLeft = 4 + 11 * row.depth + "px";
-    label.title = graphRowName(row);
+    label.style.paddingLeft = indentOf(row) + "px";
+    label.title = rowName(row);
     fold.textContent = "";
     dot.hidden = true;
     this.nameGraph(held);
@@ -82,7 +83,8 @@ class Timeline {
   // The rows anew: after folding, searching.
   rebuild() {
     this.list = visibleRows();
-    this.place();
+    if (fitLabels(this.list.rows)) this.draw();
+    else this.place();
   }
 
   drawPlayhead() {
@@ -104,6 +106,7 @@ class Timeline {
 
   update(changed) {
     if ("find" in changed || "folded" in changed) this.rebuild();
+    if ("labels" in changed) this.draw();
     if ("chosen" in changed && state.chosen) {
       unfoldTo(state.chosen);
       this.showChosen();
@@ -118,6 +121,7 @@ class Timeline {
   }
 
   draw() {
+    fitLabels(this.list.rows);
     drawRuler(ruler);
     this.place();
     this.drawPlayhead();

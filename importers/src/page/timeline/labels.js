@@ -1,0 +1,53 @@
+// The column of names beside the timeline: as wide as its names need, within bounds, or as it was dragged.
+
+const divider = document.getElementById("divider");
+const leastLabels = 110, leastStrip = 90;          // px
+const mostLabels = 290, mostShareOfLabels = 0.42;  // px and of the timeline, unless it is dragged wider
+
+// The room that a name takes beside its own width, by what stands before it: the sign to fold, the dot and the gaps.
+const besideName = row => indentOf(row) + (row.node && !row.lane ? 46 : 34);
+
+const nameWidths = new Map();
+const measuring = document.createElement("canvas").getContext("2d");
+function nameWidth(text, small) {
+  const key = (small ? "s" : "l") + text;
+  if (!nameWidths.has(key)) {
+    measuring.font = small ? font(11) : font(13, 650);
+    // A part of what is far longer than any screen is as good as all of it.
+    nameWidths.set(key, measuring.measureText(text.slice(0, 400)).width);
+  }
+  return nameWidths.get(key);
+}
+// What a machine or a parameter of a graph says of the present is as long as its longest state, or a number.
+const longestNow = row => (row.part ? row.part.states ? ["", ...row.part.states].reduce((a, b) => (b.length > a.length ? b : a)) : "-000.000" : "");
+const labelWidth = row => besideName(row) +
+  nameWidth(rowLabel(row) + (row.part ? ": " + longestNow(row) : ""), !!row.lane || (row.part && !row.part.states));
+
+// Makes the column as wide as it shall be; returns whether it was not.
+function fitLabels(rows) {
+  const box = document.getElementById("timeline"), most = Math.max(leastLabels, box.clientWidth - leastStrip);
+  let wide = state.labels;
+  if (wide === null) {
+    const longest = rows.reduce((widest, row) => Math.max(widest, labelWidth(row)), leastLabels);
+    wide = Math.min(longest, mostLabels, Math.max(leastLabels, mostShareOfLabels * box.clientWidth));
+  } else if (wide === Infinity) {
+    wide = rows.reduce((widest, row) => Math.max(widest, labelWidth(row)), leastLabels);
+  }
+  const text = Math.round(Math.min(most, Math.max(60, wide))) + "px";
+  if (box.style.getPropertyValue("--label") === text) return false;
+  box.style.setProperty("--label", text);
+  return true;
+}
+
+// Dragging makes the column wider or narrower; a double click fits its longest name, and another goes back.
+function wireLabels() {
+  divider.addEventListener("pointerdown", event => {
+    event.preventDefault();
+    divider.setPointerCapture(event.pointerId);
+  });
+  divider.addEventListener("pointermove", event => {
+    if (!event.buttons) return;
+    change({labels: Math.max(60, event.clientX - document.getElementById("timeline").getBoundingClientRect().left)});
+  });
+  divider.addEventListener("dblclick", () => change({labels: state.labels === Infinity ? null : Infinity}));
+}
