@@ -14,12 +14,11 @@ namespace {
 constexpr const char* gray = "#8b9098";
 constexpr double row_height = 11;  // px, of labels
 
-void draw_arm(SvgWriter& svg, const Vec2& from, const Vec2& to, bool ends) {
-  svg.leaf("path", {{"class", "handle"},
-                    {"d", "M" + px(from.x()) + " " + px(from.y()) + "L" + px(to.x()) + " " + px(to.y())},
-                    {"stroke", gray}});
-  if (ends) svg.leaf("circle", {{"cx", px(to.x())}, {"cy", px(to.y())}, {"r", "2"}, {"fill", gray}});
-}
+/// A handle of a key as it is drawn, px.
+struct Arm {
+  Vec2 key, tip;
+  bool whole;  ///< not cut off by the frame
+};
 
 /// How much of the way from `place` by `way` stays within the frame, 0 to 1.
 double share_within(const Panel& panel, const Vec2& place, const Vec2& way) {
@@ -33,9 +32,10 @@ double share_within(const Panel& panel, const Vec2& place, const Vec2& way) {
   return std::max(0.0, share);
 }
 
-void draw_handles(SvgWriter& svg, const Panel& panel, const PlottedKey& key, std::size_t component) {
+std::vector<Arm> arms_of(const Panel& panel, const PlottedKey& key, std::size_t component) {
   const double across = (panel.time.to - panel.time.from) / (panel.time.high - panel.time.low);
   const double up = (panel.value.to - panel.value.from) / (panel.value.high - panel.value.low);
+  std::vector<Arm> arms;
   for (const PlottedHandle& handle : key.handles) {
     if (handle.component != component) continue;
     const TrackPoint& side = handle.time < 0 ? key.in : key.out;
@@ -43,8 +43,22 @@ void draw_handles(SvgWriter& svg, const Panel& panel, const PlottedKey& key, std
     const Vec2 way(across * handle.time, up * handle.change);
     if (!place.allFinite() || !way.allFinite()) continue;
     const double share = share_within(panel, place, way);
-    draw_arm(svg, place, place + share * way, share == 1);
+    arms.push_back({place, place + share * way, share == 1});
   }
+  return arms;
+}
+
+void draw_arm(SvgWriter& svg, const Arm& arm) {
+  svg.leaf("path",
+           {{"class", "handle"},
+            {"d", "M" + px(arm.key.x()) + " " + px(arm.key.y()) + "L" + px(arm.tip.x()) + " " + px(arm.tip.y())},
+            {"stroke", gray}});
+  if (arm.whole) svg.leaf("circle", {{"cx", px(arm.tip.x())}, {"cy", px(arm.tip.y())}, {"r", "2"}, {"fill", gray}});
+}
+
+/// Keys closer than their marks are wide are marked small, and their handles are not drawn.
+bool are_close(const Panel& panel, const PlottedTrack& plotted) {
+  return (panel.time.to - panel.time.from) / static_cast<double>(plotted.keys.size() + 1) < 9;
 }
 
 /// For curves whose keys have no handles but slopes.
@@ -68,9 +82,7 @@ void draw_slopes(SvgWriter& svg, const Panel& panel, const PlottedKey& key, std:
 }  // namespace
 
 void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
-  // Keys closer than their marks are wide are marked small.
-  const double room = (panel.time.to - panel.time.from) / static_cast<double>(plotted.keys.size() + 1);
-  const bool is_close = room < 9;
+  const bool is_close = are_close(panel, plotted);
   const bool has_handles =
       std::any_of(plotted.keys.begin(), plotted.keys.end(), [](const PlottedKey& key) { return !key.handles.empty(); });
   const bool rotates = std::holds_alternative<Curve<Quat>>(plotted.track->curve);
@@ -84,7 +96,7 @@ void draw_keys(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) 
       last[i] = place;
       if (!is_close) {
         if (has_handles)
-          draw_handles(svg, panel, key, i);
+          for (const Arm& arm : arms_of(panel, key, i)) draw_arm(svg, arm);
         else if (!rotates || panel.names.size() == 1)
           draw_slopes(svg, panel, key, i);
       }
@@ -137,11 +149,37 @@ bool passes_through(const Panel& panel, const std::vector<TrackPoint>& points, d
   return false;
 }
 
+std::vector<Arm> arms_of(const Panel& panel, const PlottedTrack& plotted) {
+  std::vector<Arm> all;
+  if (are_close(panel, plotted)) return all;
+  for (const PlottedKey& key : plotted.keys)
+    for (std::size_t i = 0; i < panel.names.size() && i < key.out.values.size(); ++i)
+      for (const Arm& arm : arms_of(panel, key, i)) all.push_back(arm);
+  return all;
+}
+
+/// Whether some of it lies in a box, px.
+bool passes_through(const Arm& arm, double from, double to, double top, double bottom) {
+  double enters = 0, leaves = 1;  // shares of the way
+  const auto clip = [&](double start, double way, double low, double high) {
+    if (way == 0) {
+      if (start <= low || start >= high) leaves = -1;
+      return;
+    }
+    enters = std::max(enters, std::min((low - start) / way, (high - start) / way));
+    leaves = std::min(leaves, std::max((low - start) / way, (high - start) / way));
+  };
+  clip(arm.key.x(), arm.tip.x() - arm.key.x(), from, to);
+  clip(arm.key.y(), arm.tip.y() - arm.key.y(), top, bottom);
+  return enters <= leaves;
+}
+
 }  // namespace
 
 void draw_moment_names(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
   constexpr std::size_t most = 300;  // nobody reads more of them on top of each other
   const auto rows = static_cast<std::size_t>((panel.value.from - panel.value.to) / 2 / row_height);
+  const std::vector<Arm> arms = arms_of(panel, plotted);
   LabelRows above(panel.time.from, panel.time.to, rows), below(panel.time.from, panel.time.to, rows);
   for (std::size_t i = 0; i < std::min(plotted.moments.size(), most); ++i) {
     const PlottedMoment& moment = plotted.moments[i];
@@ -153,7 +191,9 @@ void draw_moment_names(SvgWriter& svg, const Panel& panel, const PlottedTrack& p
       const double bottom = baseline(row) + 2, top = bottom - row_height;
       return passes_through(panel, plotted.curve, from, to, top, bottom) ||
              std::any_of(plotted.simulated.begin(), plotted.simulated.end(),
-                         [&](const auto& points) { return passes_through(panel, points, from, to, top, bottom); });
+                         [&](const auto& points) { return passes_through(panel, points, from, to, top, bottom); }) ||
+             std::any_of(arms.begin(), arms.end(),
+                         [&](const Arm& arm) { return passes_through(arm, from, to, top, bottom); });
     };
     const std::string name = shortened(moment.name, panel.time.to - panel.time.from - 8);
     const LabelRows::Place place =

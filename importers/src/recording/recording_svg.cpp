@@ -125,7 +125,9 @@ std::vector<std::size_t> changes_of_owner(const NodeRecord& node) {
   return frames;
 }
 
-void draw_ground(Drawing& drawing, const StageDescription& stage) {
+/// @return whether there is any
+bool draw_ground(Drawing& drawing, const StageDescription& stage) {
+  bool any = false;
   const SideView& view = drawing.view;
   const auto described = figures::descriptions(drawing.recording, stage);
   for (std::size_t i = 0; i < described.size(); ++i) {
@@ -144,7 +146,9 @@ void draw_ground(Drawing& drawing, const StageDescription& stage) {
     drawing.svg.leaf("path", {{"class", "ground"},
                               {"d", "M" + drawing.place(a) + "L" + drawing.place(b) + "L" + drawing.place(c) + "L" +
                                         drawing.place(d) + "Z"}});
+    any = true;
   }
+  return any;
 }
 
 void draw_trail(Drawing& drawing, const Figure& figure) {
@@ -354,7 +358,7 @@ std::string draw(const Recording& recording, const StageDescription& stage, cons
                     {"rx", "4"}});
   svg.close();
   svg.open("g", {{"clip-path", "url(#view)"}});
-  draw_ground(drawing, stage);
+  const bool grounded = draw_ground(drawing, stage);
   for (const Figure& figure : list) draw_trail(drawing, figure);
   for (const Figure& figure : list) draw_figure(drawing, figure);
   const DotsPicture dots{recording, view, drawing.start, drawing.length, rest};
@@ -364,6 +368,13 @@ std::string draw(const Recording& recording, const StageDescription& stage, cons
     draw_dots(svg, dots, recording.particles[i], color);
   }
   svg.close();
+  if (!grounded && list.empty() && recording.particles.empty())
+    svg.text("text",
+             {{"class", "quiet"},
+              {"x", plotting::px(picture_width / 2)},
+              {"y", plotting::px(view.top + view.height / 2)},
+              {"text-anchor", "middle"}},
+             "nothing here has a shape or a mesh: tweenfall plot draws the curves");
   draw_time_bar(drawing, lanes, bar);
   return svg.finish();
 }

@@ -97,6 +97,19 @@ TEST_CASE("the moving picture's keyframes follow a parabola within the error it 
   }
 }
 
+TEST_CASE("a moving picture in which nothing can be seen says so, and one with a ground alone does not") {
+  StageDescription stage;
+  stage.nodes.push_back({.name = "nowhere"});
+  Stage empty(stage);
+  CHECK(count(recording_svg(record(empty, 1, 10), stage), "nothing here has a shape or a mesh") == 1);
+  BodyDescription ground;
+  ground.shape = {Plane{}};
+  ground.fixed = true;
+  stage.nodes[0].body = ground;
+  Stage grounded(stage);
+  CHECK(count(recording_svg(record(grounded, 1, 10), stage), "nothing here has a shape or a mesh") == 0);
+}
+
 TEST_CASE("the moving picture is small, the same each time, and shows all that moves and changes hands") {
   const Recording recording = example_recording();
   const std::string svg = recording_svg(recording, example_stage());

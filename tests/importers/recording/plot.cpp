@@ -244,3 +244,19 @@ TEST_CASE(
   const double baseline = std::stod(svg.substr(y, 8)), bottom = 52 + 26 + 150;
   CHECK(baseline <= bottom - 5 - 11);
 }
+
+TEST_CASE("labels stand beside the handles of keys") {
+  const auto baseline_of = [](const char* tangents) {
+    const Document document = Document::parse(R"({"tweenfall": 1, "clips": {"c": {
+      "tracks": {"a.x": [[0, 1, "linear"], {"t": 0.5, "v": 0)" +
+                                                  std::string(tangents) + R"(}, [1, 1]]},
+      "events": [[0.61, "by"]]}}})",
+                                              "label.json", {});
+    const std::string svg = plot_svg(document.stage(), nullptr, {.rates = false});
+    const std::size_t label = svg.find("class=\"moment\"");
+    REQUIRE(label != std::string::npos);
+    return std::stod(svg.substr(svg.find("y=\"", label) + 3, 8));
+  };
+  // Neither curve comes near, but the handle runs through where the label would stand.
+  CHECK(baseline_of(R"(, "out": {"rate": 0, "weight": 0.3333})") <= baseline_of(R"(, "ease": "linear")") - 11);
+}
