@@ -81,6 +81,7 @@ struct Form {
   std::function<std::string(std::string_view)> name_fault{};  // what is wrong with such a name, or nothing
   // The name with a form of its own that a name of the author's may stand for, or nothing
   std::function<std::string(std::string_view)> name_meant{};
+  std::function<std::string(std::string_view)> said_of{};           // "; ..." of a name that is no field, or nothing
   std::function<std::string(const json::Value&)> foremost_fault{};  // a fault that makes all others noise, or nothing
 
   // choice: the first alternative of the value's kind, or the one that `select` names

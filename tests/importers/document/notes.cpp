@@ -43,8 +43,37 @@ TEST_CASE("a property that nothing reads is noted with the one of ours that it s
   CHECK(has(noted("rot"), "did you mean \"lamp.rotation\"?"));
   CHECK(has(noted("colour"), "did you mean \"lamp.color\"?"));
   CHECK(has(noted("Scale"), "did you mean \"lamp.scale\"?"));
+  for (const char* word : {"location", "loc", "localPosition", "m_LocalPosition", "delta_location", "Lcl Translation",
+                           "coords", "global_position"})
+    CHECK_MESSAGE(has(noted(word), "did you mean \"lamp.position\"?"), word);
+  for (const char* word : {"euler", "eulerAngles", "localEulerAngles", "quat", "rotation_quaternion",
+                           "rotation_axis_angle", "rotation_degrees", "Lcl Rotation", "orientation"})
+    CHECK_MESSAGE(has(noted(word), "did you mean \"lamp.rotation\"?"), word);
+  for (const char* word : {"localScale", "lossyScale", "Lcl Scaling", "zoom", "size", "scl"})
+    CHECK_MESSAGE(has(noted(word), "did you mean \"lamp.scale\"?"), word);
+  for (const char* word : {"tint", "albedo", "base_color", "diffuse_color", "background-color", "emission", "rgba"})
+    CHECK_MESSAGE(has(noted(word), "did you mean \"lamp.color\"?"), word);
+  for (const char* word : {"morphTargetInfluences", "shape_keys", "blendShapes", "weight"})
+    CHECK_MESSAGE(has(noted(word), "did you mean \"lamp.weights\"?"), word);
+  CHECK(has(noted("opacity"), "did you mean \"lamp.color.a\"?"));
+  CHECK(has(noted("rotateX"), "did you mean \"lamp.rotation.x\"?"));
+  CHECK(has(noted("position[y]"), "did you mean \"lamp.position.y\"?"));
+  for (const char* word : {"visible", "visibility", "hide", "hidden", "hide_viewport", "isVisible", "display"})
+    CHECK_MESSAGE(has(noted(word), "nodes are always shown, and \"lamp.color.a\" at 0 hides one"), word);
+  CHECK(has(noted("transform"), "are tracks of their own"));
+  CHECK(has(noted("velocity"), "velocities follow from \"lamp.position\" and \"lamp.rotation\""));
   CHECK(noted("brightness").empty());
   CHECK(noted("angle").empty());
+}
+
+TEST_CASE("a number of the author's own that a graph follows is not taken for another program's word") {
+  const std::string clip =
+      "{\"tweenfall\": 1, \"nodes\": {\"lamp\": {}}, \"clips\": {\"c\": {\"tracks\": {\"lamp.weight\": [[0, 1]]}}}";
+  CHECK(has(notes_of(clip + "}"), "did you mean \"lamp.weights\"?"));
+  CHECK(notes_of(clip +
+                 ", \"graphs\": {\"g\": {\"parameters\": {\"w\": {\"track\": \"lamp.weight\"}}, \"poses\": {\"p\": "
+                 "{\"rest\": true}}}}}")
+            .empty());
 }
 
 TEST_CASE("a step that is a rate is noted, and so is one too long for bodies") {
@@ -54,6 +83,9 @@ TEST_CASE("a step that is a rate is noted, and so is one too long for bodies") {
   CHECK(has(noted("240"), "did you mean \"1/240\"?"));
   CHECK(has(noted("240"), "(at /world/step)"));
   CHECK(has(noted("0.11"), "1/240 is usual"));
+  CHECK(has(noted("\"1/100000\""),
+            "steps of 1e-05 s are 1e+05 per second, each of which takes its time; 1/240 is usual"));
+  CHECK(noted("\"1/10000\"").empty());
   // What turns too fast for such steps follows from them.
   const std::string spinning = notes_of(
       "{\"tweenfall\": 1, \"world\": {\"step\": 240}, \"nodes\": {\"top\": {\"body\": {\"shape\": {\"sphere\": "

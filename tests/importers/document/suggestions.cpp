@@ -67,6 +67,19 @@ TEST_CASE("fields of a body in its node and of a node in its body are sent to ea
         "\"friction\"; it belongs in \"body\"");
 }
 
+TEST_CASE("words of other programs for what a node does otherwise are told how") {
+  for (const char* word : {"visible", "hide", "isVisible", "hide_render"})
+    CHECK(in_node("\"" + std::string(word) + "\": true") ==
+          "\"" + std::string(word) + "\"; nodes are always shown, and a \"color\" of \"#fff0\" hides one");
+  CHECK(in_node("\"localPosition\": [0, 0, 0]") == "\"localPosition\"; did you mean \"position\"?");
+  CHECK(in_node("\"rotateX\": 0") == "\"rotateX\"; did you mean \"rotation\"?");
+  CHECK(in_node("\"opacity\": 0") == "\"opacity\"; did you mean \"color\"?");
+  CHECK(in_node("\"transform\": {}") == "\"transform\"; a node has \"position\", \"rotation\" and \"scale\"");
+  CHECK(in_node("\"children\": []") == "\"children\"; each child is a node that names its \"parent\"");
+  CHECK(says(in_node("\"mesh\": \"a.glb\""), "meshes come with models"));
+  CHECK(says(in_node("\"shape_keys\": [0]"), "weights of morphs are a track, \"NODE.weights\""));
+}
+
 TEST_CASE("what is at home in few things of the document is told with the whole way there") {
   const std::string of_tracks = "\"tracks\"; it belongs in a clip of \"clips\" or in a system of \"systems\"";
   CHECK(at_top("tracks") == of_tracks);

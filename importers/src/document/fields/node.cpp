@@ -1,5 +1,6 @@
 #include "document/fields/table.h"
 #include "document/fields/things.h"
+#include "document/report/foreign_words.h"
 
 namespace tweenfall::document::fields {
 
@@ -37,6 +38,7 @@ const Form* node_form(FormStore& store, const ValueForms& values) {
   for (const Table<Node>* table : {&place_table(), &look_table()})
     for (Field& field : table->form(store, values).fields) node.fields.push_back(std::move(field));
   node.definition = "node";
+  node.said_of = said_of_field_of_node;
   return store.add(std::move(node));
 }
 

@@ -13,11 +13,15 @@ namespace tweenfall::document::judging {
 
 namespace {
 
-constexpr double hour = 3600, longest_usual_step = 0.1;  // s
+constexpr double hour = 3600, longest_usual_step = 0.1, shortest_usual_step = 0.99e-4;  // s
 
 // @return whether turns can be judged by steps of this length
 bool judge_step(Building& building) {
   const double step = building.stage.step;
+  if (step < shortest_usual_step)
+    building.problems.note(fields::place_of_step(place_of_world(building)),
+                           "steps of " + brief_text(step) + " s are " + brief_text(1 / step) +
+                               " per second, each of which takes its time; 1/240 is usual");
   if (!(step > longest_usual_step)) return true;
   const bool rate = step > 1 && step == std::floor(step);
   building.problems.note(fields::place_of_step(place_of_world(building)),

@@ -159,7 +159,8 @@ class Checker {
     std::string hint;
     if (!problems_.crowded()) {
       if (!homes_) homes_.emplace(root_);
-      hint = homes_->of(member.name, form, around_);
+      if (form.said_of) hint = form.said_of(member.name);
+      if (hint.empty()) hint = homes_->of(member.name, form, around_);
       if (hint.empty()) hint = suggestion_of({}, form.field_names());
     }
     problems_.add_name(member, "unknown field " + json::in_quotes(member.name) + hint);

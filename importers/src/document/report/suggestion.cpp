@@ -3,84 +3,13 @@
 #include <tweenfall/anim/component.h>
 #include <tweenfall/curves/nearest_name.h>
 
+#include "document/report/foreign_words.h"
 #include "json/json_tree.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace tweenfall::document {
-
-namespace {
-
-// What other programs and formats call what is ours, in small letters; heeded where ours is among what can be said.
-constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
-    {"translation", "position"},
-    {"translate", "position"},
-    {"location", "position"},
-    {"pos", "position"},
-    {"rot", "rotation"},
-    {"rotate", "rotation"},
-    {"orientation", "rotation"},
-    {"quaternion", "rotation"},
-    {"euler", "rotation"},
-    {"rotation_euler", "rotation"},
-    {"rotation_quaternion", "rotation"},
-    {"scl", "scale"},
-    {"scaling", "scale"},
-    {"colour", "color"},
-    {"col", "color"},
-    {"tint", "color"},
-    {"morph", "weights"},
-    {"morphs", "weights"},
-    {"blendshapes", "weights"},
-    {"opacity", "color"},
-    {"alpha", "color"},
-    {"kinematic", "keyed"},
-    {"animated", "keyed"},
-    {"scripted", "keyed"},
-    {"dynamic", "free"},
-    {"physics", "free"},
-    {"simulated", "free"},
-    {"half_extents", "size"},
-    {"halfextents", "size"},
-    {"extents", "size"},
-    {"dimensions", "size"},
-    {"size", "half_extents"},
-    {"length", "height"},
-    {"half_height", "height"},
-    {"k", "stiffness"},
-    {"min", "low"},
-    {"lower", "low"},
-    {"max", "high"},
-    {"upper", "high"},
-    {"bodies", "between"},
-    {"node", "body"},
-    {"object", "body"},
-    {"other", "with"},
-    {"start", "at"},
-    {"first", "start"},
-    {"last", "end"},
-    {"keyframes", "keys"},
-    {"loop", "repeat"},
-    {"cycle", "repeat"},
-    {"yoyo", "pingpong"},
-    {"alternate", "pingpong"},
-    {"pgs", "iterative"},
-    {"heun", "trapezoid"},
-    {"leapfrog", "verlet"},
-    {"symplectic-euler", "semi-implicit-euler"},
-    {"implicit-euler", "backward-euler"},
-    {"sap", "sweep"},
-};
-
-}  // namespace
-
-std::string small_letters(std::string_view text) {
-  std::string small(text);
-  for (char& c : small)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return small;
-}
 
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 24;
@@ -91,10 +20,8 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 std::string name_meant(std::string_view wrong, const std::vector<std::string>& names) {
-  const std::string small = small_letters(wrong);
-  for (const auto& [foreign, ours] : words_of_others)
-    if (small == foreign && std::find(names.begin(), names.end(), ours) != names.end()) return std::string(ours);
-  return nearest_name(wrong, names);
+  const std::string ours = word_of_ours(wrong, names);
+  return ours.empty() ? nearest_name(wrong, names) : ours;
 }
 
 std::string property_meant(std::string_view track) {
@@ -104,7 +31,8 @@ std::string property_meant(std::string_view track) {
   const std::string_view property = track.substr(dot + 1);
   if (component_named(property)) return {};
   if (std::find(ours.begin(), ours.end(), property) != ours.end()) return {};
-  const std::string meant = name_meant(property, ours);
+  std::string meant = property_of_ours(property);
+  if (meant.empty() && said_of_property(property, {}).empty()) meant = nearest_name(property, ours);
   return meant.empty() ? meant : std::string(track.substr(0, dot + 1)) + meant;
 }
 

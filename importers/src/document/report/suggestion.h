@@ -11,9 +11,6 @@ namespace tweenfall::document {
 // `"a", "b"` of names, up to 24 of them and how many more there are.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
-// A to Z as a to z.
-[[nodiscard]] std::string small_letters(std::string_view text);
-
 // The one of `names` that was meant: what other programs' word for it stands for, or the nearest; or nothing.
 [[nodiscard]] std::string name_meant(std::string_view wrong, const std::vector<std::string>& names);
 
