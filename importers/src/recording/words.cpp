@@ -38,6 +38,8 @@ const char* cause_word(Cause cause) noexcept {
       return "saturated";
     case Cause::error:
       return "error";
+    case Cause::speed_peak:
+      return "speed-peak";
     case Cause::caller:
       break;
   }

@@ -101,7 +101,7 @@ void Flat::begin(const WorldSettings& settings) {
                           .push_out_speed = settings.push_out_speed});
 }
 
-void Flat::take_over(const state::Body& body, std::uint32_t index) {
+void Flat::take_over(const state::Body& body, std::uint32_t index, const Vec3& gravity) {
   const Axes axes = Axes::of(plane_);
   Entry& entry = entries_[index];
   if (entry.id != BodyId{} && (!body.alive || entry.generation != body.generation)) {
@@ -135,7 +135,8 @@ void Flat::take_over(const state::Body& body, std::uint32_t index) {
     entry.collides_with = body.collides_with;
   }
   if (body.has_target && !body.fixed) world_.set_target(entry.id, beside(axes.flat(body.target())));
-  if (body.force != Vec3::Zero()) world_.apply_force(entry.id, axes.flat(body.force), axes.flat(body.center));
+  const Vec3 force = body.steady_force(gravity);
+  if (force != Vec3::Zero()) world_.apply_force(entry.id, axes.flat(force), axes.flat(body.center));
   const double torque = axes.sign * body.torque[axes.normal];
   if (torque != 0) world_.apply_torque(entry.id, torque);
   const bool stirred = body.still_for < world_.still_for(entry.id);
@@ -160,7 +161,7 @@ void Flat::take_over_ignored(const state::WorldState& world) {
 
 void Flat::take_over(const state::WorldState& world) {
   entries_.resize(std::max(entries_.size(), world.bodies.size()));
-  for (std::uint32_t i = 0; i < world.bodies.size(); ++i) take_over(world.bodies[i], i);
+  for (std::uint32_t i = 0; i < world.bodies.size(); ++i) take_over(world.bodies[i], i, world.settings.gravity);
   take_over_ignored(world);
   take_over_joints(world);
 }

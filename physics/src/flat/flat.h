@@ -75,7 +75,7 @@ class Flat {
   };
   using Pair = std::pair<std::uint32_t, std::uint32_t>;
 
-  void take_over(const state::Body& body, std::uint32_t index);
+  void take_over(const state::Body& body, std::uint32_t index, const Vec3& gravity);
   void take_over_ignored(const state::WorldState& world);
   void take_over_joints(const state::WorldState& world);
   [[nodiscard]] planar::JointSettings joint_in_plane(const state::WorldState& world, const state::Joint& joint) const;

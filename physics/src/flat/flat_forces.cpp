@@ -71,7 +71,7 @@ void World::Implementation::push_in_plane(double dt) {
     if (body.immovable() || body.asleep) continue;
     const forces::Load& load = loads[i];
     const double mass = body.mass().mass, drag = load.drag - body.makeup->linear_damping;
-    const Vec3 own = settings.gravity + body.force / mass;
+    const Vec3 own = settings.gravity + body.steady_force(settings.gravity) / mass;
     const Vec3 steady = 0.5 * (load.acceleration + load.end_acceleration);
     const Vec3 gain = (steady - drag * body.twist.linear) / (1 + drag * dt) - own;
     const Mat3 inverse = body.world_inverse_inertia(body.motion.pose.rotation);

@@ -151,8 +151,8 @@ void Flight::find_rates(const Acting& acting, std::span<const std::uint32_t> wat
     at.rotation = exp_map(changed.turn) * body.motion.pose.rotation;
     at.angular = at.rotation * (body.inverse_inertia() * (at.rotation.conjugate() * momentum));
     rates_[k].center = at.linear;
-    rates_[k].linear =
-        acting.settings.gravity + body.force / body.mass().mass - body.makeup->linear_damping * at.linear;
+    rates_[k].linear = acting.settings.gravity + body.steady_force(acting.settings.gravity) / body.mass().mass -
+                       body.makeup->linear_damping * at.linear;
     rates_[k].turn = turn_rate(changed.turn, at.angular);
     rates_[k].momentum = body.torque - body.makeup->angular_damping * momentum;
   }

@@ -143,7 +143,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     load = {};
     if (body.immovable()) load.acceleration = load.end_acceleration = step::keyed_course(body, dt).gain.linear / dt;
     if (!moves(body)) return;
-    load.acceleration = settings.gravity + body.force / body.mass().mass;
+    load.acceleration = settings.gravity + body.steady_force(settings.gravity) / body.mass().mass;
     load.end_acceleration = load.acceleration;
     load.torque = body.torque;
     load.drag = body.makeup->linear_damping;

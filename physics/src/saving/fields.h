@@ -48,8 +48,8 @@ void each_field(T& motion, const Visit& visit) {
 
 template <Is<Drive> T, class Visit>
 void each_field(T& drive, const Visit& visit) {
-  auto& [hz, zeta, max_force, max_torque] = drive;
-  visit(hz, zeta, max_force, max_torque);
+  auto& [hz, zeta, max_force, max_torque, gravity_compensation] = drive;
+  visit(hz, zeta, max_force, max_torque, gravity_compensation);
 }
 
 template <Is<BodyId> T, class Visit>

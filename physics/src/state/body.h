@@ -81,6 +81,11 @@ struct Body {
   [[nodiscard]] Motion& target() { return extra.own().target; }
 
   [[nodiscard]] bool immovable() const { return fixed || drive.owner() == Owner::keyed; }
+  /// What the caller applied, and of the weight what a drive bears, N.
+  [[nodiscard]] Vec3 steady_force(const Vec3& gravity) const {
+    if (drive.gravity_compensation == 0 || drive.owner() != Owner::driven) return force;
+    return force - (drive.gravity_compensation * mass().mass) * gravity;
+  }
   /// On its way to another place in this step.
   [[nodiscard]] bool displaces() const {
     return has_target && !fixed &&

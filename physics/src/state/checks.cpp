@@ -81,6 +81,8 @@ void validate(const Drive& drive) {
           "greatest force of a drive must not be negative, but is " + number_text(drive.max_force));
   require(drive.max_torque >= 0,
           "greatest torque of a drive must not be negative, but is " + number_text(drive.max_torque));
+  require(drive.gravity_compensation >= 0 && drive.gravity_compensation <= 1,
+          "of the weight a drive bears 0 to 1, but this one shall bear " + number_text(drive.gravity_compensation));
 }
 
 Motion checked(Motion motion) {

@@ -438,7 +438,17 @@ void World::set_executor(std::shared_ptr<Executor> executor) {
 void World::step(double dt) {
   if (!(dt > 0 && std::isfinite(dt)))
     throw std::invalid_argument("a step must be positive and finite, but is " + number_text(dt) + " s");
-  changing().step(dt);
+  changing().step(dt, 1);
+}
+
+void World::step(double dt, double whole) {
+  if (!(dt > 0 && std::isfinite(dt)) || !std::isfinite(whole))
+    throw std::invalid_argument("a part of a step must be positive, and all of it finite, but it is " +
+                                number_text(dt) + " s of " + number_text(whole) + " s");
+  // A step that only rounding made shorter is a whole one.
+  constexpr double rounding = 1e-6;
+  const double parts = whole / dt;
+  changing().step(dt, parts > 1 + rounding ? parts : 1);
 }
 
 std::span<const EndedContact> World::ended_contacts() const noexcept {

@@ -37,7 +37,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void wake_neighbors(std::uint32_t index);
   void meet_or_not(std::uint32_t a, std::uint32_t b);  ///< whether the two may meet has changed
   void forget_impulses(std::uint32_t index);           ///< what the contacts of this body remember
-  void step(double dt);
+  void step(double dt, double parts);
 
   [[nodiscard]] threads::Workers workers() const { return threads::Workers(executor.get()); }
   void check_bodies(double dt,

@@ -14,8 +14,9 @@ struct Softness {
 };
 
 /// Of the contacts of a step of `dt` seconds.
-/// Source: Catto, Solver2D, 2024 (soft contacts).
-[[nodiscard]] inline Softness soft_contacts(double push_out_speed, double dt, int sub_steps) {
+/// @param parts  of which length that is one: contacts give way as they do in the whole step, or what rests would
+/// settle anew in each part Source: Catto, Solver2D, 2024 (soft contacts).
+[[nodiscard]] inline Softness soft_contacts(double push_out_speed, double dt, int sub_steps, double parts = 1) {
   // Frequency times the sub-step, and the damping ratio.
   constexpr double cycles = 0.125;
   constexpr double damping = 10;
@@ -23,9 +24,9 @@ struct Softness {
   // is the shorter the step the greater, and would be a blow, s.
   constexpr double unhurried = 1e-3;
   const double h = dt / sub_steps;
-  const double turn = 2 * std::numbers::pi * cycles;
+  const double turn = 2 * std::numbers::pi * cycles / parts;
   const double stiffness = turn * (2 * damping + turn);
-  const double hurry = std::min(1.0, dt / unhurried);
+  const double hurry = std::min(1.0, dt * parts / unhurried);
   return {hurry * hurry * turn / (h * (2 * damping + turn)), push_out_speed, stiffness / (1 + stiffness),
           1 / (1 + stiffness)};
 }

@@ -33,7 +33,8 @@ bool pulls_without_limit(const Body& body) {
 
 }  // namespace
 
-void Solver::begin(std::size_t bodies) {
+void Solver::begin(std::size_t bodies, double parts) {
+  parts_ = parts;
   bodies_.clear();
   slots_.assign(bodies, nowhere);
 }
@@ -448,7 +449,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
   const int relaxing = std::max(1, share / 2);
   const int passes = std::max(1, share - relaxing);
   const Softness hard;
-  const Softness soft = soft_contacts(settings.push_out_speed, dt, sub_steps_);
+  const Softness soft = soft_contacts(settings.push_out_speed, dt, sub_steps_, parts_);
   for (int sub_step = 0; sub_step < sub_steps_; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
     for (SolvedContact& contact : contacts) {
@@ -473,6 +474,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
     rebound(bodies, loads, contacts, thorough ? settings.iterations : std::max(1, settings.iterations / 4));
     bound_spins(bodies, h);
     add_totals(contacts, h);
+    tame_pinched();
   }
 
   for (const SolvedContact& contact : contacts) contact.store();

@@ -43,8 +43,8 @@ class Solver {
   /// Up to so many contacts an island is solved to the end.
   static constexpr std::size_t to_the_end = 32;
 
-  /// Before the islands of a step.
-  void begin(std::size_t bodies);
+  /// Before the islands of a step. @param parts  the whole step over its length
+  void begin(std::size_t bodies, double parts);
   /// Moves all bodies of one island that `contacts` touch or `springs` hold by `dt`; fills in the contacts' impulses.
   /// @param springs  those too stiff to be part of the loads
   /// @param moved  by index: set for the bodies that were moved
@@ -86,6 +86,7 @@ class Solver {
   void add_totals(Contacts contacts, double h);
   void end_sub_step(double h);
   void bound_spins(const std::vector<state::Body>& bodies, double h);
+  void tame_pinched();
 
   // Rebound
   void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts,
@@ -109,6 +110,7 @@ class Solver {
   std::vector<SolvedContact> contacts_;  ///< of the island
   std::vector<PointRows> rows_;          ///< four per contact of the island
   int sub_steps_ = usual_sub_steps;
+  double parts_ = 1;
   double heaviest_ = 0, lightest_ = 0;  ///< of the island, kg
   bool extrapolating_ = false;
   small::Extrapolation extrapolation_;

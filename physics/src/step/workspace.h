@@ -66,6 +66,7 @@ struct Solvers {
 /// Room for a step to work in, and what makes the next one quick. Whether it is that of the steps before or begins
 /// empty never changes a bit of what comes out, so that no copy takes it along.
 struct Workspace {
+  double part_count = 1;                 ///< of which length the step is one: the whole step over it
   bool fresh = true;                     ///< knows nothing of the steps before: the next one looks at every body
   std::vector<std::uint32_t> noted;      ///< bodies that the caller changed or led, and those that had been
   std::vector<char> is_noted;            ///< by body

@@ -124,8 +124,8 @@ void World::Implementation::solve_islands(double dt) {
       active.size() + 4 * links.size() < step::worth_sharing ? 1 : std::min(work.threads(), all.size());
   if (solvers.size() < shares) solvers.resize(shares);
   for (std::size_t i = 0; i < shares; ++i) {
-    solvers[i].few.begin(bodies.size());
-    solvers[i].many.begin(bodies.size());
+    solvers[i].few.begin(bodies.size(), part_count);
+    solvers[i].many.begin(bodies.size(), part_count);
     solvers[i].complementarity = 0;
   }
   // The biggest first, so that no thread is left with one at the end; the very big ones by all threads together.
@@ -347,7 +347,7 @@ void World::Implementation::tell_ended() {
   for (const std::vector<EndedContact>& part : ended_parts) ended.insert(ended.end(), part.begin(), part.end());
 }
 
-void World::Implementation::step(double dt) {
+void World::Implementation::step(double dt, double of_parts) {
   struct Stepping {
     bool& flag;
     queries::LazyScene& scene;
@@ -357,6 +357,7 @@ void World::Implementation::step(double dt) {
     }
   } const guard{stepping, scene};
   stepping = true;
+  part_count = of_parts;
   begin_watch();
   if (failed) check_bodies(0, time);
   if (flat.has_value()) {

@@ -271,12 +271,13 @@ TEST_CASE("every field reaches the stage's description") {
     CHECK(stage.rules[4].hand_back.settle.kind == Settle::Kind::half_life);
     CHECK(stage.rules[4].hand_back.settle.seconds == 0.2);
     const std::vector<Trigger>& last = stage.rules[5].when.triggers;
-    REQUIRE(last.size() == 4);
+    REQUIRE(last.size() == 5);
     CHECK(std::get<when::Enter>(last[0]).region == "ball");
     CHECK(std::get<when::Enter>(last[0]).who.empty());
     CHECK(std::get<when::Leave>(last[1]).who == "tower/2");
     CHECK(std::get<when::Saturated>(last[2]).seconds == 0.1);
     CHECK(std::get<when::Error>(last[3]).distance == 0.3);
+    CHECK(std::holds_alternative<when::SpeedPeak>(last[4]));
     CHECK(stage.rules[5].take_over.overlap == TakeOver::Overlap::veto);
   }
   SUBCASE("pairs that ignore each other") {

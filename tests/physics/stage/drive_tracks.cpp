@@ -98,3 +98,24 @@ TEST_CASE("a track of drives on a node that nothing can drive is refused with it
   description.clips[0].tracks[0].curve = Curve<Vec3>(Vec3(1, 2, 3));
   CHECK_THROWS_WITH_AS(Stage{description}, doctest::Contains("hertz"), std::invalid_argument);
 }
+
+TEST_CASE("a drive that bears the weight does not sag, and one that bears half of it sags half as far") {
+  const double w = 2 * pi * 2;
+  for (const Integrator integrator : {Integrator::exact_quadratic, Integrator::rk4}) {
+    for (const WorldPlane plane : {WorldPlane::none, WorldPlane::xy}) {
+      for (const double share : {0.0, 0.5, 1.0}) {
+        CAPTURE(share);
+        StageDescription description;
+        description.world.integrator = plane == WorldPlane::none ? integrator : Integrator::exact_quadratic;
+        description.world.plane = plane;
+        Drive drive{.hz = 2};
+        drive.gravity_compensation = share;
+        description.nodes = {
+            {.name = "b", .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 3.0, .drive = drive}}};
+        Stage stage(description);
+        stage.advance_to(4);
+        CHECK(near(stage.world(0).motion.pose.position.y(), -(1 - share) * 9.81 / (w * w), 1e-6));
+      }
+    }
+  }
+}

@@ -1,5 +1,6 @@
 #include "physics/handoff/scenes.h"
 
+#include <tweenfall/curves/expression.h>
 #include <tweenfall/physics/stage/detail.h>
 
 #include <algorithm>
@@ -181,4 +182,50 @@ TEST_CASE("the detail of a stage tells contacts, islands, sleep and boxes by nod
   stage.advance_to(1);
   CHECK(detail_of(stage).nodes[1].asleep);
   CHECK_FALSE(detail_of(stage).nodes[4].asleep);
+}
+
+TEST_CASE("a rule at the peak of the speed acts when the path is as fast as it gets, once for each swing") {
+  for (const double step : {1.0 / 60, 1.0 / 240}) {
+    StageDescription description;
+    description.step = step;
+    description.world.gravity.setZero();
+    description.nodes = {{.name = "arm"},
+                         {.name = "ball",
+                          .parent = 0,
+                          .rest = {.position = {0, 1, 0}},
+                          .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 1.0}}};
+    // x = cos(5 t): the speed is greatest at a quarter of a swing, 5 m/s.
+    description.clips = {{.name = "swing",
+                          .duration = 10,
+                          .tracks = {{"arm", "position",
+                                      parametric(oscillator({.amplitude = 1, .hz = 5 / (2 * pi)}), Curve<double>(0.0),
+                                                 Curve<double>(0.0))}}}};
+    description.plays = {{.clip = 0}};
+    description.rules = {{.bodies = {"ball"}, .when = {{when::SpeedPeak{}}}, .to = Drive::free()}};
+    Stage stage(description);
+    stage.advance_to(1);
+    REQUIRE(stage.handoffs().size() == 1);
+    CHECK(stage.handoffs()[0].cause == Cause::speed_peak);
+    CHECK(near(stage.handoffs()[0].time, pi / 10, 1e-8));
+    CHECK(near(stage.handoffs()[0].after.twist.linear, Vec3(-5, 0, 0), 1e-9));
+  }
+}
+
+TEST_CASE("an even speed, one that only rises and one that only falls have no peak") {
+  const auto handoffs = [](const Curve<double>& x) {
+    StageDescription description;
+    description.nodes = {{.name = "ball", .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 1.0}}};
+    description.clips = {{.name = "way",
+                          .duration = 2,
+                          .tracks = {{"ball", "position", parametric(x, Curve<double>(0.0), Curve<double>(0.0))}}}};
+    description.plays = {{.clip = 0}};
+    description.rules = {{.bodies = {"ball"}, .when = {{when::SpeedPeak{}}}, .to = Drive::free()}};
+    Stage stage(description);
+    stage.advance_to(1.5);
+    return stage.handoffs().size();
+  };
+  CHECK(handoffs(expression_curve(Expression("2*t"))) == 0);
+  CHECK(handoffs(expression_curve(Expression("t^2"))) == 0);
+  CHECK(handoffs(expression_curve(Expression("4*t - t^2"))) == 0);
+  CHECK(handoffs(expression_curve(Expression("t^2*(1.2 - t/3)"))) == 1);
 }

@@ -51,7 +51,7 @@ double greatest_shift(const Stage& stage) {
 }  // namespace
 
 TEST_CASE("rules at every frame and an ulp beside it leave a stack of ten where it stands") {
-  for (const double step : {1.0 / 60, 1.0 / 240}) {
+  for (const double step : {1.0 / 60, 1.0 / 100, 1.0 / 240}) {
     for (const int side : {-1, 0, 1}) {
       CAPTURE(step);
       CAPTURE(side);
@@ -72,7 +72,7 @@ TEST_CASE("rules at every frame and an ulp beside it leave a stack of ten where 
 }
 
 TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten where it stands, whenever they come") {
-  for (const double step : {1.0 / 60, 1.0 / 240}) {
+  for (const double step : {1.0 / 60, 1.0 / 100, 1.0 / 240}) {
     for (const double beside : {-1e-6, -1e-9, -1e-12, 0.0, 1e-12, 0.7e-9, 1e-5}) {
       CAPTURE(step);
       CAPTURE(beside);
@@ -89,8 +89,8 @@ TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten w
         CHECK(stage.owner(1) == (frame % 2 == 0 ? Owner::free : Owner::keyed));
       }
       stage.advance_to(0.45);
-      // Beyond the sliver every frame has a piece of its own, in which a heap of ten creeps a little.
-      CHECK(greatest_shift(stage) < (std::abs(beside) > 1e-9 ? 5e-4 : 1e-4));
+      // A microsecond is too short for contacts to settle in.
+      CHECK(greatest_shift(stage) < (beside == -1e-6 ? 2e-4 : 1e-4));
       CHECK(stage.handoffs().size() == 8);
       const std::uint64_t hash = stage.state_hash();
       stage.seek(0.3);

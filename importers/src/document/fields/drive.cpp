@@ -12,7 +12,9 @@ const Table<Drive>& drive_table() {
         true},
        {"zeta", &ValueForms::not_negative, "damping ratio", member<Drive>(&Drive::zeta)},
        {"max_force", &ValueForms::not_negative, "N; absent: without limit", member<Drive>(&Drive::max_force)},
-       {"max_torque", &ValueForms::not_negative, "N m; absent: without limit", member<Drive>(&Drive::max_torque)}});
+       {"max_torque", &ValueForms::not_negative, "N m; absent: without limit", member<Drive>(&Drive::max_torque)},
+       {"gravity_compensation", bounded("a share from 0 to 1", 0, false, 1), "of the weight that is borne beside it",
+        member<Drive>(&Drive::gravity_compensation)}});
   return table;
 }
 

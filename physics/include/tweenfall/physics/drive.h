@@ -17,6 +17,7 @@ struct Drive {
   double zeta = 1;  ///< damping ratio; 1 is critical
   double max_force = std::numeric_limits<double>::infinity();   ///< N
   double max_torque = std::numeric_limits<double>::infinity();  ///< N m
+  double gravity_compensation = 0;  ///< share of a driven body's weight that is borne beside the pull, 0 to 1
 
   [[nodiscard]] static constexpr Drive keyed() { return {.hz = std::numeric_limits<double>::infinity()}; }
   [[nodiscard]] static constexpr Drive free() { return {.hz = 0}; }

@@ -247,6 +247,9 @@ class World {
   /// `set_motion`. When a spring or a field is the cause, nothing has moved yet.
   /// @throws what a field throws; nothing has moved then
   void step(double dt);
+  /// The same for a part of a step that is `whole` seconds long: contacts give way as in the whole step, so that what
+  /// rests stays where it is however a step is split. @throws std::invalid_argument for a whole that is no number
+  void step(double dt, double whole);
   /// Who does the parts of a step, in place of the threads of the settings; null for the thread that calls. Copies
   /// share it, as they share the threads of the settings. Fields are called by the calling thread alone.
   void set_executor(std::shared_ptr<Executor> executor);

@@ -175,7 +175,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   reach_.forget();
   joints_.build(island.joints, bodies, places_, bodies_, h, dt, work_);
   spins_.begin(joints_.empty() ? 0 : bodies_.size());
-  const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps);
+  const step::Softness softness = step::soft_contacts(settings.push_out_speed, dt, sub_steps, parts_);
   const double giving = effort.giving * softness.giving;
   PassRule soft{all(softness.rate), all(softness.speed), all(1 - giving), all(1 - giving), all(1 / h), all(settled)};
   PassRule hard{.inverse_h = all(1 / h), .enough = all(settled)};

@@ -46,7 +46,10 @@ class BlockSolver {
                                                  double dt);
 
   /// Before the islands of a step.
-  void begin(std::size_t bodies) { places_.assign(bodies, 0); }
+  void begin(std::size_t bodies, double parts) {
+    places_.assign(bodies, 0);
+    parts_ = parts;
+  }
   /// Moves the bodies of islands by `dt`; fills in the impulses of their contacts and joints. What one island does
   /// depends on none of the others.
   /// @param moved  by index: set for the bodies that were moved
@@ -140,6 +143,7 @@ class BlockSolver {
   static constexpr std::size_t blocks_worth_a_part = 24;
 
   threads::Workers work_;               ///< within the island that is being solved
+  double parts_ = 1;                    ///< the whole step over the length of this one
   std::vector<std::uint32_t> places_;   ///< from a body's index into bodies_; 0 for none
   std::vector<std::uint32_t> indices_;  ///< by place: of the bodies
   std::vector<Traits> traits_;          ///< by place

@@ -117,7 +117,7 @@ StageState tried(const StageState& state, std::size_t armed, double end, double 
   set_targets(trial, end);
   trial.blows.clear();
   drive_vehicles(trial, end - trial.time);
-  trial.world.step(end - trial.time);
+  trial.world.step(end - trial.time, step);
   return trial;
 }
 
@@ -268,7 +268,7 @@ void step_told_world(StageState& state, double end, double step, std::vector<Hap
   const PieceStart before(state);
   const ParticleStep particles(state);
   drive_vehicles(state, end - state.time);
-  state.world.step(end - state.time);
+  state.world.step(end - state.time, step);
   state.time = end;
   particles.take(state);
   state.presses.assign(state.node_of.size(), 0);

@@ -3,6 +3,7 @@
 
 #include "stage/roster/staged_softs.h"
 #include "stage/rules/sensed.h"
+#include "stage/rules/speed_peak.h"
 #include "stage/stage_data.h"
 #include "stage/time/leaps.h"
 
@@ -31,12 +32,14 @@ double instant_of(const Trigger& trigger, const StageState& state, const StagedB
   if (const auto* event = std::get_if<when::Event>(&trigger))
     time = event_time(*state.animation, {}, event->name, no_node, from, to);
   if (std::holds_alternative<when::ClipEnd>(trigger)) time = path_end(body.path);
+  if (std::holds_alternative<when::SpeedPeak>(trigger)) time = speed_peak(state, body, from, to);
   return inside(time, from, to) ? time : infinity;
 }
 
 Cause cause_of(const Trigger& trigger) {
-  constexpr Cause causes[] = {Cause::at,     Cause::marker, Cause::event, Cause::clip_end,  Cause::contact,
-                              Cause::asleep, Cause::enter,  Cause::leave, Cause::saturated, Cause::error};
+  constexpr Cause causes[] = {Cause::at,        Cause::marker, Cause::event,     Cause::clip_end,
+                              Cause::contact,   Cause::asleep, Cause::enter,     Cause::leave,
+                              Cause::saturated, Cause::error,  Cause::speed_peak};
   static_assert(std::variant_size_v<Trigger> == std::size(causes));
   return causes[trigger.index()];
 }

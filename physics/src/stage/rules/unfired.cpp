@@ -45,6 +45,9 @@ struct Reason {
     return "the event \"" + event.name + "\" did not come while it waited";
   }
   std::string operator()(const when::ClipEnd&) const { return "no clip that moves the body ended while it waited"; }
+  std::string operator()(const when::SpeedPeak&) const {
+    return "the path of the body had no peak of its speed while it waited";
+  }
   std::string operator()(const when::ContactHit& hit) const {
     const std::string what = hit.with.empty() ? "nothing" : "nothing named \"" + hit.with + "\"";
     if (!attempt.touched) return what + " touched the body";

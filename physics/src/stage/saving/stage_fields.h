@@ -43,7 +43,8 @@ void each_field(T& named, const Visit& visit) {
   visit(name);
 }
 
-template <Is<when::ClipEnd> T, class Visit>
+template <class T, class Visit>
+requires Is<T, when::ClipEnd> || Is<T, when::SpeedPeak>
 void each_field(T&, const Visit&) {}
 
 template <Is<when::ContactHit> T, class Visit>

@@ -51,11 +51,13 @@ struct Saturated {
 struct Error {
   double distance = 0;  ///< of a driven body's node from its path, m
 };
+struct SpeedPeak {
+};  ///< the center of mass of a body that is led is on its path as fast as it gets before it slows down
 }  // namespace when
 
 struct When;
 using Trigger = std::variant<when::At, when::Marker, when::Event, when::ClipEnd, when::ContactHit, when::Asleep,
-                             when::Enter, when::Leave, when::Saturated, when::Error>;
+                             when::Enter, when::Leave, when::Saturated, when::Error, when::SpeedPeak>;
 
 /// Any of the triggers, or, with `all`, every one: instants latch, conditions must hold. What is known only when a step
 /// is over (sensors, saturation, the error) acts at its end.
@@ -110,7 +112,21 @@ struct Rule {
   bool once = true;
 };
 
-enum class Cause { start, at, marker, event, clip_end, contact, asleep, enter, leave, saturated, error, caller };
+enum class Cause {
+  start,
+  at,
+  marker,
+  event,
+  clip_end,
+  contact,
+  asleep,
+  enter,
+  leave,
+  saturated,
+  error,
+  speed_peak,
+  caller
+};
 
 /// What happened: one change of owner.
 struct HandOff {
