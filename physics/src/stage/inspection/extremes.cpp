@@ -155,7 +155,9 @@ class Finder {
     const auto asks_caller = [](const ForceDescription& force) { return std::holds_alternative<Field>(force.force); };
     if (!out_.extremes.empty() || std::ranges::any_of(description_.forces, asks_caller)) return;
     World trial = state_.world;
-    const std::size_t steps = std::clamp(worth / (state_.bodies.size() + 1), std::size_t{1}, most_steps);
+    std::size_t parts = 1 + state_.bodies.size();
+    for (const SoftDescription& soft : description_.softs) parts += soft.soft.positions.size();
+    const std::size_t steps = std::clamp(worth / parts, std::size_t{1}, most_steps);
     const auto node_of = [&](const BodyId& body) -> const StagedBody& {
       return *state_.body(state_.node_of[body.index]);
     };
