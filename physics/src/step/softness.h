@@ -14,8 +14,9 @@ struct Softness {
 };
 
 /// Of the contacts of a step of `dt` seconds.
-/// @param parts  of which length that is one: contacts give way as they do in the whole step, or what rests would
-/// settle anew in each part Source: Catto, Solver2D, 2024 (soft contacts).
+/// Source: Catto, Solver2D, 2024 (soft contacts).
+/// @param parts  as many as `dt` fits into the whole step: contacts give way as they do in that, or what rests would
+/// settle anew in each part
 [[nodiscard]] inline Softness soft_contacts(double push_out_speed, double dt, int sub_steps, double parts = 1) {
   // Frequency times the sub-step, and the damping ratio.
   constexpr double cycles = 0.125;
