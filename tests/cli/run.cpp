@@ -173,3 +173,26 @@ TEST_CASE("inputs are given at their times, and their faults are told with their
         std::string::npos);
   CHECK(folder.run("run thrown.json --inputs none.json").code == 1);
 }
+
+TEST_CASE(
+    "the table of hand-offs names what made a body change hands, whatever it was, in the words of the recording") {
+  const Folder folder;
+  const auto cause = [&](const std::string& when, const std::string& inputs) {
+    folder.write("swing.json", R"({"tweenfall": 1,
+      "nodes": {"ball": {"body": {"shape": {"sphere": {"radius": 0.1}}}}},
+      "clips": {"c": {"tracks": {"ball.position": {"oscillator": {"amplitude": [1, 0, 0], "hz": 1}}}}},
+      "handoff": [{"body": "ball", "when": )" +
+                                   when + R"(, "to": "free"}]})");
+    folder.write("inputs.json", R"({"tweenfall": 1, "inputs": [)" + inputs + "]}");
+    const std::string command = "run swing.json --inputs inputs.json --until 0.5";
+    const Ran table = folder.run(command), recording = folder.run(command + " --json");
+    REQUIRE_MESSAGE(recording.code == 0, recording.err);
+    const std::string word = json::parse(recording.out)["handoffs"][0]["cause"];
+    CAPTURE(table.out);
+    CHECK(table.out.find("free  " + word) != std::string::npos);
+    return word;
+  };
+  CHECK(cause(R"({"at": 0.3})", "") == "at");
+  CHECK(cause(R"({"speed_peak": true})", "") == "speed-peak");
+  CHECK(cause(R"({"at": 0.4})", R"({"at": 0.2, "release": {"body": "ball"}})") == "caller");
+}

@@ -1,5 +1,6 @@
 #include "document/form.h"
 
+#include "document/report/foreign_words.h"
 #include "document/report/suggestion.h"
 
 #include <algorithm>

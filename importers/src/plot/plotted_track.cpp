@@ -245,7 +245,7 @@ void add_recorded(PlottedTrack& plotted, const Recording& recording) {
   for (const HandOff& handoff : recording.handoffs)
     if (handoff.cause != Cause::start && is_below(recording, handoff.node, plotted.track->node))
       plotted.moments.push_back(
-          {handoff.time, recording.nodes[handoff.node].name + " " + recordings::owner_word(handoff.to), true});
+          {handoff.time, recording.nodes[handoff.node].name + " " + owner_word(handoff.to), true});
   const auto found = std::find_if(recording.nodes.begin(), recording.nodes.end(),
                                   [&](const NodeRecord& node) { return node.name == plotted.track->node; });
   if (found == recording.nodes.end()) return;

@@ -89,7 +89,7 @@ std::string recording_csv(const Recording& recording) {
     for (const NodeRecord& node : recording.nodes) {
       append_number(out, recording.times[frame]);
       ((out += ',') += recordings::field(node.name)) += ',';
-      out += recordings::owner_word(node.owner[frame]);
+      out += owner_word(node.owner[frame]);
       const Pose& pose = node.world[frame].motion.pose;
       recordings::append_columns(out, pose.position, 3);
       recordings::append_columns(out, pose.rotation.coeffs(), 4);

@@ -1,6 +1,8 @@
 #include "recording/words.h"
 
-namespace tweenfall::recordings {
+#include <tweenfall/importers/recording_file.h>
+
+namespace tweenfall {
 
 const char* owner_word(Owner owner) noexcept {
   switch (owner) {
@@ -46,6 +48,8 @@ const char* cause_word(Cause cause) noexcept {
   return "caller";
 }
 
+namespace recordings {
+
 const char* kind_word(EventKind kind) noexcept {
   switch (kind) {
     case EventKind::begin:
@@ -58,4 +62,5 @@ const char* kind_word(EventKind kind) noexcept {
   return "";
 }
 
-}  // namespace tweenfall::recordings
+}  // namespace recordings
+}  // namespace tweenfall

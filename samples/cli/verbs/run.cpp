@@ -25,22 +25,12 @@ struct RunFileOptions : RunOptions {
   bool json = false;
 };
 
-const char* word(Owner owner) {
-  constexpr const char* words[] = {"keyed", "driven", "free"};
-  return words[static_cast<int>(owner)];
-}
-
-const char* word(Cause cause) {
-  constexpr const char* words[] = {"start",  "time",  "marker", "event",     "clip end", "contact",
-                                   "asleep", "enter", "leave",  "saturated", "error",    "caller"};
-  return words[static_cast<int>(cause)];
-}
-
 std::string handoffs_table(const Recording& recording) {
   Table table("hand-offs", {">time, s", "body", "from", "to", "cause", "velocity before, m/s", "after, m/s"});
   for (const HandOff& handoff : recording.handoffs)
-    table.row({brief_text(handoff.time), recording.nodes[handoff.node].name, word(handoff.from), word(handoff.to),
-               word(handoff.cause), brief_text(handoff.before.twist.linear), brief_text(handoff.after.twist.linear)});
+    table.row({brief_text(handoff.time), recording.nodes[handoff.node].name, owner_word(handoff.from),
+               owner_word(handoff.to), cause_word(handoff.cause), brief_text(handoff.before.twist.linear),
+               brief_text(handoff.after.twist.linear)});
   if (table.empty()) table.note("none");
   return table.text(styled_output());
 }
@@ -69,7 +59,7 @@ std::string ends_table(const Recording& recording, const StageDescription& stage
   for (std::size_t i = 0; i < stage.nodes.size(); ++i) {
     if (!stage.nodes[i].body || stage.nodes[i].body->fixed || ++bodies > most) continue;
     const NodeRecord& node = recording.nodes[i];
-    table.row({node.name, word(node.owner.back()), brief_text(node.world.back().motion.pose.position),
+    table.row({node.name, owner_word(node.owner.back()), brief_text(node.world.back().motion.pose.position),
                brief_text(node.twist.back().linear.norm())});
   }
   if (bodies > most) table.note("and " + std::to_string(bodies - most) + " more; --json has them all");

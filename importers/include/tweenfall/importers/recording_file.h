@@ -68,6 +68,10 @@ struct ShownRecording {
 /// @throws std::runtime_error when the library was built without three.js.
 [[nodiscard]] std::string side_by_side_html(const ShownRecording& left, const ShownRecording& right);
 
+/// What stands for an owner, and for what made a body change hands, in every file that is written.
+[[nodiscard]] const char* owner_word(Owner owner) noexcept;
+[[nodiscard]] const char* cause_word(Cause cause) noexcept;
+
 /// How many of the recording's frames its page carries: all of them, unless they are so many that it thins them.
 [[nodiscard]] std::size_t page_frame_count(const Recording& recording);
 

@@ -1,6 +1,7 @@
 #include "page/content/page_data.h"
 
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/importers/recording_file.h>
 
 #include "figures/shape_mesh.h"
 #include "figures/turned_profile.h"
@@ -119,7 +120,7 @@ std::string owner_runs(const std::vector<Owner>& owners, const std::vector<std::
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i > 0 && owners[frames[i]] == owners[frames[i - 1]]) continue;
     if (i > 0) out += ',';
-    out += "[" + std::to_string(i) + ",\"" + recordings::owner_word(owners[frames[i]]) + "\"]";
+    out += "[" + std::to_string(i) + ",\"" + owner_word(owners[frames[i]]) + "\"]";
   }
   return out + "]";
 }
@@ -246,9 +247,9 @@ std::string motion_json(const Motion& motion) {
 
 std::string handoff_json(const HandOff& handoff) {
   std::string out = "{\"time\":" + number_text(handoff.time) + ",\"node\":" + std::to_string(handoff.node);
-  append_quoted(out, "from", recordings::owner_word(handoff.from));
-  append_quoted(out, "to", recordings::owner_word(handoff.to));
-  append_quoted(out, "cause", recordings::cause_word(handoff.cause));
+  append_quoted(out, "from", owner_word(handoff.from));
+  append_quoted(out, "to", owner_word(handoff.to));
+  append_quoted(out, "cause", cause_word(handoff.cause));
   return out + ",\"before\":" + motion_json(handoff.before) + ",\"after\":" + motion_json(handoff.after) + "}";
 }
 
