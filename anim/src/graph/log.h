@@ -63,7 +63,11 @@ struct Passage : GraphPassage {
 };
 
 /// How far phases have come; see `Phase`.
-using PhaseTrails = Trails<double, 256>;
+struct PhasePlace {
+  double phase = 0;
+  double haste = 0;  // how much faster it goes on than by its weights, as a part of that
+};
+using PhaseTrails = Trails<PhasePlace, 256>;
 
 /// How far springs have come, on the clock that began at an instant; see `Swing`.
 using SwingState = std::variant<NodeSpringState, JiggleState>;
@@ -88,7 +92,11 @@ struct SwingMemory {
 };
 
 /// How far figures have come on their way; see `Travel`.
-using TravelTrails = Trails<Pose, 64>;
+struct TravelPlace {
+  Pose pose;
+  Twist haste;  // by how much faster it goes on than the clips have it, in its own axes
+};
+using TravelTrails = Trails<TravelPlace, 64>;
 
 /// How much there is of what a log remembers.
 struct LogSizes {

@@ -65,7 +65,7 @@ bool SpaceWeights::flows() const noexcept {
 class Phase::Step {
  public:
   Step(const Phase& phase, const Log& log, double start, const Stop& from) noexcept
-      : sync_(phase.sync_), from_(from), size_(phase.weights_.size()) {
+      : phase_(phase), sync_(phase.sync_), from_(from), size_(phase.weights_.size()) {
     std::array<Sample<double>, most_blended> first, last;
     phase.weights_.sample(log, from.time, Side::out, {first.data(), size_});
     const double end = phase.next_beat(start, from.time);
@@ -98,14 +98,21 @@ class Phase::Step {
 
   [[nodiscard]] double at(double time) const noexcept {
     const double passed = time - from_.time;
+    // Seconds as they count: haste makes them more.
+    const auto counted = [&](double part) noexcept {
+      if (from_.place.haste == 0) return part * passed;
+      const double left = 1 - part * passed / length_;
+      return part * passed + from_.place.haste * length_ / 3 * (1 - left * left * left);
+    };
     std::array<double, most_blended> held;
     const std::span<const double> own(held.data(), size_);
     const auto in_parts = [&](int parts) noexcept {
-      double phase = from_.phase;
+      double phase = from_.place.phase;
       for (int part = 0; part < parts; ++part) {
         const double middle = steady_ ? 0 : (part + 0.5) / parts * passed / length_;
         for (std::size_t i = 0; i < size_; ++i) held[i] = share(i, middle).value;
-        phase = sync_.advanced(phase, passed / parts, own);
+        const double begin = static_cast<double>(part) / parts, end = (part + 1.0) / parts;
+        phase = sync_.advanced(phase, counted(end) - counted(begin), own);
       }
       return phase;
     };
@@ -116,7 +123,23 @@ class Phase::Step {
     std::array<Sample<double>, most_blended> shares;
     const double part = steady_ ? 0 : (time - from_.time) / length_;
     for (std::size_t i = 0; i < size_; ++i) shares[i] = share(i, part);
-    return sync_.running(at(time), {shares.data(), size_});
+    if (from_.place.haste == 0) return sync_.running(at(time), {shares.data(), size_});
+    const double left = 1 - (time - from_.time) / length_, factor = 1 + from_.place.haste * left * left;
+    for (Sample<double>& each : std::span(shares.data(), size_)) each.rate /= factor;
+    Sample<double> phase = sync_.running(at(time), {shares.data(), size_});
+    phase.acceleration = phase.acceleration * factor * factor - phase.rate * from_.place.haste * 2 * left / length_;
+    phase.rate *= factor;
+    return phase;
+  }
+
+  /// Where it stops, and the next one begins.
+  [[nodiscard]] Stop stop_at(const Log& log, double time) const noexcept {
+    if (!(time < from_.time + length_)) return {time, {at(time), 0}};
+    const Sample<double> planned = sample(time);
+    std::array<Sample<double>, most_blended> shares;
+    phase_.weights_.sample(log, time, Side::in, {shares.data(), size_});
+    const double haste = planned.rate / sync_.running(planned.value, {shares.data(), size_}).rate - 1;
+    return {time, {planned.value, std::isfinite(haste) ? haste : 0}};
   }
 
  private:
@@ -128,6 +151,7 @@ class Phase::Step {
             (3 / length_) * (v * v * (c[1] - c[0]) + 2 * u * v * (c[2] - c[1]) + u * u * (c[3] - c[2])), 0};
   }
 
+  const Phase& phase_;
   const MarkerSync& sync_;
   Stop from_;
   std::size_t size_;
@@ -157,15 +181,15 @@ Phase::Stop Phase::last_stop(const Log& log, double start, double time, Side sid
   // Beyond what is seen, what is marked counts only where nothing was set in between.
   const double sure = std::nextafter(weights_.first_unseen(log), -1.0), limit = std::min(time, sure);
   const auto* const mark = trail.last_mark(limit, limit < time || side == Side::out);
-  Stop here = mark ? Stop{mark->time, mark->place} : Stop{start, sync_.phase_at(0, 0)};
+  Stop here = mark ? Stop{mark->time, mark->place} : Stop{start, {sync_.phase_at(0, 0), 0}};
   const double began = here.time;
   for (;;) {
     const double next = next_stop(log, start, here.time);
     if (next > time || (next == time && side == Side::in)) break;
-    here = {next, Step(*this, log, start, here).at(next)};
-    if (next <= sure) trail.pass(next, here.phase);
+    here = Step(*this, log, start, here).stop_at(log, next);
+    if (next <= sure) trail.pass(next, here.place);
   }
-  if (here.time > began && here.time <= sure) trail.stay(here.time, here.phase);
+  if (here.time > began && here.time <= sure) trail.stay(here.time, here.place);
   return here;
 }
 
@@ -206,8 +230,7 @@ void Phase::each_event(const Log& log, std::size_t clip, const Clip& described, 
   for (;;) {
     const Step step(*this, log, start, stop);
     const double next = next_stop(log, start, stop.time), end = std::max(begin, std::min(next, to));
-    const double last = step.at(end);
-    const double low = way(clip, duration, step.at(begin)), high = way(clip, duration, last);
+    const double low = way(clip, duration, step.at(begin)), high = way(clip, duration, step.at(end));
     for (double turn = std::floor(low / duration) - 1; turn * duration <= high; ++turn)
       for (const Meeting& meeting : round) {
         const double met = meeting.way + turn * duration;
@@ -223,7 +246,7 @@ void Phase::each_event(const Log& log, std::size_t clip, const Clip& described, 
       }
     if (!(end < to)) return;
     begin = end;
-    stop = {end, last};
+    stop = step.stop_at(log, end);
     closed = false;
   }
 }

@@ -37,6 +37,8 @@ class SpaceWeights {
 /// It runs from the start of the state around it, with the first clip at its beginning. On the way it stops at every
 /// setting and, where the weights flow, 480 times a second: wherever it is asked from, it comes the same way. On a step
 /// shares are cubics by what they and their rates are at its ends, so that its rate is everywhere that of its value.
+/// Where something is set on the way, the step is broken off, and what it went faster there than by the weights
+/// themselves, as where one kinks, dies away until the step would have ended: the rate has no jump of its own.
 class Phase {
  public:
   /// @param number  among the phases of the graph
@@ -57,7 +59,8 @@ class Phase {
  private:
   class Step;
   struct Stop {
-    double time, phase;
+    double time;
+    PhasePlace place;
   };
   /// The last stop from `start` to a time; at that time itself only where it leaves.
   [[nodiscard]] Stop last_stop(const Log& log, double start, double time, Side side) const noexcept;

@@ -216,7 +216,23 @@ Motion Travel::step(const Log& log, const Bearers& first, const Step& step, doub
   const Stride lag = missing(whole, own);
   if (!(x < h)) return motion_of({whole.at, whole.rate + lag});
   const double u = x / h;
-  return motion_of({sum.at + (x * u * (u - 1)) * lag, sum.rate + (u * (3 * u - 2)) * lag});
+  const Stride haste{step.haste.angular, step.haste.linear};
+  return motion_of({sum.at + (x * u * (u - 1)) * lag + (x * (1 - u) * (1 - u)) * haste,
+                    sum.rate + (u * (3 * u - 2)) * lag + ((1 - u) * (1 - 3 * u)) * haste});
+}
+
+Twist Travel::haste_at(const Log& log, double start, double time, const Motion& step,
+                       std::span<Motion> room) const noexcept {
+  Stride haste = own_velocity(step);
+  const Bearers bearers = bearers_at(log, {time, Side::in, start});
+  for (std::size_t i = 0; i < bearers.count; ++i) {
+    const Bearer& each = bearers.list[i];
+    const auto known = known_of(each);
+    if (known == known_.end()) continue;
+    const Motion motion = carried(*known->bound, clock_of(log, each, time, Side::in), room);
+    haste = haste - each.weight.value * own_velocity(motion);
+  }
+  return {haste.way, haste.turn};
 }
 
 Pose Travel::place_at_start(const Log& log, double start, std::span<Motion> room) const noexcept {
@@ -243,12 +259,12 @@ Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) 
   const auto* const mark = trail.last_mark(limit, limit < moment.time || moment.side == Side::out);
   const double began = mark ? mark->time : moment.start;
   double here = began;
-  Pose reached = mark ? mark->place : place_at_start(log, moment.start, room);
+  TravelPlace reached = mark ? mark->place : TravelPlace{place_at_start(log, moment.start, room), {}};
   for (;;) {
     const Bearers bearers = bearers_at(log, {here, Side::out, moment.start});
     double next = next_instant(log, here);
     if (next >= unseen) next = never;
-    Step own{moment.start, here, never, true};
+    Step own{moment.start, here, never, true, reached.haste};
     own.alone = !bearers.flow && (bearers.count == 0 || (bearers.count == 1 && is_whole(bearers.list[0].weight)));
     if (!own.alone) {
       own.end = next_stop(last_instant(log, moment.start, here, Side::out), here);
@@ -257,10 +273,12 @@ Motion Travel::at(const Log& log, const Moment& moment, std::span<Motion> room) 
     if (next > moment.time || (next == moment.time && moment.side == Side::in)) {
       if (here > began && here <= sure) trail.stay(here, reached);
       Motion from;
-      from.pose = reached;
+      from.pose = reached.pose;
       return compose(from, step(log, bearers, own, moment.time, moment.side, room));
     }
-    reached = compose(reached, step(log, bearers, own, next, Side::in, room).pose);
+    const Motion gone = step(log, bearers, own, next, Side::in, room);
+    reached = {compose(reached.pose, gone.pose), {}};
+    if (!own.alone && next < own.end) reached.haste = haste_at(log, moment.start, next, gone, room);
     here = next;
     if (here <= sure) trail.pass(here, reached);
   }

@@ -11,7 +11,8 @@ namespace tweenfall::graphs {
 /// It runs from the start of the state around it, from where the clips have the figure then. The ways of several clips
 /// are mixed step by step, 480 times a second from each instant on: on a step weights are cubics by what they and their
 /// rates are at its ends, so that the way has no sudden changes of velocity that the clips do not have, and its rate is
-/// everywhere that of its value.
+/// everywhere that of its value. Where something happens on the way a step is broken off, and what it went faster there
+/// than the clips have it, as where a weight kinks, dies away on the next.
 /// Where one clip bears it alone, its loops are repeated in closed form, so that nothing drifts.
 class Travel {
  public:
@@ -44,9 +45,13 @@ class Travel {
   struct Step {
     double start, from, end;  // `end`: unless something happens before
     bool alone;               // no more than one clip bears it, and that fully, until something happens
+    Twist haste;              // see `TravelPlace`
   };
   [[nodiscard]] ClipClock clock_of(const Log& log, const Bearer& bearer, double time, Side side) const noexcept;
   [[nodiscard]] static Motion step_of(const Known& known, const Place& from, const Place& to) noexcept;
+  /// By how much faster a step that is broken off went than the clips have it.
+  [[nodiscard]] Twist haste_at(const Log& log, double start, double time, const Motion& step,
+                               std::span<Motion> room) const noexcept;
   [[nodiscard]] Pose place_at_start(const Log& log, double start, std::span<Motion> room) const noexcept;
   /// @param first  those at its beginning
   [[nodiscard]] Motion step(const Log& log, const Bearers& first, const Step& step, double to, Side side,

@@ -129,6 +129,43 @@ TEST_CASE("the rate of a phase is that of its value in a step in which weights k
   }
 }
 
+TEST_CASE("a gliding parameter that is set changes no rate at once, wherever in a step a weight kinks") {
+  // It glides to and fro over the places of the poses, and is set anew again and again on the way.
+  const GraphDescription plane = {
+      .parameters = {{.name = "x", .half_life = 0.05}, {.name = "y", .half_life = 0.08}},
+      .poses = {{"move", SpacePose{.by = {ByParameter{"x"}, ByParameter{"y"}},
+                                   .entries = {{"walk", {0, 0}}, {"run", {2, 0}}, {"lean", {0, 2}}},
+                                   .sync = "*"}}}};
+  GraphDescription bands = plane;
+  std::get<SpacePose>(bands.poses[0].operation).bands = true;
+  GraphDescription line = by_speed("*", 0.05);
+  line.parameters.push_back({.name = "weight", .start = 0.5, .half_life = 0.1});
+  line.poses.push_back({"mixed", BlendPose{{{"move", ByParameter{"weight"}}, {"lean", 1.0}}}});
+  for (GraphDescription description : {line, plane, bands}) {
+    Random random(11);
+    for (int i = 1; i <= 600; ++i) {
+      const std::string& name = description.parameters[static_cast<std::size_t>(i % 2)].name;
+      description.inputs.push_back({0.0037 * i, name, random.between(-2, 5)});
+    }
+    GraphPlayer player(graph_of(description, stepping_clips()));
+    Apart most;
+    for (const GraphInput& input : description.inputs) {
+      const Apart here = apart(pose_at(player, input.time, Side::in), pose_at(player, input.time, Side::out));
+      most.value = std::max(most.value, here.value);
+      most.rate = std::max(most.rate, here.rate);
+    }
+    CHECK(most.value < 1e-12);
+    CHECK(most.rate < 1e-12);
+    // On either side of what is set the rate is that of the value, seen from within the piece.
+    double error = 0;
+    for (std::size_t i = 20; i < 600; i += 29)
+      for (const double part : {0.1, 0.3, 0.7, 0.9})
+        error = std::max(error, rate_error(player, description.inputs[i].time + 0.0037 * part, 2e-6));
+    MESSAGE("jumps of rates up to " << most.rate << ", rates within " << error);
+    CHECK(error < 1e-7);
+  }
+}
+
 TEST_CASE("clips in phase step together: their markers fall at the same times, each told once") {
   GraphPlayer player(graph_of(by_speed("*"), stepping_clips()));
   player.set("speed", 2.5);

@@ -158,6 +158,33 @@ TEST_CASE(
   for (int i = 1; i < 300; ++i) CHECK(rate_error(player, 0.0026 * i, 1e-5) < 1e-7);
 }
 
+TEST_CASE("a way keeps its velocity where a gliding parameter is set, wherever in a step a weight kinks") {
+  Random random(5);
+  std::vector<GraphInput> inputs;
+  for (int i = 1; i <= 600; ++i) inputs.push_back({0.0037 * i, "speed", random.between(-1, 2)});
+  const GraphDescription description{
+      .parameters = {{.name = "speed", .half_life = 0.05}},
+      .poses = {{"gaits", SpacePose{.by = {ByParameter{"speed"}},
+                                    .entries = {{"walk", {0, 0}}, {"arc", {0.5, 0}}, {"run", {1, 0}}}}},
+                {"way", travelling("gaits")}},
+      .inputs = inputs};
+  GraphPlayer player(graph_of(description, walkers()));
+  Apart most;
+  for (const GraphInput& input : inputs) {
+    const Apart here = apart(pose_at(player, input.time, Side::in), pose_at(player, input.time, Side::out));
+    most.value = std::max(most.value, here.value);
+    most.rate = std::max(most.rate, here.rate);
+  }
+  CHECK(most.value < 1e-12);
+  CHECK(most.rate < 1e-12);
+  double error = 0;
+  for (std::size_t i = 20; i < 600; i += 29)
+    for (const double part : {0.1, 0.3, 0.7, 0.9})
+      error = std::max(error, rate_error(player, inputs[i].time + 0.0037 * part, 2e-6));
+  MESSAGE("jumps of rates up to " << most.rate << ", rates within " << error);
+  CHECK(error < 1e-7);
+}
+
 TEST_CASE("a way that fades in goes as far as the integral of its weight") {
   using Kind = GraphCondition::Kind;
   GraphPlayer player = travel_of(
