@@ -21,7 +21,7 @@ class PlacedFeet : public Changing {
               std::span<Motion> pose) const noexcept override {
     std::array<Sample<double>, most_feet_placed> weights;
     for (std::size_t i = 0; i < feet_.size(); ++i)
-      weights[i] = as_share(feet_[i].sample(log, moment.time, moment.side));
+      weights[i] = as_share(feet_[i].sample(log, moment.time, moment.side), moment.side);
     const HeightGrid* ground = &ground_;
     place_feet(
         placement_, [ground](const Sample<Vec3>& place) { return std::optional(ground->at(place)); },

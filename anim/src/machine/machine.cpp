@@ -19,8 +19,13 @@ struct ShownPassage {
 };
 using ShownPassages = std::array<ShownPassage, most_fades_at_once + 1>;
 
+/// Where it ends it arrives at the rate that it had.
+bool is_done(double seconds, double since, Side side) noexcept {
+  return since > seconds || (since == seconds && (side == Side::out || seconds == 0));
+}
+
 Sample<double> progress(const GraphChange& change, double since, Side side) noexcept {
-  if (since >= change.seconds) return {1, 0, 0};
+  if (is_done(change.seconds, since, side)) return {1, 0, 0};
   const double u = since / change.seconds;
   if (change.ease && change.ease->rule() == Ease::Rule::linear) return {u, 1 / change.seconds, 0};
   if (!change.ease) return {u * u * (3 - 2 * u), 6 * u * (1 - u) / change.seconds, 0};
@@ -101,7 +106,7 @@ void Machine::bearers(const Log& log, const Moment& moment, std::size_t node, co
     GraphChange change = passage.change;
     if (passage.settles) change = {.seconds = std::min(settling_time(change), 4 * change.seconds)};
     const double since = moment.time - passage.time;
-    const bool lowest = passages[0].time == passage.time || since >= change.seconds;
+    const bool lowest = passages[0].time == passage.time || is_done(change.seconds, since, moment.side);
     const Sample<double> share = lowest ? Sample<double>{1, 0, 0} : progress(change, since, moment.side);
     if (!lowest) out.flow = true;
     if (!is_nothing(share))

@@ -25,7 +25,7 @@ class Blended : public Operation {
     std::size_t count = 0;
     Scratch free = scratch;
     for (const Part& part : parts_) {
-      const Sample<double> weight = as_weight(part.weight.sample(log, moment.time, moment.side));
+      const Sample<double> weight = as_weight(part.weight.sample(log, moment.time, moment.side), moment.side);
       if (is_nothing(weight)) continue;
       const std::span<Motion> motions = free.pose();
       free = free.rest();
@@ -44,8 +44,8 @@ class Blended : public Operation {
 
   [[nodiscard]] double share(const Log& log, std::size_t operand, double time) const noexcept override {
     double sum = 0;
-    for (const Part& part : parts_) sum += as_weight(part.weight.sample(log, time, Side::out)).value;
-    const double own = as_weight(parts_[operand].weight.sample(log, time, Side::out)).value;
+    for (const Part& part : parts_) sum += as_weight(part.weight.sample(log, time, Side::out), Side::out).value;
+    const double own = as_weight(parts_[operand].weight.sample(log, time, Side::out), Side::out).value;
     return sum > 0 ? own / std::max(sum, least_weight) : 0;
   }
 
@@ -54,7 +54,7 @@ class Blended : public Operation {
     std::array<Sample<double>, most_blended> weights;
     Sample<double> sum{0, 0, 0};
     for (std::size_t i = 0; i < parts_.size(); ++i) {
-      weights[i] = as_weight(parts_[i].weight.sample(log, moment.time, moment.side));
+      weights[i] = as_weight(parts_[i].weight.sample(log, moment.time, moment.side), moment.side);
       sum.value += weights[i].value;
       sum.rate += weights[i].rate;
       if (parts_[i].weight.flows()) out.flow = true;

@@ -22,7 +22,7 @@ class Changing : public Operation {
   void pose(const Log& log, const Moment& moment, const Scratch& scratch,
             std::span<Motion> out) const noexcept override {
     show_base(log, moment, scratch, out);
-    const Sample<double> weight = as_share(changed_.weight.sample(log, moment.time, moment.side));
+    const Sample<double> weight = as_share(changed_.weight.sample(log, moment.time, moment.side), moment.side);
     if (!is_nothing(weight)) change(log, moment, weight, scratch, out);
   }
 

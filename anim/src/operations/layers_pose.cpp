@@ -28,7 +28,7 @@ class Layered : public Operation {
     else
       std::ranges::copy(scratch.below, out.begin());
     for (const Layer& layer : layers_) {
-      const Sample<double> weight = as_share(layer.weight.sample(log, moment.time, moment.side));
+      const Sample<double> weight = as_share(layer.weight.sample(log, moment.time, moment.side), moment.side);
       if (is_nothing(weight)) continue;
       const std::span<Motion> motions = scratch.pose();
       const Scratch rest = scratch.rest();
@@ -56,7 +56,9 @@ class Layered : public Operation {
   }
 
   [[nodiscard]] double share(const Log& log, std::size_t operand, double time) const noexcept override {
-    const auto weight = [&](const Layer& layer) { return as_share(layer.weight.sample(log, time, Side::out)).value; };
+    const auto weight = [&](const Layer& layer) {
+      return as_share(layer.weight.sample(log, time, Side::out), Side::out).value;
+    };
     const std::size_t above = base_ ? operand : operand + 1;  // the first layer that lies over it
     double share = above == 0 ? 1 : weight(layers_[above - 1]);
     for (std::size_t i = above; i < layers_.size(); ++i)
@@ -73,7 +75,8 @@ class Layered : public Operation {
       const double reach = layer.mask[node];
       if (layer.adds || reach == 0) continue;
       if (layer.weight.flows()) out.flow = true;
-      const Sample<double> own = product({reach, 0, 0}, as_share(layer.weight.sample(log, moment.time, moment.side)));
+      const Sample<double> own =
+          product({reach, 0, 0}, as_share(layer.weight.sample(log, moment.time, moment.side), moment.side));
       if (is_nothing(own)) continue;
       layer.pose->bearers(log, moment, node, product(left, own), out);
       left = product(left, rest_of(own));

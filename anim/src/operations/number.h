@@ -4,6 +4,7 @@
 
 #include <tweenfall/curves/calculus.h>
 
+#include "blending/heading.h"
 #include "graph/log.h"
 
 #include <algorithm>
@@ -68,17 +69,15 @@ class Number {
   std::size_t parameter_ = 0;
 };
 
-/// What lies beyond 0 or 1 is the nearer end, at rest.
-[[nodiscard]] inline Sample<double> as_share(const Sample<double>& number) noexcept {
-  if (number.value < 0 || (number.value == 0 && number.rate < 0)) return {0, 0, 0};
-  if (number.value > 1 || (number.value == 1 && number.rate > 0)) return {1, 0, 0};
-  return number;
+/// What lies below 0 is 0, at rest; at 0 it is what it was just before, or is just after.
+[[nodiscard]] inline Sample<double> as_weight(const Sample<double>& number, Side side) noexcept {
+  return blending::heading(number, side) < 0 ? Sample<double>{0, 0, 0} : number;
 }
 
-/// What lies below 0 is 0, at rest.
-[[nodiscard]] inline Sample<double> as_weight(const Sample<double>& number) noexcept {
-  if (number.value < 0 || (number.value == 0 && number.rate < 0)) return {0, 0, 0};
-  return number;
+/// What lies beyond 0 or 1 is the nearer end, in the same way.
+[[nodiscard]] inline Sample<double> as_share(const Sample<double>& number, Side side) noexcept {
+  const Sample<double> left{1 - number.value, -number.rate, -number.acceleration};
+  return blending::heading(left, side) < 0 ? Sample<double>{1, 0, 0} : as_weight(number, side);
 }
 
 [[nodiscard]] inline Sample<double> product(const Sample<double>& a, const Sample<double>& b) noexcept {
