@@ -42,6 +42,7 @@ class Account {
   void add(const std::string& text) { digest_.text(text); }
   void add(const Vec2& vector) { tell(vector.x(), vector.y()); }
   void add(const Vec3& vector) { tell(vector.x(), vector.y(), vector.z()); }
+  void add(const Quat& turn) { tell(turn.w(), turn.x(), turn.y(), turn.z()); }
   void add(const Curve<double>& curve);
   void add(const GraphNumber& number);
   void add(const GraphPlace& place);

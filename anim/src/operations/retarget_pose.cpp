@@ -6,6 +6,9 @@
 #include "operations/changing.h"
 #include "operations/figure.h"
 
+#include <algorithm>
+#include <map>
+
 namespace tweenfall::graphs {
 
 namespace {
@@ -34,6 +37,21 @@ class Retargeted : public Changing {
   Retarget map_;
 };
 
+/// The local poses of a figure where it stands like the other one; none where all of it stands as at rest.
+std::vector<Pose> stance_of(const Figure& figure, const std::map<std::size_t, const RetargetStance*>& told) {
+  std::vector<Pose> poses;
+  bool differs = false;
+  for (const Node& node : figure.nodes().nodes()) {
+    Pose& pose = poses.emplace_back(node.rest);
+    const auto found = told.find(figure.joints()[poses.size() - 1]);
+    if (found == told.end()) continue;
+    differs = true;
+    pose.position = found->second->position.value_or(pose.position);
+    pose.rotation = found->second->rotation.value_or(pose.rotation);
+  }
+  return differs ? poses : std::vector<Pose>();
+}
+
 }  // namespace
 
 void tell(const RetargetPose& pose, Account& account) {
@@ -41,7 +59,8 @@ void tell(const RetargetPose& pose, Account& account) {
   account.pose(pose.base, "base");
   account.tell(pose.source, pose.target);
   for (const RetargetPair& pair : pose.pairs) account.tell(pair.source, pair.target, pair.moves);
-  account.tell(pose.pairs.size(), pose.scale, pose.up, pose.weight);
+  account.tell(pose.pairs.size(), pose.scale, pose.up, pose.weight, pose.turn);
+  for (const RetargetStance& each : pose.stance) account.tell(each.node, each.position, each.rotation);
 }
 
 std::unique_ptr<Operation> bound(const RetargetPose& described, Binder& binder) {
@@ -56,10 +75,25 @@ std::unique_ptr<Operation> bound(const RetargetPose& described, Binder& binder) 
     return nullptr;
   }
   Figure source(nodes, from), target(nodes, to);
+  std::map<std::size_t, const RetargetStance*> told;
+  for (const RetargetStance& each : described.stance) {
+    const Place place = {"retarget", "stance", each.node};
+    const std::size_t node = binder.node(each.node, place);
+    if (node == no_node) return nullptr;
+    const auto is_part = [&](const Figure& figure) { return std::ranges::count(figure.joints(), node) > 0; };
+    if (!is_part(source) && !is_part(target))
+      binder.fault(place, "\"" + each.node + "\" belongs to neither figure, \"" + described.source + "\" or \"" +
+                              described.target + "\"");
+    if (!told.emplace(node, &each).second) binder.fault(place, "\"" + each.node + "\" has two stances");
+  }
   std::optional<Retarget> map;
   binder.attempt({"retarget", "pairs"}, [&] {
     map.emplace(source.nodes(), target.nodes(), described.pairs,
-                RetargetSettings{.scale = described.scale, .up = described.up});
+                RetargetSettings{.scale = described.scale,
+                                 .up = described.up,
+                                 .turn = described.turn,
+                                 .source_stance = stance_of(source, told),
+                                 .target_stance = stance_of(target, told)});
   });
   if (!map || !changed.whole) return nullptr;
   for (const std::size_t node : target.joints()) binder.moves(node);

@@ -289,6 +289,9 @@ TEST_CASE("whatever an operation is told is in the number of its graph") {
   with(stand(1.), [](FeetPose& pose) { pose.feet[0].ankle_height = 0; });
   with(taken_over(1.), same);
   with(taken_over(1.), [](RetargetPose& pose) { pose.pairs[0].moves = false; });
+  with(taken_over(1.), [](RetargetPose& pose) { pose.turn = exp_map({0, 1, 0}); });
+  with(taken_over(1.), [](RetargetPose& pose) { pose.stance = {{"head", Vec3(0, 0.3, 0)}}; });
+  with(taken_over(1.), [](RetargetPose& pose) { pose.stance = {{"head", {}, exp_map({0, 1, 0})}}; });
   with(on_the_spot(1.), same);
   with(on_the_spot(1.), [](RootMotionPose& pose) { pose.parts.turn = RootParts::Turn::all; });
   std::ranges::sort(numbers);

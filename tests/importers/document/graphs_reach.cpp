@@ -71,6 +71,12 @@ TEST_CASE("operations of a document mean what the same operations mean in C++") 
   CHECK(twin.pairs.at(0).moves);
   CHECK(twin.pairs.at(1).target == "other/spine");
   CHECK(twin.scale == 0.5);
+  CHECK(near(twin.turn, exp_map({0, pi / 2, 0}), 1e-15));
+  CHECK(twin.stance.at(0).node == "other/spine");
+  CHECK(twin.stance.at(0).position == Vec3(0, 0.4, 0.3));
+  CHECK(near(twin.stance.at(0).rotation.value(), exp_map({pi / 6, 0, 0}), 1e-15));
+  CHECK(twin.stance.at(1).position == Vec3(0, 0.31, 0));
+  CHECK_FALSE(twin.stance.at(1).rotation);
   const auto& still = operation_of<RootMotionPose>(graph, "still");
   CHECK(still.parts.vertical);
   CHECK(still.parts.horizontal);
@@ -105,6 +111,36 @@ TEST_CASE("on a stage a leg that reaches for a ball is there, and its joints cou
   }
 }
 
+TEST_CASE("a figure that rests with its arms down, and looks another way, follows one that rests with its arms out") {
+  // The robot's own axes lie otherwise too: its bones run along y, and it looks along x.
+  const auto stage_of = [](const std::string& more) {
+    return Stage(parsed(R"({"tweenfall": 1,
+      "nodes": {"hips": {"position": [0, 1, 0]},
+                "arm": {"parent": "hips", "position": [0.2, 0.5, 0]}, "hand": {"parent": "arm", "position": [0.6, 0, 0]},
+                "robot": {"position": [0, 2, 0]},
+                "robot/arm": {"parent": "robot", "position": [0, 1, -0.4], "rotation": {"axis": "x", "angle": 180}},
+                "robot/hand": {"parent": "robot/arm", "position": [0, 0.9, 0]}},
+      "clips": {"wave": {"tracks": {"arm.rotation": {"axis": "z", "keys": [[0, 0], [1, 70]]}}}},
+      "graphs": {"g": {"poses": {"p": {"base": "wave", "retarget": {"source": "hips", "target": "robot",
+        "pairs": [{"source": "hips", "target": "robot", "moves": true}, ["arm", "robot/arm"]])" +
+                        more + "}}}}}}")
+                     .stage());
+  };
+  const Quat turn = exp_map({0, pi / 2, 0});
+  Stage stage = stage_of(
+      R"(, "turn": {"axis": "y", "angle": 90}, "stance": {"robot/arm": {"rotation": {"axis": "x", "angle": -90}}})");
+  Stage bare = stage_of("");
+  for (const double time : {0.0, 0.3, 0.8}) {
+    stage.seek(time);
+    bare.seek(time);
+    const auto arm = [](Stage& of, std::size_t from) {
+      return Vec3((of.world(from + 1).motion.pose.position - of.world(from).motion.pose.position).normalized());
+    };
+    CHECK(near(arm(stage, 4), Vec3(turn * arm(stage, 1)), 1e-14));
+    CHECK((arm(bare, 4) - arm(bare, 1)).norm() > 0.5);
+  }
+}
+
 TEST_CASE("faults of operations are told with their places") {
   const std::string bones = "\"start\": \"a\", \"middle\": \"b\", \"end\": \"c\"";
   CHECK(reach_faults("{\"two_bone\": {" + bones + ", \"target\": \"d\"}}").empty());
@@ -136,6 +172,12 @@ TEST_CASE("faults of operations are told with their places") {
   CHECK(tells("{\"mirror\": {\"pairs\": [[\"*.L\", \"*.R\"]]}}", "/graphs/g/poses/p/mirror"));
   CHECK(tells("{\"retarget\": {\"source\": \"a\", \"target\": \"d\", \"pairs\": [[\"x\", \"d\"]]}}",
               "no joint is named \"x\""));
+  const std::string map =
+      "{\"retarget\": {\"source\": \"b\", \"target\": \"d\", \"pairs\": [[\"b\", \"d\"]], \"scale\": 1, ";
+  CHECK(reach_faults(map + "\"stance\": {\"c\": {\"rotation\": {\"axis\": \"x\", \"angle\": 10}}}}}").empty());
+  CHECK(tells(map + "\"stance\": {\"c\": {\"position\": [0, 1, 0], \"scale\": 2}}}}", "\"scale\""));
+  CHECK(tells(map + "\"stance\": {\"e\": {}}}}", "there is no node \"e\""));
+  CHECK(tells(map + "\"stance\": {\"a\": {}}}}", "\"a\" belongs to neither figure, \"b\" or \"d\""));
   CHECK(tells("{\"spring\": {\"node\": \"b\"}}", "neither a position nor a rotation"));
   CHECK(tells("{\"spring\": {\"node\": \"b\", \"rotation\": {\"gravity\": [0, 1, 0]}}}", "\"gravity\""));
   CHECK(tells("{\"jiggle\": {\"joints\": [\"a\"]}}", "it has 1 joint; it needs two, or one and a tip"));

@@ -8,6 +8,7 @@
 #include <tweenfall/anim/retarget.h>
 #include <tweenfall/anim/root_motion.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,13 @@ struct MirrorPose {
   GraphNumber weight = 1.0;
 };
 
+/// How a node stands where two figures stand alike; what is absent is as at rest.
+struct RetargetStance {
+  std::string node;
+  std::optional<Vec3> position{};
+  std::optional<Quat> rotation{};
+};
+
 /// A figure takes over what another one does, as `Retarget`. A figure is a node and all below it.
 struct RetargetPose {
   std::string base{};
@@ -30,6 +38,8 @@ struct RetargetPose {
   double scale = 0;  ///< of ways; 0: the ratio of the hip heights
   Vec3 up{0, 1, 0};  ///< in the space of the source's parent
   GraphNumber weight = 1.0;
+  Quat turn{1, 0, 0, 0};                 ///< from the space of the source's parent to that of the target's
+  std::vector<RetargetStance> stance{};  ///< of nodes of either figure, each once; the others stand as at rest
 };
 
 /// What carries a figure through the world is taken out of its pose, as by `RootMotion`, and carries another node, or

@@ -60,6 +60,24 @@ const Form* map_form(FormStore& store, const ValueForms& values) {
   return store.add(list_of(pair, "a list of pairs of joints"));
 }
 
+const Table<RetargetStance>& stance_table() {
+  using Stance = RetargetStance;
+  const auto position = [](const json::Value& value, Stance& stance, Building&) { stance.position = vector_of(value); };
+  const auto rotation = [](const json::Value& value, Stance& stance, Building& building) {
+    fields::take(value, stance.rotation.emplace(1, 0, 0, 0), building);
+  };
+  static const Table<Stance> table("a stance",
+                                   {{"position", &ValueForms::vector, "relative to the parent, m", {position}},
+                                    {"rotation", &ValueForms::rotation, "", {rotation}}});
+  return table;
+}
+
+const Form* stances_form(FormStore& store, const ValueForms& values) {
+  Form stance = stance_table().listing_form(store, values);
+  stance.on_one_line = true;
+  return store.add(map_of(store.add(std::move(stance)), "an object with stances by names of nodes"));
+}
+
 const Table<RetargetPose>& retarget_table() {
   using Pose = RetargetPose;
   const auto pairs = [](const json::Value& value, Pose& pose, Building& building) {
@@ -71,6 +89,14 @@ const Table<RetargetPose>& retarget_table() {
       pose.pairs.push_back(std::move(pair));
     }
   };
+  const auto stances = [](const json::Value& value, Pose& pose, Building& building) {
+    for (const json::Member& member : value.members()) {
+      if (is_free_name(member.name) || !member.value.is(Kind::object)) continue;
+      RetargetStance stance{std::string(member.name)};
+      stance_table().read(member.value, stance, building);
+      pose.stance.push_back(std::move(stance));
+    }
+  };
   static const Table<Pose> table(
       "a retarget",
       {{"source", &ValueForms::name, "the figure that is followed: a node and all below", member<Pose>(&Pose::source),
@@ -79,6 +105,12 @@ const Table<RetargetPose>& retarget_table() {
        {"pairs", map_form, "joints of the one and the other, by names or patterns", {pairs}, true},
        {"scale", &ValueForms::positive, "of ways; absent: the ratio of the hip heights", member<Pose>(&Pose::scale)},
        axis_row<Pose>("up", "along which heights are measured; absent: y", &Pose::up),
+       {"turn", &ValueForms::rotation, "from the space of the source's parent to that of the target's",
+        member<Pose>(&Pose::turn)},
+       {"stance",
+        stances_form,
+        "local poses of nodes of either figure in which both stand alike; absent: at rest",
+        {stances}},
        weight_row<Pose>()});
   return table;
 }
