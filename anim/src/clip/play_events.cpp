@@ -183,6 +183,7 @@ void Player::visit_events(const Clip& clip, double from, double to, bool from_st
       }
     };
     life.visit_stretches(from, to, std::min(last, life.stopped), [&](const clips::Stretch& stretch) {
+      if (stretch.first && stretch.from >= last) return true;  // changed at that instant: the next one begins to move
       if (stretch.first && life.over() > stretch.from)
         tell_open(stretch.phase_from, stretch.from, FiredEvent::Kind::begin);
       const clips::StretchWalk walk(rounds, clip, index, stretch);
@@ -203,8 +204,7 @@ void Player::visit_events(const Clip& clip, double from, double to, bool from_st
     });
     // What is open when it is over ends then.
     const double over = life.over();
-    const bool ends_here = over > life.since || (over == life.since && over == life.stopped && over < life.end);
-    if (goes_on && ends_here && over <= last && over >= from && over <= to && life.has_moved(over))
+    if (goes_on && over > life.since && over <= last && over >= from && over <= to && life.has_moved(over))
       tell_open(life.held_phase(over), over, FiredEvent::Kind::end);
   }
 }

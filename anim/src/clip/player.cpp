@@ -177,7 +177,7 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
   next->before = latest_;
   next->since = time;
   next->told.clear();
-  const bool runs = time > old.begin() && !(time >= old.over());
+  const bool runs = time < old.over();
   next->moved = old.has_moved(time);
 
   const auto fade_to = [&](double weight, double seconds, const std::optional<Ease>& ease) {
@@ -193,7 +193,7 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
     next->weight_from = time;
     next->fades_in = false;
   };
-  // Of intervals, those that are left and entered when the clock is elsewhere at once.
+  // Of intervals, those that are left and entered when the clock is elsewhere at once, or over.
   const auto tell_leap = [&](std::size_t clip_index) {
     const double before_phase = old.held_phase(time), after_phase = next->held_phase(time);
     const auto before = runs && old.has_moved(time) ? clips::open_intervals(old.rounds, clip, before_phase)
@@ -221,6 +221,7 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                    if (time >= old.stopped) return;
                    if (stop.seconds != 0) fade_to(0, stop.seconds, stop.ease);
                    next->stopped = time + stop.seconds;
+                   tell_leap(old.play.clip);
                  },
                  [&](const playing::FadeTo& fade) {
                    if (!(fade.weight >= 0 && fade.weight <= 1))
@@ -248,6 +249,7 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                    next->speed_from = origin;
                    next->set_origin(origin, at_phase);
                    next->find_end();
+                   tell_leap(old.play.clip);
                  },
                  [&](const playing::Seek& seek) {
                    clips::require_seconds(seek.fade);

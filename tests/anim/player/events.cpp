@@ -58,6 +58,46 @@ TEST_CASE("however time is cut, at events and one ulp beside them too, the same 
   CHECK(fired > 3000);
 }
 
+TEST_CASE("whatever is asked of a play, at one instant, before its start and after its end, intervals stay in pairs") {
+  Random random(31);
+  for (int i = 0; i < 1500; ++i) {
+    CAPTURE(i);
+    const Clip clip = clip_with_events(random.between(0.3, 2));
+    Play play = random_play(random, clip);
+    play.at = random.bits() % 2 ? 0 : 1.5;
+    Player player(play, clip);
+    double time = 0;
+    for (int asked = 0; asked < 8; ++asked) {
+      if (random.bits() % 2) time += random.between(0, random.bits() % 3 ? 1.5 : 9);
+      player = randomly_changed(random, player, clip, time);
+    }
+    std::map<std::string, bool> open;
+    const std::vector<FiredEvent> whole = player.events_between(clip, 0, 30, true);
+    CAPTURE(all_told(whole));
+    for (const FiredEvent& event : whole) {
+      if (event.kind == FiredEvent::Kind::moment) continue;
+      const bool begins = event.kind == FiredEvent::Kind::begin;
+      CAPTURE(event.name);
+      CAPTURE(event.time);
+      REQUIRE(open[event.name] != begins);
+      open[event.name] = begins;
+    }
+    if (player.end() < 30) {
+      for (const auto& [name, is_open] : open) REQUIRE_FALSE(is_open);
+    }
+  }
+}
+
+TEST_CASE("a play that is started and changed at one instant fires what it starts on once") {
+  const Clip clip = clip_with_events(2);
+  const Player begun =
+      Player({.at = 1}, clip).changed(clip, 1, playing::FadeTo{.weight = 0.5}).changed(clip, 1, playing::SetSpeed{});
+  CHECK(all_told(begun.events_between(clip, 0, 1.1, true)) == "1:start\n");
+  const Player again = begun.changed(clip, 2.3, playing::Start{}).changed(clip, 2.3, playing::Weigh{});
+  CHECK(all_told(again.events_between(clip, 2.2, 2.4)) ==
+        "2.2999999999999998:loud)\n2.2999999999999998:late)\n2.2999999999999998:start\n");
+}
+
 TEST_CASE("an event fires as often as the clock passes it, and then it is there") {
   Random random(17);
   for (int i = 0; i < 400; ++i) {

@@ -83,6 +83,28 @@ inline Player random_player(Random& random, const Clip& clip) {
   return player;
 }
 
+/// Asked for anything at a time.
+inline Player randomly_changed(Random& random, const Player& player, const Clip& clip, double time) {
+  const double from = player.play().from, to = player.play().to.value_or(clip.duration);
+  switch (random.bits() % 8) {
+    case 0:
+      return player.changed(clip, time, playing::Start{});
+    case 1:
+      return player.changed(clip, time, playing::Stop{.seconds = random.bits() % 2 ? 0.3 : 0});
+    case 2:
+      return player.changed(clip, time, playing::FadeTo{.weight = random.between(0, 1), .seconds = 0.4});
+    case 3:
+      return player.changed(clip, time, playing::Weigh{{{0, random.between(0, 1)}}});
+    case 4:
+      return player.changed(clip, time, playing::SetSpeed{.speed = random_speed(random)});
+    case 5:
+      return player.changed(clip, time, playing::SetSpeed{.speed = {{0, random.between(-2, 2)}}, .seconds = 0.5});
+    default:
+      const double wanted = random.between(from, to);
+      return player.changed(clip, time, playing::Seek{.time = wanted, .events = random.bits() % 2 == 0});
+  }
+}
+
 inline std::string all_told(const std::vector<FiredEvent>& events) {
   std::string text;
   for (const FiredEvent& event : events) {
