@@ -29,6 +29,7 @@ class Solve {
   }
 
   bool stretch() noexcept;
+  void untwist() noexcept;
   void bend() noexcept;
   void reach_forward_and_backward() noexcept;
   void descend() noexcept;
@@ -47,6 +48,7 @@ class Solve {
   Dual length_[room];
   Turning between_[room];            // from the own axes of the joint before to those of the parent
   Turning fixed_[room];              // rest rotation
+  Turning first_[room];              // the turns that the pose has
   Turning turn_[room];               // from rest, in the axes of the rest pose
   Turning outer_[room], own_[room];  // of the rest pose and of the joint, in the space in which all stand
   Arrow at_[room + 1];               // joints and the end
@@ -68,7 +70,7 @@ Solve::Solve(const JointChain& chain, std::span<const Motion> pose, const Arrow&
       between_[i + 1] = rotation_of(carrier);
       scale = componentwise(scale, scale_of(carrier));
     }
-    turn_[i] = within_limits(joint(i), inverse(fixed_[i]) * rotation_of(pose[node]));
+    turn_[i] = first_[i] = within_limits(joint(i), inverse(fixed_[i]) * rotation_of(pose[node]));
   }
   at_[0] = position_of(pose[joint(0).node]);
   place(0);
@@ -98,6 +100,16 @@ bool Solve::stretch() noexcept {
   }
   for (std::size_t i = 0; i < count_; ++i) aim(i, at_[i + 1] - at_[i], far || i == longest ? along : -along);
   return true;
+}
+
+// Bones where they are, but by the shortest turns from the pose, as a stretch turns them: no twist is left that came on
+// the way, and none comes or goes at once where the target leaves what can be reached.
+void Solve::untwist() noexcept {
+  Arrow bones[room];
+  for (std::size_t i = 0; i < count_; ++i) bones[i] = at_[i + 1] - at_[i];
+  std::copy(first_, first_ + count_, turn_);
+  place(0);
+  for (std::size_t i = 0; i < count_; ++i) aim(i, at_[i + 1] - at_[i], bones[i]);
 }
 
 // Bends every joint a little, the more the farther the target is from the end: a chain that lies straight on the line
@@ -285,6 +297,7 @@ void Solve::run() noexcept {
       for (int i = 0; i < 8; ++i) reach_forward_and_backward();
       there = refine(many);
     }
+    untwist();
     return;
   }
   if (attempt(many)) return;

@@ -244,6 +244,36 @@ TEST_CASE("no two close frames of a joint chain differ much while its target goe
   }
 }
 
+TEST_CASE("bones of a joint chain do not twist at once where the target leaves what can be reached") {
+  Random random(5);
+  for (const ChainMethod method : {ChainMethod::fabrik, ChainMethod::ccd})
+    for (const std::size_t joints : {3U, 4U, 6U, 8U}) {
+      const Hierarchy nodes = odd_chain(random, joints);
+      const JointChain chain(nodes, links(joints, method));
+      const std::vector<Motion> before = SwingingPose(random, nodes, 0.1, 1).at(1);
+      double length = 0, longest = 0;
+      const auto places = [&](const std::vector<Motion>& pose, std::size_t i) {
+        return world_of_node(nodes, i, pose).motion.pose.position;
+      };
+      for (std::size_t i = 0; i + 1 < joints; ++i) {
+        const double bone = (places(before, i + 1) - places(before, i)).norm();
+        length += bone;
+        longest = std::max(longest, bone);
+      }
+      const Vec3 ahead = random.vector(1).normalized();
+      std::vector<double> limits{length};
+      if (2 * longest > length) limits.push_back(2 * longest - length);
+      for (const double limit : limits) {
+        std::vector<Motion> inside = before, outside = before;
+        const double hair = (limit == length ? 1e-12 : -1e-12) * length;
+        reach(chain, still(places(before, 0) + (limit - hair) * ahead), wholly, inside);
+        reach(chain, still(places(before, 0) + (limit + hair) * ahead), wholly, outside);
+        // A chain straightens as the root of what lacks.
+        CHECK(difference_of(inside, outside) < 1e-4);
+      }
+    }
+}
+
 TEST_CASE("solving a joint chain twice gives the same bits, and without weight the pose's own") {
   Random random(7);
   const Hierarchy nodes = odd_chain(random, 6);
