@@ -184,6 +184,22 @@ TEST_CASE("in a plane balls that resist rolling stop after v^2 / 2a, and stay on
   CHECK(std::abs(motion_of(stage, "held").pose.position.x() + 3.0248759297552505) < 1e-3);
 }
 
+TEST_CASE("in a plane a pinion turns a wheel back by its teeth, and two on a rope move as Atwood's do") {
+  Stage stage = actors_lecture("plane/gears");
+  // Balls of 2/5 m r^2; the pinion feels the wheel by the ratio's square.
+  const double moment = 0.4 * (1 * 0.09 + 0.25 * 4 * 0.36), fall = g / 5;
+  const auto spin = [&](const char* node) { return stage.twist(stage.node(node)).angular.z(); };
+  stage.advance_to(0.2);
+  CHECK(near(spin("pinion"), 2 / moment * 0.2, 1e-6));
+  stage.advance_to(1);
+  CHECK(near(spin("pinion"), pi, 1e-6));
+  CHECK(near(spin("wheel"), -pi / 2, 1e-6));
+  CHECK(near(stage.joint("teeth")->position[1], -0.5 * stage.joint("teeth")->position[0], 1e-4));
+  CHECK(near(stage.twist(stage.node("heavy")).linear, Vec3(0, -fall, 0), 1e-6));
+  CHECK(near(stage.twist(stage.node("light")).linear, Vec3(0, fall, 0), 1e-6));
+  CHECK(near(stage.joint("rope")->force, Vec3(0, 3 * (g - fall), 0), 1e-3));
+}
+
 TEST_CASE("a machine in a plane: its mill turns as its motor says, its rod and weld hold, and nothing leaves it") {
   Stage stage = actors_lecture("plane/machine");
   for (int frame = 1; frame <= 30; ++frame) {

@@ -29,22 +29,35 @@ struct InPlane {
     require_upright("a slider");
     if (!lies_in(axes, settings.frame_a.rotation * Vec3(1, 0, 0))) refuse_joint("the axis of a slider lies in it");
   }
-  void operator()(const HingeJoint&) const {
-    for (const Pose* const frame : {&settings.frame_a, &settings.frame_b})
-      if (!turns_in(axes, frame->rotation * Vec3(1, 0, 0))) refuse_joint("the axis of a hinge stands upright on it");
+  void operator()(const HingeJoint&) const { require_axes_upright("the axis of a hinge stands"); }
+  void operator()(const GearJoint&) const { require_axes_upright("the axes of a gear stand"); }
+  void operator()(const PulleyJoint& pulley) const {
+    if (!lies_in(axes, pulley.pulley_a) || !lies_in(axes, pulley.pulley_b)) refuse_joint("both pulleys must lie in it");
   }
   void operator()(const DistanceJoint&) const {}
   void operator()(const SpringJoint&) const {}
   template <class Kind>
   void operator()(const Kind&) const {
-    refuse_joint("joints are balls, hinges, sliders, welds, distances and springs; no others");
+    refuse_joint("joints are balls, hinges, sliders, welds, distances, springs, pulleys and gears; no others");
   }
 
+  void require_axes_upright(const std::string& what) const {
+    for (const Pose* const frame : {&settings.frame_a, &settings.frame_b})
+      if (!turns_in(axes, frame->rotation * Vec3(1, 0, 0))) refuse_joint(what + " upright on it");
+  }
   void require_upright(const std::string& what) const {
     const Quat between = settings.frame_a.rotation * settings.frame_b.rotation.conjugate();
     if (!turns_in(axes, between.vec())) refuse_joint(what + " must not tilt its bodies");
   }
 };
+
+/// Whether a turn of the plane is one about a wheel's own axis, or one back.
+struct GearSigns {
+  double a = 1, b = 1;
+};
+GearSigns signs_of(const Axes& axes, const joints::Placement& at) {
+  return {axes.sign * std::copysign(1.0, at.x_a()[axes.normal]), axes.sign * std::copysign(1.0, at.x_b()[axes.normal])};
+}
 
 }  // namespace
 
@@ -78,6 +91,11 @@ planar::JointSettings Flat::joint_in_plane(const state::WorldState& world, const
     out.kind = planar::Distance{distance->limits};
   } else if (const auto* const spring = std::get_if<SpringJoint>(&its.kind)) {
     out.kind = planar::Spring{spring->length, spring->stiffness, spring->damping};
+  } else if (const auto* const pulley = std::get_if<PulleyJoint>(&its.kind)) {
+    out.kind = planar::Pulley{axes.flat(pulley->pulley_a), axes.flat(pulley->pulley_b), pulley->ratio, pulley->length};
+  } else if (const auto* const gear = std::get_if<GearJoint>(&its.kind)) {
+    const GearSigns signs = signs_of(axes, at);
+    out.kind = planar::Gear{gear->ratio * signs.a * signs.b, signs.a * joint.angles[0], signs.b * joint.angles[1]};
   } else if (const auto* const slider = std::get_if<SliderJoint>(&its.kind)) {
     out.kind =
         planar::Slider{axes.flat(its.frame_a.rotation * Vec3(1, 0, 0)), matched(), slider->limits, slider->motor};
@@ -123,8 +141,14 @@ void Flat::hand_back_joints(state::WorldState& world, double dt) const {
     const planar::JointReading reading = world_.reading(links_[i].id);
     joint.force = axes.space(reading.impulse) / dt;
     joint.torque = axes.space(reading.angular_impulse) / dt;
-    if (const auto* const hinge = std::get_if<HingeJoint>(&joint.settings.kind))
-      joint.angles[0] = joints::coordinates_of(*hinge, joint, joints::placement_in(joint, world.bodies)).position[0];
+    const joints::Placement at = joints::placement_in(joint, world.bodies);
+    if (const auto* const hinge = std::get_if<HingeJoint>(&joint.settings.kind)) {
+      joint.angles[0] = joints::coordinates_of(*hinge, joint, at).position[0];
+    } else if (std::holds_alternative<GearJoint>(joint.settings.kind)) {
+      const GearSigns signs = signs_of(axes, at);
+      joint.angles[0] = signs.a * reading.turned_a;
+      joint.angles[1] = signs.b * reading.value;
+    }
   }
 }
 

@@ -124,6 +124,9 @@ struct Cut {
       throw std::invalid_argument("the world's plane cuts a polygon of more than 64 corners out of this hull");
     return {planar::Polygon{std::move(corners_around)}, Vec2(0, 0), 0};
   }
+  planar::Shape operator()(const Compound&) const {
+    throw std::invalid_argument("in a plane a body cannot be a compound: weld a body for each of its parts together");
+  }
   template <class Other>
   planar::Shape operator()(const Other& other) const {
     throw std::invalid_argument(std::string("in a plane a body cannot be ") + kind_name(other));

@@ -87,6 +87,7 @@ struct Joint {
   // Impulses of the last sub-step: of what holds, in order, and of what moves the coordinate or bounds it
   std::array<double, most_held> held{};
   double motor = 0, lower = 0, upper = 0;
+  double turned_a = 0, turned_b = 0;  ///< of a gear: what its wheels have turned, rad
   // Of the last step in which an end moved, on b
   Vec2 total{0, 0};
   double total_turn = 0;  ///< about its point

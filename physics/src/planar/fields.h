@@ -114,6 +114,16 @@ void each_field(T& spring, const Visit& visit) {
   auto& [length, stiffness, damping] = spring;
   visit(length, stiffness, damping);
 }
+template <Is<Pulley> T, class Visit>
+void each_field(T& pulley, const Visit& visit) {
+  auto& [pulley_a, pulley_b, ratio, length] = pulley;
+  visit(pulley_a, pulley_b, ratio, length);
+}
+template <Is<Gear> T, class Visit>
+void each_field(T& gear, const Visit& visit) {
+  auto& [ratio, turned_a, turned_b] = gear;
+  visit(ratio, turned_a, turned_b);
+}
 template <Is<JointSettings> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
   auto& [a, b, anchor_a, anchor_b, kind, collide] = joint;
@@ -121,8 +131,8 @@ void each_field(T& joint, const Visit& visit) {
 }
 template <Is<Joint> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
-  auto& [alive, generation, settings, held, motor, lower, upper, total, total_turn] = joint;
-  visit(alive, generation, settings, held, motor, lower, upper, total, total_turn);
+  auto& [alive, generation, settings, held, motor, lower, upper, turned_a, turned_b, total, total_turn] = joint;
+  visit(alive, generation, settings, held, motor, lower, upper, turned_a, turned_b, total, total_turn);
 }
 template <Is<ContactPoint> T, class Visit>
 void each_field(T& point, const Visit& visit) {

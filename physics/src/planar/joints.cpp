@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace tweenfall::planar::inner {
@@ -61,22 +62,23 @@ JointRows::JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>&
 }
 
 double JointRows::coupling(const Row& row, const Line& one, const Line& other) {
-  return (row.inverse_mass_a + row.inverse_mass_b) * one.along.dot(other.along) +
+  return row.inverse_mass_a * one.along_a.dot(other.along_a) + row.inverse_mass_b * one.along_b.dot(other.along_b) +
          row.inverse_moment_a * one.turn_a * other.turn_a + row.inverse_moment_b * one.turn_b * other.turn_b;
 }
 
 double JointRows::speed_of(const Row& row, const Line& line, const std::vector<BodyRow>& velocities) {
   const BodyRow &a = velocities[row.a], &b = velocities[row.b];
-  return line.along.x() * (b.x - a.x) + line.along.y() * (b.y - a.y) + line.turn_b * b.turn - line.turn_a * a.turn;
+  return (line.along_b.x() * b.x - line.along_a.x() * a.x) + (line.along_b.y() * b.y - line.along_a.y() * a.y) +
+         line.turn_b * b.turn - line.turn_a * a.turn;
 }
 
 void JointRows::push(const Row& row, const Line& line, double impulse, std::vector<BodyRow>& velocities) {
   BodyRow &a = velocities[row.a], &b = velocities[row.b];
-  a.x -= row.inverse_mass_a * impulse * line.along.x();
-  a.y -= row.inverse_mass_a * impulse * line.along.y();
+  a.x -= row.inverse_mass_a * impulse * line.along_a.x();
+  a.y -= row.inverse_mass_a * impulse * line.along_a.y();
   a.turn -= row.inverse_moment_a * impulse * line.turn_a;
-  b.x += row.inverse_mass_b * impulse * line.along.x();
-  b.y += row.inverse_mass_b * impulse * line.along.y();
+  b.x += row.inverse_mass_b * impulse * line.along_b.x();
+  b.y += row.inverse_mass_b * impulse * line.along_b.y();
   b.turn += row.inverse_moment_b * impulse * line.turn_b;
 }
 
@@ -88,7 +90,10 @@ void JointRows::place(Row& row, const std::vector<BodyRow>& displacements) const
   row.arm_b = its.b == BodyId{} ? Vec2(0, 0) : Turn::of(row.angle_b + moved_b.turn) * row.local_b;
   row.apart =
       (row.center_b - row.center_a) + Vec2(moved_b.x - moved_a.x, moved_b.y - moved_a.y) + (row.arm_b - row.arm_a);
+  row.point_a = row.center_a + Vec2(moved_a.x, moved_a.y) + row.arm_a;
   row.turned = (row.angle_b - row.angle_a) + (moved_b.turn - moved_a.turn);
+  row.moved_a = moved_a.turn;
+  row.moved_b = moved_b.turn;
   row.count = 0;
 }
 
@@ -99,20 +104,20 @@ void JointRows::hold(Row& row, const Line& line, double off) const {
 }
 
 void JointRows::hold_point(Row& row) const {
-  hold(row, {Vec2(1, 0), -row.arm_a.y(), -row.arm_b.y()}, row.apart.x());
-  hold(row, {Vec2(0, 1), row.arm_a.x(), row.arm_b.x()}, row.apart.y());
+  hold(row, Line::apart(Vec2(1, 0), -row.arm_a.y(), -row.arm_b.y()), row.apart.x());
+  hold(row, Line::apart(Vec2(0, 1), row.arm_a.x(), row.arm_b.x()), row.apart.y());
 }
 
 void JointRows::lay_out(Row& row, const Hinge&) const {
   hold_point(row);
-  row.way = {Vec2(0, 0), 1, 1};
+  row.way = Line::turning(1, 1);
   row.position = row.turned;
   weigh(row, true);
 }
 
 void JointRows::lay_out(Row& row, const Weld& weld) const {
   hold_point(row);
-  hold(row, {Vec2(0, 0), 1, 1}, row.turned - weld.angle);
+  hold(row, Line::turning(1, 1), row.turned - weld.angle);
   weigh(row, false);
 }
 
@@ -127,7 +132,7 @@ void JointRows::lay_out(Row& row, const Spring&) const {
 void JointRows::lay_out_distance(Row& row) const {
   row.position = row.apart.norm();
   const Vec2 along = row.position > 0 ? Vec2(row.apart / row.position) : Vec2(1, 0);
-  row.way = {along, cross(row.arm_a, along), cross(row.arm_b, along)};
+  row.way = Line::apart(along, cross(row.arm_a, along), cross(row.arm_b, along));
   weigh(row, true);
 }
 
@@ -135,11 +140,29 @@ void JointRows::lay_out(Row& row, const Slider& slider) const {
   const Vec2 along = Turn::of(row.turned_a) * slider.axis.normalized(), across = quarter(along);
   // The line is fixed to a: a turn of a moves it where b is.
   const Vec2 arm = row.arm_a + row.apart;
-  hold(row, {across, cross(arm, across), cross(row.arm_b, across)}, across.dot(row.apart));
-  hold(row, {Vec2(0, 0), 1, 1}, row.turned - slider.angle);
-  row.way = {along, cross(arm, along), cross(row.arm_b, along)};
+  hold(row, Line::apart(across, cross(arm, across), cross(row.arm_b, across)), across.dot(row.apart));
+  hold(row, Line::turning(1, 1), row.turned - slider.angle);
+  row.way = Line::apart(along, cross(arm, along), cross(row.arm_b, along));
   row.position = along.dot(row.apart);
   weigh(row, true);
+}
+
+void JointRows::lay_out(Row& row, const Pulley& pulley) const {
+  const Vec2 rope_a = row.point_a - pulley.pulley_a, rope_b = row.point_a + row.apart - pulley.pulley_b;
+  // A rope without length leads down.
+  const auto away = [](const Vec2& rope, double length) { return length > 0 ? Vec2(rope / length) : Vec2(0, -1); };
+  const double length_a = rope_a.norm(), length_b = rope_b.norm();
+  const Vec2 along_a = -away(rope_a, length_a), along_b = pulley.ratio * away(rope_b, length_b);
+  row.way = {along_a, along_b, cross(row.arm_a, along_a), cross(row.arm_b, along_b)};
+  row.position = length_a + pulley.ratio * length_b;
+  weigh(row, true);
+}
+
+void JointRows::lay_out(Row& row, const Gear& gear) const {
+  const Joint& joint = *row.joint;
+  hold(row, Line::turning(-gear.ratio, 1),
+       gear.ratio * (joint.turned_a + row.moved_a) + (joint.turned_b + row.moved_b));
+  weigh(row, false);
 }
 
 /// The factor of what is held, and what it leaves of the way.
@@ -282,6 +305,8 @@ void JointRows::solve(std::vector<BodyRow>& velocities, bool soft) {
     if (const auto* const slider = std::get_if<Slider>(&kind)) move(*slider);
     if (const auto* const distance = std::get_if<Distance>(&kind)) bound(row, distance->limits, velocities, soft);
     if (const auto* const spring = std::get_if<Spring>(&kind)) pull(row, *spring, velocities);
+    if (const auto* const pulley = std::get_if<Pulley>(&kind))
+      bound(row, {-std::numeric_limits<double>::infinity(), *pulley->length}, velocities, soft);
   }
 }
 
@@ -290,11 +315,19 @@ void JointRows::end_sub_step() {
     Joint& joint = *row.joint;
     // Forces act at b's point: about that they turn nothing.
     const auto add = [&](const Line& line, double impulse) {
-      joint.total += impulse * line.along;
-      if (line.along == Vec2::Zero()) joint.total_turn += impulse * line.turn_b;
+      joint.total += impulse * line.along_b;
+      if (line.along_b == Vec2::Zero()) joint.total_turn += impulse * line.turn_b;
     };
     for (std::size_t i = 0; i < row.count; ++i) add(row.held[i], joint.held[i]);
     add(row.way, joint.motor + joint.lower - joint.upper);
+  }
+}
+
+void JointRows::end_step(const std::vector<BodyRow>& displacements) {
+  for (Row& row : rows_) {
+    if (!std::holds_alternative<Gear>(row.joint->settings.kind)) continue;
+    row.joint->turned_a += displacements[row.a].turn;
+    row.joint->turned_b += displacements[row.b].turn;
   }
 }
 

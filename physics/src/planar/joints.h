@@ -9,10 +9,17 @@
 
 namespace tweenfall::planar::inner {
 
-/// What a row of a joint sees and moves: speed = along . (v_b - v_a) + turn_b w_b - turn_a w_a.
+/// What a row of a joint sees and moves: speed = along_b . v_b - along_a . v_a + turn_b w_b - turn_a w_a.
 struct Line {
-  Vec2 along{0, 0};
+  Vec2 along_a{0, 0}, along_b{0, 0};
   double turn_a = 0, turn_b = 0;
+
+  /// Two points along one line.
+  [[nodiscard]] static Line apart(const Vec2& along, double turn_a, double turn_b) {
+    return {along, along, turn_a, turn_b};
+  }
+  /// Of angles alone.
+  [[nodiscard]] static Line turning(double turn_a, double turn_b) { return {Vec2(0, 0), Vec2(0, 0), turn_a, turn_b}; }
 };
 
 /// Joints through a step, one after the other. What a joint holds is solved at once; what drives and bounds its
@@ -26,6 +33,7 @@ class JointRows {
   void begin_sub_step(const std::vector<BodyRow>& displacements, std::vector<BodyRow>& velocities);
   void solve(std::vector<BodyRow>& velocities, bool soft);
   void end_sub_step();
+  void end_step(const std::vector<BodyRow>& displacements);
 
  private:
   static constexpr std::size_t most_held = Joint::most_held;
@@ -40,7 +48,9 @@ class JointRows {
     Vec2 local_a{0, 0}, local_b{0, 0};  ///< anchors from the centers of mass, node axes
     // As the bodies lie in the sub-step
     Vec2 arm_a{0, 0}, arm_b{0, 0}, apart{0, 0};
+    Vec2 point_a{0, 0};               ///< world
     double turned_a = 0, turned = 0;  ///< a, and b against a
+    double moved_a = 0, moved_b = 0;  ///< what they turned in the step
     std::size_t count = 0;            ///< of what is held
     std::array<Line, most_held> held{};
     Held off{};                          ///< by how much, m or rad
@@ -59,6 +69,8 @@ class JointRows {
   void lay_out(Row& row, const Slider& slider) const;
   void lay_out(Row& row, const Weld& weld) const;
   void lay_out(Row& row, const Spring& spring) const;
+  void lay_out(Row& row, const Pulley& pulley) const;
+  void lay_out(Row& row, const Gear& gear) const;
   void lay_out_distance(Row& row) const;
   void weigh(Row& row, bool moves) const;
 

@@ -18,7 +18,7 @@ namespace tweenfall::planar {
 namespace inner {
 namespace {
 
-constexpr saving::Envelope envelope{"plane", 3};
+constexpr saving::Envelope envelope{"plane", 4};
 
 template <class T>
 inline constexpr bool is_list = false;
@@ -182,8 +182,10 @@ void World::Implementation::settle_in() {
     for (const BodyId& end : {joint.settings.a, joint.settings.b})
       if (end != BodyId{}) static_cast<void>(at(end));
     expect(inner::all_count({joint.held[0], joint.held[1], joint.held[2], joint.motor, joint.lower, joint.upper,
-                             joint.total.x(), joint.total.y(), joint.total_turn}),
+                             joint.turned_a, joint.turned_b, joint.total.x(), joint.total.y(), joint.total_turn}),
            "a number is not finite");
+    if (const auto* const pulley = std::get_if<Pulley>(&joint.settings.kind))
+      expect(pulley->length.has_value(), "a pulley's rope must have a length");
   }
   expect(inner::in_order(meetings), "its pairs are not in order");
   for (const inner::Meeting& meeting : meetings) {

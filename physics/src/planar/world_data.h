@@ -10,6 +10,16 @@
 
 namespace tweenfall::planar {
 
+namespace inner {
+
+/// Where a joint holds a body, and how that moves.
+struct JointEnd {
+  Vec2 at, velocity;  ///< m, m/s
+  double angle = 0, spin = 0;
+};
+
+}  // namespace inner
+
 struct World::Implementation {
   WorldSettings settings;
   double time = 0;
@@ -50,6 +60,7 @@ struct World::Implementation {
   [[nodiscard]] BodyId handle(std::uint32_t index) const { return {index, makeups[index].generation}; }
   [[nodiscard]] inner::Joint& at(JointId id);
   [[nodiscard]] const inner::Joint& at(JointId id) const;
+  [[nodiscard]] inner::JointEnd end_of(BodyId body, const Vec2& anchor) const;  ///< no body: the world
   [[nodiscard]] Motion motion_of(std::uint32_t index) const;
   void place(std::uint32_t index, const Motion& motion);
   void give_mass(std::uint32_t index);  ///< what of its mass moves

@@ -33,9 +33,31 @@ void check(const Distance& distance) {
 void check(const Spring& spring) {
   joints::validate(SpringJoint{spring.length, spring.stiffness, spring.damping});
 }
+void check(const Pulley& pulley) {
+  const auto in_space = [](const Vec2& point) { return Vec3(point.x(), point.y(), 0); };
+  joints::validate(PulleyJoint{in_space(pulley.pulley_a), in_space(pulley.pulley_b), pulley.ratio, pulley.length});
+}
+void check(const Gear& gear) {
+  joints::validate(GearJoint{gear.ratio});
+  demand_number(gear.turned_a, "what a wheel has turned");
+  demand_number(gear.turned_b, "what a wheel has turned");
+}
 void check_anchor(const Vec2& anchor) {
   demand(std::abs(anchor.x()) <= farthest && std::abs(anchor.y()) <= farthest,
          "anchors of a joint must be finite and at most 1e30 m");
+}
+
+struct Rope {
+  double length = 0, rate = 0;  ///< m, m/s
+};
+Rope rope_over(const Pulley& pulley, const JointEnd& a, const JointEnd& b) {
+  const auto part = [](const JointEnd& end, const Vec2& from) -> Rope {
+    const Vec2 way = end.at - from;
+    const double length = way.norm();
+    return {length, length > 0 ? way.dot(end.velocity) / length : 0};
+  };
+  const Rope at_a = part(a, pulley.pulley_a), at_b = part(b, pulley.pulley_b);
+  return {at_a.length + pulley.ratio * at_b.length, at_a.rate + pulley.ratio * at_b.rate};
 }
 
 }  // namespace
@@ -51,6 +73,13 @@ void validate_joint(const JointSettings& joint) {
 
 using inner::Body;
 using inner::Joint;
+
+inner::JointEnd World::Implementation::end_of(BodyId body, const Vec2& anchor) const {
+  if (body == BodyId{}) return {anchor, Vec2(0, 0), 0, 0};
+  const Body& its = bodies[body.index];
+  const Vec2 arm = its.turn * Vec2(anchor - makeups[body.index].mass.center);
+  return {its.center + arm, its.velocity_at(arm), its.angle, its.spin};
+}
 
 JointId World::add_joint(const JointSettings& settings) {
   Implementation& world = *implementation_;
@@ -70,6 +99,14 @@ JointId World::add_joint(const JointSettings& settings) {
   world.joints[index].alive = true;
   world.joints[index].generation = generation;
   world.joints[index].settings = settings;
+  if (const auto* const gear = std::get_if<Gear>(&settings.kind)) {
+    world.joints[index].turned_a = gear->turned_a;
+    world.joints[index].turned_b = gear->turned_b;
+  }
+  if (auto* const pulley = std::get_if<Pulley>(&world.joints[index].settings.kind); pulley && !pulley->length)
+    pulley->length = inner::rope_over(*pulley, world.end_of(settings.a, settings.anchor_a),
+                                      world.end_of(settings.b, settings.anchor_b))
+                         .length;
   for (const BodyId& end : {settings.a, settings.b}) {
     if (end == BodyId{}) continue;
     world.wake_neighbors(end.index);
@@ -107,17 +144,8 @@ const JointSettings& World::joint(JointId id) const {
 JointReading World::reading(JointId id) const {
   const Implementation& world = *implementation_;
   const Joint& joint = world.at(id);
-  struct End {
-    Vec2 at, velocity;
-    double angle, spin;
-  };
-  const auto end = [&](const BodyId& body, const Vec2& anchor) -> End {
-    if (body == BodyId{}) return {anchor, Vec2(0, 0), 0, 0};
-    const Body& its = world.bodies[body.index];
-    const Vec2 arm = its.turn * Vec2(anchor - world.makeups[body.index].mass.center);
-    return {its.center + arm, its.velocity_at(arm), its.angle, its.spin};
-  };
-  const End a = end(joint.settings.a, joint.settings.anchor_a), b = end(joint.settings.b, joint.settings.anchor_b);
+  const inner::JointEnd a = world.end_of(joint.settings.a, joint.settings.anchor_a),
+                        b = world.end_of(joint.settings.b, joint.settings.anchor_b);
   JointReading reading;
   reading.impulse = joint.total;
   reading.angular_impulse = joint.total_turn;
@@ -132,6 +160,15 @@ JointReading World::reading(JointId id) const {
   } else if (std::holds_alternative<Spring>(kind)) {
     reading.value = length;
     reading.rate = length > 0 ? apart.dot(parting) / length : 0;
+  } else if (const auto* const pulley = std::get_if<Pulley>(&kind)) {
+    const inner::Rope rope = inner::rope_over(*pulley, a, b);
+    reading.value = rope.length;
+    reading.rate = rope.rate;
+    reading.gap = std::max(0.0, rope.length - *pulley->length);
+  } else if (std::holds_alternative<Gear>(kind)) {
+    reading.value = joint.turned_b;
+    reading.rate = b.spin;
+    reading.turned_a = joint.turned_a;
   } else if (const auto* const slider = std::get_if<Slider>(&kind)) {
     const Vec2 along = inner::Turn::of(a.angle) * slider->axis.normalized();
     reading.value = along.dot(apart);

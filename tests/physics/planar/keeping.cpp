@@ -39,6 +39,10 @@ planar::World busy_world() {
                    .anchor_a = Vec2(2, 3),
                    .anchor_b = Vec2(0.1, 0),
                    .kind = planar::Hinge{Limits{-2, 2}, Motor{.speed = 1, .max_force = 5}}});
+  world.add_joint({.a = bodies[6],
+                   .b = bodies[7],
+                   .kind = planar::Pulley{.pulley_a = Vec2(1, 6), .pulley_b = Vec2(4, 6), .ratio = 1.5}});
+  world.add_joint({.a = bodies[9], .b = bodies[10], .kind = planar::Gear{-2}});
   world.remove(bodies[20]);
   return world;
 }

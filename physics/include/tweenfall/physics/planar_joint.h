@@ -46,7 +46,22 @@ struct Spring {
   double damping = 0;    ///< N s/m
 };
 
-using JointKind = std::variant<Hinge, Distance, Slider, Weld, Spring>;
+/// A rope from a over two pulleys to b: length at a plus ratio times length at b does not exceed what it is.
+/// Coordinate: that length.
+struct Pulley {
+  Vec2 pulley_a{0, 0}, pulley_b{0, 0};  ///< in the world, m
+  double ratio = 1;                     ///< > 0
+  std::optional<double> length{};       ///< m; absent: as it is when added
+};
+
+/// Two wheels, each on a hinge of its own: b turns by minus `ratio` times what a turns. Coordinate: what b has turned,
+/// by steps alone.
+struct Gear {
+  double ratio = 1;  ///< teeth of a's wheel by those of b's; negative for wheels that turn the same way; not 0
+  double turned_a = 0, turned_b = 0;  ///< what the wheels have turned when the joint is added, rad
+};
+
+using JointKind = std::variant<Hinge, Distance, Slider, Weld, Spring, Pulley, Gear>;
 
 struct JointSettings {
   BodyId a = {};        ///< the default handle means the world

@@ -77,6 +77,7 @@ struct JointReading {
   Vec2 impulse{0, 0};          ///< on b at its anchor, in the last step, N s
   double angular_impulse = 0;  ///< on b about its anchor, N m s
   double gap = 0;              ///< how far apart is what the joint holds together, m
+  double turned_a = 0;         ///< of a gear: what a has turned, rad
 };
 
 /// Bodies in a plane and what acts on them. A copy steps to the same bits as the original. Every call that takes a

@@ -233,6 +233,7 @@ void ContactSolver::solve(Scene scene) {
     resist_rolling();
     joints.end_sub_step();
   }
+  joints.end_step(displacements_);
   store(scene);
   finish(scene);
 }
