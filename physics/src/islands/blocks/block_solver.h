@@ -133,14 +133,17 @@ class BlockSolver {
   void find_rebounds(double h);
   void find_rebounds(const Rows& rows, std::size_t first, double h, std::vector<Rebound>& found);
   void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes);
+  template <class See>
+  void each_rebound(const See& see);
   template <class Contact>
-  void move_by(const Rebound& rebound, const Contact& contact);
+  bool move_by(const Rebound& rebound, const Contact& contact);
   [[nodiscard]] double work_of_driven() const;
   void bound_energy(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads);
 
-  /// Bodies, or contacts, that are worth a part of their own; and blocks.
+  /// Bodies, or contacts, that are worth a part of their own; blocks; and contacts that rebound.
   static constexpr std::size_t worth_a_part = 48;
   static constexpr std::size_t blocks_worth_a_part = 24;
+  static constexpr std::size_t rebounds_worth_a_part = 24;
 
   threads::Workers work_;               ///< within the island that is being solved
   double parts_ = 1;                    ///< the whole step over the length of this one
@@ -157,7 +160,9 @@ class BlockSolver {
   islands::IslandDepth depth_;
   std::vector<std::uint32_t> island_of_;              ///< of bodies_: which of those that are solved now
   std::vector<islands::IslandEnergy> energies_;       ///< of them
+  std::vector<islands::IslandEnergy> even_energies_;  ///< of each body with the same moment about every axis
   std::vector<char> reached_;                         ///< by a rebound
+  std::vector<char> changed_;                         ///< of bodies_: so was its velocity
   std::vector<double> shares_;                        ///< of the rebound, that they let through
   std::vector<contacts::ContactConstraint*> listed_;  ///< contacts of all of them
   std::vector<joints::JointLink*> listed_joints_;     ///< and joints

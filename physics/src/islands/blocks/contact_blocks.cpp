@@ -236,6 +236,14 @@ void ContactBlocks::find_phases() {
   add(false, 0, Coloring::half);
   add(true, Coloring::half, coloring_.end());
   add(false, Coloring::half, coloring_.end());
+  stretches.clear();
+  for (const bool of_balls : {false, true})
+    for (const Phase& phase : phases)
+      if (phase.of_balls == of_balls) {
+        const std::size_t before = of_balls ? blocks.size() : 0;
+        stretches.push_back({static_cast<std::uint32_t>((before + phase.begin) * lane_count),
+                             static_cast<std::uint32_t>((before + phase.end) * lane_count)});
+      }
 }
 
 void ContactBlocks::open(const Makeup& makeup) {

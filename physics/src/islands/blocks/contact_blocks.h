@@ -65,13 +65,17 @@ class ContactBlocks {
   std::vector<MeetingRow> meetings, ball_meetings;
   std::vector<Origin> origins, ball_origins;
 
-  /// Blocks, or balls, of one color, in the order in which they are solved. They share no body that moves, unless they
-  /// found no color.
+  /// Blocks, or balls, of one color, in the order in which they are solved. They share no body that moves.
   struct Phase {
     bool of_balls = false;
     std::size_t begin = 0, end = 0;
   };
   std::vector<Phase> phases;
+  /// The same by their lanes, in the order of these.
+  struct Stretch {
+    std::uint32_t begin = 0, end = 0;
+  };
+  std::vector<Stretch> stretches;
   std::uint32_t room = 0;  ///< of bodies, and after them of what is written and not read
 
  private:

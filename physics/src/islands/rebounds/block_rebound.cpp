@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "islands/blocks/block_solver.h"
 #include "islands/island_energy.h"
@@ -17,6 +18,10 @@ constexpr double quiet = 0.1;
 
 double dot(const double (&a)[4], const double (&b)[4]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+bool same(const BodyLanes& a, const BodyLanes& b) {
+  return std::memcmp(&a, &b, sizeof(BodyLanes)) == 0;
 }
 
 double kinetic(const BodyPace& pace, const BodyLanes& velocity) {
@@ -86,12 +91,14 @@ void BlockSolver::find_rebounds(const Rows& rows, std::size_t first, double h, s
 }
 
 /// See Solver::move_by_rebound.
+/// @return whether the rows of a body must be prepared again
 template <class Contact>
-void BlockSolver::move_by(const Rebound& rebound, const Contact& contact) {
+bool BlockSolver::move_by(const Rebound& rebound, const Contact& contact) {
   const double part = rebound.speed / (rebound.speed - std::min(0.0, rebound.speed_before));
   const double most = contact.mass(rebound.point) * rebound.speed;
   const double own = std::clamp(contact.given(rebound.point) * part, -most, most) * rebound.time;
-  if (own == 0) return;
+  bool stale = false;
+  if (own == 0) return stale;
   const auto move = [&](std::uint32_t place, double by, const Vec3& turn) {
     IslandBody& body = bodies_[place];
     if (!body.movable) return;
@@ -105,12 +112,13 @@ void BlockSolver::move_by(const Rebound& rebound, const Contact& contact) {
     for (int i = 0; i < 3; ++i) displacement.angular[i] += turning[i];
     if (!body.round) body.turned += turning.norm();
     // Its rows are prepared again whether or not another body turns that is solved at the same time.
-    any_stale_ = any_stale_ || body.turned > turned_enough_;
+    stale = stale || body.turned > turned_enough_;
     body.rotation = exp_map(turning) * body.rotation;
     body.rotation.normalize();
   };
   move(contact.a(), -own, contact.turn_a(rebound.point));
   move(contact.b(), own, contact.turn_b(rebound.point));
+  return stale;
 }
 
 /// What moves by its own will does work on what it pushes, J.
@@ -148,31 +156,46 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
   // The work of a surface is not known: the island is left as it is.
   if (conveyed_) return;
   energies_.assign(island_of_.back() + std::size_t{1}, {});
-  // An island in which nothing was reached has what it had.
+  // An island in which nothing was changed has what it had.
   reached_.assign(energies_.size(), 0);
-  for (std::uint32_t i = 1; i < bodies_.size(); ++i)
-    if (paces_[i].movable && reach_.before(i)) reached_[island_of_[i]] = 1;
+  changed_.resize(bodies_.size());
+  each_body([&](std::size_t i) { changed_[i] = paces_[i].movable && !same(reach_.before(i), velocities_[i]); });
+  for (std::size_t i = 1; i < bodies_.size(); ++i)
+    if (changed_[i] != 0) reached_[island_of_[i]] = 1;
+  // Each by itself, and then added up in order.
+  even_energies_.resize(bodies_.size());
+  each_body([&](std::size_t i) {
+    const BodyPace& pace = paces_[i];
+    if (!pace.movable || !pace.even || reached_[island_of_[i]] == 0) return;
+    islands::IslandEnergy& energy = even_energies_[i];
+    const BodyLanes& before = reach_.before(i);
+    double moved[4];
+    for (int k = 0; k < 4; ++k) moved[k] = displacements_[i].linear[k] - sub_starts_[i].lanes[k];
+    energy.limit = kinetic(pace, starts_[i]) + pace.mass * dot(pace.acceleration, moved);
+    energy.without = kinetic(pace, before);
+    energy.slope = energy.curvature = 0;
+    if (changed_[i] == 0) return;
+    BodyLanes change;
+    for (int k = 0; k < 4; ++k) {
+      change.linear[k] = velocities_[i].linear[k] - before.linear[k];
+      change.angular[k] = velocities_[i].angular[k] - before.angular[k];
+    }
+    energy.slope = pace.mass * dot(change.linear, before.linear) + pace.moment * dot(change.angular, before.angular);
+    energy.curvature = kinetic(pace, change);
+  });
   for (std::uint32_t i = 1; i < bodies_.size(); ++i) {
     const BodyPace& pace = paces_[i];
     if (!pace.movable || reached_[island_of_[i]] == 0) continue;
     islands::IslandEnergy& energy = energies_[island_of_[i]];
-    const BodyLanes* reached = reach_.before(i);
-    const BodyLanes& before = reached ? *reached : velocities_[i];
     if (pace.even) {
-      double moved[4];
-      for (int k = 0; k < 4; ++k) moved[k] = displacements_[i].linear[k] - sub_starts_[i].lanes[k];
-      energy.limit += kinetic(pace, starts_[i]) + pace.mass * dot(pace.acceleration, moved);
-      energy.without += kinetic(pace, before);
-      if (!reached) continue;
-      BodyLanes change;
-      for (int k = 0; k < 4; ++k) {
-        change.linear[k] = velocities_[i].linear[k] - before.linear[k];
-        change.angular[k] = velocities_[i].angular[k] - before.angular[k];
-      }
-      energy.slope += pace.mass * dot(change.linear, before.linear) + pace.moment * dot(change.angular, before.angular);
-      energy.curvature += kinetic(pace, change);
+      const islands::IslandEnergy& own = even_energies_[i];
+      energy.limit += own.limit;
+      energy.without += own.without;
+      energy.slope += own.slope;
+      energy.curvature += own.curvature;
       continue;
     }
+    const BodyLanes& before = reach_.before(i);
     const IslandBody& entry = bodies_[i];
     islands::BodyCourse course;
     course.start = {linear_of(starts_[i]), angular_of(starts_[i])};
@@ -197,16 +220,16 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
   shares_.clear();
   shares_.reserve(energies_.size());
   for (const islands::IslandEnergy& energy : energies_) shares_.push_back(energy.share_within());
-  for (std::uint32_t i = 1; i < bodies_.size(); ++i) {
-    const BodyLanes* before = reach_.before(i);
+  each_body([&](std::size_t i) {
     const double share = shares_[island_of_[i]];
-    if (share == 1 || !bodies_[i].movable || !before) continue;
+    if (share == 1 || changed_[i] == 0) return;
+    const BodyLanes& before = reach_.before(i);
     const auto back = [share](double(&lanes)[4], const double(&start)[4]) {
       for (int k = 0; k < 3; ++k) lanes[k] = start[k] + share * (lanes[k] - start[k]);
     };
-    back(velocities_[i].linear, before->linear);
-    back(velocities_[i].angular, before->angular);
-  }
+    back(velocities_[i].linear, before.linear);
+    back(velocities_[i].angular, before.angular);
+  });
   const auto take_back = [this](auto& contact) {
     const double share = shares_[island_of_[bodies_[contact.a()].movable ? contact.a() : contact.b()]];
     if (share != 1) contact.take_back(share);
@@ -215,36 +238,82 @@ void BlockSolver::bound_energy(const std::vector<state::Body>& bodies, const std
   std::ranges::for_each(reach_.balls(), take_back);
 }
 
+/// Calls see(first, behind, part) for parts of the rebounds of one color after the other; those of one contact stay
+/// together.
+template <class See>
+void BlockSolver::each_rebound(const See& see) {
+  std::size_t first = 0;
+  for (const ContactBlocks::Stretch& stretch : contacts_.stretches) {
+    std::size_t behind = first;
+    while (behind < rebounds_.size() && rebounds_[behind].lane < stretch.end) ++behind;
+    const auto whole = [this, first, behind](std::size_t at) {
+      while (at > first && at < behind && rebounds_[at].lane == rebounds_[at - 1].lane) ++at;
+      return at;
+    };
+    work_.numbered_ranges(behind - first, rebounds_worth_a_part,
+                          [&](std::size_t part, std::size_t begin, std::size_t end) {
+                            see(whole(first + begin), whole(first + end), part);
+                          });
+    first = behind;
+  }
+}
+
 void BlockSolver::rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, int passes) {
   const auto pressed = [this](const Rebound& rebound) { return contacts_.impulse(rebound.lane, rebound.point) > 0; };
   if (std::none_of(rebounds_.begin(), rebounds_.end(), pressed)) return;
-  reach_.begin(contacts_, bodies_);
-  const auto reach = [this](std::uint32_t lane, const auto& act) {
-    return reach_.reach(lane, contacts_, bodies_, velocities_, act);
-  };
-  for (Rebound& rebound : rebounds_) {
-    rebound.speed_before = reach(rebound.lane, [&](auto& contact) {
-      contact.want(rebound.point, rebound.speed);
-      return contact.speed(rebound.point, velocities_);
-    });
-    if (pressed(rebound)) reach_.look_at(rebound.lane);
-  }
-  for (int pass = 0; pass < passes; ++pass) {
-    const bool any = reach_.visit([&](std::uint32_t lane) {
-      reach(lane, [&](auto& contact) {
-        // Where it pushes on, the neighbors are to be looked at, too.
-        if (contact.solve(velocities_) > quiet * contact.tremble())
-          for (const std::uint32_t place : {contact.a(), contact.b()})
-            if (bodies_[place].movable) reach_.push(place);
+  const bool shared = work_.threads() > 1;
+  reach_.begin(contacts_, bodies_, velocities_);
+  meetings_.clear();
+  for (const Rebound& rebound : rebounds_)
+    if (meetings_.empty() || meetings_.back() != rebound.lane) meetings_.push_back(rebound.lane);
+  reach_.reach(meetings_);
+  each_rebound([&](std::size_t begin, std::size_t end, std::size_t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Rebound& rebound = rebounds_[i];
+      if (i == begin || rebounds_[i - 1].lane != rebound.lane) reach_.take(rebound.lane, contacts_, bodies_);
+      rebound.speed_before = reach_.with(rebound.lane, [&](auto& contact) {
+        contact.want(rebound.point, rebound.speed);
+        return contact.speed(rebound.point, velocities_);
       });
-      reach_.pass_by(lane);
-    });
+      if (pressed(rebound)) reach_.look_at(rebound.lane, shared);
+    }
+  });
+  // Contacts of one color push no body of each other: they are looked at in any order, or at once.
+  for (int pass = 0; pass < passes; ++pass) {
+    bool any = false;
+    for (const ContactBlocks::Stretch& stretch : contacts_.stretches) {
+      const std::span<const std::uint32_t> due = reach_.due(stretch);
+      if (due.empty()) continue;
+      any = true;
+      reach_.reach(due);
+      work_.ranges(due.size(), rebounds_worth_a_part, [&](std::size_t begin, std::size_t end) {
+        for (const std::uint32_t lane : due.subspan(begin, end - begin)) {
+          reach_.take(lane, contacts_, bodies_);
+          reach_.with(lane, [&](auto& contact) {
+            // Where it pushes on, the neighbors are to be looked at, too.
+            if (contact.solve(velocities_) > quiet * contact.tremble())
+              for (const std::uint32_t place : {contact.a(), contact.b()})
+                if (bodies_[place].movable) reach_.push(place, lane, shared);
+          });
+        }
+      });
+    }
     if (!any) break;
   }
-  for (const Rebound& rebound : rebounds_) reach(rebound.lane, [&](const auto& contact) { move_by(rebound, contact); });
+  stale_.assign(work_.range_count(rebounds_.size(), rebounds_worth_a_part), 0);
+  each_rebound([&](std::size_t begin, std::size_t end, std::size_t part) {
+    for (const Rebound& rebound : std::span(rebounds_).subspan(begin, end - begin))
+      if (reach_.with(rebound.lane, [&](const auto& contact) { return move_by(rebound, contact); })) stale_[part] = 1;
+  });
+  for (const char stale : stale_) any_stale_ = any_stale_ || stale != 0;
   bound_energy(bodies, loads);
-  for (const ReboundContact& contact : reach_.contacts()) contact.put_back(contacts_);
-  for (const ReboundBall& ball : reach_.balls()) ball.put_back(contacts_);
+  const auto put_back = [this](const auto& contacts) {
+    work_.ranges(contacts.size(), rebounds_worth_a_part, [&](std::size_t begin, std::size_t end) {
+      for (const auto& contact : contacts.subspan(begin, end - begin)) contact.put_back(contacts_);
+    });
+  };
+  put_back(reach_.contacts());
+  put_back(reach_.balls());
 }
 
 }  // namespace tweenfall::blocks

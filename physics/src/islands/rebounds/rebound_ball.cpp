@@ -44,8 +44,8 @@ double ReboundBall::solve_friction(BodyLanes& a, BodyLanes& b) {
   friction_ = next;
   push(a, b, change);
   const Vec3 turning = normal_.cross(change);
-  add(a.angular, -spin_a_ * turning);
-  add(b.angular, -spin_b_ * turning);
+  if (inverse_mass_a_ > 0) add(a.angular, -spin_a_ * turning);
+  if (inverse_mass_b_ > 0) add(b.angular, -spin_b_ * turning);
   return change.norm() / slip_mass_;
 }
 

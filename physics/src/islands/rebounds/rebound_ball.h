@@ -37,9 +37,10 @@ class alignas(64) ReboundBall {
 
  private:
   double solve_friction(BodyLanes& a, BodyLanes& b);
+  /// What nothing moves others may look at meanwhile: it is left alone.
   void push(BodyLanes& a, BodyLanes& b, const Vec3& impulse) const {
-    add(a.linear, -inverse_mass_a_ * impulse);
-    add(b.linear, inverse_mass_b_ * impulse);
+    if (inverse_mass_a_ > 0) add(a.linear, -inverse_mass_a_ * impulse);
+    if (inverse_mass_b_ > 0) add(b.linear, inverse_mass_b_ * impulse);
   }
 
   std::uint32_t lane_ = 0, a_ = 0, b_ = 0;

@@ -57,18 +57,15 @@ void ReboundContact::take(const ContactBlocks& contacts, std::uint32_t index, co
 }
 
 void ReboundContact::push(BodyLanes& a, BodyLanes& b, const Vec3& impulse) const {
-  add(a.linear, -inverse_mass_a_ * impulse);
-  add(b.linear, inverse_mass_b_ * impulse);
+  if (body_a_->movable) add(a.linear, -inverse_mass_a_ * impulse);
+  if (body_b_->movable) add(b.linear, inverse_mass_b_ * impulse);
 }
 
 void ReboundContact::turn(BodyLanes& a, BodyLanes& b, const Vec3& turn_a, const Vec3& turn_b) const {
-  if (isotropic_) {
-    add(a.angular, -inverse_moment_a_ * turn_a);
-    add(b.angular, inverse_moment_b_ * turn_b);
-  } else {
-    add(a.angular, -(body_a_->inverse_inertia * turn_a));
-    add(b.angular, body_b_->inverse_inertia * turn_b);
-  }
+  if (body_a_->movable)
+    add(a.angular, -(isotropic_ ? Vec3(inverse_moment_a_ * turn_a) : Vec3(body_a_->inverse_inertia * turn_a)));
+  if (body_b_->movable)
+    add(b.angular, isotropic_ ? Vec3(inverse_moment_b_ * turn_b) : Vec3(body_b_->inverse_inertia * turn_b));
 }
 
 double ReboundContact::solve_friction(Friction& row, double limit, BodyLanes& a, BodyLanes& b) const {

@@ -49,6 +49,7 @@ class ReboundContact {
     double drift1 = 0, drift2 = 0;  ///< of the surfaces, m/s
   };
   double solve_friction(Friction& row, double limit, BodyLanes& a, BodyLanes& b) const;
+  // What nothing moves others may look at meanwhile: it is left alone.
   void turn(BodyLanes& a, BodyLanes& b, const Vec3& turn_a, const Vec3& turn_b) const;
   void push(BodyLanes& a, BodyLanes& b, const Vec3& impulse) const;
 

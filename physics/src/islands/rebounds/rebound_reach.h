@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <bit>
 #include <cstdint>
 #include <span>
@@ -18,77 +19,56 @@ class ReboundReach {
   /// The blocks have others in them.
   void forget() { starts_.clear(); }
   /// Nothing is reached yet.
-  void begin(const ContactBlocks& contacts, const std::vector<IslandBody>& bodies);
-  /// Calls act(contact) for the contact of a lane, from now on reached: a ReboundContact or a ReboundBall, as it stands
-  /// in its block when it is reached for the first time.
-  template <class Act>
-  auto reach(std::uint32_t lane, const ContactBlocks& contacts, const std::vector<IslandBody>& bodies,
-             const std::vector<BodyLanes>& velocities, const Act& act) {
+  void begin(const ContactBlocks& contacts, const std::vector<IslandBody>& bodies,
+             const std::vector<BodyLanes>& velocities);
+  /// Room for the contacts of these lanes, each told once: those that were not reached before are to be taken.
+  void reach(std::span<const std::uint32_t> lanes);
+  /// The contact of a lane as it stands in its block, if it is one of those. Of several lanes by several threads.
+  void take(std::uint32_t lane, const ContactBlocks& contacts, const std::vector<IslandBody>& bodies) {
+    const std::uint32_t place = slots_[lane] - 1;
     if (lane >= first_ball_) {
-      if (slots_[lane] == 0) {
-        add(balls_, ball_count_, lane).take(contacts, lane);
-        note(balls_[ball_count_ - 1], velocities);
-      }
-      return act(balls_[slots_[lane] - 1]);
+      if (place >= known_balls_) balls_[place].take(contacts, lane);
+    } else if (place >= known_contacts_) {
+      contacts_[place].take(contacts, lane, bodies);
     }
-    if (slots_[lane] == 0) {
-      add(contacts_, contact_count_, lane).take(contacts, lane, bodies);
-      note(contacts_[contact_count_ - 1], velocities);
-    }
-    return act(contacts_[slots_[lane] - 1]);
   }
-  /// All contacts of a movable body are to be looked at.
-  void push(std::uint32_t place);
-  void look_at(std::uint32_t lane) { open_[lane / 64] |= std::uint64_t{1} << (lane % 64); }
-  void pass_by(std::uint32_t lane) { open_[lane / 64] &= ~(std::uint64_t{1} << (lane % 64)); }
+  /// Calls act(contact) for the contact of a lane that was taken: a ReboundContact or a ReboundBall.
+  template <class Act>
+  auto with(std::uint32_t lane, const Act& act) {
+    return lane >= first_ball_ ? act(balls_[slots_[lane] - 1]) : act(contacts_[slots_[lane] - 1]);
+  }
 
-  /// Calls `visit(lane)` in order for what is to be looked at; also for what comes to be so further on meanwhile.
-  /// @return whether there was any
-  template <class Visit>
-  bool visit(const Visit& visit) {
-    bool any = false;
-    for (std::size_t word = 0; word < open_.size(); ++word) {
-      std::uint64_t ahead = ~std::uint64_t{0};
-      while (const std::uint64_t open = open_[word] & ahead) {
-        const auto bit = static_cast<std::uint32_t>(std::countr_zero(open));
-        ahead = bit == 63 ? 0 : ~std::uint64_t{0} << (bit + 1);
-        any = true;
-        visit(static_cast<std::uint32_t>(64 * word) + bit);
-      }
-    }
-    return any;
+  void look_at(std::uint32_t lane, bool shared) {
+    std::atomic<std::uint64_t>& word = open_[lane / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (lane % 64);
+    if (shared)
+      word.fetch_or(bit, std::memory_order_relaxed);
+    else
+      word.store(word.load(std::memory_order_relaxed) | bit, std::memory_order_relaxed);
   }
+  /// All other contacts of a movable body are to be looked at.
+  void push(std::uint32_t place, std::uint32_t by, bool shared) {
+    for (std::uint32_t i = starts_[place]; i < starts_[place + 1]; ++i)
+      if (lanes_[i] != by) look_at(lanes_[i], shared);
+  }
+  /// Which of these are to be looked at, in order, and from now on no more.
+  [[nodiscard]] std::span<const std::uint32_t> due(const ContactBlocks::Stretch& stretch);
 
   [[nodiscard]] std::span<ReboundContact> contacts() { return std::span(contacts_).first(contact_count_); }
   [[nodiscard]] std::span<ReboundBall> balls() { return std::span(balls_).first(ball_count_); }
-  /// The velocity that a body had before, if a contact of it was reached.
-  [[nodiscard]] const BodyLanes* before(std::uint32_t place) const { return known_[place] ? &before_[place] : nullptr; }
+  /// The velocity that a body had before.
+  [[nodiscard]] const BodyLanes& before(std::size_t place) const { return before_[place]; }
 
  private:
-  template <class Contact>
-  Contact& add(std::vector<Contact>& list, std::size_t& count, std::uint32_t lane) {
-    if (count == list.size()) list.emplace_back();
-    slots_[lane] = static_cast<std::uint32_t>(count + 1);
-    return list[count++];
-  }
-  /// Velocities before the rebound.
-  template <class Contact>
-  void note(const Contact& contact, const std::vector<BodyLanes>& velocities) {
-    for (const std::uint32_t place : {contact.a(), contact.b()}) {
-      if (known_[place]) continue;
-      known_[place] = 1;
-      before_[place] = velocities[place];
-    }
-  }
-
-  std::vector<std::uint32_t> starts_, lanes_;  ///< by place: the contacts of each movable body
-  std::vector<std::uint64_t> open_;            ///< bits of lanes
-  std::vector<std::uint32_t> slots_;           ///< by lane: one more than where it is in its list; 0 for nowhere
+  std::vector<std::uint32_t> starts_, lanes_;     ///< by place: the contacts of each movable body
+  std::vector<std::atomic<std::uint64_t>> open_;  ///< bits of lanes
+  std::vector<std::uint32_t> due_;
+  std::vector<std::uint32_t> slots_;  ///< by lane: one more than where it is in its list; 0 for nowhere
   std::vector<ReboundContact> contacts_;
   std::vector<ReboundBall> balls_;
-  std::size_t contact_count_ = 0, ball_count_ = 0;  ///< how many of them are reached
-  std::size_t first_ball_ = 0;                      ///< lane
-  std::vector<char> known_;                         ///< by place: it is in before_
+  std::size_t contact_count_ = 0, ball_count_ = 0;    ///< how many of them are reached
+  std::size_t known_contacts_ = 0, known_balls_ = 0;  ///< and how many of those are taken
+  std::size_t first_ball_ = 0;                        ///< lane
   std::vector<BodyLanes> before_;
 };
 
