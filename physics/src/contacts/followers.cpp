@@ -19,6 +19,9 @@ namespace {
 /// A blow is handed on through so many bodies at most: in a step it comes no farther.
 constexpr int most_rounds = 8;
 
+/// Contacts that are worth a part of their own.
+constexpr std::size_t links_worth_a_part = 128;
+
 /// What changes the way of a body in a step by less than this part of what counts as near is no blow.
 constexpr double hardly_moved = 0.25;
 
@@ -26,7 +29,7 @@ constexpr double hardly_moved = 0.25;
 class Blows {
  public:
   Blows(std::vector<Struck>& struck, std::size_t bodies, double dt) : struck_(struck), dt_(dt) {
-    struck_.assign(bodies, {dt, 0});
+    struck_.assign(bodies, {dt, 0, 0});
   }
   /// Whether anything was struck since it was last asked.
   [[nodiscard]] bool spread() { return std::exchange(spread_, false); }
@@ -39,6 +42,7 @@ class Blows {
     if (!(time < struck.time - 0.01 * dt_ || change > 1.05 * struck.most)) return;
     struck.time = std::min(struck.time, time);
     struck.most = std::max(struck.most, change);
+    struck.when = now_;
     spread_ = true;
   }
   /// Whether a blow reaches one of two.
@@ -61,9 +65,23 @@ class Blows {
     return closing * (dt_ - begin);
   }
 
+  /// The same for one of many links that are gone through in their order, round by round. Where neither end was struck
+  /// since the link was last looked at, it hands on what it did.
+  void hand_on_again(const Link& link, int round, std::size_t number) {
+    const std::uint64_t last = now_of(round, number);
+    now_ = now_of(round + 1, number);
+    if (struck_[link.a].when >= last || struck_[link.b].when >= last) hand_on(link);
+  }
+
  private:
+  /// Of the first round nothing was before.
+  static std::uint64_t now_of(int round, std::size_t number) {
+    return round == 0 ? 0 : (static_cast<std::uint64_t>(round) << 32) + number;
+  }
+
   std::vector<Struck>& struck_;
   double dt_;
+  std::uint64_t now_ = 1;  ///< rises from link to link
   bool spread_ = false;
 };
 
@@ -98,17 +116,6 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     for (const contacts::Blow& blow : part.blows)
       for (const std::uint32_t end : {blow.a, blow.b})
         if (!bodies[end].immovable()) blows.strike(end, blow.time, blow.change);
-  touching_links.clear();
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    constexpr std::size_t ahead = 4;
-    if (k + ahead < active.size()) contacts::fetch(*active[k + ahead]);
-    const contacts::ContactConstraint* contact = active[k];
-    double gap = contact->points[0].start_gap;
-    for (std::size_t i = 1; i < static_cast<std::size_t>(contact->count); ++i)
-      gap = std::min(gap, contact->points[i].start_gap);
-    touching_links.push_back(contacts::link_of(contact->a, passages[contact->a], contact->b, passages[contact->b],
-                                               contact->manifold.normal, gap));
-  }
   const auto has_corners = [this](const contacts::ContactConstraint& contact) {
     const auto polyhedron = [this](std::uint32_t body) {
       const Solid& solid = passages[body].body->shape().solid;
@@ -117,6 +124,21 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     const auto level = [&](std::uint32_t body) { return polyhedron(body) || passages[body].boundless; };
     return (polyhedron(contact.a) && level(contact.b)) || (polyhedron(contact.b) && level(contact.a));
   };
+  touching_links.resize(active.size());
+  cornered.assign(active.size(), 0);
+  workers().ranges(active.size(), contacts::links_worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      constexpr std::size_t ahead = 4;
+      if (k + ahead < end) contacts::fetch(*active[k + ahead]);
+      const contacts::ContactConstraint& contact = *active[k];
+      double gap = contact.points[0].start_gap;
+      for (std::size_t i = 1; i < static_cast<std::size_t>(contact.count); ++i)
+        gap = std::min(gap, contact.points[i].start_gap);
+      touching_links[k] = contacts::link_of(contact.a, passages[contact.a], contact.b, passages[contact.b],
+                                            contact.manifold.normal, gap);
+      cornered[k] = contact.count < 4 && contact.impact_time == 0 && has_corners(contact);
+    }
+  });
   // As the bodies lie at the start of the step.
   const auto meet_at_start = [this](contacts::ContactConstraint& contact, const Manifold& manifold) {
     contact.manifold = manifold;
@@ -155,14 +177,14 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     return true;
   };
   for (int round = 0; round < contacts::most_rounds && blows.spread(); ++round) {
-    for (const contacts::Link& link : touching_links) blows.hand_on(link);
+    for (std::size_t i = 0; i < touching_links.size(); ++i) blows.hand_on_again(touching_links[i], round, i);
     for (contacts::FoundPart& part : all) std::erase_if(part.followers, take);
   }
   // What lies on few corners may be tilted by a blow until the others come down. Those that are near are known.
   for (std::size_t i = 0; i < active.size(); ++i) {
-    contacts::ContactConstraint& contact = *active[i];
     const contacts::Link& link = touching_links[i];
-    if (!blows.reach(link) || contact.count >= 4 || contact.impact_time > 0 || !has_corners(contact)) continue;
+    if (cornered[i] == 0 || !blows.reach(link)) continue;
+    contacts::ContactConstraint& contact = *active[i];
     const double way = blows.hand_on(link);
     if (!(way > contacts::near_enough)) continue;
     const collision::Passage &way_a = passages[contact.a], &way_b = passages[contact.b];

@@ -37,8 +37,9 @@ struct Blow {
 
 /// What the blows of this step may do to a body.
 struct Struck {
-  double time = 0;  ///< by the first, s
-  double most = 0;  ///< change of its velocity, m/s
+  double time = 0;         ///< by the first, s
+  double most = 0;         ///< change of its velocity, m/s
+  std::uint64_t when = 0;  ///< it was last told of a harder or an earlier one: a number that rises
 };
 
 /// The memories of a pair of bodies: one, or one for each pair of parts that touched; places in the sorted list.

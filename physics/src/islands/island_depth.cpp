@@ -1,25 +1,38 @@
 #include "islands/island_depth.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace tweenfall::islands {
 
+namespace {
+
+/// Contacts that are worth a part of their own.
+constexpr std::size_t worth_a_part = 128;
+
+}  // namespace
+
 std::uint32_t IslandDepth::of(std::span<contacts::ContactConstraint* const> contacts,
-                              const std::vector<state::Body>& bodies) {
+                              const std::vector<state::Body>& bodies, const threads::Workers& workers) {
   // Contacts are sorted by their bodies, which mostly were added from the bottom to the top or the other way around.
   constexpr int most_passes = 12;
   constexpr std::uint32_t nobody = 0xfffffffe;  // one more is bottomless, and no more than that
   levels_.resize(bodies.size());
-  ends_.clear();
-  ends_.reserve(contacts.size());
-  for (const contacts::ContactConstraint* contact : contacts) {
-    ends_.push_back({contact->a, contact->b});
-    for (const std::uint32_t end : {contact->a, contact->b}) {
-      const state::Body& body = bodies[end];
+  ends_.resize(contacts.size());
+  std::atomic<bool> sideways = false;
+  workers.ranges(contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const state::Body &a = bodies[contacts[i]->a], &b = bodies[contacts[i]->b];
+      const auto stands = [](const state::Body& body) { return body.immovable() || body.asleep; };
+      ends_[i] = {contacts[i]->a, contacts[i]->b, stands(a), stands(b)};
       // What is pushed or taken along is so from the side, however near the floor is.
-      if (body.displaces() || body.conveys) return bottomless;
-      levels_[end] = body.immovable() || body.asleep ? 0 : nobody;
+      if (a.displaces() || a.conveys || b.displaces() || b.conveys) sideways.store(true, std::memory_order_relaxed);
     }
+  });
+  if (sideways) return bottomless;
+  for (const Ends& ends : ends_) {
+    levels_[ends.a] = ends.a_stands ? 0 : nobody;
+    levels_[ends.b] = ends.b_stands ? 0 : nobody;
   }
   const auto lower = [](std::uint32_t& level, std::uint32_t other) {
     if (level <= other + 1) return false;

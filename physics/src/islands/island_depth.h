@@ -6,6 +6,7 @@
 
 #include "contacts/contact_constraint.h"
 #include "state/body.h"
+#include "threads/workers.h"
 
 namespace tweenfall::islands {
 
@@ -16,11 +17,12 @@ class IslandDepth {
   static constexpr std::uint32_t bottomless = 0xffffffff;
 
   [[nodiscard]] std::uint32_t of(std::span<contacts::ContactConstraint* const> contacts,
-                                 const std::vector<state::Body>& bodies);
+                                 const std::vector<state::Body>& bodies, const threads::Workers& workers);
 
  private:
   struct Ends {
     std::uint32_t a, b;
+    bool a_stands, b_stands;
   };
   std::vector<Ends> ends_;             ///< of the contacts
   std::vector<std::uint32_t> levels_;  ///< by body; only of what the contacts touch

@@ -27,6 +27,8 @@ constexpr std::size_t kept_in_crowd = 64, found_in_crowd = 16;
 constexpr std::size_t found_once_more = 16;
 /// Bodies that are worth a part of their own.
 constexpr std::size_t worth_a_part = 128, worth_a_look = 32;
+/// And pairs.
+constexpr std::size_t worth_merging = 1024;
 /// Boxes end here: a difference of any two is still a number.
 constexpr double end_of_space = 1e100;
 
@@ -85,7 +87,7 @@ BroadPhase::Look BroadPhase::look_at(const Body& body, std::uint32_t index, cons
   look.kind = std::isinf(body.radius()) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
   entry.stirs = body.stirs();
   entry.displaces = body.displaces();
-  entry.pairs = 0;
+  pair_counts_[index] = 0;
   if (look.kind == Kind::plane) return look;
   entry.swept = in_space(swept_bounds(body, load, 0.5 * margin, dt));
   look.still = look.kind == Kind::immovable && !body.has_target;
@@ -150,36 +152,77 @@ void BroadPhase::keep_pairs(const PairFilter& filter, const threads::Workers& wo
   std::size_t count = 0;
   for (const std::vector<Pair>& part : fresh_parts_) count += part.size();
   crowded_ = too_many || count >= most;
-  fresh_.clear();
-  if (!crowded_)
-    for (const std::vector<Pair>& part : fresh_parts_) fresh_.insert(fresh_.end(), part.begin(), part.end());
   if (!crowded_ && !renewed_.empty()) {
-    std::sort(fresh_.begin(), fresh_.end());
-    std::erase_if(kept_,
-                  [this](const Pair& pair) { return entries_[pair.first].renewed || entries_[pair.second].renewed; });
-    merged_.clear();
-    merged_.reserve(kept_.size() + fresh_.size());
-    std::merge(kept_.begin(), kept_.end(), fresh_.begin(), fresh_.end(), std::back_inserter(merged_));
-    std::swap(kept_, merged_);
+    merge_fresh(count, work);
     crowded_ = kept_.size() > most;
   }
   for (const std::uint32_t index : renewed_) entries_[index].renewed = false;
   renewed_.clear();
 }
 
-bool BroadPhase::counts(std::uint32_t a, std::uint32_t b) {
-  Entry &first = entries_[a], &second = entries_[b];
-  if (!(first.stirs || second.stirs) || !overlap(first.swept, second.swept)) return false;
-  if (first.kind != Kind::movable || second.kind != Kind::movable) return true;
-  if (first.pairs >= most_pairs && second.pairs >= most_pairs) return false;
-  ++first.pairs;
-  ++second.pairs;
+/// Takes what is found anew of renewed bodies in place of what was kept of them. All that begins with bodies of one
+/// range comes together in one part.
+void BroadPhase::merge_fresh(std::size_t count, const threads::Workers& work) {
+  const std::size_t parts = std::max<std::size_t>(1, work.range_count(kept_.size() + count, worth_merging));
+  merged_parts_.resize(std::max(merged_parts_.size(), parts));
+  work.parts(parts, [&](std::size_t part) {
+    const auto first = static_cast<std::uint32_t>(entries_.size() * part / parts);
+    const auto behind = static_cast<std::uint32_t>(entries_.size() * (part + 1) / parts);
+    std::vector<Pair>& merged = merged_parts_[part].all;
+    std::vector<Pair>& fresh = merged_parts_[part].fresh;
+    merged.clear();
+    fresh.clear();
+    for (const std::vector<Pair>& found : fresh_parts_)
+      for (const Pair& pair : found)
+        if (pair.first >= first && pair.first < behind) fresh.push_back(pair);
+    std::sort(fresh.begin(), fresh.end());
+    auto next = fresh.cbegin();
+    auto kept = std::lower_bound(kept_.cbegin(), kept_.cend(), Pair(first, 0));
+    for (; kept != kept_.cend() && kept->first < behind; ++kept) {
+      if (entries_[kept->first].renewed || entries_[kept->second].renewed) continue;
+      for (; next != fresh.cend() && *next < *kept; ++next) merged.push_back(*next);
+      merged.push_back(*kept);
+    }
+    merged.insert(merged.end(), next, fresh.cend());
+  });
+  if (parts == 1) return kept_.swap(merged_parts_.front().all);
+  kept_.clear();
+  for (const MergedPart& part : std::span(merged_parts_).first(parts))
+    kept_.insert(kept_.end(), part.all.begin(), part.all.end());
+}
+
+bool BroadPhase::may_meet(std::uint32_t a, std::uint32_t b) const {
+  const Entry &first = entries_[a], &second = entries_[b];
+  return (first.stirs || second.stirs) && overlap(first.swept, second.swept);
+}
+
+/// Of two that may meet: whether they do not have enough pairs already.
+bool BroadPhase::counts(std::uint32_t a, std::uint32_t b, bool both_move) {
+  if (!both_move) return true;
+  std::uint32_t &first = pair_counts_[a], &second = pair_counts_[b];
+  if (first >= most_pairs && second >= most_pairs) return false;
+  ++first;
+  ++second;
   return true;
 }
 
-void BroadPhase::choose_among_kept() {
-  for (const Pair& pair : kept_)
-    if (counts(pair.first, pair.second)) pairs_.push_back(pair);
+bool BroadPhase::takes(std::uint32_t a, std::uint32_t b) {
+  return may_meet(a, b) && counts(a, b, entries_[a].kind == Kind::movable && entries_[b].kind == Kind::movable);
+}
+
+void BroadPhase::choose_among_kept(const threads::Workers& work) {
+  enum : char { apart, meet, both_move };
+  marks_.resize(kept_.size());
+  work.ranges(kept_.size(), worth_merging, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [a, b] = kept_[i];
+      const bool move = entries_[a].kind == Kind::movable && entries_[b].kind == Kind::movable;
+      marks_[i] = !may_meet(a, b) ? apart : move ? both_move : meet;
+    }
+  });
+  for (std::size_t i = 0; i < kept_.size(); ++i)
+    if (marks_[i] != apart && counts(kept_[i].first, kept_[i].second, marks_[i] == both_move))
+      pairs_.push_back(kept_[i]);
 }
 
 bool BroadPhase::choose_by(PairSearch search, const PairFilter& filter) {
@@ -196,7 +239,7 @@ bool BroadPhase::choose_by(PairSearch search, const PairFilter& filter) {
   if (found.crowded()) return false;
   found.sort();
   for (const Pair& pair : found.found)
-    if (filter.lets(pair.first, pair.second) && counts(pair.first, pair.second)) pairs_.push_back(pair);
+    if (filter.lets(pair.first, pair.second) && takes(pair.first, pair.second)) pairs_.push_back(pair);
   return true;
 }
 
@@ -207,22 +250,22 @@ void BroadPhase::choose_in_crowd(std::span<const std::uint32_t> changed, const P
     if (entries_[index].kind != Kind::movable) continue;
     const Bounds& swept = entries_[index].swept;
     immovable_.visit(swept, [&](std::uint32_t other) {
-      if (filter.lets(index, other) && counts(index, other))
+      if (filter.lets(index, other) && takes(index, other))
         pairs_.emplace_back(std::min(index, other), std::max(index, other));
     });
     near_.clear();
     const auto see = [&](std::uint32_t other) {
       if (other > index && filter.lets(index, other)) near_.push_back(other);
     };
-    if (entries_[index].pairs >= most_pairs)
+    if (pair_counts_[index] >= most_pairs)
       movable_.visit_open(swept, see);
     else
       movable_.visit(swept, see);
     std::sort(near_.begin(), near_.end());
     for (const std::uint32_t other : near_) {
-      if (!counts(index, other)) continue;
+      if (!takes(index, other)) continue;
       pairs_.emplace_back(index, other);
-      if (entries_[other].pairs == most_pairs) movable_.close(other);
+      if (pair_counts_[other] == most_pairs) movable_.close(other);
     }
   }
   std::sort(pairs_.begin(), pairs_.end());
@@ -260,6 +303,7 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
                                           const std::vector<forces::Load>& loads, const PairFilter& filter,
                                           double margin, double dt, const threads::Workers& work, PairSearch search) {
   entries_.resize(std::max(entries_.size(), bodies.size()));
+  pair_counts_.resize(entries_.size());
   looks_.resize(changed.size());
   work.ranges(changed.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -289,7 +333,7 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
         if (entries_[index].kind == Kind::movable) renew(index);
     }
   } else {
-    choose_among_kept();
+    choose_among_kept(work);
   }
   if (!planes_.empty()) add_planes(bodies, changed, filter, margin);
   return pairs_;

@@ -48,7 +48,6 @@ class BroadPhase {
     bool displaces = false;      ///< keyed and on its way
     bool renewed = false;        ///< has another box than when pairs were last looked for
     std::uint8_t foresight = 4;  ///< steps for which its box has room
-    std::uint32_t pairs = 0;     ///< found so far
   };
 
   /// A body that is looked at: where it may be, before any box is changed.
@@ -65,22 +64,31 @@ class BroadPhase {
   BoundsTree& tree_of(Kind kind) { return kind == Kind::movable ? movable_ : immovable_; }
   void keep_pairs(const PairFilter& filter, const threads::Workers& work);
   bool look_around(std::uint32_t index, const PairFilter& filter, std::size_t most, std::vector<Pair>& fresh);
-  bool counts(std::uint32_t a, std::uint32_t b);
-  void choose_among_kept();
+  void merge_fresh(std::size_t count, const threads::Workers& work);
+  [[nodiscard]] bool may_meet(std::uint32_t a, std::uint32_t b) const;
+  bool counts(std::uint32_t a, std::uint32_t b, bool both_move);
+  bool takes(std::uint32_t a, std::uint32_t b);
+  void choose_among_kept(const threads::Workers& work);
   /// @return false in a crowd
   bool choose_by(PairSearch search, const PairFilter& filter);
   void choose_in_crowd(std::span<const std::uint32_t> changed, const PairFilter& filter);
   void add_planes(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
                   const PairFilter& filter, double margin);
 
-  std::vector<Entry> entries_;  ///< by body
-  std::vector<Look> looks_;     ///< at those that have changed
+  std::vector<Entry> entries_;              ///< by body
+  std::vector<std::uint32_t> pair_counts_;  ///< by body: found so far
+  std::vector<Look> looks_;                 ///< at those that have changed
   BoundsTree movable_, immovable_;
   std::vector<std::uint32_t> planes_;
   std::vector<std::uint32_t> renewed_;
   std::vector<Pair> kept_;  ///< whose boxes with room to spare meet, sorted; of no use in a crowd
   std::vector<Pair> fresh_, merged_;
   std::vector<std::vector<Pair>> fresh_parts_;  ///< of what is renewed
+  struct MergedPart {
+    std::vector<Pair> fresh, all;
+  };
+  std::vector<MergedPart> merged_parts_;  ///< by the first body
+  std::vector<char> marks_;               ///< of kept_
   std::vector<std::uint32_t> near_;
   bool crowded_ = false;  ///< too many pairs to keep
   std::vector<Pair> pairs_;

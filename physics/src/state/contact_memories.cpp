@@ -29,11 +29,13 @@ std::span<const std::uint32_t> ContactMemories::of(std::uint32_t body) {
 }
 
 void ContactMemories::tidy() {
+  starts_.clear();
+  if (!some_gone_) return;
   std::erase_if(sorted_, [this](std::uint32_t place) {
     if (all_[place].gone) unused_.push_back(place);
     return all_[place].gone;
   });
-  starts_.clear();
+  some_gone_ = false;
 }
 
 std::uint32_t ContactMemories::take() {

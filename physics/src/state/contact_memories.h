@@ -80,6 +80,9 @@ class ContactMemories {
   /// Places of a body's contacts.
   [[nodiscard]] std::span<const std::uint32_t> of(std::uint32_t body);
 
+  void part(std::uint32_t place) {  ///< a body of it has left
+    all_[place].gone = some_gone_ = true;
+  }
   void tidy();                         ///< forgets what is gone
   [[nodiscard]] std::uint32_t take();  ///< a new place, for `keep` to be given
   /// From now on these are all, by pair; exchanged for the places so far.
@@ -89,6 +92,7 @@ class ContactMemories {
   std::vector<ContactMemory> all_;
   std::vector<std::uint32_t> unused_;  ///< of all_
   std::vector<std::uint32_t> sorted_;
+  bool some_gone_ = false;
   std::vector<char> kept_;           ///< by place; room for `keep`
   std::vector<std::size_t> starts_;  ///< by body, in `by_body_`; empty until they are asked for
   std::vector<std::uint32_t> by_body_;

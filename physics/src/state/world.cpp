@@ -51,9 +51,9 @@ void World::Implementation::wake(std::uint32_t index) {
 void World::Implementation::drop_contacts(std::uint32_t index) {
   bool seen = false;
   for (const std::uint32_t place : memories.of(index)) {
-    state::ContactMemory& memory = memories[place];
+    const state::ContactMemory& memory = memories[place];
     seen = seen || (memory.touching && !memory.gone);
-    memory.gone = true;
+    memories.part(place);
   }
   if (!seen) return;
   std::erase_if(contacts, [&](const Contact& contact) {

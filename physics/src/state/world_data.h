@@ -72,6 +72,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   /// Contacts of all parts of two bodies of which one is a compound.
   void find_contacts_of_parts(const contacts::PairInContact& pair, contacts::PairMemories known, double dt,
                               contacts::FoundPart& part) const;
+  void find_obstacles();  ///< among the contacts
   /// Keeps what a step has deflected or driven fast from ending behind a mesh or a height field that it was before.
   void hold_before_surfaces();
   void hold_before_walls(double dt);

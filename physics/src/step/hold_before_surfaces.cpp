@@ -14,6 +14,8 @@ namespace tweenfall {
 namespace step {
 namespace {
 
+/// Contacts that are worth a part of their own.
+constexpr std::size_t contacts_worth_a_part = 256;
 /// Parts of its size by which a solid must come on in a step to be looked at.
 constexpr double far_on = 0.02;
 /// And by which its middle stays in front: what is held there again and again would come nearer than rounding allows.
@@ -31,8 +33,23 @@ Pose pose_then(const Start& start, const collision::Course& course, const Vec3& 
 }  // namespace
 }  // namespace step
 
+void World::Implementation::find_obstacles() {
+  obstacles.resize(active.size());
+  workers().ranges(active.size(), step::contacts_worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const state::Body &a = bodies[active[i]->a], &b = bodies[active[i]->b];
+      const bool surface = surfaces::surface_of(a.shape().solid) || surfaces::surface_of(b.shape().solid);
+      obstacles[i] = surface                          ? step::Obstacle::surface
+                     : a.immovable() != b.immovable() ? step::Obstacle::solid
+                                                      : step::Obstacle::none;
+    }
+  });
+}
+
 void World::Implementation::hold_before_surfaces() {
-  for (const contacts::ContactConstraint* contact : active) {
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    if (obstacles[i] != step::Obstacle::surface) continue;
+    const contacts::ContactConstraint* contact = active[i];
     const bool surface_is_a = surfaces::surface_of(bodies[contact->a].shape().solid) != nullptr;
     const state::Body& ground = bodies[surface_is_a ? contact->a : contact->b];
     const surfaces::Surface* surface = surfaces::surface_of(ground.shape().solid);

@@ -49,16 +49,15 @@ const Shape& part_of(const state::Body& body, std::uint32_t number) {
 }  // namespace step
 
 void World::Implementation::hold_before_walls(double dt) {
-  for (const contacts::ContactConstraint* contact : active) {
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    if (obstacles[i] != step::Obstacle::solid) continue;
+    const contacts::ContactConstraint* contact = active[i];
     const bool wall_is_a = bodies[contact->a].immovable();
-    if (wall_is_a == bodies[contact->b].immovable()) continue;
     const std::uint32_t index = wall_is_a ? contact->b : contact->a, wall_index = wall_is_a ? contact->a : contact->b;
     state::Body& body = bodies[index];
     const state::Body& wall = bodies[wall_index];
     // Behind a plane there is no other side.
-    if (moved[index] == 0 || surfaces::surface_of(wall.shape().solid) ||
-        std::holds_alternative<Plane>(wall.shape().solid))
-      continue;
+    if (moved[index] == 0 || std::holds_alternative<Plane>(wall.shape().solid)) continue;
     const Shape& part = step::part_of(body, wall_is_a ? contact->part_b : contact->part_a);
     // Most have not come far enough, which is told without their cores.
     const step::Start& start = starts[index];

@@ -38,6 +38,9 @@ struct Outcome {
   Vec3 total{0, 0, 0};  ///< on the second body, N s
 };
 
+/// What a contact is with that moves by nothing but its own will.
+enum class Obstacle : char { none, solid, surface };
+
 /// Where a contact that the caller is told of comes from: an active one, or the caller was told of it before.
 struct Told {
   std::uint32_t number = 0;
@@ -85,11 +88,13 @@ struct Workspace {
   contacts::FoundContacts followers;                 ///< contacts that blows of this step will close
   std::vector<contacts::Struck> struck_bodies;       ///< by body
   std::vector<contacts::Link> touching_links;        ///< of `active`
+  std::vector<char> cornered;                        ///< of them: more corners may come down
   std::vector<contacts::ContactConstraint*> active;  ///< in `found` and `followers`: contacts near something that stirs
   std::vector<std::uint32_t> retained;               ///< memories of contacts between bodies at rest, by pair
   std::vector<std::vector<std::uint32_t>> retained_parts;  ///< of the pairs, in order
   std::vector<std::uint32_t> remembered;
-  std::vector<Outcome> outcomes;  ///< of `active`
+  std::vector<Obstacle> obstacles;  ///< of `active`
+  std::vector<Outcome> outcomes;    ///< of `active`
   std::vector<Told> told;
   std::vector<Contact> next_contacts;
   std::vector<std::vector<EndedContact>> ended_parts;  ///< of `next_contacts`, in order

@@ -152,7 +152,8 @@ void World::Implementation::solve_islands(double dt) {
       solve_by_blows(contents, dt, by.few);
       return;
     }
-    const std::optional<blocks::BlockSolver::Effort> effort = by.many.effort_for(contents, bodies, loads, settings, dt);
+    const std::optional<blocks::BlockSolver::Effort> effort =
+        by.many.effort_for(contents, bodies, loads, settings, dt, within);
     if (!effort)
       by.few.solve(bodies, loads, contents.contacts, contents.springs, settings, dt, moved);
     else if (effort->alone)
@@ -380,6 +381,7 @@ void World::Implementation::step(double dt, double of_parts) {
   note_soft_starts();
   advance_bodies(dt);
   if (!strategies::chosen(settings)) {
+    find_obstacles();
     hold_before_surfaces();
     hold_before_walls(dt);
   }

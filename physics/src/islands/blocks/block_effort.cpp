@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -118,7 +119,8 @@ double fastest_spin(const islands::IslandContents& island, const std::vector<Bod
 std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::IslandContents& island,
                                                            const std::vector<Body>& bodies,
                                                            const std::vector<forces::Load>& loads,
-                                                           const WorldSettings& settings, double dt) {
+                                                           const WorldSettings& settings, double dt,
+                                                           const threads::Workers& workers) {
   if (island.joints.empty() && !island.springs.empty()) return std::nullopt;
   if (island.joints.empty() && island.contacts.size() <= step::Solver::to_the_end &&
       unlike(island, bodies, island.contacts.size() <= small ? 10 : 30))
@@ -128,12 +130,13 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_for(const islands::Island
     return std::nullopt;
   if (island.joints.empty() && island.contacts.size() <= small)
     return effort_of_small(island, bodies, loads, settings, dt);
-  return effort_of_large(island, bodies, settings, dt);
+  return effort_of_large(island, bodies, settings, dt, workers);
 }
 
 std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::IslandContents& island,
                                                                 const std::vector<Body>& bodies,
-                                                                const WorldSettings& settings, double dt) {
+                                                                const WorldSettings& settings, double dt,
+                                                                const threads::Workers& workers) {
   const int passes = std::max(2, settings.iterations / sub_steps_of_many);
   Effort effort;
   effort.softening = passes - passes / 2;
@@ -151,19 +154,25 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
     effort.sub_steps = std::max(fewest, static_cast<int>(std::min(wanted, double{sub_steps_of_few})));
     return effort;
   }
-  const std::uint32_t depth = depth_.of(island.contacts, bodies);
+  const std::uint32_t depth = depth_.of(island.contacts, bodies, workers);
   effort.sub_steps = effort.heap ? sub_steps_of_deep_heap(depth) : sub_steps_of_depth(depth);
   const double h = dt / effort.sub_steps;
-  for (const ContactConstraint* contact : island.contacts) {
-    if (contact->rolling_friction > 0 || contact->spinning_friction > 0 || h < long_enough * contact->kept_step)
-      return std::nullopt;
-    for (const std::uint32_t index : {contact->a, contact->b}) {
-      const Body& body = bodies[index];
-      effort.alone = effort.alone || drives(body);
-      if (body.immovable()) continue;
-      if (body.drive.owner() == Owner::driven || body.twist.angular.norm() * h > followable) return std::nullopt;
+  std::atomic<bool> unfit = false, driven = false;
+  workers.ranges(island.contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
+    for (const ContactConstraint* contact : island.contacts.subspan(begin, end - begin)) {
+      bool fits =
+          contact->rolling_friction == 0 && contact->spinning_friction == 0 && !(h < long_enough * contact->kept_step);
+      for (const std::uint32_t index : {contact->a, contact->b}) {
+        const Body& body = bodies[index];
+        if (drives(body)) driven.store(true, std::memory_order_relaxed);
+        fits = fits && (body.immovable() ||
+                        (body.drive.owner() != Owner::driven && !(body.twist.angular.norm() * h > followable)));
+      }
+      if (!fits) unfit.store(true, std::memory_order_relaxed);
     }
-  }
+  });
+  if (unfit) return std::nullopt;
+  effort.alone = effort.alone || driven;
   return effort;
 }
 

@@ -43,7 +43,7 @@ class BlockSolver {
   [[nodiscard]] std::optional<Effort> effort_for(const islands::IslandContents& island,
                                                  const std::vector<state::Body>& bodies,
                                                  const std::vector<forces::Load>& loads, const WorldSettings& settings,
-                                                 double dt);
+                                                 double dt, const threads::Workers& workers = {});
 
   /// Before the islands of a step.
   void begin(std::size_t bodies, double parts) {
@@ -87,7 +87,8 @@ class BlockSolver {
                                                       const WorldSettings& settings, double dt) const;
   [[nodiscard]] std::optional<Effort> effort_of_large(const islands::IslandContents& island,
                                                       const std::vector<state::Body>& bodies,
-                                                      const WorldSettings& settings, double dt);
+                                                      const WorldSettings& settings, double dt,
+                                                      const threads::Workers& workers);
   void gather(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
               std::span<const islands::IslandContents> islands, Integrator integrator, double dt);
   void number(std::span<const islands::IslandContents> islands);
