@@ -53,6 +53,8 @@ TEST_CASE("a batch gives the very numbers of its curves, forwards, backwards, an
   for (int i = 600; i > -200; i -= 7) check_same(batch, curves, i / 60.0);
   test::Random random(3);
   for (int i = 0; i < 200; ++i) check_same(batch, curves, random.between(-3, 12));
+  for (int i = 0; i < 2000; ++i)  // played here and there, forwards and backwards
+    check_same(batch, curves, i % 20 == 0 ? random.between(-3, 12) : i / 200.0 + (i % 40 < 20 ? i : -i) % 20 / 60.0);
   for (const Curve<double>& curve : curves)
     for (const double knot : curve.knots()) check_same(batch, curves, knot);
 }

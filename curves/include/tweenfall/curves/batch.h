@@ -28,15 +28,15 @@ class CurveBatch {
   void sample(double time, std::span<double> values, std::span<double> rates = {});
 
  private:
-  // One stretch of a curve with its cubic, a line of the processor's cache; constant before the first knot, which is
-  // from minus infinity on, and from the last one to infinity.
-  struct alignas(64) Stretch {
-    double start, end, inverse;  // inverse of the duration
+  // One stretch of a curve with its cubic; constant before the first knot, which is from minus infinity on, and from
+  // the last one to infinity.
+  struct Stretch {
+    double start, end;
     double c0, c1, c2, c3;
   };
-  // Where a curve's stretches are, and what tells roughly which of them holds a time.
+  // What tells roughly which stretch of a curve holds a time.
   struct Track {
-    std::uint32_t first, last;  // of stretches_
+    std::uint32_t last;  // of its stretches
     double start, end, spans_per_second;
   };
   // A curve that is asked by itself.
@@ -45,17 +45,30 @@ class CurveBatch {
     Curve<double> curve;
   };
 
-  [[nodiscard]] std::uint32_t guess(const Track& track, double time) const noexcept;
-  [[nodiscard]] std::uint32_t search(const Track& track, double time) const noexcept;
-  void seek(std::size_t count, double time) noexcept;
+  [[nodiscard]] const Stretch& stretch(std::uint32_t number, std::size_t track) const noexcept {
+    return stretches_[rows_[number] + track];
+  }
+  [[nodiscard]] static std::uint32_t guess(const Track& track, double time) noexcept;
+  [[nodiscard]] std::uint32_t search(std::size_t track, double time) const noexcept;
+  template <class TrackOf, class Found>
+  void seek(std::size_t count, double time, const TrackOf& track_of, const Found& found) noexcept;
   void remember(std::size_t track) noexcept;
+  void go_on(double time) noexcept;
+  void play(double time, double* values, double* rates) noexcept;
+  void jump(double time, double* values, double* rates) noexcept;
 
+  // The first stretches of all curves, then the second of all, and so on: curves that are alike are at one time in
+  // stretches that lie side by side. Curves of more stretches come first, so that those that have one are the first.
   std::vector<Stretch> stretches_;
-  std::vector<Track> tracks_;
+  std::vector<std::size_t> rows_;     // where the first of each number is
+  std::vector<Track> tracks_;         // in that order
+  std::vector<std::uint32_t> order_;  // of the curves as given; empty where that is the same
+  std::vector<double> found_;         // values and rates, where it is not
   std::vector<Apart> apart_;
   double time_ = 0, stride_ = 0;  // last asked for; up to which step the next stretch is the likely one
 
-  // The stretch that each curve was last in: which, until when, and its numbers.
+  // The stretch that each curve was last in: which, and while a batch plays its numbers.
+  bool remembered_ = true;
   std::vector<std::uint32_t> place_, stale_;
   std::vector<double> start_, end_, inverse_, c0_, c1_, c2_, c3_;
 };
