@@ -3,6 +3,8 @@
 #include <tweenfall/anim/hierarchy.h>
 #include <tweenfall/curves/rotation.h>
 
+#include "pose/frame_kernels.h"
+
 using namespace tweenfall;
 using namespace tweenfall::test;
 
@@ -100,6 +102,36 @@ TEST_CASE("frames have the bits of the motions, in a tree whose nodes turn, slid
     CHECK(frames[i].velocity == motions[i].motion.twist.linear);
     const Vec3 local_point(0.3, -0.2, 0.5);
     CHECK(frames[i].point_velocity(local_point) == motions[i].point_velocity(local_point));
+  }
+}
+
+TEST_CASE("every instruction set gives the same bits from local to world") {
+  Random random(9);
+  for (const std::size_t size : {1, 2, 67}) {
+    std::vector<std::uint32_t> parents;
+    std::vector<Motion> local;
+    for (std::size_t i = 0; i < size; ++i) {
+      const bool is_root = i == 0 || random.unit() < 0.05;
+      const std::size_t parent =
+          random.unit() < 0.5 ? i - 1 : static_cast<std::size_t>(random.unit() * static_cast<double>(i));
+      parents.push_back(is_root ? pose::no_parent : static_cast<std::uint32_t>(parent));
+      local.push_back(moving(i + 1, 0.1));
+    }
+    std::vector<WorldMotion> plain(size), wide(size), single(size);
+    std::vector<WorldFrame> plain_frames(size), wide_frames(size);
+    pose::plain_frame_kernels().motions(parents.data(), size, local.data(), plain.data());
+    pose::fastest_frame_kernels().motions(parents.data(), size, local.data(), wide.data());
+    pose::plain_frame_kernels().frames(parents.data(), size, local.data(), plain_frames.data());
+    pose::fastest_frame_kernels().frames(parents.data(), size, local.data(), wide_frames.data());
+    for (std::size_t i = 0; i < size; ++i)
+      pose::plain_frame_kernels().child(parents[i] == pose::no_parent ? WorldMotion{} : single[parents[i]], local[i],
+                                        single[i]);
+    const auto same = [](const auto& a, const auto& b) {
+      return std::ranges::equal(std::as_bytes(std::span(a)), std::as_bytes(std::span(b)));
+    };
+    CHECK(same(plain, wide));
+    CHECK(same(plain, single));
+    CHECK(same(plain_frames, wide_frames));
   }
 }
 

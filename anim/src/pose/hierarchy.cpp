@@ -2,69 +2,29 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <unordered_set>
 #include <utility>
 
-#include "pose/moving_frame.h"
+#include "pose/frame_kernels.h"
 
 namespace tweenfall {
 
-namespace pose {
-namespace {
-
-MovingFrame read(const Mat3& linear, const Mat3& rate, const Vec3& origin, const Vec3& velocity) noexcept {
-  MovingFrame frame;
-  for (int i = 0; i < 3; ++i) frame.axes[i] = MovingColumn::read(linear.data() + 3 * i, rate.data() + 3 * i);
-  frame.origin = MovingColumn::read(origin.data(), velocity.data());
-  return frame;
-}
-
-void write(const MovingFrame& frame, Mat3& linear, Mat3& rate, Vec3& origin, Vec3& velocity) noexcept {
-  for (int i = 0; i < 3; ++i) frame.axes[i].write(linear.data() + 3 * i, rate.data() + 3 * i);
-  frame.origin.write(origin.data(), velocity.data());
-}
-
-// Near a length of 1, as products of rotations are, by a step of Newton's that leaves less than a rounding.
-[[gnu::always_inline]] inline Quat near_unit(const Quat& q) noexcept {
-  const double excess = q.squaredNorm() - 1;
-  if (!(std::abs(excess) < 1e-9)) return q.normalized();
-  return Quat(q.coeffs() * (1 - 0.5 * excess));
-}
-
-// Inlined, so that what is read of the parent need not be where the child's is written.
-[[gnu::always_inline]] inline void place(const WorldMotion& parent, const Motion& local, WorldMotion& world) noexcept {
-  const Motion& above = parent.motion;
-  Motion& motion = world.motion;
-  write(child_frame(read(parent.linear, parent.linear_rate, above.pose.position, above.twist.linear), local),
-        world.linear, world.linear_rate, motion.pose.position, motion.twist.linear);
-  motion.pose.rotation = near_unit(above.pose.rotation * local.pose.rotation);
-  motion.pose.scale = above.pose.scale.cwiseProduct(local.pose.scale);
-  motion.twist.angular = above.twist.angular + above.pose.rotation * local.twist.angular;
-  motion.scale_rate = above.scale_rate.cwiseProduct(local.pose.scale) + above.pose.scale.cwiseProduct(local.scale_rate);
-}
-
-}  // namespace
-}  // namespace pose
-
 WorldMotion child_of(const WorldMotion& parent, const Motion& local) noexcept {
   WorldMotion world;
-  pose::place(parent, local, world);
+  pose::fastest_frame_kernels().child(parent, local, world);
   return world;
 }
 
 /// Nodes are only ever put behind those that are there, and never moved: who sees the first ones sees them for good.
 struct Hierarchy::Room {
-  static constexpr std::uint32_t outside = 0xffffffff;
-
   std::vector<Node> nodes;
   std::vector<std::uint32_t> parents;  ///< of them, close together for the walk from local to world
   std::atomic<std::size_t> used{0};    ///< who grows first takes the place behind; another then needs a room of its own
 
   [[nodiscard]] static std::uint32_t parent_of(const Node& node) {
-    return node.parent == no_node ? outside : static_cast<std::uint32_t>(node.parent);
+    return node.parent == no_node ? pose::no_parent : static_cast<std::uint32_t>(node.parent);
   }
 };
 
@@ -161,21 +121,13 @@ std::optional<std::size_t> Hierarchy::find(std::string_view name) const {
 }
 
 void Hierarchy::world_motions(std::span<const Motion> local, std::span<WorldMotion> world) const noexcept {
-  static const WorldMotion outside;
-  const std::uint32_t* const parents = room_ ? room_->parents.data() : nullptr;
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
-    pose::place(parents[i] == Room::outside ? outside : world[parents[i]], local[i], world[i]);
+  if (!room_) return;
+  pose::fastest_frame_kernels().motions(room_->parents.data(), nodes_.size(), local.data(), world.data());
 }
 
 void Hierarchy::world_frames(std::span<const Motion> local, std::span<WorldFrame> world) const noexcept {
-  static const WorldFrame outside;
-  const std::uint32_t* const parents = room_ ? room_->parents.data() : nullptr;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const WorldFrame& above = parents[i] == Room::outside ? outside : world[parents[i]];
-    WorldFrame& frame = world[i];
-    pose::write(pose::child_frame(pose::read(above.linear, above.linear_rate, above.origin, above.velocity), local[i]),
-                frame.linear, frame.linear_rate, frame.origin, frame.velocity);
-  }
+  if (!room_) return;
+  pose::fastest_frame_kernels().frames(room_->parents.data(), nodes_.size(), local.data(), world.data());
 }
 
 }  // namespace tweenfall

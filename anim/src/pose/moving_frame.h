@@ -1,50 +1,56 @@
 #pragma once
 
-// From the points of a parent's space, and how fast they move, to those of its child's: straight on, two numbers at a
-// time, which every processor of 64 bits does in one go and in which no bit depends on the compiler.
+// From the points of a parent's space, and how fast they move, to those of its child's: straight on, all numbers of a
+// vector at once, by instructions of whoever this is inlined into. No bit depends on which those are.
 
 #include <tweenfall/curves/pose.h>
 
-#include <cstring>
-
 namespace tweenfall::pose {
 
-using Pair = double __attribute__((vector_size(16)));
+#define TWEENFALL_POSE_INLINED [[gnu::always_inline, nodiscard]] inline
 
-[[nodiscard]] inline Pair both(double number) noexcept {
-  return Pair{number, number};
+// How vectors would be passed to functions that are not inlined does not matter here: all are.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+/// x, y and z, and one that is nothing.
+using Lanes = double __attribute__((vector_size(32)));
+
+TWEENFALL_POSE_INLINED Lanes all(double number) noexcept {
+  return Lanes{number, number, number, number};
 }
 
-/// (0, a) of (a, b).
-[[nodiscard]] inline Pair moved_up(Pair p) noexcept {
-  return __builtin_shufflevector(Pair{0, 0}, p, 0, 2);
+/// As `all`, of a number that is in memory: one instruction, where that would be two or three.
+TWEENFALL_POSE_INLINED Lanes splat(const double& number) noexcept {
+  double numbers[4];
+  for (double& lane : numbers) lane = number;
+  Lanes lanes;
+  __builtin_memcpy(&lanes, numbers, sizeof lanes);
+  return lanes;
 }
 
-/// Three numbers that change: x and y, their rates, and z beside its rate.
+/// A vector that changes.
 struct MovingColumn {
-  Pair xy, xy_rate, z;
+  Lanes value, rate;
 
-  static MovingColumn read(const double* value, const double* rate) noexcept {
-    MovingColumn column{};
-    std::memcpy(&column.xy, value, sizeof(Pair));
-    std::memcpy(&column.xy_rate, rate, sizeof(Pair));
-    column.z = Pair{value[2], rate[2]};
-    return column;
+  /// @param from, from_rate  three numbers each
+  [[gnu::always_inline]] static MovingColumn read(const double* from, const double* from_rate) noexcept {
+    return {Lanes{from[0], from[1], from[2], 0}, Lanes{from_rate[0], from_rate[1], from_rate[2], 0}};
   }
-  void write(double* value, double* rate) const noexcept {
-    std::memcpy(value, &xy, sizeof(Pair));
-    std::memcpy(rate, &xy_rate, sizeof(Pair));
-    value[2] = z[0];
-    rate[2] = z[1];
+  [[gnu::always_inline]] void write(double* to, double* to_rate) const noexcept {
+    for (int i = 0; i < 3; ++i) {
+      to[i] = value[i];
+      to_rate[i] = rate[i];
+    }
   }
 };
 
-[[nodiscard]] inline MovingColumn operator*(const MovingColumn& c, Pair factor) noexcept {
-  return {c.xy * factor, c.xy_rate * factor, c.z * factor};
+TWEENFALL_POSE_INLINED MovingColumn operator*(const MovingColumn& c, const Lanes& factor) noexcept {
+  return {c.value * factor, c.rate * factor};
 }
 
-[[nodiscard]] inline MovingColumn operator+(const MovingColumn& a, const MovingColumn& b) noexcept {
-  return {a.xy + b.xy, a.xy_rate + b.xy_rate, a.z + b.z};
+TWEENFALL_POSE_INLINED MovingColumn operator+(const MovingColumn& a, const MovingColumn& b) noexcept {
+  return {a.value + b.value, a.rate + b.rate};
 }
 
 /// The axes of a space as its matrix has them, stretched and sheared, and its origin.
@@ -54,44 +60,41 @@ struct MovingFrame {
 
 /// With the parent's matrix M, and R and S the child's rotation and scale, the child's is M R S; its rate is
 /// (M' + M [w]x) R S + M R S', w being the child's angular velocity.
-[[nodiscard]] inline MovingFrame child_frame(const MovingFrame& parent, const Motion& local) noexcept {
+TWEENFALL_POSE_INLINED MovingFrame child_frame(const MovingFrame& parent, const Motion& local) noexcept {
   const MovingColumn* axes = parent.axes;
-  const Pair z[3] = {moved_up(axes[0].z), moved_up(axes[1].z), moved_up(axes[2].z)};
 
   MovingFrame child;
   const Vec3 &position = local.pose.position, &velocity = local.twist.linear;
-  const Pair v[3] = {both(velocity[0]), both(velocity[1]), both(velocity[2])};
   child.origin =
-      ((axes[0] * both(position[0]) + axes[1] * both(position[1])) + axes[2] * both(position[2])) + parent.origin;
-  child.origin.xy_rate += (axes[0].xy * v[0] + axes[1].xy * v[1]) + axes[2].xy * v[2];
-  child.origin.z += (z[0] * v[0] + z[1] * v[1]) + z[2] * v[2];
+      ((axes[0] * all(position[0]) + axes[1] * all(position[1])) + axes[2] * all(position[2])) + parent.origin;
+  child.origin.rate +=
+      (axes[0].value * all(velocity[0]) + axes[1].value * all(velocity[1])) + axes[2].value * all(velocity[2]);
 
   const Vec3& spin = local.twist.angular;
-  const Pair w[3] = {both(spin[0]), both(spin[1]), both(spin[2])};
+  const Lanes w[3] = {all(spin[0]), all(spin[1]), all(spin[2])};
   MovingColumn spun[3];
   for (int i = 0; i < 3; ++i) {
     const int next = (i + 1) % 3, last = (i + 2) % 3;
-    spun[i].xy = axes[i].xy;
-    spun[i].xy_rate = axes[i].xy_rate + (axes[next].xy * w[last] - axes[last].xy * w[next]);
-    spun[i].z = axes[i].z + (z[next] * w[last] - z[last] * w[next]);
+    spun[i].value = axes[i].value;
+    spun[i].rate = axes[i].rate + (axes[next].value * w[last] - axes[last].value * w[next]);
   }
 
   const Quat& q = local.pose.rotation;
-  const double x = q.x(), y = q.y(), zq = q.z(), s = q.w();
-  const double x2 = x + x, y2 = y + y, z2 = zq + zq;
+  const double x = q.x(), y = q.y(), z = q.z(), s = q.w();
+  const double x2 = x + x, y2 = y + y, z2 = z + z;
   const double sx = s * x2, sy = s * y2, sz = s * z2, xx = x * x2, xy = x * y2, xz = x * z2, yy = y * y2, yz = y * z2,
-               zz = zq * z2;
+               zz = z * z2;
   const double turn[3][3] = {{1 - (yy + zz), xy + sz, xz - sy},
                              {xy - sz, 1 - (xx + zz), yz + sx},
                              {xz + sy, yz - sx, 1 - (xx + yy)}};  // its columns
   for (int i = 0; i < 3; ++i) {
-    const MovingColumn turned = (spun[0] * both(turn[i][0]) + spun[1] * both(turn[i][1])) + spun[2] * both(turn[i][2]);
-    const Pair scale = both(local.pose.scale[i]), rate = both(local.scale_rate[i]);
-    child.axes[i] = turned * scale;
-    child.axes[i].xy_rate += turned.xy * rate;
-    child.axes[i].z += moved_up(turned.z) * rate;
+    const MovingColumn turned = (spun[0] * all(turn[i][0]) + spun[1] * all(turn[i][1])) + spun[2] * all(turn[i][2]);
+    child.axes[i] = turned * all(local.pose.scale[i]);
+    child.axes[i].rate += turned.value * all(local.scale_rate[i]);
   }
   return child;
 }
+
+#pragma GCC diagnostic pop
 
 }  // namespace tweenfall::pose
