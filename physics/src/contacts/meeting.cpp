@@ -12,10 +12,10 @@ Meeting meeting_of(double gap, double closing, double pull, double span) {
   return {time, time < span ? root : 0};
 }
 
-Closing closing_of(const Vec3& normal, const forces::Load& a, const forces::Load& b, double dt) {
+Closing closing_of(const Vec3& normal, const forces::Load& a, const forces::Load& b, double whole) {
   const double along_a = normal.dot(a.acceleration);
   const double along_b = normal.dot(b.acceleration);
-  return {along_a - along_b, std::max(1e-7, 2 * std::max(std::abs(along_a), std::abs(along_b)) * dt)};
+  return {along_a - along_b, std::max(1e-7, 2 * std::max(std::abs(along_a), std::abs(along_b)) * whole)};
 }
 
 void foresee(ContactConstraint& contact, const Twist& a, const Twist& b, const Closing& closing, double dt) {

@@ -20,7 +20,8 @@ struct Closing {
   double pull, tremble;
 };
 
-[[nodiscard]] Closing closing_of(const Vec3& normal, const forces::Load& a, const forces::Load& b, double dt);
+/// @param whole  length of the step; of its parts, too, for what trembles in the step does so in each of them, s
+[[nodiscard]] Closing closing_of(const Vec3& normal, const forces::Load& a, const forces::Load& b, double whole);
 
 /// Prepares the points of a contact for a step and tells whether some meet fast enough to be an impact.
 /// @param a  velocity of the first body at the start of the step

@@ -32,4 +32,12 @@ struct Softness {
           1 / (1 + stiffness)};
 }
 
+/// By how much the impulses of a part of a step are longer when they are kept, so that whatever comes next starts from
+/// those of a whole step. Of very short parts the rounding would grow with them.
+/// @param parts  as many as the part fits into the whole
+[[nodiscard]] inline double kept_as_whole(double parts) {
+  constexpr double most = 8;
+  return parts > most ? 1 : parts;
+}
+
 }  // namespace tweenfall::step

@@ -92,13 +92,13 @@ void Solver::gather(const std::vector<Body>& bodies, std::span<contacts::Contact
   starts_.resize(bodies_.size());
 }
 
-void Solver::meet(const std::vector<Load>& loads, SolvedContact& constraint, double h, double dt) const {
+void Solver::meet(const std::vector<Load>& loads, SolvedContact& constraint, double h, double whole) const {
   const SolverBody& a = at(constraint.a);
   const SolverBody& b = at(constraint.b);
   const Vec3& normal = constraint.normal;
   // Forces change the velocity of the center on the way, and a spin changes by itself: what is left of it counts.
   const Vec3 linear = starts_[slots_[constraint.a]].linear - starts_[slots_[constraint.b]].linear;
-  const auto [pull, tremble] = contacts::closing_of(normal, loads[constraint.a], loads[constraint.b], dt);
+  const auto [pull, tremble] = contacts::closing_of(normal, loads[constraint.a], loads[constraint.b], whole);
   constraint.rebounds = false;
   for (int i = 0; i < constraint.count; ++i) {
     SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
@@ -358,6 +358,7 @@ void Solver::find_lags(Contacts contacts) {
 }
 
 void Solver::add_totals(Contacts contacts, double h) {
+  const double whole = kept_as_whole(parts_);
   for (SolvedContact& contact : contacts) {
     SolvedContact& constraint = contact;
     bool any = false;
@@ -378,12 +379,12 @@ void Solver::add_totals(Contacts contacts, double h) {
     }
     for (int i = 0; i < constraint.count; ++i) {
       SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];
-      point.kept_normal = point.normal_impulse;
-      point.kept_friction = point.friction_impulse;
+      point.kept_normal = whole * point.normal_impulse;
+      point.kept_friction = whole * point.friction_impulse;
     }
-    constraint.kept_rolling = constraint.rolling_impulse;
-    constraint.kept_spin = constraint.spin_impulse;
-    constraint.kept_step = h;
+    constraint.kept_rolling = whole * constraint.rolling_impulse;
+    constraint.kept_spin = whole * constraint.spin_impulse;
+    constraint.kept_step = whole * h;
     constraint.passed_over = 0;
   }
 }
@@ -435,7 +436,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
     const SolverBody& a = at(contact->a);
     const SolverBody& b = at(contact->b);
     const contacts::Closing closing =
-        contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+        contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt * parts_);
     contacts::foresee(*contact, {a.linear, a.angular}, {b.linear, b.angular}, closing, dt);
     if (contact->impact) at(contact->a).impact = at(contact->b).impact = true;
     contacts_.emplace_back(*contact);
@@ -454,7 +455,7 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
     begin_sub_step(bodies, loads, settings, h, sub_step);
     for (SolvedContact& contact : contacts) {
       if (sub_step > 0) refresh(contact);
-      if (contact.restitution > 0) meet(loads, contact, h, dt);
+      if (contact.restitution > 0) meet(loads, contact, h, dt * parts_);
     }
     for (std::size_t i = 0; i < contacts.size(); ++i) warm_start(contacts[i], &rows_[4 * i], soft, h);
     for (SpringRow* spring : springs) spring->begin(end_of(spring->a), end_of(spring->b), h);

@@ -62,7 +62,7 @@ class Solver {
 
   void gather(const std::vector<state::Body>& bodies, std::span<contacts::ContactConstraint* const> contacts,
               Springs springs, double dt);
-  void meet(const std::vector<forces::Load>& loads, SolvedContact& constraint, double h, double dt) const;
+  void meet(const std::vector<forces::Load>& loads, SolvedContact& constraint, double h, double whole) const;
   void begin_sub_step(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads,
                       const WorldSettings& settings, double h, int sub_step);
   void lead(double h, int sub_step);

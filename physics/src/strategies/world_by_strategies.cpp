@@ -203,9 +203,9 @@ double World::Implementation::solve_by_strategies(const islands::IslandContents&
       *contact = now;
       met.push_back(contact);
     }
-    off = by.respond(bodies, loads, met, settings, {.h = 0, .left = dt, .step = dt}, moved);
+    off = by.respond(bodies, loads, met, settings, {.h = 0, .left = dt, .step = dt * part_count}, moved);
   } else {
-    off = by.respond(bodies, loads, island.contacts, settings, {.h = dt, .left = dt, .step = dt}, moved);
+    off = by.respond(bodies, loads, island.contacts, settings, {.h = dt, .left = dt, .step = dt * part_count}, moved);
     fly_all();
   }
   separate(island.contacts);
@@ -278,8 +278,9 @@ void World::Implementation::solve_by_impacts(double dt) {
   const auto go = [&](double h, bool blows) {
     moved.assign(bodies.size(), 0);
     for (contacts::ContactConstraint* contact : active) strategies::forget_totals(*contact);
-    complementarity = std::max(complementarity, by.respond(bodies, loads, active, settings,
-                                                           {.h = h, .left = left, .step = dt, .blows = blows}, moved));
+    complementarity =
+        std::max(complementarity, by.respond(bodies, loads, active, settings,
+                                             {.h = h, .left = left, .step = dt * part_count, .blows = blows}, moved));
     if (h == 0) return;
     for (const std::uint32_t index : watched) fly_alone(index, h, dt);
     if (h < left) lead_on(h, left);
@@ -287,7 +288,7 @@ void World::Implementation::solve_by_impacts(double dt) {
   for (int i = 0;; ++i) {
     double first = strategies::never_met;
     for (const contacts::ContactConstraint* contact : active)
-      first = std::min(first, strategies::time_of_blow(*contact, bodies, loads, left, dt));
+      first = std::min(first, strategies::time_of_blow(*contact, bodies, loads, left, dt * part_count));
     if (first > left || i == strategies::most_instants || at_once == strategies::most_blows_at_once) {
       go(left, first <= left);
       separate(active);

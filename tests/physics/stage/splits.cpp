@@ -51,7 +51,7 @@ double greatest_shift(const Stage& stage) {
 }  // namespace
 
 TEST_CASE("rules at every frame and an ulp beside it leave a stack of ten where it stands") {
-  for (const double step : {1.0 / 60, 1.0 / 100, 1.0 / 240}) {
+  for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 100, 1.0 / 240}) {
     for (const int side : {-1, 0, 1}) {
       CAPTURE(step);
       CAPTURE(side);
@@ -72,8 +72,8 @@ TEST_CASE("rules at every frame and an ulp beside it leave a stack of ten where 
 }
 
 TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten where it stands, whenever they come") {
-  for (const double step : {1.0 / 60, 1.0 / 100, 1.0 / 240}) {
-    for (const double beside : {-1e-6, -1e-9, -1e-12, 0.0, 1e-12, 0.7e-9, 1e-5}) {
+  for (const double step : {1.0 / 30, 1.0 / 60, 1.0 / 100, 1.0 / 240}) {
+    for (const double beside : {-3e-3, -1e-6, -1e-9, -1e-12, 0.0, 1e-12, 0.7e-9, 1e-5, 4e-4, 8e-3}) {
       CAPTURE(step);
       CAPTURE(beside);
       Stage stage(stack_and_far_bodies(step));
@@ -89,8 +89,7 @@ TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten w
         CHECK(stage.owner(1) == (frame % 2 == 0 ? Owner::free : Owner::keyed));
       }
       stage.advance_to(0.45);
-      // A microsecond is too short for contacts to settle in.
-      CHECK(greatest_shift(stage) < (beside == -1e-6 ? 2e-4 : 1e-4));
+      CHECK(greatest_shift(stage) < 1e-4);
       CHECK(stage.handoffs().size() == 8);
       const std::uint64_t hash = stage.state_hash();
       stage.seek(0.3);

@@ -32,8 +32,6 @@ constexpr double longest_of_jointed = 1.0 / 180, long_step = 1.0 / 100;
 constexpr int fewest_of_jointed = 3, fewest_of_jointed_in_short = 4;
 /// On what a hand touches the whole figure may rest: as soft as for the hand alone, it would sink in.
 constexpr double giving_of_jointed = 0.25;
-/// Impulses of much longer sub-steps would bring their rounding along.
-constexpr double long_enough = 0.15;
 /// Rows are prepared again when a body has turned by this since, rad.
 constexpr double turned_enough = 0.02, turned_enough_of_small = 0.002;
 /// Rows cannot follow what turns by more than this in a sub-step, rad.
@@ -160,8 +158,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
   std::atomic<bool> unfit = false, driven = false;
   workers.ranges(island.contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (const ContactConstraint* contact : island.contacts.subspan(begin, end - begin)) {
-      bool fits =
-          contact->rolling_friction == 0 && contact->spinning_friction == 0 && !(h < long_enough * contact->kept_step);
+      bool fits = contact->rolling_friction == 0 && contact->spinning_friction == 0;
       for (const std::uint32_t index : {contact->a, contact->b}) {
         const Body& body = bodies[index];
         if (drives(body)) driven.store(true, std::memory_order_relaxed);
@@ -191,7 +188,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
   bool meets = false;
   double fastest = 0;
   for (ContactConstraint* contact : island.contacts) {
-    if (contact->rolling_friction > 0 || h < long_enough * contact->kept_step) return std::nullopt;
+    if (contact->rolling_friction > 0) return std::nullopt;
     const Body &a = bodies[contact->a], &b = bodies[contact->b];
     for (const Body* body : {&a, &b}) {
       if (drives(*body)) return std::nullopt;
@@ -202,7 +199,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
       if (!body->round()) fastest = std::max(fastest, spin);
     }
     const contacts::Closing closing =
-        contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt);
+        contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt * parts_);
     contacts::foresee(*contact, a.twist, b.twist, closing, dt);
     if (!contact->impact) continue;
     // The blow of two bodies, and what comes back from it, is solved to the end.

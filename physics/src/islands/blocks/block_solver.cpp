@@ -163,7 +163,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
   const double h = dt / sub_steps;
   turned_enough_ = effort.turned_enough;
   gather(bodies, loads, islands, settings.integrator, dt);
-  foresee(contacts, loads, effort.heap ? 2 * h : 0, dt);
+  foresee(contacts, loads, effort.heap ? 2 * h * parts_ : 0, dt);
   holds_.gather(island, bodies, places_, bodies_, driven_, h);
   if (!holds_.empty() || !island.joints.empty())
     for (std::size_t i = 1; i < bodies_.size(); ++i)
@@ -224,7 +224,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
     holds_.add_up();
     bound_spins(bodies, h);
   }
-  contacts_.store(h, work_);
+  contacts_.store(h, dt, parts_, work_);
   holds_.store();
   end_jointed(bodies);
   // Also a body that only the last pass reached has momentum from it.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "step/contact_rows.h"
+#include "step/softness.h"
 
 namespace tweenfall::blocks {
 
@@ -12,6 +13,11 @@ using contacts::ContactConstraint;
 using contacts::PointConstraint;
 
 namespace {
+
+/// What a part of a step that is shorter than half of it tells of contacts is mostly its own settling, and what a step
+/// far shorter than the one before tells mostly rounding: what was known before is kept, unless it is old, which is so
+/// many sub-steps.
+constexpr double most_parts = 2, long_enough = 0.15, old_after = 24;
 
 void put(Lanes3& lanes, int lane, const Vec3& value) {
   lanes.x[lane] = value.x();
@@ -412,57 +418,70 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
   block.twist_mass[lane] = inverse > 0 ? 1 / inverse : 0;
 }
 
-void ContactBlocks::store(double h, const threads::Workers& work) {
+void ContactBlocks::store(double h, double dt, double parts, const threads::Workers& work) {
   /// Parts of the grip from which a contact counts as sliding.
   constexpr double sliding = 0.999;
-  const auto begin = [h](ContactConstraint& contact) {
-    contact.kept_step = h;
+  const double whole = step::kept_as_whole(parts);
+  const auto begin = [&](ContactConstraint& contact) {
+    contact.slid = false;
+    if (contact.kept_step > 0 && (parts > most_parts || h < long_enough * contact.kept_step)) {
+      contact.passed_over += dt;
+      if (contact.passed_over < old_after * contact.kept_step) return false;
+    }
+    contact.kept_step = whole * h;
     contact.passed_over = 0;
     contact.kept_twist = 0;
-    contact.slid = false;
+    return true;
   };
   each_lane(ball_origins, work, [&](std::size_t i, int lane, ContactConstraint& contact) {
     const BallBlock& block = balls[i];
-    begin(contact);
+    const bool keeps = begin(contact);
     PointConstraint& point = contact.points[0];
-    point.kept_normal = block.impulse[lane];
+    const double normal = block.impulse[lane];
+    const Vec3 friction = lane_of(block.friction, lane);
     point.total_normal = block.total[lane];
-    point.kept_friction = lane_of(block.friction, lane);
     point.total_friction = lane_of(block.total_friction, lane);
-    const double most = sliding * contact.friction * point.kept_normal;
-    contact.slid = most > 0 && point.kept_friction.squaredNorm() >= most * most;
+    const double most = sliding * contact.friction * normal;
+    contact.slid = most > 0 && friction.squaredNorm() >= most * most;
+    if (!keeps) return;
+    point.kept_normal = whole * normal;
+    point.kept_friction = whole * friction;
   });
   each_lane(origins, work, [&](std::size_t i, int lane, ContactConstraint& contact) {
     const ContactBlock& block = blocks[i];
-    begin(contact);
-    contact.kept_twist = block.twist[lane];
+    const bool keeps = begin(contact);
+    if (keeps) contact.kept_twist = whole * block.twist[lane];
     const Vec3 along1 = lane_of(block.tangent1, lane), along2 = lane_of(block.tangent2, lane);
     double pressing = 0, twisting = 0;
     for (int k = 0; k < contact.count; ++k) {
       PointConstraint& point = contact.points[static_cast<std::size_t>(k)];
       const PointRow& row = points[block.point + static_cast<std::uint32_t>(k)];
-      point.kept_normal = row.impulse[lane];
+      const double normal = row.impulse[lane];
       point.total_normal = row.total[lane];
-      point.kept_friction = point.total_friction = Vec3::Zero();
-      pressing += point.kept_normal;
-      twisting += point.kept_normal * row.lever[lane];
+      point.total_friction = Vec3::Zero();
+      pressing += normal;
+      twisting += normal * row.lever[lane];
+      if (keeps) {
+        point.kept_normal = whole * normal;
+        point.kept_friction = Vec3::Zero();
+      }
       if (block.frictions == 0) continue;
       // Friction at the middle is shared out evenly.
       const double share = block.central() ? 1.0 / contact.count : 1;
       const FrictionRow& grip = frictions[block.friction + (block.central() ? 0u : static_cast<std::uint32_t>(k))];
-      point.kept_friction = share * (grip.first[lane] * along1 + grip.second[lane] * along2) + Vec3::Zero();
+      const Vec3 friction = share * (grip.first[lane] * along1 + grip.second[lane] * along2) + Vec3::Zero();
       point.total_friction =
           share * (grip.total_first[lane] * along1 + grip.total_second[lane] * along2) + Vec3::Zero();
-      const double most = sliding * contact.friction * point.kept_normal;
-      if (!block.central() && point.kept_normal > 0 && point.kept_friction.squaredNorm() >= most * most)
-        contact.slid = true;
+      if (keeps) point.kept_friction = whole * friction;
+      const double most = sliding * contact.friction * normal;
+      if (!block.central() && normal > 0 && friction.squaredNorm() >= most * most) contact.slid = true;
     }
     if (!block.central() || !(pressing > 0)) return;
     const FrictionRow& grip = frictions[block.friction];
     const double most = sliding * contact.friction * pressing;
     const double turning = sliding * contact.friction * twisting;
     contact.slid = grip.first[lane] * grip.first[lane] + grip.second[lane] * grip.second[lane] >= most * most ||
-                   (turning > 0 && std::abs(contact.kept_twist) >= turning);
+                   (turning > 0 && std::abs(block.twist[lane]) >= turning);
   });
 }
 

@@ -33,8 +33,9 @@ class ContactBlocks {
             const std::vector<BodyLanes>& starts, double h);
   /// The bodies have been moved.
   void end_ride();
-  /// Gives the impulses back to the contacts.
-  void store(double h, const threads::Workers& work);
+  /// Gives the impulses back to the contacts, of a step of `dt` in sub-steps of `h`.
+  /// @param parts  as many as it fits into the whole step
+  void store(double h, double dt, double parts, const threads::Workers& work);
 
   [[nodiscard]] std::size_t size() const { return blocks.size() + balls.size(); }
   /// Of blocks, and after them of balls.

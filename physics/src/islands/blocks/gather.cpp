@@ -140,7 +140,7 @@ void BlockSolver::foresee(std::span<ContactConstraint* const> contacts, const st
       if (i + ahead < end) contacts::fetch(*contacts[i + ahead]);
       ContactConstraint& contact = *contacts[i];
       const std::uint32_t a = places_[contact.a], b = places_[contact.b];
-      closings_[i] = contacts::closing_of(contact.manifold.normal, loads[contact.a], loads[contact.b], dt);
+      closings_[i] = contacts::closing_of(contact.manifold.normal, loads[contact.a], loads[contact.b], dt * parts_);
       if (trembling > 0)
         closings_[i].tremble =
             std::max(closings_[i].tremble,

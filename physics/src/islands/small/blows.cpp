@@ -68,7 +68,7 @@ bool World::Implementation::hands_on_blows(const islands::IslandContents& island
   const double least = island.contacts.size() >= small::many && feet == 1 ? 0 : small::dull;
   const bool bounces = std::any_of(island.contacts.begin(), island.contacts.end(), [&](const auto* contact) {
     return contact->restitution > least &&
-           small::time_of_blow(*contact, bodies, loads, (1 + small::soon) * dt, dt) < small::never;
+           small::time_of_blow(*contact, bodies, loads, (1 + small::soon) * dt, dt * part_count) < small::never;
   });
   if (!bounces) return false;
   for (const contacts::ContactConstraint* contact : island.contacts)
@@ -105,13 +105,14 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
     double first = small::never;
     slow.clear();
     for (ContactConstraint* contact : find_again(island, parts, span)) {
-      const double meeting = small::time_of_blow(*contact, bodies, loads, span, dt);
+      const double meeting = small::time_of_blow(*contact, bodies, loads, span, dt * part_count);
       if (meeting == small::never) slow.push_back(contact);
       first = std::min(first, meeting);
     }
     if (first == small::never) break;
     if (first <= soon) {
-      for (const step::Blow& blow : solver.strike(bodies, loads, parts.near, std::max(dt, small::unhurried)))
+      for (const step::Blow& blow :
+           solver.strike(bodies, loads, parts.near, std::max(dt * part_count, small::unhurried)))
         parts.add(*blow.contact, blow.impulse, blow.normal, blow.approach);
       ++strikes;
       continue;
