@@ -1,6 +1,8 @@
 #include "importers/document/document_files.h"
 #include "processor_time.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <fstream>
 
 using namespace tweenfall;
@@ -133,6 +135,40 @@ TEST_CASE("a clip of ages is noted, and what a pattern leaves out") {
       "\"when\": {\"at\": 0.5}, \"to\": {\"hz\": 2}}]}");
   CHECK(has(rule, "\"*\" leaves out \"floor\""));
   CHECK(has(rule, "(at /handoff/0/body)"));
+}
+
+TEST_CASE("a loop with more events than a recording holds is noted, whether it is played by name or alone") {
+  const auto noted = [](double loop, const std::string& play) {
+    const std::string length = number_text(loop);
+    return notes_of("{\"tweenfall\": 1, \"nodes\": {\"a\": {}}, \"clips\": {\"c\": {\"duration\": " + length +
+                    ", \"loop\": \"repeat\", \"tracks\": {\"a.position\": [[0, [0, 0, 0]], [" + length +
+                    ", [1e-9, 0, 0]]]}, \"events\": [[0, \"e\"]]}}" + play + "}");
+  };
+  for (const char* const play : {"", ", \"play\": [{\"clip\": \"c\"}]"}) {
+    CAPTURE(play);
+    CHECK(has(noted(1e-7, play), "has more than a million events within"));
+    CHECK(noted(1e-3, play) == "");
+  }
+}
+
+TEST_CASE("a drive's track without a body to drive, or of negative frequencies, is told at the track") {
+  const auto told = [](const std::string& track) {
+    try {
+      (void)Document::parse(
+          "{\"tweenfall\": 1,\n\"nodes\": {\"a\": {}, \"b\": {\"position\": [0, 1, 0], \"body\": {\"shape\": "
+          "{\"sphere\": {\"radius\": 1}}}}, \"floor\": {\"body\": {\"shape\": {\"plane\": {}}, "
+          "\"static\": true}}},\n\"clips\": {\"c\": {\"tracks\": {\n" +
+              track + "}}}}",
+          "d.json", data_folder());
+    } catch (const DocumentError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(has(told("\"a.drive_hz\": [[0, 1]]"), "d.json:4:15: error: \"a\" has no body that could be driven"));
+  CHECK(has(told("\"floor.drive_hz\": [[0, 1]]"), "d.json:4:19: error: \"floor\" has no body that could be driven"));
+  CHECK(has(told("\"b.drive_hz\": [[0, 1], [2, -3]]"), "at 2 s it is -3 Hz"));
+  CHECK(told("\"b.drive_hz\": [[0, 0], [2, 3]]") == "");
 }
 
 TEST_CASE("of a group, too, what is static is left out with a note") {

@@ -19,6 +19,7 @@ namespace tweenfall::document::judging {
 void judge_stage(Building& building);   // what the stage refuses, what starts badly
 void judge_pace(Building& building);    // what is too fast or too long for the step
 void judge_tracks(Building& building);  // names of properties
+void judge_drives(Building& building);  // tracks that drive bodies
 void judge_actors(Building& building);  // what particles and soft bodies say in vain
 
 }  // namespace tweenfall::document::judging

@@ -1,5 +1,6 @@
 #include <tweenfall/anim/play.h>
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/physics/stage/recording.h>
 
 #include "document/fields/things.h"
 #include "document/judge/judge.h"
@@ -90,6 +91,17 @@ void judge_loop(Building& building, std::size_t clip, double speed) {
   if (!fault.empty()) building.problems.add(below(place_of_clip(building, name), {"loop"}), fault);
 }
 
+// A recording of the usual length would have more events than one holds.
+void note_recorded_events(Building& building, const json::Value& place, const Play& play) {
+  const StageDescription& stage = building.stage;
+  const double usual = natural_length(stage);
+  // Half of it, for the question allows for twice as many.
+  if (!too_many_events(play, stage.clips[play.clip], usual / 2).empty())
+    building.problems.note(place, "has more than a million events within " + brief_text(usual) +
+                                      " s, the usual length of a recording, and none holds so many: lengthen its "
+                                      "loop, or end the recording earlier");
+}
+
 }  // namespace
 
 void judge_pace(Building& building) {
@@ -101,8 +113,13 @@ void judge_pace(Building& building) {
   for (std::size_t i = 0; list && i < std::min(stage.plays.size(), list.items().size()); ++i) {
     const Play& play = stage.plays[i];
     const std::string fault = too_many_events(play, stage.clips[play.clip], stage.step + 1e-6);
-    if (!fault.empty()) building.problems.add(list.items()[i], fault);
+    if (!fault.empty())
+      building.problems.add(list.items()[i], fault);
+    else
+      note_recorded_events(building, list.items()[i], play);
   }
+  if (!list && stage.clips.size() == 1)
+    note_recorded_events(building, place_of_clip(building, stage.clips[0].name), {});
   for (std::size_t i = 0; i < stage.clips.size(); ++i) {
     const Clip& clip = stage.clips[i];
     if (usual) judge_turns(building, clip, fastest[i]);
