@@ -3,7 +3,6 @@
 #include <tweenfall/curves/number_text.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace tweenfall::plotting {
@@ -20,17 +19,17 @@ double power_of_ten_below(double size) {
 
 /// With `digits` after the first one, and no more zeros than needed: "-1.25e300".
 std::string exponent_text(double number, int digits) {
-  if (number == 0) return "0";
-  char buffer[40];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, number, std::chars_format::scientific, digits).ptr;
-  const std::string text(buffer, end);
-  const std::size_t mark = text.find('e');
-  std::string mantissa = text.substr(0, mark), exponent = text.substr(mark + 1);
-  if (mantissa.find('.') != std::string::npos) mantissa.erase(mantissa.find_last_not_of('0') + 1);
-  if (mantissa.back() == '.') mantissa.pop_back();
-  const bool is_negative = exponent[0] == '-';
-  exponent.erase(0, std::min(exponent.find_first_not_of("+-0"), exponent.size() - 1));
-  return mantissa + (is_negative ? "e-" : "e") + exponent;
+  double power = 1;
+  int exponent = 0;
+  for (; power > std::abs(number) && number != 0; --exponent) power /= 10;
+  for (; power * 10 <= std::abs(number); ++exponent) power *= 10;
+  std::string mantissa = short_text(number / power, digits);
+  // What is rounded up to ten has a digit more.
+  if (mantissa == "10" || mantissa == "-10") {
+    mantissa.pop_back();
+    ++exponent;
+  }
+  return number == 0 ? "0" : mantissa + "e" + std::to_string(exponent);
 }
 
 }  // namespace

@@ -29,6 +29,21 @@ bool still(const state::Body& body, const Start& start, double speed, double dt)
          turn * body.radius() <= speed * dt + displacement_rounding * body.radius();
 }
 
+/// How fast a body speeds up, m/s^2 and rad/s^2.
+struct Pull {
+  double linear, turning;
+};
+
+Pull pull_of(const state::Body& body, const forces::Load& load) {
+  return {load.acceleration.norm(),
+          (body.inverse_inertia() * (body.motion.pose.rotation.conjugate() * load.torque)).norm()};
+}
+
+/// What contacts leave of it.
+Pull pull_beside_contacts(const state::Body& body, const Start& start, double dt) {
+  return {(body.twist.linear - start.twist.linear).norm() / dt, (body.twist.angular - start.twist.angular).norm() / dt};
+}
+
 }  // namespace
 }  // namespace step
 
@@ -103,12 +118,12 @@ void World::Implementation::let_sleep(double dt) {
       const bool driven = body.drive.owner() == Owner::driven;
       const double speed = settings.sleep_speed * (driven ? step::driven_share : 1);
       bool still = !carried[islands.root(i)] && !starts[i].led && step::still(body, starts[i], speed, dt);
-      if (flags[i] && !moved[i])
-        still = still && loads[i].acceleration.norm() * settings.sleep_after < step::pulling_share * speed;
-      if (flags[i] == step::turned_too && !moved[i])
-        still = still && (body.inverse_inertia() * (body.motion.pose.rotation.conjugate() * loads[i].torque)).norm() *
-                                 body.radius() * settings.sleep_after <
-                             step::pulling_share * speed;
+      if (still && flags[i]) {
+        const step::Pull pull =
+            moved[i] ? step::pull_beside_contacts(body, starts[i], dt) : step::pull_of(body, loads[i]);
+        const double most = step::pulling_share * speed / settings.sleep_after;
+        still = pull.linear < most && (flags[i] != step::turned_too || pull.turning * body.radius() < most);
+      }
       body.still_for = still ? body.still_for + dt : 0;
     }
   });

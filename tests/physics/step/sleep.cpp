@@ -115,6 +115,37 @@ TEST_CASE("a spring that begins to pull moves what rested") {
   }
 }
 
+TEST_CASE("what lies on a smooth floor is moved by the gentlest pull, and on a rough one falls asleep under it") {
+  for (const double friction : {0.0, 0.5})
+    for (const bool spring : {false, true}) {
+      CAPTURE(friction);
+      CAPTURE(spring);
+      World world;
+      world.add({.shape = {Plane{}}, .friction = friction, .fixed = true});
+      BodySettings box;
+      box.shape.solid = Box{Vec3(0.5, 0.5, 0.5)};
+      box.density = 1;
+      box.friction = friction;
+      box.motion.pose.position = Vec3(0, 0.5, 0);
+      const BodyId body = world.add(box);
+      BodySettings hook = box;
+      hook.drive = Drive::keyed();
+      hook.motion.pose.position = Vec3(9, 0.5, 0);
+      const BodyId end = world.add(hook);
+      if (spring)
+        world.add_force(Spring{.a = body, .b = end, .rest_length = 9 - 0.2, .stiffness = 0.2});
+      else
+        world.add_force(Push{.body = body, .force = {0.04, 0, 0}});
+      run_for(world, 3);
+      const double x = world.motion(body).pose.position.x();
+      CHECK(world.asleep(body) == (friction > 0));
+      if (friction > 0)
+        CHECK(std::abs(x) < 1e-4);
+      else
+        CHECK(x == doctest::Approx(spring ? 0.2 * (1 - std::cos(std::sqrt(0.2) * 3)) : 0.04 * 9 / 2).epsilon(0.01));
+    }
+}
+
 TEST_CASE("a sleeper wakes when something is put into it or its support is taken away") {
   World world;
   world.add({.shape = {Plane{}}, .fixed = true});

@@ -151,7 +151,7 @@ class Finder {
   // What none of that tells: the first steps of a copy, without clips and rules
 
   void try_steps() {
-    constexpr std::size_t worth = 20'000, most_steps = 16;
+    constexpr std::size_t worth = 20'000, most_steps = 256;
     const auto asks_caller = [](const ForceDescription& force) { return std::holds_alternative<Field>(force.force); };
     if (!out_.extremes.empty() || std::ranges::any_of(description_.forces, asks_caller)) return;
     World trial = state_.world;
