@@ -1,8 +1,8 @@
 #include "stage/roster/scaled_shape.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <Eigen/LU>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -19,13 +19,8 @@ namespace {
 
 constexpr double hairline = 1e-9;  // relative to the largest factor
 
-std::string number(double value) {
-  std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
 std::string triple(const Vec3& value) {
-  return "(" + number(value.x()) + ", " + number(value.y()) + ", " + number(value.z()) + ")";
+  return "(" + number_text(value.x()) + ", " + number_text(value.y()) + ", " + number_text(value.z()) + ")";
 }
 
 bool is_diagonal(const Mat3& matrix) {

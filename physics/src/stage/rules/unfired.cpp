@@ -1,19 +1,13 @@
+#include <tweenfall/curves/number_text.h>
+
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
 
 namespace {
-
-std::string five_digits(double value) {
-  std::array<char, 32> digits;
-  return {digits.data(),
-          std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 5).ptr};
-}
 
 /// Whether a clip that counts has an event of this name. @param body  when given, only plays that move its node count
 bool has_event(const Animation& animation, const std::string& name, const StagedBody* body) {
@@ -32,8 +26,8 @@ struct Reason {
 
   std::string operator()(const when::At& at) const {
     if (at.time > state.handled)
-      return five_digits(at.time) + " s lies beyond the end of the run, " + five_digits(state.time) + " s";
-    return "at " + five_digits(at.time) + " s the body was where the rule would take it, or the rule came later";
+      return brief_text(at.time) + " s lies beyond the end of the run, " + brief_text(state.time) + " s";
+    return "at " + brief_text(at.time) + " s the body was where the rule would take it, or the rule came later";
   }
   std::string operator()(const when::Marker& marker) const {
     if (!has_event(body.path.animation(), marker.name, &body))
@@ -51,12 +45,12 @@ struct Reason {
   std::string operator()(const when::ContactHit& hit) const {
     const std::string what = hit.with.empty() ? "nothing" : "nothing named \"" + hit.with + "\"";
     if (!attempt.touched) return what + " touched the body";
-    return "the greatest blow was " + five_digits(attempt.impulse) + " N s at " + five_digits(attempt.speed) +
-           " m/s; it waits for " + five_digits(hit.impulse) + " N s at " + five_digits(hit.speed) + " m/s";
+    return "the greatest blow was " + brief_text(attempt.impulse) + " N s at " + brief_text(attempt.speed) +
+           " m/s; it waits for " + brief_text(hit.impulse) + " N s at " + brief_text(hit.speed) + " m/s";
   }
   std::string operator()(const when::Asleep& asleep) const {
-    return "it was free and still for " + five_digits(attempt.still) + " s at most; the rule waits for " +
-           five_digits(asleep.seconds) + " s";
+    return "it was free and still for " + brief_text(attempt.still) + " s at most; the rule waits for " +
+           brief_text(asleep.seconds) + " s";
   }
   std::string operator()(const when::Enter& enter) const {
     return (enter.who.empty() ? "the body" : "nothing named \"" + enter.who + "\"") +
@@ -68,12 +62,12 @@ struct Reason {
            std::string(leave.who.empty() ? " did not leave" : " left") + " \"" + leave.region + "\" while it waited";
   }
   std::string operator()(const when::Saturated& saturated) const {
-    return "its drive was at its limit for " + five_digits(attempt.saturated) + " s at most; the rule waits for " +
-           five_digits(saturated.seconds) + " s";
+    return "its drive was at its limit for " + brief_text(attempt.saturated) + " s at most; the rule waits for " +
+           brief_text(saturated.seconds) + " s";
   }
   std::string operator()(const when::Error& error) const {
-    return "it was " + five_digits(attempt.error) + " m from its path at most; the rule waits for " +
-           five_digits(error.distance) + " m";
+    return "it was " + brief_text(attempt.error) + " m from its path at most; the rule waits for " +
+           brief_text(error.distance) + " m";
   }
 };
 
