@@ -91,13 +91,38 @@ Motion local_motion(const StageState& state, const StagedBody* above, NodeId nod
   const Motion local = state.animation->sample_node(node, time, side, above ? above->path.clock() : ClockOverride{});
   if (!above || !above->below) return local;
   const auto found = std::ranges::lower_bound(*above->below, node, {}, &SettlingNode::node);
-  return found != above->below->end() && found->node == node ? found->offset.apply(time, local) : local;
+  if (found == above->below->end() || found->node != node) return local;
+  Motion settled = found->offset.apply(time, local);
+  if (!found->size.any) return settled;
+  const Sample<Vec3> size = settled_size(found->size, time, local);
+  settled.pose.scale = size.value;
+  settled.scale_rate = size.rate;
+  return settled;
+}
+
+WorldMotion StagedBody::sized(double time, const WorldMotion& on_path) const noexcept {
+  if (!size) return on_path;
+  const Vec3 before = on_path.motion.pose.scale, rate_before = on_path.motion.scale_rate;
+  const Sample<Vec3> settled = settled_size(*size, time, on_path.motion);
+  WorldMotion world = on_path;
+  for (int i = 0; i < 3; ++i) {
+    // Along an axis without size there is nothing to stretch.
+    if (before[i] == 0) continue;
+    const double more = settled.value[i] / before[i];
+    const double more_rate = (settled.rate[i] - more * rate_before[i]) / before[i];
+    world.linear_rate.col(i) = more * on_path.linear_rate.col(i) + more_rate * on_path.linear.col(i);
+    world.linear.col(i) = more * on_path.linear.col(i);
+    world.motion.pose.scale[i] = settled.value[i];
+    world.motion.scale_rate[i] = settled.rate[i];
+  }
+  return world;
 }
 
 WorldMotion body_world(const StageState& from, const StageState& to, std::size_t index, double time) {
   const StagedBody& body = body_in_force(from, to, index, time);
   const StageState& state = at_end(from, to, time) ? to : from;
-  if (state.world.owner(body.id) == Owner::keyed && !state.world.is_fixed(body.id)) return body.path.world(time);
+  if (state.world.owner(body.id) == Owner::keyed && !state.world.is_fixed(body.id))
+    return body.sized(time, body.path.world(time));
   Motion motion = shown_motion(from, to, body, time);
   motion.twist = shifted(motion.twist, -(motion.pose.rotation * state.world.mass(body.id).center));
   WorldMotion shape = body.shown;

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "stage/changes.h"
+#include "stage/size_offset.h"
 
 namespace tweenfall::staging {
 
@@ -43,6 +44,7 @@ inline constexpr double sliver = 1e-9;
 struct SettlingNode {
   NodeId node = no_node;
   SettleOffset offset;
+  SizeOffset size;
 };
 
 struct StagedBody {
@@ -53,10 +55,14 @@ struct StagedBody {
   WorldMotion shown = {};  ///< the path at that time; its scale and shear stay on the free body
   bool present = true;
   std::shared_ptr<const std::vector<SettlingNode>> below = {};  ///< in order of nodes; null for none
-  Drive drive = {};          ///< that it came with: what a track of drives is mixed over
-  Vec3 surface{0, 0, 0};     ///< the same of its surface, m/s
-  double saturated_for = 0;  ///< how long its drive has been at its limit, s
-  bool by_track = true;      ///< no rule and no caller has handed it over: a track may set its drive
+  Drive drive = {};                             ///< that it came with: what a track of drives is mixed over
+  Vec3 surface{0, 0, 0};                        ///< the same of its surface, m/s
+  double saturated_for = 0;                     ///< how long its drive has been at its limit, s
+  bool by_track = true;                         ///< no rule and no caller has handed it over: a track may set its drive
+  std::shared_ptr<const SizeOffset> size = {};  ///< how its own size settles on its path; null for none
+
+  /// Its path's motion at `time` with the size that still settles.
+  [[nodiscard]] WorldMotion sized(double time, const WorldMotion& on_path) const noexcept;
 };
 
 /// What became of a rule so far, for `Stage::unfired_rules`.

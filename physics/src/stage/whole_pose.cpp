@@ -28,7 +28,7 @@ Motion WholePose::at(const StagedBody& body) {
 }
 
 WorldMotion WholePose::world(const StagedBody& body) {
-  return follows(body) ? body.path.world(time_, authored(body.node)) : body.path.world(time_, side_);
+  return body.sized(time_, follows(body) ? body.path.world(time_, authored(body.node)) : body.path.world(time_, side_));
 }
 
 }  // namespace tweenfall::staging

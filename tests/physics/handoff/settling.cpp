@@ -58,6 +58,43 @@ TEST_CASE("the nodes below a body that is handed back settle with it") {
   CHECK(near(stage.world(2).motion.pose.position, Vec3(0.3, 3.2, 0.1), 1e-12));
 }
 
+TEST_CASE("sizes settle with the places, of a body that is handed back and of the nodes below it") {
+  for (const Settle& settle : {Settle{Settle::Kind::quintic, 0.3}, Settle{Settle::Kind::half_life, 0.05},
+                               Settle{Settle::Kind::dead_blend, 0.3}})
+    for (const char* const grown : {"hip", "leg"}) {
+      CAPTURE(static_cast<int>(settle.kind));
+      CAPTURE(grown);
+      StageDescription description;
+      description.nodes = {{.name = "hip",
+                            .rest = {.position = {0, 5, 0}, .rotation = Quat(0.8, 0, 0.6, 0)},
+                            .body = BodyDescription{.shape = {Sphere{0.1}}, .drive = Drive::keyed()}},
+                           {.name = "leg", .parent = 0},
+                           {.name = "foot", .parent = 1, .rest = {.position = {0.5, -1, 0.2}}}};
+      description.clips = {held("walk", "hip", {0, 5, 0}), held("rise", "hip", {0, 4, 0})};
+      description.clips[1].tracks.push_back({grown, "scale", Curve<Vec3>(Vec3(1.5, 2, 0.5))});
+      description.plays = {{.clip = 0}};
+      HandBack back;
+      back.clip = "rise";
+      back.settle = settle;
+      description.rules = {release_at(0.1, "hip"), recover_at(0.6, "hip", back)};
+      Stage stage(description);
+      const double h = 1e-6;
+      const auto foot_at = [&](double time) {
+        stage.advance_to(time);
+        return stage.world(2);
+      };
+      const WorldMotion before = foot_at(0.6 - h), after = foot_at(0.6 + h);
+      CHECK(near(after.motion.pose.position, before.motion.pose.position, 2 * h * 6));
+      CHECK((after.linear - before.linear).cwiseAbs().maxCoeff() < 1e-6);
+      // Half way the velocities are those of what is shown.
+      const WorldMotion early = foot_at(0.7 - h), middle = foot_at(0.7), late = foot_at(0.7 + h);
+      CHECK(near(middle.motion.twist.linear, (late.motion.pose.position - early.motion.pose.position) / (2 * h), 1e-4));
+      CHECK(((late.linear - early.linear) / (2 * h) - middle.linear_rate).cwiseAbs().maxCoeff() < 1e-4);
+      Vec3 foot = Quat(0.8, 0, 0.6, 0) * Vec3(0.75, -2, 0.1);
+      CHECK(near(foot_at(4).motion.pose.position, Vec3(0, 4, 0) + foot, 1e-9));
+    }
+}
+
 TEST_CASE("a rule to a drive follows the path it names, and settles onto it") {
   StageDescription description;
   description.world.gravity = {0, 0, 0};

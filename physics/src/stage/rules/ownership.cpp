@@ -56,8 +56,8 @@ std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState
   below->reserve(carried.size());
   for (const NodeId node : carried) {
     const Motion shown = local_motion(state, &body, node, time, Side::in);
-    below->push_back(
-        {node, SettleOffset(settle, time, next.animation().sample_node(node, time, Side::out, next.clock()), shown)});
+    const Motion led = next.animation().sample_node(node, time, Side::out, next.clock());
+    below->push_back({node, SettleOffset(settle, time, led, shown), size_offset(settle, time, led, shown)});
   }
   return below;
 }
@@ -117,14 +117,14 @@ bool change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
   if (handoff.from == Owner::keyed) {
     if (take_over.overlap == TakeOver::Overlap::ignore) pass_through(state, body, instant);
     // The motion shown up to now is the one that arrives.
-    body.shown = body.path.world(instant, Side::in);
+    body.shown = body.sized(instant, body.path.world(instant, Side::in));
     body.released_at = instant;
     Motion motion = rigid(body.shown.motion);
     handoff.before = handoff.after = about_center(motion, center);
     double leaves_at = instant;
     if (const std::optional<double> clear = clear_time(state, body, motion.pose, instant, take_over, step)) {
       leaves_at = *clear;
-      body.shown = body.path.world(leaves_at, Side::in);
+      body.shown = body.sized(leaves_at, body.path.world(leaves_at, Side::in));
       motion = rigid(body.shown.motion);
       handoff.after = about_center(motion, center);
     }
@@ -151,6 +151,13 @@ bool change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
     const Path path = follows ? body.path.recovered(begins, hand_back, beginning, body.released_at) : body.path;
     world.set_drive(body.id, to);
     body.below = below(path);
+    if (follows) {
+      // A free or driven body keeps the size with which it left its path.
+      Motion shown = body.shown.motion;
+      shown.scale_rate.setZero();
+      const SizeOffset size = size_offset(hand_back.settle, begins, path.world(begins, Side::out).motion, shown);
+      body.size = size.any ? std::make_shared<const SizeOffset>(size) : nullptr;
+    }
     body.path = path;
     if (handoff.to == Owner::keyed) {
       world.set_motion(body.id, bearable(state, body, rigid(body.path.at(state.time)), "its path"));

@@ -332,11 +332,17 @@ void each_field(T& offset, const Visit& visit) {
   PathFields::of_offset(offset, visit);
 }
 
+template <Is<staging::SizeOffset> T, class Visit>
+void each_field(T& offset, const Visit& visit) {
+  auto& [settle, start, any, shown, rate, quintic, spring] = offset;
+  visit(settle, start, any, shown, rate, quintic, spring);
+}
+
 template <Is<staging::SettlingNode> T, class Visit>
 void each_field(T& settling, const Visit& visit) {
-  auto& [node, offset] = settling;
+  auto& [node, offset, size] = settling;
   visit.places(node);
-  visit(offset);
+  visit(offset, size);
 }
 
 template <Is<WorldMotion> T, class Visit>
@@ -347,10 +353,13 @@ void each_field(T& world, const Visit& visit) {
 
 template <Is<staging::StagedBody> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [node, id, path, released_at, shown, present, below, drive, surface, saturated_for, by_track] = body;
+  auto& [node, id, path, released_at, shown, present, below, drive, surface, saturated_for, by_track, size] = body;
   follows_from_others(node, id, present, drive, surface);
   PathFields::of_path(path, visit);
   visit(released_at, shown, saturated_for, by_track);
+  auto own = size ? *size : staging::SizeOffset{};
+  visit(own);
+  if constexpr (!std::is_const_v<T>) size = own.any ? std::make_shared<const staging::SizeOffset>(own) : nullptr;
   auto settling = below ? *below : std::vector<staging::SettlingNode>{};
   visit(settling);
   if constexpr (!std::is_const_v<T>)
