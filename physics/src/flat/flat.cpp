@@ -166,9 +166,9 @@ void Flat::take_over(const state::WorldState& world) {
   take_over_joints(world);
 }
 
-void Flat::step(double dt) {
+void Flat::step(double dt, double parts) {
   try {
-    world_.step(dt);
+    world_.step(dt, dt * parts);
   } catch (const NotFinite& fault) {
     const std::uint32_t index = index_of(fault.body);
     throw NotFinite({index, entries_[index].generation}, fault.time, fault.cause);
@@ -259,7 +259,7 @@ void World::Implementation::step_in_plane(double dt) {
   flat::Flat& plane = flat.own();
   plane.take_over(*this);
   push_in_plane(dt);
-  plane.step(dt);
+  plane.step(dt, part_count);
   plane.hand_back(*this);
   plane.hand_back_joints(*this, dt);
   break_in_plane();

@@ -45,7 +45,7 @@ class Flat {
   void push(std::uint32_t index, const Vec3& force, const Vec3& torque, const Vec3& arm);
   void exert(const state::WorldState& world);
   /// @throws NotFinite
-  void step(double dt);
+  void step(double dt, double parts);
   /// Tells the bodies where they are now, and the world what touches.
   void hand_back(state::WorldState& world);
   /// The forces of the last step of joints, and how far they have turned.

@@ -19,9 +19,9 @@ constexpr double new_enough = 1e-10;
 }  // namespace
 
 JointRows::JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups, std::vector<Joint>& joints,
-                     double h, double warmth)
+                     double h, double warmth, double parts)
     : h_(h) {
-  const double turn = 2 * std::numbers::pi * joint_cycles, stiffness = turn * (2 * joint_damping + turn);
+  const double turn = 2 * std::numbers::pi * joint_cycles / parts, stiffness = turn * (2 * joint_damping + turn);
   rate_ = turn / (h * (2 * joint_damping + turn));
   firm_ = stiffness / (1 + stiffness);
   giving_ = 1 / (1 + stiffness);
@@ -55,6 +55,10 @@ JointRows::JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>&
     joint.total = Vec2(0, 0);
     joint.total_turn = 0;
     if (held_in_vain) continue;
+    row.held_before = joint.held;
+    row.motor_before = joint.motor;
+    row.lower_before = joint.lower;
+    row.upper_before = joint.upper;
     for (double& one : joint.held) one *= warmth;
     for (double* one : {&joint.motor, &joint.lower, &joint.upper}) *one *= warmth;
     rows_.push_back(row);
@@ -328,6 +332,18 @@ void JointRows::end_step(const std::vector<BodyRow>& displacements) {
     if (!std::holds_alternative<Gear>(row.joint->settings.kind)) continue;
     row.joint->turned_a += displacements[row.a].turn;
     row.joint->turned_b += displacements[row.b].turn;
+  }
+}
+
+void JointRows::keep(double times) {
+  if (times == 1) return;
+  for (const Row& row : rows_) {
+    Joint& joint = *row.joint;
+    const auto kept = [times](double before, double now) { return times > 0 ? times * now : before; };
+    for (std::size_t i = 0; i < joint.held.size(); ++i) joint.held[i] = kept(row.held_before[i], joint.held[i]);
+    joint.motor = kept(row.motor_before, joint.motor);
+    joint.lower = kept(row.lower_before, joint.lower);
+    joint.upper = kept(row.upper_before, joint.upper);
   }
 }
 

@@ -27,13 +27,15 @@ struct Line {
 class JointRows {
  public:
   JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups, std::vector<Joint>& joints, double h,
-            double warmth);
+            double warmth, double parts);
 
   /// With the impulses of the sub-step before.
   void begin_sub_step(const std::vector<BodyRow>& displacements, std::vector<BodyRow>& velocities);
   void solve(std::vector<BodyRow>& velocities, bool soft);
   void end_sub_step();
   void end_step(const std::vector<BodyRow>& displacements);
+  /// The impulses that the next step begins with: so many times those of this one, or for 0 those before it.
+  void keep(double times);
 
  private:
   static constexpr std::size_t most_held = Joint::most_held;
@@ -41,6 +43,8 @@ class JointRows {
 
   struct Row {
     Joint* joint = nullptr;
+    Held held_before{};  ///< as the step began, and of what moves or bounds
+    double motor_before = 0, lower_before = 0, upper_before = 0;
     std::uint32_t a = 0, b = 0;
     double inverse_mass_a = 0, inverse_mass_b = 0, inverse_moment_a = 0, inverse_moment_b = 0;
     Vec2 center_a{0, 0}, center_b{0, 0};  ///< at the start of the step; of the world its anchor

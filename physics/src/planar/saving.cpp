@@ -102,9 +102,9 @@ struct NumberByNumber {
 /// All that tells on the next steps.
 template <class Tool, class State>
 void walk_world(Tool& tool, State& world) {
-  NumberByNumber<Tool>{tool}(world.settings, world.time, world.last_h, world.bodies, world.makeups, world.unused,
-                             world.joints, world.unused_joints, world.meetings, world.contacts, world.overlaps,
-                             world.ignored);
+  NumberByNumber<Tool>{tool}(world.settings, world.time, world.last_h, world.passed_over, world.bodies, world.makeups,
+                             world.unused, world.joints, world.unused_joints, world.meetings, world.contacts,
+                             world.overlaps, world.ignored);
 }
 
 bool in_order(const std::vector<Meeting>& meetings) {
@@ -139,7 +139,8 @@ void World::Implementation::settle_in() {
     inner::demand(holds, std::string("these bytes are no saved plane: ") + what);
   };
   inner::demand_settings(settings);
-  expect(time >= 0 && last_h >= 0 && inner::all_count({time, last_h}), "its times cannot be");
+  expect(time >= 0 && last_h >= 0 && passed_over >= 0 && inner::all_count({time, last_h, passed_over}),
+         "its times cannot be");
   expect(bodies.size() == makeups.size(), "its lists differ in length");
   expect(inner::are_unused(unused, bodies) && inner::are_unused(unused_joints, joints), "its free places are taken");
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {

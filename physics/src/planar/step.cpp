@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "planar/world_data.h"
+#include "step/softness.h"
 
 namespace tweenfall::planar {
 
@@ -17,6 +18,9 @@ namespace inner {
 namespace {
 
 constexpr double countable = 1e30;
+/// Of steps in more parts, and of those far shorter than the one before, impulses are not kept: what was known before
+/// is better, unless it is older than so many sub-steps.
+constexpr double most_parts = 2, long_enough = 0.15, old_after = 24;
 
 bool is_finite(const Body& body) {
   return std::abs(body.center.x()) <= countable && std::abs(body.center.y()) <= countable &&
@@ -136,7 +140,7 @@ void World::Implementation::check_finite(double dt) {
   }
 }
 
-void World::Implementation::step(double dt) {
+void World::Implementation::step(double dt, double parts) {
   if (!(dt > 0 && dt <= inner::countable))
     throw std::invalid_argument("the length of a step must be positive and finite, but is " + number_text(dt) + " s");
   if (failed) {
@@ -163,9 +167,16 @@ void World::Implementation::step(double dt) {
   const double h = dt / settings.sub_steps;
   // In shorter steps impulses are smaller.
   const double warmth = last_h > 0 ? std::min(1.0, h / last_h) : 0;
-  last_h = h;
-  solver.solve(
-      {bodies, makeups, meetings, joints, moving, active, settings.push_out_speed, dt, settings.sub_steps, warmth});
+  passed_over += dt;
+  const bool keeps = last_h == 0 || (parts <= inner::most_parts && h >= inner::long_enough * last_h) ||
+                     passed_over >= inner::old_after * last_h;
+  const double kept = keeps ? step::kept_as_whole(parts) : 0;
+  if (keeps) {
+    last_h = kept * h;
+    passed_over = 0;
+  }
+  solver.solve({bodies, makeups, meetings, joints, moving, active, settings.push_out_speed, dt, settings.sub_steps,
+                warmth, parts, kept});
   report();
   arrive(dt);
   if (!std::isinf(settings.sleep_after)) let_sleep(dt);

@@ -1,3 +1,4 @@
+#include <tweenfall/curves/number_text.h>
 #include <tweenfall/physics/planar_world.h>
 
 #include <algorithm>
@@ -383,7 +384,13 @@ std::span<const SensorOverlap> World::sensor_overlaps() const noexcept {
 }
 
 void World::step(double dt) {
-  implementation_->step(dt);
+  implementation_->step(dt, 1);
+}
+
+void World::step(double dt, double whole) {
+  if (!std::isfinite(whole))
+    throw std::invalid_argument("the step of which this is a part must be finite, but is " + number_text(whole) + " s");
+  implementation_->step(dt, std::max(1.0, whole / dt));
 }
 
 }  // namespace tweenfall::planar

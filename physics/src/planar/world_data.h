@@ -30,7 +30,8 @@ struct World::Implementation {
   std::vector<std::uint32_t> unused_joints;
   std::vector<inner::Pair> ignored;      ///< sorted
   std::vector<inner::Meeting> meetings;  ///< sorted
-  double last_h = 0;                     ///< length of the last sub-step, s
+  double last_h = 0;                     ///< length of the last sub-step whose impulses are kept, s
+  double passed_over = 0;                ///< time since then in steps too short to be kept, s
   bool failed = false;                   ///< a body is not finite
 
   // What follows from these
@@ -71,7 +72,7 @@ struct World::Implementation {
   void meet_or_not(const inner::Pair& pair);
   void settle_in();  ///< after loading
 
-  void step(double dt);
+  void step(double dt, double parts);
   void set_out(double dt);
   void damp(std::uint32_t index, double h);  ///< what damping leaves in a sub-step
   void find_meetings(double dt);

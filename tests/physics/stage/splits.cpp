@@ -100,6 +100,31 @@ TEST_CASE("impulses of nothing and releases by the caller leave a stack of ten w
   }
 }
 
+TEST_CASE("in a plane, too, a stack of ten stands where it stood, wherever its steps are split") {
+  for (const double step : {1.0 / 60, 1.0 / 240}) {
+    for (const double beside : {-3e-3, -1e-6, 1e-8, 1e-4, 8e-3}) {
+      CAPTURE(step);
+      CAPTURE(beside);
+      StageDescription description = stack_and_far_bodies(step);
+      description.world.plane = WorldPlane::xy;
+      Stage alone(description), split(description);
+      // There it takes a second until it has sunk to where it stands.
+      for (int frame = 60; frame < 68; ++frame) {
+        split.advance_to(frame / 60.0 + beside);
+        split.apply_impulse(2, {0, 0, 0}, {60, 900, 0});
+      }
+      double most = 0;
+      for (int frame = 68; frame < 80; ++frame) {
+        alone.advance_to(frame / 60.0);
+        split.advance_to(frame / 60.0);
+        for (std::size_t i = 4; i < 14; ++i)
+          most = std::max(most, (alone.world(i).motion.pose.position - split.world(i).motion.pose.position).norm());
+      }
+      CHECK(most < 1e-4);
+    }
+  }
+}
+
 TEST_CASE("257 and 600 changes in one step, a millionth of a microsecond and more apart, are all made") {
   for (const auto& changes : {std::pair{600, 1e-12}, std::pair{257, 3e-6}}) {
     const int count = changes.first;

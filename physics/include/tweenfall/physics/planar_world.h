@@ -146,6 +146,10 @@ class World {
   /// @throws NotFinite when a body stops being finite: `step` throws again until it is removed or moved by
   /// `set_motion`.
   void step(double dt);
+  /// The same for a part of a step that is `whole` seconds long: contacts and joints give way, and are remembered, as
+  /// in the whole step, so that what rests stays where it is however a step is split. @throws std::invalid_argument for
+  /// a whole that is no number
+  void step(double dt, double whole);
 
   /// Pairs that touched in the last step, by the indices of their bodies.
   [[nodiscard]] std::span<const Contact> contacts() const noexcept;

@@ -44,7 +44,7 @@ ContactSolver::Arrival ContactSolver::arrival(const ContactBlock& block, int lan
     arrival.when = since + 2 * gap / (closing + arrival.speed);
     if (!(arrival.when <= h)) return {};
   }
-  return arrival.speed > std::max(slowest, trembles * pull * h) ? arrival : Arrival{};
+  return arrival.speed > std::max(slowest, trembles * pull * h * parts_) ? arrival : Arrival{};
 }
 
 /// An impulse inside the sub-step, as if the bodies had begun it so that they now fly away from the blow.

@@ -186,13 +186,17 @@ void ContactSolver::store(const Scene& scene) {
     const auto lane = static_cast<std::int64_t>(places_[k] % lane_count);
     for (int i = 0; i < meeting.count; ++i) {
       const auto n = static_cast<std::size_t>(i);
-      meeting.pressing[n] = block.point[i].normal[lane];
-      meeting.dragging[n] = block.point[i].sideways[lane];
+      if (scene.kept > 0) {
+        meeting.pressing[n] = scene.kept * block.point[i].normal[lane];
+        meeting.dragging[n] = scene.kept * block.point[i].sideways[lane];
+      }
       given[k].normal[i] += block.point[i].total_normal[lane];
       given[k].sideways[i] += block.point[i].total_sideways[lane];
     }
   }
-  for (const Rolling& rolling : rolling_) scene.meetings[scene.active[rolling.active]].rolling = rolling.impulse;
+  if (!(scene.kept > 0)) return;
+  for (const Rolling& rolling : rolling_)
+    scene.meetings[scene.active[rolling.active]].rolling = scene.kept * rolling.impulse;
 }
 
 void ContactSolver::finish(const Scene& scene) {
@@ -211,11 +215,12 @@ void ContactSolver::finish(const Scene& scene) {
 
 void ContactSolver::solve(Scene scene) {
   const double h = scene.dt / scene.sub_steps;
-  const step::Softness softness = step::soft_contacts(scene.push_out_speed, scene.dt, scene.sub_steps);
+  const step::Softness softness = step::soft_contacts(scene.push_out_speed, scene.dt, scene.sub_steps, scene.parts);
   const PassRule soft{softness.rate, softness.speed, softness.firm, 1 - softness.giving, 1 / h, false};
   const PassRule hard{.inverse_h = 1 / h, .sum_up = true};
+  parts_ = scene.parts;
   build(scene);
-  JointRows joints(scene.bodies, scene.makeups, scene.joints, h, scene.warmth);
+  JointRows joints(scene.bodies, scene.makeups, scene.joints, h, scene.warmth, scene.parts);
   const Kernels& kernel = kernels();
   for (int sub_step = 0; sub_step < scene.sub_steps; ++sub_step) {
     begin_sub_step(scene, h, scene.sub_steps - 1 - sub_step);
@@ -234,6 +239,7 @@ void ContactSolver::solve(Scene scene) {
     joints.end_sub_step();
   }
   joints.end_step(displacements_);
+  joints.keep(scene.kept);
   store(scene);
   finish(scene);
 }

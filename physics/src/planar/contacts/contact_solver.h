@@ -34,6 +34,8 @@ struct Scene {
   double dt = 0;
   int sub_steps = 1;
   double warmth = 1;  ///< share of the impulses of the step before with which this one begins
+  double parts = 1;   ///< as many as it fits into the whole step
+  double kept = 1;    ///< how many times its impulses are those that the next one begins with; 0 for those before it
 };
 
 /// Takes bodies through a step: in each sub-step velocities, blows of what rebounds, contacts that give way while
@@ -81,6 +83,7 @@ class ContactSolver {
   void store(const Scene& scene);
   void finish(const Scene& scene);
 
+  double parts_ = 1;  ///< as many as the step at hand fits into the whole one
   std::vector<BodyRow> velocities_, starts_, unpushed_, displacements_;
   std::vector<double> struck_at_;
   std::vector<ContactBlock> blocks_;
