@@ -168,9 +168,10 @@ void World::Implementation::step(double dt, double parts) {
   // In shorter steps impulses are smaller.
   const double warmth = last_h > 0 ? std::min(1.0, h / last_h) : 0;
   passed_over += dt;
+  const double whole = step::kept_as_whole(parts);
   const bool keeps = last_h == 0 || (parts <= inner::most_parts && h >= inner::long_enough * last_h) ||
-                     passed_over >= inner::old_after * last_h;
-  const double kept = keeps ? step::kept_as_whole(parts) : 0;
+                     (passed_over >= inner::old_after * last_h && whole == parts);
+  const double kept = keeps ? whole : 0;
   if (keeps) {
     last_h = kept * h;
     passed_over = 0;

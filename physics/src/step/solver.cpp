@@ -375,7 +375,7 @@ void Solver::add_totals(Contacts contacts, double h) {
     if (constraint.rebounds) continue;
     if (h < long_enough * constraint.kept_step) {
       constraint.passed_over += h;
-      if (constraint.passed_over < sub_steps_ * constraint.kept_step) continue;
+      if (constraint.passed_over < sub_steps_ * constraint.kept_step || whole < parts_) continue;
     }
     for (int i = 0; i < constraint.count; ++i) {
       SolvedPoint& point = constraint.points[static_cast<std::size_t>(i)];

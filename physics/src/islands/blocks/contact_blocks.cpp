@@ -16,7 +16,7 @@ namespace {
 
 /// What a part of a step that is shorter than half of it tells of contacts is mostly its own settling, and what a step
 /// far shorter than the one before tells mostly rounding: what was known before is kept, unless it is old, which is so
-/// many sub-steps.
+/// many sub-steps, and this says enough of the whole.
 constexpr double most_parts = 2, long_enough = 0.15, old_after = 24;
 
 void put(Lanes3& lanes, int lane, const Vec3& value) {
@@ -426,7 +426,7 @@ void ContactBlocks::store(double h, double dt, double parts, const threads::Work
     contact.slid = false;
     if (contact.kept_step > 0 && (parts > most_parts || h < long_enough * contact.kept_step)) {
       contact.passed_over += dt;
-      if (contact.passed_over < old_after * contact.kept_step) return false;
+      if (contact.passed_over < old_after * contact.kept_step || whole < parts) return false;
     }
     contact.kept_step = whole * h;
     contact.passed_over = 0;
