@@ -18,7 +18,8 @@ std::string cause_of(const Twist& before, const forces::Load& load, bool touched
   if (torque > 1e6) return "torques of " + number_text(torque) + " N m turn it";
   if (speed > 1e6) return "it already moved at " + number_text(speed) + " m/s in the step before";
   if (spin > 1e6) return "it already turned at " + number_text(spin) + " rad/s in the step before";
-  return touched ? "its contacts throw it" : "the step of " + number_text(dt) + " s is too long for what acts on it";
+  return touched ? "its contacts, springs or joints throw it"
+                 : "the step of " + number_text(dt) + " s is too long for what acts on it";
 }
 
 }  // namespace
