@@ -30,25 +30,30 @@ std::span<const Shape> parts_of(const state::Body& body) {
 }
 
 /// Hands the impulses of the step before on: to points of the same features, then to what is left nearby.
-void inherit(ContactConstraint& constraint, const state::ContactMemory& old, double nearby) {
-  static_cast<state::KeptImpulses&>(constraint) = old.kept;
+/// @param stand_b  where the second body was at the start of that step
+void inherit(ContactConstraint& constraint, const state::ContactMemories& memories, const state::ContactMemory& old,
+             const state::Stand& stand_b, double nearby) {
+  static_cast<state::KeptImpulses&>(constraint) = memories.kept(old);
   std::array<bool, 4> given{}, taken{};
+  std::size_t left = static_cast<std::size_t>(constraint.count);
   const auto hand_on = [&](std::size_t from, std::size_t to) {
-    constraint.points[to].kept_normal = old.point(from).kept_normal;
-    constraint.points[to].kept_friction = old.point(from).kept_friction;
+    constraint.points[to].kept_normal = memories.point(old, from).kept_normal;
+    constraint.points[to].kept_friction = memories.point(old, from).kept_friction;
     given[from] = taken[to] = true;
+    --left;
   };
-  const auto count = static_cast<std::size_t>(constraint.count);
-  const auto old_count = static_cast<std::size_t>(old.count);
+  const std::size_t count = left, old_count = old.count;
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t k = 0; k < old_count; ++k)
-      if (!given[k] && !taken[i] && old.point(k).feature == constraint.points[i].feature) hand_on(k, i);
+      if (!given[k] && !taken[i] && memories.feature(old, k) == constraint.points[i].feature) hand_on(k, i);
+  if (left == 0) return;
+  const std::array<Vec3, 4> arms = arms_of(memories, old, stand_b);
   for (std::size_t i = 0; i < count; ++i) {
     if (taken[i]) continue;
     std::size_t best = old_count;
     double least = nearby;
     for (std::size_t k = 0; k < old_count; ++k) {
-      const double away = (old.point(k).arm_b - constraint.points[i].start_arm_b).norm();
+      const double away = (arms[k] - constraint.points[i].start_arm_b).norm();
       if (given[k] || away >= least) continue;
       least = away;
       best = k;
@@ -175,7 +180,7 @@ void World::Implementation::find_contact(const contacts::PairInContact& pair, co
       pair.memory != state::ContactMemories::nowhere ? &memories[pair.memory] : nullptr;
   contacts::ContactConstraint& constraint = part.contacts.add();
   static_cast<contacts::PairInContact&>(constraint) = pair;
-  constraint.kept = memory && contacts::take_up(*memory, a, b, way_a.swing + way_b.swing, dt, constraint);
+  constraint.kept = memory && contacts::take_up(memories, *memory, a, b, way_a.swing + way_b.swing, dt, constraint);
   if (!constraint.kept && !find_manifold(constraint, a, b, way_a, way_b, dt, alone ? &part : nullptr)) {
     part.contacts.drop_last();
     return;
@@ -193,8 +198,9 @@ void World::Implementation::finish_contact(contacts::ContactConstraint& constrai
                                                           b.makeup->restitution, b.makeup->restitution_combine);
   constraint.rolling_friction = std::max(a.makeup->rolling_friction, b.makeup->rolling_friction);
   constraint.spinning_friction = std::max(a.makeup->spinning_friction, b.makeup->spinning_friction);
-  constraint.began = !(memory && memory->touching);
-  if (memory) contacts::inherit(constraint, *memory, 0.05 * std::min(a.radius(), b.radius()));
+  constraint.began = !(memory && memory->is(state::ContactMemory::touching));
+  if (memory)
+    contacts::inherit(constraint, memories, *memory, stands[constraint.b], 0.05 * std::min(a.radius(), b.radius()));
 }
 
 void World::Implementation::find_contacts_of_parts(const contacts::PairInContact& pair, contacts::PairMemories known,
@@ -234,10 +240,8 @@ void World::Implementation::find_contacts_of_parts(const contacts::PairInContact
       contacts::PairInContact one = pair;
       one.part_a = i;
       one.part_b = k;
-      while (next < end && std::pair(memories[sorted[next]].part_a, memories[sorted[next]].part_b) < std::pair(i, k))
-        ++next;
-      if (next < end && memories[sorted[next]].part_a == i && memories[sorted[next]].part_b == k)
-        one.memory = sorted[next];
+      while (next < end && memories.parts(memories[sorted[next]]) < std::pair(i, k)) ++next;
+      if (next < end && memories.parts(memories[sorted[next]]) == std::pair(i, k)) one.memory = sorted[next];
       find_contact(one, its_a, ways_b[k].way, dt, false, part);
     }
   }
@@ -255,7 +259,8 @@ void World::Implementation::fetch_ahead(std::span<const pairs::Pair> pairs,
     if (const state::ContactMemory* memory = memory_of(i + far)) state::fetch(memory);
   }
   if (i + near >= pairs.size()) return;
-  if (const state::ContactMemory* memory = memory_of(i + near)) memory->more.fetch();
+  if (const state::ContactMemory* memory = memory_of(i + near))
+    if (const state::MoreOfContact* more = memories.more(*memory)) state::fetch(more);
 }
 
 void World::Implementation::find_part(std::span<const pairs::Pair> pairs,

@@ -29,8 +29,9 @@ class SurfaceContacts {
   static constexpr std::size_t most = 12;
 
   /// @param pair  bodies, and the part of the solid's body
+  /// @param stand_b  where the second body was at the start of the step before
   SurfaceContacts(const PairInContact& pair, const Surface& surface, const Passage& way_surface, const Passage& way,
-                  bool surface_is_a, double dt)
+                  bool surface_is_a, const state::Stand& stand_b, double dt)
       : pair_(pair),
         surface_(surface),
         way_surface_(way_surface),
@@ -38,6 +39,7 @@ class SurfaceContacts {
         way_a_(surface_is_a ? way_surface : way),
         way_b_(surface_is_a ? way : way_surface),
         surface_is_a_(surface_is_a),
+        stand_b_(stand_b),
         dt_(dt),
         swing_(way.swing +
                way_surface.spin * ((way.body->center - way_surface.body->center).norm() + way.body->radius())) {}
@@ -55,14 +57,13 @@ class SurfaceContacts {
     count_ = 0;
     for (const std::uint32_t place : places) {
       ContactConstraint& constraint = add();
-      if (!take_up(memories[place], *way_a_.body, *way_b_.body, swing_, dt_, constraint)) {
+      if (!take_up(memories, memories[place], *way_a_.body, *way_b_.body, swing_, dt_, constraint)) {
         count_ = 0;
         return false;
       }
       constraint.kept = true;
       constraint.memory = place;
-      constraint.part_a = memories[place].part_a;
-      constraint.part_b = memories[place].part_b;
+      std::tie(constraint.part_a, constraint.part_b) = memories.parts(memories[place]);
     }
     return true;
   }
@@ -93,6 +94,10 @@ class SurfaceContacts {
   [[nodiscard]] auto& number_of(Contact& contact) const {
     return surface_is_a_ ? contact.part_a : contact.part_b;
   }
+  [[nodiscard]] std::uint32_t number_in(const state::ContactMemories& memories, std::uint32_t place) const {
+    const auto [part_a, part_b] = memories.parts(memories[place]);
+    return surface_is_a_ ? part_a : part_b;
+  }
 
   /// Numbers the contacts: each takes the number, and the memory, of the remembered one that was nearest to where it is
   /// on the solid; the others take the numbers that are left.
@@ -106,7 +111,7 @@ class SurfaceContacts {
       for (std::size_t i = 0; i < count_; ++i)
         for (std::size_t k = 0; k < known; ++k) {
           if (numbered[i] || taken[k]) continue;
-          const double away = (place_of(contacts_[i]) - place_of(memories[places[k]])).norm();
+          const double away = (place_of(contacts_[i]) - place_in(memories, places[k])).norm();
           if (!(away < least)) continue;
           least = away;
           best = i;
@@ -115,12 +120,12 @@ class SurfaceContacts {
       if (best == most) break;
       numbered[best] = taken[from] = true;
       contacts_[best].memory = places[from];
-      number_of(contacts_[best]) = number_of(memories[places[from]]);
+      number_of(contacts_[best]) = number_in(memories, places[from]);
     }
     std::uint32_t next = 0;
     const auto used = [&](std::uint32_t number) {
       for (std::size_t k = 0; k < known; ++k)
-        if (number_of(memories[places[k]]) == number) return true;
+        if (number_in(memories, places[k]) == number) return true;
       return false;
     };
     for (std::size_t i = 0; i < count_; ++i) {
@@ -177,9 +182,11 @@ class SurfaceContacts {
     }
     return sum / contact.count;
   }
-  [[nodiscard]] Vec3 place_of(const state::ContactMemory& memory) const {
+  [[nodiscard]] Vec3 place_in(const state::ContactMemories& memories, std::uint32_t place) const {
+    const state::ContactMemory& memory = memories[place];
+    const std::array<Vec3, 4> arms = arms_of(memories, memory, stand_b_);
     Vec3 sum(0, 0, 0);
-    for (int i = 0; i < memory.count; ++i) sum += memory.point(static_cast<std::size_t>(i)).arm_b;
+    for (std::size_t i = 0; i < memory.count; ++i) sum += arms[i];
     sum /= memory.count;
     if (surface_is_a_) return sum;
     // About where both were in the step before.
@@ -193,6 +200,7 @@ class SurfaceContacts {
   const Passage& way_a_;
   const Passage& way_b_;
   bool surface_is_a_;
+  const state::Stand& stand_b_;
   double dt_, swing_;
   std::array<ContactConstraint, most> contacts_;
   std::array<Vec3, most> normals_;
@@ -212,16 +220,18 @@ void World::Implementation::find_contacts_with_surface(const contacts::PairInCon
   const surfaces::Surface& surface = *surfaces::surface_of(way_surface.body->shape().solid);
   const std::span<const std::uint32_t> all = memories.sorted().subspan(known.first, known.count);
   const std::size_t before = part.contacts.size();
+  const state::Stand stand_b = all.empty() ? state::Stand{} : stands[pair.b];
   const auto find = [&](const collision::Passage& way, std::uint32_t number) {
     std::array<std::uint32_t, 2 * contacts::SurfaceContacts::most> its;
     std::size_t count = 0;
     for (const std::uint32_t place : all)
-      if ((surface_is_a ? memories[place].part_b : memories[place].part_a) == number && count < its.size())
+      if (const auto [part_a, part_b] = memories.parts(memories[place]);
+          (surface_is_a ? part_b : part_a) == number && count < its.size())
         its[count++] = place;
     const std::span<const std::uint32_t> known_places = std::span(its).first(count);
     contacts::PairInContact its_pair = pair;
     (surface_is_a ? its_pair.part_b : its_pair.part_a) = number;
-    contacts::SurfaceContacts its_contacts(its_pair, surface, way_surface, way, surface_is_a, dt);
+    contacts::SurfaceContacts its_contacts(its_pair, surface, way_surface, way, surface_is_a, stand_b, dt);
     if (!its_contacts.take_up_all(memories, known_places)) {
       its_contacts.find();
       its_contacts.number(memories, known_places);

@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "step/workspace.h"
-
 namespace tweenfall::contacts {
 
 using state::Body;
-using state::FoundManifold;
+using state::ContactMemories;
+using state::ContactMemory;
+using state::MoreOfContact;
+using state::Stand;
 
 namespace {
 
@@ -16,6 +17,44 @@ namespace {
 constexpr double hardly = 2e-3;
 /// And at most this, m: points that come near are found before they touch.
 constexpr double unnoticed = 1e-3;
+
+/// A manifold that was found, in the bodies' own axes.
+class FoundManifold {
+ public:
+  FoundManifold(const ContactMemories& memories, const ContactMemory& memory)
+      : memories_(memories), memory_(memory), then_(*memories.more(memory)), back_a_(then_.a.rotation.conjugate()) {}
+
+  /// Of b, in a's axes.
+  [[nodiscard]] Quat turn() const { return back_a_ * then_.b.rotation; }
+  /// From a's center of mass to b's, in a's axes, m.
+  [[nodiscard]] Vec3 between() const { return back_a_ * Vec3(then_.b.center - then_.a.center); }
+
+  /// The same where the bodies stand. Calls see(i, arm from a, arm from b, gap) for its points.
+  template <class See>
+  Manifold laid(const Stand& a, const Stand& b, const See& see) const {
+    const Mat3 axes_a = a.rotation.toRotationMatrix(), axes_b = b.rotation.toRotationMatrix();
+    const Quat back_b = then_.b.rotation.conjugate();
+    Manifold manifold;
+    manifold.normal = axes_a * Vec3(back_a_ * memory_.normal);
+    manifold.count = memory_.count;
+    for (std::size_t i = 0; i < memory_.count; ++i) {
+      const state::PointMemory& point = memories_.point(memory_, i);
+      const Vec3 arm_a = axes_a * Vec3(back_a_ * Vec3(point.position - then_.a.center));
+      const Vec3 arm_b = axes_b * Vec3(back_b * Vec3(point.position - then_.b.center));
+      const Vec3 apart = (b.center + arm_b) - (a.center + arm_a);
+      const double gap = -point.penetration + manifold.normal.dot(apart);
+      manifold.points[i] = {a.center + arm_a + 0.5 * apart, -gap, memories_.feature(memory_, i)};
+      see(i, arm_a, arm_b, gap);
+    }
+    return manifold;
+  }
+
+ private:
+  const ContactMemories& memories_;
+  const ContactMemory& memory_;
+  const MoreOfContact& then_;
+  Quat back_a_;
+};
 
 }  // namespace
 
@@ -26,46 +65,54 @@ bool keeps_manifold(const ContactConstraint& contact) {
   return flat;
 }
 
-FoundManifold found_manifold(const ContactConstraint& contact, const step::Start& a, const step::Start& b) {
-  FoundManifold found;
-  const Quat back_a = a.rotation.conjugate();
-  const Quat back_b = b.rotation.conjugate();
-  found.holds = true;
-  found.turn = back_a * b.rotation;
-  found.between = back_a * Vec3(b.center - a.center);
-  found.normal = back_a * contact.manifold.normal;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(contact.count); ++i) {
-    const PointConstraint& point = contact.points[i];
-    found.points[i] = {back_a * point.start_arm_a, back_b * point.start_arm_b, point.start_gap};
-  }
-  return found;
-}
-
-bool take_up(const state::ContactMemory& memory, const Body& a, const Body& b, double swing, double dt,
-             ContactConstraint& contact) {
-  const FoundManifold& found = memory.found();
-  if (!found.holds || !memory.touching || a.placed || b.placed) return false;
+bool take_up(const ContactMemories& memories, const ContactMemory& memory, const Body& a, const Body& b, double swing,
+             double dt, ContactConstraint& contact) {
+  if (!memory.is(ContactMemory::holds) || !memory.is(ContactMemory::touching) || a.placed || b.placed) return false;
+  const FoundManifold found(memories, memory);
   const double size = std::min(a.radius(), b.radius());
-  const Quat& rotation_a = a.motion.pose.rotation;
-  const Quat& rotation_b = b.motion.pose.rotation;
-  const Vec3 between = rotation_a.conjugate() * Vec3(b.center - a.center);
-  const double turn = 2 * (found.turn.conjugate() * (rotation_a.conjugate() * rotation_b)).vec().norm();
-  if ((between - found.between).norm() + turn * size + swing * dt > std::min(hardly * size, unnoticed)) return false;
-  const Mat3 axes_a = rotation_a.toRotationMatrix(), axes_b = rotation_b.toRotationMatrix();
-  contact.manifold = {};
-  contact.manifold.normal = axes_a * found.normal;
-  contact.manifold.count = contact.count = memory.count;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(memory.count); ++i) {
+  const Stand now_a{a.center, a.motion.pose.rotation}, now_b{b.center, b.motion.pose.rotation};
+  const Quat back_a = now_a.rotation.conjugate();
+  const Vec3 between = back_a * Vec3(b.center - a.center);
+  const double turn = 2 * (found.turn().conjugate() * (back_a * now_b.rotation)).vec().norm();
+  const double moved = (between - found.between()).norm() + turn * size + swing * dt;
+  if (moved > std::min(hardly * size, unnoticed)) return false;
+  contact.count = memory.count;
+  contact.manifold = found.laid(now_a, now_b, [&](std::size_t i, const Vec3& arm_a, const Vec3& arm_b, double gap) {
     PointConstraint& point = contact.points[i];
     point = {};
-    point.feature = memory.point(i).feature;
-    point.start_arm_a = axes_a * found.points[i].anchor_a;
-    point.start_arm_b = axes_b * found.points[i].anchor_b;
-    const Vec3 apart = (b.center + point.start_arm_b) - (a.center + point.start_arm_a);
-    point.start_gap = found.points[i].gap + contact.manifold.normal.dot(apart);
-    contact.manifold.points[i] = {a.center + point.start_arm_a + 0.5 * apart, -point.start_gap, point.feature};
-  }
+    point.feature = memories.feature(memory, i);
+    point.start_arm_a = arm_a;
+    point.start_arm_b = arm_b;
+    point.start_gap = gap;
+  });
   return true;
+}
+
+Manifold manifold_of(const ContactMemories& memories, const ContactMemory& memory, const Stand& a, const Stand& b) {
+  if (memory.is(ContactMemory::taken_up))
+    return FoundManifold(memories, memory).laid(a, b, [](std::size_t, const Vec3&, const Vec3&, double) {});
+  Manifold manifold;
+  manifold.normal = memory.normal;
+  manifold.count = memory.count;
+  for (std::size_t i = 0; i < memory.count; ++i) {
+    const state::PointMemory& point = memories.point(memory, i);
+    manifold.points[i] = {point.position, point.penetration, memories.feature(memory, i)};
+  }
+  return manifold;
+}
+
+std::array<Vec3, 4> arms_of(const ContactMemories& memories, const ContactMemory& memory, const Stand& b) {
+  std::array<Vec3, 4> arms;
+  const state::RareOfContact* rare = memories.rare(memory);
+  if (rare && rare->has_arms) return rare->arms_b;
+  const bool taken_up = memory.is(ContactMemory::taken_up);
+  const Stand& then = taken_up ? memories.more(memory)->b : b;
+  const Mat3 axes = taken_up ? Mat3(b.rotation.toRotationMatrix()) : Mat3(Mat3::Identity());
+  for (std::size_t i = 0; i < memory.count; ++i) {
+    const Vec3 arm = memories.point(memory, i).position - then.center;
+    arms[i] = taken_up ? Vec3(axes * Vec3(then.rotation.conjugate() * arm)) : arm;
+  }
+  return arms;
 }
 
 }  // namespace tweenfall::contacts

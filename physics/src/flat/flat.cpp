@@ -137,7 +137,7 @@ void Flat::take_over(const state::Body& body, std::uint32_t index, const Vec3& g
   if (body.has_target && !body.fixed) world_.set_target(entry.id, beside(axes.flat(body.target())));
   const Vec3 force = body.steady_force(gravity);
   if (force != Vec3::Zero()) world_.apply_force(entry.id, axes.flat(force), axes.flat(body.center));
-  const double torque = axes.sign * body.torque[axes.normal];
+  const double torque = axes.sign * body.torque()[axes.normal];
   if (torque != 0) world_.apply_torque(entry.id, torque);
   const bool stirred = body.still_for < world_.still_for(entry.id);
   if (!body.immovable() && !body.asleep && (stirred || world_.asleep(entry.id))) world_.wake(entry.id);
@@ -208,7 +208,7 @@ void Flat::tell_contacts(state::WorldState& world) const {
   const auto order = [&](const Contact& a, const Contact& b) { return key(a) < key(b); };
   std::sort(world.contacts.begin(), world.contacts.end(), order);
   world.ended.clear();
-  world.gone_contacts.clear();
+  std::swap(world.ended, world.gone_contacts);
   for (const Contact& contact : before)
     if (!std::binary_search(world.contacts.begin(), world.contacts.end(), contact, order))
       world.ended.push_back({contact.a, contact.b});
@@ -270,8 +270,7 @@ void World::Implementation::step_in_plane(double dt) {
       step::arrive(body);
       continue;
     }
-    body.force = Vec3::Zero();
-    body.torque = Vec3::Zero();
+    body.clear_work();
     if (body.drive.owner() == Owner::driven) body.target().twist = {};
     body.has_target = false;
   }

@@ -77,7 +77,7 @@ void World::Implementation::push_in_plane(double dt) {
     const Mat3 inverse = body.world_inverse_inertia(body.motion.pose.rotation);
     const Vec3 spin = body.twist.angular;
     const double heavy = spin.squaredNorm() > 0 ? spin.dot(inverse * spin) / spin.squaredNorm() : 0;
-    const Vec3 torque = load.torque - body.torque - load.angular_drag / (1 + load.angular_drag * dt * heavy) * spin;
+    const Vec3 torque = load.torque - body.torque() - load.angular_drag / (1 + load.angular_drag * dt * heavy) * spin;
     plane.push(i, mass * gain, torque, Vec3(0, 0, 0));
   }
   for (const step::SpringRow& row : stiff_springs) {

@@ -154,7 +154,7 @@ void Flight::find_rates(const Acting& acting, std::span<const std::uint32_t> wat
     rates_[k].linear = acting.settings.gravity + body.steady_force(acting.settings.gravity) / body.mass().mass -
                        body.makeup->linear_damping * at.linear;
     rates_[k].turn = turn_rate(changed.turn, at.angular);
-    rates_[k].momentum = body.torque - body.makeup->angular_damping * momentum;
+    rates_[k].momentum = body.torque() - body.makeup->angular_damping * momentum;
   }
   const Amid moment(*this, acting, after);
   for (const NumberedForce& entry : acting.forces) {

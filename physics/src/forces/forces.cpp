@@ -145,7 +145,7 @@ void gather_loads(const std::vector<Body>& bodies, std::span<const std::uint32_t
     if (!moves(body)) return;
     load.acceleration = settings.gravity + body.steady_force(settings.gravity) / body.mass().mass;
     load.end_acceleration = load.acceleration;
-    load.torque = body.torque;
+    load.torque = body.torque();
     load.drag = body.makeup->linear_damping;
     load.angular_damping = body.makeup->angular_damping;
   });

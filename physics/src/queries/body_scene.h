@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "forces/forces.h"
-#include "queries/lazy_scene.h"
+#include "queries/scene.h"
 #include "state/body.h"
 
 namespace tweenfall::queries {

@@ -76,7 +76,7 @@ std::vector<BodyDetail> body_details(const World& asked) {
   const auto tie = [&](const BodyId& a, const BodyId& b) {
     if (moves(a) && moves(b)) islands.join(a.index, b.index);
   };
-  for (const Contact& contact : world.contacts) tie(contact.a, contact.b);
+  for (const Contact& contact : asked.contacts()) tie(contact.a, contact.b);
   for (const state::Joint& joint : world.joints)
     if (joint.alive) tie(joint.settings.a, joint.settings.b);
   std::vector<std::uint32_t> there;

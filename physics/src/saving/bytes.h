@@ -88,9 +88,9 @@ class ByteReader {
     for (std::uint64_t left = count(); left > 0; --left) walk(*this, values.emplace_back());
   }
   void list(ContactMemories& memories) {
-    std::vector<ContactMemory> all;
+    std::vector<WholeContact> all;
     list(all);
-    memories = ContactMemories(std::move(all));
+    memories = ContactMemories(all);
   }
   void list(IgnoredPairs& pairs) {
     std::vector<IgnoredPairs::Entry> all;

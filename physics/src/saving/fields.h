@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "saving/force_fields.h"
+#include "state/blank.h"
 #include "state/world_state.h"
 
 namespace tweenfall::saving {
@@ -13,12 +14,14 @@ namespace tweenfall::saving {
 using state::Body;
 using state::ContactMemory;
 using state::Extra;
-using state::FoundManifold;
 using state::IgnoredPairs;
 using state::Joint;
-using state::KeptImpulses;
 using state::Makeup;
+using state::MoreOfContact;
 using state::PointMemory;
+using state::RareOfContact;
+using state::Stand;
+using state::WholeContact;
 using state::WorldState;
 
 /// Names fields that follow from others.
@@ -139,39 +142,29 @@ void each_field(T& extra, const Visit& visit) {
 template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
   auto& [alive, fixed, asleep, placed, has_target, led, saturated, conveys, generation, drive, still_for, center, twist,
-         motion, force, torque, groups, collides_with, makeup, extra] = body;
+         motion, work, groups, collides_with, makeup, extra] = body;
   visit(alive, generation);
   if (!alive) return;  // its place and number alone matter
-  visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion, force, torque, groups,
-        collides_with, makeup, extra);
+  visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion);
+  state::Work applied = work.value();
+  visit(applied.force, applied.torque);
+  if constexpr (!std::is_const_v<T>)
+    if (!state::blank(applied.force) || !state::blank(applied.torque)) work.own() = applied;
+  visit(groups, collides_with, makeup, extra);
   visit.rarely(saturated);
   follows_from_others(conveys);
 }
 
 template <Is<PointMemory> T, class Visit>
 void each_field(T& point, const Visit& visit) {
-  auto& [feature, arm_b, kept_normal, kept_friction] = point;
-  visit(feature, arm_b, kept_normal, kept_friction);
+  auto& [position, penetration, kept_normal, kept_friction] = point;
+  visit(position, penetration, kept_normal, kept_friction);
 }
 
-template <Is<KeptImpulses> T, class Visit>
-void each_field(T& kept, const Visit& visit) {
-  auto& [kept_rolling, kept_spin, kept_step, kept_twist, slid, passed_over] = kept;
-  visit(kept_rolling, kept_spin, kept_step, kept_twist, slid, passed_over);
-}
-
-template <Is<FoundManifold::Point> T, class Visit>
-void each_field(T& point, const Visit& visit) {
-  auto& [anchor_a, anchor_b, gap] = point;
-  visit(anchor_a, anchor_b, gap);
-}
-
-template <Is<FoundManifold> T, class Visit>
-void each_field(T& found, const Visit& visit) {
-  auto& [holds, turn, between, normal, points] = found;
-  visit(turn, between, normal);
-  for (auto& point : points) visit(point);
-  follows_from_others(holds);  // it is told of where it does
+template <Is<Stand> T, class Visit>
+void each_field(T& stand, const Visit& visit) {
+  auto& [center, rotation] = stand;
+  visit(center, rotation);
 }
 
 /// The number of points that an array of them has room for, whatever it is told.
@@ -179,22 +172,20 @@ void each_field(T& found, const Visit& visit) {
   return static_cast<std::size_t>(count < 0 ? 0 : count > 4 ? 4 : count);
 }
 
-template <Is<ContactMemory> T, class Visit>
-void each_field(T& memory, const Visit& visit) {
-  auto& [a, b, part_a, part_b, count, touching, gone, kept, first, more] = memory;
+template <Is<WholeContact> T, class Visit>
+void each_field(T& contact, const Visit& visit) {
+  auto& [memory, of_more, of_rare] = contact;
+  auto& [a, b, feature, more, rare, count, marks, kept_step, normal, impulse, approach, total_impulse, first] = memory;
+  auto& [points, features, kept_twist, stand_a, stand_b] = of_more;
+  auto& [part_a, part_b, has_arms, kept_spin, passed_over, kept_rolling, arms_b] = of_rare;
   visit.rarely(part_a, part_b);
-  visit(a, b, count, kept, touching);
-  if (count > 0) visit(first);
-  for (std::size_t i = 1; i < within_four(count); ++i) visit(memory.point(i));
-  bool holds = memory.found().holds;
-  visit(holds);
-  if constexpr (std::is_const_v<T>) {
-    if (holds) visit(more.value().found);
-  } else if (holds) {
-    more.own().found.holds = true;
-    visit(more.own().found);
-  }
-  leads_to_nothing(gone);  // those that are gone are not told of
+  visit(a, b, count, marks, kept_step, normal, impulse, approach, total_impulse);
+  if (count > 0) visit(feature, first);
+  for (std::size_t i = 1; i < within_four(count); ++i) visit(features[i - 1], points[i - 1]);
+  visit(kept_twist, kept_spin, passed_over, kept_rolling, has_arms);
+  if (memory.is(ContactMemory::holds)) visit(stand_a, stand_b);
+  for (std::size_t i = 0; has_arms && i < within_four(count); ++i) visit(arms_b[i]);
+  follows_from_others(more, rare);
 }
 
 template <Is<Limits> T, class Visit>
@@ -393,10 +384,10 @@ void each_field(T& settings, const Visit& visit) {
 
 template <Is<WorldState> T, class Visit>
 void each_field(T& world, const Visit& visit) {
-  auto& [settings, bodies, unused, forces, next_force, time, failed, memories, ignored, joints, unused_joints, broken,
-         contacts, ended, gone_contacts, sensors, overlaps, left_sensors, softs, unused_softs, flat] = world;
-  visit(settings, bodies, unused, forces, next_force, time, memories, ignored, joints, unused_joints, broken, contacts,
-        ended, gone_contacts, overlaps, left_sensors);
+  auto& [settings, bodies, unused, forces, next_force, time, failed, memories, stands, ignored, joints, unused_joints,
+         broken, contacts, ended, gone_contacts, sensors, overlaps, left_sensors, softs, unused_softs, flat] = world;
+  visit(settings, bodies, unused, forces, next_force, time, memories, stands, ignored, joints, unused_joints, broken,
+        contacts, ended, gone_contacts, overlaps, left_sensors);
   bool has_softs = !softs.empty();
   visit.rarely(has_softs);
   if (has_softs) visit(softs, unused_softs);

@@ -20,7 +20,7 @@ namespace tweenfall {
 namespace saving {
 namespace {
 
-constexpr Envelope world_envelope{"world", 9};
+constexpr Envelope world_envelope{"world", 10};
 
 bool unit(const Quat& rotation) {
   return std::abs(rotation.norm() - 1) <= 1e-9;
@@ -53,38 +53,44 @@ void check(Body& body, state::Makeups& makeups) {
     state::require(unit(motion.pose.rotation), "rotation of a body must be a unit quaternion");
   }
   state::require(body.finite(), "its place and velocity must be finite and at most 1e30");
-  state::require(body.force.allFinite() && body.torque.allFinite() && extra.reaction.allFinite(),
+  state::require(body.force().allFinite() && body.torque().allFinite() && extra.reaction.allFinite(),
                  "its forces must be finite");
   state::require_amount(body.still_for, "time of stillness");
 }
 
-void check(const FoundManifold& found) {
-  if (!found.holds) return;
-  state::require(unit(found.turn), "its turn must be a unit quaternion");
-  state::require(std::abs(found.normal.norm() - 1) <= 1e-6, "its normal must have length 1");
-  require_numbers(found.between, "way between the bodies");
-  for (const FoundManifold::Point& point : found.points) {
-    require_numbers(point.anchor_a, "anchor of a point");
-    require_numbers(point.anchor_b, "anchor of a point");
-    require_number(point.gap, "gap of a point");
-  }
+void check(const Stand& stand) {
+  require_numbers(stand.center, "place of a body");
+  state::require(unit(stand.rotation), "its rotations must be unit quaternions");
 }
 
-void check(const ContactMemory& memory) {
+void check(const WholeContact& contact) {
+  const auto& [memory, more, rare] = contact;
   state::require(memory.count >= 1 && memory.count <= 4, "it must have 1 to 4 points");
-  for (std::size_t i = 0; i < within_four(memory.count); ++i) {
-    const PointMemory& point = memory.point(i);
-    require_numbers(point.arm_b, "arm of a point");
+  constexpr int known = ContactMemory::touching | ContactMemory::began | ContactMemory::slid | ContactMemory::holds |
+                        ContactMemory::taken_up;
+  state::require((memory.marks & ~known) == 0, "there are no such marks");
+  state::require(memory.is(ContactMemory::holds) || !memory.is(ContactMemory::taken_up), "what was taken up must hold");
+  state::require(std::abs(memory.normal.norm() - 1) <= 1e-6, "its normal must have length 1");
+  for (std::size_t i = 0; i < memory.count; ++i) {
+    const PointMemory& point = i == 0 ? memory.first : more.points[i - 1];
+    require_numbers(point.position, "place of a point");
+    require_number(point.penetration, "depth of a point");
     require_number(point.kept_normal, "impulse of a point");
     require_numbers(point.kept_friction, "friction of a point");
+    require_numbers(rare.arms_b[i], "arm of a point");
   }
-  require_numbers(memory.kept.kept_rolling, "rolling impulse");
-  require_number(memory.kept.kept_spin, "spinning impulse");
-  require_number(memory.kept.kept_step, "length of a sub-step");
-  state::require(memory.kept.kept_step >= 0 && memory.kept.passed_over >= 0, "its times must not be negative");
-  require_number(memory.kept.kept_twist, "twisting impulse");
-  require_number(memory.kept.passed_over, "time passed over");
-  check(memory.found());
+  state::require(memory.impulse >= 0 && std::isfinite(memory.impulse) && memory.total_impulse.allFinite(),
+                 "its impulses must be finite");
+  state::require(memory.approach >= 0 && std::isfinite(memory.approach), "its approach speed must be finite");
+  require_numbers(rare.kept_rolling, "rolling impulse");
+  require_number(rare.kept_spin, "spinning impulse");
+  require_number(memory.kept_step, "length of a sub-step");
+  state::require(memory.kept_step >= 0 && rare.passed_over >= 0, "its times must not be negative");
+  require_number(more.kept_twist, "twisting impulse");
+  require_number(rare.passed_over, "time passed over");
+  if (!memory.is(ContactMemory::holds)) return;
+  check(more.a);
+  check(more.b);
 }
 
 void check(const Contact& contact) {
@@ -201,22 +207,13 @@ void check_pairs(const WorldState& world) {
       check(contact);
     });
   first = true;
-  std::size_t told = 0, number = 0;
+  std::size_t number = 0;
   for (const std::uint32_t place : world.memories.sorted())
-    at("memory of contact " + std::to_string(number++), [&] {
-      const ContactMemory& memory = world.memories[place];
-      require_pair({memory.a, memory.b, memory.part_a, memory.part_b});
-      check(memory);
-      if (!memory.touching) return;
-      const auto before_it = [&](const Contact& contact) {
-        return std::tie(contact.a.index, contact.b.index, contact.part_a, contact.part_b) <
-               std::tie(memory.a, memory.b, memory.part_a, memory.part_b);
-      };
-      while (told < world.contacts.size() && before_it(world.contacts[told])) ++told;
-      state::require(told < world.contacts.size() && world.contacts[told].a.index == memory.a &&
-                         world.contacts[told].b.index == memory.b && world.contacts[told].part_a == memory.part_a &&
-                         world.contacts[told].part_b == memory.part_b,
-                     "a contact that touches is not among the contacts");
+    at("contact " + std::to_string(number++), [&] {
+      const WholeContact contact = world.memories.whole(place);
+      require_pair({contact.memory.a, contact.memory.b, contact.rare.part_a, contact.rare.part_b});
+      state::require(contact.memory.b < world.stands.size(), "nothing tells where its bodies stood");
+      check(contact);
     });
   first = true;
   for (std::size_t i = 0; i < world.ignored.all().size(); ++i)
@@ -281,6 +278,9 @@ void check(WorldState& world) {
       state::require(entry.number >= least && entry.number < world.next_force, "numbers of forces must come in order");
       least = entry.number + 1;
     });
+  state::require(world.stands.size() <= world.bodies.size(), "a saved world tells of bodies that there are not");
+  for (std::size_t i = 0; i < world.stands.size(); ++i)
+    at("place of body " + std::to_string(i), [&] { check(world.stands[i]); });
   check_pairs(world);
   check_joints(world);
   check_softs(world);

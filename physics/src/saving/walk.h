@@ -156,10 +156,14 @@ class Teller {
   }
   void list(const ContactMemories& memories) {
     std::uint64_t count = 0;
-    for (const std::uint32_t place : memories.sorted()) count += memories[place].gone ? 0 : 1;
+    const auto is_there = [&](std::uint32_t place) { return !memories[place].is(ContactMemory::gone); };
+    for (const std::uint32_t place : memories.sorted()) count += is_there(place) ? 1 : 0;
     tool().number(count);
-    for (const std::uint32_t place : memories.sorted())
-      if (!memories[place].gone) walk(tool(), memories[place]);
+    for (const std::uint32_t place : memories.sorted()) {
+      if (!is_there(place)) continue;
+      const WholeContact whole = memories.whole(place);
+      walk(tool(), whole);
+    }
   }
   void list(const IgnoredPairs& pairs) { list(pairs.all()); }
   void compound(const Compound& compound) {

@@ -40,6 +40,12 @@ struct Extra {
   Twist surface_velocity;  ///< at the center of mass, node axes
 };
 
+/// What the caller applied for the next step.
+struct Work {
+  Vec3 force{0, 0, 0};   ///< N
+  Vec3 torque{0, 0, 0};  ///< N m
+};
+
 /// Everything the world knows about one body. Plain values: a copy of it steps to the same bits. What bodies that are
 /// alike have in common stands in `makeup`, and what only few have in `extra`.
 struct Body {
@@ -58,8 +64,7 @@ struct Body {
   Vec3 center{0, 0, 0};  ///< center of mass, world
   Twist twist;           ///< at the center of mass
   Motion motion;         ///< of the node's origin, exactly as told while keyed
-  Vec3 force{0, 0, 0};   ///< accumulated for the next step, N
-  Vec3 torque{0, 0, 0};  ///< N m
+  Boxed<Work> work;      ///< of those to which the caller applied some
 
   std::uint64_t groups = 1;  ///< as the caller last said, and so `collides_with`
   std::uint64_t collides_with = ~std::uint64_t{0};
@@ -80,11 +85,17 @@ struct Body {
   [[nodiscard]] const Motion& target() const { return extra.value().target; }
   [[nodiscard]] Motion& target() { return extra.own().target; }
 
+  [[nodiscard]] const Vec3& force() const { return work.value().force; }
+  [[nodiscard]] const Vec3& torque() const { return work.value().torque; }
+  void clear_work() {
+    if (work.has_value()) work.own() = {};
+  }
+
   [[nodiscard]] bool immovable() const { return fixed || drive.owner() == Owner::keyed; }
   /// What the caller applied, and of the weight what a drive bears, N.
   [[nodiscard]] Vec3 steady_force(const Vec3& gravity) const {
-    if (drive.gravity_compensation == 0 || drive.owner() != Owner::driven) return force;
-    return force - (drive.gravity_compensation * mass().mass) * gravity;
+    if (drive.gravity_compensation == 0 || drive.owner() != Owner::driven) return force();
+    return force() - (drive.gravity_compensation * mass().mass) * gravity;
   }
   /// On its way to another place in this step.
   [[nodiscard]] bool displaces() const {

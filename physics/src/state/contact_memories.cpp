@@ -4,11 +4,45 @@
 #include <numeric>
 #include <utility>
 
+#include "state/blank.h"
+
 namespace tweenfall::state {
 
-ContactMemories::ContactMemories(std::vector<ContactMemory> all) : all_(std::move(all)) {
+ContactMemories::ContactMemories(std::span<const WholeContact> all) {
+  all_.reserve(all.size());
+  for (const WholeContact& whole : all) {
+    ContactMemory& memory = all_.emplace_back(whole.memory);
+    const MoreOfContact& more = whole.more;
+    const RareOfContact& rare = whole.rare;
+    memory.more = memory.rare = nowhere;
+    if (memory.count > 1 || !blank(more.kept_twist) || memory.is(ContactMemory::holds)) own_more(memory) = more;
+    const bool parts = rare.part_a != 0 || rare.part_b != 0;
+    const bool impulses = !blank(rare.kept_spin) || !blank(rare.passed_over) || !blank(rare.kept_rolling);
+    if (parts || impulses || rare.has_arms) own_rare(memory) = rare;
+  }
   sorted_.resize(all_.size());
   std::iota(sorted_.begin(), sorted_.end(), std::uint32_t{0});
+}
+
+WholeContact ContactMemories::whole(std::uint32_t place) const {
+  WholeContact whole;
+  whole.memory = all_[place];
+  if (const MoreOfContact* its = more(all_[place])) whole.more = *its;
+  if (const RareOfContact* its = rare(all_[place])) whole.rare = *its;
+  return whole;
+}
+
+KeptImpulses ContactMemories::kept(const ContactMemory& memory) const {
+  KeptImpulses kept;
+  kept.kept_step = memory.kept_step;
+  kept.slid = memory.is(ContactMemory::slid);
+  if (const MoreOfContact* its = more(memory)) kept.kept_twist = its->kept_twist;
+  if (const RareOfContact* its = rare(memory)) {
+    kept.kept_rolling = its->kept_rolling;
+    kept.kept_spin = its->kept_spin;
+    kept.passed_over = its->passed_over;
+  }
+  return kept;
 }
 
 std::span<const std::uint32_t> ContactMemories::of(std::uint32_t body) {
@@ -32,8 +66,9 @@ void ContactMemories::tidy() {
   starts_.clear();
   if (!some_gone_) return;
   std::erase_if(sorted_, [this](std::uint32_t place) {
-    if (all_[place].gone) unused_.push_back(place);
-    return all_[place].gone;
+    if (!all_[place].is(ContactMemory::gone)) return false;
+    free(place);
+    return true;
   });
   some_gone_ = false;
 }
@@ -49,13 +84,10 @@ std::uint32_t ContactMemories::take() {
   return place;
 }
 
-void ContactMemories::keep(std::vector<std::uint32_t>& sorted) {
-  kept_.assign(all_.size(), 0);
-  for (const std::uint32_t place : sorted) kept_[place] = 1;
-  for (const std::uint32_t place : sorted_)
-    if (kept_[place] == 0) unused_.push_back(place);
-  std::swap(sorted_, sorted);
-  starts_.clear();
+void ContactMemories::free(std::uint32_t place) {
+  more_.free(all_[place].more);
+  rare_.free(all_[place].rare);
+  unused_.push_back(place);
 }
 
 }  // namespace tweenfall::state

@@ -24,8 +24,7 @@ void stay(Body& body) {
 }
 
 void clear_work(Body& body) {
-  body.force = Vec3::Zero();
-  body.torque = Vec3::Zero();
+  body.clear_work();
   body.has_target = false;
 }
 
@@ -49,25 +48,25 @@ void World::Implementation::wake(std::uint32_t index) {
 }
 
 void World::Implementation::drop_contacts(std::uint32_t index) {
-  bool seen = false;
   for (const std::uint32_t place : memories.of(index)) {
     const state::ContactMemory& memory = memories[place];
-    seen = seen || (memory.touching && !memory.gone);
+    if (memory.is(state::ContactMemory::touching) && !memory.is(state::ContactMemory::gone))
+      gone_contacts.push_back({{memory.a, bodies[memory.a].generation}, {memory.b, bodies[memory.b].generation}});
     memories.part(place);
   }
-  if (!seen) return;
   std::erase_if(contacts, [&](const Contact& contact) {
     const bool goes = contact.a.index == index || contact.b.index == index;
     if (goes) gone_contacts.push_back({contact.a, contact.b});
     return goes;
   });
+  told.forget();
 }
 
 void World::Implementation::wake_neighbors(std::uint32_t index) {
   for (const std::uint32_t place : memories.of(index)) {
     const state::ContactMemory& memory = memories[place];
     const std::uint32_t other = memory.a == index ? memory.b : memory.a;
-    if (!memory.gone && !bodies[other].immovable()) wake(other);
+    if (!memory.is(state::ContactMemory::gone) && !bodies[other].immovable()) wake(other);
   }
 }
 
@@ -80,11 +79,14 @@ void World::Implementation::meet_or_not(std::uint32_t a, std::uint32_t b) {
 void World::Implementation::forget_impulses(std::uint32_t index) {
   for (const std::uint32_t place : memories.of(index)) {
     state::ContactMemory& memory = memories[place];
-    memory.kept.kept_rolling = Vec3::Zero();
-    memory.kept.kept_twist = memory.kept.kept_spin = 0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(memory.count); ++i) {
-      memory.point(i).kept_normal = 0;
-      memory.point(i).kept_friction = Vec3::Zero();
+    if (state::MoreOfContact* more = memories.more(memory)) more->kept_twist = 0;
+    if (state::RareOfContact* rare = memories.rare(memory)) {
+      rare->kept_rolling = Vec3::Zero();
+      rare->kept_spin = 0;
+    }
+    for (std::size_t i = 0; i < memory.count; ++i) {
+      memories.point(memory, i).kept_normal = 0;
+      memories.point(memory, i).kept_friction = Vec3::Zero();
     }
   }
 }
@@ -394,8 +396,9 @@ void World::apply_force(BodyId id, const Vec3& force, const Vec3& point) {
   state::require_finite(point, "point");
   if (body.immovable()) return;
   world.wake(id.index);
-  body.force += force;
-  body.torque += (point - body.center).cross(force);
+  state::Work& work = body.work.own();
+  work.force += force;
+  work.torque += (point - body.center).cross(force);
 }
 
 void World::apply_torque(BodyId id, const Vec3& torque) {
@@ -404,7 +407,7 @@ void World::apply_torque(BodyId id, const Vec3& torque) {
   state::require_finite(torque, "torque");
   if (body.immovable()) return;
   world.wake(id.index);
-  body.torque += torque;
+  body.work.own().torque += torque;
 }
 
 void World::apply_impulse(BodyId id, const Vec3& impulse, const Vec3& point) {
@@ -465,7 +468,9 @@ std::span<const SensorOverlap> World::ended_sensor_overlaps() const noexcept {
 }
 
 std::span<const Contact> World::contacts() const noexcept {
-  return implementation_ ? std::span<const Contact>(implementation_->contacts) : std::span<const Contact>();
+  if (!implementation_) return {};
+  if (implementation_->flat.has_value()) return implementation_->contacts;
+  return implementation_->told.get([this](std::vector<Contact>& all) { implementation_->tell_contacts(all); });
 }
 
 }  // namespace tweenfall

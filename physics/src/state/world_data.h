@@ -114,6 +114,7 @@ struct World::Implementation : state::WorldState, step::Workspace {
   void remember_contacts();
   void report();
   void tell_ended();
+  void tell_contacts(std::vector<Contact>& all) const;
   void sense();
   void note_soft_starts();        ///< where bodies are before a step, for soft ones
   void advance_softs(double dt);  ///< soft bodies, and what they give the bodies that have been moved already

@@ -24,13 +24,14 @@ struct WorldState {
   std::vector<forces::NumberedForce> forces;
   std::uint64_t next_force = 0;
   double time = 0;
-  bool failed = false;       ///< the last step left a body that is not finite
-  ContactMemories memories;  ///< of the last step
+  bool failed = false;        ///< the last step left a body that is not finite
+  ContactMemories memories;   ///< of the last step
+  std::vector<Stand> stands;  ///< by body, of the last step in which it was awake
   IgnoredPairs ignored;
   std::vector<Joint> joints;
   std::vector<std::uint32_t> unused_joints;  ///< indices of removed joints
   std::vector<JointId> broken;               ///< in the last step
-  std::vector<Contact> contacts;             ///< of those that touch, what the caller sees
+  std::vector<Contact> contacts;             ///< what the caller is told, where there is a plane
   std::vector<EndedContact> ended;           ///< in the last step
   std::vector<EndedContact> gone_contacts;   ///< with bodies that were removed since then
   std::vector<std::uint32_t> sensors;        ///< indices of bodies, sorted

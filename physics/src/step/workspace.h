@@ -12,7 +12,8 @@
 #include "islands/island_contents.h"
 #include "joints/joint_link.h"
 #include "pairs/broad_phase.h"
-#include "queries/lazy_scene.h"
+#include "queries/scene.h"
+#include "state/lazily_made.h"
 #include "state/makeups.h"
 #include "step/solver.h"
 #include "strategies/island_by_strategies.h"
@@ -31,21 +32,18 @@ struct Start {
 /// What came of a contact.
 struct Outcome {
   std::uint32_t place = 0;  ///< of its memory
-  bool touching = false;
-  bool borne = false;   ///< by a body that does not move
-  double normal = 0;    ///< N s
-  double approach = 0;  ///< m/s
-  Vec3 total{0, 0, 0};  ///< on the second body, N s
+  bool remembered = false;
+  bool touched = false, touching = false;  ///< in the step before, and now
+  bool holds = false;                      ///< its manifold may be taken up again
+  bool elsewhere = false;                  ///< its points were found elsewhere than where the step began
+  bool borne = false;                      ///< by a body that does not move
+  double normal = 0;                       ///< N s
+  double approach = 0;                     ///< m/s
+  Vec3 total{0, 0, 0};                     ///< on the second body, N s
 };
 
 /// What a contact is with that moves by nothing but its own will.
 enum class Obstacle : char { none, solid, surface };
-
-/// Where a contact that the caller is told of comes from: an active one, or the caller was told of it before.
-struct Told {
-  std::uint32_t number = 0;
-  bool active = false;
-};
 
 /// Islands that are solved together.
 struct Batch {
@@ -93,11 +91,10 @@ struct Workspace {
   std::vector<std::uint32_t> retained;               ///< memories of contacts between bodies at rest, by pair
   std::vector<std::vector<std::uint32_t>> retained_parts;  ///< of the pairs, in order
   std::vector<std::uint32_t> remembered;
-  std::vector<Obstacle> obstacles;  ///< of `active`
-  std::vector<Outcome> outcomes;    ///< of `active`
-  std::vector<Told> told;
-  std::vector<Contact> next_contacts;
-  std::vector<std::vector<EndedContact>> ended_parts;  ///< of `next_contacts`, in order
+  std::vector<Obstacle> obstacles;               ///< of `active`
+  std::vector<Outcome> outcomes;                 ///< of `active`
+  std::vector<pairs::Pair> parted;               ///< of which some part has let go
+  state::LazilyMade<std::vector<Contact>> told;  ///< what the caller is told of the contacts
   std::vector<SensorOverlap> next_overlaps;
   std::vector<collision::Passage> passages;  ///< by body
   std::vector<std::uint64_t> looked_at;      ///< by body: the look that its passage is of
@@ -119,7 +116,7 @@ struct Workspace {
   double complementarity = 0;                       ///< how far off it the last step was, where it was solved for, m/s
   state::Makeups makeups;                           ///< of the bodies that were added last
   std::vector<soft::Place> soft_starts;             ///< by body, where there are soft bodies
-  queries::LazyScene scene;                         ///< of the bodies between two changes
+  state::LazilyMade<queries::Scene> scene;          ///< of the bodies between two changes
 
   void note(std::uint32_t body);  ///< the next step looks at this body
 };

@@ -24,23 +24,71 @@ constexpr std::size_t worth_a_batch = 256;
 /// Contacts of an island that are worth dividing it.
 constexpr std::size_t worth_dividing = 256;
 
-void remember(const contacts::ContactConstraint& constraint, bool touching, state::ContactMemory& memory) {
-  memory.a = constraint.a;
-  memory.b = constraint.b;
-  memory.part_a = constraint.part_a;
-  memory.part_b = constraint.part_b;
-  memory.count = constraint.count;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(constraint.count); ++i) {
-    const contacts::PointConstraint& point = constraint.points[i];
-    memory.point(i) = {point.feature, point.start_arm_b, point.kept_normal, point.kept_friction};
-  }
-  memory.kept = constraint;
-  memory.touching = touching;
+/// Whether the points of a contact were found as the bodies lay when the step began.
+bool found_at_start(const contacts::ContactConstraint& constraint, const Start& b) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(constraint.count); ++i)
+    if (constraint.manifold.points[i].position - b.center != constraint.points[i].start_arm_b) return false;
+  return true;
 }
 
-template <class A, class B>
-bool before(const A& left, const B& right) {
-  return std::tie(left.a, left.b, left.part_a, left.part_b) < std::tie(right.a, right.b, right.part_a, right.part_b);
+/// Whether what is remembered of it must be more than of a single round point.
+bool needs_more(const contacts::ContactConstraint& constraint, const Outcome& outcome) {
+  return constraint.count > 1 || constraint.kept_twist != 0 || outcome.holds;
+}
+bool needs_rare(const contacts::ContactConstraint& constraint, const Outcome& outcome) {
+  return constraint.part_a != 0 || constraint.part_b != 0 || constraint.kept_spin != 0 || constraint.passed_over != 0 ||
+         constraint.kept_rolling != Vec3::Zero() || outcome.elsewhere;
+}
+
+/// There must be room for all of it.
+void remember(const contacts::ContactConstraint& constraint, const Outcome& outcome, const Start& a, const Start& b,
+              state::ContactMemories& memories) {
+  using state::ContactMemory;
+  ContactMemory& memory = memories[outcome.place];
+  memory.a = constraint.a;
+  memory.b = constraint.b;
+  memory.count = static_cast<std::uint8_t>(constraint.count);
+  memory.mark(ContactMemory::touching, outcome.touching);
+  memory.mark(ContactMemory::began, constraint.began);
+  memory.mark(ContactMemory::slid, constraint.slid);
+  memory.mark(ContactMemory::taken_up, constraint.kept);
+  memory.kept_step = constraint.kept_step;
+  memory.impulse = outcome.normal;
+  memory.approach = outcome.approach;
+  memory.total_impulse = outcome.total;
+  // A -0 becomes a 0: whether there is room for what is none must not matter.
+  state::MoreOfContact* more = memories.more(memory);
+  if (more) more->kept_twist = constraint.kept_twist + 0.0;
+  state::RareOfContact* rare = memories.rare(memory);
+  if (rare) {
+    rare->part_a = constraint.part_a;
+    rare->part_b = constraint.part_b;
+    rare->kept_spin = constraint.kept_spin + 0.0;
+    rare->kept_rolling = constraint.kept_rolling + Vec3::Zero();
+    rare->passed_over = constraint.passed_over;
+    rare->has_arms = outcome.elsewhere;
+  }
+  const auto count = static_cast<std::size_t>(constraint.count);
+  for (std::size_t i = 0; i < count; ++i) {
+    state::PointMemory& point = memories.point(memory, i);
+    point.kept_normal = constraint.points[i].kept_normal;
+    point.kept_friction = constraint.points[i].kept_friction;
+  }
+  // What was taken up again stays as it was found.
+  if (constraint.kept) return;
+  memory.mark(ContactMemory::holds, outcome.holds);
+  memory.normal = constraint.manifold.normal;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ContactPoint& found = constraint.manifold.points[i];
+    state::PointMemory& point = memories.point(memory, i);
+    point.position = found.position;
+    point.penetration = found.penetration;
+    (i == 0 ? memory.feature : more->features[i - 1]) = found.feature;
+    if (rare && outcome.elsewhere) rare->arms_b[i] = constraint.points[i].start_arm_b;
+  }
+  if (!outcome.holds) return;
+  more->a = {a.center, a.rotation};
+  more->b = {b.center, b.rotation};
 }
 
 }  // namespace
@@ -186,10 +234,12 @@ void World::Implementation::advance_bodies(double dt) {
   else
     solve_islands(dt);
   const bool asks = forces::asking(settings.integrator) != nullptr;
+  stands.resize(bodies.size());
   workers().ranges(watched.size(), step::worth_sharing, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = watched[k];
       state::Body& body = bodies[i];
+      if (!body.asleep) stands[i] = {starts[i].center, starts[i].rotation};
       body.placed = body.led = false;
       if (body.immovable()) {
         step::arrive(body);
@@ -203,35 +253,31 @@ void World::Implementation::advance_bodies(double dt) {
         else
           forces::fly(body, loads[i], settings.integrator, dt);
       }
-      body.force = Vec3::Zero();
-      body.torque = Vec3::Zero();
+      body.clear_work();
       if (body.drive.owner() == Owner::driven) body.target().twist = {};
       body.has_target = false;
     }
   });
 }
 
+/// Fills in what came of the active contacts, and the memories of those that are known already.
 void World::Implementation::remember_contacts() {
   outcomes.resize(active.size());
-  const auto keep = [this](const contacts::ContactConstraint& constraint, const step::Outcome& outcome) {
-    state::ContactMemory& memory = memories[outcome.place];
-    step::remember(constraint, outcome.touching, memory);
-    if (constraint.memory == state::ContactMemories::nowhere || constraint.kept) return;
-    if (constraint.impact_time == 0 && contacts::keeps_manifold(constraint))
-      memory.more.own().found = contacts::found_manifold(constraint, starts[constraint.a], starts[constraint.b]);
-    else if (memory.found().holds)
-      memory.more.own().found = {};
+  const auto remember = [this](std::size_t k) {
+    const contacts::ContactConstraint& constraint = *active[k];
+    step::remember(constraint, outcomes[k], starts[constraint.a], starts[constraint.b], memories);
   };
   workers().ranges(active.size(), step::worth_sharing, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       constexpr std::size_t far = 8, near = 4;
       if (k + far < end) {
         const std::uint32_t place = active[k + far]->memory;
-        if (place != state::ContactMemories::nowhere) state::fetch(&memories[place]);
+        if (place != state::nowhere) state::fetch(&memories[place]);
       }
       if (k + near < end) {
         const std::uint32_t place = active[k + near]->memory;
-        if (place != state::ContactMemories::nowhere) memories[place].more.fetch();
+        if (place != state::nowhere)
+          if (const state::MoreOfContact* more = memories.more(memories[place])) state::fetch(more);
       }
       const contacts::ContactConstraint& constraint = *active[k];
       step::Outcome& outcome = outcomes[k];
@@ -252,33 +298,39 @@ void World::Implementation::remember_contacts() {
       outcome.touching = normal > 0 || overlap;
       outcome.borne = bodies[constraint.a].immovable() || bodies[constraint.b].immovable();
       outcome.place = constraint.memory;
-      if (constraint.memory != state::ContactMemories::nowhere) keep(constraint, outcome);
+      const bool known = constraint.memory != state::nowhere;
+      outcome.touched = known && memories[outcome.place].is(state::ContactMemory::touching);
+      outcome.holds = known && !constraint.kept && constraint.impact_time == 0 && contacts::keeps_manifold(constraint);
+      outcome.elsewhere = !constraint.kept && !step::found_at_start(constraint, starts[constraint.b]);
+      outcome.remembered = known &&
+                           (memories.more(memories[outcome.place]) || !step::needs_more(constraint, outcome)) &&
+                           (memories.rare(memories[outcome.place]) || !step::needs_rare(constraint, outcome));
+      if (outcome.remembered) remember(k);
     }
   });
   for (std::size_t k = 0; k < active.size(); ++k) {
-    if (outcomes[k].place != state::ContactMemories::nowhere) continue;
-    outcomes[k].place = memories.take();
-    keep(*active[k], outcomes[k]);
+    step::Outcome& outcome = outcomes[k];
+    if (outcome.remembered) continue;
+    if (outcome.place == state::nowhere) outcome.place = memories.take();
+    if (step::needs_more(*active[k], outcome)) memories.own_more(memories[outcome.place]);
+    if (step::needs_rare(*active[k], outcome)) memories.own_rare(memories[outcome.place]);
+    remember(k);
   }
 }
 
 void World::Implementation::report() {
   remember_contacts();
   remembered.clear();
-  told.clear();
+  parted.clear();
   std::size_t next_retained = 0;
-  std::uint32_t next_contact = 0;
-  const auto keep_before = [&](const auto& pair) {
-    for (; next_retained < retained.size() && step::before(memories[retained[next_retained]], pair); ++next_retained) {
-      const state::ContactMemory& memory = memories[retained[next_retained]];
+  const auto pair_of = [](const auto& of) { return pairs::Pair(of.a, of.b); };
+  // Between bodies at rest all is as it was, but nothing has begun there.
+  const auto keep_before = [&](const pairs::Pair& pair) {
+    for (; next_retained < retained.size(); ++next_retained) {
+      state::ContactMemory& memory = memories[retained[next_retained]];
+      if (!(pair_of(memory) < pair)) return;
+      memory.mark(state::ContactMemory::began, false);
       remembered.push_back(retained[next_retained]);
-      if (!memory.touching) continue;
-      const auto is_its = [&memory](const Contact& contact) {
-        return contact.a.index == memory.a && contact.b.index == memory.b && contact.part_a == memory.part_a &&
-               contact.part_b == memory.part_b;
-      };
-      while (!is_its(contacts[next_contact])) ++next_contact;
-      told.push_back({next_contact, false});
     }
   };
   for (std::uint32_t i = 0; i < active.size(); ++i) {
@@ -288,75 +340,66 @@ void World::Implementation::report() {
       if (a.immovable()) a.extra.own().reaction -= outcome.total;
       if (b.immovable()) b.extra.own().reaction += outcome.total;
     }
-    if (next_retained < retained.size()) keep_before(*active[i]);
+    if (next_retained < retained.size()) keep_before(pair_of(*active[i]));
     remembered.push_back(outcome.place);
-    if (outcome.touching) told.push_back({i, true});
+    if (outcome.touched && !outcome.touching) parted.push_back(pair_of(*active[i]));
   }
   constexpr std::uint32_t last = std::numeric_limits<std::uint32_t>::max();
-  state::ContactMemory end;
-  end.a = end.b = last;
-  keep_before(end);
-  memories.keep(remembered);
-  next_contacts.resize(told.size());
-  workers().ranges(told.size(), step::worth_sharing, [&](std::size_t first, std::size_t behind) {
-    for (std::size_t i = first; i < behind; ++i) {
-      Contact& contact = next_contacts[i];
-      if (!told[i].active) {
-        // Between bodies at rest all is as it was, but nothing has begun there.
-        contact = contacts[told[i].number];
-        contact.began = false;
-        continue;
-      }
-      const contacts::ContactConstraint& constraint = *active[told[i].number];
-      const step::Outcome& outcome = outcomes[told[i].number];
-      contact = {{constraint.a, bodies[constraint.a].generation},
-                 {constraint.b, bodies[constraint.b].generation},
-                 constraint.manifold,
-                 outcome.normal,
-                 outcome.total,
-                 outcome.approach,
-                 constraint.began,
-                 constraint.part_a,
-                 constraint.part_b};
-    }
+  keep_before({last, last});
+  memories.keep(remembered, [&](const state::ContactMemory& memory) {
+    if (memory.is(state::ContactMemory::touching)) parted.push_back(pair_of(memory));
   });
-  std::swap(contacts, next_contacts);
   tell_ended();
 }
 
-/// Both lists of contacts are by pair; bodies that left meanwhile took theirs along.
+/// Bodies that left meanwhile took their contacts along.
 void World::Implementation::tell_ended() {
   ended.clear();
   std::swap(ended, gone_contacts);
-  const threads::Workers work = workers();
-  const auto pair_of = [](const Contact& contact) { return pairs::Pair(contact.a.index, contact.b.index); };
-  const std::vector<Contact>& before = next_contacts;
-  ended_parts.resize(std::max(ended_parts.size(), work.range_count(before.size(), step::worth_sharing)));
-  for (std::vector<EndedContact>& part : ended_parts) part.clear();
-  work.numbered_ranges(before.size(), step::worth_sharing, [&](std::size_t part, std::size_t first, std::size_t end) {
-    auto still = std::lower_bound(contacts.cbegin(), contacts.cend(), pair_of(before[first]),
-                                  [&](const Contact& one, const pairs::Pair& pair) { return pair_of(one) < pair; });
-    for (std::size_t i = first; i < end; ++i) {
-      const pairs::Pair pair = pair_of(before[i]);
-      // Of several parts that touched, all have let go.
-      if (i > 0 && pair_of(before[i - 1]) == pair) continue;
-      while (still != contacts.cend() && pair_of(*still) < pair) ++still;
-      if (still != contacts.cend() && pair_of(*still) == pair) continue;
-      ended_parts[part].push_back({before[i].a, before[i].b});
-    }
-  });
-  for (const std::vector<EndedContact>& part : ended_parts) ended.insert(ended.end(), part.begin(), part.end());
+  std::sort(parted.begin(), parted.end());
+  parted.erase(std::unique(parted.begin(), parted.end()), parted.end());
+  const auto pair_of = [](const contacts::ContactConstraint* contact) { return pairs::Pair(contact->a, contact->b); };
+  for (const pairs::Pair& pair : parted) {
+    // Of several parts that touched, all must have let go.
+    auto its = std::lower_bound(active.cbegin(), active.cend(), pair,
+                                [&](const auto* contact, const pairs::Pair& than) { return pair_of(contact) < than; });
+    bool touching = false;
+    for (; its != active.cend() && pair_of(*its) == pair; ++its)
+      touching = touching || outcomes[static_cast<std::size_t>(its - active.cbegin())].touching;
+    if (touching) continue;
+    const auto [a, b] = pair;
+    ended.push_back({{a, bodies[a].generation}, {b, bodies[b].generation}});
+  }
+}
+
+/// Puts together what the caller is told of the contacts of the last step.
+void World::Implementation::tell_contacts(std::vector<Contact>& all) const {
+  all.clear();
+  for (const std::uint32_t place : memories.sorted()) {
+    const state::ContactMemory& memory = memories[place];
+    if (!memory.is(state::ContactMemory::touching) || memory.is(state::ContactMemory::gone)) continue;
+    const auto [part_a, part_b] = memories.parts(memory);
+    all.push_back({{memory.a, bodies[memory.a].generation},
+                   {memory.b, bodies[memory.b].generation},
+                   contacts::manifold_of(memories, memory, stands[memory.a], stands[memory.b]),
+                   memory.impulse,
+                   memory.total_impulse,
+                   memory.approach,
+                   memory.is(state::ContactMemory::began),
+                   part_a,
+                   part_b});
+  }
 }
 
 void World::Implementation::step(double dt, double of_parts) {
   struct Stepping {
-    bool& flag;
-    queries::LazyScene& scene;
+    Implementation& world;
     ~Stepping() {
-      flag = false;
-      scene.forget();
+      world.stepping = false;
+      world.scene.forget();
+      world.told.forget();
     }
-  } const guard{stepping, scene};
+  } const guard{*this};
   stepping = true;
   part_count = of_parts;
   begin_watch();

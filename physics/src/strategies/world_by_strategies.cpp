@@ -235,7 +235,7 @@ void World::Implementation::separate(std::span<contacts::ContactConstraint* cons
   strategies::Separates* const part = strategies::separation_of(settings.separation);
   const int passes = settings.solver == ContactSolver::sequential ? 1 : settings.iterations;
   for (int pass = 0; pass < passes; ++pass) {
-    bool parted = false;
+    bool moved_apart = false;
     for (const contacts::ContactConstraint* contact : overlapping) {
       state::Body &a = bodies[contact->a], &b = bodies[contact->b];
       strategies::Overlap overlap;
@@ -249,7 +249,7 @@ void World::Implementation::separate(std::span<contacts::ContactConstraint* cons
       for (std::size_t i = 0; i < static_cast<std::size_t>(now.count); ++i)
         overlap.points[i] = {now.points[i].start_arm_a, now.points[i].start_arm_b, -now.points[i].start_gap};
       if (!(overlap.depth() > strategies::no_depth)) continue;
-      parted = true;
+      moved_apart = true;
       part(overlap);
       for (const auto& [body, place] : {std::pair(&a, &overlap.a), std::pair(&b, &overlap.b)}) {
         if (!place->movable) continue;
@@ -257,7 +257,7 @@ void World::Implementation::separate(std::span<contacts::ContactConstraint* cons
         body->follow_center(place->rotation);
       }
     }
-    if (!parted) return;
+    if (!moved_apart) return;
   }
 }
 

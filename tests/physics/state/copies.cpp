@@ -1,7 +1,25 @@
+#include <thread>
+
 #include "physics/scenarios.h"
 
 using namespace tweenfall;
 using namespace tweenfall::test;
+
+namespace {
+
+bool same(const Contact& a, const Contact& b) {
+  const auto same_point = [](const ContactPoint& one, const ContactPoint& other) {
+    return one.position == other.position && one.penetration == other.penetration && one.feature == other.feature;
+  };
+  const auto count = static_cast<std::size_t>(a.manifold.count);
+  return a.a == b.a && a.b == b.b && a.manifold.normal == b.manifold.normal && a.manifold.count == b.manifold.count &&
+         std::equal(a.manifold.points.begin(), a.manifold.points.begin() + static_cast<std::ptrdiff_t>(count),
+                    b.manifold.points.begin(), same_point) &&
+         a.impulse == b.impulse && a.total_impulse == b.total_impulse && a.approach_speed == b.approach_speed &&
+         a.began == b.began && a.part_a == b.part_a && a.part_b == b.part_b;
+}
+
+}  // namespace
 
 TEST_CASE("a copy taken at any step goes on in the same bits as the original") {
   for (const Scenario& scenario : scenarios()) {
@@ -61,5 +79,49 @@ TEST_CASE("a step that a field stops leaves a world that goes on as if it had no
       }
       scenario.step(world, n);
     }
+  }
+}
+
+TEST_CASE("contacts are told alike by a world, its copies and whom it was loaded into, whenever they are asked") {
+  for (const Scenario& scenario : scenarios()) {
+    CAPTURE(scenario.name);
+    World world = scenario.make();
+    std::size_t seen = 0;
+    for (int n = 0; n < scenario.steps; ++n) {
+      scenario.step(world, n);
+      if (n % 7 != 3) continue;
+      CAPTURE(n);
+      const World copy = world;  // before anybody asked
+      World loaded;
+      loaded.load(world.save());
+      std::vector<Contact> told(world.contacts().begin(), world.contacts().end());
+      seen += told.size();
+      // By several at once: one of them puts them together.
+      std::vector<std::size_t> counts(3);
+      std::vector<std::thread> askers;
+      for (std::size_t& count : counts) askers.emplace_back([&copy, &count] { count = copy.contacts().size(); });
+      for (std::thread& asker : askers) asker.join();
+      for (const std::size_t count : counts) CHECK(count == told.size());
+      REQUIRE(std::ranges::equal(copy.contacts(), told, same));
+      REQUIRE(std::ranges::equal(loaded.contacts(), told, same));
+      // They are those of the last step, whatever was done since.
+      for (const BodyId body : loaded.bodies()) {
+        Motion motion = loaded.motion(body);
+        motion.pose.position += Vec3(1, 2, 3);
+        if (!loaded.is_fixed(body)) loaded.apply_force(body, Vec3(0, 5, 0), Vec3(0, 0, 0));
+        loaded.set_motion(body, motion);
+      }
+      loaded.add({.shape = {Sphere{0.5}}});
+      const World later = loaded;
+      REQUIRE(std::ranges::equal(loaded.contacts(), told, same));
+      REQUIRE(std::ranges::equal(later.contacts(), told, same));
+      if (told.empty()) continue;
+      // And who leaves takes his own along.
+      const BodyId leaves = told[told.size() / 2].b;
+      loaded.remove(leaves);
+      std::erase_if(told, [&](const Contact& contact) { return contact.a == leaves || contact.b == leaves; });
+      REQUIRE(std::ranges::equal(loaded.contacts(), told, same));
+    }
+    CHECK(seen > 3);
   }
 }

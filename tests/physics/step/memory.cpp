@@ -61,7 +61,7 @@ TEST_CASE("the state of a body and of a touching pair, and the room to work on t
                                  << " for each pair that touches");
     CHECK(of_body(apart.state) <= 400);
     CHECK(of_body(apart.room) <= 1000);
-    CHECK(of_pair(stacked.state, apart.state) <= (balls ? 450 : 960));
+    CHECK(of_pair(stacked.state, apart.state) <= (balls ? 180 : 500));
     CHECK(of_pair(stacked.room, apart.room) <= 2700);
   }
 }

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "queries/lazy_scene.h"
+#include "queries/scene.h"
 #include "stage/stage_data.h"
+#include "state/lazily_made.h"
 
 namespace tweenfall::staging {
 
@@ -40,8 +41,8 @@ class Timeline {
   std::vector<HandOff> handoffs;
   std::function<void(const StageEvent&)> on_event, on_contact;
   std::function<void(const HandOff&)> on_handoff;
-  queries::LazyScene scene;  ///< of the bodies at `now`, for questions
-  bool abandoned = false;    ///< the stage is gone, from inside a callback: nothing more is told
+  state::LazilyMade<queries::Scene> scene;  ///< of the bodies at `now`, for questions
+  bool abandoned = false;                   ///< the stage is gone, from inside a callback: nothing more is told
 
  private:
   void take(StageState& state);
