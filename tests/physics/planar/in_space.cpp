@@ -187,3 +187,28 @@ TEST_CASE("a hull in a plane is the polygon that the plane cuts out of it") {
   for (int i = 0; i < 120; ++i) world.step(1.0 / 60);
   CHECK(near(world.motion(wedge).pose.position, Vec3(0, 0.2, 0), 5e-3));
 }
+
+TEST_CASE(
+    "what leaves a plane takes its contacts along, they are told to have ended once, and what is left can be kept") {
+  for (const Way& way : ways) {
+    World world = world_in(way);
+    const BodyId ball = world.add(at(Sphere{0.5}, 0.5 * way.up)),
+                 box = world.add(at(Box{Vec3(0.5, 0.5, 0.5)}, 3 * way.along + 0.5 * way.up));
+    for (int i = 0; i < 20; ++i) world.step(1.0 / 60);
+    REQUIRE(world.contacts().size() == 2);
+    world.remove(ball);
+    REQUIRE(world.contacts().size() == 1);
+    CHECK(world.contacts()[0].b == box);
+    World again;
+    again.load(world.save());
+    for (World* one : {&world, &again}) {
+      one->step(1.0 / 60);
+      REQUIRE(one->ended_contacts().size() == 1);
+      CHECK(one->ended_contacts()[0].b == ball);
+      CHECK(one->contacts().size() == 1);
+      one->step(1.0 / 60);
+      CHECK(one->ended_contacts().empty());
+    }
+    CHECK(again.state_hash() == world.state_hash());
+  }
+}
