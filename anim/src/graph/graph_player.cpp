@@ -241,8 +241,9 @@ std::optional<double> GraphPlayer::first_instant(double from, double to) {
   for (const graphs::Record<graphs::Setting>& settings : run_->log.settings) meet(settings, &graphs::Setting::time);
   for (const graphs::Record<graphs::Passage>& passages : run_->log.passages) meet(passages, &graphs::Passage::time);
   // Where ways go on over the seams of loops, what jumps in a clip may not jump in the pose. Of very many seams in one
-  // stretch the rest are told as they are.
+  // stretch the rest are told as they are; but where they follow each other faster than any frames, as those before.
   constexpr int most_looked_at = 64;
+  constexpr double dense = 1e-3;  // s from one to the next, in the mean
   const bool may_go_on = graph_->compiled().travels > 0;
   std::vector<Motion> before(may_go_on ? graph_->nodes().size() : 0), behind(before.size());
   const auto goes_on = [&](double time) {
@@ -254,6 +255,7 @@ std::optional<double> GraphPlayer::first_instant(double from, double to) {
   for (int looked_at = 0;; ++looked_at) {
     const auto jump = graph_->compiled().output->next_jump(run_->log, 0, after, first.value_or(to));
     if (!jump) break;
+    if (may_go_on && looked_at == most_looked_at && *jump - from < most_looked_at * dense) break;
     if (!may_go_on || looked_at == most_looked_at || !goes_on(*jump)) {
       first = jump;
       break;
