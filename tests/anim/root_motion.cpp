@@ -191,7 +191,7 @@ TEST_CASE("the travel of a clip goes on without a jump from loop to loop, and st
   };
   for (const double cycle : {0.0, 3.0, 9999.0})
     CHECK(near_pose(travel.at(frame_at(1.5, Side::in), cycle).pose, travel.at(frame_at(0), cycle + 1).pose, 1e-11));
-  // At 24 frames a second through three loops.
+  // At 24 frames per second through three loops.
   Pose sum;
   Motion before = frame_at(0);
   double cycle = 0, t = 0;

@@ -167,7 +167,7 @@ TEST_CASE("a graph of any operations gives the same bits whatever was asked befo
 }
 
 TEST_CASE("springs over springs, named again and again, take no longer than their number") {
-  // Without what is remembered each would ask the one below for all its way, several times: 6^8 poses a frame.
+  // Without what is remembered each would ask the one below for all its way, several times: 6^8 poses per frame.
   GraphDescription graph = {.poses = {{"p0", BlendPose{{{"walk", 0.5}, {"idle", 0.5}}}}}};
   for (int i = 1; i <= 8; ++i) {
     const std::string base = "p" + std::to_string(i - 1), springy = "s" + std::to_string(i);

@@ -93,7 +93,7 @@ TEST_CASE("springs in a graph do as the springs alone, bit for bit") {
   }
 }
 
-TEST_CASE("springs come the same way at 30, 60 and 144 frames a second, forwards and back, given or put in") {
+TEST_CASE("springs come the same way at 30, 60 and 144 frames per second, forwards and back, given or put in") {
   GraphDescription given = lively();
   given.inputs = some_inputs;
   std::vector<std::vector<Motion>> at_common;  // every sixth of a second

@@ -39,7 +39,7 @@ TEST_CASE("a system written as formulas goes as its closed form, with its rates"
   CHECK(near(track(document, "spring.energy").value(10), 2, 1e-7));
 }
 
-TEST_CASE("explicit Euler spirals out by 1 + (h w)^2 a step, backward Euler in, and verlet stays") {
+TEST_CASE("explicit Euler spirals out by 1 + (h w)^2 per step, backward Euler in, and verlet stays") {
   const double grown = std::pow(1 + 0.02 * 0.02, 1000);
   CHECK(near(track(parsed(spring("explicit-euler")), "spring.energy").value(10), 2 * grown, 1e-11));
   CHECK(near(track(parsed(spring("backward-euler")), "spring.energy").value(10), 2 / grown, 1e-9));

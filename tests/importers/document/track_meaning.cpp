@@ -39,7 +39,7 @@ TEST_CASE("tracks of every kind are read as their kind") {
   CHECK(near(curve_of<Quat>(clip, "tower/2.rotation").value(0.5),
              Quat(std::cos(-67.5 * degree), 0, 0, std::sin(-67.5 * degree)), 1e-12));
   CHECK(near(curve_of<Quat>(clip, "late.rotation").rate(0.5), Vec3(0, 0, 720 * degree), 1e-9));
-  // 10 + 30 cos(4 pi t + 90 degrees) exp(-t / 2) degrees at 0: 10 degrees, falling at 30 4 pi degrees a second.
+  // 10 + 30 cos(4 pi t + 90 degrees) exp(-t / 2) degrees at 0: 10 degrees, falling at 30 * 4 pi degrees per second.
   const Curve<Quat>& swing = curve_of<Quat>(clip, "base.rotation");
   CHECK(near(swing.value(0), Quat(std::cos(5 * degree), 0, std::sin(5 * degree), 0), 1e-12));
   CHECK(near(swing.rate(0), Vec3(0, -30 * degree * 4 * std::numbers::pi, 0), 1e-9));

@@ -108,7 +108,7 @@ TEST_CASE("a saved model reads back to the same poses") {
   REQUIRE(back.clips.size() == 1);
   CHECK(back.clips[0].tracks.size() == 5);
   CHECK(back.clips[0].duration == doctest::Approx(1));
-  // The oscillator alone is not exact: straight lines 240 a second under a curvature of 79 rad/s^2.
+  // The oscillator alone is not exact: 240 straight lines per second under a curvature of 79 rad/s^2.
   CHECK(difference(model, back) < 0.5 * 79.0 / 4 / 240 / 240 + 1e-6);
 }
 

@@ -112,7 +112,7 @@ void take_particles(const Stage& stage, Recording& recording, double& room) {
     if (room < 0)
       throw std::invalid_argument(
           "by " + number_text(stage.time()) + " s a recording of the particles \"" + described.name +
-          "\" takes more memory than is allowed: end it earlier, take fewer frames a second, or "
+          "\" takes more memory than is allowed: end it earlier, take fewer frames per second, or "
           "let fewer particles go");
   }
 }
@@ -144,7 +144,7 @@ void require_affordable(const Stage& stage, double until, double fps, double mos
     throw std::invalid_argument("a recording of " + whole(frames) + " frames of " +
                                 std::to_string(stage.nodes().size()) + " nodes takes " + whole(bytes / (1024 * 1024)) +
                                 " MiB; " + whole(most_bytes / (1024 * 1024)) +
-                                " are allowed: end it earlier, or take fewer frames a second");
+                                " are allowed: end it earlier, or take fewer frames per second");
 }
 
 void require_tellable(const Stage& stage) {
