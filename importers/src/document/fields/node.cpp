@@ -25,9 +25,10 @@ const Table<Node>& place_table() {
 const Table<Node>& look_table() {
   const Meaning<Node> body = {
       [](const json::Value& value, Node& node, Building& building) { node.body = read_body(value, building); }};
-  static const Table<Node> table("a node", {{"color", &ValueForms::color, "", member<Node>(&Node::color)},
-                                            {"group", &ValueForms::name, "name for rules", member<Node>(&Node::group)},
-                                            {"body", body_form, "", body}});
+  static const Table<Node> table("a node",
+                                 {{"color", &ValueForms::color, "", member<Node>(&Node::color)},
+                                  {"group", &ValueForms::name, "name for rules", member<Node>(&Node::group)},
+                                  {"body", body_form, "", body, false, {}, {"rigidbody", "rigid_body", "physics"}}});
   return table;
 }
 

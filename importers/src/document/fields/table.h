@@ -9,6 +9,7 @@
 #include "document/content.h"
 #include "document/grammar/grammar_parts.h"
 #include "document/read/values.h"
+#include "document/report/spellings.h"
 
 #include <functional>
 #include <optional>
@@ -125,6 +126,11 @@ class Table {
     out.what += ": one of ";
     for (const Row<Thing>& row : rows_) out.what += (&row == &rows_.front() ? "" : ", ") + json::in_quotes(row.name);
     out.together = {exactly_one(names())};
+    out.instead = [kinds = names()](const json::Value& value) { return kind_meant(value, kinds); };
+    out.foremost_fault = [kinds = names(), what = what_](const json::Value& value) {
+      const std::string meant = kind_meant(value, kinds);
+      return meant.empty() ? meant : what + " says its kind by the name of its one field" + meant;
+    };
     return out;
   }
   [[nodiscard]] std::vector<std::string> names() const {

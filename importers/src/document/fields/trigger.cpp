@@ -134,19 +134,19 @@ const Table<RuleBeingRead>& trigger_table() {
       adds([](const json::Value& value, Rule&, Building&) { return when::Saturated{value.number()}; });
   const auto error = adds([](const json::Value& value, Rule&, Building&) { return when::Error{value.number()}; });
   const auto peak = adds([](const json::Value&, Rule&, Building&) { return when::SpeedPeak{}; });
-  static const Table<Rule> table("a trigger",
-                                 {{"at", &ValueForms::stage_time, "stage time", {read_instant}},
-                                  {"marker", &ValueForms::name, "an event of a clip that animates the body", marker},
-                                  {"event", &ValueForms::name, "an event of any playing clip", event},
-                                  {"clip_end", only_yes(), "the last play that animates the body is over", end},
-                                  {"contact", form_of(contact_table()), "", contact},
-                                  {"asleep", &ValueForms::positive, "seconds of stillness", asleep},
-                                  {"enter", form_of(passage_table<when::Enter>()), "into a sensor", enter},
-                                  {"leave", form_of(passage_table<when::Leave>()), "out of a sensor", leave},
-                                  {"saturated", &ValueForms::positive,
-                                   "seconds for which a drive has been at its greatest force or torque", saturated},
-                                  {"error", &ValueForms::positive, "m from the path, of a driven body", error},
-                                  {"speed_peak", only_yes(), "the path of the body is as fast as it gets", peak}});
+  static const Table<Rule> table(
+      "a trigger", {{"at", &ValueForms::stage_time, "stage time", {read_instant}, false, {}, {"time"}},
+                    {"marker", &ValueForms::name, "an event of a clip that animates the body", marker},
+                    {"event", &ValueForms::name, "an event of any playing clip", event},
+                    {"clip_end", only_yes(), "the last play that animates the body is over", end},
+                    {"contact", form_of(contact_table()), "", contact, false, {}, {"oncollisionenter", "hit", "touch"}},
+                    {"asleep", &ValueForms::positive, "seconds of stillness", asleep},
+                    {"enter", form_of(passage_table<when::Enter>()), "into a sensor", enter},
+                    {"leave", form_of(passage_table<when::Leave>()), "out of a sensor", leave},
+                    {"saturated", &ValueForms::positive,
+                     "seconds for which a drive has been at its greatest force or torque", saturated},
+                    {"error", &ValueForms::positive, "m from the path, of a driven body", error},
+                    {"speed_peak", only_yes(), "the path of the body is as fast as it gets", peak}});
   return table;
 }
 

@@ -1,5 +1,6 @@
 #include "document/fields/things.h"
 #include "document/grammar/grammar_parts.h"
+#include "document/report/spellings.h"
 
 #include <utility>
 
@@ -19,6 +20,7 @@ const Form* event_form(FormStore& store, const ValueForms& values) {
                                    {"name", values.name, "", true},
                                    {"data", values.any, "given with the event"}});
   span.on_one_line = true;
+  span.foremost_fault = event_meant;
   Form either = choice_of(row.what, {store.add(row), store.add(span)});
   either.definition = "event";
   return store.add(std::move(either));

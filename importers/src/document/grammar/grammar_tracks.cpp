@@ -3,6 +3,7 @@
 
 #include "document/grammar/grammar_functions.h"
 #include "document/grammar/grammar_parts.h"
+#include "document/report/spellings.h"
 #include "document/report/suggestion.h"
 
 #include <utility>
@@ -77,7 +78,8 @@ class TrackForms {
     if (kind.rate) row.parts.push_back(values_.ease);
     row.fewest = 2;
     row.on_one_line = true;
-    Form full = object_of(row.what, {{"t", values_.key_time, "time", true, {}, {"time", "at"}},
+    row.instead = key_meant;
+    Form full = object_of(row.what, {{"t", values_.key_time, "time", true, {}, {"time", "at", "frame"}},
                                      {"v", kind.value, "value", true, {}, {"value"}}});
     if (kind.rate) {
       full.fields.push_back({"ease",
@@ -86,8 +88,8 @@ class TrackForms {
                              false,
                              "\"smooth-clamped\"",
                              {"easing", "interpolation"}});
-      full.fields.push_back({"in", tangent, "slope on arrival"});
-      full.fields.push_back({"out", tangent, "slope on leaving"});
+      full.fields.push_back({"in", tangent, "slope on arrival", false, "", {"handle_left", "intangent"}});
+      full.fields.push_back({"out", tangent, "slope on leaving", false, "", {"handle_right", "outtangent"}});
       full.fields.push_back({"v_in", kind.value, "value on arrival, where the curve jumps"});
       full.together = {at_most_one({"ease", "out"})};
     }
@@ -106,8 +108,9 @@ class TrackForms {
     form.definition = "track-" + kind.name;
     if (kind.rate) {
       const Form* beyond = outside(kind);
-      form.fields.push_back({"before", beyond, "before the first key", false, "\"hold\""});
-      form.fields.push_back({"after", beyond, "after the last key", false, "\"hold\""});
+      form.fields.push_back({"before", beyond, "before the first key", false, "\"hold\"", {"preinfinity"}});
+      form.fields.push_back(
+          {"after", beyond, "after the last key", false, "\"hold\"", {"postinfinity", "extrapolation", "extend"}});
       form.fields.push_back(
           {"overlong", overlong_, "what gives way where handles would turn time", false, "\"keep-ratio\""});
       form.fields.push_back({"ends", ends_, "what automatic slopes see beyond the ends", false, "\"secant\""});
@@ -199,7 +202,9 @@ class TrackForms {
                           values_.euler,
                           values_.vector,
                           true,
-                          {relative(), {"order", values_.euler_order, "", false, "\"XYZ\""}, modifiers(3)}};
+                          {relative(),
+                           {"order", values_.euler_order, "", false, "\"XYZ\"", {"rotateorder", "rotation_order"}},
+                           modifiers(3)}};
     const TrackKind quaternion{"quat",
                                values_.quaternion,
                                values_.vector,
@@ -442,6 +447,7 @@ const Form* tracks_form(FormStore& store, const ValueForms& values) {
   Form tracks = object_of("an object with tracks by name", {});
   tracks.definition = "tracks";
   tracks.one_a_line = true;
+  tracks.instead = member_meant;
   tracks.endings = {
       {".position", make.either({"position",
                                  values.vector,

@@ -2,6 +2,8 @@
 
 #include "document/grammar/grammar_parts.h"
 #include "document/read/times.h"
+#include "document/report/color_words.h"
+#include "document/report/spellings.h"
 #include "document/report/suggestion.h"
 
 #include <algorithm>
@@ -23,6 +25,12 @@ Form text_of(std::string what, std::string pattern, std::function<bool(std::stri
   form.what = std::move(what);
   form.pattern = std::move(pattern);
   form.fits = std::move(fits);
+  return form;
+}
+
+Form time_text(std::string pattern, bool share_of_duration, std::function<bool(std::string_view)> fits) {
+  Form form = text_of("", std::move(pattern), std::move(fits));
+  form.why = [share_of_duration](std::string_view text) { return time_meant(text, share_of_duration); };
   return form;
 }
 
@@ -111,6 +119,7 @@ Form map_of(const Form* element, std::string what) {
   Form map = object_of(std::move(what), {});
   map.others = element;
   map.one_a_line = true;
+  map.instead = member_meant;
   map.name_pattern = "^[\\s\\S]+$";
   map.name_fault = [](std::string_view name) { return std::string(name.empty() ? "a name is not empty" : ""); };
   return map;
@@ -153,31 +162,34 @@ ValueForms::ValueForms(FormStore& store) {
   numbers = store.add(named(list_of(number, "a list of numbers"), "numbers"));
 
   const std::string digits = "[0-9]{1,12}(\\.[0-9]{1,12})?";
-  key_time =
-      store.add(named(choice_of("a time: seconds, \"12f\", \"50%\" or \"+0.25\"",
-                                {number, store.add(text_of("", "^(\\+" + digits + "f?|" + digits + "[f%])$",
-                                                           [](std::string_view text) {
-                                                             const auto time = time_in_words(text);
-                                                             return time && (time->after_previous ||
-                                                                             time->unit != TimeInWords::Unit::seconds);
-                                                           }))}),
-                      "key-time"));
+  key_time = store.add(named(choice_of("a time: seconds, \"12f\", \"50%\" or \"+0.25\"",
+                                       {number, store.add(time_text("^(\\+" + digits + "f?|" + digits + "[f%])$", true,
+                                                                    [](std::string_view text) {
+                                                                      const auto time = time_in_words(text);
+                                                                      return time &&
+                                                                             (time->after_previous ||
+                                                                              time->unit != TimeInWords::Unit::seconds);
+                                                                    }))}),
+                             "key-time"));
   // A bare number in quotes is one way too many to say a time.
   const auto frames = [](std::string_view text) {
     const auto time = time_in_words(text);
     return time && time->unit == TimeInWords::Unit::frames && !time->after_previous;
   };
   stage_time = store.add(named(choice_of("a stage time: seconds of at least 0, or \"12f\"",
-                                         {not_negative, store.add(text_of("", "^" + digits + "f$", frames))}),
+                                         {not_negative, store.add(time_text("^" + digits + "f$", false, frames))}),
                                "stage-time"));
   length_of_time = store.add(named(choice_of("a length of time above 0: seconds, or \"12f\"",
-                                             {positive, store.add(text_of("", "^" + digits + "f$", frames))}),
+                                             {positive, store.add(time_text("^" + digits + "f$", false, frames))}),
                                    "length-of-time"));
   ease = ease_form(store);
 
-  color = store.add(named(text_of("a color: \"#rgb\", \"#rrggbb\" or \"#rrggbbaa\"",
-                                  "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8})$", is_hex_color),
-                          "color"));
+  Form hex = named(text_of("a color: \"#rgb\", \"#rrggbb\" or \"#rrggbbaa\"",
+                           "^#([0-9a-fA-F]{3}|[0-9a-fA-F]{6}|[0-9a-fA-F]{8})$", is_hex_color),
+                   "color");
+  hex.instead = [](const json::Value& value) { return color_meant(value); };
+  hex.why = [](std::string_view text) { return color_meant(text); };
+  color = store.add(std::move(hex));
   scale = store.add(named(choice_of("a scale: a number, or a list of 3", {number, vector}), "scale"));
   axis = store.add(named(choice_of("an axis: \"x\", \"y\", \"z\", \"-x\", \"-y\", \"-z\" or a list of 3 numbers",
                                    {store.add(words_of("", {"x", "y", "z", "-x", "-y", "-z"})), vector}),
@@ -203,6 +215,7 @@ ValueForms::ValueForms(FormStore& store) {
     Form form = object_of(what, std::move(fields));
     form.definition = "rotation-" + spelling;
     form.on_one_line = true;
+    form.instead = [spelling](const json::Value& value) { return rotation_meant(value, spelling); };
     form.foremost_fault = [spelling](const json::Value& value) -> std::string {
       for (const char* other : {"euler", "quat", "angle"})
         if (other != spelling && value.find(other) && !value.find(spelling))
@@ -227,12 +240,7 @@ ValueForms::ValueForms(FormStore& store) {
                    {Together::Rule::first_needs_second, {"angle", "axis"}}};
   rest.definition = "rotation";
   rest.on_one_line = true;
-  rest.instead = [](const json::Value& value) -> std::string {
-    if (!value.is(json::Value::Kind::list)) return {};
-    const char* const spelling = value.items().size() == 3 ? "euler" : value.items().size() == 4 ? "quat" : nullptr;
-    if (!spelling) return {};
-    return "; say {" + json::in_quotes(spelling) + ": " + json::on_one_line(value) + "}";
-  };
+  rest.instead = [](const json::Value& value) { return rotation_meant(value, "euler"); };
   rotation = store.add(std::move(rest));
 }
 

@@ -3,6 +3,7 @@
 #include <tweenfall/curves/number_text.h>
 
 #include "document/report/homes.h"
+#include "document/report/spellings.h"
 #include "document/report/suggestion.h"
 
 #include <algorithm>
@@ -63,6 +64,8 @@ class Checker {
       const std::string better = form.element->instead ? form.element->instead(value) : std::string();
       return better.empty() ? better : better + ", in a list";
     }
+    if (form.kind == Form::Kind::list && form.element->kind == Form::Kind::number) return vector_meant(value);
+    if (form.kind == Form::Kind::number && value.is(Kind::text)) return number_meant(value.text());
     if (!form.words.empty()) return suggestion_of({}, form.words);
     for (const Form* alternative : form.alternatives)
       if (!alternative->words.empty()) return suggestion_of({}, alternative->words);
@@ -107,6 +110,12 @@ class Checker {
 
   void tuple(const Form& form, const std::string& what, const json::Value& value) {
     const bool fits = value.items().size() >= form.fewest && value.items().size() <= form.parts.size();
+    const std::string meant = !fits && form.instead ? form.instead(value) : std::string();
+    if (!meant.empty()) {
+      // What its items are in the wrong places is noise.
+      fault(value, "expected " + what + ", found " + described(value) + meant);
+      return;
+    }
     for (std::size_t i = 0; i < std::min(value.items().size(), form.parts.size()); ++i)
       this->value(*form.parts[i], value.items()[i]);
     count(what, value, fits);

@@ -1,0 +1,127 @@
+#include "document/report/spellings.h"
+
+#include <tweenfall/curves/number_text.h>
+
+#include "document/report/foreign_words.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace tweenfall::document {
+
+namespace {
+
+using Kind = json::Value::Kind;
+
+// What is written out is no longer than this, so that a message stays one line.
+constexpr std::size_t longest_said = 120;
+
+std::string said(const std::string& text) {
+  return text.size() > longest_said ? std::string() : "; say " + text;
+}
+
+struct WithUnit {
+  double number = 0;
+  std::string_view unit;
+};
+
+// "500ms" as 500 and "ms"
+std::optional<WithUnit> with_unit(std::string_view text) {
+  WithUnit read;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), read.number);
+  if (fault != std::errc() || !std::isfinite(read.number)) return {};
+  read.unit = text.substr(static_cast<std::size_t>(end - text.data()));
+  while (!read.unit.empty() && read.unit.front() == ' ') read.unit.remove_prefix(1);
+  const bool word = read.unit.size() <= 8 && std::all_of(read.unit.begin(), read.unit.end(), [](char c) {
+                      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+                    });
+  return word ? std::optional(read) : std::nullopt;
+}
+
+bool all_numbers(const json::Value& list) {
+  return std::all_of(list.items().begin(), list.items().end(),
+                     [](const json::Value& item) { return item.is(Kind::number); });
+}
+
+json::Value first_of(const json::Value& object, std::initializer_list<std::string_view> names) {
+  for (const std::string_view name : names)
+    if (const json::Value value = object.find(name)) return value;
+  return {};
+}
+
+}  // namespace
+
+std::string number_meant(std::string_view text) {
+  const std::optional<WithUnit> read = with_unit(text);
+  return read ? said(number_text(read->number)) : std::string();
+}
+
+std::string vector_meant(const json::Value& value) {
+  std::string list;
+  for (const std::string_view name : {"x", "y", "z", "w"}) {
+    const json::Value part = value.find(name);
+    if (!part) break;
+    if (!part.is(Kind::number)) return {};
+    list += (list.empty() ? "" : ", ") + json::on_one_line(part);
+  }
+  return list.empty() ? list : said("[" + list + "]");
+}
+
+std::string time_meant(std::string_view text, bool share_of_duration) {
+  const std::string small = small_letters(text.substr(0, longest_said));
+  if (share_of_duration && small == "from") return said("\"0%\"");
+  if (share_of_duration && small == "to") return said("\"100%\"");
+  const std::optional<WithUnit> read = with_unit(small);
+  if (!read) return {};
+  if (read->unit == "ms") return said(number_text(read->number / 1000));
+  if (read->unit == "min") return said(number_text(read->number * 60));
+  if (read->unit.empty() || read->unit.front() == 's') return said(number_text(read->number));
+  return {};
+}
+
+std::string rotation_meant(const json::Value& value, std::string_view kind) {
+  if (value.is(Kind::number) && kind != "quat")
+    return said("{\"axis\": \"z\", \"angle\": " + json::on_one_line(value) + "}");
+  if (!value.is(Kind::list) || !all_numbers(value)) return {};
+  const std::string_view spelling = value.items().size() == 3 ? "euler" : value.items().size() == 4 ? "quat" : "";
+  if (spelling.empty() || (kind != spelling && kind != "euler")) return {};
+  return said("{" + json::in_quotes(spelling) + ": " + json::on_one_line(value) + "}");
+}
+
+std::string key_meant(const json::Value& value) {
+  if (!value.is(Kind::list) || value.items().size() < 4 || !all_numbers(value)) return {};
+  std::string rest;
+  for (std::size_t i = 1; i < value.items().size(); ++i)
+    rest += (rest.empty() ? "" : ", ") + json::on_one_line(value.items()[i]);
+  return said("[" + json::on_one_line(value.items().front()) + ", [" + rest + "]]");
+}
+
+std::string event_meant(const json::Value& value) {
+  const json::Value name = value.find("name"), time = first_of(value, {"at", "time", "t"});
+  if (!name || !time || value.find("from") || value.find("to")) return {};
+  return "an event at one time is a list" + said("[" + json::on_one_line(time) + ", " + json::on_one_line(name) + "]");
+}
+
+std::string member_meant(const json::Value& value) {
+  if (!value.is(Kind::list)) return {};
+  const json::Value first = value.items().empty() ? json::Value() : value.items().front();
+  const json::Value name = first ? first_of(first, {"name", "id"}) : json::Value();
+  return said("{" + (name && name.is(Kind::text) ? json::on_one_line(name) : std::string("\"NAME\"")) +
+              ": ...}, each by its name");
+}
+
+std::string kind_meant(const json::Value& value, const std::vector<std::string>& kinds) {
+  const json::Value word = value.is(Kind::text) ? value : first_of(value, {"type", "kind"});
+  if (!word || !word.is(Kind::text)) return {};
+  const std::string kind = small_letters(word.text());
+  if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) return {};
+  std::string rest;
+  for (const json::Member& member : value.members())
+    if (!(member.value == word))
+      rest += (rest.empty() ? "" : ", ") + json::in_quotes(member.name) + ": " + json::on_one_line(member.value);
+  return said("{" + json::in_quotes(kind) + ": {" + (value.is(Kind::text) ? "..." : rest) + "}}");
+}
+
+}  // namespace tweenfall::document

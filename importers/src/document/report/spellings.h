@@ -1,0 +1,26 @@
+#pragma once
+
+// Values as other programs and formats spell them, in the spelling of a document: what to write in their place.
+
+#include "json/json_tree.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tweenfall::document {
+
+// All of these give `"; say ..."`, or nothing where it is not known what is meant.
+
+[[nodiscard]] std::string number_meant(std::string_view text);                        // "100px", "1.5", "90deg"
+[[nodiscard]] std::string vector_meant(const json::Value& value);                     // {"x": 0, "y": 1, "z": 0}
+[[nodiscard]] std::string time_meant(std::string_view text, bool share_of_duration);  // "500ms", "2s", "from"
+// @param kind  the field by which rotations are spelled: "euler", "quat" or "angle"
+[[nodiscard]] std::string rotation_meant(const json::Value& value, std::string_view kind);  // [0, 90, 0]
+[[nodiscard]] std::string key_meant(const json::Value& value);                              // [0, 1, 2, 3]
+[[nodiscard]] std::string event_meant(const json::Value& value);   // {"time": 1, "name": "bang"}
+[[nodiscard]] std::string member_meant(const json::Value& value);  // [{"name": "ball", ...}], of what has names
+// Of what says its kind by one of these fields: "sphere", {"type": "sphere", "radius": 1}
+[[nodiscard]] std::string kind_meant(const json::Value& value, const std::vector<std::string>& kinds);
+
+}  // namespace tweenfall::document
