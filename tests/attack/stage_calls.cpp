@@ -6,6 +6,7 @@
 #include <tweenfall/curves/keys.h>
 #include <tweenfall/physics/stage/stage.h>
 
+#include <limits>
 #include <sstream>
 
 namespace tweenfall::attack {
@@ -54,6 +55,18 @@ Shape some_shape(Random& random) {
     default:
       return {Sphere{0.25}};
   }
+}
+
+OwnerChange some_change(Random& random, bool odd) {
+  OwnerChange change;
+  const std::uint64_t kind = below(random, 3);
+  if (kind == 0) change.to = Drive::keyed();
+  if (kind == 1)
+    change.to = {.hz = odd ? odd_number(random, true) : random.between(0.1, 100),
+                 .max_force = below(random, 2) ? random.between(1, 100) : std::numeric_limits<double>::infinity(),
+                 .frame = static_cast<Drive::Frame>(below(random, 3))};
+  if (below(random, 2)) change.ramp = odd ? odd_number(random, true) : random.between(0, 0.3);
+  return change;
 }
 
 /// A floor, bodies that are free, keyed and driven, one of them below another, and a clip with events that loops.
@@ -105,7 +118,7 @@ std::string StageCalls::play(std::uint64_t number, std::ostringstream* log) cons
     const bool odd = below(random, 10) == 0;
     const double time = odd ? odd_number(random, true) : random.between(0, 0.05);
     try {
-      switch (below(random, 12)) {
+      switch (below(random, 14)) {
         case 0:
         case 1:
         case 2:
@@ -152,8 +165,20 @@ std::string StageCalls::play(std::uint64_t number, std::ostringstream* log) cons
         case 9: {
           Rule rule;
           rule.bodies = {"body0"};
-          note("arm", 0);
+          const OwnerChange first = some_change(random, odd);
+          if (below(random, 4)) rule.when.triggers = {when::At{stage.time() + random.between(0, 0.1)}};
+          rule.to = first.to;
+          rule.ramp = first.ramp;
+          while (below(random, 2)) rule.then.push_back({odd ? time : random.between(0, 0.2), some_change(random, odd)});
+          note("arm", rule.ramp);
           stage.arm(rule);
+          break;
+        }
+        case 11: {
+          const OwnerChange change = some_change(random, odd);
+          note("hand over", change.to.hz);
+          stage.hand_over(any_node(), change);
+          strained = strained || odd;
           break;
         }
         case 10: {

@@ -42,6 +42,10 @@ const char* cause_word(Cause cause) noexcept {
       return "error";
     case Cause::speed_peak:
       return "speed-peak";
+    case Cause::then:
+      return "then";
+    case Cause::ramp:
+      return "ramp";
     case Cause::caller:
       break;
   }

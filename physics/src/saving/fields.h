@@ -51,8 +51,8 @@ void each_field(T& motion, const Visit& visit) {
 
 template <Is<Drive> T, class Visit>
 void each_field(T& drive, const Visit& visit) {
-  auto& [hz, zeta, max_force, max_torque, gravity_compensation] = drive;
-  visit(hz, zeta, max_force, max_torque, gravity_compensation);
+  auto& [hz, zeta, max_force, max_torque, gravity_compensation, frame] = drive;
+  visit(hz, zeta, max_force, max_torque, gravity_compensation, frame);
 }
 
 template <Is<BodyId> T, class Visit>

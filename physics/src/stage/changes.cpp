@@ -15,15 +15,17 @@ struct Maker {
   double step;
   std::vector<Happening>& happenings;
 
+  void hand_over(NodeId node, const OwnerChange& change) const {
+    const std::size_t body = body_index(state, node);
+    require_possible(state, state.bodies[body], change);
+    static_cast<void>(change_owner(state, body, change, Cause::caller, instant, step, happenings));
+  }
   void operator()(const change::None&) const {}
-  void operator()(const change::Release& release) const {
-    static_cast<void>(change_owner(state, body_index(state, release.node), Drive::free(), Cause::caller, instant,
-                                   release.settings, {}, step, happenings));
-  }
+  void operator()(const change::Release& release) const { hand_over(release.node, {.take_over = release.settings}); }
   void operator()(const change::Recover& recover) const {
-    static_cast<void>(change_owner(state, body_index(state, recover.node), Drive::keyed(), Cause::caller, instant, {},
-                                   recover.settings, step, happenings));
+    hand_over(recover.node, {.to = Drive::keyed(), .hand_back = recover.settings});
   }
+  void operator()(const change::HandOver& handed) const { hand_over(handed.node, handed.change); }
   void operator()(const change::Arm& arm) const { arm_rule(state, arm.rule); }
   void operator()(const change::Add& add) const { static_cast<void>(add_node(state, add.node)); }
   void operator()(const change::Remove& remove) const {

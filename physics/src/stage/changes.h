@@ -25,6 +25,10 @@ struct Recover {
   std::size_t node = no_node;
   HandBack settings = {};
 };
+struct HandOver {
+  std::size_t node = no_node;
+  OwnerChange change = {};
+};
 struct Arm {
   Rule rule;
 };
@@ -67,9 +71,9 @@ struct Control {
 };
 }  // namespace change
 
-using Change =
-    std::variant<change::None, change::Release, change::Recover, change::Arm, change::Add, change::Remove, change::Push,
-                 change::Join, change::Part, change::Ignore, change::Ask, change::Tell, change::Control>;
+using Change = std::variant<change::None, change::Release, change::Recover, change::HandOver, change::Arm, change::Add,
+                            change::Remove, change::Push, change::Join, change::Part, change::Ignore, change::Ask,
+                            change::Tell, change::Control>;
 
 /// A change at an exact time. When it throws, it has changed nothing.
 struct Command {

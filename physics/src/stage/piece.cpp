@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stage/drive_frame.h"
 #include "stage/roster/staged_softs.h"
 #include "stage/rules/played_tracks.h"
+#include "stage/rules/ramps.h"
 #include "stage/stage_data.h"
 #include "stage/whole_pose.h"
 #include "state/countable.h"
@@ -38,6 +40,7 @@ void handle_instant(StageState& state, double step, std::span<const Command> com
     make_change(state, command, step, happenings);
   }
   follow_played_tracks(state, step, happenings);
+  follow_ramps(state);
   state.jumped = true;
 }
 
@@ -95,7 +98,8 @@ void set_targets(StageState& state, double end) {
           std::abs(leaving.pose.rotation.dot(here.pose.rotation)) < 1 - 1e-15)
         state.world.set_motion(body.id, bearable(state, body, leaving, "its path"));
     }
-    const Motion target = moved_on(rigid(target_pose.at(body)), center, end - jump);
+    Motion target = moved_on(rigid(target_pose.at(body)), center, end - jump);
+    if (owner == Owner::driven) target = carried_along(state, body, target, target_pose, end);
     state.world.set_target(body.id, bearable(state, body, target, "its path"));
   }
   lead_pins(state, target_pose);

@@ -10,6 +10,7 @@
 #include "stage/actors/particles.h"
 #include "stage/actors/vehicles.h"
 #include "stage/roster/staged_softs.h"
+#include "stage/rules/ramps.h"
 #include "stage/saving/stage_hash.h"
 #include "stage/stage_implementation.h"
 
@@ -144,6 +145,14 @@ Owner Stage::owner(NodeId node) const {
   return body ? state.world.owner(body->id) : Owner::keyed;
 }
 
+Drive Stage::drive(NodeId node) const {
+  const staging::StageState& state = inside().current();
+  staging::require_node(state, node);
+  const staging::StagedBody* body = state.body(node);
+  if (!body) return Drive::keyed();
+  return body->ramp ? staging::drive_on(*body->ramp, time()) : state.world.drive(body->id);
+}
+
 NodeLook Stage::look(NodeId node) const {
   const staging::StageState& state = inside().current();
   staging::require_node(state, node);
@@ -209,6 +218,10 @@ void Stage::recover(NodeId node, const HandBack& settings) {
   inside().command(staging::change::Recover{node, settings});
 }
 
+void Stage::hand_over(NodeId node, const OwnerChange& change) {
+  inside().command(staging::change::HandOver{node, change});
+}
+
 void Stage::ask(std::string_view play, PlayAction action) {
   inside().command(staging::change::Ask{std::string(play), std::move(action)});
 }
@@ -239,6 +252,7 @@ void Stage::give(const Input& input) {
     void operator()(const input::Ask& ask) const { stage.ask(ask.play, ask.action); }
     void operator()(const input::Release& release) const { stage.release(stage.node(release.body), release.settings); }
     void operator()(const input::Recover& recover) const { stage.recover(stage.node(recover.body), recover.settings); }
+    void operator()(const input::HandOver& handed) const { stage.hand_over(stage.node(handed.body), handed.change); }
     void operator()(const input::Push& push) const {
       stage.apply_impulse(stage.node(push.body), push.impulse, push.point);
     }

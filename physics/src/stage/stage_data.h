@@ -47,6 +47,20 @@ struct SettlingNode {
   SizeOffset size;
 };
 
+/// The way of a body's drive from one to another.
+struct Ramp {
+  Drive from, to;
+  double start = 0, seconds = 0;  ///< stage time and length, s
+  Settle settle = {};             ///< of the difference to the path where it ends in that
+};
+
+/// A change that a rule has come after another.
+struct ComingChange {
+  std::size_t rule = 0;
+  std::size_t place = 0;  ///< in the rule's `then`
+  double due = 0;         ///< stage time, s
+};
+
 struct StagedBody {
   NodeId node = no_node;
   BodyId id = {};
@@ -60,6 +74,8 @@ struct StagedBody {
   double saturated_for = 0;                     ///< how long its drive has been at its limit, s
   bool by_track = true;                         ///< no rule and no caller has handed it over: a track may set its drive
   std::shared_ptr<const SizeOffset> size = {};  ///< how its own size settles on its path; null for none
+  std::optional<Ramp> ramp = {};                ///< on which its drive is
+  std::optional<ComingChange> coming = {};      ///< unless it changes hands before
 
   /// Its path's motion at `time` with the size that still settles.
   [[nodiscard]] WorldMotion sized(double time, const WorldMotion& on_path) const noexcept;
@@ -254,13 +270,14 @@ void report_events(const StageState& state, double from, double to, std::vector<
 NodeId add_node(StageState& state, const NodeDescription& node);
 void remove_node(StageState& state, NodeId node);
 void arm_rule(StageState& state, const Rule& rule);
+/// @throws std::invalid_argument for a change of owner that this body cannot make
+void require_possible(const StageState& state, const StagedBody& body, const OwnerChange& change);
 
 // rules/ownership.cpp: who moves a body
 /// @param instant  when it happens; the state's time is at most a sliver away, or later when splits were capped
 /// @return whether the body is where it shall be: not when its overlap vetoes it, which is told
-[[nodiscard]] bool change_owner(StageState& state, std::size_t body, const Drive& to, Cause cause, double instant,
-                                const TakeOver& take_over, const HandBack& hand_back, double step,
-                                std::vector<Happening>& happenings);
+[[nodiscard]] bool change_owner(StageState& state, std::size_t body, const OwnerChange& change, Cause cause,
+                                double instant, double step, std::vector<Happening>& happenings);
 
 // rules/triggers.cpp: when that changes
 /// The first moment in (state.handled, to] at which something may trigger or jump; infinity when there is none.
@@ -268,8 +285,11 @@ void arm_rule(StageState& state, const Rule& rule);
 /// Fires the rules that are due in (from, state.handled], in order of time; contact triggers are pulled by latching
 /// them before.
 void fire_rules(StageState& state, double from, double step, std::vector<Happening>& happenings);
-/// Whether the rule waits for its trigger: its body is not yet where the rule would take it.
+/// Whether the rule waits for its trigger: its body is not yet where the rule would take it, nor on its way there.
 [[nodiscard]] bool waits(const StageState& state, const ArmedRule& armed);
+/// Hands the rule's body over.
+void fire_rule(StageState& state, ArmedRule& armed, Cause cause, double instant, double step,
+               std::vector<Happening>& happenings);
 
 /// First time in (from, to] at which a play that runs by `clock` fires an event of this name; infinity for none.
 /// @param node  when given, only plays that move the node count

@@ -83,6 +83,8 @@ void validate(const Drive& drive) {
           "greatest torque of a drive must not be negative, but is " + number_text(drive.max_torque));
   require(drive.gravity_compensation >= 0 && drive.gravity_compensation <= 1,
           "of the weight a drive bears 0 to 1, but this one shall bear " + number_text(drive.gravity_compensation));
+  require(drive.frame >= Drive::Frame::world && drive.frame <= Drive::Frame::anchor,
+          "frame of a drive must be the world, the parent or the anchor");
 }
 
 Motion checked(Motion motion) {

@@ -156,7 +156,9 @@ std::string owner_text(const NodeDescription& node, bool animated) {
   if (node.body->fixed) return "static";
   if (!node.body->drive) return animated ? "keyed" : "free";
   const Drive& drive = *node.body->drive;
-  if (drive.owner() == Owner::driven) return "driven, " + brief_text(drive.hz) + " Hz";
+  constexpr const char* frames[] = {"", ", as its parent is", ", as its anchor is"};
+  if (drive.owner() == Owner::driven)
+    return "driven, " + brief_text(drive.hz) + " Hz" + frames[static_cast<int>(drive.frame)];
   return drive.owner() == Owner::keyed ? "keyed" : "free";
 }
 

@@ -65,6 +65,8 @@ std::set<std::string> fields_of(const std::string& definition) {
 }  // namespace
 
 TEST_CASE("each field of a body, a play, a rule or the world is named in one file of the document's reader") {
+  // What a rule does to its bodies is a change, which may come after others too.
+  const std::set<std::string> of_change = fields_of("change");
   for (const char* thing : {"body", "play", "rule", "world"}) {
     std::set<std::string> fields = fields_of(thing);
     REQUIRE(fields.size() >= 5);
@@ -74,7 +76,8 @@ TEST_CASE("each field of a body, a play, a rule or the world is named in one fil
       CAPTURE(field);
       REQUIRE(files.count(field) == 1);
       if (words_of_others.contains(field)) continue;
-      CHECK(files.at(field) == std::vector<std::string>{std::string(thing) + ".cpp"});
+      const bool changes = thing == std::string("rule") && of_change.contains(field);
+      CHECK(files.at(field) == std::vector<std::string>{(changes ? "change" : std::string(thing)) + ".cpp"});
     }
   }
 }

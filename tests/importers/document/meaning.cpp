@@ -66,7 +66,7 @@ TEST_CASE("the lamp of the contract means what is said") {
   REQUIRE(stage.clips.size() == 1);
   const Clip& clip = stage.clips[0];
   CHECK(clip.name == "lamp");
-  CHECK(clip.duration == 2);  // the 48th of 24 frames a second
+  CHECK(clip.duration == 2);  // the 48th of 24 frames per second
   CHECK(clip.loop.mode == LoopMode::repeat);
   CHECK(clip.loop.count == 3);
   REQUIRE(stage.plays.size() == 1);  // the only clip plays from 0
@@ -247,7 +247,7 @@ TEST_CASE("every field reaches the stage's description") {
     CHECK(stage.forces[2].b == no_node);
   }
   SUBCASE("hand-off") {
-    REQUIRE(stage.rules.size() == 6);
+    REQUIRE(stage.rules.size() == 7);
     CHECK(std::get<when::At>(stage.rules[0].when.triggers.at(0)).time == 1.5);
     CHECK(stage.rules[0].take_over.velocity == TakeOver::Velocity::average);
     CHECK(stage.rules[0].take_over.average_over == 0.2);
@@ -279,6 +279,18 @@ TEST_CASE("every field reaches the stage's description") {
     CHECK(std::get<when::Error>(last[3]).distance == 0.3);
     CHECK(std::holds_alternative<when::SpeedPeak>(last[4]));
     CHECK(stage.rules[5].take_over.overlap == TakeOver::Overlap::veto);
+    CHECK(stage.rules[6].to == Drive{.hz = 5, .frame = Drive::Frame::anchor});
+    CHECK(stage.rules[6].ramp == 0.5);
+    REQUIRE(stage.rules[6].then.size() == 2);
+    const NextChange &loosened = stage.rules[6].then[0], &recovered = stage.rules[6].then[1];
+    CHECK(loosened.after == 1);
+    CHECK(loosened.change.to == Drive::free());
+    CHECK(loosened.change.take_over.velocity == TakeOver::Velocity::zero);
+    CHECK(recovered.after == 0.5);
+    CHECK(recovered.change.to == Drive::keyed());
+    CHECK(recovered.change.ramp == 0.25);
+    CHECK(recovered.change.hand_back.clip == "idle");
+    CHECK(recovered.change.hand_back.settle.seconds == 0.2);
   }
   SUBCASE("pairs that ignore each other") {
     std::vector<std::pair<std::string, std::string>> pairs;

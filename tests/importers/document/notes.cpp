@@ -36,6 +36,22 @@ std::string two_balls(const std::string& second, const std::string& rest) {
 
 }  // namespace
 
+TEST_CASE("a drive that nothing above its body can carry along is noted") {
+  const std::string body = "\"body\": {\"shape\": {\"sphere\": {\"radius\": 0.1}}, \"mass\": 1";
+  const auto noted = [&](const std::string& drive, const std::string& parent, const std::string& rules) {
+    return notes_of("{\"tweenfall\": 1, \"nodes\": {\"a\": {" + body + "}}, \"b\": {\"position\": [5, 5, 0], " +
+                    parent + body + drive + "}}}" + rules + "}");
+  };
+  const std::string own = ", \"drive\": {\"hz\": 2, \"frame\": \"parent\"}", below_a = "\"parent\": \"a\", ";
+  CHECK(has(noted(own, "", ""), "no node above \"b\" has a body that could carry its path: this is as \"world\""));
+  CHECK(noted(own, below_a, "").empty());
+  const std::string rule =
+      ", \"handoff\": [{\"body\": \"b\", \"when\": {\"at\": 1}, \"to\": \"free\", \"for\": 1, \"then\": "
+      "{\"to\": {\"hz\": 2, \"frame\": \"anchor\"}}}]";
+  CHECK(has(noted("", "", rule), "(at /handoff/0/then/to/frame)"));
+  CHECK(noted("", below_a, rule).empty());
+}
+
 TEST_CASE("a property that nothing reads is noted with the one of ours that it stands for") {
   const auto noted = [](const std::string& property) {
     return notes_of("{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {\"lamp." + property + "\": [[0, 1]]}}}}");

@@ -108,10 +108,12 @@ TEST_CASE("inputs are read with their settings, and written so that the same are
     {"at": 1.3, "start": {"play": "again", "clip": "walk", "from": 1, "to": 3, "direction": "reverse", "loop": "repeat", "count": 2, "mask": "ball"}},
     {"at": 2, "release": {"body": "ball", "velocity": {"scale": 0.5, "add": {"linear": [0, 1, 0], "angular": [0, 0, 33.3]}}, "overlap": "ignore"}},
     {"at": 2, "push": {"body": "ball", "impulse": [0, 0.1, 0], "point": [0, 0, 0]}},
-    {"at": 3, "recover": {"body": "ball", "path": {"time": "hold", "anchor": "here"}, "settle": {"half_life": 0.1}}}]})";
+    {"at": 3, "recover": {"body": "ball", "path": {"time": "hold", "anchor": "here"}, "settle": {"half_life": 0.1}}},
+    {"at": 3.1, "hand_over": {"body": "ball", "to": {"hz": 4, "max_force": 20, "frame": "anchor"}, "ramp": 0.25, "velocity": {"source": "zero"}, "settle": {"quintic": 0.1}}},
+    {"at": 3.7, "hand_over": {"body": "ball", "to": "free"}}]})";
   const StageDescription stage = walking();
   const std::vector<TimedInput> inputs = parse_inputs(text, "i.json", stage);
-  REQUIRE(inputs.size() == 11);
+  REQUIRE(inputs.size() == 13);
   const auto& speed = std::get<playing::SetSpeed>(std::get<input::Ask>(inputs[2].what).action);
   CHECK(speed.speed == PlayKeys{{0, 1.5, Ease::named("quad-in").value()}, {1, 0.1}});
   const auto& start = std::get<playing::Start>(std::get<input::Ask>(inputs[7].what).action);
@@ -119,6 +121,10 @@ TEST_CASE("inputs are read with their settings, and written so that the same are
   CHECK(start.reverse);
   CHECK(std::get<input::Release>(inputs[8].what).settings.scale == 0.5);
   CHECK(std::get<input::Recover>(inputs[10].what).settings.clock == HandBack::Clock::hold);
+  const OwnerChange change = std::get<input::HandOver>(inputs[11].what).change;
+  CHECK(change.to == Drive{.hz = 4, .max_force = 20, .frame = Drive::Frame::anchor});
+  CHECK(change.ramp == 0.25);
+  CHECK(change.take_over.velocity == TakeOver::Velocity::zero);
   const std::string once = inputs_json(inputs);
   const std::vector<TimedInput> again = parse_inputs(once, "i.json", stage);
   CHECK(inputs_json(again) == once);

@@ -192,6 +192,10 @@ void check_groups(Building& building) {
           name, "no body belongs to a group " + json::in_quotes(name.text()) + suggestion(name.text(), given));
 }
 
+json::Value place_of_drive(const json::Value& body) {
+  return below(body, {"drive"});
+}
+
 json::Value place_of_spin(const json::Value& body) {
   return below(body, {"angular_velocity"});
 }

@@ -14,7 +14,11 @@ const Table<Drive>& drive_table() {
        {"max_force", &ValueForms::not_negative, "N; absent: without limit", member<Drive>(&Drive::max_force)},
        {"max_torque", &ValueForms::not_negative, "N m; absent: without limit", member<Drive>(&Drive::max_torque)},
        {"gravity_compensation", bounded("a share from 0 to 1", 0, false, 1), "of the weight that is borne beside it",
-        member<Drive>(&Drive::gravity_compensation)}});
+        member<Drive>(&Drive::gravity_compensation)},
+       one_of<Drive, Drive::Frame>(
+           "frame", "a frame: \"world\", \"parent\" or \"anchor\"",
+           {{"world", Drive::Frame::world}, {"parent", Drive::Frame::parent}, {"anchor", Drive::Frame::anchor}},
+           "what carries the path: nothing, the nearest or the topmost node above that has a body", &Drive::frame)});
   return table;
 }
 
@@ -34,6 +38,10 @@ Drive read_owner(const json::Value& owner, Building& building) {
   Drive drive{.hz = 1};
   drive_table().read(owner, drive, building);
   return drive;
+}
+
+json::Value place_of_frame(const json::Value& drive) {
+  return below(drive, {"frame"});
 }
 
 }  // namespace tweenfall::document::fields

@@ -1,7 +1,5 @@
 #include "document/fields/rule.h"
 
-#include <tweenfall/curves/number_text.h>
-
 #include "document/fields/things.h"
 #include "document/report/suggestion.h"
 
@@ -86,117 +84,46 @@ void read_rule_group(const json::Value& value, Read& rule, Building& building) {
     note_left_out(value, left_out, building);
 }
 
-// Where a body that is taken back goes on
-
-void read_followed_clip(const json::Value& value, HandBack& out, Building& building) {
-  take(value, out.clip, building);
-  if (building.clips.count(out.clip) == 0 && !building.excused(out.clip))
-    building.problems.add(
-        value, "there is no clip " + json::in_quotes(out.clip) + suggestion_or_import(out.clip, building.clip_names()));
-}
-
-const Table<HandBack>& path_table() {
-  using Clock = HandBack::Clock;
-  using Anchor = HandBack::Anchor;
-  static const Table<HandBack> table(
-      "a path", {{"clip", &ValueForms::name, "absent: what played before", {read_followed_clip}},
-                 one_of<HandBack, Clock>("time", "a clock",
-                                         {{"run", Clock::run}, {"hold", Clock::hold}, {"restart", Clock::restart}},
-                                         "where the clip's clock stands", &HandBack::clock),
-                 one_of<HandBack, Anchor>("anchor", "an anchor",
-                                          {{"keep", Anchor::keep}, {"here", Anchor::here}, {"ground", Anchor::ground}},
-                                          "where the path lies", &HandBack::anchor)});
-  return table;
-}
-
-const Table<Settle>& settle_table() {
-  const auto kind = [](std::string word, Settle::Kind meant) {
-    const auto read = [meant](const json::Value& value, Settle& settle, Building&) {
-      settle = {meant, value.number()};
-    };
-    return Row<Settle>{std::move(word), &ValueForms::positive, "s", {read}};
-  };
-  static const Table<Settle> table("a settle",
-                                   {kind("quintic", Settle::Kind::quintic), kind("half_life", Settle::Kind::half_life),
-                                    kind("dead_blend", Settle::Kind::dead_blend)});
-  return table;
-}
-
-// Why a field means nothing for a rule that gives to an owner, if it names one.
-auto useless_to(Owner owner, const std::string& why) {
-  return [owner, why](const Read& rule) { return rule.to && rule.rule.to.owner() == owner ? why : std::string(); };
-}
-
 const Table<Read>& rule_table() {
-  const Meaning<Read> to = {[](const json::Value& value, Read& rule, Building& building) {
-    rule.to = value;
-    rule.rule.to = read_owner(value, building);
-  }};
-  const Meaning<Read> velocity = {[](const json::Value& value, Read& rule, Building& building) {
-                                    read_take_over(value, rule.rule.take_over, building);
-                                  },
-                                  "\"curve\""};
-  const Meaning<Read> settle = {[](const json::Value& value, Read& rule, Building& building) {
-                                  settle_table().read(value, rule.rule.hand_back.settle, building);
-                                },
-                                "{\"quintic\": " + number_text(Settle{}.seconds) + "}"};
-  Row<Read> path = part<Read>("path", path_table(), "of a body that is taken back",
-                              [](Read& rule) -> HandBack& { return rule.rule.hand_back; });
-  path.useless = useless_to(Owner::free, "for a body that is let go; it follows none");
-  Row<Read> overlap = overlap_row<Read>([](Read& rule) -> TakeOver& { return rule.rule.take_over; });
-  overlap.useless = useless_to(Owner::keyed, "for a keyed body; it has its path's place");
-  static const Table<Read> table("a rule of the hand-off",
-                                 {{"body", rule_bodies_form, "whom it is about", {read_rule_bodies}},
-                                  {"group", &ValueForms::name, "all nodes of a group", {read_rule_group}},
-                                  {"when", when_form, "", {read_when}, true},
-                                  {"to", owner_form, "the new owner", to, true},
-                                  {"velocity", take_over_form, "of a released body", velocity, false,
-                                   useless_to(Owner::keyed, "for a keyed body; it has its path's")},
-                                  overlap,
-                                  path,
-                                  {"settle", settle_form, "how the difference dies away", settle, false,
-                                   useless_to(Owner::free, "for a body that is let go; nothing settles")},
-                                  {"once", &ValueForms::boolean, "false: armed again after it was false",
-                                   member<Read>([](Read& rule) -> bool& { return rule.rule.once; })}});
+  static const Table<Read> table("a rule of the hand-off", [] {
+    std::vector<Row<Read>> rows{{"body", rule_bodies_form, "whom it is about", {read_rule_bodies}},
+                                {"group", &ValueForms::name, "all nodes of a group", {read_rule_group}},
+                                {"when", when_form, "", {read_when}, true}};
+    for (Row<Read>& row : rows_of_part<Read>(change_rows(next_change_form), &Read::change))
+      rows.push_back(std::move(row));
+    rows.push_back({"once", &ValueForms::boolean, "false: armed again after it was false",
+                    member<Read>([](Read& rule) -> bool& { return rule.rule.once; })});
+    return rows;
+  }());
   return table;
 }
 
 }  // namespace
 
-const Form* path_form(FormStore& store, const ValueForms& values) {
-  return store.add(path_table().listing_form(store, values));
-}
-
-void read_path(const json::Value& value, HandBack& out, Building& building) {
-  path_table().read(value, out, building);
-}
-
-const Form* settle_form(FormStore& store, const ValueForms& values) {
-  Form form = settle_table().choosing_form(store, values);
-  form.what += ", in seconds";
-  return store.add(std::move(form));
-}
-
-void read_settle(const json::Value& value, Settle& settle, Building& building) {
-  settle_table().read(value, settle, building);
-}
-
 const Form* rule_form(FormStore& store, const ValueForms& values) {
   Form rule = rule_table().form(store, values);
   rule.together = {exactly_one({"body", "group"})};
+  for (const Together& beside : lasting()) rule.together.push_back(beside);
   rule.definition = "rule";
   return store.add(std::move(rule));
 }
 
 RuleBeingRead read_rule(const json::Value& value, const std::vector<std::string>& events, Building& building) {
-  RuleBeingRead rule;
-  rule.events = &events;
-  rule_table().read(value, rule, building);
-  const json::Value path = usable(value, "path");
-  rule.follows = path && path.find("clip");
-  std::sort(rule.bodies.begin(), rule.bodies.end());
-  rule.bodies.erase(std::unique(rule.bodies.begin(), rule.bodies.end()), rule.bodies.end());
-  return rule;
+  RuleBeingRead read;
+  read.events = &events;
+  rule_table().read(value, read, building);
+  std::sort(read.bodies.begin(), read.bodies.end());
+  read.bodies.erase(std::unique(read.bodies.begin(), read.bodies.end()), read.bodies.end());
+  Rule& rule = read.rule;
+  const OwnerChange& first = read.change.change;
+  rule.to = first.to;
+  rule.take_over = first.take_over;
+  rule.hand_back = first.hand_back;
+  rule.ramp = first.ramp;
+  for (const ChangeBeingRead* change = &read.change; change->lasts && !change->then.empty();
+       change = &change->then.front())
+    rule.then.push_back({*change->lasts, change->then.front().change});
+  return read;
 }
 
 }  // namespace tweenfall::document::fields

@@ -156,6 +156,22 @@ class Table {
   std::vector<Row<Thing>> rows_;
 };
 
+// The rows of a part, for the thing that holds it. @param access  gives the thing's part
+template <class Thing, class Part, class Access>
+[[nodiscard]] std::vector<Row<Thing>> rows_of_part(const std::vector<Row<Part>>& rows, Access access) {
+  std::vector<Row<Thing>> out;
+  for (const Row<Part>& row : rows) {
+    const auto read = [read = row.meaning.read, access](const json::Value& value, Thing& thing, Building& building) {
+      read(value, std::invoke(access, thing), building);
+    };
+    std::function<std::string(const Thing&)> useless;
+    if (row.useless)
+      useless = [useless = row.useless, access](const Thing& thing) { return useless(std::invoke(access, thing)); };
+    out.push_back({row.name, row.form, row.help, {read, row.meaning.standard}, row.required, useless, row.elsewhere});
+  }
+  return out;
+}
+
 // A field whose words stand for values of a member.
 template <class Thing, class Word, class Access>
 [[nodiscard]] Row<Thing> one_of(std::string name, std::string what, std::vector<std::pair<std::string, Word>> words,

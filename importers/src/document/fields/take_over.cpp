@@ -1,4 +1,4 @@
-#include "document/fields/rule.h"
+#include "document/fields/change.h"
 
 namespace tweenfall::document::fields {
 

@@ -33,11 +33,13 @@ const Form* groups_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] std::uint64_t read_groups(const json::Value& groups, Building& building);
 [[nodiscard]] std::uint64_t read_collides_with(const json::Value& groups, Building& building);
 void check_groups(Building& building);  // those that bodies collide with, when all bodies are known
-[[nodiscard]] json::Value place_of_spin(const json::Value& body);  // or the body, where it says none
+[[nodiscard]] json::Value place_of_drive(const json::Value& body);  // or the body, where it says none
+[[nodiscard]] json::Value place_of_spin(const json::Value& body);   // or the body, where it says none
 
 // Whose a body is: "free", "keyed", or a drive.
 const Form* owner_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] Drive read_owner(const json::Value& owner, Building& building);
+[[nodiscard]] json::Value place_of_frame(const json::Value& drive);  // or the drive, where it says none
 
 const Form* play_form(FormStore& store, const ValueForms& values);
 // Nothing for a clip that is not known, which was noted.

@@ -1,6 +1,8 @@
-#include "document/fields/rule.h"
+#include "document/fields/change.h"
 #include "document/fields/things.h"
 #include "document/inputs/input_tables.h"
+
+#include <utility>
 
 namespace tweenfall::document::inputs {
 
@@ -44,6 +46,20 @@ const Table<OfBody<input::Recover>>& recover_table() {
   static const Table<Recover> table("a recovery", {body_row<Recover>(),
                                                    {"path", fields::path_form, "", {path, "{}"}},
                                                    {"settle", fields::settle_form, "", {settle}}});
+  return table;
+}
+
+const Table<OfBody<HandOverRead>>& hand_over_table() {
+  using HandOver = OfBody<HandOverRead>;
+  static const Table<HandOver> table("a hand-over", [] {
+    std::vector<Row<HandOver>> rows{body_row<HandOver>()};
+    const auto change = [](auto& handed) -> auto& {
+      return handed.input.change;
+    };
+    for (Row<HandOver>& row : fields::rows_of_part<HandOver>(fields::change_rows(), change))
+      rows.push_back(std::move(row));
+    return rows;
+  }());
   return table;
 }
 

@@ -4,6 +4,7 @@
 
 #include <tweenfall/physics/stage/input.h>
 
+#include "document/fields/change.h"
 #include "document/fields/table.h"
 
 #include <string>
@@ -23,6 +24,12 @@ template <class Settings>
 struct OfBody {
   Settings input{};
   json::Value place{};  // of the body's name
+};
+
+/// What a body is handed over to.
+struct HandOverRead {
+  std::string body;
+  fields::ChangeBeingRead change;
 };
 
 /// Something for a graph.
@@ -48,6 +55,7 @@ using Started = Asked<playing::Start>;
 [[nodiscard]] const fields::Table<Asked<playing::Seek>>& seek_table();
 [[nodiscard]] const fields::Table<OfBody<input::Release>>& release_table();
 [[nodiscard]] const fields::Table<OfBody<input::Recover>>& recover_table();
+[[nodiscard]] const fields::Table<OfBody<HandOverRead>>& hand_over_table();
 [[nodiscard]] const fields::Table<OfBody<input::Push>>& push_table();
 [[nodiscard]] const fields::Table<OfGraph<input::Set>>& set_table();
 [[nodiscard]] const fields::Table<OfGraph<input::Send>>& send_table();

@@ -56,6 +56,7 @@ class Reader {
     ask<playing::Seek>(usable(value, "seek"), seek_table());
     give<input::Release>(usable(value, "release"), release_table());
     give<input::Recover>(usable(value, "recover"), recover_table());
+    if (const json::Value handed = usable(value, "hand_over")) read_hand_over(handed);
     give<input::Push>(usable(value, "push"), push_table());
     tell<input::Set>(usable(value, "set"), set_table());
     tell<input::Send>(usable(value, "send"), send_table());
@@ -144,6 +145,13 @@ class Reader {
     table.read(value, of, building_);
     if (of.place) static_cast<void>(fields::body_called(of.place, building_));
     inputs.push_back({time_, of.input});
+  }
+
+  void read_hand_over(const json::Value& value) {
+    OfBody<HandOverRead> of;
+    hand_over_table().read(value, of, building_);
+    if (of.place) static_cast<void>(fields::body_called(of.place, building_));
+    inputs.push_back({time_, input::HandOver{of.input.body, of.input.change.change}});
   }
 
   template <class What>
@@ -255,6 +263,7 @@ struct InputGrammar {
     add("seek", seek_table(), "its clock is elsewhere");
     add("release", release_table(), "a body is let go");
     add("recover", recover_table(), "it follows its path again");
+    add("hand_over", hand_over_table(), "a body gets any owner, at once or along a ramp");
     add("push", push_table(), "an impulse");
     add("set", set_table(), "a parameter of a graph is another number, true or false");
     add("send", send_table(), "an event comes to a graph");

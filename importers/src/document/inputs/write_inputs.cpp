@@ -150,33 +150,63 @@ std::string velocity_text(const TakeOver& settings) {
   return fields.object();
 }
 
+void add_take_over(Fields& fields, const TakeOver& settings) {
+  if (const std::string velocity = velocity_text(settings); velocity != "{}") fields.add("velocity", velocity);
+  constexpr const char* words[] = {"push", "ignore", "rewind", "veto"};
+  if (settings.overlap != TakeOver{}.overlap)
+    fields.add("overlap", string_text(words[static_cast<int>(settings.overlap)]));
+}
+
+void add_hand_back(Fields& fields, const HandBack& settings) {
+  Fields path;
+  constexpr const char* clocks[] = {"run", "hold", "restart"};
+  constexpr const char* anchors[] = {"keep", "here", "ground"};
+  constexpr const char* settles[] = {"quintic", "half_life", "dead_blend"};
+  if (!settings.clip.empty()) path.add("clip", string_text(settings.clip));
+  if (settings.clock != HandBack{}.clock) path.add("time", string_text(clocks[static_cast<int>(settings.clock)]));
+  if (settings.anchor != HandBack{}.anchor) path.add("anchor", string_text(anchors[static_cast<int>(settings.anchor)]));
+  if (path.object() != "{}") fields.add("path", path.object());
+  fields.add("settle", "{" + string_text(settles[static_cast<int>(settings.settle.kind)]) + ": " +
+                           number_text(settings.settle.seconds) + "}");
+}
+
+std::string drive_text(const Drive& drive) {
+  if (drive.owner() != Owner::driven) return drive.owner() == Owner::keyed ? "\"keyed\"" : "\"free\"";
+  Fields fields;
+  const Drive usual;
+  constexpr const char* frames[] = {"world", "parent", "anchor"};
+  fields.add("hz", number_text(drive.hz));
+  fields.add("zeta", drive.zeta, usual.zeta);
+  fields.add("max_force", drive.max_force, usual.max_force);
+  fields.add("max_torque", drive.max_torque, usual.max_torque);
+  fields.add("gravity_compensation", drive.gravity_compensation, usual.gravity_compensation);
+  if (drive.frame != usual.frame) fields.add("frame", string_text(frames[static_cast<int>(drive.frame)]));
+  return fields.object();
+}
+
 struct OfInput {
   Said operator()(const input::Ask& ask) const { return std::visit(OfAction{ask.play}, ask.action); }
   Said operator()(const input::Release& release) const {
     Fields fields;
     fields.add("body", string_text(release.body));
-    if (const std::string velocity = velocity_text(release.settings); velocity != "{}")
-      fields.add("velocity", velocity);
-    constexpr const char* words[] = {"push", "ignore", "rewind", "veto"};
-    if (release.settings.overlap != TakeOver{}.overlap)
-      fields.add("overlap", string_text(words[static_cast<int>(release.settings.overlap)]));
+    add_take_over(fields, release.settings);
     return {"release", fields.object()};
   }
   Said operator()(const input::Recover& recover) const {
-    Fields fields, path;
-    const HandBack& settings = recover.settings;
-    constexpr const char* clocks[] = {"run", "hold", "restart"};
-    constexpr const char* anchors[] = {"keep", "here", "ground"};
-    constexpr const char* settles[] = {"quintic", "half_life", "dead_blend"};
+    Fields fields;
     fields.add("body", string_text(recover.body));
-    if (!settings.clip.empty()) path.add("clip", string_text(settings.clip));
-    if (settings.clock != HandBack{}.clock) path.add("time", string_text(clocks[static_cast<int>(settings.clock)]));
-    if (settings.anchor != HandBack{}.anchor)
-      path.add("anchor", string_text(anchors[static_cast<int>(settings.anchor)]));
-    if (path.object() != "{}") fields.add("path", path.object());
-    fields.add("settle", "{" + string_text(settles[static_cast<int>(settings.settle.kind)]) + ": " +
-                             number_text(settings.settle.seconds) + "}");
+    add_hand_back(fields, recover.settings);
     return {"recover", fields.object()};
+  }
+  Said operator()(const input::HandOver& handed) const {
+    Fields fields;
+    const Owner to = handed.change.to.owner();
+    fields.add("body", string_text(handed.body));
+    fields.add("to", drive_text(handed.change.to));
+    fields.add("ramp", handed.change.ramp, 0);
+    if (to != Owner::keyed) add_take_over(fields, handed.change.take_over);
+    if (to != Owner::free) add_hand_back(fields, handed.change.hand_back);
+    return {"hand_over", fields.object()};
   }
   Said operator()(const input::Push& push) const {
     Fields fields;

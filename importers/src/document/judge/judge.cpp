@@ -56,6 +56,7 @@ void judge(Building& building) {
   judging::judge_pace(building);
   judging::judge_drives(building);
   if (building.problems.empty()) judging::judge_stage(building);
+  if (building.problems.empty()) judging::judge_frames(building);
   if (building.problems.empty()) judging::judge_actors(building);
 }
 

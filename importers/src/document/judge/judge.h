@@ -20,6 +20,7 @@ void judge_stage(Building& building);   // what the stage refuses, what starts b
 void judge_pace(Building& building);    // what is too fast or too long for the step
 void judge_tracks(Building& building);  // names of properties
 void judge_drives(Building& building);  // tracks that drive bodies
+void judge_frames(Building& building);  // drives that nothing carries along
 void judge_actors(Building& building);  // what particles and soft bodies say in vain
 
 }  // namespace tweenfall::document::judging

@@ -25,7 +25,7 @@ class RuleReader {
   void read(const json::Value& value) {
     if (!value.is(json::Value::Kind::object)) return;
     fields::RuleBeingRead read = fields::read_rule(value, events_, building_);
-    check_path(read);
+    check_paths(read);
     check_instants(value, read);
     building_.stage.rules.push_back(std::move(read.rule));
   }
@@ -60,17 +60,27 @@ class RuleReader {
     }
   }
 
-  void check_path(const fields::RuleBeingRead& read) {
-    if (!read.to || read.rule.to.owner() != Owner::keyed || read.follows) return;
+  // Whichever of its changes takes the bodies back; once they follow a clip by name, they have a path.
+  void check_paths(const fields::RuleBeingRead& read) {
+    const fields::ChangeBeingRead* change = &read.change;
+    while (!change->follows) {
+      check_path(read, *change);
+      if (change->then.empty()) return;
+      change = &change->then.front();
+    }
+  }
+
+  void check_path(const fields::RuleBeingRead& read, const fields::ChangeBeingRead& change) {
+    if (!change.to || change.change.to.owner() != Owner::keyed) return;
     for (const std::size_t i : read.bodies) {
       const NodeDescription& node = building_.stage.nodes[i];
       // A body that is keyed without being animated has its place of rest for a path, and its author said so.
       const bool rests = node.body->drive && node.body->drive->owner() == Owner::keyed;
       if (animated_[i] || rests) continue;
       building_.problems.add(
-          read.to, json::in_quotes(node.name) +
-                       " has no path to be keyed to: no playing clip animates it or its parents; give a \"path\" "
-                       "with a \"clip\"");
+          change.to, json::in_quotes(node.name) +
+                         " has no path to be keyed to: no playing clip animates it or its parents; give a \"path\" "
+                         "with a \"clip\"");
       break;
     }
   }
@@ -78,7 +88,13 @@ class RuleReader {
   // Two rules that act on one body at one time would leave the outcome to their order.
   void check_instants(const json::Value& value, const fields::RuleBeingRead& read) {
     if (read.rule.when.all && read.rule.when.triggers.size() > 1) return;
-    for (const fields::RuleInstant& instant : read.instants) {
+    std::vector<fields::RuleInstant> instants = read.instants;
+    for (fields::RuleInstant instant : read.instants)
+      for (const NextChange& next : read.rule.then) {
+        instant.seconds += next.after;
+        instants.push_back(instant);
+      }
+    for (const fields::RuleInstant& instant : instants) {
       for (const std::size_t body : read.bodies) {
         const auto [other, fresh] = taken_.emplace(std::pair(instant.seconds, body), value);
         if (fresh || other->second == value) continue;

@@ -109,9 +109,40 @@ void arm_on(StageState& state, std::size_t rule, const std::vector<std::size_t>&
                              [](const ArmedRule& other) { return std::pair(other.body, other.rule); });
 }
 
+void validate(const OwnerChange& change) {
+  if (change.to.hz < 0 || std::isnan(change.to.hz)) throw std::invalid_argument("a drive's hz must be 0 or more");
+  if (!(change.hand_back.settle.seconds > 0) || !std::isfinite(change.hand_back.settle.seconds))
+    throw std::invalid_argument("a settle needs a time above 0 s");
+  if (!(change.take_over.average_over > 0) || !std::isfinite(change.take_over.average_over))
+    throw std::invalid_argument("a velocity is averaged over a time above 0 s");
+  if (!(change.take_over.rewind_within >= 0)) throw std::invalid_argument("a rewind needs a time of 0 s or more");
+  if (!(change.ramp >= 0) || !std::isfinite(change.ramp))
+    throw std::invalid_argument("a ramp takes a time of 0 s or more");
+}
+
+void require_clip(const StageState& state, const HandBack& hand_back) {
+  const auto clips = state.animation->clips();
+  if (hand_back.clip.empty() || std::ranges::find(clips, hand_back.clip, &Clip::name) != clips.end()) return;
+  throw std::invalid_argument("there is no clip \"" + hand_back.clip + "\" to hand back to");
+}
+
+/// Whether the body is led by its path alone at all times.
+bool stays_keyed(const OwnerChange& change) {
+  return change.to.owner() == Owner::keyed && !(change.ramp > 0);
+}
+
+bool has_mass(const StageState& state, const StagedBody& body) {
+  return state.world.mass(body.id).mass > 0;
+}
+
+void require_mass(const StageState& state, const StagedBody& body) {
+  if (!has_mass(state, body))
+    throw std::invalid_argument("\"" + (*state.nodes)[body.node].name + "\" is " +
+                                kind_name(state.world.shape(body.id).solid) + ", which has no mass: it stays keyed");
+}
+
 void validate(const Rule& rule) {
   if (rule.when.triggers.empty()) throw std::invalid_argument("a hand-off rule needs a trigger");
-  if (rule.to.hz < 0 || std::isnan(rule.to.hz)) throw std::invalid_argument("a drive's hz must be 0 or more");
   for (const Trigger& trigger : rule.when.triggers) {
     const auto* at = std::get_if<when::At>(&trigger);
     const auto* hit = std::get_if<when::ContactHit>(&trigger);
@@ -123,11 +154,12 @@ void validate(const Rule& rule) {
         (error && std::isnan(error->distance)))
       throw std::invalid_argument("a trigger's time, impulse, speed, stillness and distance must be numbers");
   }
-  if (!(rule.hand_back.settle.seconds > 0) || !std::isfinite(rule.hand_back.settle.seconds))
-    throw std::invalid_argument("a settle needs a time above 0 s");
-  if (!(rule.take_over.average_over > 0) || !std::isfinite(rule.take_over.average_over))
-    throw std::invalid_argument("a velocity is averaged over a time above 0 s");
-  if (!(rule.take_over.rewind_within >= 0)) throw std::invalid_argument("a rewind needs a time of 0 s or more");
+  validate(rule.change());
+  for (const NextChange& next : rule.then) {
+    validate(next.change);
+    if (!(next.after >= 0) || !std::isfinite(next.after))
+      throw std::invalid_argument("a change comes 0 s or more after the one before it");
+  }
 }
 
 /// @throws std::invalid_argument for a rest pose that is none
@@ -276,10 +308,11 @@ StageState initial_state(const StageDescription& description) {
 
 void arm_rule(StageState& state, const Rule& rule) {
   validate(rule);
-  if (!rule.hand_back.clip.empty()) {
-    const auto clips = state.animation->clips();
-    if (std::ranges::find(clips, rule.hand_back.clip, &Clip::name) == clips.end())
-      throw std::invalid_argument("there is no clip \"" + rule.hand_back.clip + "\" to hand back to");
+  require_clip(state, rule.hand_back);
+  bool keyed_always = stays_keyed(rule.change());
+  for (const NextChange& next : rule.then) {
+    require_clip(state, next.change.hand_back);
+    keyed_always = keyed_always && stays_keyed(next.change);
   }
   std::vector<std::size_t> meant;
   for (const std::string& pattern : rule.bodies) {
@@ -290,9 +323,7 @@ void arm_rule(StageState& state, const Rule& rule) {
       const StagedBody& body = state.bodies[index];
       any = true;
       // Of those that a pattern names, what can be taken is taken: what is static, or has no mass, stays as it is.
-      if (!one &&
-          (state.world.is_fixed(body.id) || (rule.to.owner() != Owner::keyed && !(state.world.mass(body.id).mass > 0))))
-        return;
+      if (!one && (state.world.is_fixed(body.id) || (!keyed_always && !has_mass(state, body)))) return;
       meant.push_back(index);
     };
     if (one) {
@@ -311,14 +342,18 @@ void arm_rule(StageState& state, const Rule& rule) {
     const StagedBody& body = state.bodies[index];
     const std::string name = "\"" + (*state.nodes)[body.node].name + "\"";
     if (state.world.is_fixed(body.id)) throw std::invalid_argument(name + " is static: nothing can take it over");
-    if (rule.to.owner() != Owner::keyed && !(state.world.mass(body.id).mass > 0))
-      throw std::invalid_argument(name + " is " + kind_name(state.world.shape(body.id).solid) +
-                                  ", which has no mass: it stays keyed");
+    if (!keyed_always) require_mass(state, body);
   }
   std::ranges::sort(meant);
   meant.erase(std::unique(meant.begin(), meant.end()), meant.end());
   state.rules.push_back(std::make_shared<const Rule>(rule));
   arm_on(state, state.rules.size() - 1, meant);
+}
+
+void require_possible(const StageState& state, const StagedBody& body, const OwnerChange& change) {
+  validate(change);
+  require_clip(state, change.hand_back);
+  if (!stays_keyed(change)) require_mass(state, body);
 }
 
 namespace {

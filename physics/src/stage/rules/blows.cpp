@@ -109,26 +109,15 @@ bool any_pulled(const StageState& state, const ContactsByBody& contacts, const A
 
 /// The state with the body of an armed rule handed over, moved on to `end`: what its blow would be.
 StageState tried(const StageState& state, std::size_t armed, double end, double step) {
-  const Rule& rule = *state.rules[state.armed[armed].rule];
+  const OwnerChange change = state.rules[state.armed[armed].rule]->change();
   StageState trial = state;
   std::vector<Happening> unheard;
-  static_cast<void>(change_owner(trial, state.armed[armed].body, rule.to, Cause::contact, state.time, rule.take_over,
-                                 rule.hand_back, step, unheard));
+  static_cast<void>(change_owner(trial, state.armed[armed].body, change, Cause::contact, state.time, step, unheard));
   set_targets(trial, end);
   trial.blows.clear();
   drive_vehicles(trial, end - trial.time);
   trial.world.step(end - trial.time, step);
   return trial;
-}
-
-void fire(StageState& state, std::size_t armed, double step, std::vector<Happening>& happenings) {
-  const std::shared_ptr<const Rule> rule = state.rules[state.armed[armed].rule];
-  std::ranges::fill(state.armed[armed].latched, 0);
-  const bool done = change_owner(state, state.armed[armed].body, rule->to, Cause::contact, state.time, rule->take_over,
-                                 rule->hand_back, step, happenings);
-  state.armed[armed].done = rule->once && done;
-  state.armed[armed].attempt.fired = true;
-  state.armed[armed].vetoed = done ? std::nullopt : std::optional(Cause::contact);
 }
 
 /// Bodies as they were at the start of a piece, by index of the world's body.
@@ -351,7 +340,7 @@ bool fire_at_impact(StageState& state, double end, double step, std::vector<Happ
         continue;
       }
       happenings.insert(happenings.end(), before.begin(), before.end());
-      fire(there, i, step, happenings);
+      fire_rule(there, there.armed[i], Cause::contact, there.time, step, happenings);
       state = std::move(there);
       return true;
     }
@@ -399,7 +388,7 @@ void move_world(StageState& state, double end, double step, std::vector<Happenin
         state.armed[i].latched = start.armed[i].latched = after.latched;
         continue;
       }
-      fire(start, i, step, fired);
+      fire_rule(start, start.armed[i], Cause::contact, start.time, step, fired);
       judged[i] = 1;
       freed = true;
       state = start;

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "stage/rules/overlaps.h"
+#include "stage/rules/ramps.h"
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
@@ -24,6 +25,23 @@ Twist mean_twist(const Path& path, double time, double span, const Vec3& center)
   return {(center_of(now, center) - center_of(earlier, center)) / span, log_map(turned) / span};
 }
 
+Twist scaled_and_added(Twist twist, const TakeOver& settings) {
+  twist.linear = settings.scale * twist.linear + settings.add.linear;
+  twist.angular = settings.scale * twist.angular + settings.add.angular;
+  return twist;
+}
+
+/// What a body that a drive lets go does with the twist that it has of its own.
+void change_own_twist(World& world, BodyId body, const Vec3& center, const TakeOver& settings, Motion& after) {
+  const bool zero = settings.velocity == TakeOver::Velocity::zero;
+  const Twist twist = scaled_and_added(zero ? Twist{} : after.twist, settings);
+  if (twist.linear == after.twist.linear && twist.angular == after.twist.angular) return;
+  Motion motion = world.motion(body);
+  motion.twist = shifted(twist, -(motion.pose.rotation * center));
+  world.set_motion(body, motion);
+  after.twist = twist;
+}
+
 /// Twist at the center of mass with which a body leaves its path.
 Twist take_over_twist(const StagedBody& body, const Motion& arriving, const TakeOver& settings, double time,
                       double step, const Vec3& center) {
@@ -41,9 +59,7 @@ Twist take_over_twist(const StagedBody& body, const Motion& arriving, const Take
     case TakeOver::Velocity::zero:
       break;
   }
-  twist.linear = settings.scale * twist.linear + settings.add.linear;
-  twist.angular = settings.scale * twist.angular + settings.add.angular;
-  return twist;
+  return scaled_and_added(twist, settings);
 }
 
 /// The nodes without bodies below a body that changes from one path to another at `time`, each from where it is shown.
@@ -95,18 +111,23 @@ std::optional<double> clear_time(const StageState& state, const StagedBody& body
 
 }  // namespace
 
-bool change_owner(StageState& state, std::size_t index, const Drive& to, Cause cause, double instant,
-                  const TakeOver& take_over, const HandBack& hand_back, double step,
-                  std::vector<Happening>& happenings) {
+bool change_owner(StageState& state, std::size_t index, const OwnerChange& change, Cause cause, double instant,
+                  double step, std::vector<Happening>& happenings) {
   StagedBody& body = state.bodies[index];
   World& world = state.world;
   if (world.is_fixed(body.id))
     throw std::invalid_argument("\"" + (*state.nodes)[body.node].name + "\" is static: nothing can take it over");
-  if (world.drive(body.id) == to) return true;
+  const Drive before = world.drive(body.id);
+  if (before == change.to && !body.ramp) return true;
+  const TakeOver& take_over = change.take_over;
+  const HandBack& hand_back = change.hand_back;
+  std::optional<Ramp> ramp;
+  if (change.ramp > 0) ramp = Ramp{before, change.to, instant, change.ramp, hand_back.settle};
+  const Drive to = ramp ? drive_at_start(*ramp) : change.to;
   const Vec3 center = world.mass(body.id).center;
   const double onward = state.time - instant;
   HandOff handoff{.node = body.node,
-                  .from = world.owner(body.id),
+                  .from = before.owner(),
                   .to = to.owner(),
                   .time = instant,
                   .cause = cause,
@@ -142,14 +163,17 @@ bool change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
     handoff.before = about_center(motion, center);
     handoff.after = handoff.before;
     // Taken back, or from free to a drive, it follows a path again.
-    const bool follows = handoff.to == Owner::keyed ||
-                         (handoff.to == Owner::driven && (handoff.from == Owner::free || !hand_back.clip.empty()));
+    const Owner last = change.to.owner();
+    const bool follows = last == Owner::keyed || (handoff.to == Owner::driven && handoff.from == Owner::free) ||
+                         (last == Owner::driven && !hand_back.clip.empty());
     // What is due a moment after a step is done at the step: the path begins there, or it would not yet have begun.
     const double begins = std::min(instant, state.time);
     const Motion beginning = moved_on(world.motion(body.id), center, begins - state.time);
     const auto below = [&](const Path& next) { return settling_below(state, body, next, hand_back.settle, begins); };
     const Path path = follows ? body.path.recovered(begins, hand_back, beginning, body.released_at) : body.path;
     world.set_drive(body.id, to);
+    if (handoff.from == Owner::driven && last == Owner::free)
+      change_own_twist(world, body.id, center, take_over, handoff.after);
     body.below = below(path);
     if (follows) {
       // A free or driven body keeps the size with which it left its path.
@@ -166,6 +190,8 @@ bool change_owner(StageState& state, std::size_t index, const Drive& to, Cause c
   }
   body.by_track = false;
   body.saturated_for = 0;
+  body.ramp = ramp;
+  body.coming.reset();
   happenings.push_back({instant, handoff});
   return true;
 }

@@ -1,29 +1,23 @@
 #include "stage/rules/played_tracks.h"
 
-#include <tweenfall/curves/elementary.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "stage/rules/ramps.h"
 #include "state/countable.h"
 
 namespace tweenfall::staging {
 
 namespace {
 
-/// Between two frequencies the mix is even in their logarithms. There, softer than the first of these is free and
-/// stiffer than the second is keyed, Hz.
-constexpr double softest = 0.01, stiffest = 1000;
 constexpr double most_hz = 1e9;
 
 double mixed_hz(double from, double to, double weight) {
   if (!(weight > 0) || from == to) return from;
   if (weight >= 1) return to;
-  const double low = elementary::log(std::clamp(from, softest, stiffest));
-  const double high = elementary::log(std::clamp(to, softest, stiffest));
-  const double hz = elementary::exp(low + weight * (high - low));
-  return hz <= softest ? 0 : hz >= stiffest ? infinity : hz;
+  const double hz = hz_between(from, to, weight);
+  return hz <= softest_hz ? 0 : hz >= stiffest_hz ? infinity : hz;
 }
 
 /// Calls `visit(value, weight)` with what each playing clip has for the body at the state's time, in the order of the
@@ -141,7 +135,7 @@ void follow_played_tracks(StageState& state, double step, std::vector<Happening>
       state.world.set_drive(body.id, drive);
       return;
     }
-    static_cast<void>(change_owner(state, index, drive, Cause::at, state.time, {}, {}, step, happenings));
+    static_cast<void>(change_owner(state, index, {.to = drive}, Cause::at, state.time, step, happenings));
     body.by_track = true;
   });
   follow_surface_tracks(state);

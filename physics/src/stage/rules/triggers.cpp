@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stage/drive_frame.h"
 #include "stage/roster/staged_softs.h"
+#include "stage/rules/ramps.h"
 #include "stage/rules/sensed.h"
 #include "stage/rules/speed_peak.h"
 #include "stage/stage_data.h"
 #include "stage/time/leaps.h"
+#include "stage/whole_pose.h"
 
 namespace tweenfall::staging {
 
@@ -54,7 +57,10 @@ double first_instant(const StageState& state, const ArmedRule& armed, double fro
 
 /// How far the body's node is from its path, m.
 double path_error(const StageState& state, const StagedBody& body) {
-  return (state.world.motion(body.id).pose.position - body.path.at(state.time).pose.position).norm();
+  const Motion path = body.path.at(state.time);
+  WholePose pose(state, state.time, Side::out);
+  const Motion wanted = carried_along(state, body, path, pose, state.time);
+  return (state.world.motion(body.id).pose.position - wanted.pose.position).norm();
 }
 
 /// Whether the rule fires now, and through which trigger.
@@ -117,12 +123,26 @@ double event_time(const Animation& animation, const ClockOverride& clock, const 
 
 bool waits(const StageState& state, const ArmedRule& armed) {
   if (armed.done) return false;
-  return state.world.drive(state.bodies[armed.body].id) != state.rules[armed.rule]->to;
+  const StagedBody& body = state.bodies[armed.body];
+  const Drive& to = state.rules[armed.rule]->to;
+  return body.ramp ? body.ramp->to != to : state.world.drive(body.id) != to;
+}
+
+void fire_rule(StageState& state, ArmedRule& armed, Cause cause, double instant, double step,
+               std::vector<Happening>& happenings) {
+  const std::shared_ptr<const Rule> rule = state.rules[armed.rule];
+  armed.attempt.fired = true;
+  std::ranges::fill(armed.latched, 0);
+  const bool done = change_owner(state, armed.body, rule->change(), cause, instant, step, happenings);
+  armed.vetoed = done ? std::nullopt : std::optional(cause);
+  if (!done) return;
+  if (rule->once) armed.done = true;
+  wait_for_next(state, state.bodies[armed.body], armed.rule, 0, instant);
 }
 
 double next_instant(const StageState& state, double to) {
   const double from = state.handled;
-  double next = first_jump(state, from, to);
+  double next = std::min(first_jump(state, from, to), next_change(state, from, to));
   for (const ArmedRule& armed : state.armed)
     if (waits(state, armed)) next = std::min(next, first_instant(state, armed, from, std::min(next, to)));
   next = std::min(next, next_leap(state, from, std::min(next, to)));
@@ -134,17 +154,23 @@ void fire_rules(StageState& state, double from, double step, std::vector<Happeni
   // In order of time, then of bodies: one instant may take a body and the next, a moment later, give it back.
   struct Due {
     double instant = 0;
-    std::size_t armed = 0;
+    std::size_t body = 0;
+    std::size_t armed = no_body;  // none: what comes after another change
   };
   std::vector<Due> order;
   order.reserve(state.armed.size());
   for (std::size_t i = 0; i < state.armed.size(); ++i) {
     if (state.armed[i].done) continue;
     const double instant = first_instant(state, state.armed[i], from, state.handled);
-    order.push_back({std::isfinite(instant) ? std::max(0.0, instant) : state.time, i});
+    order.push_back({std::isfinite(instant) ? std::max(0.0, instant) : state.time, state.armed[i].body, i});
   }
-  std::ranges::stable_sort(order, {}, &Due::instant);
+  for_each_change_due(state, from, [&](std::size_t body, double instant) { order.push_back({instant, body}); });
+  std::ranges::stable_sort(order, {}, [](const Due& due) { return std::pair(due.instant, due.body); });
   for (const Due& due : order) {
+    if (due.armed == no_body) {
+      change_when_due(state, due.body, due.instant, step, happenings);
+      continue;
+    }
     ArmedRule& armed = state.armed[due.armed];
     if (!waits(state, armed)) {
       std::ranges::fill(armed.latched, 0);
@@ -155,13 +181,7 @@ void fire_rules(StageState& state, double from, double step, std::vector<Happeni
     const std::optional<Cause> fired = fires(state, armed, from);
     const std::optional<Cause> cause = fired ? fired : armed.vetoed;
     if (!cause) continue;
-    const std::shared_ptr<const Rule> rule = state.rules[armed.rule];
-    armed.attempt.fired = true;
-    std::ranges::fill(armed.latched, 0);
-    const bool done = change_owner(state, armed.body, rule->to, *cause, due.instant, rule->take_over, rule->hand_back,
-                                   step, happenings);
-    armed.vetoed = done ? std::nullopt : cause;
-    if (rule->once && done) armed.done = true;
+    fire_rule(state, armed, *cause, due.instant, step, happenings);
   }
 }
 

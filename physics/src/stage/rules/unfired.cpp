@@ -76,8 +76,15 @@ struct Reason {
 std::vector<UnfiredRule> unfired_rules(const StageState& state) {
   std::vector<UnfiredRule> unfired;
   for (const ArmedRule& armed : state.armed) {
-    if (armed.attempt.fired || armed.gone) continue;
+    if (armed.gone) continue;
     const StagedBody& body = state.bodies[armed.body];
+    if (armed.attempt.fired) {
+      if (body.coming && body.coming->rule == armed.rule)
+        unfired.push_back({armed.rule, body.node,
+                           "its next change is due at " + brief_text(body.coming->due) +
+                               " s, which lies beyond the end of the run, " + brief_text(state.time) + " s"});
+      continue;
+    }
     const Rule& rule = *state.rules[armed.rule];
     std::string reason;
     if (!armed.attempt.waited) {

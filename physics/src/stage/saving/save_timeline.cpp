@@ -8,13 +8,14 @@
 #include "stage/saving/fingerprint.h"
 #include "stage/saving/stage_fields.h"
 #include "stage/time/timeline.h"
+#include "state/checks.h"
 #include "state/countable.h"
 
 namespace tweenfall::staging {
 
 namespace {
 
-constexpr saving::Envelope stage_envelope{"stage", 4};
+constexpr saving::Envelope stage_envelope{"stage", 5};
 
 void require(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("a saved stage has a bad " + what);
@@ -59,6 +60,13 @@ void check_time(const StageState& state, double now, bool between, double step) 
   require(state.splits >= 0 && state.splits <= 1024, "number of splits");
 }
 
+void check_ramp(const Ramp& ramp) {
+  state::validate(ramp.from);
+  state::validate(ramp.to);
+  require(std::isfinite(ramp.start) && ramp.seconds > 0 && std::isfinite(ramp.seconds) && ramp.settle.seconds > 0,
+          "ramp: it has no length");
+}
+
 void check_bodies(const StageState& state) {
   const std::size_t nodes = state.nodes->size(), clips = state.animation->clips().size();
   std::size_t here = 0;
@@ -69,6 +77,10 @@ void check_bodies(const StageState& state) {
     require_unit(body.shown.motion.pose.rotation);
     const ClockOverride& clock = body.path.clock();
     require(clock.clip == ClockOverride::every_clip || clock.clip < clips, "clock: there is no such clip");
+    if (const auto& coming = body.coming)
+      require(coming->rule < state.rules.size() && coming->place < state.rules[coming->rule]->then.size(),
+              "change to come: there is no such rule");
+    if (const auto& ramp = body.ramp) check_ramp(*ramp);
     if (!body.below) continue;
     for (const SettlingNode& settling : *body.below) require(settling.node < nodes, "settling node");
     require(std::ranges::is_sorted(*body.below, {}, &SettlingNode::node), "list of settling nodes");

@@ -97,10 +97,22 @@ void each_field(T& hand_back, const Visit& visit) {
   visit(clip, clock, anchor, settle);
 }
 
+template <Is<OwnerChange> T, class Visit>
+void each_field(T& change, const Visit& visit) {
+  auto& [to, take_over, hand_back, ramp] = change;
+  visit(to, take_over, hand_back, ramp);
+}
+
+template <Is<NextChange> T, class Visit>
+void each_field(T& next, const Visit& visit) {
+  auto& [after, change] = next;
+  visit(after, change);
+}
+
 template <Is<Rule> T, class Visit>
 void each_field(T& rule, const Visit& visit) {
-  auto& [bodies, when, to, take_over, hand_back, once] = rule;
-  visit(bodies, when, to, take_over, hand_back, once);
+  auto& [bodies, when, to, take_over, hand_back, once, ramp, then] = rule;
+  visit(bodies, when, to, take_over, hand_back, once, ramp, then);
 }
 
 // What a stage is described by
@@ -137,7 +149,7 @@ template <Is<staging::change::None> T, class Visit>
 void each_field(T&, const Visit&) {}
 
 template <class T, class Visit>
-requires Is<T, staging::change::Release> || Is<T, staging::change::Recover>
+requires Is<T, staging::change::Release> || Is<T, staging::change::Recover> || Is<T, staging::change::HandOver>
 void each_field(T& change, const Visit& visit) {
   auto& [node, settings] = change;
   visit.places(node);
@@ -351,12 +363,26 @@ void each_field(T& world, const Visit& visit) {
   visit(linear, linear_rate, motion);
 }
 
+template <Is<staging::Ramp> T, class Visit>
+void each_field(T& ramp, const Visit& visit) {
+  auto& [from, to, start, seconds, settle] = ramp;
+  visit(from, to, start, seconds, settle);
+}
+
+template <Is<staging::ComingChange> T, class Visit>
+void each_field(T& coming, const Visit& visit) {
+  auto& [rule, place, due] = coming;
+  visit.places(rule, place);
+  visit(due);
+}
+
 template <Is<staging::StagedBody> T, class Visit>
 void each_field(T& body, const Visit& visit) {
-  auto& [node, id, path, released_at, shown, present, below, drive, surface, saturated_for, by_track, size] = body;
+  auto& [node, id, path, released_at, shown, present, below, drive, surface, saturated_for, by_track, size, ramp,
+         coming] = body;
   follows_from_others(node, id, present, drive, surface);
   PathFields::of_path(path, visit);
-  visit(released_at, shown, saturated_for, by_track);
+  visit(released_at, shown, saturated_for, by_track, ramp, coming);
   auto own = size ? *size : staging::SizeOffset{};
   visit(own);
   if constexpr (!std::is_const_v<T>) size = own.any ? std::make_shared<const staging::SizeOffset>(own) : nullptr;

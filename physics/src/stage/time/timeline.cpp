@@ -164,6 +164,8 @@ std::vector<TimedInput> Timeline::inputs() const {
       add(input::Release{name(release->node), release->settings});
     if (const auto* recover = std::get_if<change::Recover>(&command.change))
       add(input::Recover{name(recover->node), recover->settings});
+    if (const auto* handed = std::get_if<change::HandOver>(&command.change))
+      add(input::HandOver{name(handed->node), handed->change});
     if (const auto* push = std::get_if<change::Push>(&command.change))
       add(input::Push{name(push->node), push->impulse, push->point});
     if (const auto* told = std::get_if<change::Control>(&command.change))

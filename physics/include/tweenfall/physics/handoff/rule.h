@@ -69,10 +69,12 @@ struct When {
 /// What velocity a released body starts with.
 struct TakeOver {
   enum class Velocity { curve, step, zero, average };
-  Velocity velocity = Velocity::curve;  ///< the curve's own derivative, from the side that was shown
-  double average_over = 0.1;            ///< s, for `average`
-  double scale = 1;                     ///< multiplies it
-  Twist add = {};                       ///< added after
+  /// The curve's own derivative, from the side that was shown. What a drive lets go has a velocity of its own in place
+  /// of the curve's.
+  Velocity velocity = Velocity::curve;
+  double average_over = 0.1;  ///< s, for `average`
+  double scale = 1;           ///< multiplies it
+  Twist add = {};             ///< added after
   /// What becomes of a body that lies in others when it leaves its path.
   enum class Overlap {
     push,    ///< it is taken out of them, at no more than the world's `push_out_speed`, and gains no energy by it
@@ -102,6 +104,23 @@ struct HandBack {
   Settle settle = {};
 };
 
+/// A change of who moves a body.
+struct OwnerChange {
+  Drive to = Drive::free();
+  TakeOver take_over = {};
+  HandBack hand_back = {};
+  /// How long the drive takes to get there, s: its frequency even in the logarithm between 0.01 Hz and 1000 Hz, where
+  /// the ends are free and keyed; limits and damping even. What has none of its own, because it is free or keyed, has
+  /// the other's. On its way the body is driven.
+  double ramp = 0;
+};
+
+/// A change that comes some time after the one before it.
+struct NextChange {
+  double after = 0;  ///< s, from when that began
+  OwnerChange change = {};
+};
+
 /// One line of the hand-off.
 struct Rule {
   std::vector<std::string> bodies;  ///< names or patterns ("tower/*") of nodes with bodies
@@ -110,6 +129,10 @@ struct Rule {
   TakeOver take_over = {};
   HandBack hand_back = {};
   bool once = true;
+  double ramp = 0;                    ///< s; see `OwnerChange`
+  std::vector<NextChange> then = {};  ///< one after another, until the body changes hands in another way
+
+  [[nodiscard]] OwnerChange change() const { return {to, take_over, hand_back, ramp}; }
 };
 
 enum class Cause {
@@ -125,6 +148,8 @@ enum class Cause {
   saturated,
   error,
   speed_peak,
+  then,  ///< a change that a rule has come after another
+  ramp,  ///< the end of the ramp on which the body's drive was
   caller
 };
 

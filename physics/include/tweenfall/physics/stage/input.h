@@ -35,6 +35,11 @@ struct Recover {
   std::string body;
   HandBack settings = {};
 };
+/// A body gets any owner, at once or along a ramp.
+struct HandOver {
+  std::string body;
+  OwnerChange change = {};
+};
 struct Push {
   std::string body;
   Vec3 impulse{0, 0, 0};  ///< N s
@@ -58,8 +63,8 @@ struct Control {
 };
 }  // namespace input
 
-using Input =
-    std::variant<input::Ask, input::Release, input::Recover, input::Push, input::Set, input::Send, input::Control>;
+using Input = std::variant<input::Ask, input::Release, input::Recover, input::HandOver, input::Push, input::Set,
+                           input::Send, input::Control>;
 
 struct TimedInput {
   double time = 0;  ///< stage time, s

@@ -128,6 +128,7 @@ class Stage {
   void world(std::span<WorldMotion> out) const;        ///< of all nodes, in order
   [[nodiscard]] Twist twist(NodeId node) const;  ///< at the center of mass for a body, else at the origin; world axes
   [[nodiscard]] Owner owner(NodeId node) const;  ///< a node without a body is keyed
+  [[nodiscard]] Drive drive(NodeId node) const;  ///< what holds its body to its path, on a ramp as it is right now
   [[nodiscard]] NodeLook look(NodeId node) const;
   [[nodiscard]] Vec3 reaction(NodeId node) const;  ///< sum of contact impulses taken by a keyed or fixed body, N s
   /// How a joint stood at the end of the last step before or at `time()`; nothing once it is gone: it broke, it ended,
@@ -147,6 +148,7 @@ class Stage {
   // Hand-off by the caller, at exactly `time()`. @throws NodeNotFinite when what leads the body there is too fast
   void release(NodeId node, const TakeOver& settings = {});
   void recover(NodeId node, const HandBack& settings = {});
+  void hand_over(NodeId node, const OwnerChange& change);  ///< to any owner, at once or along a ramp
   void arm(Rule rule);
 
   // Plays, at exactly `time()`; going back finds it again
@@ -199,7 +201,7 @@ class Stage {
   [[nodiscard]] std::span<const StageEvent> events() const noexcept;  ///< up to `time()`, contacts included
 
   /// What has not fired until now, by node and then by rule: never touched, not as hard as asked for, no such marker,
-  /// its time still to come. Of a pattern each body by itself.
+  /// its time still to come. Of a pattern each body by itself. What fired and has a change to come tells of that.
   [[nodiscard]] std::vector<UnfiredRule> unfired_rules() const;
 
   /// A number that changes when any bit of any body, soft body, wheel or particle does, at the next instant or step

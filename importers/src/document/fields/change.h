@@ -1,0 +1,53 @@
+#pragma once
+
+// A change of who moves a body, alone or with what comes after it.
+
+#include "document/fields/table.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tweenfall::document::fields {
+
+struct ChangeBeingRead {
+  OwnerChange change;
+  json::Value to;                     // where it names an owner; none where that is faulty
+  bool follows = false;               // whether it names the clip to follow
+  std::optional<double> lasts;        // until what comes then, s
+  std::vector<ChangeBeingRead> then;  // none or one
+};
+
+[[nodiscard]] std::vector<Row<ChangeBeingRead>> change_rows();
+// The same with what comes after it. @param next  the form of that
+[[nodiscard]] std::vector<Row<ChangeBeingRead>> change_rows(const FormOf& next);
+[[nodiscard]] std::vector<Together> lasting();  // of the fields that say so
+const Form* next_change_form(FormStore& store, const ValueForms& values);
+void read_next_change(const json::Value& value, ChangeBeingRead& before, Building& building);
+
+[[nodiscard]] json::Value place_of_owner(const json::Value& change);
+[[nodiscard]] json::Value place_of_next(const json::Value& change);
+
+// Where a body that is taken back goes on, and how the difference dies away
+const Form* path_form(FormStore& store, const ValueForms& values);
+void read_path(const json::Value& value, HandBack& out, Building& building);
+const Form* settle_form(FormStore& store, const ValueForms& values);
+void read_settle(const json::Value& value, Settle& settle, Building& building);
+
+// What becomes of overlap. @param access  gives the thing's take-over
+template <class Thing, class Access>
+[[nodiscard]] Row<Thing> overlap_row(Access access) {
+  using Overlap = TakeOver::Overlap;
+  return one_of<Thing, Overlap>(
+      "overlap", "what becomes of overlap: \"push\", \"ignore\", \"rewind\" or \"veto\"",
+      {{"push", Overlap::push}, {"ignore", Overlap::ignore}, {"rewind", Overlap::rewind}, {"veto", Overlap::veto}},
+      "of a body that leaves its path in others: they are pushed apart, pass "
+      "through each other, it leaves from where it was clear, or stays",
+      [access](Thing& thing) -> Overlap& { return access(thing).overlap; });
+}
+
+// The velocity that a released body starts with
+const Form* take_over_form(FormStore& store, const ValueForms& values);
+void read_take_over(const json::Value& value, TakeOver& take_over, Building& building);
+
+}  // namespace tweenfall::document::fields
