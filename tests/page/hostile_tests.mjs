@@ -23,6 +23,17 @@ const cases = {
     check(took < 2000, `choosing among 20,000 nodes takes ${took} ms`);
     check(await page.evaluate("[...document.querySelectorAll('#rows .row.chosen')].length") === 1, "the chosen row scrolls into sight");
   },
+  async large_numbers(page) {
+    const cells = "[...document.querySelectorAll('#readout dd')].filter(cell => cell.textContent)";
+    for (const width of [1280, 640]) {
+      await page.resize(width, 800);
+      await page.drawn();
+      const cut = await page.evaluate(`${cells}.filter(cell => cell.scrollWidth > cell.clientWidth).map(cell => cell.textContent)`);
+      check(cut.length === 0, `no number is cut off at ${width}: ${cut}`);
+    }
+    equal((await page.evaluate(`${cells}.slice(0, 3).map(cell => cell.textContent)`)).join(" "), "-4.024 307.1 -1235", "in a narrow column four digits are told");
+    await page.resize(1280, 800);
+  },
   async one_frame(page) {
     check((await notes(page)).includes("one frame"), "one frame is said to be one");
     for (const key of [" ", "ArrowRight", "End", "Home", "f", "+", ".", "]"]) await page.key(key);

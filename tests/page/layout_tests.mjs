@@ -46,6 +46,9 @@ async function fitsTheWindow(page, width, height) {
   } else {
     checkRectangles(toggles.concat(await rectangles(page, "header h1, #legend, header button")), width, height);
   }
+  // The playhead stands below the times that the ruler tells, which are 11 pixels high from the second on.
+  const [[, top], [, ruler]] = await page.evaluate(`["playhead", "ruler"].map(id => document.getElementById(id).getBoundingClientRect()).map(box => [box.left, box.top])`);
+  check(top >= ruler + 13, `the playhead covers no time at ${width} by ${height}: ${top - ruler}`);
   // Rows and their names.
   const rows = await rectangles(page, "#rows .row .label");
   check(rows.length > 3, `the timeline has rows at ${width} by ${height}`);

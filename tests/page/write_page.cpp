@@ -199,6 +199,11 @@ void write_hostile(const fs::path& folder) {
     recording.nodes[i].world[2].motion.pose.position.y() += 0.01 * static_cast<double>(i % 100);
   save("many_nodes", stage, recording);
 
+  stage.nodes = {ball("in centimeters", {-4.0237, 307.1234, -1234.5678})};
+  recording = still(stage, {0, 1});
+  recording.name = "large numbers";
+  save("large_numbers", stage, recording);
+
   stage.nodes = {ball("alone", {0, 0, 0})};
   recording = still(stage, {2.5});
   recording.name = "one frame";
@@ -220,7 +225,7 @@ void write_hostile(const fs::path& folder) {
   recording.events.push_back({.time = 0.5, .name = markup, .data = "", .nodes = {0, 1}, .impulse = 1});
   save("markup", stage, recording);
 
-  // Ten minutes of a hundred balls at 60 frames a second.
+  // Ten minutes of a hundred balls at 60 frames per second.
   stage = {};
   for (int i = 0; i < 100; ++i) stage.nodes.push_back(ball("ball " + std::to_string(i), Vec3(i, 0, 0)));
   std::vector<double> times;

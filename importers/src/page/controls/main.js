@@ -38,6 +38,7 @@ function layOut() {
   // A layout comes after the animation frames: the page is shown before the next of them.
   if (emptied) drawScene();
   timeline.draw();
+  updateReadout();
   requestDraw();
 }
 

@@ -28,6 +28,15 @@ const cell = (name, text, kind = "") => {
   return made;
 };
 
+// A narrow page tells four digits of a number, and the whole of it when pointed at.
+const digitsOf = (value, digits) => innerWidth > 860 ? digits
+  : Math.max(0, Math.min(digits, 3 - Math.floor(Math.log10(Math.max(1, Math.abs(value))))));
+const numberCell = (value, digits) => {
+  const made = cell("dd", number(value, digitsOf(value, digits)));
+  made.title = number(value, digits);
+  return made;
+};
+
 function updateReadout() {
   const box = element("readout"), node = state.chosen, clock = element("clock");
   clock.replaceChildren(cell("b", number(state.time)), cell("span", ` s of ${number(recording.endTime)}`, "of"),
@@ -42,7 +51,7 @@ function updateReadout() {
     head.lastChild.style.background = `var(--${owner})`;
   }
   const list = document.createElement("dl"), row = (title, values, unit, digits = 3) => list.append(cell("dt", title),
-    ...[0, 1, 2].map(i => cell("dd", i < values.length ? number(values[i], digits) : "")), cell("dd", unit, "unit"));
+    ...[0, 1, 2].map(i => i < values.length ? numberCell(values[i], digits) : cell("dd", "")), cell("dd", unit, "unit"));
   if (node.shown) {
     const numbers = gatheredAt(gather(node), state.time);
     row("position", numbers.position, "m");
