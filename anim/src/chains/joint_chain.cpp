@@ -6,7 +6,7 @@
 namespace tweenfall {
 
 JointChain::JointChain(const Hierarchy& nodes, const JointChainSettings& settings)
-    : nodes_(nodes), method_(settings.method), sweeps_(settings.sweeps) {
+    : nodes_(nodes), method_(settings.method), sweeps_(settings.sweeps), leaps_(settings.leaps) {
   chains::Problems problems("joint chain");
   const std::size_t count = settings.links.size();
   problems.require(count >= 2, "it has " + std::to_string(count) + (count == 1 ? " joint" : " joints") +

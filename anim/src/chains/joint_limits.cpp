@@ -4,7 +4,6 @@ namespace tweenfall::chains {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double at_border = 1e-12;
 
 // By how much a rotation turns about a unit axis, -pi to pi.
 Dual twist_about(const Vec3& axis, const Turning& turn) noexcept {
@@ -58,19 +57,28 @@ Turning within_limits(const JointChain::Joint& joint, const Turning& turn) noexc
   return turn;
 }
 
+Turning middle_of(const JointChain::Joint& joint, const Turning& turn) noexcept {
+  if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit))
+    return about(hinge->axis, Dual(0.5 * (hinge->low + hinge->high)));
+  if (const auto* cone = std::get_if<ConeLimit>(&joint.limit))
+    return about(joint.bone, Dual(0.5 * (cone->twist_low + cone->twist_high)));
+  return turn;
+}
+
 Freedom freedom_of(const JointChain::Joint& joint, const Turning& turn) noexcept {
+  constexpr double anywhere = 2 * pi;
   const Vec3 still(0, 0, 0);
   Freedom freedom;
   if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit)) {
-    const double angle = twist_about(hinge->axis, turn).v;
+    const Dual angle = twist_about(hinge->axis, turn);
     freedom.count = 1;
-    freedom.ways[0] = {{hinge->axis, still}, angle <= hinge->low + at_border, angle >= hinge->high - at_border};
+    freedom.ways[0] = {{hinge->axis, still}, Dual(hinge->low) - angle, Dual(hinge->high) - angle};
     return freedom;
   }
   freedom.count = 3;
   const auto* cone = std::get_if<ConeLimit>(&joint.limit);
   if (!cone) {
-    for (int i = 0; i < 3; ++i) freedom.ways[i].axis.v = Vec3::Unit(i);
+    for (int i = 0; i < 3; ++i) freedom.ways[i] = {{Vec3::Unit(i), still}, Dual(-anywhere), Dual(anywhere)};
     return freedom;
   }
   // A turn about the normal of rest and bone swings alone, one about their sum twists alone.
@@ -81,11 +89,11 @@ Freedom freedom_of(const JointChain::Joint& joint, const Turning& turn) noexcept
   const Arrow swing = swung ? normal.unit : Arrow{any_across(joint.bone), still};
   Measured twist = measured(rest + bone);
   if (!(twist.length.v > 1e-9)) twist.unit = {Vec3(swing.v.cross(joint.bone)), still};
-  const double angle = twist_about(joint.bone, turn).v;
-  const double opening = elementary::atan2(normal.length.v, dot(rest, bone).v);
-  freedom.ways[0] = {swing, cone->swing <= at_border, opening >= cone->swing - at_border};
-  freedom.ways[1] = {twist.unit, angle <= cone->twist_low + at_border, angle >= cone->twist_high - at_border};
-  freedom.ways[2] = {cross(swing, twist.unit), cone->swing <= at_border, cone->swing <= at_border};
+  const Dual angle = twist_about(joint.bone, turn), opening = angle_of(normal.length, dot(rest, bone));
+  const Dual around = cone->swing > 0 ? anywhere : 0;
+  freedom.ways[0] = {swing, Dual(-cone->swing) - opening, Dual(cone->swing) - opening};
+  freedom.ways[1] = {twist.unit, Dual(cone->twist_low) - angle, Dual(cone->twist_high) - angle};
+  freedom.ways[2] = {cross(swing, twist.unit), -around, around};
   return freedom;
 }
 

@@ -11,11 +11,14 @@ namespace tweenfall::chains {
 /// The nearest rotation that the limit allows. @param turn  from the joint's rest pose, in the axes of that
 [[nodiscard]] Turning within_limits(const JointChain::Joint& joint, const Turning& turn) noexcept;
 
-/// The directions about which a joint can turn on from where it is, and which of both ways a limit closes.
+/// The middle of what the limit allows; of a joint without one, its `turn`.
+[[nodiscard]] Turning middle_of(const JointChain::Joint& joint, const Turning& turn) noexcept;
+
+/// The directions about which a joint can turn on from where it is, and how far its limit lets it.
 struct Freedom {
   struct Way {
-    Arrow axis;  ///< unit, at right angles to the others, in the axes of the joint's rest pose
-    bool at_low = false, at_high = false;
+    Arrow axis;      ///< unit, at right angles to the others, in the axes of the joint's rest pose
+    Dual low, high;  ///< rad
   };
   Way ways[3];
   int count = 0;

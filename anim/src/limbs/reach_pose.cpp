@@ -30,13 +30,14 @@ void tell(const ReachPose& pose, Account& account) {
                   words_of(pose.target) + share_in_words(pose.weight);
   account.pose(pose.base, "base");
   for (const ReachPose::Joint& joint : pose.joints) account.tell(joint.node, joint.limit);
-  account.tell(pose.target, pose.method, pose.sweeps, pose.weight);
+  account.tell(pose.target, pose.method, pose.sweeps, pose.leaps, pose.weight);
 }
 
 std::unique_ptr<Operation> bound(const ReachPose& described, Binder& binder) {
   Changed changed = bound_change(described, "reach", binder);
   bool known = true;
-  JointChainSettings settings{.links = {}, .method = described.method, .sweeps = described.sweeps};
+  JointChainSettings settings{
+      .links = {}, .method = described.method, .sweeps = described.sweeps, .leaps = described.leaps};
   settings.links.reserve(described.joints.size());
   for (std::size_t i = 0; i < described.joints.size(); ++i) {
     const std::size_t node = binder.node(described.joints[i].node, {"reach", "joints", std::to_string(i)});

@@ -62,6 +62,27 @@ Quat allowed(Random& random, const JointChain::Joint& joint) {
   return random.rotation();
 }
 
+/// Joints of which `hinges` have a random hinge, and the others a random cone.
+JointChainSettings limited_links(Random& random, std::size_t count, double hinges) {
+  JointChainSettings settings = links(count, ChainMethod::fabrik);
+  for (std::size_t joint = 0; joint + 1 < count; ++joint) {
+    const Vec3 axis = random.vector(1);
+    const double low = random.between(-2, 0), high = random.between(0, 2), swing = random.between(0.3, 1.5);
+    if (random.unit() < hinges)
+      settings.links[joint].limit = HingeLimit{axis, low, high};
+    else
+      settings.links[joint].limit = ConeLimit{swing, low, high};
+  }
+  return settings;
+}
+
+/// Where the end of a chain is in some pose within its limits.
+Vec3 reachable(Random& random, const JointChain& chain) {
+  std::vector<Motion> pose = rest_pose(chain.nodes());
+  for (const JointChain::Joint& joint : chain.joints()) pose[joint.node].pose.rotation = allowed(random, joint);
+  return world_of_node(chain.nodes(), chain.end(), pose).motion.pose.position;
+}
+
 }  // namespace
 
 TEST_CASE("chains of joints without limits reach every target within reach to 1e-12 of their length") {
@@ -122,25 +143,17 @@ TEST_CASE("a chain that lies straight on the line to its target bends to reach i
   }
 }
 
-TEST_CASE("chains with hinges and cones reach what their limits let them, and keep to these") {
+TEST_CASE("chains with hinges and cones that may leap reach what their limits let them, and keep to these") {
   Random random(3);
   int reached = 0, tried = 0;
   for (int i = 0; i < 300; ++i) {
     const std::size_t count = 4 + static_cast<std::size_t>(i) % 5;
     const Hierarchy nodes = odd_chain(random, count);
-    JointChainSettings settings = links(count, i % 2 == 0 ? ChainMethod::fabrik : ChainMethod::ccd);
-    for (std::size_t joint = 0; joint + 1 < count; ++joint) {
-      const Vec3 axis = random.vector(1);
-      const double low = random.between(-2, 0), high = random.between(0, 2), swing = random.between(0.3, 1.5);
-      if (random.unit() < 0.5)
-        settings.links[joint].limit = HingeLimit{axis, low, high};
-      else
-        settings.links[joint].limit = ConeLimit{swing, low, high};
-    }
+    JointChainSettings settings = limited_links(random, count, 0.5);
+    settings.method = i % 2 == 0 ? ChainMethod::fabrik : ChainMethod::ccd;
+    settings.leaps = true;
     const JointChain chain(nodes, settings);
-    std::vector<Motion> other = rest_pose(nodes);
-    for (const JointChain::Joint& joint : chain.joints()) other[joint.node].pose.rotation = allowed(random, joint);
-    const Vec3 target = world_of_node(nodes, chain.end(), other).motion.pose.position;
+    const Vec3 target = reachable(random, chain);
     std::vector<Motion> pose = SwingingPose(random, nodes, 0, 1).at(1);
     reach(chain, still(target), wholly, pose);
     REQUIRE(finite(pose));
@@ -150,6 +163,95 @@ TEST_CASE("chains with hinges and cones reach what their limits let them, and ke
   }
   MESSAGE("reached: ", reached, " of ", tried);
   CHECK(reached == tried);
+}
+
+TEST_CASE("chains of sockets reach what their limits let them without leaping, and others nearly all of it") {
+  Random random(13);
+  for (const double hinges : {0.0, 0.5}) {
+    int missed_ones = 0;
+    for (int i = 0; i < 400; ++i) {
+      const std::size_t count = 4 + static_cast<std::size_t>(i) % 5;
+      const Hierarchy nodes = odd_chain(random, count);
+      JointChainSettings settings = limited_links(random, count, hinges);
+      settings.method = i % 2 == 0 ? ChainMethod::fabrik : ChainMethod::ccd;
+      const JointChain chain(nodes, settings);
+      const Vec3 target = reachable(random, chain);
+      std::vector<Motion> pose = SwingingPose(random, nodes, 0, 1).at(1);
+      reach(chain, still(target), wholly, pose);
+      for (const JointChain::Joint& joint : chain.joints()) check_limit(joint, pose[joint.node].pose.rotation, 1e-9);
+      if (missed(chain, pose, target) > 1e-6 * static_cast<double>(count)) ++missed_ones;
+    }
+    MESSAGE("share of hinges ", hinges, ": missed ", missed_ones, " of 400");
+    CHECK(missed_ones <= (hinges > 0 ? 4 : 0));
+  }
+}
+
+TEST_CASE("chains with hinges and cones do not flip where their target moves on a line, within reach and beyond") {
+  Random random(11);
+  int flips = 0;
+  for (int line = 0; line < 60; ++line) {
+    CAPTURE(line);
+    const std::size_t count = 4 + static_cast<std::size_t>(line) % 5;
+    const Hierarchy nodes = odd_chain(random, count);
+    JointChainSettings settings = limited_links(random, count, 0.5 * (line / 5 % 2));
+    settings.method = line % 2 == 0 ? ChainMethod::fabrik : ChainMethod::ccd;
+    const JointChain chain(nodes, settings);
+    const Vec3 from = reachable(random, chain), to = reachable(random, chain);
+    const Vec3 way = line % 3 == 0 ? Vec3(to - from) : line % 3 == 1 ? Vec3(2 * (to - from)) : random.vector(2);
+    const std::vector<Motion> before =
+        line % 4 < 2 ? rest_pose(nodes) : std::vector<Motion>(SwingingPose(random, nodes, 0, 0.6).at(1));
+    const auto solved = [&](double share) {
+      std::vector<Motion> pose = before;
+      reach(chain, still(from + share * way), wholly, pose);
+      return pose;
+    };
+    constexpr int parts = 80;
+    std::vector<Motion> last = solved(0);
+    for (int i = 1; i <= parts; ++i) {
+      double low = (i - 1.0) / parts, high = i * 1.0 / parts;
+      std::vector<Motion> a = last, b = solved(high);
+      last = b;
+      // Where much happens between two places: it must not happen at once.
+      if (difference_of(a, b) < 0.03) continue;
+      while (high - low > 1e-9) {
+        const double middle = 0.5 * (low + high);
+        std::vector<Motion> between = solved(middle);
+        if (difference_of(a, between) > difference_of(between, b)) {
+          high = middle;
+          b = std::move(between);
+        } else {
+          low = middle;
+          a = std::move(between);
+        }
+      }
+      if (difference_of(a, b) > 2e-3) ++flips;
+    }
+  }
+  CHECK(flips == 0);
+}
+
+TEST_CASE("the rates of a chain with limits are the derivatives of its rotations, within reach and beyond") {
+  Random random(15);
+  double worst = 0;
+  for (int i = 0; i < 60; ++i) {
+    CAPTURE(i);
+    const std::size_t count = 4 + static_cast<std::size_t>(i) % 4;
+    const Hierarchy nodes = odd_chain(random, count);
+    JointChainSettings settings = limited_links(random, count, 0.3);
+    settings.method = i % 2 == 0 ? ChainMethod::fabrik : ChainMethod::ccd;
+    const JointChain chain(nodes, settings);
+    const SwingingPose swing(random, nodes, 0.02, 0.2);
+    const SwingingVector target = swinging(random, reachable(random, chain) * (i % 3 == 0 ? 2 : 1), 0.02);
+    const auto solved = [&](double t) {
+      std::vector<Motion> pose = swing.at(t);
+      reach(chain, target.at(t), wholly, pose);
+      return pose;
+    };
+    const double error = worst_rate(solved, 1, 2e-5);
+    CHECK(error < 1e-6);
+    worst = std::max(worst, error);
+  }
+  MESSAGE("largest error of a rate: ", worst);
 }
 
 TEST_CASE("a limited chain comes as near to what it cannot reach as any pose of its limits") {

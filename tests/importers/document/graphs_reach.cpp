@@ -64,6 +64,8 @@ TEST_CASE("operations of a document mean what the same operations mean in C++") 
   CHECK(near(std::get<HingeLimit>(lean.joints.at(1).limit).low, -20 * degree, 1e-15));
   CHECK(lean.method == ChainMethod::ccd);
   CHECK(lean.sweeps == 4);
+  CHECK(lean.leaps);
+  CHECK_FALSE(operation_of<ReachPose>(graph, "bend").leaps);
   CHECK(near(std::get<ConeLimit>(operation_of<ReachPose>(graph, "bend").joints.at(0).limit).swing, 40 * degree, 1e-15));
   CHECK(operation_of<MirrorPose>(graph, "flip").figure == "hips");
   CHECK(operation_of<MirrorPose>(graph, "sides").pairs.at(0).right == "*.R");

@@ -57,6 +57,7 @@ struct ReachPose {
   GraphPlace target = {};
   ChainMethod method = ChainMethod::fabrik;
   int sweeps = 8;
+  bool leaps = false;  ///< to what a chain with limits does not reach otherwise
   GraphNumber weight = 1.0;
 };
 

@@ -166,6 +166,7 @@ const Table<ReachPose>& reach_table() {
                                                     &Pose::method),
                   {"sweeps", bounded("a whole number from 0 to 1000", 0, false, 1000, true), "of the method",
                    member<Pose>(&Pose::sweeps)},
+                  {"leaps", &ValueForms::boolean, "to what limits keep it from otherwise", member<Pose>(&Pose::leaps)},
                   weight_row<Pose>()});
   return table;
 }

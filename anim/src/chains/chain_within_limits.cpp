@@ -1,0 +1,225 @@
+#include "chains/chain_solve.h"
+
+// Why nothing flips: every step is a continuous function of the pose and the target, and so are many of them one after
+// the other. What is not continuous is left out: trying a step and taking it back, keeping the better of two answers,
+// joints that are held once they have met a limit.
+
+namespace tweenfall::chains {
+namespace {
+
+constexpr double widest = 0.5;   // rad, that a joint turns in one step
+constexpr double there = 1e-13;  // of the chain's length
+
+// What can be turned, and how far.
+struct Ways {
+  struct Way {
+    std::size_t joint;
+    Arrow axis;    // in the axes of the joint's rest pose
+    Arrow column;  // how the end moves with it, m/rad
+    Dual ease;     // how readily it turns; 1 or more
+    Dual low, high;
+  };
+  std::size_t count = 0;
+  Way way[3 * ChainShape::room];
+
+  [[nodiscard]] std::span<const Way> all() const noexcept { return {way, count}; }
+};
+
+Dual turned(const Ways::Way& way, const Arrow& pull) noexcept {
+  const Dual turn = way.ease * dot(way.column, pull);
+  return turn.v <= way.low.v ? way.low : turn.v >= way.high.v ? way.high : turn;
+}
+
+// The pull under which all turn so far that  damping pull  is what is left of `missing`. What is left less that is the
+// slope of a strictly concave function: there is one such pull, and Newton's method along lines finds it.
+Arrow pull_of(const Ways& ways, const Dual& damping, const Arrow& missing) noexcept {
+  Mat3 slope;
+  const auto left = [&](const Vec3& pull, bool sloped) {
+    Vec3 rest = missing.v - damping.v * pull;
+    if (sloped) slope = damping.v * Mat3::Identity();
+    for (const Ways::Way& way : ways.all()) {
+      const Vec3& a = way.column.v;
+      const double turn = way.ease.v * a.dot(pull);
+      rest -= std::clamp(turn, way.low.v, way.high.v) * a;
+      if (sloped && turn > way.low.v && turn < way.high.v) slope += (way.ease.v * a) * a.transpose();
+    }
+    return rest;
+  };
+  const auto newton = [&](const Vec3& by) -> Vec3 { return slope.inverse() * by; };
+
+  constexpr double exact = 1e-14;
+  constexpr int most = 60, halvings = 40;
+  Arrow pull;
+  Vec3 now = left(pull.v, true);
+  for (int i = 0; i < most && now.squaredNorm() > exact * exact * missing.v.squaredNorm(); ++i) {
+    const Vec3 on = newton(now);
+    const double slack = 0.5 * now.dot(on);
+    double share = 1;
+    Vec3 next = left(pull.v + on, true);
+    for (int k = 0; k < halvings && next.dot(on) < -slack; ++k) {
+      share *= 0.5;
+      next = left(pull.v + share * on, true);
+    }
+    pull.v += share * on;
+    now = next;
+  }
+
+  Vec3 rate = missing.d - damping.d * pull.v;
+  for (const Ways::Way& way : ways.all()) {
+    const Dual turn = turned(way, pull);
+    rate -= turn.v * way.column.d + turn.d * way.column.v;
+  }
+  pull.d = newton(rate);
+  return pull;
+}
+
+class LimitedSolve {
+ public:
+  LimitedSolve(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept;
+  void run() noexcept;
+
+ private:
+  void move_off() noexcept;
+  void track() noexcept;
+  double step(const Arrow& target) noexcept;
+  void start_over(int number) noexcept;
+  [[nodiscard]] Dual distance() const noexcept { return length(target_ - shape_.end()); }
+  [[nodiscard]] bool arrived() const noexcept { return distance().v <= 1e-9 * shape_.reach().v; }
+
+  const JointChain& chain_;
+  const std::size_t count_;
+  const Arrow target_;
+  ChainShape& shape_;
+  Dual curvature_;  // by how much at most a direction of the end's motion changes as all joints turn, m
+  Dual ease_[ChainShape::room];
+  Ways ways_;  // those of a step: here, since to make them anew takes longer than the step
+};
+
+// The second derivative of the end's place by the turns of two joints is no longer than the bones from the later one
+// on. The sum over all others is what a joint's turn can bend the way of the end at most (Gershgorin).
+LimitedSolve::LimitedSolve(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept
+    : chain_(chain), count_(shape.count()), target_(target), shape_(shape) {
+  Dual bones, sum, own[ChainShape::room];
+  for (std::size_t i = count_; i-- > 0;) {
+    bones = bones + shape.length(i);
+    sum = sum + bones;
+    own[i] = sum + static_cast<double>(i) * bones;
+  }
+  curvature_ = own[0];
+  for (std::size_t i = 0; i < count_; ++i)
+    ease_[i] = chain.method() == ChainMethod::fabrik || !(own[i].v > 0) ? Dual(1) : own[0] / own[i];
+}
+
+// One step of Levenberg and Marquardt within the limits: of all ways to turn that bring the end nearer, that with the
+// least turning. It is damped by as much as the way of the end can bend, which goes with what is missing: far from the
+// target it always leads nearer, and near to it it is Newton's.
+// @returns the largest turn, rad
+double LimitedSolve::step(const Arrow& target) noexcept {
+  const Arrow missing = target - shape_.end();
+  ways_.count = 0;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Freedom freedom = freedom_of(shape_.joint(i), shape_.turn(i));
+    const Arrow arm = shape_.inside(i, shape_.end() - shape_.at(i));
+    for (int k = 0; k < freedom.count; ++k) {
+      const Freedom::Way& way = freedom.ways[k];
+      ways_.way[ways_.count++] = {.joint = i,
+                                  .axis = way.axis,
+                                  .column = shape_.outside(i, cross(way.axis, arm)),
+                                  .ease = ease_[i],
+                                  .low = way.low.v < -widest ? Dual(-widest) : way.low,
+                                  .high = way.high.v > widest ? Dual(widest) : way.high};
+    }
+  }
+  // So little that it matters to nothing, and the pull stays a number where nothing is free to turn.
+  const Dual least = 1e-14 * shape_.reach() * shape_.reach();
+  const Arrow pull = pull_of(ways_, length(missing) * curvature_ + least, missing);
+  double largest = 0;
+  for (std::size_t i = 0, k = 0; i < count_; ++i) {
+    Arrow by;
+    for (; k < ways_.count && ways_.way[k].joint == i; ++k) {
+      const Dual turn = turned(ways_.way[k], pull);
+      largest = std::max(largest, std::abs(turn.v));
+      by = by + turn * ways_.way[k].axis;
+    }
+    shape_.turn(i, turned_by(shape_.joint(i), shape_.turn(i), by));
+  }
+  shape_.place();
+  return largest;
+}
+
+// Towards the middle of the limits, the more the farther the target is: from there all joints have room to turn.
+void LimitedSolve::move_off() noexcept {
+  constexpr double half_way = 0.1;  // of the chain's length
+  const Dual missing = distance(), square = missing * missing, reach = half_way * shape_.reach();
+  const Dual share = square / (square + reach * reach);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const Turning& turn = shape_.turn(i);
+    const Arrow way = log_turn(middle_of(shape_.joint(i), turn) * inverse(turn));
+    shape_.turn(i, within_limits(shape_.joint(i), exp_turn(share * way) * turn));
+  }
+  shape_.place();
+  bend(target_, shape_);
+}
+
+void LimitedSolve::track() noexcept {
+  constexpr int most = 100;
+  constexpr double still = 1e-12;  // rad
+  const Arrow from = shape_.end();
+  // As far away as the chain reaches: what is farther leads no other way.
+  const Measured way = measured(target_ - shape_.at(0));
+  const Arrow to = way.length.v > shape_.reach().v ? shape_.at(0) + shape_.reach() * way.unit : target_;
+  for (int i = 1; i < chain_.sweeps(); ++i) step(from + Dual(static_cast<double>(i) / chain_.sweeps()) * (to - from));
+  for (int i = 0; i < most; ++i) {
+    const bool near = distance().v <= there * shape_.reach().v;
+    if (step(target_) < still || near) return;
+  }
+}
+
+// Joints at other places within their limits, the same for every solve.
+void LimitedSolve::start_over(int number) noexcept {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const JointChain::Joint& joint = shape_.joint(i);
+    // Even spread over the ranges. Source: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+    constexpr double steps[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    double at[3];
+    for (int k = 0; k < 3; ++k) {
+      const double place = 0.5 + steps[k] * (number * 7 + static_cast<double>(i) * 3);
+      at[k] = place - std::floor(place);
+    }
+    Arrow by;
+    if (const auto* hinge = std::get_if<HingeLimit>(&joint.limit)) {
+      by.v = (hinge->low + at[0] * (hinge->high - hinge->low)) * hinge->axis;
+      shape_.turn(i, turned_by(joint, {}, by));
+    } else if (const auto* cone = std::get_if<ConeLimit>(&joint.limit)) {
+      const Vec3 across = any_across(joint.bone), beside = joint.bone.cross(across);
+      const elementary::SinCos around = elementary::sin_cos(2 * std::numbers::pi * at[0]);
+      const Vec3 twist = (cone->twist_low + at[2] * (cone->twist_high - cone->twist_low)) * joint.bone;
+      by.v = (cone->swing * std::sqrt(at[1])) * (around.cos * across + around.sin * beside);
+      shape_.turn(i, within_limits(joint, exp_turn(by) * exp_turn({twist, Vec3(0, 0, 0)})));
+    }
+  }
+  shape_.place();
+}
+
+void LimitedSolve::run() noexcept {
+  move_off();
+  track();
+  if (!chain_.leaps() || arrived() || length(target_ - shape_.at(0)).v > shape_.reach().v) return;
+  const ChainShape nearest = shape_;
+  constexpr int more = 12;
+  for (int number = 0; number < more; ++number) {
+    start_over(number);
+    bend(target_, shape_);
+    track();
+    if (arrived()) return;
+  }
+  shape_ = nearest;
+}
+
+}  // namespace
+
+void reach_within_limits(const JointChain& chain, const Arrow& target, ChainShape& shape) noexcept {
+  LimitedSolve(chain, target, shape).run();
+}
+
+}  // namespace tweenfall::chains
