@@ -200,7 +200,8 @@ void reach(const JointChain& chain, const Sample<Vec3>& target, const Sample<dou
            std::span<Motion> pose) noexcept {
   using namespace chains;
   if (is_nothing(weight)) return;
-  const Inward inward(above(chain.nodes(), chain.joints().front().node, pose));
+  const WorldMotion parent = above(chain.nodes(), chain.joints().front().node, pose);
+  const Inward inward(parent);
   if (inward.flat()) return;
   ChainShape shape(chain, pose);
   if (shape.reach().v > 0)

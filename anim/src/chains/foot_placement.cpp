@@ -125,7 +125,8 @@ void place_feet(const FootPlacement& placement, const GroundAt& ground, const Sa
     steps[i] = step_of(placement, i, ground, number(floor), number(weight) * own, pose);
   }
 
-  const Inward around(above(nodes, placement.pelvis(), pose));
+  const WorldMotion above_pelvis = above(nodes, placement.pelvis(), pose);
+  const Inward around(above_pelvis);
   if (around.flat()) return;
   Dual fall = lowest_of(std::span(steps).first(count), placement.evenness());
   if (fall.v < -placement.lowest()) fall = Dual(-placement.lowest());

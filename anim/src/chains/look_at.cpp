@@ -84,7 +84,8 @@ void look_at(const LookAtChain& chain, const LookAtGoal& goal, const Sample<doub
   const Hierarchy& nodes = chain.nodes();
   const std::span<const LookAtChain::Joint> joints = chain.joints();
   const std::size_t first = joints.front().node, last = joints.back().node;
-  const Inward inward(above(nodes, first, pose));
+  const WorldMotion parent = above(nodes, first, pose);
+  const Inward inward(parent);
   if (inward.flat()) return;
 
   const Vec3 still(0, 0, 0);

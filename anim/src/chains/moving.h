@@ -207,54 +207,23 @@ template <class Vector>
 
 /// The rotation from `a` to `b`.
 /// Source of the quaternion: Shepperd, "Quaternion from rotation matrix", 1978.
-template <class Vector>
-[[gnu::always_inline]] inline Turning between(const Axes<Vector>& a, const Axes<Arrow>& b) noexcept {
-  const Vec3 &x = place_of(a.x), &y = place_of(a.y), &z = place_of(a.z);
+[[gnu::always_inline]] inline Quat rotation_between(const Axes<Vec3>& a, const Axes<Vec3>& b) noexcept {
   double m[3][3];
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) m[i][j] = b.x.v[i] * x[j] + b.y.v[i] * y[j] + b.z.v[i] * z[j];
-  Quat q;
+    for (int j = 0; j < 3; ++j) m[i][j] = b.x[i] * a.x[j] + b.y[i] * a.y[j] + b.z[i] * a.z[j];
   const double trace = m[0][0] + m[1][1] + m[2][2];
   if (trace > 0) {
-    const double r = std::sqrt(1 + trace), s = 0.5 / r;
-    q = Quat(0.5 * r, (m[2][1] - m[1][2]) * s, (m[0][2] - m[2][0]) * s, (m[1][0] - m[0][1]) * s);
-  } else {
-    const int i = m[0][0] >= m[1][1] ? (m[0][0] >= m[2][2] ? 0 : 2) : (m[1][1] >= m[2][2] ? 1 : 2);
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    const double r = std::sqrt(std::max(0.0, 1 + m[i][i] - m[j][j] - m[k][k])), s = 0.5 / r;
-    Vec3 part;
-    part[i] = 0.5 * r;
-    part[j] = (m[j][i] + m[i][j]) * s;
-    part[k] = (m[k][i] + m[i][k]) * s;
-    q = Quat((m[k][j] - m[j][k]) * s, part.x(), part.y(), part.z());
+    const double square = 1 + trace, r = std::sqrt(square), s = r * (0.5 / square);
+    return Quat(0.5 * r, (m[2][1] - m[1][2]) * s, (m[0][2] - m[2][0]) * s, (m[1][0] - m[0][1]) * s);
   }
-  Turning turn{q, spin_of(b)};
-  if constexpr (std::is_same_v<Vector, Arrow>) turn.w -= q * spin_of(a);
-  return turn;
-}
-
-/// A rotation that is applied more than once.
-struct Turned {
-  Mat3 m;
-  Vec3 w;
-
-  explicit Turned(const Motion& motion) noexcept : w(motion.twist.angular) {
-    const Quat& q = motion.pose.rotation;
-    const double x2 = q.x() + q.x(), y2 = q.y() + q.y(), z2 = q.z() + q.z();
-    const double sx = q.w() * x2, sy = q.w() * y2, sz = q.w() * z2, xx = q.x() * x2, xy = q.x() * y2, xz = q.x() * z2,
-                 yy = q.y() * y2, yz = q.y() * z2, zz = q.z() * z2;
-    m(0, 0) = 1 - (yy + zz), m(0, 1) = xy - sz, m(0, 2) = xz + sy;
-    m(1, 0) = xy + sz, m(1, 1) = 1 - (xx + zz), m(1, 2) = yz - sx;
-    m(2, 0) = xz - sy, m(2, 1) = yz + sx, m(2, 2) = 1 - (xx + yy);
-  }
-};
-[[gnu::always_inline]] inline Arrow operator*(const Turned& a, const Arrow& u) noexcept {
-  const Vec3 turned = a.m * u.v;
-  return {turned, a.w.cross(turned) + a.m * u.d};
-}
-[[gnu::always_inline]] inline Arrow operator*(const Turned& a, const Vec3& u) noexcept {
-  const Vec3 turned = a.m * u;
-  return {turned, a.w.cross(turned)};
+  const int i = m[0][0] >= m[1][1] ? (m[0][0] >= m[2][2] ? 0 : 2) : (m[1][1] >= m[2][2] ? 1 : 2);
+  const int j = (i + 1) % 3, k = (i + 2) % 3;
+  const double r = std::sqrt(std::max(0.0, 1 + m[i][i] - m[j][j] - m[k][k])), s = 0.5 / r;
+  Vec3 part;
+  part[i] = 0.5 * r;
+  part[j] = (m[j][i] + m[i][j]) * s;
+  part[k] = (m[k][i] + m[i][k]) * s;
+  return Quat((m[k][j] - m[j][k]) * s, part.x(), part.y(), part.z());
 }
 
 [[gnu::always_inline]] inline Turning rotation_of(const Motion& motion) noexcept {
@@ -271,7 +240,7 @@ struct Turned {
 }
 
 /// The rotation of a local motion replaced; a weight of 0 leaves it as it is and 1 puts `to` there, bit for bit.
-inline void turn_to(Motion& motion, const Turning& to, const Sample<double>& weight) noexcept {
+[[gnu::always_inline]] inline void turn_to(Motion& motion, const Turning& to, const Sample<double>& weight) noexcept {
   if (weight.value == 1 && weight.rate == 0) {
     motion.pose.rotation = to.v;
     motion.twist.angular = to.w;
@@ -292,37 +261,40 @@ inline bool is_nothing(const Sample<double>& weight) noexcept {
 /// The way from the world into a node's own space: of points and of directions.
 class Inward {
  public:
-  explicit Inward(const WorldMotion& world) noexcept
-      : origin_(world.motion.pose.position), velocity_(world.motion.twist.linear), rate_(world.linear_rate) {
+  /// @param world  which must outlive it
+  explicit Inward(const WorldMotion& world) noexcept : world_(world) {
     const Vec3 a = world.linear.col(0), b = world.linear.col(1), c = world.linear.col(2);
     const Vec3 bc = b.cross(c);
-    const double volume = a.dot(bc), inverse = 1 / volume;
-    back_[0] = bc * inverse;
-    back_[1] = c.cross(a) * inverse;
-    back_[2] = a.cross(b) * inverse;
+    const double volume = a.dot(bc);
+    inverse_ = 1 / volume;
+    back_[0] = bc;
+    back_[1] = c.cross(a);
+    back_[2] = a.cross(b);
     const double box = a.squaredNorm() * b.squaredNorm() * c.squaredNorm();
-    flat_ = !(volume * volume > 1e-60 * box) || !std::isfinite(inverse);
+    flat_ = !(volume * volume > 1e-60 * box) || !std::isfinite(inverse_);
   }
+
+  explicit Inward(const WorldMotion&&) = delete;
 
   /// Whether the space has no inside, for it is flattened or shrunk to nothing.
   [[nodiscard]] bool flat() const noexcept { return flat_; }
 
-  [[nodiscard]] Arrow point(const Arrow& world) const noexcept {
-    return direction({world.v - origin_, world.d - velocity_});
+  [[gnu::always_inline, nodiscard]] Arrow point(const Arrow& world) const noexcept {
+    return direction({world.v - world_.motion.pose.position, world.d - world_.motion.twist.linear});
   }
-  [[nodiscard]] Arrow direction(const Arrow& world) const noexcept {
+  [[gnu::always_inline, nodiscard]] Arrow direction(const Arrow& world) const noexcept {
     const Vec3 v = turned(world.v);
-    return {v, turned(world.d - rate_ * v)};
+    return {v, turned(world.d - world_.linear_rate * v)};
   }
 
  private:
-  [[nodiscard]] Vec3 turned(const Vec3& v) const noexcept {
-    return {back_[0].dot(v), back_[1].dot(v), back_[2].dot(v)};
+  [[gnu::always_inline, nodiscard]] Vec3 turned(const Vec3& v) const noexcept {
+    return {inverse_ * back_[0].dot(v), inverse_ * back_[1].dot(v), inverse_ * back_[2].dot(v)};
   }
 
-  Vec3 back_[3];  // rows of the inverse matrix
-  Vec3 origin_, velocity_;
-  Mat3 rate_;
+  const WorldMotion& world_;
+  double inverse_;  // of the matrix's determinant
+  Vec3 back_[3];    // rows of its inverse, that many times as long
   bool flat_;
 };
 

@@ -1,5 +1,8 @@
 #include <tweenfall/anim/two_bone.h>
 
+#include <bit>
+#include <cstdint>
+
 #include "chains/moving.h"
 #include "chains/problems.h"
 
@@ -30,90 +33,186 @@ TwoBones two_bones(const TwoBoneChain& chain, std::span<const Motion> pose) noex
 }
 
 // How far the end is to be from the start, d being the distance of the target.
-Dual softened(const Dual& d, const Dual& reach, double softness) noexcept {
-  const double share = std::clamp(softness, 0.0, 0.5);
+Dual softened(const Dual& d, const Dual& reach, double share) noexcept {
   const Dual width = Dual(share) * reach, from = reach - width;
-  // Of less nothing is seen, and nothing could be as fast.
-  if (!(share > 1e-9) || !(width.v > 0) || d.v <= from.v) return d;
+  if (!(width.v > 0) || d.v <= from.v) return d;
   return from + width * (Dual(1) - exponential((from - d) / width));
 }
 
-// Where the middle goes, across the line to the target: `side`, and `normal`, about which it bends.
+// The line to the target. Of its numbers the sooner ones are used where they do: what takes longest is not waited for.
+struct Line {
+  Vec3 way;               // along it, of any length
+  double square, length;  // of the way
+  Arrow along;            // of length 1
+};
+
+// The part of a direction across the line.
+struct Beside {
+  Vec3 unit, third;     // the third is across both: along x unit
+  double straight = 0;  // how much of it is along the line, for each of its length across
+  double size = 0;      // length of the part, times the square of the line's way
+  double inverse = 0;   // 1 / length of the part
+};
+[[gnu::always_inline]] inline Beside beside(const Vec3& direction, const Line& line) noexcept {
+  Beside part;
+  const double straight = direction.dot(line.way);
+  const Vec3 across = line.square * direction - straight * line.way;
+  const double square = across.squaredNorm(), root = std::sqrt(square), inverse = root * (1 / square);
+  part.size = root;
+  part.inverse = line.square * inverse;
+  part.unit = inverse * across;
+  part.third = line.along.v.cross(part.unit);
+  part.straight = straight * line.length * inverse;
+  return part;
+}
+
+// Where the middle goes, across the line to the target: `side`, and `normal`, about which it bends; along x normal is
+// the side.
 struct Plane {
-  Arrow side, normal;
+  Vec3 side, normal;
+  double turning;  // about the line, rad/s
+};
+
+// The first bone as it is carried by the pose.
+struct Carried {
+  const Quat& rotation;
+  Vec3 spin;
 };
 
 // The pose's own, given by the axis about which it bends.
 template <class Vector>
-Plane own_plane(const Arrow& along, const Turned& turn, const Axes<Vector>& bone) noexcept {
-  const Measured normal = measured(across(turn * bone.y, along));
-  if (normal.length.v > 1e-9) return {cross(along, normal.unit), normal.unit};
-  const Measured beside = measured(across(turn * bone.x, along));
-  const Arrow side = beside.length.v > 1e-9 ? beside.unit : Arrow{any_across(along.v), Vec3(0, 0, 0)};
-  return {side, cross(side, along)};
+[[gnu::always_inline]] inline Plane own_plane(const Line& line, const Carried& carried,
+                                              const Axes<Vector>& bone) noexcept {
+  const Vec3& spin = carried.spin;
+  const Arrow& along = line.along;
+  const auto turning = [&](const Beside& part) {
+    return spin.dot(along.v) - part.straight * (spin.dot(part.unit) + along.d.dot(part.third));
+  };
+  const Beside normal = beside(carried.rotation * place_of(bone.y), line);
+  if (normal.size > 1e-9 * line.square) return {normal.third, normal.unit, turning(normal)};
+  const Beside side = beside(carried.rotation * place_of(bone.x), line);
+  if (side.size > 1e-9 * line.square) return {side.unit, -side.third, turning(side)};
+  const Vec3 any = any_across(along.v);
+  return {any, any.cross(along.v), 0};
 }
 
 // The pole's. Where the pole is nearly along the chain, it turns over from the pose's own: without a flip where the
 // pole goes through the line.
 template <class Vector>
-Plane pole_plane(const Arrow& pole, const Arrow& along, const Turned& turn, const Axes<Vector>& bone) noexcept {
-  constexpr double blend = 0.02;
-  const double size = pole.v.squaredNorm();
-  const Measured beside = measured(across(pole, along));
-  if (beside.any && beside.length.v * beside.length.v >= blend * blend * size)
-    return {beside.unit, cross(beside.unit, along)};
-  const Plane own = own_plane(along, turn, bone);
-  if (!beside.any) return own;
-  const Dual share = smooth_step(beside.length / (Dual(blend) * length(pole)));
-  const Dual angle = share * angle_of(-dot(own.normal, beside.unit), dot(own.side, beside.unit));
-  const elementary::SinCos sin_cos = elementary::sin_cos(angle.v);
-  const Dual cosine(sin_cos.cos, -sin_cos.sin * angle.d), sine(sin_cos.sin, sin_cos.cos * angle.d);
-  const Arrow side = cosine * own.side - sine * own.normal;
-  return {side, cross(side, along)};
+[[gnu::always_inline]] inline Plane pole_plane(const Arrow& pole, const Line& line, const Carried& carried,
+                                               const Axes<Vector>& bone) noexcept {
+  constexpr double blend = 0.02, least = 1e-150;
+  const Arrow& along = line.along;
+  const double enough = blend * line.square;
+  const Beside side = beside(pole.v, line);
+  const Plane poles{side.unit, -side.third,
+                    side.inverse * pole.d.dot(side.third) - side.straight * along.d.dot(side.third)};
+  if (side.size > least && side.size * side.size >= enough * enough * pole.v.squaredNorm()) return poles;
+  const Plane own = own_plane(line, carried, bone);
+  if (!(side.size > least)) return own;
+  const Arrow across_line = across(pole, along);
+  const Dual share = smooth_step(length(across_line) / (Dual(blend) * length(pole)));
+  const Dual whole(elementary::atan2(-own.normal.dot(poles.side), own.side.dot(poles.side)),
+                   poles.turning - own.turning);
+  const Dual angle = share * whole;
+  const elementary::SinCos turn = elementary::sin_cos(angle.v);
+  const Vec3 turned = turn.cos * own.side - turn.sin * own.normal;
+  return {turned, turned.cross(along.v), own.turning + angle.d};
 }
 
-// The two turns that a solve is about.
+// What a solve is about.
 struct Bend {
-  Turning start;   // the whole rotation of the start
-  Turning middle;  // what comes to the middle's, in the space of the start
+  Turning start;       // the whole rotation of the start
+  Vec3 way, way_spin;  // in its space: where the second bone points, and how that turns
 };
 
-// The solve proper, for bones that change their lengths or, in a third less time, do not.
+// The solve proper, for bones that change their lengths or, in less time, do not.
 // @param bone         axes of the first bone: along it, that about which the middle bends, and the third
 // @param a, b         lengths of the bones
-// @param second       the second's direction
-// @param along, d     direction and distance of the target from the start
+// @param line, d      to the target from the start, and how far away it is
 template <class Vector, class Number>
-Bend bent(const Axes<Vector>& bone, const Number& a, const Number& b, const Arrow& second, const Arrow& along,
-          const Dual& d, const Turned& turn, const Inward& inward, const TwoBoneGoal& goal) noexcept {
+[[gnu::always_inline]] inline Bend bent(const Axes<Vector>& bone, const Number& a, const Number& b, const Line& line,
+                                        const Dual& d, const Motion& start, const Inward& inward,
+                                        const TwoBoneGoal& goal) noexcept {
+  const Vec3 &x = place_of(bone.x), &y = place_of(bone.y), &z = place_of(bone.z);
+  Carried carried{start.pose.rotation, start.twist.angular};
+  Vec3 own_spin(0, 0, 0);  // of the bone's axes
+  if constexpr (std::is_same_v<Vector, Arrow>) {
+    own_spin = spin_of(bone);
+    carried.spin += carried.rotation * own_spin;
+  }
+  const Plane plane =
+      goal.pole ? pole_plane(inward.direction(arrow(*goal.pole)), line, carried, bone) : own_plane(line, carried, bone);
   // The triangle of the two bones and the line to the target, by Heron's formula. Cosines are told by how far they are
   // from where the chain is folded or stretched: else bones of very unequal lengths would lose which of them it is.
-  const bool first_longer = Dual(a).v >= Dual(b).v;
-  const Dual reach = a + b, least = first_longer ? a - b : b - a;
-  const Dual distance = softened(d, reach, goal.softness);
-  Dual cosine(first_longer ? 1 : -1), sine(0);  // of the angle at the start
-  Dual bend_cosine(-1), bend_sine(0);
+  const Dual wide_a(a), wide_b(b);
+  const bool first_longer = wide_a.v >= wide_b.v;
+  const Dual reach = wide_a + wide_b;
+  const double least = std::abs(wide_a.v - wide_b.v);
+  // Of less softness nothing is seen, and nothing could be as fast.
+  const Dual distance = goal.softness > 1e-9 ? softened(d, reach, std::min(goal.softness, 0.5)) : d;
+  double cosine = first_longer ? 1 : -1, sine = 0, turning = 0;  // of the angle at the start
+  double bend_cosine = -1, bend_sine = 0, bending = 0;           // of that by which the chain is bent
   if (distance.v >= reach.v) {
-    cosine = bend_cosine = Dual(1);
-  } else if (distance.v > least.v) {
-    const Dual left = reach - distance, over = distance - least, both = reach + distance;
-    const Dual folded = over * (distance + least), area = root(left * both * folded);  // four times
-    const Dual inverse = Dual(0.5) / (distance * a);
-    const Number inverse_of_bones = 0.5 / (a * b);
-    cosine = first_longer ? Dual(1) - left * over * inverse : over * both * inverse - Dual(1);
+    cosine = bend_cosine = 1;
+  } else if (distance.v > least) {
+    const double left = reach.v - distance.v, over = distance.v - least, both = reach.v + distance.v;
+    const double folded = over * (distance.v + least), area = std::sqrt(left * both * folded);  // four times
+    const double inverse_of_all = 0.5 / (distance.v * wide_a.v * wide_b.v);
+    const double inverse = inverse_of_all * wide_b.v, inverse_of_bones = inverse_of_all * distance.v;
+    cosine = first_longer ? 1 - left * over * inverse : over * both * inverse - 1;
     sine = area * inverse;
-    bend_cosine = folded * inverse_of_bones - Dual(1);
+    bend_cosine = folded * inverse_of_bones - 1;
     bend_sine = area * inverse_of_bones;
+    // By the rates of b b = a a + d d - 2 a d cos and d d = a a + b b + 2 a b cos.
+    const double squares = wide_b.v * wide_b.d - wide_a.v * wide_a.d, twice = area > 0 ? 2 / area : 0;
+    turning = ((wide_a.v * cosine - distance.v) * distance.d + squares + wide_a.d * distance.v * cosine) * twice;
+    bending = (wide_a.v * wide_a.d + wide_b.v * wide_b.d - distance.v * distance.d +
+               (wide_a.d * wide_b.v + wide_a.v * wide_b.d) * bend_cosine) *
+              twice;
   }
-  if (distance.v <= nothing * reach.v && least.v <= nothing * reach.v) {
-    cosine = Dual(0);  // folded onto the start, to the side
-    sine = Dual(1);
+  if (distance.v <= nothing * reach.v && least <= nothing * reach.v) {
+    cosine = 0;  // folded onto the start, to the side
+    sine = 1;
+    turning = 0;
   }
 
-  const Plane plane =
-      goal.pole ? pole_plane(inward.direction(arrow(*goal.pole)), along, turn, bone) : own_plane(along, turn, bone);
-  return {between(bone, axes(cosine * along + sine * plane.side, plane.normal)),
-          arc(second, bend_cosine * bone.x - bend_sine * bone.z, place_of(bone.y))};
+  Bend bend;
+  // The bone is turned in its own plane, and that onto the other.
+  const Axes<Vec3> from{cosine * x - sine * z, y, sine * x + cosine * z};
+  bend.start.v = rotation_between(from, {line.along.v, plane.normal, plane.side});
+  bend.start.w = line.along.v.cross(line.along.d) + plane.turning * line.along.v - turning * plane.normal;
+  bend.way = bend_cosine * x - bend_sine * z;
+  bend.way_spin = bending * y;
+  if constexpr (std::is_same_v<Vector, Arrow>) {
+    bend.start.w -= bend.start.v * own_spin;
+    bend.way_spin += own_spin;
+  }
+  return bend;
+}
+
+// A body that is turned the shortest way from where its point `from`, so far away, is to the direction `to`; half a
+// turn about `axis`, across both, where they are opposite.
+[[gnu::always_inline]] inline Turning swung(const Turning& body, const Vec3& from, double far, const Vec3& to,
+                                            const Vec3& to_spin, const Vec3& axis) noexcept {
+  const Vec3 x = from.cross(to);
+  const double s = far + from.dot(to);
+  if (s < 1e-14 * far) return Turning{Quat(0, axis.x(), axis.y(), axis.z()), Vec3(0, 0, 0)} * body;
+  Turning turned{Quat(s, x.x(), x.y(), x.z()) * body.v, to_spin + ((body.w - to_spin).dot(from + far * to) / s) * to};
+  const double square = turned.v.squaredNorm();
+  turned.v.coeffs() *= std::sqrt(square) * (1 / square);
+  return turned;
+}
+
+// The first bone of a chain whose middle is so far from its start.
+TwoBoneChain::Bone bone_to(const Vec3& middle, const Vec3& axis) noexcept {
+  TwoBoneChain::Bone bone{.to_middle = middle, .length = std::sqrt(middle.squaredNorm())};
+  bone.x = middle / bone.length;
+  const Vec3 hinge = axis - axis.dot(bone.x) * bone.x;
+  bone.across = std::sqrt(hinge.squaredNorm());
+  bone.y = hinge / bone.across;
+  bone.z = bone.x.cross(bone.y);
+  return bone;
 }
 
 // The axis about which the middle bends, across the first bone.
@@ -124,11 +223,14 @@ Arrow hinge_of(const TwoBoneChain& chain, const Arrow& first) noexcept {
 
 // Whether nothing but rotations moves in a chain of three nodes, of which none stretches unevenly.
 bool is_stiff(const TwoBoneChain& chain, const Motion& start, const Motion& middle, const Motion& end) noexcept {
-  const auto still = [](const Vec3& v) { return v.x() == 0 && v.y() == 0 && v.z() == 0; };
+  const auto bits = [](const Vec3& v) {
+    return std::bit_cast<std::uint64_t>(v.x()) | std::bit_cast<std::uint64_t>(v.y()) |
+           std::bit_cast<std::uint64_t>(v.z());
+  };
   const Vec3& scale = start.pose.scale;
-  return chain.nodes()[chain.middle()].parent == chain.start() && chain.nodes()[chain.end()].parent == chain.middle() &&
-         scale.x() == scale.y() && scale.y() == scale.z() && scale.x() > 0 && still(start.scale_rate) &&
-         still(middle.scale_rate) && still(middle.twist.linear) && still(end.twist.linear);
+  return chain.adjacent() && scale.x() == scale.y() && scale.y() == scale.z() && scale.x() > 0 &&
+         (bits(start.scale_rate) | bits(middle.scale_rate) | bits(middle.twist.linear) | bits(end.twist.linear)) << 1 ==
+             0;
 }
 
 }  // namespace
@@ -168,6 +270,8 @@ TwoBoneChain::TwoBoneChain(const Hierarchy& nodes, const TwoBoneSettings& settin
   }
   problems.report();
   axis_ = axis / size;
+  rest_bone_ = chains::bone_to(nodes[middle_].rest.position, axis_);
+  adjacent_ = nodes[middle_].parent == start_ && nodes[end_].parent == middle_;
 }
 
 void reach(const TwoBoneChain& chain, const TwoBoneGoal& goal, const Sample<double>& weight,
@@ -184,25 +288,31 @@ void reach(const TwoBoneChain& chain, const TwoBoneGoal& goal, const Sample<doub
   if (inward.flat()) return;
   Motion &start = pose[chain.start()], &middle = pose[chain.middle()];
   const Motion& end = pose[chain.end()];
-  const Turned turn(start);
-  const Measured way = measured(inward.point(arrow(goal.target)) - position_of(start));
+  const Arrow to_target = inward.point(arrow(goal.target)) - position_of(start);
 
   if (is_stiff(chain, start, middle, end)) {
-    const Vec3 first = start.pose.scale.x() * middle.pose.position,
-               second = start.pose.scale.x() * middle.pose.scale.cwiseProduct(end.pose.position);
-    const double a = std::sqrt(first.squaredNorm()), b = std::sqrt(second.squaredNorm());
-    const Vec3 along = (1 / a) * first, hinge = chain.axis() - chain.axis().dot(along) * along;
-    const double size = std::sqrt(hinge.squaredNorm());
-    if (a > nothing * (a + b) && b > nothing * (a + b) && size > 1e-9 && way.length.v > nothing * (a + b)) {
+    const TwoBoneChain::Bone* bone = &chain.rest_bone();
+    TwoBoneChain::Bone moved;
+    if (middle.pose.position != bone->to_middle) bone = &(moved = bone_to(middle.pose.position, chain.axis()));
+    const double scale = start.pose.scale.x();
+    const Vec3 second = scale * middle.pose.scale.cwiseProduct(end.pose.position);
+    const double a = scale * bone->length, b = std::sqrt(second.squaredNorm());
+    const double square = to_target.v.squaredNorm(), far = std::sqrt(square);
+    if (a > nothing * (a + b) && b > nothing * (a + b) && bone->across > 1e-9 && far > nothing * (a + b)) {
+      const double inverse = far * (1 / square);
+      const Vec3 straight = inverse * to_target.v;
+      const double leaving = straight.dot(to_target.d);
+      const Line line{to_target.v, square, far, {straight, inverse * (to_target.d - leaving * straight)}};
       const Bend bend =
-          bent<Vec3, double>(axes<Vec3>(along, (1 / size) * hinge), a, b, Turned(middle) * Vec3((1 / b) * second),
-                             way.unit, way.length, turn, inward, goal);
+          bent<Vec3, double>({bone->x, bone->y, bone->z}, a, b, line, {far, leaving}, start, inward, goal);
       turn_to(start, bend.start, weight);
-      turn_to(middle, bend.middle * rotation_of(middle), weight);
+      turn_to(middle, swung(rotation_of(middle), middle.pose.rotation * second, b, bend.way, bend.way_spin, bone->y),
+              weight);
       return;
     }
   }
 
+  const Measured way = measured(to_target);
   const TwoBones bones = two_bones(chain, pose);
   const Measured first = measured(bones.first), second = measured(bones.second);
   const double length = first.length.v + second.length.v;
@@ -210,17 +320,21 @@ void reach(const TwoBoneChain& chain, const TwoBoneGoal& goal, const Sample<doub
   Arrow along = way.unit;
   if (way.length.v <= nothing * length) {
     const Measured unturned = measured(bones.first + bones.second);
-    along = turn * (unturned.length.v > nothing * length ? unturned.unit : first.any ? first.unit : second.unit);
+    along = rotation_of(start) * (unturned.length.v > nothing * length ? unturned.unit
+                                  : first.any                          ? first.unit
+                                                                       : second.unit);
   }
   if (first.length.v <= nothing * length || second.length.v <= nothing * length) {
-    const Arrow from = turn * unit(bones.first + bones.second);
+    const Arrow from = rotation_of(start) * unit(bones.first + bones.second);
     turn_to(start, arc(from, along, any_across(from.v)) * rotation_of(start), weight);
     return;
   }
-  const Bend bend = bent<Arrow, Dual>(axes(first.unit, hinge_of(chain, first.unit)), first.length, second.length,
-                                      second.unit, along, way.length, turn, inward, goal);
+  const Axes<Arrow> bone = axes(first.unit, hinge_of(chain, first.unit));
+  const Bend bend =
+      bent<Arrow, Dual>(bone, first.length, second.length, {along.v, 1, 1, along}, way.length, start, inward, goal);
   turn_to(start, bend.start, weight);
-  turn_to(middle, chains::inverse(bones.carried) * bend.middle * bones.carried * rotation_of(middle), weight);
+  const Turning bending = arc(second.unit, {bend.way, bend.way_spin.cross(bend.way)}, bone.y.v);
+  turn_to(middle, chains::inverse(bones.carried) * bending * bones.carried * rotation_of(middle), weight);
 }
 
 }  // namespace tweenfall

@@ -148,7 +148,8 @@ void split(SkinJoint& joint) noexcept {
     return;
   }
   const chains::Axes<Arrow> own = axes(x.unit, cross(z.unit, x.unit));
-  const Turning turn = between(chains::axes<Vec3>({1, 0, 0}, {0, 1, 0}), own);
+  const Turning turn{chains::rotation_between(chains::axes<Vec3>({1, 0, 0}, {0, 1, 0}), {own.x.v, own.y.v, own.z.v}),
+                     spin_of(own)};
   joint.rotation = turn.v;
   joint.spin = turn.w;
   for (int i = 0; i < 3; ++i) {

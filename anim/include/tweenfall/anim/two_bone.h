@@ -32,10 +32,23 @@ class TwoBoneChain {
   [[nodiscard]] std::size_t end() const noexcept { return end_; }
   [[nodiscard]] const Vec3& axis() const noexcept { return axis_; }  ///< unit, in the space of the start
 
+  /// The first bone in the space of the start: along it, the axis about which it bends, across it, and the third.
+  struct Bone {
+    Vec3 to_middle{0, 0, 0};  ///< m
+    Vec3 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
+    double length = 0;  ///< m
+    double across = 0;  ///< length of what of `axis` is across the bone; axes are right where there are both
+  };
+  [[nodiscard]] const Bone& rest_bone() const noexcept { return rest_bone_; }
+  /// Whether no nodes stand between the three.
+  [[nodiscard]] bool adjacent() const noexcept { return adjacent_; }
+
  private:
   Hierarchy nodes_;
   std::size_t start_ = no_node, middle_ = no_node, end_ = no_node;
   Vec3 axis_{0, 0, 1};
+  Bone rest_bone_;  // of a pose that does not move the middle
+  bool adjacent_ = false;
 };
 
 /// What the end of a chain is to reach.
