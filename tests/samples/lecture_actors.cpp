@@ -200,6 +200,51 @@ TEST_CASE("in a plane a pinion turns a wheel back by its teeth, and two on a rop
   CHECK(near(stage.joint("rope")->force, Vec3(0, 3 * (g - fall), 0), 1e-3));
 }
 
+TEST_CASE("in a plane a table stands over a rolling ball, and a hammer flies about its own center of mass") {
+  Stage stage = actors_lecture("plane/compound");
+  stage.advance_to(0.5);
+  const Motion hammer = motion_of(stage, "hammer");
+  CHECK(near(hammer.pose.position + hammer.pose.rotation * Vec3(0, 0.32, 0), Vec3(-2.5, 0.82 + 2.5 - g / 8, 0), 1e-9));
+  CHECK(near(hammer.twist.angular, Vec3(0, 0, -400 * pi / 180), 1e-9));
+  stage.advance_to(3);
+  CHECK(near(motion_of(stage, "table").pose.position.y(), 0, 2e-3));
+  CHECK(near(motion_of(stage, "ball").pose.position.y(), 0.2, 2e-3));
+  CHECK(std::abs(motion_of(stage, "ball").pose.position.x() - motion_of(stage, "table").pose.position.x()) < 0.71);
+  CHECK(near(motion_of(stage, "lamp").pose.position.y(), 1.1, 5e-3));
+}
+
+TEST_CASE("in a plane a car on wheels goes as fast as its motors turn, over a bump, and rests on its springs") {
+  Stage stage = actors_lecture("plane/car");
+  stage.advance_to(4);
+  CHECK(near(stage.twist(stage.node("chassis")).linear.x(), 0.6 * pi, 1e-2));
+  CHECK(motion_of(stage, "back").pose.position.x() > 2.5);
+  CHECK(near(motion_of(stage, "back").pose.position.y(), 0.3, 2e-3));
+  for (const char* const axle : {"back axle", "front axle"}) {
+    CHECK(stage.joint(axle)->gap < 1e-3);
+    CHECK(near(stage.joint(axle)->rate[0], -2 * pi, 1e-2));
+  }
+}
+
+TEST_CASE("in a plane ropes hang as a catenary, bear what is two thousand times as heavy, and stay where they fall") {
+  Stage stage = actors_lecture("plane/rope");
+  stage.advance_to(3);
+  // a (cosh(1 / 2a) - 1), where 2 a sinh(1 / 2a) = 1.3
+  double low = 0.1, high = 10;
+  for (int n = 0; n < 100; ++n) {
+    const double a = 0.5 * (low + high);
+    (2 * a * std::sinh(0.5 / a) > 1.3 ? low : high) = a;
+  }
+  CHECK(near(1.6 - stage.soft("line").positions[20].y(), low * (std::cosh(0.5 / low) - 1), 1e-3));
+  // The lamp swings on a cord that gives way nowhere.
+  CHECK(near((motion_of(stage, "lamp").pose.position - Vec3(0, 1.6, 0)).norm(), std::sqrt(1.16), 1e-5));
+  double highest = -10;
+  for (const Vec3& place : stage.soft("thrown").positions) {
+    CHECK(place.z() == 0);
+    highest = std::max(highest, place.y());
+  }
+  CHECK(near(highest, 0.96, 5e-3));
+}
+
 TEST_CASE("a machine in a plane: its mill turns as its motor says, its rod and weld hold, and nothing leaves it") {
   Stage stage = actors_lecture("plane/machine");
   for (int frame = 1; frame <= 30; ++frame) {

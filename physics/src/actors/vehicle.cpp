@@ -5,6 +5,7 @@
 #include <tweenfall/curves/rotation.h>
 #include <tweenfall/physics/query.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -39,6 +40,16 @@ Vec3 velocity_at(const Motion& motion, const Vec3& point) {
   return motion.twist.linear + motion.twist.angular.cross(point - motion.pose.position);
 }
 
+/// How much an impulse along a unit direction changes the velocity of a point along it, 1/kg.
+double give_of(const World& world, BodyId body, const Vec3& point, const Vec3& direction) {
+  if (world.is_fixed(body) || world.owner(body) == Owner::keyed) return 0;
+  const MassProperties& mass = world.mass(body);
+  const Pose pose = world.motion(body).pose;
+  const Vec3 arm = pose.rotation.conjugate() * (point - pose.position) - mass.center;
+  const Vec3 lever = arm.cross(pose.rotation.conjugate() * direction);
+  return 1 / mass.mass + lever.dot(mass.inertia.inverse() * lever);
+}
+
 /// Toward 0 by at most so much.
 double slowed(double value, double by) {
   return value > 0 ? std::max(0.0, value - by) : std::min(0.0, value + by);
@@ -52,8 +63,9 @@ struct Vehicle::Stand {
   BodyId ground;
   Vec3 point{0, 0, 0}, normal{0, 1, 0};
   double length = 0, load = 0;
-  Vec3 along{1, 0, 0}, across{0, 0, 1};  ///< the wheel's heading in the ground, and to its left
-  double speed = 0, drift = 0;           ///< against the ground, along and across, m/s
+  Vec3 along{1, 0, 0}, across{0, 0, 1};    ///< the wheel's heading in the ground, and to its left
+  double speed = 0, drift = 0;             ///< against the ground, along and across, m/s
+  double give_along = 0, give_across = 0;  ///< how much an impulse there changes them, 1/kg
 };
 
 Vehicle::Vehicle(VehicleSettings settings) : settings_(std::move(settings)) {
@@ -136,12 +148,18 @@ Vehicle::Stand Vehicle::find_stand(const World& world, const Motion& chassis, st
   stand.across = stand.normal.cross(stand.along);
   stand.speed = velocity.dot(stand.along);
   stand.drift = velocity.dot(stand.across);
+  const auto give = [&](const Vec3& direction) {
+    return vehicles::give_of(world, settings_.chassis, stand.point, direction) +
+           vehicles::give_of(world, stand.ground, stand.point, direction);
+  };
+  stand.give_along = give(stand.along);
+  stand.give_across = give(stand.across);
   return stand;
 }
 
 /// The tyre's force, and the wheel's spin.
-/// @param share  of the chassis' mass that this wheel bears, kg
-Vec3 Vehicle::grip(const Stand& stand, double share, std::size_t wheel, double dt) {
+/// @param share  of all that the wheels bear, this one's @param borne  of the chassis' mass, kg
+Vec3 Vehicle::grip(const Stand& stand, double share, double borne, std::size_t wheel, double dt) {
   const WheelSettings& its = settings_.wheels[wheel];
   const WheelControl& control = controls_[wheel];
   WheelReading& reading = readings_[wheel];
@@ -154,16 +172,19 @@ Vec3 Vehicle::grip(const Stand& stand, double share, std::size_t wheel, double d
   Vec3 force = Vec3::Zero();
   if (stand.touches) {
     // What gravity would make of the slip meanwhile has to be held, too.
-    const double slip = stand.speed + dt * settings_.gravity.dot(stand.along) - spin * its.radius;
-    const double drift = stand.drift + dt * settings_.gravity.dot(stand.across);
+    const double fall = dt * settings_.gravity.dot(stand.along), side_fall = dt * settings_.gravity.dot(stand.across);
+    const double own_slip = stand.speed - spin * its.radius, slip = own_slip + fall, drift = stand.drift + side_fall;
     const double size = std::hypot(slip, drift), rolling = std::max(vehicles::slow, std::abs(spin) * its.radius);
     reading.slip = size / rolling;
     const double rise = its.sharpness * reading.slip;
     // sin(atan(x))
     const double part = std::isfinite(rise * rise) ? rise / std::sqrt(1 + rise * rise) : 1;
     const bool locked = left > 0 && spin == 0;
-    const double mass = locked ? share : 1 / (1 / share + its.radius * its.radius / its.moment);
-    double along = -mass * slip / dt, across = -share * drift / dt;
+    // Gravity pulls at all of the mass; a push so far below its middle tilts it, and moves less.
+    const double turns = locked ? 0 : its.radius * its.radius / its.moment;
+    const auto mass = [turns](double give) { return 1 / (give + turns); };
+    double along = -(mass(stand.give_along / share) * own_slip + mass(1 / borne) * fall) / dt;
+    double across = -(share / stand.give_across * stand.drift + borne * side_fall) / dt;
     // Within the ellipse of what it can grip.
     const double most_along = its.grip * stand.load * part, most_across = its.side_grip * stand.load * part;
     const double beyond =
@@ -188,7 +209,6 @@ void Vehicle::act(World& world, double dt) {
   vehicles::require(dt > 0 && dt <= vehicles::most,
                     "the length of a step must be positive and finite, but is " + number_text(dt) + " s");
   const Motion chassis = world.motion(settings_.chassis);
-  const double mass = world.mass(settings_.chassis).mass;
   std::vector<Stand> stands;
   stands.reserve(readings_.size());
   double loads = 0;
@@ -202,7 +222,8 @@ void Vehicle::act(World& world, double dt) {
     reading.touches = stand.touches;
     reading.length = stand.length;
     reading.steer = controls_[i].steer;
-    const Vec3 tyre = grip(stand, stand.touches ? mass * stand.load / loads : 0, i, dt);
+    const double share = stand.touches ? stand.load / loads : 0;
+    const Vec3 tyre = grip(stand, share, share * world.mass(settings_.chassis).mass, i, dt);
     if (!stand.touches) {
       reading.load = 0;
       reading.force = Vec3::Zero();

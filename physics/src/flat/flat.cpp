@@ -36,6 +36,7 @@ planar::BodySettings settings_of(const state::Body& body, const Axes& axes) {
   if (makeup.mass.mass > 0) {
     its.mass = makeup.mass.mass;
     its.moment = makeup.mass.inertia(axes.normal, axes.normal);
+    its.center = axes.flat(makeup.mass.center);
   }
   its.friction = makeup.friction;
   its.restitution = makeup.restitution;
@@ -89,6 +90,28 @@ void require_motion(WorldPlane plane, const Motion& motion) {
   require(turns_in(axes, motion.twist.angular), "the body turns out of " + name);
 }
 
+void require_point(WorldPlane plane, const Vec3& point, const char* what) {
+  if (plane == WorldPlane::none) return;
+  require(lies_in(Axes::of(plane), point), std::string(what) + " does not lie in the world's plane, " + name_of(plane));
+}
+
+void require_soft(WorldPlane plane, const SoftSettings& soft) {
+  if (plane == WorldPlane::none) return;
+  require(soft.triangles.empty() && soft.tetrahedra.empty() && soft.enclosures.empty(),
+          "in a plane a soft body has nodes, edges and bends, and neither faces nor volumes: of a cloth that is seen "
+          "from its side a rope is left");
+  for (std::size_t i = 0; i < soft.positions.size(); ++i)
+    require_point(plane, soft.positions[i], ("node " + std::to_string(i)).c_str());
+  for (std::size_t i = 0; i < soft.velocities.size(); ++i)
+    require_point(plane, soft.velocities[i], ("the velocity of node " + std::to_string(i)).c_str());
+}
+
+Vec3 in_plane(WorldPlane plane, const Vec3& v) {
+  if (plane == WorldPlane::none) return v;
+  const Axes axes = Axes::of(plane);
+  return axes.space(axes.flat(v));
+}
+
 void refuse(WorldPlane plane, const char* what) {
   require(plane == WorldPlane::none, std::string("in a plane there are no ") + what);
 }
@@ -127,6 +150,8 @@ void Flat::take_over(const state::Body& body, std::uint32_t index, const Vec3& g
   }
   if (!same(entry.told, body.motion)) {
     world_.set_motion(entry.id, beside(axes.flat(body.motion)));
+    // What a soft body moved goes on to where it was driven.
+    if (body.drive.owner() == Owner::driven) world_.set_target(entry.id, beside(axes.flat(body.target())));
     entry.told = body.motion;
   }
   if (entry.groups != body.groups || entry.collides_with != body.collides_with) {
@@ -189,7 +214,12 @@ void Flat::tell_contacts(state::WorldState& world) const {
     contact.b = handle(from.b);
     const bool turned = contact.b.index < contact.a.index;
     const double sign = turned ? -1 : 1;
-    if (turned) std::swap(contact.a, contact.b);
+    contact.part_a = from.part_a;
+    contact.part_b = from.part_b;
+    if (turned) {
+      std::swap(contact.a, contact.b);
+      std::swap(contact.part_a, contact.part_b);
+    }
     contact.manifold.normal = sign * axes.space(from.manifold.normal);
     contact.manifold.count = from.manifold.count;
     for (std::size_t i = 0; i < static_cast<std::size_t>(from.manifold.count); ++i) {
@@ -206,12 +236,17 @@ void Flat::tell_contacts(state::WorldState& world) const {
     return std::tuple(contact.a.index, contact.b.index, contact.a.generation, contact.b.generation);
   };
   const auto order = [&](const Contact& a, const Contact& b) { return key(a) < key(b); };
-  std::sort(world.contacts.begin(), world.contacts.end(), order);
+  std::sort(world.contacts.begin(), world.contacts.end(), [&](const Contact& a, const Contact& b) {
+    return std::tuple(key(a), a.part_a, a.part_b) < std::tuple(key(b), b.part_a, b.part_b);
+  });
   world.ended.clear();
   std::swap(world.ended, world.gone_contacts);
-  for (const Contact& contact : before)
-    if (!std::binary_search(world.contacts.begin(), world.contacts.end(), contact, order))
-      world.ended.push_back({contact.a, contact.b});
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    // Of several parts that touched, all have let go.
+    if (i > 0 && key(before[i - 1]) == key(before[i])) continue;
+    if (!std::binary_search(world.contacts.begin(), world.contacts.end(), before[i], order))
+      world.ended.push_back({before[i].a, before[i].b});
+  }
   std::vector<SensorOverlap> overlaps;
   for (const SensorOverlap& from : world_.sensor_overlaps())
     overlaps.push_back({handle(from.sensor), handle(from.body), from.began});
@@ -259,6 +294,7 @@ void World::Implementation::step_in_plane(double dt) {
   flat::Flat& plane = flat.own();
   plane.take_over(*this);
   push_in_plane(dt);
+  note_soft_starts();
   plane.step(dt, part_count);
   plane.hand_back(*this);
   plane.hand_back_joints(*this, dt);
@@ -275,6 +311,7 @@ void World::Implementation::step_in_plane(double dt) {
     body.has_target = false;
   }
   plane.settle(*this);
+  advance_softs(dt);
   failed = false;
 }
 

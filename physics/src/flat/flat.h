@@ -3,6 +3,7 @@
 /// A world whose bodies lie in a plane: they are carried by a world in two dimensions.
 
 #include <tweenfall/physics/planar_world.h>
+#include <tweenfall/physics/soft_body.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -28,6 +29,11 @@ void validate(const WorldSettings& settings);
 void require_body(WorldPlane plane, const BodySettings& body);
 void require_motion(WorldPlane plane, const Motion& motion);
 void refuse(WorldPlane plane, const char* what);
+/// A place, or a way.
+void require_point(WorldPlane plane, const Vec3& point, const char* what);
+void require_soft(WorldPlane plane, const SoftSettings& soft);
+/// What of a vector lies in the plane, where there is one.
+[[nodiscard]] Vec3 in_plane(WorldPlane plane, const Vec3& v);
 /// The same of a joint, whose rotations are of unit length.
 void require_joint(WorldPlane plane, const tweenfall::JointSettings& joint);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -30,6 +31,7 @@ struct InPlane {
     if (!lies_in(axes, settings.frame_a.rotation * Vec3(1, 0, 0))) refuse_joint("the axis of a slider lies in it");
   }
   void operator()(const HingeJoint&) const { require_axes_upright("the axis of a hinge stands"); }
+  void operator()(const WheelJoint&) const { require_axes_upright("the axis of a wheel stands"); }
   void operator()(const GearJoint&) const { require_axes_upright("the axes of a gear stand"); }
   void operator()(const PulleyJoint& pulley) const {
     if (!lies_in(axes, pulley.pulley_a) || !lies_in(axes, pulley.pulley_b)) refuse_joint("both pulleys must lie in it");
@@ -38,7 +40,7 @@ struct InPlane {
   void operator()(const SpringJoint&) const {}
   template <class Kind>
   void operator()(const Kind&) const {
-    refuse_joint("joints are balls, hinges, sliders, welds, distances, springs, pulleys and gears; no others");
+    refuse_joint("joints are balls, hinges, sliders, welds, distances, springs, pulleys, gears and wheels; no others");
   }
 
   void require_axes_upright(const std::string& what) const {
@@ -58,6 +60,32 @@ struct GearSigns {
 GearSigns signs_of(const Axes& axes, const joints::Placement& at) {
   return {axes.sign * std::copysign(1.0, at.x_a()[axes.normal]), axes.sign * std::copysign(1.0, at.x_b()[axes.normal])};
 }
+
+/// An angle about an axis that stands upright on the plane, as the plane counts it.
+class AngleInPlane {
+ public:
+  /// @param turned  of b against a in the plane, where the angle is `here`, rad
+  AngleInPlane(const Axes& axes, const joints::Placement& at, double turned, double here)
+      : sign_(axes.sign * std::copysign(1.0, at.x_a()[axes.normal])), turned_(turned), here_(here) {}
+
+  [[nodiscard]] double of(double value) const { return turned_ + sign_ * (value - here_); }
+  [[nodiscard]] std::optional<Limits> of(std::optional<Limits> limits) const {
+    if (!limits) return limits;
+    const double low = of(limits->low), high = of(limits->high);
+    limits->low = std::min(low, high);
+    limits->high = std::max(low, high);
+    return limits;
+  }
+  [[nodiscard]] std::optional<Motor> of(std::optional<Motor> motor) const {
+    if (!motor) return motor;
+    motor->speed *= sign_;
+    if (motor->position) motor->position = of(*motor->position);
+    return motor;
+  }
+
+ private:
+  double sign_, turned_, here_;
+};
 
 }  // namespace
 
@@ -102,17 +130,12 @@ planar::JointSettings Flat::joint_in_plane(const state::WorldState& world, const
   } else if (std::holds_alternative<FixedJoint>(its.kind)) {
     out.kind = planar::Weld{matched()};
   } else if (const auto* const hinge = std::get_if<HingeJoint>(&its.kind)) {
-    const double sign = axes.sign * std::copysign(1.0, at.x_a()[axes.normal]);
-    const double here = joints::coordinates_of(*hinge, joint, at).position[0];
-    const auto angle = [&](double value) { return turned + sign * (value - here); };
-    planar::Hinge in_plane{hinge->limits, hinge->motor};
-    if (hinge->limits) {
-      in_plane.limits->low = angle(sign > 0 ? hinge->limits->low : hinge->limits->high);
-      in_plane.limits->high = angle(sign > 0 ? hinge->limits->high : hinge->limits->low);
-    }
-    if (hinge->motor) in_plane.motor->speed = sign * hinge->motor->speed;
-    if (hinge->motor && hinge->motor->position) in_plane.motor->position = angle(*hinge->motor->position);
-    out.kind = in_plane;
+    const AngleInPlane angle(axes, at, turned, joints::coordinates_of(*hinge, joint, at).position[0]);
+    out.kind = planar::Hinge{angle.of(hinge->limits), angle.of(hinge->motor)};
+  } else if (const auto* const wheel = std::get_if<WheelJoint>(&its.kind)) {
+    const AngleInPlane angle(axes, at, turned, joints::coordinates_of(*wheel, joint, at).position[0]);
+    out.kind = planar::Wheel{axes.flat(its.frame_a.rotation * Vec3(0, 1, 0)), wheel->hz, wheel->zeta, wheel->suspension,
+                             angle.of(wheel->motor)};
   }
   return out;
 }
@@ -144,6 +167,8 @@ void Flat::hand_back_joints(state::WorldState& world, double dt) const {
     const joints::Placement at = joints::placement_in(joint, world.bodies);
     if (const auto* const hinge = std::get_if<HingeJoint>(&joint.settings.kind)) {
       joint.angles[0] = joints::coordinates_of(*hinge, joint, at).position[0];
+    } else if (const auto* const wheel = std::get_if<WheelJoint>(&joint.settings.kind)) {
+      joint.angles[0] = joints::coordinates_of(*wheel, joint, at).position[0];
     } else if (std::holds_alternative<GearJoint>(joint.settings.kind)) {
       const GearSigns signs = signs_of(axes, at);
       joint.angles[0] = signs.a * reading.turned_a;

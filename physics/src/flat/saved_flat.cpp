@@ -80,6 +80,16 @@ void Flat::check(const state::WorldState& world) {
   state::require(links_.size() <= world.joints.size(), "a saved world and its plane have not the same joints");
   for (const state::Joint& joint : world.joints)
     if (joint.alive) require_joint(plane_, joint.settings);
+  for (const soft::SoftBody& soft : world.softs) {
+    if (!soft.alive) continue;
+    require_soft(plane_, *soft.made);
+    for (const Vec3& place : soft.positions) require_point(plane_, place, "a node of a soft body");
+    for (const Vec3& velocity : soft.velocities) require_point(plane_, velocity, "the velocity of a node");
+    for (const soft::PinState& pin : soft.pins) {
+      require_point(plane_, pin.target, "the point of a pin");
+      require_point(plane_, pin.pin.point, "the point of a pin");
+    }
+  }
   std::size_t known = 0;
   for (const Entry& entry : entries_) known += entry.id == BodyId{} ? 0 : 1;
   state::require(known == world_.bodies().size() && entries_.size() <= world.bodies.size(),

@@ -4,7 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
+
+#include "shapes/compound.h"
 
 namespace tweenfall::flat {
 
@@ -40,6 +44,17 @@ std::vector<Vec2> around(std::vector<Vec2> points) {
   if (!upper.empty()) upper.pop_back();
   lower.insert(lower.end(), upper.begin(), upper.end());
   return lower;
+}
+
+/// The section of what can be in a compound.
+planar::Part part_of(planar::Shape&& section) {
+  planar::Part part{.offset = section.offset, .angle = section.angle};
+  std::visit(
+      [&]<class Outline>(Outline& outline) {
+        if constexpr (std::is_constructible_v<decltype(part.outline), Outline>) part.outline = std::move(outline);
+      },
+      section.outline);
+  return part;
 }
 
 /// A shape's axes in those of the node.
@@ -124,8 +139,14 @@ struct Cut {
       throw std::invalid_argument("the world's plane cuts a polygon of more than 64 corners out of this hull");
     return {planar::Polygon{std::move(corners_around)}, Vec2(0, 0), 0};
   }
-  planar::Shape operator()(const Compound&) const {
-    throw std::invalid_argument("in a plane a body cannot be a compound: weld a body for each of its parts together");
+  planar::Shape operator()(const Compound& compound) const {
+    planar::Compound cut;
+    for (const Shape& part : compound.parts()) try {
+        cut.parts.push_back(part_of(section_of(shapes::on_node(part, {offset, Quat(turn), Vec3(1, 1, 1)}), axes)));
+      } catch (const std::invalid_argument& fault) {
+        throw std::invalid_argument("part " + std::to_string(cut.parts.size()) + " of a compound: " + fault.what());
+      }
+    return {std::move(cut), Vec2(0, 0), 0};
   }
   template <class Other>
   planar::Shape operator()(const Other& other) const {

@@ -20,7 +20,7 @@ struct Body {
   double spin = 0;
   double inverse_mass = 0, inverse_moment = 0;  ///< 0 for what is not moved
   double reach = 0;                             ///< farthest point from the center of mass, m; 0 for a half-plane
-  double skin = 0;                              ///< m
+  double skin = 0;                              ///< m; of a compound that of its first part
   double least = 0;                             ///< about how thin it is, m
   double travel = 0;                            ///< how far a point of it may get in the step by itself, m
   Vec2 force{0, 0};                             ///< for the next step
@@ -34,8 +34,9 @@ struct Body {
   bool boxed = false;
   bool has_target = false;
   bool alive = false, asleep = false;
-  bool movable = false;  ///< neither fixed nor keyed
-  bool lone = false;     ///< a circle
+  bool movable = false;   ///< neither fixed nor keyed
+  bool lone = false;      ///< a circle
+  bool compound = false;  ///< of several plates
   bool driven = false;
   bool damped = false;
   bool under_way = false;  ///< in this step: awake and movable, or keyed and going somewhere
@@ -47,7 +48,7 @@ struct Body {
 struct Makeup {
   std::uint32_t generation = 0;
   Shape shape;
-  Plate plate;
+  std::vector<Plate> plates;
   MassProperties mass;
   double friction = 0, restitution = 0, rolling_friction = 0;
   Combine friction_combine = Combine::usual, restitution_combine = Combine::usual;
@@ -58,11 +59,19 @@ struct Makeup {
   Motion motion;  ///< of the node's origin, of what is fixed or keyed: the very numbers that it was given
   Motion target;
   Vec2 reaction{0, 0};
+
+  [[nodiscard]] bool endless() const { return !plates.empty() && plates[0].endless; }
 };
 
-/// Two bodies whose boxes meet, and how they touch.
+/// Of a part.
+[[nodiscard]] inline double skin_of(const Body& body, const Makeup& makeup, std::uint32_t part) {
+  return body.compound ? makeup.plates[part].skin : body.skin;
+}
+
+/// Two bodies, or parts of them, whose boxes meet, and how they touch.
 struct Meeting {
-  std::uint32_t a = 0, b = 0;  ///< a < b
+  std::uint32_t a = 0, b = 0;            ///< a < b
+  std::uint32_t part_a = 0, part_b = 0;  ///< of compounds
   double friction = 0, restitution = 0, rolling_friction = 0;
   bool sensing = false;   ///< one is a sensor
   bool touching = false;  ///< in the last step
@@ -87,6 +96,7 @@ struct Joint {
   // Impulses of the last sub-step: of what holds, in order, and of what moves the coordinate or bounds it
   std::array<double, most_held> held{};
   double motor = 0, lower = 0, upper = 0;
+  double spring = 0;                  ///< of a wheel's suspension
   double turned_a = 0, turned_b = 0;  ///< of a gear: what its wheels have turned, rad
   // Of the last step in which an end moved, on b
   Vec2 total{0, 0};

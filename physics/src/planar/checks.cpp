@@ -41,8 +41,9 @@ void demand_motion(const Motion& motion) {
 
 void demand_settings(const WorldSettings& settings) {
   demand_numbers(settings.gravity, "gravity");
-  demand(settings.sub_steps >= 1 && settings.sub_steps <= 64,
-         "sub_steps must lie in 1 to 64, but is " + std::to_string(settings.sub_steps));
+  if (settings.sub_steps)
+    demand(*settings.sub_steps >= 1 && *settings.sub_steps <= 64,
+           "sub_steps must lie in 1 to 64, but is " + std::to_string(*settings.sub_steps));
   demand_amount(settings.sleep_speed, "sleep_speed");
   demand(settings.sleep_after >= 0, "sleep_after must not be negative, but is " + number_text(settings.sleep_after));
   demand_amount(settings.push_out_speed, "push_out_speed");
@@ -64,6 +65,7 @@ void demand_body(const BodySettings& body) {
            "mass must be positive and at most 1e30 kg, but is " + number_text(*body.mass));
   demand(body.density > 0 && body.density <= largest,
          "density must be positive and at most 1e30 kg/m^2, but is " + number_text(body.density));
+  if (body.center) demand_numbers(*body.center, "center of mass of a body");
   state::validate(body.drive);
   demand_motion(body.motion);
 }
@@ -73,6 +75,7 @@ MassProperties mass_of(const BodySettings& body) {
   MassProperties properties =
       mass_properties(body.shape, body.mass ? *body.mass : body.density * area(body.shape.outline));
   if (body.moment) properties.moment = *body.moment;
+  if (body.center) properties.center = *body.center;
   demand(properties.moment > 0 && std::isnormal(1 / properties.mass) && std::isnormal(1 / properties.moment),
          "the body is too small, too large, too light or too heavy: its mass would be " + number_text(properties.mass) +
              " kg and its moment of inertia " + number_text(properties.moment) + " kg m^2");

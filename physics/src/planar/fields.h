@@ -36,6 +36,16 @@ void each_field(T& half, const Visit& visit) {
   auto& [normal, offset] = half;
   visit(normal, offset);
 }
+template <Is<Part> T, class Visit>
+void each_field(T& part, const Visit& visit) {
+  auto& [outline, offset, angle] = part;
+  visit(outline, offset, angle);
+}
+template <Is<Compound> T, class Visit>
+void each_field(T& compound, const Visit& visit) {
+  auto& [parts] = compound;
+  visit(parts);
+}
 template <Is<Shape> T, class Visit>
 void each_field(T& shape, const Visit& visit) {
   auto& [outline, offset, angle] = shape;
@@ -66,28 +76,28 @@ template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
   auto& [center, angle, turn, velocity, spin, inverse_mass, inverse_moment, reach, skin, least, travel, force, torque,
          borne, borne_torque, still_for, boxed_center, boxed_angle, boxed_room, boxed, has_target, alive, asleep,
-         movable, lone, driven, damped, under_way] = body;
+         movable, lone, compound, driven, damped, under_way] = body;
   visit(center, angle, velocity, spin, force, torque, borne, borne_torque, still_for, boxed_center, boxed_angle,
         boxed_room, boxed, has_target, alive, asleep);
-  saving::follows_from_others(turn, inverse_mass, inverse_moment, reach, skin, least, travel, movable, lone, driven,
-                              damped, under_way);
+  saving::follows_from_others(turn, inverse_mass, inverse_moment, reach, skin, least, travel, movable, lone, compound,
+                              driven, damped, under_way);
 }
 template <Is<Makeup> T, class Visit>
 void each_field(T& makeup, const Visit& visit) {
-  auto& [generation, shape, plate, mass, friction, restitution, rolling_friction, friction_combine, restitution_combine,
-         linear_damping, angular_damping, fixed, sensor, saturated, groups, collides_with, drive, motion, target,
-         reaction] = makeup;
+  auto& [generation, shape, plates, mass, friction, restitution, rolling_friction, friction_combine,
+         restitution_combine, linear_damping, angular_damping, fixed, sensor, saturated, groups, collides_with, drive,
+         motion, target, reaction] = makeup;
   visit(generation, shape, mass, friction, restitution, rolling_friction, friction_combine, restitution_combine,
         linear_damping, angular_damping, fixed, sensor, saturated, groups, collides_with, drive, motion, target,
         reaction);
-  saving::follows_from_others(plate);
+  saving::follows_from_others(plates);
 }
 template <Is<Meeting> T, class Visit>
 void each_field(T& meeting, const Visit& visit) {
-  auto& [a, b, friction, restitution, rolling_friction, sensing, touching, count, exact, apart, relative, normal,
-         core_a, core_b, feature, pressing, dragging, rolling] = meeting;
-  visit(a, b, friction, restitution, rolling_friction, sensing, touching, count, exact, apart, relative, normal, core_a,
-        core_b, feature, pressing, dragging, rolling);
+  auto& [a, b, part_a, part_b, friction, restitution, rolling_friction, sensing, touching, count, exact, apart,
+         relative, normal, core_a, core_b, feature, pressing, dragging, rolling] = meeting;
+  visit(a, b, part_a, part_b, friction, restitution, rolling_friction, sensing, touching, count, exact, apart, relative,
+        normal, core_a, core_b, feature, pressing, dragging, rolling);
 }
 template <Is<Hinge> T, class Visit>
 void each_field(T& hinge, const Visit& visit) {
@@ -124,6 +134,11 @@ void each_field(T& gear, const Visit& visit) {
   auto& [ratio, turned_a, turned_b] = gear;
   visit(ratio, turned_a, turned_b);
 }
+template <Is<Wheel> T, class Visit>
+void each_field(T& wheel, const Visit& visit) {
+  auto& [axis, hz, zeta, suspension, motor] = wheel;
+  visit(axis, hz, zeta, suspension, motor);
+}
 template <Is<JointSettings> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
   auto& [a, b, anchor_a, anchor_b, kind, collide] = joint;
@@ -131,8 +146,8 @@ void each_field(T& joint, const Visit& visit) {
 }
 template <Is<Joint> T, class Visit>
 void each_field(T& joint, const Visit& visit) {
-  auto& [alive, generation, settings, held, motor, lower, upper, turned_a, turned_b, total, total_turn] = joint;
-  visit(alive, generation, settings, held, motor, lower, upper, turned_a, turned_b, total, total_turn);
+  auto& [alive, generation, settings, held, motor, lower, upper, spring, turned_a, turned_b, total, total_turn] = joint;
+  visit(alive, generation, settings, held, motor, lower, upper, spring, turned_a, turned_b, total, total_turn);
 }
 template <Is<ContactPoint> T, class Visit>
 void each_field(T& point, const Visit& visit) {
@@ -146,8 +161,8 @@ void each_field(T& manifold, const Visit& visit) {
 }
 template <Is<Contact> T, class Visit>
 void each_field(T& contact, const Visit& visit) {
-  auto& [a, b, manifold, impulse, total_impulse, approach_speed, began] = contact;
-  visit(a, b, manifold, impulse, total_impulse, approach_speed, began);
+  auto& [a, b, manifold, impulse, total_impulse, approach_speed, began, part_a, part_b] = contact;
+  visit(a, b, manifold, impulse, total_impulse, approach_speed, began, part_a, part_b);
 }
 
 }  // namespace tweenfall::planar::inner

@@ -57,10 +57,11 @@ JointRows::JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>&
     if (held_in_vain) continue;
     row.held_before = joint.held;
     row.motor_before = joint.motor;
+    row.spring_before = joint.spring;
     row.lower_before = joint.lower;
     row.upper_before = joint.upper;
     for (double& one : joint.held) one *= warmth;
-    for (double* one : {&joint.motor, &joint.lower, &joint.upper}) *one *= warmth;
+    for (double* one : {&joint.motor, &joint.lower, &joint.upper, &joint.spring}) *one *= warmth;
     rows_.push_back(row);
   }
 }
@@ -114,15 +115,16 @@ void JointRows::hold_point(Row& row) const {
 
 void JointRows::lay_out(Row& row, const Hinge&) const {
   hold_point(row);
-  row.way = Line::turning(1, 1);
-  row.position = row.turned;
-  weigh(row, true);
+  row.way.line = Line::turning(1, 1);
+  row.way.position = row.turned;
+  weigh(row);
+  weigh(row, row.way);
 }
 
 void JointRows::lay_out(Row& row, const Weld& weld) const {
   hold_point(row);
   hold(row, Line::turning(1, 1), row.turned - weld.angle);
-  weigh(row, false);
+  weigh(row);
 }
 
 void JointRows::lay_out(Row& row, const Distance&) const {
@@ -134,21 +136,34 @@ void JointRows::lay_out(Row& row, const Spring&) const {
 }
 
 void JointRows::lay_out_distance(Row& row) const {
-  row.position = row.apart.norm();
-  const Vec2 along = row.position > 0 ? Vec2(row.apart / row.position) : Vec2(1, 0);
-  row.way = Line::apart(along, cross(row.arm_a, along), cross(row.arm_b, along));
-  weigh(row, true);
+  const double length = row.way.position = row.apart.norm();
+  const Vec2 along = length > 0 ? Vec2(row.apart / length) : Vec2(1, 0);
+  row.way.line = Line::apart(along, cross(row.arm_a, along), cross(row.arm_b, along));
+  weigh(row, row.way);
+}
+
+/// The line is fixed to a: a turn of a moves it where b is.
+void JointRows::hold_on_line(Row& row, const Vec2& axis) const {
+  const Vec2 along = Turn::of(row.turned_a) * axis.normalized(), across = quarter(along);
+  const Vec2 arm = row.arm_a + row.apart;
+  hold(row, Line::apart(across, cross(arm, across), cross(row.arm_b, across)), across.dot(row.apart));
+  row.way.line = Line::apart(along, cross(arm, along), cross(row.arm_b, along));
+  row.way.position = along.dot(row.apart);
 }
 
 void JointRows::lay_out(Row& row, const Slider& slider) const {
-  const Vec2 along = Turn::of(row.turned_a) * slider.axis.normalized(), across = quarter(along);
-  // The line is fixed to a: a turn of a moves it where b is.
-  const Vec2 arm = row.arm_a + row.apart;
-  hold(row, Line::apart(across, cross(arm, across), cross(row.arm_b, across)), across.dot(row.apart));
+  hold_on_line(row, slider.axis);
   hold(row, Line::turning(1, 1), row.turned - slider.angle);
-  row.way = Line::apart(along, cross(arm, along), cross(row.arm_b, along));
-  row.position = along.dot(row.apart);
-  weigh(row, true);
+  weigh(row);
+  weigh(row, row.way);
+}
+
+void JointRows::lay_out(Row& row, const Wheel& wheel) const {
+  hold_on_line(row, wheel.axis);
+  weigh(row);
+  weigh(row, row.way);
+  row.turning = Way{.line = Line::turning(1, 1), .position = row.turned};
+  weigh(row, *row.turning);
 }
 
 void JointRows::lay_out(Row& row, const Pulley& pulley) const {
@@ -157,20 +172,20 @@ void JointRows::lay_out(Row& row, const Pulley& pulley) const {
   const auto away = [](const Vec2& rope, double length) { return length > 0 ? Vec2(rope / length) : Vec2(0, -1); };
   const double length_a = rope_a.norm(), length_b = rope_b.norm();
   const Vec2 along_a = -away(rope_a, length_a), along_b = pulley.ratio * away(rope_b, length_b);
-  row.way = {along_a, along_b, cross(row.arm_a, along_a), cross(row.arm_b, along_b)};
-  row.position = length_a + pulley.ratio * length_b;
-  weigh(row, true);
+  row.way.line = {along_a, along_b, cross(row.arm_a, along_a), cross(row.arm_b, along_b)};
+  row.way.position = length_a + pulley.ratio * length_b;
+  weigh(row, row.way);
 }
 
 void JointRows::lay_out(Row& row, const Gear& gear) const {
   const Joint& joint = *row.joint;
   hold(row, Line::turning(-gear.ratio, 1),
        gear.ratio * (joint.turned_a + row.moved_a) + (joint.turned_b + row.moved_b));
-  weigh(row, false);
+  weigh(row);
 }
 
-/// The factor of what is held, and what it leaves of the way.
-void JointRows::weigh(Row& row, bool moves) const {
+/// The factor of what is held.
+void JointRows::weigh(Row& row) const {
   for (std::size_t i = 0; i < row.count; ++i)
     for (std::size_t k = 0; k <= i; ++k) {
       const double whole = coupling(row, row.held[i], row.held[k]);
@@ -181,19 +196,20 @@ void JointRows::weigh(Row& row, bool moves) const {
       else
         row.root[i][i] = entry > new_enough * whole ? std::sqrt(entry) : 0;
     }
-  row.inverse_mass = 0;
-  row.carried = {};
-  if (!moves) return;
+}
+
+/// What it leaves of a way.
+void JointRows::weigh(const Row& row, Way& way) const {
   Held together{};
-  for (std::size_t i = 0; i < row.count; ++i) together[i] = coupling(row, row.held[i], row.way);
-  row.carried = solved(row, together);
-  const double whole = coupling(row, row.way, row.way);
+  for (std::size_t i = 0; i < row.count; ++i) together[i] = coupling(row, row.held[i], way.line);
+  way.carried = solved(row, together);
+  const double whole = coupling(row, way.line, way.line);
   double left = whole;
   for (std::size_t i = 0; i < row.count; ++i) {
-    left -= together[i] * row.carried[i];
-    row.carried[i] = -row.carried[i];
+    left -= together[i] * way.carried[i];
+    way.carried[i] = -way.carried[i];
   }
-  row.inverse_mass = left > new_enough * whole ? left : 0;
+  way.inverse_mass = left > new_enough * whole ? left : 0;
 }
 
 JointRows::Held JointRows::solved(const Row& row, Held right) {
@@ -213,20 +229,28 @@ void JointRows::begin_sub_step(const std::vector<BodyRow>& displacements, std::v
     place(row, displacements);
     std::visit([&](const auto& kind) { lay_out(row, kind); }, row.joint->settings.kind);
     Joint& joint = *row.joint;
-    if (!(row.inverse_mass > 0)) joint.motor = joint.lower = joint.upper = 0;
+    if (!(row.way.inverse_mass > 0)) joint.lower = joint.upper = joint.spring = 0;
+    if (!((row.turning ? *row.turning : row.way).inverse_mass > 0)) joint.motor = 0;
     for (std::size_t i = 0; i < row.count; ++i) push(row, row.held[i], joint.held[i], velocities);
-    push(row, row.way, joint.motor + joint.lower - joint.upper, velocities);
+    push(row, row.way.line, along_way(row), velocities);
+    if (row.turning) push(row, row.turning->line, joint.motor, velocities);
   }
 }
 
-void JointRows::give(Row& row, double& impulse, double next, std::vector<BodyRow>& velocities) const {
+/// What drives and bounds the coordinate; of a wheel its motor does not.
+double JointRows::along_way(const Row& row) {
+  const Joint& joint = *row.joint;
+  return (row.turning ? joint.spring : joint.motor) + joint.lower - joint.upper;
+}
+
+void JointRows::give(Row& row, const Way& way, double& impulse, double next, std::vector<BodyRow>& velocities) const {
   const double change = next - impulse;
   impulse = next;
   if (change == 0) return;
-  push(row, row.way, change, velocities);
+  push(row, way.line, change, velocities);
   for (std::size_t i = 0; i < row.count; ++i) {
-    push(row, row.held[i], row.carried[i] * change, velocities);
-    row.joint->held[i] += row.carried[i] * change;
+    push(row, row.held[i], way.carried[i] * change, velocities);
+    row.joint->held[i] += way.carried[i] * change;
   }
 }
 
@@ -244,21 +268,28 @@ void JointRows::hold(Row& row, std::vector<BodyRow>& velocities, bool soft) cons
 }
 
 /// Source: Catto, Soft Constraints, GDC 2011: an implicit spring on the mass that it moves.
-double JointRows::drawn(const Row& row, double impulse, double speed, double error, double wanted, double hz,
+double JointRows::drawn(const Way& way, double impulse, double speed, double error, double wanted, double hz,
                         double zeta) const {
   const double turn = 2 * std::numbers::pi * hz * h_, pull = turn * (2 * zeta + turn);
   if (!(pull > 0)) return 0;
-  const double compliance = row.inverse_mass / pull, target = wanted - turn / (h_ * (2 * zeta + turn)) * error;
-  return impulse + (target - speed - compliance * impulse) / (row.inverse_mass + compliance);
+  const double compliance = way.inverse_mass / pull, target = wanted - turn / (h_ * (2 * zeta + turn)) * error;
+  return impulse + (target - speed - compliance * impulse) / (way.inverse_mass + compliance);
 }
 
-void JointRows::drive(Row& row, const Motor& motor, std::vector<BodyRow>& velocities) const {
+void JointRows::drive(Row& row, const Way& way, const Motor& motor, std::vector<BodyRow>& velocities) const {
   double& impulse = row.joint->motor;
-  const double speed = speed_of(row, row.way, velocities), most = motor.max_force * h_;
+  const double speed = speed_of(row, way.line, velocities), most = motor.max_force * h_;
   const double next =
-      motor.position ? drawn(row, impulse, speed, row.position - *motor.position, motor.speed, motor.hz, motor.zeta)
-                     : impulse + (motor.speed - speed) / row.inverse_mass;
-  give(row, impulse, std::clamp(next, -most, most), velocities);
+      motor.position ? drawn(way, impulse, speed, way.position - *motor.position, motor.speed, motor.hz, motor.zeta)
+                     : impulse + (motor.speed - speed) / way.inverse_mass;
+  give(row, way, impulse, std::clamp(next, -most, most), velocities);
+}
+
+/// The spring of a wheel, to where the points are one.
+void JointRows::suspend(Row& row, const Wheel& wheel, std::vector<BodyRow>& velocities) const {
+  double& impulse = row.joint->spring;
+  const double speed = speed_of(row, row.way.line, velocities);
+  give(row, row.way, impulse, drawn(row.way, impulse, speed, row.way.position, 0, wheel.hz, wheel.zeta), velocities);
 }
 
 /// By the force at the end of the sub-step: -k (x + h v) - c v. Source: Catto, Soft Constraints, GDC 2011.
@@ -267,9 +298,10 @@ void JointRows::pull(Row& row, const Spring& spring, std::vector<BodyRow>& veloc
   if (!(firmness > 0)) return;
   double& impulse = row.joint->motor;
   const double compliance = 1 / (h_ * firmness),
-               wanted = (spring.length - row.position) * (spring.stiffness / firmness);
-  const double speed = speed_of(row, row.way, velocities);
-  give(row, impulse, impulse + (wanted - speed - compliance * impulse) / (row.inverse_mass + compliance), velocities);
+               wanted = (spring.length - row.way.position) * (spring.stiffness / firmness);
+  const double speed = speed_of(row, row.way.line, velocities);
+  const double change = (wanted - speed - compliance * impulse) / (row.way.inverse_mass + compliance);
+  give(row, row.way, impulse, impulse + change, velocities);
 }
 
 /// Room that is left may be used up within the sub-step; what is too much is taken back softly, or as a spring does.
@@ -277,38 +309,44 @@ void JointRows::bound(Row& row, const Limits& limits, std::vector<BodyRow>& velo
   const bool spring = limits.hz > 0, fixed = limits.low == limits.high && !spring;
   const auto stop = [&](double& impulse, double room, double sign) {
     if (!std::isfinite(room)) return;
-    const double speed = sign * speed_of(row, row.way, velocities);
+    const double speed = sign * speed_of(row, row.way.line, velocities);
     double next = 0;
     if (spring && room <= 0) {
-      next = drawn(row, impulse, speed, room, 0, limits.hz, limits.zeta);
+      next = drawn(row.way, impulse, speed, room, 0, limits.hz, limits.zeta);
     } else if (!spring) {
       const bool free = room > 0 && !fixed;
       const double wanted = free ? room / h_ : soft ? rate_ * room : 0;
       const double firm = free || !soft ? 1 : firm_, giving = free || !soft ? 0 : giving_;
-      next = (1 - giving) * impulse - firm * (speed + wanted) / row.inverse_mass;
+      next = (1 - giving) * impulse - firm * (speed + wanted) / row.way.inverse_mass;
     }
     if (!fixed) next = std::max(0.0, next);
     double along = sign * impulse;
-    give(row, along, sign * next, velocities);
+    give(row, row.way, along, sign * next, velocities);
     impulse = next;
   };
-  stop(row.joint->lower, row.position - limits.low, 1);
-  if (!fixed) stop(row.joint->upper, limits.high - row.position, -1);
+  stop(row.joint->lower, row.way.position - limits.low, 1);
+  if (!fixed) stop(row.joint->upper, limits.high - row.way.position, -1);
 }
 
 void JointRows::solve(std::vector<BodyRow>& velocities, bool soft) {
   for (Row& row : rows_) {
     hold(row, velocities, soft);
-    if (!(row.inverse_mass > 0)) continue;
     const JointKind& kind = row.joint->settings.kind;
+    if (const auto* const wheel = std::get_if<Wheel>(&kind); wheel && wheel->motor && row.turning->inverse_mass > 0)
+      drive(row, *row.turning, *wheel->motor, velocities);
+    if (!(row.way.inverse_mass > 0)) continue;
     const auto move = [&](const auto& its) {
-      if (its.motor) drive(row, *its.motor, velocities);
+      if (its.motor) drive(row, row.way, *its.motor, velocities);
       if (its.limits) bound(row, *its.limits, velocities, soft);
     };
     if (const auto* const hinge = std::get_if<Hinge>(&kind)) move(*hinge);
     if (const auto* const slider = std::get_if<Slider>(&kind)) move(*slider);
     if (const auto* const distance = std::get_if<Distance>(&kind)) bound(row, distance->limits, velocities, soft);
     if (const auto* const spring = std::get_if<Spring>(&kind)) pull(row, *spring, velocities);
+    if (const auto* const wheel = std::get_if<Wheel>(&kind)) {
+      suspend(row, *wheel, velocities);
+      if (wheel->suspension) bound(row, *wheel->suspension, velocities, soft);
+    }
     if (const auto* const pulley = std::get_if<Pulley>(&kind))
       bound(row, {-std::numeric_limits<double>::infinity(), *pulley->length}, velocities, soft);
   }
@@ -323,7 +361,8 @@ void JointRows::end_sub_step() {
       if (line.along_b == Vec2::Zero()) joint.total_turn += impulse * line.turn_b;
     };
     for (std::size_t i = 0; i < row.count; ++i) add(row.held[i], joint.held[i]);
-    add(row.way, joint.motor + joint.lower - joint.upper);
+    add(row.way.line, along_way(row));
+    if (row.turning) add(row.turning->line, joint.motor);
   }
 }
 
@@ -342,6 +381,7 @@ void JointRows::keep(double times) {
     const auto kept = [times](double before, double now) { return times > 0 ? times * now : before; };
     for (std::size_t i = 0; i < joint.held.size(); ++i) joint.held[i] = kept(row.held_before[i], joint.held[i]);
     joint.motor = kept(row.motor_before, joint.motor);
+    joint.spring = kept(row.spring_before, joint.spring);
     joint.lower = kept(row.lower_before, joint.lower);
     joint.upper = kept(row.upper_before, joint.upper);
   }

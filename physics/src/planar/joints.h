@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "planar/body.h"
@@ -29,6 +30,7 @@ class JointRows {
   JointRows(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups, std::vector<Joint>& joints, double h,
             double warmth, double parts);
 
+  [[nodiscard]] bool empty() const { return rows_.empty(); }
   /// With the impulses of the sub-step before.
   void begin_sub_step(const std::vector<BodyRow>& displacements, std::vector<BodyRow>& velocities);
   void solve(std::vector<BodyRow>& velocities, bool soft);
@@ -41,10 +43,17 @@ class JointRows {
   static constexpr std::size_t most_held = Joint::most_held;
   using Held = std::array<double, most_held>;
 
+  /// How a coordinate goes.
+  struct Way {
+    Line line;
+    double position = 0;      ///< m or rad
+    Held carried{};           ///< what keeps what is held, for a unit of impulse along the way
+    double inverse_mass = 0;  ///< along the way, of what is held; 0: nothing moves that way
+  };
   struct Row {
     Joint* joint = nullptr;
     Held held_before{};  ///< as the step began, and of what moves or bounds
-    double motor_before = 0, lower_before = 0, upper_before = 0;
+    double motor_before = 0, spring_before = 0, lower_before = 0, upper_before = 0;
     std::uint32_t a = 0, b = 0;
     double inverse_mass_a = 0, inverse_mass_b = 0, inverse_moment_a = 0, inverse_moment_b = 0;
     Vec2 center_a{0, 0}, center_b{0, 0};  ///< at the start of the step; of the world its anchor
@@ -59,15 +68,14 @@ class JointRows {
     std::array<Line, most_held> held{};
     Held off{};                          ///< by how much, m or rad
     std::array<Held, most_held> root{};  ///< Cholesky factor of what is held
-    Line way;                            ///< of the coordinate
-    double position = 0;                 ///< m or rad
-    Held carried{};                      ///< what keeps what is held, for a unit of impulse along the way
-    double inverse_mass = 0;             ///< along the way, of what is held; 0: nothing moves that way
+    Way way;                             ///< of the coordinate
+    std::optional<Way> turning;          ///< of a wheel, which has two
   };
 
   void place(Row& row, const std::vector<BodyRow>& displacements) const;
   void hold(Row& row, const Line& line, double off) const;
   void hold_point(Row& row) const;
+  void hold_on_line(Row& row, const Vec2& axis) const;
   void lay_out(Row& row, const Hinge& hinge) const;
   void lay_out(Row& row, const Distance& distance) const;
   void lay_out(Row& row, const Slider& slider) const;
@@ -75,22 +83,26 @@ class JointRows {
   void lay_out(Row& row, const Spring& spring) const;
   void lay_out(Row& row, const Pulley& pulley) const;
   void lay_out(Row& row, const Gear& gear) const;
+  void lay_out(Row& row, const Wheel& wheel) const;
   void lay_out_distance(Row& row) const;
-  void weigh(Row& row, bool moves) const;
+  void weigh(Row& row) const;
+  void weigh(const Row& row, Way& way) const;
 
   [[nodiscard]] static double coupling(const Row& row, const Line& one, const Line& other);
   [[nodiscard]] static double speed_of(const Row& row, const Line& line, const std::vector<BodyRow>& velocities);
   static void push(const Row& row, const Line& line, double impulse, std::vector<BodyRow>& velocities);
   [[nodiscard]] static Held solved(const Row& row, Held right);
 
-  /// Changes an impulse along the way to another, and all that is held with it.
-  void give(Row& row, double& impulse, double next, std::vector<BodyRow>& velocities) const;
+  [[nodiscard]] static double along_way(const Row& row);
+  /// Changes an impulse along a way to another, and all that is held with it.
+  void give(Row& row, const Way& way, double& impulse, double next, std::vector<BodyRow>& velocities) const;
   void hold(Row& row, std::vector<BodyRow>& velocities, bool soft) const;
   void bound(Row& row, const Limits& limits, std::vector<BodyRow>& velocities, bool soft) const;
-  void drive(Row& row, const Motor& motor, std::vector<BodyRow>& velocities) const;
+  void drive(Row& row, const Way& way, const Motor& motor, std::vector<BodyRow>& velocities) const;
+  void suspend(Row& row, const Wheel& wheel, std::vector<BodyRow>& velocities) const;
   void pull(Row& row, const Spring& spring, std::vector<BodyRow>& velocities) const;
   /// The impulse of a spring, with which it ends the sub-step as it wants to.
-  [[nodiscard]] double drawn(const Row& row, double impulse, double speed, double error, double wanted, double hz,
+  [[nodiscard]] double drawn(const Way& way, double impulse, double speed, double error, double wanted, double hz,
                              double zeta) const;
 
   std::vector<Row> rows_;

@@ -18,7 +18,7 @@ namespace tweenfall::planar {
 namespace inner {
 namespace {
 
-constexpr saving::Envelope envelope{"plane", 4};
+constexpr saving::Envelope envelope{"plane", 5};
 
 template <class T>
 inline constexpr bool is_list = false;
@@ -108,9 +108,8 @@ void walk_world(Tool& tool, State& world) {
 }
 
 bool in_order(const std::vector<Meeting>& meetings) {
-  const auto key = [](const Meeting& meeting) { return Pair(meeting.a, meeting.b); };
-  return std::adjacent_find(meetings.begin(), meetings.end(), [&](const Meeting& one, const Meeting& next) {
-           return key(one) >= key(next);
+  return std::adjacent_find(meetings.begin(), meetings.end(), [](const Meeting& one, const Meeting& next) {
+           return encounter_of(one) >= encounter_of(next);
          }) == meetings.end();
 }
 
@@ -160,13 +159,14 @@ void World::Implementation::settle_in() {
     const bool endless = std::holds_alternative<HalfPlane>(makeup.shape.outline);
     if (!endless) its.mass = makeup.mass.mass;
     if (!endless) its.moment = makeup.mass.moment;
+    if (!endless) its.center = makeup.mass.center;
     inner::demand_body(its);
     its.motion = {body.center, body.angle, body.velocity, body.spin};
     inner::demand_body(its);
     its.motion = makeup.target;
     inner::demand_body(its);
     makeup.mass = inner::mass_of(its);
-    makeup.plate = inner::plate_of(makeup.shape, makeup.mass.center);
+    makeup.plates = inner::plates_of(makeup.shape, makeup.mass.center);
     expect(makeup.friction_combine <= Combine::maximum && makeup.restitution_combine <= Combine::maximum,
            "there is no such rule");
     expect(inner::all_count({body.borne.x(), body.borne.y(), body.borne_torque}), "a number is not finite");
@@ -183,7 +183,8 @@ void World::Implementation::settle_in() {
     for (const BodyId& end : {joint.settings.a, joint.settings.b})
       if (end != BodyId{}) static_cast<void>(at(end));
     expect(inner::all_count({joint.held[0], joint.held[1], joint.held[2], joint.motor, joint.lower, joint.upper,
-                             joint.turned_a, joint.turned_b, joint.total.x(), joint.total.y(), joint.total_turn}),
+                             joint.spring, joint.turned_a, joint.turned_b, joint.total.x(), joint.total.y(),
+                             joint.total_turn}),
            "a number is not finite");
     if (const auto* const pulley = std::get_if<Pulley>(&joint.settings.kind))
       expect(pulley->length.has_value(), "a pulley's rope must have a length");
@@ -192,6 +193,8 @@ void World::Implementation::settle_in() {
   for (const inner::Meeting& meeting : meetings) {
     expect(meeting.b < bodies.size() && meeting.a < meeting.b && bodies[meeting.a].alive && bodies[meeting.b].alive,
            "a pair is of no bodies");
+    expect(meeting.part_a < makeups[meeting.a].plates.size() && meeting.part_b < makeups[meeting.b].plates.size(),
+           "a pair is of no parts");
     expect(meeting.sensing || bodies[meeting.a].movable || bodies[meeting.b].movable, "a pair never moves");
     expect(meeting.count >= 0 && meeting.count <= 2, "a contact has 0 to 2 points");
     expect(

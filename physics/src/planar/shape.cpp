@@ -83,6 +83,26 @@ void check(const Polygon& polygon) {
   demand(around < 1.5 * 2 * std::numbers::pi, "the corners of a polygon go round more than once");
 }
 
+bool is_angle(double angle) {
+  return std::abs(angle) <= longest;
+}
+
+void check(const Compound& compound) {
+  const std::size_t count = compound.parts.size();
+  demand(count >= 1 && count <= Compound::most_parts, "a compound has 1 to " + std::to_string(Compound::most_parts) +
+                                                          " parts, but this one has " + std::to_string(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Part& part = compound.parts[i];
+    const std::string which = "part " + std::to_string(i) + " of a compound: ";
+    demand(is_place(part.offset) && is_angle(part.angle), which + "its place must be finite and at most 1e30");
+    try {
+      std::visit([](const auto& outline) { check(outline); }, part.outline);
+    } catch (const std::invalid_argument& fault) {
+      throw std::invalid_argument(which + fault.what());
+    }
+  }
+}
+
 /// Centroid and second moment about it for unit mass.
 /// Source: Green's theorem; e.g. P. Bourke, Calculating the area and centroid of a polygon, 1988.
 MassProperties unit_mass(const Polygon& polygon) {
@@ -120,6 +140,7 @@ MassProperties unit_mass(const Capsule& capsule) {
   const double half_disc = 0.5 * r * r - off * off + (h + off) * (h + off);
   return {1, Vec2(0, 0), (straight * (r * r + h * h) / 3 + round * half_disc) / all};
 }
+MassProperties unit_mass(const Compound& compound);
 MassProperties unit_mass(const HalfPlane&) {
   throw std::invalid_argument("a half-plane has no mass: only fixed and keyed bodies can be one");
 }
@@ -139,6 +160,32 @@ double area_of(const Polygon& polygon) {
 double area_of(const HalfPlane&) {
   return std::numeric_limits<double>::infinity();
 }
+double area_of(const Part& part) {
+  return std::visit([](const auto& outline) { return area_of(outline); }, part.outline);
+}
+double area_of(const Compound& compound) {
+  double sum = 0;
+  for (const Part& part : compound.parts) sum += area_of(part);
+  return sum;
+}
+
+/// Each part by its share of the area, by the parallel-axis theorem.
+MassProperties unit_mass(const Compound& compound) {
+  const double whole = area_of(compound);
+  std::vector<MassProperties> parts;
+  MassProperties sum;
+  sum.mass = 1;
+  for (const Part& part : compound.parts) {
+    MassProperties its = std::visit([](const auto& outline) { return unit_mass(outline); }, part.outline);
+    its.mass = area_of(part) / whole;
+    its.center = part.offset + Turn::of(part.angle) * its.center;
+    sum.center += its.mass * its.center;
+    parts.push_back(its);
+  }
+  for (const MassProperties& its : parts)
+    sum.moment += its.mass * (its.moment + (its.center - sum.center).squaredNorm());
+  return sum;
+}
 
 std::vector<Vec2> corners_of(const Circle&) {
   return {Vec2(0, 0)};
@@ -156,10 +203,8 @@ std::vector<Vec2> corners_of(const Polygon& polygon) {
   if (twice_area(corners) < 0) std::reverse(corners.begin(), corners.end());
   return corners;
 }
-std::vector<Vec2> corners_of(const HalfPlane& half) {
-  return {half.offset * half.normal.normalized()};
-}
 
+template <class Outline>
 double skin_of(const Outline& outline) {
   if (const auto* circle = std::get_if<Circle>(&outline)) return circle->radius;
   if (const auto* capsule = std::get_if<Capsule>(&outline)) return capsule->radius;
@@ -168,31 +213,69 @@ double skin_of(const Outline& outline) {
 
 }  // namespace
 
-Plate plate_of(const Shape& shape, const Vec2& center) {
+namespace {
+
+/// Of a part that is placed on the node.
+Plate plate_of(const Part& placed, const Vec2& center) {
   Plate plate;
-  plate.skin = skin_of(shape.outline);
-  const Turn turn = Turn::of(shape.angle);
-  for (const Vec2& corner : std::visit([](const auto& outline) { return corners_of(outline); }, shape.outline))
-    plate.corners.push_back({shape.offset + turn * corner - center, Vec2(0, 0)});
-  if (const auto* half = std::get_if<HalfPlane>(&shape.outline)) {
-    plate.endless = true;
-    plate.corners[0].normal = turn * half->normal.normalized();
-    plate.reach = plate.least = std::numeric_limits<double>::infinity();
-    return plate;
-  }
+  plate.skin = skin_of(placed.outline);
+  const Turn turn = Turn::of(placed.angle);
+  for (const Vec2& corner : std::visit([](const auto& outline) { return corners_of(outline); }, placed.outline))
+    plate.corners.push_back({placed.offset + turn * corner - center, Vec2(0, 0)});
   const std::size_t count = plate.corners.size();
   for (std::size_t i = 0; i < count && count > 1; ++i) {
     const Vec2 side = plate.corners[(i + 1) % count].at - plate.corners[i].at;
     plate.corners[i].normal = (-quarter(side)).normalized();
   }
+  const Vec2 own = std::visit([](const auto& outline) { return unit_mass(outline); }, placed.outline).center;
+  plate.middle = placed.offset + turn * own - center;
   plate.least = std::numeric_limits<double>::infinity();
   for (const Corner& corner : plate.corners) {
+    const Vec2 at = corner.at - plate.middle;
     plate.reach = std::max(plate.reach, corner.at.norm());
-    plate.least = std::min(plate.least, count > 2 ? corner.at.dot(corner.normal) : 0.0);
+    plate.size = std::max(plate.size, at.norm());
+    plate.least = std::min(plate.least, count > 2 ? at.dot(corner.normal) : 0.0);
   }
-  plate.reach += plate.skin;
-  plate.least += plate.skin;
+  for (double* const length : {&plate.reach, &plate.size, &plate.least}) *length += plate.skin;
   return plate;
+}
+
+Plate endless_plate(const HalfPlane& half, const Shape& shape, const Vec2& center) {
+  Plate plate;
+  const Turn turn = Turn::of(shape.angle);
+  const Vec2 normal = half.normal.normalized();
+  plate.endless = true;
+  plate.corners.push_back({shape.offset + turn * Vec2(half.offset * normal) - center, turn * normal});
+  plate.reach = plate.least = plate.size = std::numeric_limits<double>::infinity();
+  return plate;
+}
+
+/// Of a shape with ends, placed on the node.
+struct PartsOf {
+  const Shape& shape;
+
+  std::vector<Part> operator()(const Compound& compound) const {
+    std::vector<Part> parts = compound.parts;
+    for (Part& part : parts) {
+      part.offset = shape.offset + Turn::of(shape.angle) * part.offset;
+      part.angle += shape.angle;
+    }
+    return parts;
+  }
+  std::vector<Part> operator()(const HalfPlane&) const { return {}; }
+  template <class Single>
+  std::vector<Part> operator()(const Single& outline) const {
+    return {{outline, shape.offset, shape.angle}};
+  }
+};
+
+}  // namespace
+
+std::vector<Plate> plates_of(const Shape& shape, const Vec2& center) {
+  if (const auto* const half = std::get_if<HalfPlane>(&shape.outline)) return {endless_plate(*half, shape, center)};
+  std::vector<Plate> plates;
+  for (const Part& part : std::visit(PartsOf{shape}, shape.outline)) plates.push_back(plate_of(part, center));
+  return plates;
 }
 
 }  // namespace inner
@@ -200,7 +283,7 @@ Plate plate_of(const Shape& shape, const Vec2& center) {
 void validate(const Shape& shape) {
   std::visit([](const auto& outline) { inner::check(outline); }, shape.outline);
   inner::demand(inner::is_place(shape.offset), "offset of a shape must be finite and at most 1e30 m");
-  inner::demand(std::abs(shape.angle) <= inner::longest, "angle of a shape must be finite and at most 1e30 rad");
+  inner::demand(inner::is_angle(shape.angle), "angle of a shape must be finite and at most 1e30 rad");
 }
 
 double area(const Outline& outline) {
@@ -221,20 +304,29 @@ MassProperties mass_properties(const Shape& shape, double mass) {
 Manifold collide(const Shape& a, const Place& place_a, const Shape& b, const Place& place_b, double margin) {
   validate(a);
   validate(b);
-  const inner::Plate plate_a = inner::plate_of(a, Vec2(0, 0)), plate_b = inner::plate_of(b, Vec2(0, 0));
-  const inner::Placed at_a{&plate_a, place_a.position, inner::Turn::of(place_a.angle)};
-  const inner::Placed at_b{&plate_b, place_b.position, inner::Turn::of(place_b.angle)};
-  const inner::Found found = inner::find_manifold(at_a, at_b, margin);
+  const inner::Turn turn_a = inner::Turn::of(place_a.angle), turn_b = inner::Turn::of(place_b.angle);
+  const std::vector<inner::Plate> plates_a = inner::plates_of(a, Vec2(0, 0)),
+                                  plates_b = inner::plates_of(b, Vec2(0, 0));
   Manifold manifold;
-  manifold.normal = found.normal;
-  manifold.count = found.count;
-  for (int i = 0; i < found.count; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const inner::FoundPoint& point = found.points[k];
-    const Vec2 on_a = place_a.position + point.core_a + plate_a.skin * found.normal;
-    const Vec2 on_b = place_b.position + point.core_b - plate_b.skin * found.normal;
-    manifold.points[k] = {0.5 * (on_a + on_b), -point.gap, point.feature};
-  }
+  double most = -std::numeric_limits<double>::infinity();
+  for (const inner::Plate& plate_a : plates_a)
+    for (const inner::Plate& plate_b : plates_b) {
+      const inner::Found found =
+          inner::find_manifold({&plate_a, place_a.position, turn_a}, {&plate_b, place_b.position, turn_b}, margin);
+      double depth = -std::numeric_limits<double>::infinity();
+      for (int i = 0; i < found.count; ++i) depth = std::max(depth, -found.points[static_cast<std::size_t>(i)].gap);
+      if (!(depth > most)) continue;
+      most = depth;
+      manifold.normal = found.normal;
+      manifold.count = found.count;
+      for (int i = 0; i < found.count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const inner::FoundPoint& point = found.points[k];
+        const Vec2 on_a = place_a.position + point.core_a + plate_a.skin * found.normal;
+        const Vec2 on_b = place_b.position + point.core_b - plate_b.skin * found.normal;
+        manifold.points[k] = {0.5 * (on_a + on_b), -point.gap, point.feature};
+      }
+    }
   return manifold;
 }
 

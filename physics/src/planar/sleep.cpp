@@ -61,7 +61,6 @@ bool World::Implementation::rouse() {
     stir(joint.settings.b.index, joint.settings.a.index);
   }
   bool any = false;
-  const double h = step_length / settings.sub_steps;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     if (!body.alive || !body.asleep || !stirred[root_of(i)]) continue;
@@ -70,7 +69,6 @@ bool World::Implementation::rouse() {
     body.under_way = true;
     const inner::Gain& gain = solver.gains[i] = gain_of(body);
     body.travel = (Vec2(gain.x, gain.y).norm() + body.reach * std::abs(gain.turn)) * step_length * step_length;
-    if (body.damped) damp(i, h);
     moving.push_back(i);
   }
   return any;

@@ -47,7 +47,6 @@ void World::Implementation::damp(std::uint32_t index, double h) {
 void World::Implementation::set_out(double dt) {
   moving.clear();
   solver.gains.assign(bodies.size(), {});
-  const double h = dt / settings.sub_steps;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     Body& body = bodies[i];
     if (!body.alive) continue;
@@ -71,7 +70,6 @@ void World::Implementation::set_out(double dt) {
       if (body.asleep) wake(i);
       body.under_way = true;
       inner::Gain& gain = solver.gains[i] = gain_of(body);
-      if (body.damped) damp(i, h);
       gained = (Vec2(gain.x, gain.y).norm() + body.reach * std::abs(gain.turn)) * dt;
       if (body.driven) makeup.saturated = false;
       if (body.driven)
@@ -164,7 +162,11 @@ void World::Implementation::step(double dt, double parts) {
   active.clear();
   for (std::uint32_t k = 0; k < meetings.size(); ++k)
     if (looked_at[k] && meetings[k].count > 0) active.push_back(k);
-  const double h = dt / settings.sub_steps;
+  const inner::Effort effort =
+      settings.sub_steps ? inner::Effort{*settings.sub_steps} : depth.effort_for(bodies, meetings, active);
+  const double h = dt / effort.sub_steps;
+  for (const std::uint32_t i : moving)
+    if (bodies[i].damped && bodies[i].movable) damp(i, h);
   // In shorter steps impulses are smaller.
   const double warmth = last_h > 0 ? std::min(1.0, h / last_h) : 0;
   passed_over += dt;
@@ -176,8 +178,8 @@ void World::Implementation::step(double dt, double parts) {
     last_h = kept * h;
     passed_over = 0;
   }
-  solver.solve({bodies, makeups, meetings, joints, moving, active, settings.push_out_speed, dt, settings.sub_steps,
-                warmth, parts, kept});
+  solver.solve({bodies, makeups, meetings, joints, moving, active, settings.push_out_speed, dt, effort.sub_steps,
+                effort.relaxes_each, warmth, parts, kept});
   report();
   arrive(dt);
   if (!std::isinf(settings.sleep_after)) let_sleep(dt);

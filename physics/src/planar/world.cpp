@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -61,10 +62,15 @@ void World::Implementation::place(std::uint32_t index, const Motion& motion) {
 void World::Implementation::give_mass(std::uint32_t index) {
   Body& body = bodies[index];
   const Makeup& makeup = makeups[index];
-  body.skin = makeup.plate.skin;
-  body.reach = makeup.plate.endless ? 0 : makeup.plate.reach;
-  body.least = makeup.plate.least;
-  body.lone = makeup.plate.corners.size() == 1 && !makeup.plate.endless;
+  body.compound = makeup.plates.size() > 1;
+  body.skin = makeup.plates[0].skin;
+  body.reach = 0;
+  body.least = std::numeric_limits<double>::infinity();
+  for (const inner::Plate& plate : makeup.plates) {
+    if (!plate.endless) body.reach = std::max(body.reach, plate.reach);
+    body.least = std::min(body.least, plate.least);
+  }
+  body.lone = !body.compound && makeup.plates[0].corners.size() == 1 && !makeup.endless();
   body.damped = makeup.linear_damping > 0 || makeup.angular_damping > 0;
   body.driven = makeup.drive.owner() == Owner::driven;
   body.movable = !makeup.fixed && makeup.drive.owner() != Owner::keyed;
@@ -130,7 +136,7 @@ BodyId World::add(const BodySettings& settings) {
   Makeup makeup;
   makeup.mass = inner::mass_of(settings);
   makeup.shape = settings.shape;
-  makeup.plate = inner::plate_of(settings.shape, makeup.mass.center);
+  makeup.plates = inner::plates_of(settings.shape, makeup.mass.center);
   makeup.friction = settings.friction;
   makeup.restitution = settings.restitution;
   makeup.rolling_friction = settings.rolling_friction;
@@ -280,7 +286,7 @@ void World::set_drive(BodyId id, const Drive& drive) {
   state::validate(drive);
   Makeup& makeup = world.makeups[id.index];
   inner::demand(!makeup.fixed, "a fixed body cannot be handed over");
-  inner::demand(drive.owner() == Owner::keyed || !makeup.plate.endless,
+  inner::demand(drive.owner() == Owner::keyed || !makeup.endless(),
                 "a half-plane has no mass: only fixed and keyed bodies can be one");
   const Motion motion = world.motion_of(id.index);
   if (makeup.drive.owner() != drive.owner()) {

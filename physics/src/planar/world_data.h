@@ -6,6 +6,7 @@
 
 #include "planar/body.h"
 #include "planar/contacts/contact_solver.h"
+#include "planar/contacts/depth.h"
 #include "planar/contacts/near_pairs.h"
 
 namespace tweenfall::planar {
@@ -54,6 +55,7 @@ struct World::Implementation {
   std::vector<char> held;    ///< by body: something touches it or is joined to it
   std::vector<Vec2> starts;  ///< centers
   std::vector<double> start_angles;
+  inner::Depth depth;
   inner::ContactSolver solver;
 
   [[nodiscard]] inner::Body& at(BodyId id);  ///< @throws std::invalid_argument

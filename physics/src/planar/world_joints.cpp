@@ -42,6 +42,11 @@ void check(const Gear& gear) {
   demand_number(gear.turned_a, "what a wheel has turned");
   demand_number(gear.turned_b, "what a wheel has turned");
 }
+void check(const Wheel& wheel) {
+  joints::validate(WheelJoint{wheel.hz, wheel.zeta, wheel.suspension, wheel.motor});
+  demand(wheel.axis.norm() > 0 && wheel.axis.norm() <= farthest,
+         "the axis of a wheel needs a length above 0 that is finite");
+}
 void check_anchor(const Vec2& anchor) {
   demand(std::abs(anchor.x()) <= farthest && std::abs(anchor.y()) <= farthest,
          "anchors of a joint must be finite and at most 1e30 m");
@@ -173,6 +178,13 @@ JointReading World::reading(JointId id) const {
     const Vec2 along = inner::Turn::of(a.angle) * slider->axis.normalized();
     reading.value = along.dot(apart);
     reading.rate = along.dot(parting - a.spin * inner::quarter(apart));
+    reading.gap = std::abs(inner::cross(along, apart));
+  } else if (const auto* const wheel = std::get_if<Wheel>(&kind)) {
+    const Vec2 along = inner::Turn::of(a.angle) * wheel->axis.normalized();
+    reading.value = b.angle - a.angle;
+    reading.rate = b.spin - a.spin;
+    reading.way = along.dot(apart);
+    reading.way_rate = along.dot(parting - a.spin * inner::quarter(apart));
     reading.gap = std::abs(inner::cross(along, apart));
   } else {
     if (std::holds_alternative<Hinge>(kind)) {

@@ -17,10 +17,10 @@ struct Softness {
 /// Source: Catto, Solver2D, 2024 (soft contacts).
 /// @param parts  as many as `dt` fits into the whole step: contacts give way as they do in that, or what rests would
 /// settle anew in each part
-[[nodiscard]] inline Softness soft_contacts(double push_out_speed, double dt, int sub_steps, double parts = 1) {
-  // Frequency times the sub-step, and the damping ratio.
-  constexpr double cycles = 0.125;
-  constexpr double damping = 10;
+/// @param cycles  of a contact's spring in a sub-step: what it bears presses it in by the inverse square of them
+[[nodiscard]] inline Softness soft_contacts(double push_out_speed, double dt, int sub_steps, double parts = 1,
+                                            double cycles = 0.125) {
+  constexpr double damping = 10;  // ratio
   // In shorter steps than this overlap is taken apart more slowly, in the end not at all: the speed that it needs
   // is the shorter the step the greater, and would be a blow, s.
   constexpr double unhurried = 1e-3;

@@ -411,6 +411,7 @@ void World::Implementation::step(double dt, double of_parts) {
     end_watch();
     time += dt;
     if (failed) check_bodies(dt, time);
+    check_softs();
     return;
   }
   wake_by_forces(dt);

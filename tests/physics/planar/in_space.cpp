@@ -153,7 +153,6 @@ TEST_CASE("what does not lie in a world's plane is refused in words") {
   tilted.shape.offset.rotation = Quat(0.8, 0.6, 0, 0);
   check(tilted, "a box cannot be cut by the world's plane");
   check(at(TaperedCapsule{}, Vec3(0, 0, 0)), "in a plane a body cannot be a tapered capsule");
-  check(at(Compound({{Sphere{}}, {Box{}}}), Vec3(0, 0, 0)), "cannot be a compound: weld a body for each of its parts");
   BodySettings floor{.shape = {Plane{Vec3(0, 0, 1), 0}}, .fixed = true};
   check(floor, "a plane cannot be cut");
   BodySettings sticky = at(Sphere{}, Vec3(0, 0, 0));
@@ -165,8 +164,10 @@ TEST_CASE("what does not lie in a world's plane is refused in words") {
   const auto refused = [&](const JointSettings& joint, const char* words) {
     CHECK_THROWS_WITH_AS(world.add_joint(joint), Contains(words), std::invalid_argument);
   };
-  refused({.a = a, .b = b, .kind = WheelJoint{}},
-          "in a plane joints are balls, hinges, sliders, welds, distances, springs, pulleys and gears; no others");
+  refused(
+      {.a = a, .b = b, .kind = UniversalJoint{}},
+      "in a plane joints are balls, hinges, sliders, welds, distances, springs, pulleys, gears and wheels; no others");
+  refused({.a = a, .b = b, .kind = WheelJoint{}}, "in a plane the axis of a wheel stands upright on it");
   refused({.a = a, .b = b, .kind = GearJoint{}}, "in a plane the axes of a gear stand upright on it");
   refused({.a = a, .b = b, .kind = PulleyJoint{.pulley_b = Vec3(0, 1, 1)}}, "in a plane both pulleys must lie in it");
   const Quat upright(std::sqrt(0.5), 0, -std::sqrt(0.5), 0);

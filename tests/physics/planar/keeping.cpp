@@ -26,8 +26,9 @@ planar::World busy_world() {
     const std::vector<planar::Shape> shapes{
         {planar::Box{Vec2(0.3, 0.2)}},
         {planar::Circle{0.25}},
-        {planar::Polygon{{Vec2(0, 0), Vec2(0.5, 0), Vec2(0.2, 0.4)}}, Vec2(0.1, 0), 0.3}};
-    body.shape = shapes[static_cast<std::size_t>(i % 3)];
+        {planar::Polygon{{Vec2(0, 0), Vec2(0.5, 0), Vec2(0.2, 0.4)}}, Vec2(0.1, 0), 0.3},
+        {planar::Compound{{{planar::Circle{0.2}, Vec2(-0.2, 0)}, {planar::Box{Vec2(0.3, 0.1)}, Vec2(0.1, 0)}}}}};
+    body.shape = shapes[static_cast<std::size_t>(i % 10 == 9 ? 3 : i % 3)];
     body.motion = {Vec2(0.8 * (i % 8) - 2, 0.5 + 0.9 * (i / 8)), random.between(0, 6), Vec2(0, 0),
                    random.between(-3, 3)};
     if (i == 11) body.drive = {.hz = 2, .zeta = 0.7, .max_force = 500};
@@ -43,6 +44,10 @@ planar::World busy_world() {
                    .b = bodies[7],
                    .kind = planar::Pulley{.pulley_a = Vec2(1, 6), .pulley_b = Vec2(4, 6), .ratio = 1.5}});
   world.add_joint({.a = bodies[9], .b = bodies[10], .kind = planar::Gear{-2}});
+  world.add_joint(
+      {.a = bodies[12],
+       .b = bodies[13],
+       .kind = planar::Wheel{.suspension = Limits{-0.2, 0.3}, .motor = Motor{.speed = 4, .max_force = 20}}});
   world.remove(bodies[20]);
   return world;
 }

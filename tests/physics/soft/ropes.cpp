@@ -61,6 +61,39 @@ TEST_CASE("a rope between two hooks hangs as a catenary, by either solver") {
   }
 }
 
+// By the same closed form, at the sub-steps that a rope has unless told otherwise.
+TEST_CASE("a rope hangs as a catenary however many links it has and however tight it is, by constraints as they are") {
+  for (const int links : {40, 100, 400})
+    for (const double slack : {0.05, 0.3, 1.0}) {
+      CAPTURE(links);
+      CAPTURE(slack);
+      const double a = catenary_parameter(1, 1 + slack), sag = a * (std::cosh(0.5 / a) - 1);
+      const Sag result = hung(rope({.to = {1, 0, 0}, .links = links, .slack = slack, .mass = 0.4}), 2.5, 1.0 / 60);
+      CHECK(result.sag == doctest::Approx(sag).epsilon(0.001));
+      CHECK(result.horizontal == doctest::Approx(0.4 / (1 + slack) * 9.81 * a).epsilon(0.001));
+      CHECK(result.vertical == doctest::Approx(0.2 * 9.81).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("what hangs on a rope may be two thousand times as heavy, and a rope that cannot be so long does no harm") {
+  World world;
+  BodySettings ball{.shape = {Sphere{0.1}}, .mass = 2.0};
+  ball.motion.pose.position = Vec3(0, -1, 0);
+  const BodyId load = world.add(ball);
+  SoftSettings line = rope({.to = {0, -1, 0}, .links = 20, .mass = 1e-3});
+  line.collide = false;
+  line.pins = {{.node = 0}, {.node = 20, .body = load}};
+  const SoftId id = add_soft(world, line);
+  step(world, 2, 1.0 / 60);
+  CHECK(soft_pins(world, id)[0].force.y() == doctest::Approx(-2.001 * 9.81).epsilon(1e-6));
+  CHECK(world.motion(load).pose.position.y() == doctest::Approx(-1).epsilon(1e-6));
+  SoftSettings tight = rope({.from = {0, 5, 0}, .to = {1, 5, 0}, .links = 30});
+  tight.pins = {{.node = 0, .in_place = true}, {.node = 30, .point = Vec3(1.01, 5, 0)}};
+  const SoftId held = add_soft(world, tight);
+  step(world, 2, 1.0 / 60);
+  for (const Vec3& velocity : soft_velocities(world, held)) CHECK(velocity.norm() < 1);
+}
+
 // A rope of weight W and stiffness EA that hangs from one end is longer by W / EA half its length; steps far longer
 // than its slowest mode lead there at once, if the last node hears of the first.
 TEST_CASE("a rope of thousands of springs is as long as its weight makes it, after a few long steps") {

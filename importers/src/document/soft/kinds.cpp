@@ -37,6 +37,8 @@ const fields::Table<RopeSettings>& rope_table() {
         {"nodes", "segments", "points", "count"}},
        {"slack", bounded("a number from 0 to 1000", 0, false, 1000),
         "by which part of the distance of its ends it is longer", member<Rope>(&Rope::slack)},
+       {"down", &ValueForms::vector, "where what is slack hangs to begin with; absent: against y",
+        member<Rope>(&Rope::down)},
        {"mass", &ValueForms::positive, "of the whole, kg", member<Rope>(&Rope::mass)},
        {"stiffness", &ValueForms::positive, "force at a strain of 1, N; absent: it cannot be stretched",
         member<Rope>(&Rope::stiffness)},

@@ -61,7 +61,16 @@ struct Gear {
   double turned_a = 0, turned_b = 0;  ///< what the wheels have turned when the joint is added, rad
 };
 
-using JointKind = std::variant<Hinge, Distance, Slider, Weld, Spring, Pulley, Gear>;
+/// A wheel b on a's suspension: b's point slides along a line through a's that is fixed to a, drawn to a's point by a
+/// spring, and b turns freely. Coordinates: b's angle against a's, and its way along the line.
+struct Wheel {
+  Vec2 axis{0, 1};                     ///< of the line, in the axes of a's node, or of the world; any length but 0
+  double hz = 2, zeta = 0.7;           ///< of the spring
+  std::optional<Limits> suspension{};  ///< of the way, m
+  std::optional<Motor> motor{};        ///< of the angle
+};
+
+using JointKind = std::variant<Hinge, Distance, Slider, Weld, Spring, Pulley, Gear, Wheel>;
 
 struct JointSettings {
   BodyId a = {};        ///< the default handle means the world

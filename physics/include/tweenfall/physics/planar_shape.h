@@ -33,7 +33,19 @@ struct HalfPlane {
   double offset = 0;  ///< points x of the line have normal . x = offset for the unit normal, m
 };
 
-using Outline = std::variant<Circle, Capsule, Box, Polygon, HalfPlane>;
+/// An outline in a compound, and its place there.
+struct Part {
+  std::variant<Circle, Capsule, Box, Polygon> outline = Circle{};
+  Vec2 offset{0, 0};  ///< of the outline, m
+  double angle = 0;   ///< rad
+};
+/// Several outlines that move as one, each with contacts of its own. Where parts overlap, what is there counts twice.
+struct Compound {
+  static constexpr std::size_t most_parts = 4096;
+  std::vector<Part> parts;  ///< 1 to 4096
+};
+
+using Outline = std::variant<Circle, Capsule, Box, Polygon, HalfPlane, Compound>;
 
 /// An outline and its place on the node that carries it.
 struct Shape {
@@ -49,7 +61,7 @@ struct Place {
 };
 
 /// @throws std::invalid_argument naming the size that is not positive or not finite, or the corner that turns the wrong
-/// way.
+/// way, and in a compound the number of the part.
 void validate(const Shape& shape);
 
 [[nodiscard]] double area(const Outline& outline);  ///< m^2; infinity for a half-plane
@@ -61,7 +73,7 @@ struct MassProperties {
 };
 
 /// Of a uniform plate. Sources: closed forms, e.g. Goldstein, Classical Mechanics; of polygons Green's theorem over the
-/// corners.
+/// corners; of compounds the parallel-axis theorem.
 /// @throws std::invalid_argument for a half-plane, or mass not > 0.
 [[nodiscard]] MassProperties mass_properties(const Shape& shape, double mass);
 
@@ -78,7 +90,7 @@ struct Manifold {
   int count = 0;  ///< 0 when the shapes are farther apart than the margin
 };
 
-/// Contact of two placed shapes.
+/// Contact of two placed shapes; of compounds that of the two parts that are deepest in each other, or nearest.
 /// @param margin  points with a gap up to this are reported too, m; >= 0
 [[nodiscard]] Manifold collide(const Shape& a, const Place& place_a, const Shape& b, const Place& place_b,
                                double margin = 0);

@@ -116,6 +116,7 @@ struct RopeSettings {
   Vec3 from{0, 0, 0}, to{1, 0, 0};  ///< m
   int links = 20;                   ///< edges; 1 to 100,000
   double slack = 0;                 ///< by which part of their distance it is longer; >= 0
+  Vec3 down{0, -1, 0};              ///< where what is slack hangs to begin with, any length but 0
   double mass = 0.1;                ///< of the whole, kg; > 0. End nodes have half of an inner one's
   double stiffness = std::numeric_limits<double>::infinity();  ///< force at a strain of 1, N
   double damping = 0;                                          ///< the same at a strain rate of 1/s, N s

@@ -82,7 +82,7 @@ class Vehicle {
  private:
   struct Stand;
   [[nodiscard]] Stand find_stand(const World& world, const Motion& chassis, std::size_t wheel) const;
-  [[nodiscard]] Vec3 grip(const Stand& stand, double share, std::size_t wheel, double dt);
+  [[nodiscard]] Vec3 grip(const Stand& stand, double share, double borne, std::size_t wheel, double dt);
 
   VehicleSettings settings_;
   std::vector<WheelControl> controls_;

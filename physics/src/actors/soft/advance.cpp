@@ -8,6 +8,7 @@
 #include "actors/soft/meetings/between.h"
 #include "actors/soft/meetings/meetings.h"
 #include "actors/soft/sub_step.h"
+#include "flat/axes.h"
 #include "state/countable.h"
 #include "state/world_data.h"
 
@@ -56,7 +57,7 @@ class Course {
          const std::vector<Blowing>& winds, double began, double dt)
       : body_(body), bodies_(bodies), partners_(partners), settings_(settings), winds_(winds), began_(began), dt_(dt) {
     body.tears.clear();
-    near_ = find_near(body, bodies, partners, settings.gravity, dt);
+    near_ = find_near(body, bodies, partners, settings, dt);
     for (PinState& state : body.pins) {
       state.force = Vec3(0, 0, 0);
       starts_.push_back(body.positions[state.pin.node]);
@@ -96,6 +97,7 @@ class Course {
       const Vec3 early = 0.5 * h * (mean_velocity(body_) - was_);
       for (Vec3& place : body_.positions) place -= early;
     }
+    stay_in_plane();
     tear_one(body_, began_ + time);
   }
 
@@ -115,6 +117,14 @@ class Course {
   }
 
  private:
+  /// What points out of a plane it bears.
+  void stay_in_plane() {
+    if (settings_.plane == WorldPlane::none) return;
+    const int normal = flat::Axes::of(settings_.plane).normal;
+    for (Vec3& place : body_.positions) place[normal] = 0;
+    for (Vec3& velocity : body_.velocities) velocity[normal] = 0;
+  }
+
   void find_held(double time) {
     held_.clear();
     const double share = time / dt_;
@@ -181,7 +191,7 @@ void World::Implementation::advance_softs(double dt) {
     if (body.alive) longest = longest > 0 ? std::min(longest, *body.made->sub_step) : *body.made->sub_step;
   if (!(longest > 0)) return;
   const double count = std::clamp(std::ceil(dt / longest - 1e-9), 1.0, soft::most_sub_steps), h = dt / count;
-  soft::Partners partners(bodies, soft_starts, dt);
+  soft::Partners partners(bodies, soft_starts, settings.plane, dt);
   const std::vector<soft::Blowing> winds = soft::winds_at(forces, time);
   std::vector<soft::Course> courses;
   std::vector<const soft::SoftBody*> there;

@@ -6,17 +6,24 @@
 // Sources: Macklin, Mueller, Chentanez, XPBD: Position-Based Simulation of Compliant Constrained Dynamics, 2016,
 // equations 18 and 26 (damping); Macklin, Storey, Lu, Terdiman, Chentanez, Jeschke, Mueller, Small Steps in Physics
 // Simulation, 2019; for rigid bodies Mueller, Macklin, Chentanez, Jeschke, Kim, Detailed Rigid Body Simulation with
-// Extended Position Based Dynamics, 2020.
+// Extended Position Based Dynamics, 2020; for chains Deul, Kugelstadt, Weiler, Bender, Direct Position-Based Solver for
+// Stiff Rods, 2018.
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "actors/soft/chains.h"
 #include "actors/soft/sub_step.h"
 
 namespace tweenfall::soft {
 
 namespace {
+
+/// Part of what an edge of a chain moves by which it gives way: what is straight between two that hold it has no way
+/// left in which one edge could be mended alone.
+constexpr double yielding = 1e-7;
 
 class Positions {
  public:
@@ -25,6 +32,8 @@ class Positions {
   void solve() {
     predict();
     // There and back: one way alone takes too much from what is stiff where many edges meet, and throws it ever faster.
+    chains_ = chains_of(step_.body);
+    find_loads();
     for (int i = 0; i < made_.iterations; ++i) {
       pass(step_.backward);
       pass(!step_.backward);
@@ -93,7 +102,10 @@ class Positions {
   }
 
   void pass(bool backward) {
-    each(made_.edges.size(), backward, [this](std::size_t i) { meet_edge(i); });
+    if (chains_.empty())
+      each(made_.edges.size(), backward, [this](std::size_t i) { meet_edge(i); });
+    else
+      each(chains_.size(), backward, [this](std::size_t i) { meet_chain(chains_[i]); });
     each(made_.bends.size(), backward, [this](std::size_t i) { meet_bend(i); });
     each(made_.tetrahedra.size(), backward, [this](std::size_t i) { meet_solid(i); });
     each(made_.enclosures.size(), backward, [this](std::size_t i) { meet_enclosure(i); });
@@ -125,6 +137,100 @@ class Positions {
     multiplier += change;
     push(edge.a, change * normal);
     push(edge.b, -change * normal);
+  }
+
+  /// What chains are pinned to and move goes with them as if it were a part of the node; of a body with several pins
+  /// each has its part.
+  void find_loads() {
+    loads_.clear();
+    if (chains_.empty()) return;
+    for (Held& held : step_.held) {
+      if (held.partner == Held::nobody) continue;
+      if (loads_.empty()) loads_.resize(p_.size());
+      const Partner& partner = step_.partners[held.partner];
+      const auto pins = std::ranges::count(step_.held, held.partner, &Held::partner);
+      const Mat3 give = static_cast<double>(pins) * give_of(partner, held.arm);
+      loads_[held.node] = {&held, (Mat3::Identity() / weight_[held.node] + give.inverse()).inverse()};
+    }
+  }
+  [[nodiscard]] static Mat3 give_of(const Partner& partner, const Vec3& arm) {
+    Mat3 lever;
+    lever << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+    return partner.inverse_mass * Mat3::Identity() - lever * partner.inverse_inertia * lever;
+  }
+  [[nodiscard]] bool is_loaded(std::uint32_t node) const { return !loads_.empty() && loads_[node].held; }
+  /// What a push moves a node of a chain by.
+  [[nodiscard]] Vec3 moved_by(std::uint32_t node, const Vec3& push) const {
+    return is_loaded(node) ? Vec3(loads_[node].give * push) : Vec3(weight_[node] * push);
+  }
+  void push_chain(std::uint32_t node, const Vec3& by) {
+    if (!is_loaded(node)) return push(node, by);
+    const Load& load = loads_[node];
+    const Vec3 moved = load.give * by, on = by - moved / weight_[node];
+    p_[node] += moved;
+    pull_[node] += by - on;
+    step_.partners[load.held->partner].give(on, load.held->arm, step_.h);
+    load.held->pushed += on;
+  }
+
+  /// Whether nodes are led farther apart than all that is between them is long and may ever be: no solution is there to
+  /// be found, and each edge does what it can.
+  [[nodiscard]] bool is_overstretched(const Chain& chain) const {
+    const std::size_t no_node = chain.nodes.size();
+    std::size_t led = no_node;
+    double length = 0;
+    for (std::size_t k = 0; k < chain.nodes.size(); ++k) {
+      if (k > 0) {
+        const SoftEdge& edge = made_.edges[chain.edges[k - 1]];
+        length += std::isinf(edge.stiffness) ? *edge.length : std::numeric_limits<double>::infinity();
+      }
+      if (weight_[chain.nodes[k]] > 0) continue;
+      if (led != no_node && (p_[chain.nodes[k]] - p_[chain.nodes[led]]).norm() > length) return true;
+      led = k;
+      length = 0;
+    }
+    return false;
+  }
+
+  /// All edges of a chain at once, by the changes d of their multipliers:
+  ///
+  ///   sum over k of (gradient of i) . w (gradient of k) d_k + a_i d_i = -C_i - a_i multiplier_i
+  ///
+  /// Each edge shares nodes with its neighbors alone, so that the matrix has three diagonals. One by one its edges
+  /// would hear of each other over as many passes as there are links.
+  void meet_chain(const Chain& chain) {
+    if (is_overstretched(chain)) {
+      for (const std::uint32_t edge : chain.edges) meet_edge(edge);
+      return;
+    }
+    for (const std::uint32_t node : chain.nodes)
+      if (is_loaded(node)) meet_pin(*loads_[node].held);
+    const std::size_t count = chain.edges.size();
+    normals_.assign(count, Vec3(0, 0, 0));
+    diagonal_.assign(count, 0);
+    beside_.assign(count, 0);
+    changes_.assign(count, 0);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t from = chain.nodes[k], to = chain.nodes[k + 1];
+      const SoftEdge& edge = made_.edges[chain.edges[k]];
+      const Vec3 between = p_[from] - p_[to];
+      const double length = between.norm();
+      if (!(length > 0)) continue;
+      const Vec3 normal = normals_[k] = between / length;
+      const double soft = compliance(edge.stiffness), damped = edge.damping / (edge.stiffness * step_.h);
+      const double drawn = normal.dot((p_[from] - x_[from]) - (p_[to] - x_[to]));
+      const double off = *edge.length - length - soft * edge_multipliers_[chain.edges[k]] - damped * drawn;
+      changes_[k] = off / (1 + damped);
+      const Vec3 moved = moved_by(from, normal);
+      diagonal_[k] = (1 + yielding) * (normal.dot(moved + moved_by(to, normal)) + soft / (1 + damped));
+      if (k > 0) beside_[k] = -normals_[k - 1].dot(moved);
+    }
+    solve_three_diagonals(diagonal_, beside_, changes_);
+    for (std::size_t k = 0; k < count; ++k) {
+      edge_multipliers_[chain.edges[k]] += changes_[k];
+      push_chain(chain.nodes[k], changes_[k] * normals_[k]);
+      push_chain(chain.nodes[k + 1], -changes_[k] * normals_[k]);
+    }
   }
 
   void meet_bend(std::size_t i) {
@@ -188,10 +294,7 @@ class Positions {
 
   void meet_pin(Held& held) {
     Partner& partner = step_.partners[held.partner];
-    Mat3 lever;
-    lever << 0, -held.arm.z(), held.arm.y(), held.arm.z(), 0, -held.arm.x(), -held.arm.y(), held.arm.x(), 0;
-    const Mat3 give =
-        (weight_[held.node] + partner.inverse_mass) * Mat3::Identity() - lever * partner.inverse_inertia * lever;
+    const Mat3 give = weight_[held.node] * Mat3::Identity() + give_of(partner, held.arm);
     const Vec3 change = give.inverse() * (partner.point(held.arm) - p_[held.node]);
     push(held.node, change);
     partner.give(-change, held.arm, step_.h);
@@ -222,6 +325,12 @@ class Positions {
     partner.give(rub * along, contact.arm, step_.h);
   }
 
+  /// A node that something hangs on.
+  struct Load {
+    Held* held = nullptr;
+    Mat3 give = Mat3::Zero();  ///< of both together, 1/kg
+  };
+
   SubStep& step_;
   const SoftSettings& made_;
   std::vector<Vec3>& x_;        ///< at the start
@@ -231,6 +340,10 @@ class Positions {
   std::vector<double> weight_;  ///< inverse masses; 0 of what is led
   std::vector<double> edge_multipliers_, solid_multipliers_, enclosure_multipliers_;
   std::vector<Vec3> bend_multipliers_;
+  std::vector<Chain> chains_;
+  std::vector<Load> loads_;  ///< by node; empty where nothing hangs on any
+  std::vector<Vec3> normals_;
+  std::vector<double> diagonal_, beside_, changes_;
   std::vector<Vec3> gradients_;
 };
 

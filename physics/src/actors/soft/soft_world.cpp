@@ -45,7 +45,10 @@ void require_node(const SoftBody& body, std::uint32_t node) {
 template <class Implementation>
 void enter_pin(SoftBody& body, Implementation& world, SoftPin pin) {
   require_node(body, pin.node);
-  if (!pin.in_place) state::require_finite(pin.point, "point of a pin");
+  if (!pin.in_place) {
+    state::require_finite(pin.point, "point of a pin");
+    flat::require_point(world.settings.plane, pin.point, "the point of a pin");
+  }
   PinState state;
   Vec3& place = body.positions[pin.node];
   if (pin.body == BodyId{}) {
@@ -83,8 +86,8 @@ SoftNotFinite::SoftNotFinite(SoftId which, std::uint32_t node, double when)
 
 SoftId add_soft(World& asked, const SoftSettings& settings) {
   auto& world = soft::Inside::changing(asked);
-  flat::refuse(world.settings.plane, "soft bodies");
   soft::SoftBody body = soft::begun(soft::checked(settings));
+  flat::require_soft(world.settings.plane, *body.made);
   for (const SoftPin& pin : settings.pins) soft::enter_pin(body, world, pin);
   if (world.unused_softs.empty()) {
     world.softs.push_back(std::move(body));
@@ -160,7 +163,8 @@ void apply_impulse(World& world, SoftId id, std::uint32_t node, const Vec3& impu
   soft::SoftBody& body = soft::changing(world, id);
   soft::require_node(body, node);
   state::require_finite(impulse, "impulse");
-  const Vec3 velocity = body.velocities[node] + impulse / body.made->masses[node];
+  const Vec3 borne = flat::in_plane(soft::Inside::of(world).settings.plane, impulse);
+  const Vec3 velocity = body.velocities[node] + borne / body.made->masses[node];
   state::require(state::countable(velocity), "the impulse would make the node faster than 1e30 m/s");
   if (!body.pin_of(node)) body.velocities[node] = velocity;
 }
@@ -183,6 +187,9 @@ void lead_pin(World& world, SoftId id, std::uint32_t node, const Vec3& point, co
                  "node " + std::to_string(node) + " is not pinned to the world: there is nothing to lead");
   state::require_finite(point, "point of a pin");
   state::require_finite(velocity, "velocity of a pin");
+  const WorldPlane plane = soft::Inside::of(world).settings.plane;
+  flat::require_point(plane, point, "the point of a pin");
+  flat::require_point(plane, velocity, "the velocity of a pin");
   state->pin.point = state->target = point;
   state->velocity = velocity;
 }

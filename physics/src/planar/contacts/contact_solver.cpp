@@ -68,6 +68,8 @@ void ContactSolver::fill(const Scene& scene, std::uint32_t k) {
   block.inverse_moment_a[lane] = a.inverse_moment;
   block.inverse_moment_b[lane] = b.inverse_moment;
   const double inverse_mass = a.inverse_mass + b.inverse_mass;
+  const double skin_a = skin_of(a, scene.makeups[meeting.a], meeting.part_a),
+               skin_b = skin_of(b, scene.makeups[meeting.b], meeting.part_b);
   for (int i = 0; i < 2; ++i) {
     PointRow& point = block.point[i];
     const auto n = static_cast<std::size_t>(i);
@@ -79,14 +81,14 @@ void ContactSolver::fill(const Scene& scene, std::uint32_t k) {
     }
     const Vec2 core_a = a.turn * meeting.core_a[n], core_b = b.turn * meeting.core_b[n];
     const double turn_a = cross(core_a, normal), turn_b = cross(core_b, normal);
-    const double slip_a = core_a.dot(normal) + a.skin, slip_b = core_b.dot(normal) - b.skin;
+    const double slip_a = core_a.dot(normal) + skin_a, slip_b = core_b.dot(normal) - skin_b;
     const double closing = normal.dot(a.velocity - b.velocity) + (turn_a * a.spin - turn_b * b.spin);
     given[k].approach = std::max(given[k].approach, closing);
     point.turn_a[lane] = turn_a;
     point.turn_b[lane] = turn_b;
     point.slip_a[lane] = slip_a;
     point.slip_b[lane] = slip_b;
-    point.gap[lane] = normal.dot(apart + (core_b - core_a)) - (a.skin + b.skin);
+    point.gap[lane] = normal.dot(apart + (core_b - core_a)) - (skin_a + skin_b);
     point.mass[lane] = 1 / (inverse_mass + (a.inverse_moment * turn_a * turn_a + b.inverse_moment * turn_b * turn_b));
     point.slip_mass[lane] =
         1 / (inverse_mass + (a.inverse_moment * slip_a * slip_a + b.inverse_moment * slip_b * slip_b));
@@ -161,6 +163,25 @@ void ContactSolver::begin_sub_step(const Scene& scene, double h, int left) {
   }
 }
 
+/// Rows stay as they are through a step: what contacts gave a body in a sub-step they give it in the next to begin
+/// with.
+void ContactSolver::note_given(const Scene& scene) {
+  gifts_.resize(velocities_.size());
+  for (const std::uint32_t i : scene.moving) {
+    const BodyRow &v = velocities_[i], &unpushed = unpushed_[i];
+    gifts_[i] = {v.x - unpushed.x, v.y - unpushed.y, v.turn - unpushed.turn, 0};
+  }
+}
+void ContactSolver::give_again(const Scene& scene) {
+  for (const std::uint32_t i : scene.moving) {
+    BodyRow& v = velocities_[i];
+    const BodyRow& gift = gifts_[i];
+    v.x += gift.x;
+    v.y += gift.y;
+    v.turn += gift.turn;
+  }
+}
+
 /// What was not pushed flies by the mean of its velocities, exactly; the rest goes by what the pushes left.
 void ContactSolver::move(const Scene& scene, double h) {
   for (const std::uint32_t i : scene.moving) {
@@ -216,27 +237,34 @@ void ContactSolver::finish(const Scene& scene) {
 void ContactSolver::solve(Scene scene) {
   const double h = scene.dt / scene.sub_steps;
   const step::Softness softness = step::soft_contacts(scene.push_out_speed, scene.dt, scene.sub_steps, scene.parts);
-  const PassRule soft{softness.rate, softness.speed, softness.firm, 1 - softness.giving, 1 / h, false};
+  PassRule soft{softness.rate, softness.speed, softness.firm, 1 - softness.giving, 1 / h, false};
   const PassRule hard{.inverse_h = 1 / h, .sum_up = true};
   parts_ = scene.parts;
   build(scene);
   JointRows joints(scene.bodies, scene.makeups, scene.joints, h, scene.warmth, scene.parts);
   const Kernels& kernel = kernels();
+  const bool contacts_alone = joints.empty() && rolling_.empty();
   for (int sub_step = 0; sub_step < scene.sub_steps; ++sub_step) {
     begin_sub_step(scene, h, scene.sub_steps - 1 - sub_step);
     if (!bouncy_.empty()) strike(h);
     unpushed_ = velocities_;
     joints.begin_sub_step(displacements_, velocities_);
-    kernel.warm_start(blocks_.data(), blocks_.size(), velocities_.data());
+    if (contacts_alone && sub_step > 0)
+      give_again(scene);
+    else
+      kernel.warm_start(blocks_.data(), blocks_.size(), velocities_.data());
     warm_start_rolling();
     joints.solve(velocities_, true);
     resist_rolling();
+    const bool relaxes = scene.relaxes_each || sub_step + 1 == scene.sub_steps;
+    soft.sum_up = !relaxes;
     kernel.solve(blocks_.data(), blocks_.size(), velocities_.data(), displacements_.data(), soft);
     move(scene, h);
     joints.solve(velocities_, false);
-    kernel.solve(blocks_.data(), blocks_.size(), velocities_.data(), displacements_.data(), hard);
+    if (relaxes) kernel.solve(blocks_.data(), blocks_.size(), velocities_.data(), displacements_.data(), hard);
     resist_rolling();
     joints.end_sub_step();
+    if (contacts_alone) note_given(scene);
   }
   joints.end_step(displacements_);
   joints.keep(scene.kept);

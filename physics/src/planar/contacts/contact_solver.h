@@ -33,13 +33,14 @@ struct Scene {
   double push_out_speed = 0;
   double dt = 0;
   int sub_steps = 1;
-  double warmth = 1;  ///< share of the impulses of the step before with which this one begins
-  double parts = 1;   ///< as many as it fits into the whole step
-  double kept = 1;    ///< how many times its impulses are those that the next one begins with; 0 for those before it
+  bool relaxes_each = true;  ///< each sub-step ends firmly; else the last one alone
+  double warmth = 1;         ///< share of the impulses of the step before with which this one begins
+  double parts = 1;          ///< as many as it fits into the whole step
+  double kept = 1;  ///< how many times its impulses are those that the next one begins with; 0 for those before it
 };
 
 /// Takes bodies through a step: in each sub-step velocities, blows of what rebounds, contacts that give way while
-/// bodies are moved, and once more firmly.
+/// bodies are moved, and, in each or at the end, once more firmly.
 class ContactSolver {
  public:
   void solve(Scene scene);
@@ -80,11 +81,14 @@ class ContactSolver {
   void warm_start_rolling();
   void resist_rolling();
   void move(const Scene& scene, double h);
+  void note_given(const Scene& scene);
+  void give_again(const Scene& scene);
   void store(const Scene& scene);
   void finish(const Scene& scene);
 
   double parts_ = 1;  ///< as many as the step at hand fits into the whole one
   std::vector<BodyRow> velocities_, starts_, unpushed_, displacements_;
+  std::vector<BodyRow> gifts_;  ///< of contacts, in the last sub-step
   std::vector<double> struck_at_;
   std::vector<ContactBlock> blocks_;
   std::vector<std::uint32_t> colors_, places_;

@@ -21,20 +21,41 @@ constexpr double kept_way = 1e-3, kept_turn = 1e-3;
 constexpr double quick = 0.25, quick_of_round = 0.01;
 constexpr int most_advances = 24;
 
-Placed placed(const Body& body, const Makeup& makeup) {
-  return {&makeup.plate, body.center, body.turn};
-}
-Placed later(const Body& body, const Makeup& makeup, const Vec2& way, double share) {
-  if (!body.under_way) return placed(body, makeup);
-  return {&makeup.plate, body.center + share * way, body.turn};
+/// What meets of a body: all of it, or a part.
+struct Side {
+  double size = 0;      ///< from its middle to its farthest point, m; 0 for a half-plane
+  double leverage = 1;  ///< what a turn of the body moves there, in parts of that size and turn; >= 1
+  bool lone = false;    ///< a circle
+};
+
+Side side_of(const Body& body, const Makeup& makeup, std::uint32_t part) {
+  if (!body.compound) return {body.reach, 1, body.lone};
+  const Plate& plate = makeup.plates[part];
+  return {plate.size, plate.reach / plate.size, plate.corners.size() == 1};
 }
 
-bool keeps_its_points(const Meeting& meeting, const Body& a, const Body& b) {
+Placed placed(const Body& body, const Plate& plate) {
+  return {&plate, body.center, body.turn};
+}
+Placed later(const Body& body, const Plate& plate, const Vec2& way, double share) {
+  if (!body.under_way) return placed(body, plate);
+  return {&plate, body.center + share * way, body.turn};
+}
+
+/// Whether two parts are farther apart than that, by the circles around them.
+bool are_far(const Body& a, const Plate& plate_a, const Body& b, const Plate& plate_b, double limit) {
+  if (plate_a.endless || plate_b.endless) return false;
+  const Vec2 apart = (b.center + b.turn * plate_b.middle) - (a.center + a.turn * plate_a.middle);
+  const double far = plate_a.size + plate_b.size + limit;
+  return apart.squaredNorm() > far * far;
+}
+
+bool keeps_its_points(const Meeting& meeting, const Body& a, const Side& side_a, const Body& b, const Side& side_b) {
   if (!meeting.exact || meeting.count == 0) return false;
-  const double way = kept_way * std::min(a.reach, b.reach);
+  const double way = kept_way * std::min(side_a.size, side_b.size);
   if (!((a.turn.back(b.center - a.center) - meeting.apart).squaredNorm() <= way * way)) return false;
   const Turn off = meeting.relative.to(a.turn.to(b.turn));
-  return off.cos > 0 && std::abs(off.sin) <= kept_turn;
+  return off.cos > 0 && std::abs(off.sin) * std::max(side_a.leverage, side_b.leverage) <= kept_turn;
 }
 
 /// Points that were there before begin with the impulses that they had. What none of them is left of is not the
@@ -75,7 +96,10 @@ void adopt(const Found& found, const Body& a, const Turn& turn_a, const Turn& tu
 void World::Implementation::look_at(Meeting& meeting, double dt) {
   const Body &a = bodies[meeting.a], &b = bodies[meeting.b];
   const double travel = a.travel + b.travel;
-  const double close = inner::close * (a.reach > 0 && b.reach > 0 ? std::min(a.reach, b.reach) : a.reach + b.reach);
+  const inner::Side side_a = inner::side_of(a, makeups[meeting.a], meeting.part_a),
+                    side_b = inner::side_of(b, makeups[meeting.b], meeting.part_b);
+  const double smaller = std::min(side_a.size, side_b.size);
+  const double close = inner::close * (smaller > 0 ? smaller : side_a.size + side_b.size);
   const double limit = travel + close;
   if (a.reach > 0 && b.reach > 0) {
     const double far = a.reach + b.reach + limit;
@@ -84,13 +108,19 @@ void World::Implementation::look_at(Meeting& meeting, double dt) {
       return;
     }
   }
-  const bool is_quick = travel > (a.lone || b.lone ? inner::quick_of_round : inner::quick) * std::min(a.least, b.least);
-  if (!(a.lone && b.lone) && !is_quick && inner::keeps_its_points(meeting, a, b)) return;
-  const Makeup &makeup_a = makeups[meeting.a], &makeup_b = makeups[meeting.b];
+  const bool is_round = side_a.lone || side_b.lone;
+  const bool is_quick = travel > (is_round ? inner::quick_of_round : inner::quick) * std::min(a.least, b.least);
+  if (!(side_a.lone && side_b.lone) && !is_quick && inner::keeps_its_points(meeting, a, side_a, b, side_b)) return;
+  const inner::Plate &plate_a = makeups[meeting.a].plates[meeting.part_a],
+                     &plate_b = makeups[meeting.b].plates[meeting.part_b];
+  if ((a.compound || b.compound) && inner::are_far(a, plate_a, b, plate_b, limit)) {
+    meeting.count = 0;
+    return;
+  }
   meeting.apart = a.turn.back(b.center - a.center);
   meeting.relative = a.turn.to(b.turn);
   meeting.exact = true;
-  inner::Found found = inner::find_manifold(inner::placed(a, makeup_a), inner::placed(b, makeup_b), limit);
+  inner::Found found = inner::find_manifold(inner::placed(a, plate_a), inner::placed(b, plate_b), limit);
   if (!is_quick || found.count == 0) {
     inner::adopt(found, a, a.turn, b.turn, meeting);
     return;
@@ -113,8 +143,7 @@ void World::Implementation::look_at(Meeting& meeting, double dt) {
       break;
     }
     share += gap / closing;
-    found =
-        inner::find_manifold(inner::later(a, makeup_a, way_a, share), inner::later(b, makeup_b, way_b, share), limit);
+    found = inner::find_manifold(inner::later(a, plate_a, way_a, share), inner::later(b, plate_b, way_b, share), limit);
     if (found.count == 0) break;
   }
   meeting.exact = share == 0;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "contacts/combine.h"
 
@@ -14,22 +16,26 @@ constexpr double spare = 0.05;
 /// Steps like this one for which a box has room.
 constexpr double foresight = 4;
 
+bool overlap(const Bounds& one, const Bounds& other) {
+  return (one.low.array() <= other.high.array()).all() && (other.low.array() <= one.high.array()).all();
+}
+
 bool may_meet(const Body& body_a, const Makeup& a, const Body& body_b, const Makeup& b) {
   if ((a.groups & b.collides_with) == 0 || (b.groups & a.collides_with) == 0) return false;
   if (a.sensor || b.sensor) return !(a.sensor && b.sensor) && !(a.fixed && b.fixed);
   return body_a.movable || body_b.movable;
 }
 
-Bounds box_around(const Body& body, const Makeup& makeup) {
+Bounds box_around(const Body& body, const Plate& plate) {
   Vec2 low = Vec2::Zero(), high = Vec2::Zero();
   bool first = true;
-  for (const Corner& corner : makeup.plate.corners) {
+  for (const Corner& corner : plate.corners) {
     const Vec2 at = body.turn * corner.at;
     low = first ? at : low.cwiseMin(at);
     high = first ? at : high.cwiseMax(at);
     first = false;
   }
-  const Vec2 room = Vec2::Constant(makeup.plate.skin + body.boxed_room);
+  const Vec2 room = Vec2::Constant(plate.skin + body.boxed_room);
   low += body.center - room;
   high += body.center + room;
   return {Vec3(low.x(), low.y(), 0), Vec3(high.x(), high.y(), 0)};
@@ -40,11 +46,23 @@ Bounds box_around(const Body& body, const Makeup& makeup) {
 void NearPairs::remove(std::uint32_t body) {
   tree_.remove(body);
   std::erase(endless_, body);
+  if (body < part_boxes_.size()) part_boxes_[body].clear();
 }
 
 void NearPairs::box(const Body& body, const Makeup& makeup, std::uint32_t index) {
-  if (!makeup.plate.endless) {
-    tree_.set(index, box_around(body, makeup));
+  if (!makeup.endless()) {
+    Bounds all = box_around(body, makeup.plates[0]);
+    if (body.compound) {
+      part_boxes_.resize(std::max<std::size_t>(part_boxes_.size(), index + std::size_t{1}));
+      std::vector<Bounds>& boxes = part_boxes_[index];
+      boxes.clear();
+      for (const Plate& plate : makeup.plates) {
+        boxes.push_back(box_around(body, plate));
+        all.low = all.low.cwiseMin(boxes.back().low);
+        all.high = all.high.cwiseMax(boxes.back().high);
+      }
+    }
+    tree_.set(index, all);
     return;
   }
   const auto place = std::lower_bound(endless_.begin(), endless_.end(), index);
@@ -54,6 +72,7 @@ void NearPairs::box(const Body& body, const Makeup& makeup, std::uint32_t index)
 void NearPairs::restore(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups) {
   tree_ = {};
   endless_.clear();
+  part_boxes_.clear();
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     if (!bodies[i].alive || !bodies[i].boxed) continue;
     Body then = bodies[i];
@@ -73,15 +92,15 @@ void NearPairs::look_around(std::uint32_t index, const std::vector<Body>& bodies
     if (other == index || (is_renewed_[other] && other < index)) return;
     if (may_meet(bodies[index], makeup, bodies[other], makeups[other])) seen_.push_back(other);
   };
-  if (makeup.plate.endless) {
+  if (makeup.endless()) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
-      if (bodies[i].alive && !makeups[i].plate.endless) see(i);
+      if (bodies[i].alive && !makeups[i].endless()) see(i);
   } else if (counts_[index] >= most) {
     tree_.visit_open(tree_.of(index), see);
   } else {
     tree_.visit(tree_.of(index), see);
   }
-  if (!makeup.plate.endless)
+  if (!makeup.endless())
     for (const std::uint32_t other : endless_) see(other);
   std::sort(seen_.begin(), seen_.end());
   for (const std::uint32_t other : seen_) {
@@ -95,8 +114,25 @@ void NearPairs::look_around(std::uint32_t index, const std::vector<Body>& bodies
           tree_.close(one);
         }
     }
-    fresh_.push_back(pair);
+    meet_parts(pair, makeups);
   }
+}
+
+void NearPairs::meet_parts(const Pair& pair, const std::vector<Makeup>& makeups) {
+  const auto [a, b] = pair;
+  const auto parts_a = static_cast<std::uint32_t>(makeups[a].plates.size());
+  const auto parts_b = static_cast<std::uint32_t>(makeups[b].plates.size());
+  if (parts_a == 1 && parts_b == 1) {
+    fresh_.push_back({a, b, 0, 0});
+    return;
+  }
+  const auto box_of = [&](std::uint32_t body, std::uint32_t parts, std::uint32_t part) -> const Bounds& {
+    return parts > 1 ? part_boxes_[body][part] : tree_.of(body);
+  };
+  const bool no_end = makeups[a].endless() || makeups[b].endless();
+  for (std::uint32_t i = 0; i < parts_a; ++i)
+    for (std::uint32_t k = 0; k < parts_b; ++k)
+      if (no_end || overlap(box_of(a, parts_a, i), box_of(b, parts_b, k))) fresh_.push_back({a, b, i, k});
 }
 
 void NearPairs::merge(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups,
@@ -107,7 +143,8 @@ void NearPairs::merge(const std::vector<Body>& bodies, const std::vector<Makeup>
   std::size_t next = 0;
   const auto add_fresh = [&] {
     Meeting meeting;
-    std::tie(meeting.a, meeting.b) = fresh_[next++];
+    const Encounter& its = fresh_[next++];
+    std::tie(meeting.a, meeting.b, meeting.part_a, meeting.part_b) = std::tie(its.a, its.b, its.part_a, its.part_b);
     const Makeup &a = makeups[meeting.a], &b = makeups[meeting.b];
     meeting.friction = contacts::combined_friction(a.friction, a.friction_combine, b.friction, b.friction_combine);
     meeting.restitution =
@@ -118,9 +155,9 @@ void NearPairs::merge(const std::vector<Body>& bodies, const std::vector<Makeup>
   };
   for (const Meeting& meeting : meetings) {
     if (!bodies[meeting.a].alive || !bodies[meeting.b].alive) continue;
-    const Pair pair(meeting.a, meeting.b);
-    while (next < fresh_.size() && fresh_[next] < pair) add_fresh();
-    const bool again = next < fresh_.size() && fresh_[next] == pair;
+    const Encounter its = encounter_of(meeting);
+    while (next < fresh_.size() && fresh_[next] < its) add_fresh();
+    const bool again = next < fresh_.size() && fresh_[next] == its;
     if (again) ++next;
     if (again || !(is_renewed_[meeting.a] || is_renewed_[meeting.b])) merged_.push_back(meeting);
   }
@@ -136,7 +173,7 @@ void NearPairs::update(std::vector<Body>& bodies, const std::vector<Makeup>& mak
     if (!body.alive) continue;
     const Makeup& makeup = makeups[i];
     if (body.boxed) {
-      if (!body.under_way || makeup.plate.endless) continue;
+      if (!body.under_way || makeup.endless()) continue;
       const double turned = std::min(2.0, std::abs(body.angle - body.boxed_angle)) * body.reach;
       const double needed = (body.center - body.boxed_center).norm() + turned + body.travel + close * body.reach;
       if (needed <= body.boxed_room) continue;
@@ -154,8 +191,12 @@ void NearPairs::update(std::vector<Body>& bodies, const std::vector<Makeup>& mak
   for (const std::uint32_t i : renewed_) is_renewed_[i] = 1;
   counts_.assign(bodies.size(), 0);
   closed_.assign(bodies.size(), 0);
+  Pair counted(0, 0);
   for (const Meeting& meeting : meetings) {
     if (is_renewed_[meeting.a] || is_renewed_[meeting.b]) continue;
+    // Parts of one pair are one.
+    const Pair pair(meeting.a, meeting.b);
+    if (std::exchange(counted, pair) == pair) continue;
     if (!bodies[meeting.a].movable || !bodies[meeting.b].movable) continue;
     ++counts_[meeting.a];
     ++counts_[meeting.b];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -13,6 +14,16 @@ namespace tweenfall::planar::inner {
 constexpr double close = 0.02;
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< a < b
+
+/// What a meeting is of.
+struct Encounter {
+  std::uint32_t a = 0, b = 0;  ///< a < b
+  std::uint32_t part_a = 0, part_b = 0;
+  auto operator<=>(const Encounter&) const = default;
+};
+[[nodiscard]] inline Encounter encounter_of(const Meeting& meeting) {
+  return {meeting.a, meeting.b, meeting.part_a, meeting.part_b};
+}
 
 /// Which bodies are near each other. Each has a box with room to spare in a tree, and is looked around for again only
 /// when it may have left it.
@@ -34,15 +45,18 @@ class NearPairs {
   void box(const Body& body, const Makeup& makeup, std::uint32_t index);
   void look_around(std::uint32_t index, const std::vector<Body>& bodies, const std::vector<Makeup>& makeups,
                    const std::vector<Pair>& apart);
+  /// Those parts of two bodies, as both are boxed, whose boxes meet.
+  void meet_parts(const Pair& pair, const std::vector<Makeup>& makeups);
   void merge(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups, std::vector<Meeting>& meetings);
 
   pairs::BoundsTree tree_;
-  std::vector<std::uint32_t> endless_;  ///< sorted
+  std::vector<std::uint32_t> endless_;           ///< sorted
+  std::vector<std::vector<Bounds>> part_boxes_;  ///< by body; of compounds, each with the room that their box has
   std::vector<std::uint32_t> renewed_, seen_;
   std::vector<char> is_renewed_;
   std::vector<std::uint32_t> counts_;  ///< of pairs of two that move by themselves
   std::vector<char> closed_;
-  std::vector<Pair> fresh_;
+  std::vector<Encounter> fresh_;
   std::vector<Meeting> merged_;
 };
 

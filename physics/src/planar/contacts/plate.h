@@ -18,11 +18,13 @@ struct Plate {
   std::vector<Corner> corners;  ///< counterclockwise; one for a circle, two for a capsule; of a half-plane its line
   double skin = 0;              ///< m
   double reach = 0;             ///< farthest point from the center of mass, m
+  Vec2 middle{0, 0};            ///< its own, from the center of mass, m
+  double size = 0;              ///< farthest point from there, m
   double least = 0;             ///< about how thin it is, m
   bool endless = false;         ///< a half-plane
 };
 
-/// @param center  of mass, on the node
-[[nodiscard]] Plate plate_of(const Shape& shape, const Vec2& center);
+/// One for each part. @param center  of mass, on the node
+[[nodiscard]] std::vector<Plate> plates_of(const Shape& shape, const Vec2& center);
 
 }  // namespace tweenfall::planar::inner

@@ -15,15 +15,19 @@ void World::Implementation::report(Meeting& meeting, const inner::Given* given) 
   Contact& contact = contacts.emplace_back();
   contact.a = handle(meeting.a);
   contact.b = handle(meeting.b);
+  contact.part_a = meeting.part_a;
+  contact.part_b = meeting.part_b;
   const Vec2 normal = a.turn * meeting.normal, tangent = inner::quarter(normal), apart = b.center - a.center;
   contact.manifold.normal = normal;
   contact.manifold.count = meeting.count;
   bool touches = false;
   double sideways = 0;
+  const double skin_a = inner::skin_of(a, makeups[meeting.a], meeting.part_a),
+               skin_b = inner::skin_of(b, makeups[meeting.b], meeting.part_b);
   for (int i = 0; i < meeting.count; ++i) {
     const auto n = static_cast<std::size_t>(i);
-    const Vec2 on_a = a.turn * meeting.core_a[n] + a.skin * normal;
-    const Vec2 on_b = apart + b.turn * meeting.core_b[n] - b.skin * normal;
+    const Vec2 on_a = a.turn * meeting.core_a[n] + skin_a * normal;
+    const Vec2 on_b = apart + b.turn * meeting.core_b[n] - skin_b * normal;
     const double gap = normal.dot(on_b - on_a);
     contact.manifold.points[n] = {a.center + 0.5 * (on_a + on_b), -gap, meeting.feature[n]};
     touches = touches || gap <= 0;
@@ -62,6 +66,8 @@ void World::Implementation::report() {
   ended.clear();
   auto now = contacts.begin();
   for (const Contact& contact : contacts_before) {
+    // Of several parts that touched, all have let go.
+    if (!ended.empty() && ended.back().a == contact.a && ended.back().b == contact.b) continue;
     const auto key = [](const Contact& its) { return std::pair(its.a.index, its.b.index); };
     while (now != contacts.end() && key(*now) < key(contact)) ++now;
     if (now == contacts.end() || now->a != contact.a || now->b != contact.b) ended.push_back({contact.a, contact.b});
@@ -74,10 +80,11 @@ void World::Implementation::sense() {
   before.swap(overlaps);
   for (Meeting& meeting : meetings) {
     if (!meeting.sensing) continue;
-    const auto placed = [this](std::uint32_t index) {
-      return inner::Placed{&makeups[index].plate, bodies[index].center, bodies[index].turn};
+    const auto placed = [this](std::uint32_t index, std::uint32_t part) {
+      return inner::Placed{&makeups[index].plates[part], bodies[index].center, bodies[index].turn};
     };
-    if (inner::find_manifold(placed(meeting.a), placed(meeting.b), 0).count == 0) continue;
+    if (inner::find_manifold(placed(meeting.a, meeting.part_a), placed(meeting.b, meeting.part_b), 0).count == 0)
+      continue;
     const bool first = makeups[meeting.a].sensor;
     overlaps.push_back({handle(first ? meeting.a : meeting.b), handle(first ? meeting.b : meeting.a), false});
   }
@@ -86,6 +93,9 @@ void World::Implementation::sense() {
   };
   const auto order = [&](const SensorOverlap& one, const SensorOverlap& other) { return key(one) < key(other); };
   std::sort(overlaps.begin(), overlaps.end(), order);
+  // Whichever of their parts do.
+  const auto same = [&](const SensorOverlap& one, const SensorOverlap& other) { return key(one) == key(other); };
+  overlaps.erase(std::unique(overlaps.begin(), overlaps.end(), same), overlaps.end());
   for (SensorOverlap& overlap : overlaps)
     overlap.began = !std::binary_search(before.begin(), before.end(), overlap, order);
 }

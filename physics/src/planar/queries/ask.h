@@ -5,6 +5,7 @@
 #include <tweenfall/physics/planar_query.h>
 
 #include <optional>
+#include <vector>
 
 #include "planar/queries/difference.h"
 
@@ -17,14 +18,22 @@ struct Ray {
 
 // These throw std::invalid_argument that tells what is wrong.
 [[nodiscard]] Ray checked_ray(const Vec2& from, const Vec2& direction, double length);
-[[nodiscard]] Plate checked_plate(const Shape& shape, const Place& place);  ///< about the node
+[[nodiscard]] std::vector<Plate> checked_plates(const Shape& shape, const Place& place);  ///< about the node
 void demand_end(const Shape& shape);
 
-[[nodiscard]] Plate point_plate();
+/// All plates of a shape, where it is.
+struct Figure {
+  const std::vector<Plate>& plates;
+  Vec2 center{0, 0};
+  Turn turn;
 
-[[nodiscard]] std::optional<RayHit> hit_by(const Ray& ray, const Placed& placed);
-[[nodiscard]] std::optional<ShapeHit> hit_by(const Placed& moving, const Vec2& displacement, const Placed& placed);
-[[nodiscard]] Separation separation_of(const Placed& a, const Placed& b);
-[[nodiscard]] Separation separation_of(const Vec2& point, const Placed& b);
+  [[nodiscard]] Placed placed(const Plate& plate) const { return {&plate, center, turn}; }
+  [[nodiscard]] bool endless() const { return plates[0].endless; }
+};
+
+[[nodiscard]] std::optional<RayHit> hit_by(const Ray& ray, const Figure& figure);
+[[nodiscard]] std::optional<ShapeHit> hit_by(const Figure& moving, const Vec2& displacement, const Figure& figure);
+[[nodiscard]] Separation separation_of(const Figure& a, const Figure& b);
+[[nodiscard]] Separation separation_of(const Vec2& point, const Figure& b);
 
 }  // namespace tweenfall::planar::inner

@@ -13,8 +13,8 @@ namespace {
 /// Parts of a size, and of a coordinate: a gap that is none.
 constexpr double met_size = 1e-13, met_place = 1e-15;
 
-Placed on_node(const Plate& plate, const Place& place) {
-  return {&plate, place.position, Turn::of(place.angle)};
+Figure on_node(const std::vector<Plate>& plates, const Place& place) {
+  return {plates, place.position, Turn::of(place.angle)};
 }
 
 void demand_place(const Place& place) {
@@ -26,31 +26,10 @@ bool is_endless(const Shape& shape) {
   return std::holds_alternative<HalfPlane>(shape.outline);
 }
 
-}  // namespace
-
-Plate checked_plate(const Shape& shape, const Place& place) {
-  validate(shape);
-  demand_place(place);
-  return plate_of(shape, Vec2(0, 0));
-}
-
-void demand_end(const Shape& shape) {
-  demand(!is_endless(shape), "a half-plane has no end: ask with a shape that has one");
-}
-
 Plate point_plate() {
   Plate plate;
   plate.corners.push_back({Vec2(0, 0), Vec2(0, 0)});
   return plate;
-}
-
-Ray checked_ray(const Vec2& from, const Vec2& direction, double length) {
-  demand_numbers(from, "start of a ray");
-  demand_numbers(direction, "direction of a ray");
-  const double size = direction.cwiseAbs().maxCoeff();
-  demand(size > 0, "direction of a ray must be longer than 0");
-  demand(length >= 0, "length of a ray must not be negative");
-  return {from, Vec2((direction / size).normalized()), length};
 }
 
 std::optional<RayHit> hit_by(const Ray& ray, const Placed& placed) {
@@ -96,9 +75,61 @@ Separation separation_of(const Placed& a, const Placed& b) {
   return {0, common, common};
 }
 
-Separation separation_of(const Vec2& point, const Placed& b) {
-  const Plate dot = point_plate();
-  const Separation apart = separation_of({&dot, point, Turn{}}, b);
+}  // namespace
+
+std::vector<Plate> checked_plates(const Shape& shape, const Place& place) {
+  validate(shape);
+  demand_place(place);
+  return plates_of(shape, Vec2(0, 0));
+}
+
+void demand_end(const Shape& shape) {
+  demand(!is_endless(shape), "a half-plane has no end: ask with a shape that has one");
+}
+
+Ray checked_ray(const Vec2& from, const Vec2& direction, double length) {
+  demand_numbers(from, "start of a ray");
+  demand_numbers(direction, "direction of a ray");
+  const double size = direction.cwiseAbs().maxCoeff();
+  demand(size > 0, "direction of a ray must be longer than 0");
+  demand(length >= 0, "length of a ray must not be negative");
+  return {from, Vec2((direction / size).normalized()), length};
+}
+
+std::optional<RayHit> hit_by(const Ray& ray, const Figure& figure) {
+  std::optional<RayHit> first;
+  for (const Plate& plate : figure.plates)
+    if (const std::optional<RayHit> hit = hit_by(ray, figure.placed(plate));
+        hit && (!first || hit->distance < first->distance))
+      first = hit;
+  return first;
+}
+
+/// Of parts that overlap from the start the first is told.
+std::optional<ShapeHit> hit_by(const Figure& moving, const Vec2& displacement, const Figure& figure) {
+  std::optional<ShapeHit> first;
+  for (const Plate& own : moving.plates)
+    for (const Plate& plate : figure.plates) {
+      const std::optional<ShapeHit> hit = hit_by(moving.placed(own), displacement, figure.placed(plate));
+      if (!hit || (first && (first->inside || (!hit->inside && hit->fraction >= first->fraction)))) continue;
+      first = hit;
+    }
+  return first;
+}
+
+Separation separation_of(const Figure& a, const Figure& b) {
+  std::optional<Separation> nearest;
+  for (const Plate& own : a.plates)
+    for (const Plate& plate : b.plates)
+      if (const Separation apart = separation_of(a.placed(own), b.placed(plate));
+          !nearest || apart.distance < nearest->distance)
+        nearest = apart;
+  return *nearest;
+}
+
+Separation separation_of(const Vec2& point, const Figure& b) {
+  const std::vector<Plate> dot{point_plate()};
+  const Separation apart = separation_of(Figure{dot, point, Turn{}}, b);
   return apart.distance > 0 ? apart : Separation{0, point, point};
 }
 
@@ -106,20 +137,21 @@ Separation separation_of(const Vec2& point, const Placed& b) {
 
 std::optional<RayHit> cast_ray(const Shape& shape, const Place& place, const Vec2& from, const Vec2& direction,
                                double length) {
-  const inner::Plate plate = inner::checked_plate(shape, place);
-  return inner::hit_by(inner::checked_ray(from, direction, length), inner::on_node(plate, place));
+  const std::vector<inner::Plate> plates = inner::checked_plates(shape, place);
+  return inner::hit_by(inner::checked_ray(from, direction, length), inner::on_node(plates, place));
 }
 
 std::optional<ShapeHit> cast_shape(const Shape& moving, const Place& start, const Vec2& displacement,
                                    const Shape& shape, const Place& place) {
   inner::demand_numbers(displacement, "a displacement");
-  const inner::Plate one = inner::checked_plate(moving, start), other = inner::checked_plate(shape, place);
+  const std::vector<inner::Plate> one = inner::checked_plates(moving, start),
+                                  other = inner::checked_plates(shape, place);
   if (inner::is_endless(moving)) inner::demand_end(shape);
   return inner::hit_by(inner::on_node(one, start), displacement, inner::on_node(other, place));
 }
 
 Separation distance(const Shape& a, const Place& place_a, const Shape& b, const Place& place_b) {
-  const inner::Plate one = inner::checked_plate(a, place_a), other = inner::checked_plate(b, place_b);
+  const std::vector<inner::Plate> one = inner::checked_plates(a, place_a), other = inner::checked_plates(b, place_b);
   if (inner::is_endless(a)) inner::demand_end(b);
   return inner::separation_of(inner::on_node(one, place_a), inner::on_node(other, place_b));
 }
@@ -130,8 +162,8 @@ bool overlapping(const Shape& a, const Place& place_a, const Shape& b, const Pla
 
 Vec2 closest_point(const Shape& shape, const Place& place, const Vec2& point) {
   inner::demand_numbers(point, "a point");
-  const inner::Plate plate = inner::checked_plate(shape, place);
-  return inner::separation_of(point, inner::on_node(plate, place)).on_b;
+  const std::vector<inner::Plate> plates = inner::checked_plates(shape, place);
+  return inner::separation_of(point, inner::on_node(plates, place)).on_b;
 }
 
 }  // namespace tweenfall::planar

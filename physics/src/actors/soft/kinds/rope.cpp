@@ -26,10 +26,10 @@ double turn_of_links(int links, double ends_over_link) {
 }
 
 /// Down, as far as that is across the rope.
-Vec3 sag_of(const Vec3& along) {
-  const Vec3 down = Vec3(0, -1, 0) - along * along.dot(Vec3(0, -1, 0));
-  if (down.norm() > 1e-6) return down.normalized();
-  return (Vec3(1, 0, 0) - along * along.x()).normalized();
+Vec3 sag_of(const Vec3& along, const Vec3& down) {
+  const auto across = [&along](const Vec3& way) -> Vec3 { return way - along * along.dot(way); };
+  if (across(down).norm() > 1e-6) return across(down).normalized();
+  return across(std::abs(along.x()) < 0.9 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)).normalized();
 }
 
 }  // namespace
@@ -45,6 +45,8 @@ SoftSettings rope(const RopeSettings& settings) {
   const double distance = between.norm();
   require(distance >= 1e-9, "the ends of a rope must not be at one place");
   state::require_amount(settings.slack, "slack of a rope");
+  state::require_finite(settings.down, "the way down of a rope");
+  require(settings.down.norm() >= 1e-9, "the way down of a rope must be longer than 0");
   require(settings.slack == 0 || settings.links > 1, "a rope of one link cannot have slack");
   require(settings.slack <= 1000, "slack of a rope must be at most 1000, not " + number_text(settings.slack));
   require(settings.mass >= state::smallest && settings.mass <= state::largest,
@@ -57,7 +59,7 @@ SoftSettings rope(const RopeSettings& settings) {
   SoftSettings made;
   const auto links = static_cast<std::size_t>(settings.links);
   const double count = settings.links, length = distance * (1 + settings.slack), link = length / count;
-  const Vec3 along = between / distance, sag = soft::sag_of(along);
+  const Vec3 along = between / distance, sag = soft::sag_of(along, settings.down.normalized());
   const double turn = settings.slack > 0 ? soft::turn_of_links(settings.links, distance / link) : 0;
   Vec3 place = settings.from;
   for (std::size_t i = 0; i <= links; ++i) {

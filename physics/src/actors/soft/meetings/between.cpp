@@ -4,8 +4,6 @@
 #include <cmath>
 #include <optional>
 
-#include "collision/collide_pairs.h"
-
 namespace tweenfall::soft {
 
 namespace {
@@ -101,9 +99,9 @@ class Meeter {
   }
 
   /// The ball of a node at the place of the edge or triangle that comes nearest to the body, and how it meets that.
-  [[nodiscard]] std::optional<Manifold> nearest(const Shape& shape, const shapes::Placed& placed, double reach,
+  [[nodiscard]] std::optional<Manifold> nearest(const Near& near, const Pose& node, double reach,
                                                 Between& between) const {
-    const Shape ball{Sphere{made_.radius}, {}};
+    const state::Body& rigid = bodies_[step_.partners[near.partner].body];
     for (std::size_t k = 0; k < between.count; ++k) between.share[k] = 1.0 / static_cast<double>(between.count);
     const auto& n = between.nodes;
     std::optional<Manifold> best;
@@ -111,7 +109,7 @@ class Meeter {
     Between where = between;
     for (int look = 0; look < looks; ++look) {
       const Vec3 middle = at(where, x_);
-      const Manifold found = collision::collide(shape, placed, ball, {middle, Mat3::Identity()}, reach, reach);
+      const Manifold found = near.touch(rigid, node, middle, made_.radius, reach);
       if (found.count == 0) break;
       const ContactPoint& point = found.points[0];
       if (!best || point.penetration > deepest) {
@@ -136,12 +134,11 @@ class Meeter {
     const state::Body& rigid = bodies_[partner.body];
     const Vec3 center = partner.now.center + partner.moved;
     const Quat rotation = partner.now.rotation;
-    const shapes::Placed placed =
-        shapes::place(rigid.shape(), {center - rotation * rigid.mass().center, rotation, Vec3(1, 1, 1)});
+    const Pose node{center - rotation * rigid.mass().center, rotation, Vec3(1, 1, 1)};
     double reach = made_.radius;
     for (std::size_t k = 1; k < between.count; ++k)
       reach = std::max(reach, (x_[between.nodes[k]] - x_[between.nodes[0]]).norm());
-    const std::optional<Manifold> found = nearest(rigid.shape(), placed, reach, between);
+    const std::optional<Manifold> found = nearest(near, node, reach, between);
     if (!found) return false;
     const Vec3 normal = found->normal;
     const ContactPoint& point = found->points[0];

@@ -25,8 +25,14 @@ double swing(const Place& before, const Place& now, double arm) {
 
 }  // namespace
 
+Manifold Near::touch(const state::Body& rigid, const Pose& node, const Vec3& ball, double radius, double reach) const {
+  if (section) return section->touch(node, ball, radius, reach);
+  return collision::collide(rigid.shape(), shapes::place(rigid.shape(), node), Shape{Sphere{radius}, {}},
+                            {ball, Mat3::Identity()}, reach, reach);
+}
+
 std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>& bodies, Partners& partners,
-                            const Vec3& gravity, double dt) {
+                            const WorldSettings& settings, double dt) {
   const SoftSettings& made = *body.made;
   std::vector<Near> near;
   if (!made.collide) return near;
@@ -37,7 +43,7 @@ std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>
     all.high = all.high.cwiseMax(body.positions[i]);
     fastest = std::max(fastest, body.velocities[i].norm());
   }
-  const double reach = 2 * dt * (fastest + dt * gravity.norm()) + 2 * made.radius;
+  const double reach = 2 * dt * (fastest + dt * settings.gravity.norm()) + 2 * made.radius;
   all.low -= Vec3::Constant(reach);
   all.high += Vec3::Constant(reach);
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -50,6 +56,8 @@ std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>
     if (!overlap(all, around)) continue;
     near.push_back({partners.number_of(i), around, std::sqrt(made.friction * other.makeup->friction),
                     may_slip_between(made, other.shape())});
+    if (settings.plane != WorldPlane::none)
+      near.back().section = std::make_shared<const flat::Section>(other.shape(), settings.plane);
   }
   return near;
 }
@@ -58,12 +66,11 @@ void find_contacts(const SoftBody& body, const std::vector<Near>& near, const st
                    const Partners& partners, const Vec3& gravity, double push_out_speed, double h,
                    std::vector<NodeContact>& contacts) {
   const SoftSettings& made = *body.made;
-  const Shape ball{Sphere{made.radius}, {}};
   contacts.clear();
   for (const Near& other : near) {
     const Partner& partner = partners[other.partner];
     const state::Body& rigid = bodies[partner.body];
-    const shapes::Placed placed = shapes::place(rigid.shape(), pose_of(rigid, partner.before));
+    const Pose was = pose_of(rigid, partner.before);
     const Quat turned = partner.now.rotation * partner.before.rotation.conjugate();
     const Vec3 went = partner.now.center - partner.before.center;
     const double way = went.norm();
@@ -77,7 +84,7 @@ void find_contacts(const SoftBody& body, const std::vector<Near>& near, const st
       if (((at - other.around.low).array() < -beyond).any() || ((other.around.high - at).array() < -beyond).any())
         continue;
       if (body.pin_of(node)) continue;
-      const Manifold manifold = collision::collide(rigid.shape(), placed, ball, {at, Mat3::Identity()}, reach, reach);
+      const Manifold manifold = other.touch(rigid, was, at, made.radius, reach);
       if (manifold.count == 0) continue;
       int deepest = 0;
       for (int i = 1; i < manifold.count; ++i)

@@ -3,6 +3,8 @@
 #include <tweenfall/curves/hermite.h>
 #include <tweenfall/curves/rotation.h>
 
+#include "flat/axes.h"
+
 namespace tweenfall::soft {
 
 namespace {
@@ -54,6 +56,13 @@ std::uint32_t Partners::number_of(std::uint32_t index) {
     partner.inverse_mass = 1 / partner.mass;
     partner.inertia = body.world_inertia(body.motion.pose.rotation);
     partner.inverse_inertia = body.world_inverse_inertia(body.motion.pose.rotation);
+    if (plane_ != WorldPlane::none) {
+      // All that acts turns it about the normal alone.
+      const int normal = flat::Axes::of(plane_).normal;
+      const double moment = body.mass().inertia(normal, normal);
+      partner.inertia = moment * Mat3::Identity();
+      partner.inverse_inertia = (1 / moment) * Mat3::Identity();
+    }
     const Vec3 mean = 0.5 * (partner.start.twist.linear + partner.end.twist.linear);
     const Vec3 off = partner.end.center - partner.start.center - dt_ * mean;
     const double gained = dt_ * (partner.end.twist.linear - partner.start.twist.linear).norm();

@@ -50,8 +50,8 @@ struct Partner {
 class Partners {
  public:
   /// @param starts  by body, as they were before the step
-  Partners(std::vector<state::Body>& bodies, const std::vector<Place>& starts, double dt)
-      : bodies_(bodies), starts_(starts), dt_(dt) {}
+  Partners(std::vector<state::Body>& bodies, const std::vector<Place>& starts, WorldPlane plane, double dt)
+      : bodies_(bodies), starts_(starts), plane_(plane), dt_(dt) {}
 
   [[nodiscard]] std::uint32_t number_of(std::uint32_t body);
   [[nodiscard]] Partner& operator[](std::uint32_t number) { return all_[number]; }
@@ -70,6 +70,7 @@ class Partners {
  private:
   std::vector<state::Body>& bodies_;
   const std::vector<Place>& starts_;
+  WorldPlane plane_;
   double dt_;
   std::vector<Partner> all_;
   std::vector<std::uint32_t> numbers_;  ///< by body, plus 1

@@ -1,0 +1,67 @@
+#include "planar/contacts/depth.h"
+
+#include <algorithm>
+
+namespace tweenfall::planar::inner {
+
+namespace {
+
+/// Few contacts can afford that a high stack stands; a heap of many sinks as one in space does.
+constexpr int fewest = 4, most_of_few = 24, most_of_many = 10;
+constexpr std::size_t few = 128;
+/// From this on there are as many as there may be.
+constexpr std::uint32_t deep_of_few = 20, deep_of_many = 50;
+
+}  // namespace
+
+std::uint32_t Depth::deepest(const std::vector<Body>& bodies, const std::vector<Meeting>& meetings,
+                             std::span<const std::uint32_t> active) {
+  // Meetings are sorted by their bodies, which mostly were added from the bottom to the top or the other way around.
+  constexpr int most_passes = 12;
+  constexpr std::uint32_t nobody = 0xfffffffe;
+  levels_.resize(bodies.size());
+  bool pushed = false;
+  for (const std::uint32_t k : active)
+    for (const std::uint32_t end : {meetings[k].a, meetings[k].b}) {
+      const Body& body = bodies[end];
+      // What is pushed from the side may be carried by the whole row, however near the floor is.
+      pushed = pushed || (!body.movable && body.under_way);
+      levels_[end] = !body.movable || body.asleep ? 0 : nobody;
+    }
+  bool changed = !pushed;
+  const auto lower = [&](std::uint32_t level, std::uint32_t other) {
+    if (levels_[level] <= levels_[other] + 1) return;
+    levels_[level] = levels_[other] + 1;
+    changed = true;
+  };
+  for (int pass = 0; pass < most_passes && changed; ++pass) {
+    changed = false;
+    for (std::size_t n = 0; n < active.size(); ++n) {
+      const Meeting& meeting = meetings[active[pass % 2 == 0 ? n : active.size() - 1 - n]];
+      lower(meeting.a, meeting.b);
+      lower(meeting.b, meeting.a);
+    }
+  }
+  std::uint32_t deepest = 0, movable = 0;
+  for (const std::uint32_t k : active)
+    for (const std::uint32_t end : {meetings[k].a, meetings[k].b}) {
+      if (levels_[end] == 0) continue;
+      if (levels_[end] != nobody) deepest = std::max(deepest, levels_[end]);
+      // Each is counted once for each of its contacts: that is no less than they are.
+      ++movable;
+    }
+  return changed || pushed ? movable : deepest;
+}
+
+Effort Depth::effort_for(const std::vector<Body>& bodies, const std::vector<Meeting>& meetings,
+                         std::span<const std::uint32_t> active) {
+  const bool many = active.size() > few;
+  const std::uint32_t deep = many ? deep_of_many : deep_of_few;
+  const auto more = static_cast<std::uint32_t>((many ? most_of_many : most_of_few) - fewest);
+  const std::uint32_t depth = std::min(deepest(bodies, meetings, active), deep);
+  // One contact over another is not piled up.
+  if (depth < 2) return {fewest, true};
+  return {fewest + static_cast<int>((depth * more + deep - 1) / deep), !many};
+}
+
+}  // namespace tweenfall::planar::inner
