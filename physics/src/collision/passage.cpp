@@ -2,7 +2,10 @@
 
 #include <tweenfall/physics/contact.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "collision/surfaces/surface.h"
 #include "shapes/placed.h"
@@ -13,11 +16,6 @@ namespace {
 
 double support_along(const Passage& passage, const Vec3& direction) {
   return shapes::support_along(passage.course.shape->solid, passage.placed.axes, direction);
-}
-
-bool is_polyhedron(const Passage& passage) {
-  const Solid& solid = passage.course.shape->solid;
-  return std::holds_alternative<Box>(solid) || std::holds_alternative<Hull>(solid);
 }
 
 /// The face whose normal this is, but for rounding; none when there is no such.
@@ -56,7 +54,8 @@ Passage passage_of_part(const Passage& whole, const Shape& part) {
 }
 
 Apart apart_along(const Passage& a, const Passage& b, const Vec3& normal) {
-  if (!is_polyhedron(a) || !is_polyhedron(b)) return {Apart::Frame::a, a.placed.axes.transpose() * normal};
+  if (!is_polyhedron(a.course.shape->solid) || !is_polyhedron(b.course.shape->solid))
+    return {Apart::Frame::a, a.placed.axes.transpose() * normal};
   if (const std::optional<Vec3> face = face_along(a, normal)) return {Apart::Frame::a, *face};
   if (const std::optional<Vec3> face = face_along(b, -normal)) return {Apart::Frame::b, -*face};
   return {};
@@ -64,6 +63,28 @@ Apart apart_along(const Passage& a, const Passage& b, const Vec3& normal) {
 
 double gap_along(const Passage& a, const Passage& b, const Vec3& direction) {
   return direction.dot(b.placed.center - a.placed.center) - support_along(a, direction) - support_along(b, -direction);
+}
+
+int corners_within(const Passage& passage, const Vec3& direction, double depth) {
+  const Vec3 local = passage.placed.axes.transpose() * direction;
+  if (const auto* box = std::get_if<Box>(&passage.course.shape->solid)) {
+    const Vec3 deep = 2 * local.cwiseAbs().cwiseProduct(box->half_extents);
+    int count = 0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+      double below = 0;
+      for (int i = 0; i < 3; ++i)
+        if ((corner >> static_cast<unsigned>(i) & 1u) != 0) below += deep[i];
+      if (below <= depth) ++count;
+    }
+    return count;
+  }
+  const auto* hull = std::get_if<Hull>(&passage.course.shape->solid);
+  if (!hull) return std::numeric_limits<int>::max();
+  const std::span<const Vec3> vertices = hull->convex.vertices();
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Vec3& vertex : vertices) most = std::max(most, local.dot(vertex));
+  return static_cast<int>(std::count_if(vertices.begin(), vertices.end(),
+                                        [&](const Vec3& vertex) { return local.dot(vertex) >= most - depth; }));
 }
 
 bool stay_apart(const Passage& a, const Passage& b, const Vec3& direction, double gap, double near_enough, double dt) {

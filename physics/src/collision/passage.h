@@ -21,6 +21,11 @@ struct Passage {
 /// The same, for a part of the body's compound.
 [[nodiscard]] Passage passage_of_part(const Passage& whole, const Shape& part);
 
+/// Whether it has flat faces and corners, and a direction that tells it apart is a face's normal.
+[[nodiscard]] inline bool is_polyhedron(const Solid& solid) {
+  return std::holds_alternative<Box>(solid) || std::holds_alternative<Hull>(solid);
+}
+
 /// What told two bodies apart: a direction that turns with one of them. Of two polyhedra it is a face's normal, so that
 /// bodies which it tells apart are apart for `collide` too.
 struct Apart {
@@ -38,6 +43,10 @@ struct Apart {
 
 /// How far b lies beyond a along a unit direction, m; never more than their distance.
 [[nodiscard]] double gap_along(const Passage& a, const Passage& b, const Vec3& direction);
+
+/// How many corners of a polyhedron lie no farther than `depth` behind its foremost along a unit direction; of anything
+/// else more than can be counted.
+[[nodiscard]] int corners_within(const Passage& passage, const Vec3& direction, double depth);
 
 /// Whether bodies with such a gap along a direction neither are nearer than `near_enough` nor can meet within `dt`.
 [[nodiscard]] bool stay_apart(const Passage& a, const Passage& b, const Vec3& direction, double gap, double near_enough,

@@ -18,18 +18,17 @@ struct FaceGap {
 };
 
 /// The face of one polyhedron above which all of the other lies highest, and the other's nearest vertex; of faces with
-/// no more than `level` none need be told.
+/// no more than `level` none need be told. Near ties go to the first, but for what is apart by more than the margin.
 FaceGap widest_face(const Polyhedron& one, const Polyhedron& other, double tie, double level, double margin) {
   FaceGap best;
   for (std::uint32_t i = 0; i < one.faces.size(); ++i) {
     const ConvexHull::Face& face = one.faces[i];
     // No vertex lies lower than the lowest: most faces are passed by with one that is known.
     const double at_most = face.normal.dot(other.vertices[best.vertex]) - face.offset;
-    if (at_most <= level || (i > 0 && at_most <= best.gap + tie)) continue;
+    if (at_most <= level || (i > 0 && at_most <= (at_most > margin ? best.gap : best.gap + tie))) continue;
     const std::uint32_t vertex = other.farthest(-face.normal, best.vertex);
     const double gap = face.normal.dot(other.vertices[vertex]) - face.offset;
-    if (gap > best.gap + (i == 0 ? 0 : tie)) best = {gap, i, vertex};
-    if (gap > margin) return {gap, i, vertex};
+    if (gap > best.gap + (i == 0 || gap > margin ? 0 : tie)) best = {gap, i, vertex};
   }
   return best;
 }
@@ -118,9 +117,9 @@ PolyhedraSeparation separation_of(const Polyhedron& a, const Polyhedron& b, doub
   const FaceGap face_a = widest_face(a, b, 0.1 * preference, any_gap, margin);
   PolyhedraSeparation best{PolyhedraSeparation::Kind::face_a, face_a.gap, a.faces[face_a.face].normal, face_a.face,
                            face_a.vertex};
-  if (best.gap > margin) return best;
-  const FaceGap face_b = widest_face(b, a, 0.1 * preference, std::min(best.gap + preference, margin), margin);
-  if (face_b.gap > best.gap + preference || face_b.gap > margin)
+  const double level = best.gap > margin ? best.gap : std::min(best.gap + preference, margin);
+  const FaceGap face_b = widest_face(b, a, 0.1 * preference, level, margin);
+  if (face_b.gap > best.gap + preference || (face_b.gap > margin && face_b.gap > best.gap))
     best = {PolyhedraSeparation::Kind::face_b, face_b.gap, -b.faces[face_b.face].normal, face_b.face, face_b.vertex};
   if (best.gap > margin) return best;
 

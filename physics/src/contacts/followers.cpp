@@ -118,8 +118,7 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
         if (!bodies[end].immovable()) blows.strike(end, blow.time, blow.change);
   const auto has_corners = [this](const contacts::ContactConstraint& contact) {
     const auto polyhedron = [this](std::uint32_t body) {
-      const Solid& solid = passages[body].body->shape().solid;
-      return std::holds_alternative<Box>(solid) || std::holds_alternative<Hull>(solid);
+      return collision::is_polyhedron(passages[body].body->shape().solid);
     };
     const auto level = [&](std::uint32_t body) { return polyhedron(body) || passages[body].boundless; };
     return (polyhedron(contact.a) && level(contact.b)) || (polyhedron(contact.b) && level(contact.a));
@@ -188,8 +187,13 @@ void World::Implementation::find_followers(std::size_t parts, double dt) {
     const double way = blows.hand_on(link);
     if (!(way > contacts::near_enough)) continue;
     const collision::Passage &way_a = passages[contact.a], &way_b = passages[contact.b];
+    const Vec3& normal = contact.manifold.normal;
+    const double deep = contacts::near_enough + way;
+    if (collision::corners_within(way_a, normal, deep) <= contact.count ||
+        collision::corners_within(way_b, -normal, deep) <= contact.count)
+      continue;
     const Manifold wider = collision::collide(*way_a.course.shape, way_a.placed, *way_b.course.shape, way_b.placed,
-                                              contacts::near_enough, contacts::near_enough + way);
+                                              contacts::near_enough, deep);
     if (wider.count > contact.count) meet_at_start(contact, wider);
   }
   const auto known = static_cast<std::ptrdiff_t>(active.size());

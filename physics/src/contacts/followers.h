@@ -23,14 +23,20 @@ namespace tweenfall::contacts {
          (gap * gap < faster * faster * square && gap < close * std::min(a.body->radius(), b.body->radius()));
 }
 
-/// Whether `collide` tells how far apart two bodies are, so that no direction tells of a wider gap. Of other solids it
-/// takes the first direction that parts them.
+/// Whether `collide` tells how far apart two bodies are, so that no direction that is known of such a pair tells of a
+/// wider gap: of a ball, or of two capsules, their distance; of two polyhedra the widest gap above a face. Of other
+/// solids it takes the first direction that parts them.
 [[nodiscard]] inline bool tell_all(const collision::Passage& a, const collision::Passage& b) {
-  const auto is_round = [](const collision::Passage& way) {
+  enum class Kind { ball, capsule, polyhedron, other };
+  const auto kind_of = [](const collision::Passage& way) {
     const Solid& solid = way.course.shape->solid;
-    return std::holds_alternative<Sphere>(solid) || std::holds_alternative<Capsule>(solid);
+    if (std::holds_alternative<Sphere>(solid)) return Kind::ball;
+    if (std::holds_alternative<Capsule>(solid)) return Kind::capsule;
+    return collision::is_polyhedron(solid) ? Kind::polyhedron : Kind::other;
   };
-  return is_round(a) && is_round(b);
+  const Kind kind_a = kind_of(a), kind_b = kind_of(b);
+  if (kind_a == Kind::other || kind_b == Kind::other) return false;
+  return kind_a == kind_b || kind_a == Kind::ball || kind_b == Kind::ball;
 }
 /// But for what it leaves to rounding: of a gap that some direction told of, the part that it tells of too.
 constexpr double surely = 0.999;

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "shapes/turn_onto.h"
 
@@ -83,6 +84,28 @@ Vec3 with_energy(const Tumbling& tumbling, double energy, const Vec3& momentum) 
   return within_energy(tumbling, energy, momentum);
 }
 
+/// The axis about which a body with this inertia is a top, with the same moment about all that are across it.
+std::optional<int> axis_of_top(const Mat3& inertia) {
+  if (inertia(0, 1) != 0 || inertia(0, 2) != 0 || inertia(1, 2) != 0) return std::nullopt;
+  for (int axis = 0; axis < 3; ++axis)
+    if (inertia((axis + 1) % 3, (axis + 1) % 3) == inertia((axis + 2) % 3, (axis + 2) % 3)) return axis;
+  return std::nullopt;
+}
+
+/// A top that no torque turns: it spins about its axis, which goes around the momentum evenly.
+/// Source: Goldstein, Poole, Safko, Classical Mechanics, 2002, section 5.6.
+Spin turned_top(const Body& body, int axis, const Quat& rotation, const Vec3& momentum, double dt) {
+  const Mat3& inertia = body.mass().inertia;
+  const double along = inertia(axis, axis), across = inertia((axis + 1) % 3, (axis + 1) % 3);
+  const Vec3 kept = rotation * momentum;  // in the world's axes
+  const double spin = momentum[axis] / along - momentum[axis] / across;
+  Spin result;
+  result.rotation = exp_map(kept * (dt / across)) * rotation * exp_map(Vec3::Unit(axis) * (spin * dt));
+  result.rotation.normalize();
+  result.angular = result.rotation * Vec3(body.inverse_inertia() * (result.rotation.conjugate() * kept));
+  return result;
+}
+
 }  // namespace
 
 Vec3 bounded_spin(const Mat3& inertia, double most, const Vec3& angular) {
@@ -112,6 +135,9 @@ Spin turned(const Body& body, const Spin& start, const Load& load, double dt) {
     spin.rotation.normalize();
     return spin;
   }
+  if (steady)
+    if (const std::optional<int> axis = axis_of_top(body.mass().inertia))
+      return turned_top(body, *axis, start.rotation, momentum, dt);
   const double energy = 0.5 * first.dot(momentum), length = momentum.norm();
   const Vec3 end_momentum = start.rotation * momentum + dt * load.torque;  // in the world's axes
   // A tenth of a radian per piece keeps the energy of a tumbling body to parts in a billion. Where the most pieces

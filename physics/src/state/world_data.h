@@ -87,13 +87,13 @@ struct World::Implementation : state::WorldState, step::Workspace {
   [[nodiscard]] int pieces_of(const islands::IslandContents& island, double dt) const;
   /// Whether bodies of an island meet in a step so that what one gives the other goes on to a third.
   [[nodiscard]] bool hands_on_blows(const islands::IslandContents& island, double dt) const;
-  void solve_by_blows(const islands::IslandContents& island, double dt, step::Solver& solver);
+  void solve_by_blows(const islands::IslandContents& island, double dt, step::Solvers& by);
   /// Contacts of a small island as its bodies lie now, for a part of the step.
   std::span<contacts::ContactConstraint* const> find_again(const islands::IslandContents& island,
                                                            small::PartsOfStep& parts, double h) const;
-  /// Moves the bodies of a small island through a part of the step.
-  void go_on(small::PartsOfStep& parts, std::span<contacts::ContactConstraint* const> near, double h, int sub_steps,
-             step::Solver& solver);
+  /// Before and after its contacts are solved for a part of the step: what they did not move flies.
+  void begin_part(const small::PartsOfStep& parts);
+  void end_part(small::PartsOfStep& parts, std::span<contacts::ContactConstraint* const> near, double h);
   void solve_in_pieces(const islands::IslandContents& island, int pieces, double dt, step::Solver& solver);
   void advance_bodies(double dt);
 

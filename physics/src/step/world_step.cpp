@@ -197,7 +197,7 @@ void World::Implementation::solve_islands(double dt) {
       return;
     }
     if (hands_on_blows(contents, dt)) {
-      solve_by_blows(contents, dt, by.few);
+      solve_by_blows(contents, dt, by);
       return;
     }
     const std::optional<blocks::BlockSolver::Effort> effort =

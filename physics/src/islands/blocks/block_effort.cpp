@@ -20,12 +20,13 @@ namespace {
 /// itself over fewer contacts needs fewer.
 constexpr std::size_t few = 128;
 constexpr std::uint32_t deep_of_few = 20, deep_of_many = 50;
-constexpr int sub_steps_of_few = 24, fewest_of_few = 14;
+constexpr int sub_steps_of_few = 24, fewest_of_few = 14, fewest_of_turning = 6;
 constexpr int sub_steps_of_many = 10, fewest_of_many = 5;
-/// Of so few contacts they are those of `Solver`, with several passes in each; of a single one with as many passes as
-/// it takes. With half as many, what a press squeezes is shot away, and a stack of two sinks a tenth of a millimeter.
+/// Of so few contacts they are those of `Solver`, with several passes in each. With half as many, what a press squeezes
+/// is shot away, and a stack of two sinks a tenth of a millimeter. On what a single contact bears nothing else rests:
+/// where it turns half as many do, with as many passes as it takes.
 constexpr std::size_t small = 8;
-constexpr int sub_steps_of_small = 8;
+constexpr int sub_steps_of_small = 8, sub_steps_of_turning = 4;
 /// With joints, what is solved at once needs few sub-steps, and blows that it hands on short ones, s. Whoever takes
 /// short steps wants to be nearer.
 constexpr double longest_of_jointed = 1.0 / 180, long_step = 1.0 / 100;
@@ -37,22 +38,33 @@ constexpr double turned_enough = 0.02, turned_enough_of_small = 0.002;
 /// Rows cannot follow what turns by more than this in a sub-step, rad.
 constexpr double followable = 0.5, followable_of_small = 0.05, followable_of_jointed = 0.3;
 
-/// What turns by more than this in a step does not lie, rad.
+/// What turns by more than this in a step does not lie, rad: it has no rest that would show in micrometers.
 constexpr double turns = 1e-3;
 /// Of the blows of so little restitution those that are handed on do not matter.
 constexpr double dull = 0.25;
 constexpr int passes_of_meeting = 2;
 
 /// Even numbers: islands with the same are solved together.
-int sub_steps_of_depth(std::uint32_t depth) {
+int sub_steps_of_depth(std::uint32_t depth, int fewest) {
   const std::uint32_t deep = std::min(depth, deep_of_few);
-  const std::uint32_t steps = deep * deep * (sub_steps_of_few - fewest_of_few) / (deep_of_few * deep_of_few);
-  return fewest_of_few + static_cast<int>((steps + 1) / 2 * 2);
+  const std::uint32_t more = static_cast<std::uint32_t>(sub_steps_of_few - fewest);
+  const std::uint32_t steps = deep * deep * more / (deep_of_few * deep_of_few);
+  return fewest + static_cast<int>((steps + 1) / 2 * 2);
 }
 
 int sub_steps_of_deep_heap(std::uint32_t depth) {
   const std::uint32_t steps = std::min(depth, deep_of_many) * (sub_steps_of_many - fewest_of_many);
   return fewest_of_many + static_cast<int>((steps + deep_of_many - 1) / deep_of_many);
+}
+
+/// Whether something in it turns that is not round.
+bool has_turning(const islands::IslandContents& island, const std::vector<Body>& bodies, double dt) {
+  const auto its = [&](std::uint32_t index) {
+    const Body& body = bodies[index];
+    return !body.immovable() && !body.round() && body.twist.angular.squaredNorm() * dt * dt > turns * turns;
+  };
+  return std::any_of(island.contacts.begin(), island.contacts.end(),
+                     [&](const ContactConstraint* contact) { return its(contact->a) || its(contact->b); });
 }
 
 /// Whether it is moved by its own will, or its surface is.
@@ -153,7 +165,9 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_large(const islands::I
     return effort;
   }
   const std::uint32_t depth = depth_.of(island.contacts, bodies, workers);
-  effort.sub_steps = effort.heap ? sub_steps_of_deep_heap(depth) : sub_steps_of_depth(depth);
+  effort.sub_steps =
+      effort.heap ? sub_steps_of_deep_heap(depth)
+                  : sub_steps_of_depth(depth, has_turning(island, bodies, dt) ? fewest_of_turning : fewest_of_few);
   const double h = dt / effort.sub_steps;
   std::atomic<bool> unfit = false, driven = false;
   workers.ranges(island.contacts.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
@@ -207,7 +221,10 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     meets = true;
   }
   // What turns lets go of what it touches, and what then is left of an uneven push stays with it.
-  if (effort.single && fastest * dt > turns) effort.softening = effort.relaxing = 3 * settings.iterations;
+  if (effort.single && fastest * dt > turns) {
+    effort.softening = effort.relaxing = 3 * settings.iterations;
+    if (fastest * dt <= followable_of_small * sub_steps_of_turning) effort.sub_steps = sub_steps_of_turning;
+  }
   // What meets has no rest yet that many passes would find.
   if (meets) effort.softening = effort.relaxing = passes_of_meeting;
   return effort;

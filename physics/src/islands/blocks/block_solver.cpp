@@ -249,6 +249,7 @@ void BlockSolver::solve(std::vector<Body>& bodies, const std::vector<Load>& load
       entry.rotation.normalize();
     }
     Body& body = bodies[entry.index];
+    entry.rotation = entry.turned_rotation();
     entry.rotation.coeffs() = entry.rotation.coeffs() + Vec4::Zero();
     body.center = without_sign_of_zero(entry.center);
     body.twist = {without_sign_of_zero(linear_of(velocities_[i])), without_sign_of_zero(angular_of(velocities_[i]))};

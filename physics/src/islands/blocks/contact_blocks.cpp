@@ -380,13 +380,18 @@ void ContactBlocks::prepare(std::size_t index, int lane, const std::vector<Islan
   std::array<Vec3, 4> arms;
   const step::Tangents along{lane_of(block.tangent1, lane), lane_of(block.tangent2, lane)};
   const double share = 1.0 / contact.count;
+  const auto turn_of = [displacements](const IslandBody& body) -> Quat {
+    if (!displacements) return Quat::Identity();
+    return body.turned_rotation() * body.start_rotation.conjugate();
+  };
+  const Quat turn_a = turn_of(a), turn_b = turn_of(b);
   for (int i = 0; i < contact.count; ++i) {
     const PointConstraint& point = contact.points[static_cast<std::size_t>(i)];
     PointRow& row = points[block.point + static_cast<std::uint32_t>(i)];
     Vec3 arm_a = point.start_arm_a, arm_b = point.start_arm_b;
     if (displacements) {
-      arm_a = state::carried(a.rotation * a.start_rotation.conjugate(), arm_a, point.skin_a * normal);
-      arm_b = state::carried(b.rotation * b.start_rotation.conjugate(), arm_b, -point.skin_b * normal);
+      arm_a = state::carried(turn_a, arm_a, point.skin_a * normal);
+      arm_b = state::carried(turn_b, arm_b, -point.skin_b * normal);
     }
     const Vec3 across_a = arm_a.cross(normal), across_b = arm_b.cross(normal);
     put(row.turn_a, lane, across_a);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tweenfall/curves/rotation.h>
+
 #include "forces/free_flight.h"
 #include "islands/blocks/contact_block.h"
 #include "step/solver_body.h"
@@ -64,6 +66,16 @@ struct alignas(64) IslandBody {
   Mat3 inverse_inertia = Mat3::Zero();  ///< world axes, when its rows were prepared
   Vec3 center{0, 0, 0}, start_center{0, 0, 0};
   Quat rotation{1, 0, 0, 0}, start_rotation{1, 0, 0, 0};
+  Vec3 turning{0, 0, 0};  ///< so little that it is not part of the rotation yet, rad
+
+  /// How it lies now.
+  [[nodiscard]] Quat turned_rotation() const {
+    if (turning == Vec3::Zero()) return rotation;
+    Quat now = exp_map(turning) * rotation;
+    now.normalize();
+    return now;
+  }
+
   Quat free_rotation{1, 0, 0, 0};     ///< at the end of the sub-step if nothing touches it
   std::uint32_t led = step::not_led;  ///< which of those that are led
 

@@ -14,6 +14,8 @@ using state::Body;
 
 namespace {
 
+/// Turns of an even body are put together until they are more than this, rad: they add up to within its square.
+constexpr double hardly_turned = 1e-7;
 /// Up to this turn in a sub-step a pressed body's spin changes by itself as two evaluations of Euler's equations say.
 constexpr double slow_turn = 0.05;
 
@@ -166,8 +168,10 @@ void BlockSolver::end_sub_step(double h) {
         entry.rotation = entry.free_rotation;
         continue;
       }
-      entry.rotation = exp_map(turning) * entry.rotation;
-      entry.rotation.normalize();
+      entry.turning += turning;
+      if (pace.steady && !(entry.turning.squaredNorm() > hardly_turned * hardly_turned)) continue;
+      entry.rotation = entry.turned_rotation();
+      entry.turning = Vec3::Zero();
     }
     stale_[part] = stale ? 1 : 0;
   });

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "collision/surfaces/surface.h"
@@ -81,21 +82,33 @@ bool World::Implementation::hands_on_blows(const islands::IslandContents& island
   return true;
 }
 
-void World::Implementation::solve_by_blows(const islands::IslandContents& island, double dt, step::Solver& solver) {
+void World::Implementation::solve_by_blows(const islands::IslandContents& island, double dt, step::Solvers& by) {
   using contacts::ContactConstraint;
   small::PartsOfStep parts(island, bodies);
   const double soon = small::soon * dt;
-  // Between blows nothing bounces: what is slower than a blow would only tremble.
+  const bool springs_back = std::any_of(island.contacts.begin(), island.contacts.end(),
+                                        [](const auto* contact) { return contact->restitution > small::dull; });
+  // Between blows nothing bounces: what is slower than a blow would only tremble. Where blows are dull, it is solved no
+  // further than where there are none.
   const auto calmly = [&](std::span<ContactConstraint* const> blown, double h) {
     std::vector<double> restitutions;
     restitutions.reserve(blown.size());
     for (ContactConstraint* contact : blown) restitutions.push_back(std::exchange(contact->restitution, 0));
-    go_on(parts, blown, h, std::max(1, static_cast<int>(std::ceil(small::usual_sub_steps * h / dt))), solver);
+    const auto in_part = [&](int sub_steps) { return std::max(1, static_cast<int>(std::ceil(sub_steps * h / dt))); };
+    const islands::IslandContents contents{blown, {}, {}};
+    std::optional<blocks::BlockSolver::Effort> effort;
+    if (!springs_back && !blown.empty()) effort = by.many.effort_for(contents, bodies, loads, settings, h);
+    begin_part(parts);
+    if (effort) {
+      effort->sub_steps = in_part(effort->sub_steps);
+      by.many.solve(bodies, loads, std::span(&contents, 1), *effort, settings, h, moved);
+    } else if (!blown.empty()) {
+      by.few.solve(bodies, loads, blown, {}, settings, h, moved, in_part(small::usual_sub_steps));
+    }
+    end_part(parts, blown, h);
     for (std::size_t i = 0; i < blown.size(); ++i) blown[i]->restitution = restitutions[i];
   };
   std::vector<ContactConstraint*> slow;
-  const bool springs_back = std::any_of(island.contacts.begin(), island.contacts.end(),
-                                        [](const auto* contact) { return contact->restitution > small::dull; });
   const int most_cuts = springs_back ? small::most_cuts : small::most_cuts_of_dull;
   double left = dt;
   int strikes = 0;  // since the last cut
@@ -112,7 +125,7 @@ void World::Implementation::solve_by_blows(const islands::IslandContents& island
     if (first == small::never) break;
     if (first <= soon) {
       for (const step::Blow& blow :
-           solver.strike(bodies, loads, parts.near, std::max(dt * part_count, small::unhurried)))
+           by.few.strike(bodies, loads, parts.near, std::max(dt * part_count, small::unhurried)))
         parts.add(*blow.contact, blow.impulse, blow.normal, blow.approach);
       ++strikes;
       continue;

@@ -110,10 +110,12 @@ std::span<contacts::ContactConstraint* const> World::Implementation::find_again(
   return parts.near;
 }
 
-void World::Implementation::go_on(small::PartsOfStep& parts, std::span<contacts::ContactConstraint* const> near,
-                                  double h, int sub_steps, step::Solver& solver) {
+void World::Implementation::begin_part(const small::PartsOfStep& parts) {
   for (const std::uint32_t index : parts.movable()) moved[index] = 0;
-  if (!near.empty()) solver.solve(bodies, loads, near, {}, settings, h, moved, sub_steps);
+}
+
+void World::Implementation::end_part(small::PartsOfStep& parts, std::span<contacts::ContactConstraint* const> near,
+                                     double h) {
   for (const contacts::ContactConstraint* contact : near) parts.add(*contact);
   for (const std::uint32_t index : parts.movable())
     if (moved[index] == 0) forces::fly(bodies[index], loads[index], settings.integrator, h);

@@ -75,7 +75,9 @@ void World::Implementation::solve_in_pieces(const islands::IslandContents& islan
   small::PartsOfStep parts(island, bodies);
   for (int piece = 0; piece < pieces; ++piece) {
     const std::span<contacts::ContactConstraint* const> near = find_again(island, parts, h);
-    go_on(parts, near, h, sub_steps, solver);
+    begin_part(parts);
+    if (!near.empty()) solver.solve(bodies, loads, near, {}, settings, h, moved, sub_steps);
+    end_part(parts, near, h);
   }
   parts.finish(dt);
   for (const std::uint32_t index : parts.movable()) moved[index] = 1;
