@@ -11,8 +11,6 @@ namespace tweenfall::document::fields {
 
 namespace {
 
-using Read = ChangeBeingRead;
-
 // Where a body that is taken back goes on
 
 void read_followed_clip(const json::Value& value, HandBack& out, Building& building) {
@@ -60,12 +58,14 @@ const Table<Settle>& settle_table() {
 
 // Why a field means nothing for a change to an owner, if it names one.
 auto useless_to(Owner owner, const std::string& why) {
-  return [owner, why](const Read& read) { return read.to && read.change.to.owner() == owner ? why : std::string(); };
+  return [owner, why](const ChangeBeingRead& read) {
+    return read.to && read.change.to.owner() == owner ? why : std::string();
+  };
 }
 
 // How long a change holds, and what comes then
-std::vector<Row<Read>> next_rows(const FormOf& next) {
-  const auto lasts = [](const json::Value& value, Read& read, Building&) { read.lasts = value.number(); };
+std::vector<Row<ChangeBeingRead>> next_rows(const FormOf& next) {
+  const auto lasts = [](const json::Value& value, ChangeBeingRead& read, Building&) { read.lasts = value.number(); };
   return {{"for", &ValueForms::positive, "seconds until \"then\"", {lasts}, false, {}, {"hold"}},
           {"then", next, "the next change", {read_next_change}, false, {}, {"next"}}};
 }
@@ -73,28 +73,29 @@ std::vector<Row<Read>> next_rows(const FormOf& next) {
 }  // namespace
 
 std::vector<Row<ChangeBeingRead>> change_rows() {
-  const Meaning<Read> to = {[](const json::Value& value, Read& read, Building& building) {
+  const Meaning<ChangeBeingRead> to = {[](const json::Value& value, ChangeBeingRead& read, Building& building) {
     read.to = value;
     read.change.to = read_owner(value, building);
   }};
-  const Meaning<Read> velocity = {[](const json::Value& value, Read& read, Building& building) {
-                                    read_take_over(value, read.change.take_over, building);
-                                  },
-                                  "\"curve\""};
-  const Meaning<Read> settle = {[](const json::Value& value, Read& read, Building& building) {
-                                  settle_table().read(value, read.change.hand_back.settle, building);
-                                },
-                                "{\"quintic\": " + number_text(Settle{}.seconds) + "}"};
-  const Meaning<Read> path = {[](const json::Value& value, Read& read, Building& building) {
-                                path_table().read(value, read.change.hand_back, building);
-                                read.follows = static_cast<bool>(value.find("clip"));
-                              },
-                              "{}"};
-  Row<Read> overlap = overlap_row<Read>([](Read& read) -> TakeOver& { return read.change.take_over; });
+  const Meaning<ChangeBeingRead> velocity = {[](const json::Value& value, ChangeBeingRead& read, Building& building) {
+                                               read_take_over(value, read.change.take_over, building);
+                                             },
+                                             "\"curve\""};
+  const Meaning<ChangeBeingRead> settle = {[](const json::Value& value, ChangeBeingRead& read, Building& building) {
+                                             settle_table().read(value, read.change.hand_back.settle, building);
+                                           },
+                                           "{\"quintic\": " + number_text(Settle{}.seconds) + "}"};
+  const Meaning<ChangeBeingRead> path = {[](const json::Value& value, ChangeBeingRead& read, Building& building) {
+                                           path_table().read(value, read.change.hand_back, building);
+                                           read.follows = static_cast<bool>(value.find("clip"));
+                                         },
+                                         "{}"};
+  Row<ChangeBeingRead> overlap =
+      overlap_row<ChangeBeingRead>([](ChangeBeingRead& read) -> TakeOver& { return read.change.take_over; });
   overlap.useless = useless_to(Owner::keyed, "for a keyed body; it has its path's place");
   return {{"to", owner_form, "the new owner", to, true},
           {"ramp", &ValueForms::not_negative, "seconds in which the drive gets there, even in log frequency",
-           member<Read>([](Read& read) -> double& { return read.change.ramp; })},
+           member<ChangeBeingRead>([](ChangeBeingRead& read) -> double& { return read.change.ramp; })},
           {"velocity", take_over_form, "of a released body", velocity, false,
            useless_to(Owner::keyed, "for a keyed body; it has its path's")},
           overlap,
@@ -105,8 +106,8 @@ std::vector<Row<ChangeBeingRead>> change_rows() {
 }
 
 std::vector<Row<ChangeBeingRead>> change_rows(const FormOf& next) {
-  std::vector<Row<Read>> rows = change_rows();
-  for (Row<Read>& row : next_rows(next)) rows.push_back(std::move(row));
+  std::vector<Row<ChangeBeingRead>> rows = change_rows();
+  for (Row<ChangeBeingRead>& row : next_rows(next)) rows.push_back(std::move(row));
   return rows;
 }
 
@@ -119,7 +120,7 @@ const Form* next_change_form(FormStore& store, const ValueForms& values) {
   const Form* word = store.add(words_of("an owner: \"free\" or \"keyed\"", {"free", "keyed"}));
   const Form* next = store.add(choice_of("a change: \"free\", \"keyed\" or {\"to\", ...}", {word, change}));
   const FormOf::Make itself = [next](FormStore&, const ValueForms&) { return next; };
-  *change = Table<Read>("a change", change_rows(itself)).listing_form(store, values);
+  *change = Table<ChangeBeingRead>("a change", change_rows(itself)).listing_form(store, values);
   change->together = lasting();
   change->definition = "change";
   return next;
@@ -134,13 +135,13 @@ json::Value place_of_next(const json::Value& change) {
 }
 
 void read_next_change(const json::Value& value, ChangeBeingRead& before, Building& building) {
-  Read& read = before.then.emplace_back();
+  ChangeBeingRead& read = before.then.emplace_back();
   if (value.is(json::Value::Kind::text)) {
     read.to = value;
     read.change.to = read_owner(value, building);
     return;
   }
-  static const Table<Read> table("a change", change_rows(next_change_form));
+  static const Table<ChangeBeingRead> table("a change", change_rows(next_change_form));
   table.read(value, read, building);
 }
 
