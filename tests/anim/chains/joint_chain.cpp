@@ -78,7 +78,7 @@ JointChainSettings limited_links(Random& random, std::size_t count, double hinge
 
 /// Where the end of a chain is in some pose within its limits.
 Vec3 reachable(Random& random, const JointChain& chain) {
-  std::vector<Motion> pose = rest_pose(chain.nodes());
+  std::vector<Motion> pose = test::rest_pose(chain.nodes());
   for (const JointChain::Joint& joint : chain.joints()) pose[joint.node].pose.rotation = allowed(random, joint);
   return world_of_node(chain.nodes(), chain.end(), pose).motion.pose.position;
 }

@@ -7,7 +7,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-bool same(const Contact& a, const Contact& b) {
+bool same_contact(const Contact& a, const Contact& b) {
   const auto same_point = [](const ContactPoint& one, const ContactPoint& other) {
     return one.position == other.position && one.penetration == other.penetration && one.feature == other.feature;
   };
@@ -102,8 +102,8 @@ TEST_CASE("contacts are told alike by a world, its copies and whom it was loaded
       for (std::size_t& count : counts) askers.emplace_back([&copy, &count] { count = copy.contacts().size(); });
       for (std::thread& asker : askers) asker.join();
       for (const std::size_t count : counts) CHECK(count == told.size());
-      REQUIRE(std::ranges::equal(copy.contacts(), told, same));
-      REQUIRE(std::ranges::equal(loaded.contacts(), told, same));
+      REQUIRE(std::ranges::equal(copy.contacts(), told, same_contact));
+      REQUIRE(std::ranges::equal(loaded.contacts(), told, same_contact));
       // They are those of the last step, whatever was done since.
       for (const BodyId body : loaded.bodies()) {
         Motion motion = loaded.motion(body);
@@ -113,14 +113,14 @@ TEST_CASE("contacts are told alike by a world, its copies and whom it was loaded
       }
       loaded.add({.shape = {Sphere{0.5}}});
       const World later = loaded;
-      REQUIRE(std::ranges::equal(loaded.contacts(), told, same));
-      REQUIRE(std::ranges::equal(later.contacts(), told, same));
+      REQUIRE(std::ranges::equal(loaded.contacts(), told, same_contact));
+      REQUIRE(std::ranges::equal(later.contacts(), told, same_contact));
       if (told.empty()) continue;
       // And who leaves takes his own along.
       const BodyId leaves = told[told.size() / 2].b;
       loaded.remove(leaves);
       std::erase_if(told, [&](const Contact& contact) { return contact.a == leaves || contact.b == leaves; });
-      REQUIRE(std::ranges::equal(loaded.contacts(), told, same));
+      REQUIRE(std::ranges::equal(loaded.contacts(), told, same_contact));
     }
     CHECK(seen > 3);
   }
