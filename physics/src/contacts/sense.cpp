@@ -33,8 +33,7 @@ void World::Implementation::sense() {
       const state::Body& body = bodies[other];
       if (other == index || body.sensor() || (sensor.fixed && body.fixed)) return false;
       if (endless && is_scenery(body.shape().solid)) return false;
-      return (sensor.groups & body.collides_with) != 0 && (body.groups & sensor.collides_with) != 0 &&
-             !ignored.contains(index, other);
+      return sensor.may_meet(body) && !ignored.contains(index, other);
     };
     for (const std::uint32_t other : here.overlapping(sensor.shape(), sensor.motion.pose, counts))
       next_overlaps.push_back({{index, sensor.generation}, {other, bodies[other].generation}, false});

@@ -47,8 +47,8 @@ planar::BodySettings settings_of(const state::Body& body, const Axes& axes) {
   its.linear_damping = makeup.linear_damping;
   its.angular_damping = makeup.angular_damping;
   its.fixed = body.fixed;
-  its.groups = body.groups;
-  its.collides_with = body.collides_with;
+  its.groups = body.groups();
+  its.collides_with = body.collides_with();
   its.drive = body.drive;
   its.motion = axes.flat(body.motion);
   return its;
@@ -133,8 +133,12 @@ void Flat::take_over(const state::Body& body, std::uint32_t index, const Vec3& g
   }
   if (!body.alive) return;
   if (entry.id == BodyId{}) {
-    entry = {
-        world_.add(settings_of(body, axes)), body.generation, body.drive, body.groups, body.collides_with, body.motion};
+    entry = {world_.add(settings_of(body, axes)),
+             body.generation,
+             body.drive,
+             body.groups(),
+             body.collides_with(),
+             body.motion};
     owners_.resize(std::max<std::size_t>(owners_.size(), entry.id.index + std::size_t{1}));
     owners_[entry.id.index] = index;
   }
@@ -154,10 +158,10 @@ void Flat::take_over(const state::Body& body, std::uint32_t index, const Vec3& g
     if (body.drive.owner() == Owner::driven) world_.set_target(entry.id, beside(axes.flat(body.target())));
     entry.told = body.motion;
   }
-  if (entry.groups != body.groups || entry.collides_with != body.collides_with) {
-    world_.set_groups(entry.id, body.groups, body.collides_with);
-    entry.groups = body.groups;
-    entry.collides_with = body.collides_with;
+  if (entry.groups != body.groups() || entry.collides_with != body.collides_with()) {
+    world_.set_groups(entry.id, body.groups(), body.collides_with());
+    entry.groups = body.groups();
+    entry.collides_with = body.collides_with();
   }
   if (body.has_target && !body.fixed) world_.set_target(entry.id, beside(axes.flat(body.target())));
   const Vec3 force = body.steady_force(gravity);

@@ -83,7 +83,7 @@ BroadPhase::Look BroadPhase::look_at(const Body& body, std::uint32_t index, cons
   Entry& entry = entries_[index];
   Look look;
   // What may meet nobody needs no box.
-  if (body.sensor() || body.groups == 0 || body.collides_with == 0) return look;
+  if (body.sensor() || body.groups() == 0 || body.collides_with() == 0) return look;
   look.kind = std::isinf(body.radius()) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
   entry.stirs = body.stirs();
   entry.displaces = body.displaces();

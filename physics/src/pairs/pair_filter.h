@@ -12,8 +12,7 @@ struct PairFilter {
 
   [[nodiscard]] bool lets(std::uint32_t a, std::uint32_t b) const {
     const state::Body &first = bodies[a], &second = bodies[b];
-    return (first.groups & second.collides_with) != 0 && (second.groups & first.collides_with) != 0 &&
-           !first.sensor() && !second.sensor() && !ignored.contains(a, b);
+    return first.may_meet(second) && !first.sensor() && !second.sensor() && !ignored.contains(a, b);
   }
 };
 

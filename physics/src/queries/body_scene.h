@@ -16,7 +16,7 @@ inline void arrange_bodies(Scene& scene, const std::vector<state::Body>& bodies)
   scene.arrange(bodies.size(), [&bodies](std::uint32_t index) -> Item {
     const state::Body& body = bodies[index];
     if (!body.alive) return {};
-    return {&body.shape(), body.motion.pose, body.generation, body.groups, body.sensor()};
+    return {&body.shape(), body.motion.pose, body.generation, body.groups(), body.sensor()};
   });
 }
 

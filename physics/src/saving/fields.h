@@ -142,7 +142,7 @@ void each_field(T& extra, const Visit& visit) {
 template <Is<Body> T, class Visit>
 void each_field(T& body, const Visit& visit) {
   auto& [alive, fixed, asleep, placed, has_target, led, saturated, conveys, generation, drive, still_for, center, twist,
-         motion, work, groups, collides_with, makeup, extra] = body;
+         motion, work, filter, makeup, extra] = body;
   visit(alive, generation);
   if (!alive) return;  // its place and number alone matter
   visit(fixed, asleep, placed, has_target, led, drive, still_for, center, twist, motion);
@@ -150,7 +150,10 @@ void each_field(T& body, const Visit& visit) {
   visit(applied.force, applied.torque);
   if constexpr (!std::is_const_v<T>)
     if (!state::blank(applied.force) || !state::blank(applied.torque)) work.own() = applied;
-  visit(groups, collides_with, makeup, extra);
+  state::Filter its = filter.value();
+  visit(its.groups, its.collides_with);
+  if constexpr (!std::is_const_v<T>) body.set_filter(its);
+  visit(makeup, extra);
   visit.rarely(saturated);
   follows_from_others(conveys);
 }

@@ -14,6 +14,14 @@ Mat3 Body::world_inverse_inertia(const Quat& rotation) const {
   return axes * inverse_inertia() * axes.transpose();
 }
 
+void Body::set_filter(const Filter& its) {
+  // Those who meet all others have none, so that a world of many stays small.
+  if (its == Filter{})
+    filter.reset();
+  else
+    filter.own() = its;
+}
+
 void Body::follow_motion() {
   const Vec3 arm = motion.pose.rotation * mass().center;
   center = motion.pose.position + arm;

@@ -46,6 +46,13 @@ struct Work {
   Vec3 torque{0, 0, 0};  ///< N m
 };
 
+/// Whom a body may meet, as the caller last said.
+struct Filter {
+  std::uint64_t groups = 1;
+  std::uint64_t collides_with = ~std::uint64_t{0};
+  bool operator==(const Filter&) const = default;
+};
+
 /// Everything the world knows about one body. Plain values: a copy of it steps to the same bits. What bodies that are
 /// alike have in common stands in `makeup`, and what only few have in `extra`.
 struct Body {
@@ -66,8 +73,7 @@ struct Body {
   Motion motion;         ///< of the node's origin, exactly as told while keyed
   Boxed<Work> work;      ///< of those to which the caller applied some
 
-  std::uint64_t groups = 1;  ///< as the caller last said, and so `collides_with`
-  std::uint64_t collides_with = ~std::uint64_t{0};
+  Boxed<Filter> filter;                                ///< of those that do not meet all others
   std::shared_ptr<const Makeup> makeup = no_makeup();  ///< never null
   Boxed<Extra> extra;                                  ///< of all that do not move by themselves alone
 
@@ -81,6 +87,13 @@ struct Body {
     return spherical() && std::holds_alternative<Sphere>(shape().solid) && mass().center == shape().offset.position;
   }
   [[nodiscard]] bool sensor() const { return makeup->sensor; }
+  [[nodiscard]] std::uint64_t groups() const { return filter.value().groups; }
+  [[nodiscard]] std::uint64_t collides_with() const { return filter.value().collides_with; }
+  /// Whether the filters of both let them meet.
+  [[nodiscard]] bool may_meet(const Body& other) const {
+    return (groups() & other.collides_with()) != 0 && (other.groups() & collides_with()) != 0;
+  }
+  void set_filter(const Filter& its);
   /// Of the node's origin at the end of the step.
   [[nodiscard]] const Motion& target() const { return extra.value().target; }
   [[nodiscard]] Motion& target() { return extra.own().target; }

@@ -135,8 +135,7 @@ BodyId World::add(const BodySettings& settings) {
   state::Body body;
   body.fixed = settings.fixed;
   body.drive = settings.drive;
-  body.groups = settings.groups;
-  body.collides_with = settings.collides_with;
+  body.set_filter({settings.groups, settings.collides_with});
   state::Makeup makeup;
   makeup.shape = settings.shape;
   makeup.friction = settings.friction;
@@ -349,21 +348,20 @@ Twist World::surface_velocity(BodyId id) const {
 void World::set_groups(BodyId id, std::uint64_t groups, std::uint64_t collides_with) {
   Implementation& world = changing();
   state::Body& body = world.at(id);
-  if (body.groups == groups && body.collides_with == collides_with) return;
+  if (body.groups() == groups && body.collides_with() == collides_with) return;
   world.wake_neighbors(id.index);
   world.wake(id.index);
   world.note(id.index);
-  body.groups = groups;
-  body.collides_with = collides_with;
+  body.set_filter({groups, collides_with});
   body.placed = true;
   world.broad_phase.look_again(id.index);
 }
 
 std::uint64_t World::groups(BodyId id) const {
-  return inside().at(id).groups;
+  return inside().at(id).groups();
 }
 std::uint64_t World::collides_with(BodyId id) const {
-  return inside().at(id).collides_with;
+  return inside().at(id).collides_with();
 }
 
 void World::ignore(BodyId a, BodyId b) {

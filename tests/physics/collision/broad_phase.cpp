@@ -86,8 +86,8 @@ struct Crowd {
         if (other != index && bodies[other].alive && ignored.ask(index, other, random.unit() < 0.7))
           broad_phase.look_again(index);
       } else if (what < 0.15) {
-        body.groups = random.bits() % 8;
-        body.collides_with = random.unit() < 0.2 ? 0 : random.bits() % 16 | 1;
+        const std::uint64_t groups = random.bits() % 8;
+        body.set_filter({groups, random.unit() < 0.2 ? 0 : random.bits() % 16 | 1});
         told.push_back(index);
         broad_phase.look_again(index);
       } else if (what < 0.25 && body.alive) {
@@ -164,7 +164,8 @@ struct Crowd {
         const state::Body &a = bodies[i], &b = bodies[k];
         if (!a.alive || !b.alive || (a.immovable() && b.immovable()) || (!a.stirs() && !b.stirs())) continue;
         if (!near(a, loads[i], b, loads[k])) continue;
-        if ((a.groups & b.collides_with) == 0 || (b.groups & a.collides_with) == 0 || ignored.contains(k, i)) continue;
+        if ((a.groups() & b.collides_with()) == 0 || (b.groups() & a.collides_with()) == 0 || ignored.contains(k, i))
+          continue;
         if (!a.immovable() && !b.immovable()) {
           if (counts[i] >= pairs::BroadPhase::most_pairs && counts[k] >= pairs::BroadPhase::most_pairs) continue;
           ++counts[i];

@@ -49,7 +49,7 @@ std::vector<Near> find_near(const SoftBody& body, const std::vector<state::Body>
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
     const state::Body& other = bodies[i];
     if (!other.alive || other.sensor()) continue;
-    if ((other.groups & made.collides_with) == 0 || (made.groups & other.collides_with) == 0) continue;
+    if ((other.groups() & made.collides_with) == 0 || (made.groups & other.collides_with()) == 0) continue;
     const Bounds before = bounds(other.shape(), pose_of(other, partners.start(i)));
     const Bounds after = bounds(other.shape(), other.motion.pose);
     const Bounds around{before.low.cwiseMin(after.low), before.high.cwiseMax(after.high)};
