@@ -10,7 +10,7 @@ using namespace tweenfall::test;
 
 namespace {
 
-constexpr double frame = 1.0 / 60, g_down = 9.81, without_sleep = std::numeric_limits<double>::infinity();
+constexpr double frame_time = 1.0 / 60, g_down = 9.81, without_sleep = std::numeric_limits<double>::infinity();
 
 World plane_world(WorldPlane plane = WorldPlane::xy) {
   const Vec3 down = plane == WorldPlane::xy ? Vec3(0, -g_down, 0) : Vec3(0, 0, -g_down);
@@ -18,7 +18,7 @@ World plane_world(WorldPlane plane = WorldPlane::xy) {
 }
 
 void run_soft(World& world, double seconds) {
-  for (double n = std::round(seconds / frame); n > 0; --n) world.step(frame);
+  for (double n = std::round(seconds / frame_time); n > 0; --n) world.step(frame_time);
 }
 
 /// Sag of a chain of length L that hangs between two points of one height, l apart: a (cosh(l / 2a) - 1), where
@@ -161,7 +161,7 @@ TEST_CASE("in a plane a rope tears where it is strained too far, and its bits ar
   const SoftId id = add_soft(world, line);
   bool tore = false;
   for (int i = 0; i < 60 && !tore; ++i) {
-    world.step(frame);
+    world.step(frame_time);
     tore = !soft_tears(world, id).empty();
   }
   CHECK(tore);
