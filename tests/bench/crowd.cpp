@@ -91,6 +91,18 @@ void sample(benchmark::State& state, Order order) {
   state.counters["bytes"] = static_cast<double>(crowd.of.clip.byte_count());
 }
 
+void sample_many(benchmark::State& state, Order order) {
+  Crowd crowd(static_cast<std::uint32_t>(state.range(0)));
+  std::vector<ClipClock> clocks(crowd_size);
+  for (auto _ : state) {
+    ++crowd.frame;
+    for (std::size_t i = 0; i < crowd_size; ++i) clocks[i] = crowd.of.clip.clock(0, 1, crowd.time(i, order));
+    crowd.of.clip.sample(clocks, crowd.poses[0]);
+    done(crowd);
+  }
+  tell(state, "joint", crowd.joints * crowd_size);
+}
+
 void blend_layers(benchmark::State& state, std::size_t layer_count) {
   Crowd crowd(static_cast<std::uint32_t>(state.range(0)));
   std::array<CrowdLayer, 4> layers;
@@ -167,6 +179,8 @@ void skin(benchmark::State& state) {
 
 BENCHMARK_CAPTURE(sample, forward, Order::forward)->Arg(20)->Arg(67)->Arg(200);
 BENCHMARK_CAPTURE(sample, random, Order::random)->Arg(20)->Arg(67)->Arg(200);
+BENCHMARK_CAPTURE(sample_many, forward, Order::forward)->Arg(20)->Arg(67)->Arg(200);
+BENCHMARK_CAPTURE(sample_many, random, Order::random)->Arg(20)->Arg(67)->Arg(200);
 BENCHMARK_CAPTURE(blend_layers, two, 2)->Arg(20)->Arg(67)->Arg(200);
 BENCHMARK_CAPTURE(blend_layers, four, 4)->Arg(20)->Arg(67)->Arg(200);
 BENCHMARK(add_one)->Arg(20)->Arg(67)->Arg(200);

@@ -43,4 +43,10 @@ void CrowdClip::sample(const ClipClock& clock, std::span<CrowdGroup> pose, std::
   if (clock.cycle != 0) crowd::climb(*compiled_, clock.cycle, pose.data(), rates.data());
 }
 
+void CrowdClip::sample(std::span<const ClipClock> clocks, std::span<CrowdGroup> poses) const noexcept {
+  crowd::sample_many_with(crowd::fastest_sample_kernels(), *compiled_, clocks, poses.data());
+  for (std::size_t i = 0; i < clocks.size(); ++i)
+    if (clocks[i].cycle != 0) crowd::climb(*compiled_, clocks[i].cycle, poses.data() + i * groups(), nullptr);
+}
+
 }  // namespace tweenfall

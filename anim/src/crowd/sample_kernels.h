@@ -2,6 +2,8 @@
 
 // The inner loops of sampling, one version for each instruction set.
 
+#include <tweenfall/anim/play.h>
+
 #include "crowd/compiled_clip.h"
 
 #include <span>
@@ -36,5 +38,9 @@ struct SampleKernels {
 /// The whole of a clip by given kernels. @param rates  null for none
 void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double time, bool arriving, double rate,
                  CrowdGroup* pose, CrowdRates* rates) noexcept;
+
+/// The same of many figures at their clocks. @param poses  figure after figure
+void sample_many_with(const SampleKernels& kernels, const CompiledClip& clip, std::span<const ClipClock> clocks,
+                      CrowdGroup* poses) noexcept;
 
 }  // namespace tweenfall::crowd

@@ -61,6 +61,37 @@ void set_place(RunPlace& at, const CompiledClip& clip, const Run& run, const Tim
   if (form.cubic) at.tangent_rate = row_weights(moving.tangent, taps);
 }
 
+/// Of several runs where they are is found first: then their words come from memory side by side.
+constexpr std::size_t at_once = 8;
+
+/// Where the runs of a clip are at a time.
+class Locator {
+ public:
+  Locator(const CompiledClip& clip, double time, bool arriving)
+      : clip_(clip), time_(std::isnan(time) ? 0 : time), arriving_(arriving) {}  // one that is none is 0
+
+  /// Those from the first on, as many as are found at once. @param places  `at_once` of them
+  std::span<const RunPlace> locate(std::size_t first, bool with_rates, RunPlace* places) {
+    const std::size_t count = std::min(at_once, clip_.runs.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Run& run = clip_.runs[first + i];
+      places[i].run = &run;
+      places[i].base = places[i].fine = nullptr;
+      if (run.form.timeline == Form::no_timeline) continue;
+      if (run.form.timeline != timeline_) place_ = clip_.timelines[timeline_ = run.form.timeline].at(time_, arriving_);
+      set_place(places[i], clip_, run, place_, with_rates);
+    }
+    return {places, count};
+  }
+
+ private:
+  const CompiledClip& clip_;
+  double time_;
+  bool arriving_;
+  std::uint32_t timeline_ = Form::no_timeline;
+  Timeline::Place place_{};
+};
+
 void scale_rates(CrowdRates* rates, std::size_t groups, float factor) {
   for (std::size_t g = 0; g < groups; ++g) {
     CrowdRates& group = rates[g];
@@ -74,28 +105,33 @@ void scale_rates(CrowdRates* rates, std::size_t groups, float factor) {
 
 void sample_with(const SampleKernels& kernels, const CompiledClip& clip, double time, bool arriving, double rate,
                  CrowdGroup* pose, CrowdRates* rates) noexcept {
-  if (std::isnan(time)) time = 0;  // which is none
-  // Of several runs where they are is found first: then their words come from memory side by side.
-  constexpr std::size_t at_once = 8;
   RunPlace places[at_once];
-  std::uint32_t timeline = Form::no_timeline;
-  Timeline::Place place{};
+  Locator locator(clip, time, arriving);
   for (std::size_t first = 0; first < clip.runs.size(); first += at_once) {
-    const std::size_t count = std::min(at_once, clip.runs.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Run& run = clip.runs[first + i];
-      places[i].run = &run;
-      places[i].base = places[i].fine = nullptr;
-      if (run.form.timeline == Form::no_timeline) continue;
-      if (run.form.timeline != timeline) place = clip.timelines[timeline = run.form.timeline].at(time, arriving);
-      set_place(places[i], clip, run, place, rates != nullptr);
-    }
+    const std::span<const RunPlace> found = locator.locate(first, rates != nullptr, places);
     if (rates)
-      kernels.pose_and_rates(clip, {places, count}, pose, rates);
+      kernels.pose_and_rates(clip, found, pose, rates);
     else
-      kernels.pose(clip, {places, count}, pose);
+      kernels.pose(clip, found, pose);
   }
   if (rates && rate != 1) scale_rates(rates, crowd_groups(clip.joints), static_cast<float>(rate));
+}
+
+void sample_many_with(const SampleKernels& kernels, const CompiledClip& clip, std::span<const ClipClock> clocks,
+                      CrowdGroup* poses) noexcept {
+  // What is found of one figure does not wait for another's; what is read then comes from memory side by side.
+  constexpr std::size_t figures = 4;
+  RunPlace places[figures][at_once];
+  const std::size_t groups = crowd_groups(clip.joints);
+  for (std::size_t begin = 0; begin < clocks.size(); begin += figures) {
+    const std::span<const ClipClock> some = clocks.subspan(begin, std::min(figures, clocks.size() - begin));
+    for (std::size_t first = 0; first < clip.runs.size(); first += at_once) {
+      std::span<const RunPlace> found[figures];
+      for (std::size_t i = 0; i < some.size(); ++i)
+        found[i] = Locator(clip, some[i].time, some[i].side == Side::in).locate(first, false, places[i]);
+      for (std::size_t i = 0; i < some.size(); ++i) kernels.pose(clip, found[i], poses + (begin + i) * groups);
+    }
+  }
 }
 
 void climb(const CompiledClip& clip, int cycle, CrowdGroup* pose, CrowdRates* rates) noexcept {

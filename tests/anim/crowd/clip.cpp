@@ -94,6 +94,25 @@ TEST_CASE("the wide kernels give the bits of the plain ones, values and rates") 
   }
 }
 
+TEST_CASE("many figures at once stand as each does alone") {
+  const auto nodes = random_figure(4, 13);
+  Clip source = random_clip(54, *nodes, 1.5);
+  source.loop = {.mode = LoopMode::repeat_offset};
+  const CrowdClip clip = compile(source, *nodes);
+  Random random(8);
+  for (const std::size_t count : {0U, 1U, 3U, 4U, 5U, 23U}) {
+    std::vector<ClipClock> clocks;
+    for (std::size_t i = 0; i < count; ++i)
+      clocks.push_back(clip.clock(0, 1, random.between(-0.2, 7), random.unit() < 0.5 ? Side::in : Side::out));
+    std::vector<CrowdGroup> poses(count * clip.groups()), alone(clip.groups());
+    clip.sample(clocks, poses);
+    for (std::size_t i = 0; i < count; ++i) {
+      clip.sample(clocks[i], alone);
+      CHECK(same_groups(std::span(poses).subspan(i * clip.groups(), clip.groups()), alone));
+    }
+  }
+}
+
 TEST_CASE("rates are the derivatives of what the sampler returns") {
   const auto nodes = random_figure(5, 12);
   const Clip source = random_clip(77, *nodes, 2);

@@ -50,6 +50,9 @@ class CrowdClip {
   /// The same and its rates: the derivatives, with respect to stage time, of what is written to `pose`.
   /// @param rates  written; `groups()` of them
   void sample(const ClipClock& clock, std::span<CrowdGroup> pose, std::span<CrowdRates> rates) const noexcept;
+  /// The poses of many figures at their clocks, each as above; for figures of few joints it takes less time for each.
+  /// @param poses  written; `groups()` of them for each clock, figure after figure
+  void sample(std::span<const ClipClock> clocks, std::span<CrowdGroup> poses) const noexcept;
   /// The pose at a time of the clip; the ends hold.
   void sample(double clip_time, std::span<CrowdGroup> pose) const noexcept;
 
