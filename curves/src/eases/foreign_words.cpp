@@ -12,7 +12,7 @@ struct ForeignWord {
 };
 
 // Names of whole eases. Source: the manuals of Blender 4 (F-curves and their handles), Maya 2024 (tangents), After
-// Effects, glTF 2.0, jQuery, d3, and R. Penner's classes, in which even the straight way has directions.
+// Effects, glTF 2.0, three.js, jQuery, d3, and R. Penner's classes, in which even the straight way has directions.
 constexpr ForeignWord words[] = {{"constant", "hold"},
                                  {"stepped", "hold"},
                                  {"step", "hold"},
@@ -22,6 +22,9 @@ constexpr ForeignWord words[] = {{"constant", "hold"},
                                  {"none", "linear"},
                                  {"easenone", "linear"},
                                  {"easelinear", "linear"},
+                                 {"interpolatelinear", "linear"},
+                                 {"interpolatediscrete", "hold"},
+                                 {"interpolatesmooth", "smooth"},
                                  {"lineareasenone", "linear"},
                                  {"lineareasein", "linear"},
                                  {"lineareaseout", "linear"},
@@ -69,8 +72,10 @@ std::string_view family_named(std::string_view theirs) {
   return {};
 }
 
-// "easeInQuad", "quadInOut", "InOutCubic", "Sine.easeOut", "BACK".
+// "easeInQuad", "quadInOut", "InOutCubic", "Sine.easeOut", "TWEEN.Easing.Sine.Out", "BACK".
 std::string of_family(std::string key) {
+  for (const std::string_view before : {"tween", "easing"})
+    if (key.starts_with(before)) key.erase(0, before.size());
   if (const std::size_t ease = key.find("ease"); ease != std::string::npos) key.erase(ease, 4);
   constexpr ForeignWord ways[] = {{"inout", "-in-out"}, {"in", "-in"}, {"out", "-out"}};
   for (const ForeignWord& flow : ways) {
@@ -101,7 +106,11 @@ std::string Ease::ours(std::string_view foreign) {
     if (eases::plain(own) != key || call.empty() != (own.size() == name.size())) continue;
     return own == word ? std::string() : own + std::string(call);
   }
-  if (!call.empty()) return {};
+  if (!call.empty()) {
+    const std::string family = eases::of_family(key);
+    const auto takes_numbers = [&](const std::string& name) { return name.starts_with(family + "("); };
+    return !family.empty() && std::ranges::any_of(names(), takes_numbers) ? family + std::string(call) : std::string();
+  }
   for (const eases::ForeignWord& row : eases::words)
     if (row.theirs == key) return std::string(row.ours);
   return eases::of_family(key);

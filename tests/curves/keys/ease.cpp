@@ -216,6 +216,10 @@ TEST_CASE("a name that other programs have for an ease is answered with ours") {
                                       {"easeInOut", "ease-in-out"},
                                       {"stepStart", "step-start"},
                                       {"catmullRom", "catmull-rom"},
+                                      {"InterpolateSmooth", "smooth"},
+                                      {"InterpolateDiscrete", "hold"},
+                                      {"TWEEN.Easing.Quadratic.Out", "quad-out"},
+                                      {"easeOutElastic(1,.6)", "elastic-out(1,.6)"},
                                       {"cubicBezier(0.1,0,1,1)", "cubic-bezier(0.1,0,1,1)"}};
   for (const auto& names : cases) {
     const char *theirs = names[0], *ours = names[1];

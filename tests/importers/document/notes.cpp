@@ -94,6 +94,60 @@ TEST_CASE("a number of the author's own that a graph follows is not taken for an
             .empty());
 }
 
+TEST_CASE("a track of sizes is noted where it scales what is drawn of a body and not what collides") {
+  const auto noted = [](const std::string& body, const std::string& track) {
+    return notes_of(
+        "{\"tweenfall\": 1, \"nodes\": {\"top\": {\"scale\": 2}, \"ball\": {\"parent\": \"top\", \"body\": " + body +
+        "}, \"lamp\": {}}, \"clips\": {\"c\": {\"tracks\": {" + track + "}}}}");
+  };
+  const std::string ball = "{\"shape\": {\"sphere\": {\"radius\": 0.1}}}",
+                    squash = "[[0, 1], [1, [1.2, 0.7, 1.2]], [2, 1]]";
+  const std::string own = noted(ball, "\"ball.scale\": " + squash);
+  CHECK(has(
+      own, "\"ball.scale\" scales what is drawn alone: the body of \"ball\" collides in the size that it has at rest"));
+  CHECK(has(own, "(at /clips/c/tracks/ball.scale)"));
+  CHECK(has(noted(ball, "\"ball.scale.y\": [[0, 1], [1, 0.5]]"), "\"ball.scale.y\" scales"));
+  CHECK(has(noted(ball, "\"ball.scale\": {\"relative\": true, \"keys\": [[0, 1], [1, 2]]}"), "\"ball.scale\" scales"));
+  // What hangs below is drawn in another size, too.
+  CHECK(has(noted(ball, "\"top.scale\": [[0, 2], [1, 3]]"), "the body of \"ball\" collides"));
+  CHECK(noted(ball, "\"top.scale\": [[0, 2], [1, 2]]").empty());
+  CHECK(noted(ball, "\"ball.scale\": {\"relative\": true, \"keys\": [[0, 1], [1, 1]]}").empty());
+  CHECK(noted(ball, "\"lamp.scale\": " + squash).empty());
+  CHECK(noted("{\"shape\": {\"sphere\": {\"radius\": 0.1}}, \"sensor\": true}", "\"ball.scale\": " + squash).empty());
+  CHECK(noted("{\"shape\": {\"sphere\": {\"radius\": 0.1}}, \"collides_with\": []}", "\"ball.scale\": " + squash)
+            .empty());
+}
+
+TEST_CASE("angles that are quarter turns in radians are noted, whole degrees are not") {
+  const auto track = [](const std::string& value) {
+    return notes_of("{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {" + value + "}}}}");
+  };
+  CHECK(has(track("\"a.rotation\": {\"axis\": \"z\", \"keys\": [[0, 0], [1, 3.14159]]}"),
+            "turns by 3.1416, a number of quarter turns in radians; angles here are degrees, a quarter turn is 90"));
+  CHECK(has(track("\"a.rotation\": [[0, {\"euler\": [0, 0, 0]}], [1, {\"euler\": [0, 1.5708, -3.1416]}]]"),
+            "(at /clips/c/tracks/a.rotation)"));
+  CHECK(has(track("\"a.rotation.y\": [[0, 0], {\"t\": 1, \"v\": 6.2832}]"), "in radians"));
+  CHECK(track("\"a.rotation\": {\"axis\": \"z\", \"keys\": [[0, 0], [1, 3.14159], [2, 5]]}").empty());
+  CHECK(track("\"a.rotation\": {\"axis\": \"z\", \"keys\": [[0, 0], [1, 11], [2, 22]]}").empty());
+  CHECK(track("\"a.angle\": [[0, 0], [1, 3.14159]]").empty());
+  const auto node = [](const std::string& rotation) {
+    return notes_of("{\"tweenfall\": 1, \"nodes\": {\"a\": {\"rotation\": " + rotation + "}}}");
+  };
+  CHECK(has(node("{\"axis\": \"y\", \"angle\": 1.5708}"), "(at /nodes/a/rotation)"));
+  CHECK(node("{\"axis\": \"y\", \"angle\": 90}").empty());
+}
+
+TEST_CASE("keys after the end that a clip is given are noted") {
+  const auto noted = [](const std::string& clip) {
+    return notes_of("{\"tweenfall\": 1, \"clips\": {\"c\": {" + clip +
+                    "\"tracks\": {\"a.position\": [[0, [0, 0, 0]], [3, [1, 0, 0]]]}}}}");
+  };
+  CHECK(has(noted("\"duration\": 1, "), "goes on to 3 s, but the clip ends at 1 s: what comes after is never reached"));
+  CHECK(noted("\"duration\": 3, ").empty());
+  CHECK(noted("\"duration\": 4, ").empty());
+  CHECK(noted("").empty());
+}
+
 TEST_CASE("a step that is a rate is noted, and so is one too long for bodies") {
   const auto noted = [](const std::string& step) {
     return notes_of("{\"tweenfall\": 1, \"world\": {\"step\": " + step + "}}");

@@ -218,8 +218,120 @@ TEST_CASE("what others call things, or write in another form, is answered by our
   answers("\"handoff\": {\"body\": \"a\", \"when\": {\"at\": 1}, \"to\": \"free\"}}", "write it in a list, [...]");
   answers("\"play\": \"c\"}", "say {\"clip\": \"c\"}, in a list");
   answers("\"world\": {\"plane\": true}}", "available: \"none\", \"xy\", \"xz\", \"yz\"");
-  answers("\"clips\": {\"c\": {\"loop\": true}}}", "available: \"repeat\", \"repeat-offset\", \"pingpong\"");
+  answers("\"clips\": {\"c\": {\"loop\": true}}}", "found true; say \"repeat\"");
   // What has nothing in common with a name is not taken for it.
   const std::string keyed = said("\"clips\": {\"c\": {\"tracks\": {\"a.b\": {\"0\": 1}}}}}");
   CHECK_MESSAGE(keyed.find("did you mean") == std::string::npos, keyed);
+}
+
+TEST_CASE("a bare value in the place of an object is answered with the field that holds it") {
+  const auto said = [](const std::string& text) { return faults_of("{\"tweenfall\": 1, " + text + "}", "n.json", {}); };
+  const auto body = [&](const std::string& shape) {
+    return said("\"nodes\": {\"a\": {\"body\": {\"shape\": " + shape + "}}}");
+  };
+  CHECK(says(body("{\"sphere\": 0.2}"), "found 0.2; say {\"radius\": 0.2}"));
+  CHECK(says(body("{\"box\": [1, 2, 3]}"), "found a list of 3; say {\"size\": [1, 2, 3]}"));
+  CHECK(says(body("{\"box\": {\"size\": 2}}"), "found 2; say [2, 2, 2]"));
+  const auto rule = [&](const std::string& members) {
+    return said(
+        "\"nodes\": {\"a\": {\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}}}}, \"clips\": {\"c\": {\"tracks\": "
+        "{\"a.position\": [[0, [0, 0, 0]], [1, [1, 0, 0]]]}}}, \"handoff\": [{\"body\": \"a\", " +
+        members + "}]");
+  };
+  CHECK(says(rule("\"when\": {\"contact\": 3}, \"to\": \"free\""), "found 3; say {\"impulse\": 3}"));
+  CHECK(
+      says(rule("\"when\": {\"contact\": \"floor\"}, \"to\": \"free\""), "found \"floor\"; say {\"with\": \"floor\"}"));
+  CHECK(says(rule("\"when\": {\"at\": 1}, \"to\": \"free\", \"settle\": 0.4"), "found 0.4; say {\"quintic\": 0.4}"));
+  CHECK(says(rule("\"when\": {\"at\": 1}, \"to\": 5"), "found 5; say {\"hz\": 5}"));
+  CHECK(says(rule("\"when\": [{\"at\": 1}, {\"clip_end\": true}], \"to\": \"free\""),
+             "say {\"all\": [...]} for this and that, {\"any\": [...]} for this or that"));
+  CHECK(says(said("\"world\": {\"gravity\": -9.81}"), "found -9.81; say [0, -9.81, 0]"));
+  CHECK(says(said("\"world\": {\"gravity\": 9.81}"), "found 9.81; say [0, -9.81, 0]"));
+  CHECK(says(said("\"world\": {\"forces\": [{\"wind\": [1, 0, 0]}]}"),
+             "found a list of 3; say {\"velocity\": [1, 0, 0]}"));
+  // What fits none says nothing; of many fields none is meant.
+  CHECK(!says(body("{\"sphere\": -1}"), "say"));
+  CHECK(!says(said("\"world\": 9.81"), "say"));
+  CHECK(!says(said("\"nodes\": {\"a\": {\"body\": 3}}"), "say"));
+}
+
+TEST_CASE("a condition in the words of a program is answered with its parameter and number") {
+  const auto when = [](const std::string& condition) {
+    return faults_of(
+        "{\"tweenfall\": 1, \"graphs\": {\"g\": {\"poses\": {\"i\": {\"rest\": true}, \"m\": {\"machine\": {\"start\": "
+        "\"a\", "
+        "\"states\": {\"a\": \"i\", \"b\": \"i\"}, \"transitions\": [{\"from\": \"a\", \"to\": \"b\", \"when\": " +
+            condition + "}]}}}}}}",
+        "n.json", {});
+  };
+  CHECK(says(when("\"speed > 0.1\""), "say {\"parameter\": \"speed\", \"above\": 0.1}"));
+  CHECK(says(when("\"speed<=2\""), "say {\"parameter\": \"speed\", \"below\": 2}"));
+  CHECK(says(when("\"the gear == 3\""), "say {\"parameter\": \"the gear\", \"equals\": 3}"));
+  CHECK(says(when("\"halt\""), "say {\"event\": \"halt\"}"));
+  CHECK(says(when("0.5"), "say {\"time_in_state\": 0.5}"));
+  for (const char* odd : {"\">\"", "\"> 1\"", "\"a >\"", "\"a > b\"", "\"=\"", "\"\""})
+    CHECK(!says(when(odd), "parameter\": \"\""));
+}
+
+TEST_CASE("ways to loop are told for true, numbers and words of other programs") {
+  const auto loop = [](const std::string& value) {
+    return faults_of("{\"tweenfall\": 1, \"clips\": {\"c\": {\"duration\": 1, \"loop\": " + value + "}}}", "n.json",
+                     {});
+  };
+  CHECK(says(loop("true"), "found true; say \"repeat\""));
+  CHECK(says(loop("-1"), "found -1; say \"repeat\""));
+  CHECK(says(loop("3"), "found 3; say {\"mode\": \"repeat\", \"count\": 3}"));
+  CHECK(says(loop("\"infinite\""), "did you mean \"repeat\"?"));
+  CHECK(says(loop("\"yoyo\""), "did you mean \"pingpong\"?"));
+}
+
+TEST_CASE("rotations, tracks and events in the shape of other programs are told in ours") {
+  const auto node = [](const std::string& rotation) {
+    return faults_of("{\"tweenfall\": 1, \"nodes\": {\"a\": {\"rotation\": " + rotation + "}}}", "n.json", {});
+  };
+  CHECK(says(node("{\"x\": 0, \"y\": 45, \"z\": 0}"), "say {\"euler\": [0, 45, 0]}"));
+  CHECK(says(node("{\"y\": 30}"), "say {\"euler\": [0, 30, 0]}"));
+  CHECK(says(node("{\"x\": 0, \"y\": 0, \"z\": 0, \"w\": 1}"), "say {\"quat\": [0, 0, 0, 1]}"));
+  CHECK(says(node("\"90deg\""), "say {\"axis\": \"z\", \"angle\": 90}"));
+  CHECK(says(node("{\"quaternion\": [0, 0, 0, 1]}"), "did you mean \"quat\"?"));
+  CHECK(says(node("{\"axis\": \"y\", \"degrees\": 20}"), "did you mean \"angle\"?"));
+  const auto track = [](const std::string& value) {
+    return faults_of("{\"tweenfall\": 1, \"clips\": {\"c\": {\"tracks\": {\"a.position\": " + value + "}}}}", "n.json",
+                     {});
+  };
+  CHECK(says(track("{\"x\": [[0, 0], [1, 1]]}"),
+             "unknown field \"x\"; one number alone is a track by its name, as \"NODE.position.x\""));
+  CHECK(says(track("{\"times\": [0, 1], \"values\": [[0, 0, 0], [1, 1, 1]]}"),
+             "unknown field \"times\"; each key has its time and its value, [[time, value], ...]"));
+  CHECK(says(track("{\"keys\": [[0, [0, 0, 0]]], \"interpolation\": \"LINEAR\"}"),
+             "each key says its own ease, [time, value, ease]"));
+  const auto clip = [](const std::string& members) {
+    return faults_of("{\"tweenfall\": 1, \"clips\": {\"c\": {\"duration\": 2, " + members + "}}}", "n.json", {});
+  };
+  CHECK(
+      says(clip("\"events\": [{\"t\": 1, \"event\": \"bang\"}]"), "an event at one time is a list; say [1, \"bang\"]"));
+  CHECK(says(clip("\"markers\": [[1, \"bang\"]]"), "unknown field \"markers\"; did you mean \"events\"?"));
+}
+
+TEST_CASE("fields of bodies in other programs are told what does the same, and none that is deep in something else") {
+  const auto of = [](const std::string& member) {
+    return in_node("\"body\": {\"shape\": {\"sphere\": {\"radius\": 1}}, " + member + "}");
+  };
+  CHECK(says(of("\"useGravity\": false"), "\"gravity\" in \"world\" is that of all bodies"));
+  CHECK(says(of("\"ccd\": true"), "all that is fast is caught on its way"));
+  CHECK(says(of("\"freezeRotation\": true"), "\"joints\" in \"world\""));
+  CHECK(says(of("\"material\": {\"friction\": 1}"), "fields of the body itself"));
+  CHECK(says(of("\"layer\": \"walls\""), "did you mean \"groups\"?"));
+  CHECK(!says(of("\"radius\": 1"), "soft"));
+}
+
+TEST_CASE("what hangs on a faulty duration is not told to be at fault") {
+  const std::string said = faults_of(
+      "{\"tweenfall\": 1, \"clips\": {\"c\": {\"duration\": \"500ms\", \"loop\": \"repeat\", \"tracks\": "
+      "{\"a.position\": [[\"0%\", "
+      "[0, 0, 0]], [\"100%\", [1, 0, 0]]]}}}}",
+      "n.json", {});
+  CHECK(says(said, "found \"500ms\"; say 0.5"));
+  CHECK(!says(said, "share of the duration"));
+  CHECK(!says(said, "cannot loop"));
 }

@@ -3,6 +3,7 @@
 
 #include "document/fields/table.h"
 #include "document/fields/things.h"
+#include "document/report/foreign_words.h"
 #include "document/report/suggestion.h"
 #include "document/shapes/shapes.h"
 
@@ -161,6 +162,7 @@ const Form* body_form(FormStore& store, const ValueForms& values) {
   Form form = body_table().form(store, values);
   form.together = {at_most_one({"mass", "density", "mass_properties"})};
   form.definition = "body";
+  form.said_of = said_of_field_of_body;
   return store.add(std::move(form));
 }
 

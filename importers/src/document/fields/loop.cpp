@@ -1,6 +1,7 @@
 #include "document/fields/table.h"
 #include "document/fields/things.h"
 #include "document/read/values.h"
+#include "document/report/spellings.h"
 
 #include <string>
 #include <utility>
@@ -26,7 +27,9 @@ const Form* either_form(FormStore& store, const ValueForms& values, std::size_t 
       object_of("a loop: {\"mode\", \"count\"}",
                 {{"mode", word, "", true}, {"count", values.positive, "number of rounds; absent: without end"}});
   full.on_one_line = true;
-  return store.add(choice_of("a way to loop, or {\"mode\", \"count\"}", {word, store.add(std::move(full))}));
+  Form either = choice_of("a way to loop, or {\"mode\", \"count\"}", {word, store.add(std::move(full))});
+  either.instead = loop_meant;
+  return store.add(std::move(either));
 }
 
 }  // namespace

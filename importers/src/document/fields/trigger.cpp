@@ -37,6 +37,8 @@ std::string known_event(const json::Value& name, const RuleBeingRead& rule, Buil
 // What a value that is no object may be meant for.
 std::string trigger_instead_of(const json::Value& value) {
   if (value.is(json::Value::Kind::number)) return "; say {\"at\": " + json::on_one_line(value) + "}";
+  if (value.is(json::Value::Kind::list))
+    return "; say {\"all\": [...]} for this and that, {\"any\": [...]} for this or that";
   if (!value.is(json::Value::Kind::text)) return {};
   if (value.text() == "contact") return "; say {\"contact\": {}}";
   const std::string name = json::on_one_line(value);

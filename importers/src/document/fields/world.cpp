@@ -4,6 +4,7 @@
 #include "document/forces/forces.h"
 #include "document/joints/joints.h"
 #include "document/ragdolls/ragdolls.h"
+#include "document/report/spellings.h"
 #include "document/soft/soft.h"
 
 #include <tweenfall/physics/strategies.h>
@@ -20,6 +21,13 @@ using Kind = json::Value::Kind;
 
 void read_step(const json::Value& value, StageDescription& stage, Building&) {
   stage.step = seconds_of_step(value);
+}
+
+const Form* gravity_form(FormStore& store, const ValueForms& values) {
+  Form form = *values.vector;
+  form.definition.clear();
+  form.instead = gravity_meant;
+  return store.add(std::move(form));
 }
 
 const Form* sleep_form(FormStore& store, const ValueForms& values) {
@@ -93,7 +101,7 @@ const Table<StageDescription>& world_table() {
   };
   static const Table<Stage> table(
       "a world",
-      {{"gravity", &ValueForms::vector, "m/s^2", member<Stage>(of_world(&WorldSettings::gravity))},
+      {{"gravity", gravity_form, "m/s^2", member<Stage>(of_world(&WorldSettings::gravity))},
        {"step", step_form, "s", {read_step, "\"1/240\""}, false, {}, {"dt", "timestep", "time_step"}},
        one_of<Stage, Integrator>("integrator", "an integrator", integrator_words(), "",
                                  of_world(&WorldSettings::integrator)),

@@ -35,7 +35,7 @@ const Form* clip_form(FormStore& store, const ValueForms& values) {
                         {{"duration", values.length_of_time, "absent: the latest key or event"},
                          {"loop", fields::loop_form(store, values), "absent: once"},
                          {"tracks", tracks_form(store, values), "", false, "{}"},
-                         {"events", store.add(std::move(events)), "", false, "[]"}});
+                         {"events", store.add(std::move(events)), "", false, "[]", {"markers", "notifies", "cues"}}});
   clip.definition = "clip";
   clip.one_a_line = true;
   return store.add(std::move(clip));

@@ -3,6 +3,7 @@
 
 #include "document/grammar/grammar_functions.h"
 #include "document/grammar/grammar_parts.h"
+#include "document/report/foreign_words.h"
 #include "document/report/spellings.h"
 #include "document/report/suggestion.h"
 
@@ -106,6 +107,7 @@ class TrackForms {
   const Form* object(const TrackKind& kind, const Form* keys) {
     Form form = object_of("a track: a list of keys, or an object with \"keys\"", kind.options);
     form.definition = "track-" + kind.name;
+    form.said_of = said_of_field_of_track;
     if (kind.rate) {
       const Form* beyond = outside(kind);
       form.fields.push_back({"before", beyond, "before the first key", false, "\"hold\"", {"preinfinity"}});

@@ -217,6 +217,7 @@ ValueForms::ValueForms(FormStore& store) {
     form.on_one_line = true;
     form.instead = [spelling](const json::Value& value) { return rotation_meant(value, spelling); };
     form.foremost_fault = [spelling](const json::Value& value) -> std::string {
+      if (std::string angles = angles_meant(value); !angles.empty()) return angles;
       for (const char* other : {"euler", "quat", "angle"})
         if (other != spelling && value.find(other) && !value.find(spelling))
           return "rotations of one track are spelled one way; its first key has " + json::in_quotes(spelling) +
@@ -232,8 +233,8 @@ ValueForms::ValueForms(FormStore& store) {
   Form rest = object_of(what, {{"euler", vector, euler_field.help},
                                {"order", euler_order, "", false, "\"XYZ\""},
                                {"axis", axis, ""},
-                               {"angle", number, angle_field.help},
-                               {"quat", vector_4, quat_field.help}});
+                               {"angle", number, angle_field.help, false, {}, {"degrees", "deg"}},
+                               {"quat", vector_4, quat_field.help, false, {}, {"quaternion"}}});
   rest.together = {exactly_one({"euler", "angle", "quat"}),
                    {Together::Rule::first_needs_second, {"order", "euler"}},
                    {Together::Rule::first_needs_second, {"axis", "angle"}},
@@ -241,6 +242,7 @@ ValueForms::ValueForms(FormStore& store) {
   rest.definition = "rotation";
   rest.on_one_line = true;
   rest.instead = [](const json::Value& value) { return rotation_meant(value, "euler"); };
+  rest.foremost_fault = angles_meant;
   rotation = store.add(std::move(rest));
 }
 

@@ -59,6 +59,7 @@ const Form* transition_when_form(FormStore& store, const ValueForms& values) {
   Form condition = condition_table().form(store, values);
   condition.what = "a condition: {\"parameter\", \"above\"}, {\"event\"}, {\"time_in_state\"} or {\"clip_end\"}";
   condition.on_one_line = true;
+  condition.instead = comparison_meant;
   Form when = condition;
   condition.together = condition_rules(ends);
   condition.definition = "condition";

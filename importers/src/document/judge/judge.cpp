@@ -54,7 +54,9 @@ void judge(Building& building) {
   // What an import is on its own does not matter: only its nodes and clips come in, and into another stage.
   if (!building.reading.is_outermost()) return;
   judging::judge_pace(building);
+  judging::judge_angles(building);
   judging::judge_drives(building);
+  judging::judge_sizes(building);
   if (building.problems.empty()) judging::judge_stage(building);
   if (building.problems.empty()) judging::judge_frames(building);
   if (building.problems.empty()) judging::judge_actors(building);

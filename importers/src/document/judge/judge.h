@@ -19,7 +19,9 @@ namespace tweenfall::document::judging {
 void judge_stage(Building& building);   // what the stage refuses, what starts badly
 void judge_pace(Building& building);    // what is too fast or too long for the step
 void judge_tracks(Building& building);  // names of properties
+void judge_angles(Building& building);  // radians among the degrees
 void judge_drives(Building& building);  // tracks that drive bodies
+void judge_sizes(Building& building);   // tracks that scale what is drawn and not what collides
 void judge_frames(Building& building);  // drives that nothing carries along
 void judge_actors(Building& building);  // what particles and soft bodies say in vain
 

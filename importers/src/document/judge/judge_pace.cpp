@@ -3,6 +3,7 @@
 #include <tweenfall/physics/stage/recording.h>
 
 #include "document/fields/things.h"
+#include "document/judge/instants.h"
 #include "document/judge/judge.h"
 #include "document/read/values.h"
 
@@ -41,19 +42,9 @@ std::vector<double> fastest_plays(const StageDescription& stage) {
 
 // The greatest angular speed near any key or half way between two, rad/s.
 double fastest_turn(const Curve<Quat>& curve, double duration) {
-  constexpr std::size_t most = 100'000;
   double fastest = 0;
-  const auto look = [&](double time, Side side) {
-    if (std::isfinite(time)) fastest = std::max(fastest, curve.rate(time, side).norm());
-  };
-  const std::span<const double> knots = curve.knots();
-  for (std::size_t i = 0; i < std::min(knots.size(), most); ++i) {
-    look(knots[i], Side::out);
-    look(knots[i], Side::in);
-    if (i > 0) look(knots[i - 1] + (knots[i] - knots[i - 1]) / 2, Side::out);
-  }
-  if (knots.empty())
-    for (int i = 0; i <= 16; ++i) look((std::isfinite(duration) ? duration : 1) * i / 16, Side::out);
+  look_along(curve, duration,
+             [&](double time, Side side) { fastest = std::max(fastest, curve.rate(time, side).norm()); });
   return fastest;
 }
 
@@ -102,6 +93,19 @@ void note_recorded_events(Building& building, const json::Value& place, const Pl
                                       "loop, or end the recording earlier");
 }
 
+// What lies after the end that a clip is given is never reached.
+void note_late_ends(Building& building, const Clip& clip) {
+  const json::Value clips = usable(building.root, "clips"), own = clips ? usable(clips, clip.name) : clips;
+  if (!own || !usable(own, "duration") || !std::isfinite(clip.duration)) return;
+  for (const Track& track : clip.tracks) {
+    const double last = extent(track.curve).second;
+    if (!std::isfinite(last) || last <= clip.duration * (1 + 1e-9)) continue;
+    building.problems.note(place_of_track(building, clip, track),
+                           "goes on to " + brief_text(last) + " s, but the clip ends at " + brief_text(clip.duration) +
+                               " s: what comes after is never reached");
+  }
+}
+
 }  // namespace
 
 void judge_pace(Building& building) {
@@ -124,6 +128,7 @@ void judge_pace(Building& building) {
     const Clip& clip = stage.clips[i];
     if (usual) judge_turns(building, clip, fastest[i]);
     judge_loop(building, i, fastest[i]);
+    note_late_ends(building, clip);
     if (std::isfinite(clip.duration) && clip.duration > hour)
       building.problems.note(below(place_of_clip(building, clip.name), {"duration"}),
                              "lasts " + brief_text(clip.duration) +

@@ -44,7 +44,9 @@ void judge_tracks(Building& building) {
     const json::Value tracks = is_free_name(clip.name) ? json::Value() : usable(clip.value, "tracks");
     if (!tracks) continue;
     for (const json::Member& track : tracks.members()) {
-      if (is_free_name(track.name) || followed.contains(std::string(track.name))) continue;
+      // Where its value is at fault, that says what was meant, too.
+      if (is_free_name(track.name) || track.value.is(json::Value::Kind::faulty)) continue;
+      if (followed.contains(std::string(track.name))) continue;
       if (const std::string meant = meant_by(track.name); !meant.empty())
         building.problems.note_name(
             track, json::in_quotes(track.name) + " is a property of your own, which moves nothing; " + meant);

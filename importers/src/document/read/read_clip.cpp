@@ -80,8 +80,13 @@ Clip read_clip(const json::Member& member, std::optional<double> fps, Problems& 
   clip.name = member.name;
   if (!value.is(Kind::object)) return clip;
 
-  if (const json::Value said = usable(value, "duration")) (void)ClipTimes(fps, {}, "").seconds(said, {}, problems);
+  std::optional<double> said_duration;
+  if (const json::Value said = usable(value, "duration"))
+    said_duration = ClipTimes(fps, {}, "").seconds(said, {}, problems);
   clip.duration = clip_duration(value, fps);
+  // What hangs on a faulty duration is not at fault itself.
+  if (value.find("duration") && !said_duration && !(clip.duration > 0 && std::isfinite(clip.duration)))
+    clip.duration = 1;
   const bool endless = std::isinf(clip.duration);
   const bool has_share = clip.duration > 0 && !endless;
   const ClipTimes times(

@@ -59,6 +59,9 @@ class Checker {
   static std::string instead_of(const Form& form, const json::Value& value) {
     if (form.instead)
       if (std::string better = form.instead(value); !better.empty()) return better;
+    const auto is_number = [](const Form* alternative) { return alternative->kind == Form::Kind::number; };
+    if (value.is(Kind::text) && std::ranges::any_of(form.alternatives, is_number)) return number_meant(value.text());
+    if (std::string better = as_field_of(form, value); !better.empty()) return better;
     if (form.kind == Form::Kind::list && form.fewest <= 1) {
       if (resolved(*form.element, value)) return "; write it in a list, [...]";
       const std::string better = form.element->instead ? form.element->instead(value) : std::string();
@@ -77,11 +80,58 @@ class Checker {
     tree_.mark_faulty(at);
   }
 
-  void number(const Form& form, const std::string& what, const json::Value& value) {
-    const double number = value.number();
+  // The object that a bare value stands for: with the first field that holds it, where no other must be there.
+  static std::string as_field_of(const Form& form, const json::Value& value) {
+    const Form* object = form.kind == Form::Kind::object ? &form : nullptr;
+    for (const Form* alternative : form.alternatives)
+      if (!object && alternative->kind == Form::Kind::object) object = alternative;
+    if (!object) return {};
+    constexpr std::size_t most = 8;  // of more fields none is the one that must be meant
+    if (object->fields.size() > most) return {};
+    for (const Field& field : object->fields) {
+      if (may_stand_alone(*object, field.name) && holds(*field.form, value)) return member_said(field.name, value);
+    }
+    return {};
+  }
+
+  static bool may_stand_alone(const Form& object, const std::string& name) {
+    const auto needs_more = [&](const Together& rule) {
+      const bool in = std::ranges::find(rule.names, name) != rule.names.end();
+      return (rule.rule == Together::Rule::exactly_one && !in) ||
+             (rule.rule == Together::Rule::first_needs_second && rule.names.front() == name);
+    };
+    return std::ranges::none_of(object.together, needs_more) &&
+           std::ranges::none_of(object.fields,
+                                [&](const Field& other) { return other.required && other.name != name; });
+  }
+
+  static bool in_range(const Form& form, double number) {
     const bool low = form.above_low ? number > form.low : number >= form.low;
-    const bool whole = !form.whole || number == std::floor(number);
-    if (!(low && number <= form.high && whole)) fault(value, "expected " + what + ", found " + number_text(number));
+    return low && number <= form.high && (!form.whole || number == std::floor(number));
+  }
+
+  // Whether a number, a text or a list of them is all right as it is.
+  static bool holds(const Form& form, const json::Value& value) {
+    const Form* chosen = resolved(form, value);
+    if (!chosen) return false;
+    switch (chosen->kind) {
+      case Form::Kind::number:
+        return in_range(*chosen, value.number());
+      case Form::Kind::text:
+        return (chosen->words.empty() && !chosen->fits) || (chosen->fits && chosen->fits(value.text())) ||
+               std::ranges::find(chosen->words, value.text()) != chosen->words.end();
+      case Form::Kind::list:
+        return value.items().size() >= std::max<std::size_t>(1, chosen->fewest) &&
+               value.items().size() <= chosen->most &&
+               std::all_of(value.items().begin(), value.items().end(),
+                           [&](const json::Value& item) { return holds(*chosen->element, item); });
+      default:
+        return false;
+    }
+  }
+
+  void number(const Form& form, const std::string& what, const json::Value& value) {
+    if (!in_range(form, value.number())) fault(value, "expected " + what + ", found " + number_text(value.number()));
   }
 
   void text(const Form& form, const std::string& what, const json::Value& value) {

@@ -55,10 +55,36 @@ constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
     {"node", "body"},
     {"object", "body"},
     {"other", "with"},
+    {"delay", "at"},
+    {"starttime", "at"},
     {"start", "at"},
     {"first", "start"},
     {"last", "end"},
     {"keyframes", "keys"},
+    {"timescale", "speed"},
+    {"playbackrate", "speed"},
+    {"repeat", "loop"},
+    {"iterations", "count"},
+    {"hit", "contact"},
+    {"impact", "contact"},
+    {"condition", "when"},
+    {"trigger", "when"},
+    {"lifetime", "life"},
+    {"initial", "start"},
+    {"initialstate", "start"},
+    {"default", "start"},
+    {"duration", "fade"},
+    {"width", "size"},
+    {"depth", "size"},
+    {"height", "size"},
+    {"stiffness", "hz"},
+    {"frequency", "hz"},
+    {"damping", "zeta"},
+    {"dampingratio", "zeta"},
+    {"layer", "groups"},
+    {"layers", "groups"},
+    {"collisiongroup", "groups"},
+    {"collisionlayer", "groups"},
     {"iterationcount", "loop"},
     {"repeatcount", "loop"},
     {"direction", "loop"},
@@ -69,7 +95,11 @@ constexpr std::pair<std::string_view, std::string_view> words_of_others[] = {
     {"fixeddeltatime", "step"},
     {"loop", "repeat"},
     {"cycle", "repeat"},
+    {"infinite", "repeat"},
+    {"infinity", "repeat"},
+    {"forever", "repeat"},
     {"yoyo", "pingpong"},
+    {"mirror", "pingpong"},
     {"alternate", "pingpong"},
     {"pgs", "iterative"},
     {"heun", "trapezoid"},
@@ -251,6 +281,34 @@ std::string said_of_field_of_node(std::string_view foreign) {
     return "; meshes come with models, \"import\": {\"NAME\": \"FILE\"}";
   if (property_of_ours(foreign) == "weights") return "; weights of morphs are a track, \"NODE.weights\"";
   if (word == "name" || word == "id") return "; a node is called as its member of \"nodes\" is";
+  return {};
+}
+
+std::string said_of_field_of_body(std::string_view foreign) {
+  if (foreign.empty() || foreign.size() > longest_word) return {};
+  const std::string word = joined(words_in(foreign));
+  if (word.find("gravity") != std::string::npos)
+    return "; \"gravity\" in \"world\" is that of all bodies, and a \"drive\" may bear a body's weight";
+  if (word == "ccd" || word.find("continuous") != std::string::npos || word == "bullet" || word == "isbullet")
+    return "; all that is fast is caught on its way";
+  if (word.starts_with("lock") || word.starts_with("freeze") || word == "constraints" || word == "fixedrotation")
+    return "; what a body cannot do, \"joints\" in \"world\" say: a \"slider\" holds its angles";
+  if (word == "material" || word == "physicsmaterial" || word == "physicmaterial")
+    return "; \"friction\" and \"restitution\" are fields of the body itself";
+  return {};
+}
+
+std::string said_of_field_of_track(std::string_view foreign) {
+  constexpr std::array<std::string_view, 7> parts = {"x", "y", "z", "r", "g", "b", "a"};
+  constexpr std::array<std::string_view, 6> lists = {"times", "values", "input", "output", "t", "v"};
+  constexpr std::array<std::string_view, 6> eases = {"interpolation",  "ease",   "easing",
+                                                     "timingfunction", "interp", "curve"};
+  if (foreign.empty() || foreign.size() > longest_word) return {};
+  const std::string word = joined(words_in(foreign));
+  if (is_among(foreign, parts))
+    return "; one number alone is a track by its name, as \"NODE.position.x\" or \"NODE.color.a\" are";
+  if (is_among(word, lists)) return "; each key has its time and its value, [[time, value], ...]";
+  if (is_among(word, eases)) return "; each key says its own ease, [time, value, ease]";
   return {};
 }
 

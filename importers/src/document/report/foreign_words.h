@@ -23,5 +23,7 @@ namespace tweenfall::document {
 // What does for a node what such a word does elsewhere, where we have no such property or field; or nothing.
 [[nodiscard]] std::string said_of_property(std::string_view foreign, std::string_view node);
 [[nodiscard]] std::string said_of_field_of_node(std::string_view foreign);
+[[nodiscard]] std::string said_of_field_of_body(std::string_view foreign);
+[[nodiscard]] std::string said_of_field_of_track(std::string_view foreign);
 
 }  // namespace tweenfall::document

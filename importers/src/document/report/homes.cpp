@@ -67,6 +67,12 @@ std::string Homes::near(std::string_view name, const Form& here, std::span<const
   return told(places);
 }
 
+bool Homes::is_in(const Object& object, const Form& holder) {
+  const Object* up = object.holder;
+  while (up && up->form != &holder) up = up->holder;
+  return up != nullptr;
+}
+
 std::string Homes::anywhere(std::string_view name, const Form& here) const {
   constexpr std::size_t most = 3;  // a name of more things than that says nothing
   // What stands deeper in is rather a wrong word of its own than one of the large parts gone astray.
@@ -75,9 +81,12 @@ std::string Homes::anywhere(std::string_view name, const Form& here) const {
   if (own == objects_.end() || own->depth > deepest) return {};
   std::vector<std::string> places;
   std::size_t depth = 0;
+  // What has it inside is nearer than what has it elsewhere.
+  const bool inside = std::ranges::any_of(
+      objects_, [&](const Object& object) { return object.form->field(name) && is_in(object, here); });
   for (const Object& object : objects_) {
     if (!places.empty() && object.depth > depth) break;
-    if (!object.form->field(name) || object.where == own->where) continue;
+    if (!object.form->field(name) || object.where == own->where || (inside && !is_in(object, here))) continue;
     depth = object.depth;
     std::string place = object.where;
     for (const Object* holder = object.holder; holder && holder->holder; holder = holder->holder)

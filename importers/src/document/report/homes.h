@@ -36,6 +36,7 @@ class Homes {
 
   void add(const Form& form, std::string what, const std::string& field, bool one_of_many, const Object* holder);
   [[nodiscard]] std::string near(std::string_view name, const Form& here, std::span<const Form* const> around) const;
+  [[nodiscard]] static bool is_in(const Object& object, const Form& holder);
   [[nodiscard]] std::string anywhere(std::string_view name, const Form& here) const;
   using Meant = std::string (Form::*)(std::string_view) const;
   [[nodiscard]] std::string meant_inside(std::string_view name, const Form& here, Meant meant) const;

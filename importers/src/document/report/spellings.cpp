@@ -58,6 +58,10 @@ std::string number_meant(std::string_view text) {
   return read ? said(number_text(read->number)) : std::string();
 }
 
+std::string member_said(std::string_view name, const json::Value& value) {
+  return said("{" + json::in_quotes(name) + ": " + json::on_one_line(value) + "}");
+}
+
 std::string vector_meant(const json::Value& value) {
   std::string list;
   for (const std::string_view name : {"x", "y", "z", "w"}) {
@@ -81,13 +85,63 @@ std::string time_meant(std::string_view text, bool share_of_duration) {
   return {};
 }
 
+std::string list_of_equal(const json::Value& value) {
+  if (!value.is(Kind::number)) return {};
+  const std::string number = json::on_one_line(value);
+  return said("[" + number + ", " + number + ", " + number + "]");
+}
+
+std::string gravity_meant(const json::Value& value) {
+  return value.is(Kind::number) ? said("[0, " + number_text(-std::abs(value.number())) + ", 0]") : vector_meant(value);
+}
+
+std::string loop_meant(const json::Value& value) {
+  if (value.is(Kind::boolean)) return value.boolean() ? said("\"repeat\"") : "; leave it out";
+  if (!value.is(Kind::number)) return {};
+  if (!(value.number() > 0)) return said("\"repeat\"");
+  return said("{\"mode\": \"repeat\", \"count\": " + json::on_one_line(value) + "}");
+}
+
+std::string angles_meant(const json::Value& value) {
+  if (!value.is(Kind::object) || value.members().empty()) return {};
+  std::string angles;
+  std::size_t known = 0;
+  for (const std::string_view name : {"x", "y", "z", "w"}) {
+    const json::Value part = value.find(name);
+    if (part && !part.is(Kind::number)) return {};
+    if (!part && name == "w") break;
+    angles += (angles.empty() ? "" : ", ") + (part ? json::on_one_line(part) : std::string("0"));
+    known += part ? 1 : 0;
+  }
+  if (known != value.members().size()) return {};
+  return "a rotation says how it is told" +
+         said("{\"" + std::string(value.find("w") ? "quat" : "euler") + "\": [" + angles + "]}");
+}
+
 std::string rotation_meant(const json::Value& value, std::string_view kind) {
+  if (value.is(Kind::text) && kind != "quat") {
+    const std::optional<WithUnit> read = with_unit(value.text());
+    if (read && (read->unit.empty() || read->unit.substr(0, 3) == "deg"))
+      return said("{\"axis\": \"z\", \"angle\": " + number_text(read->number) + "}");
+  }
   if (value.is(Kind::number) && kind != "quat")
     return said("{\"axis\": \"z\", \"angle\": " + json::on_one_line(value) + "}");
   if (!value.is(Kind::list) || !all_numbers(value)) return {};
   const std::string_view spelling = value.items().size() == 3 ? "euler" : value.items().size() == 4 ? "quat" : "";
   if (spelling.empty() || (kind != spelling && kind != "euler")) return {};
   return said("{" + json::in_quotes(spelling) + ": " + json::on_one_line(value) + "}");
+}
+
+std::string comparison_meant(const json::Value& value) {
+  const std::string_view text = value.is(Kind::text) ? value.text() : std::string_view();
+  const std::size_t from = text.find_first_of("<>="), to = text.find_first_not_of("<>=", from);
+  if (from == std::string_view::npos || to == std::string_view::npos) return {};
+  const std::string_view name = text.substr(0, text.find_last_not_of(' ', from == 0 ? 0 : from - 1) + 1);
+  const std::optional<WithUnit> number = with_unit(text.substr(std::min(text.find_first_not_of(' ', to), text.size())));
+  if (from == 0 || name.empty() || !number || !number->unit.empty()) return {};
+  const char* const how = text[from] == '>' ? "above" : text[from] == '<' ? "below" : "equals";
+  return said("{\"parameter\": " + json::in_quotes(name) + ", " + json::in_quotes(how) + ": " +
+              number_text(number->number) + "}");
 }
 
 std::string key_meant(const json::Value& value) {
@@ -99,7 +153,8 @@ std::string key_meant(const json::Value& value) {
 }
 
 std::string event_meant(const json::Value& value) {
-  const json::Value name = value.find("name"), time = first_of(value, {"at", "time", "t"});
+  const json::Value name = first_of(value, {"name", "event", "marker", "label"}),
+                    time = first_of(value, {"at", "time", "t"});
   if (!name || !time || value.find("from") || value.find("to")) return {};
   return "an event at one time is a list" + said("[" + json::on_one_line(time) + ", " + json::on_one_line(name) + "]");
 }

@@ -1,5 +1,6 @@
 #include <tweenfall/physics/fitted_shapes.h>
 
+#include "document/report/spellings.h"
 #include "document/shapes/fitted.h"
 
 namespace tweenfall::document::shapes {
@@ -8,7 +9,9 @@ namespace {
 
 const Form* sizes_form(FormStore& store, const ValueForms&) {
   const Form* size = store.add(bounded("a size in m, above 0", 0, true));
-  return store.add(list_of(size, "a list of 3 sizes in m, from face to face", 3, 3));
+  Form sizes = list_of(size, "a list of 3 sizes in m, from face to face", 3, 3);
+  sizes.instead = list_of_equal;
+  return store.add(std::move(sizes));
 }
 
 const fields::Table<FittedFields<Box>>& box_table() {
