@@ -145,10 +145,11 @@ export class Page {
     await this.drag(x, y, x, y);
   }
 
-  async key(key) {
+  // `modifiers`: 8 for shift, 1 for alt.
+  async key(key, modifiers = 0) {
     const text = key === " " ? {text: " "} : {};
-    await this.send("Input.dispatchKeyEvent", {type: "keyDown", key, ...text});
-    await this.send("Input.dispatchKeyEvent", {type: "keyUp", key});
+    await this.send("Input.dispatchKeyEvent", {type: "keyDown", key, modifiers, ...text});
+    await this.send("Input.dispatchKeyEvent", {type: "keyUp", key, modifiers});
   }
 
   async close() {

@@ -11,6 +11,8 @@ import {showHostile, showLarge} from "./hostile_tests.mjs";
 import {easesCoverNoCurve, fitsAllWidths, isNeverEmpty, namesFit} from "./layout_tests.mjs";
 import {showsTwoBesideEachOther} from "./beside_tests.mjs";
 import {showsJoints, showsSteps} from "./overlay_tests.mjs";
+import {pressesEveryKey} from "./help_tests.mjs";
+import {framesTheLinked, holdsUntilTheEnd, saysEasesOnce, tellsNamesApart} from "./shown_tests.mjs";
 import {drivesTheTimeline} from "./timeline_tests.mjs";
 
 const browser = findBrowser();
@@ -251,7 +253,9 @@ await run("without WebGL", {flags: ["--disable-3d-apis", "--disable-gpu"]}, asyn
     matrixOf(recording.nodes.bob.position[90], recording.nodes.bob.rotation[90]), "places are known without WebGL");
   await page.key("Home");
   await drivesTheTimeline(page);
+  await pressesEveryKey(page);
   for (const test of [fitsAllWidths, namesFit, easesCoverNoCurve]) await test(page);
+  for (const test of [holdsUntilTheEnd, saysEasesOnce, framesTheLinked, tellsNamesApart]) await test(page, folder);
   await frameModels(page, join(folder, "models"));
   await showLarge(page, join(folder, "hostile"));
   await page.visit(address);

@@ -152,6 +152,29 @@ void write_actors(const fs::path& folder) {
   write("soft/cloth_positions.json", "cloth", 0.6);
 }
 
+/// Held values that give way between frames, a chain of bare nodes with a lone one far off, and names that are alike.
+void write_documents(const fs::path& folder) {
+  const auto write = [&](const std::string& name, const std::string& text) {
+    const StageDescription stage = Document::parse(text, name + ".json", folder).stage();
+    Stage run(stage);
+    save_recording(record(run, 2, 30), stage, folder / (name + ".html"));
+  };
+  write("held", R"({"tweenfall": 1, "nodes": {"lamp": {}, "shade": {"parent": "lamp", "position": [0, 1, 0]}},
+    "clips": {"c": {"tracks": {
+      "lamp.position": [[0, [0, 0, 0], "hold"], [0.51, [1, 0, 0], "hold"], [1.19, [3, 0, 0], "linear"], [2, [3, 0, 0]]],
+      "lamp.scale": [[0, 1, "hold"], [0.51, 2, "hold"], [1.19, 4, "hold"], [2, 4]],
+      "lamp.color": [[0, "#000", "step-next"], [0.51, "#fff", "hold"], [1.19, "#000", "hold"], [2, "#fff"]]}}}})");
+  write("lone", R"({"tweenfall": 1, "nodes": {"eye": {"position": [5, 3, 0]}, "hip": {}, "knee": {"parent": "hip",
+    "position": [0, -1, 0]}}, "clips": {"c": {"tracks": {"hip.rotation": {"axis": "z", "keys": [[0, 0], [2, 60]]}}}}})");
+  std::string nodes;
+  for (int i = 0; i < 300; ++i)
+    nodes += (i > 0 ? ", " : "") +
+             ("\"the left front wheel of the second wagon behind the locomotive, number " + std::to_string(i)) +
+             ".position\": [[0, [" + std::to_string(i % 20) +
+             ", 0, 0], \"sine-in-out\"], [1, [0, 1, 0], \"sine-in-out\"], " + "[2, [0, 0, 0]]]";
+  write("names", R"({"tweenfall": 1, "clips": {"c": {"tracks": {)" + nodes + "}}}}");
+}
+
 Recording still(const StageDescription& stage, const std::vector<double>& times) {
   Recording recording{.name = stage.name, .times = times, .nodes = {}, .handoffs = {}, .events = {}};
   for (const NodeDescription& node : stage.nodes) {
@@ -266,6 +289,7 @@ int main(int count, char** arguments) {
     write_actors(folder);
     write_stacked(folder);
     write_beside(folder);
+    write_documents(folder);
     write_models(folder / "models");
     write_hostile(folder / "hostile");
   } catch (const std::exception& problem) {

@@ -12,7 +12,8 @@ function requestDraw() {
   });
 }
 
-state.skeleton = cast.links.length > 0 && recording.instances.length === 0;
+// Where nothing else shows the nodes, dots and lines do.
+state.skeleton = cast.links.length + cast.bones.size > 0 && recording.instances.length === 0;
 // Where nothing can change hands, owners' colors say nothing.
 state.byOwner = nodes.some(node => node.hasBody && !node.fixed);
 
@@ -42,11 +43,11 @@ function layOut() {
   requestDraw();
 }
 
-// The node that most likely interests: one that changes hands, else one that moves.
+// The node that most likely interests: one that changes hands, else one that moves, else one with keys.
 function firstChoice() {
   const handed = recording.handoffs.length ? nodes[recording.handoffs[0].node] : null;
   return handed || nodes.find(node => node.hasBody && !node.fixed && node.shown) || nodes.find(node => node.moves && node.shown) ||
-    nodes[0] || null;
+    nodes.find(node => node.lanes.length) || nodes.find(node => !node.fixed) || nodes[0] || null;
 }
 
 showLegend();
@@ -141,7 +142,7 @@ window.tweenfall = {
         points.push(point.fromBufferAttribute(place, i).applyMatrix4(object.matrixWorld).applyMatrix4(back).toArray());
     });
     if (!recording.instances.length && state.skeleton)
-      for (const node of nodes) if (node.shown && !node.hasBody) points.push(placeAt(recording, node, cursorNow()).position);
+      for (const node of cast.bones) points.push(placeAt(recording, node, cursorNow()).position);
     return points;
   },
   // The boxes [low x, y, z, high x, y, z] that all that is drawn fills over the recording, and where a point of the world
@@ -178,6 +179,8 @@ window.tweenfall = {
     const {mesh} = cast.solids.find(({node}) => node === known(name));
     return mesh.visible ? mesh.material.opacity : 0;
   },
+  // What the curves show of a panel at the present time.
+  valuesOf: (name, panel) => gatheredAt(gather(known(name)), state.time)[panel],
   // What the curves show of all frames, panel by panel: position [x, y, z], velocity, rotation, angular velocity, ...
   curvesOf: name => gather(known(name)).panels.map(panel => panel.series.map(values => Array.from(values))),
   panelsOf: name => gather(known(name)).panels.map(({name: panel, unit, names}) => ({name: panel, unit, names})),

@@ -91,7 +91,9 @@ function onward(a, time) {
 function placeAt(recording, node, cursor) {
   const a = stateAt(node, cursor.frame);
   if (!node.moves || cursor.share <= 0) return a;
-  const b = stateAt(node, cursor.frame + 1), found = node.breaks.get(cursor.frame);
+  const b = stateAt(node, cursor.frame + 1), found = node.breaks.get(cursor.frame), jump = node.jumps.place.get(cursor.frame);
+  if (!found && jump !== undefined)
+    return cursor.time < jump ? onward(a, cursor.time - recording.times[cursor.frame]) : onward(b, cursor.time - cursor.next);
   if (!found) return between(a, b, cursor.span, cursor.share);
   const before = found.time - recording.times[cursor.frame], after = cursor.next - found.time;
   const early = cursor.time < found.time;
@@ -120,12 +122,16 @@ function matrixAt(recording, node, cursor, out) {
   return out;
 }
 
-// Values stored frame by frame, straight between them; after a break, those of the frame that follows.
-function valuesAt(recording, node, values, count, cursor) {
+// Values stored frame by frame, straight between them; after a jump, those of the frame that follows.
+function valuesAt(values, count, cursor, jump) {
   const at = offsetOf(values, cursor.frame, count);
   if (values.length === count || cursor.share <= 0) return slice(values, at, count);
-  const broken = node.breaks.get(cursor.frame);
-  const share = broken ? (cursor.time < broken.time ? 0 : 1) : cursor.share;
+  const share = jump === undefined ? cursor.share : cursor.time < jump ? 0 : 1;
   return slice(values, at, count).map((value, i) => value + share * (values[at + count + i] - value));
 }
-const twistAt = (recording, node, cursor) => valuesAt(recording, node, node.twists, 6, cursor);
+const twistAt = (recording, node, cursor) => {
+  const broken = node.breaks.get(cursor.frame);
+  return valuesAt(node.twists, 6, cursor, broken ? broken.time : node.jumps.place.get(cursor.frame));
+};
+const colorOfNode = (node, cursor) => valuesAt(node.colors, 4, cursor, node.jumps.color.get(cursor.frame));
+const weightsOfNode = (node, cursor) => valuesAt(node.weights, node.weightCount, cursor, node.jumps.weights.get(cursor.frame));

@@ -50,6 +50,7 @@ class Recording {
       velocities: node.velocities ? floats(node.velocities) : null, stretches: node.stretches ? floats(node.stretches) : null,
       center: node.center || [0, 0, 0], colors: node.colors ? floats(node.colors) : null, weightCount: node.weightCount || 0,
       weights: node.weights ? floats(node.weights) : null, children: [], lanes: [], breaks: new Map(),
+      jumps: {place: new Map(), color: new Map(), weights: new Map()},
     }));
     this.named = new Map(this.nodes.map(node => [node.name, node]));
     for (const node of this.nodes) {
@@ -84,6 +85,7 @@ class Recording {
     this.handoffs = raw.handoffs.filter(handoff => handoff.cause !== "start");
     this.events = raw.events;
     this.findBreaks();
+    for (const lane of this.lanes) this.findJumps(lane);
     for (const node of this.nodes) node.owners = this.ownersOf(node);
   }
 
@@ -105,6 +107,24 @@ class Recording {
     for (const event of this.events)
       if (event.impulse > 0) for (const index of event.nodes) add(this.nodes[index], event.time, null);
     for (const handoff of this.handoffs) add(this.nodes[handoff.node], handoff.time, handoff);
+  }
+
+  // Where held values give way to others between two frames, and when.
+  findJumps({node, property, times, keyOf, keys}) {
+    const what = property.split(".")[0], kind = what === "color" || what === "weights" ? what : "place";
+    for (let i = 0; i + 1 < times.length; ++i) {
+      const back = keyOf[i + 1] < keyOf[i], ease = (keys[keyOf[back ? i + 1 : i]] || {}).ease;
+      const early = ease === "step-next" || ease === "step-start", late = ease === "hold" || ease === "step-end";
+      if (!early && !late) continue;
+      const time = times[early === back ? i + 1 : i], frame = this.frameBefore(time);
+      if (frame < 0 || frame + 1 >= this.frameCount || time === this.times[frame]) continue;
+      const waiting = [node];
+      while (waiting.length) {
+        const each = waiting.pop();
+        if (!each.jumps[kind].has(frame)) each.jumps[kind].set(frame, time);
+        if (kind === "place") for (const child of each.children) if (!child.hasBody) waiting.push(child);
+      }
+    }
   }
 
   // [[from when, owner], ...]. Runs are known by frame; a hand-off between two frames says the exact time.

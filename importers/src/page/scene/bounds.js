@@ -94,7 +94,7 @@ function boxOfSolid(solid, matrix) {
 const cornersOf = ([a, b, c, d, e, f]) => Float64Array.from([0, 1, 2, 3, 4, 5, 6, 7].flatMap(i =>
   [i & 1 ? d : a, i & 2 ? e : b, i & 4 ? f : c]));
 
-const everything = () => true;
+const everything = () => true, nothing = () => false;
 
 // The box of those vertices of a bent mesh that hang on joints which `only` takes.
 function boxOfPart(held, only) {
@@ -113,9 +113,9 @@ function evenInstants() {
   return Array.from({length: count}, (_, i) => cursorAt(recording, clampTime(recording.startTime + i * apart)));
 }
 
-// Bounds of what the nodes that `only` takes fill at `instants`: bent meshes, bodies that no mesh in `dressed` clothes, and,
-// with `bare`, the places of nodes that nothing is drawn for.
-function drawnBounds(deformed, dressed, {only = everything, instants = evenInstants(), bare = false} = {}) {
+// Bounds of what the nodes that `only` takes fill at `instants`: bent meshes, bodies that no mesh in `dressed` clothes, and
+// the places of those that nothing is drawn for and `bare` takes.
+function drawnBounds(deformed, dressed, {only = everything, instants = evenInstants(), bare = nothing} = {}) {
   const bounds = new Bounds(), matrix = new Float64Array(16);
   let bent = 0;
   for (const held of deformed)
@@ -139,7 +139,7 @@ function drawnBounds(deformed, dressed, {only = everything, instants = evenInsta
   for (const node of nodes) {
     if (!node.shown || !only(node) || (node.shape && node.shape.plane)) continue;
     const solid = node.shape && !dressed.has(node.index) ? solidOf(node.shape) : null;
-    if (!solid && !bare) continue;
+    if (!solid && !bare(node)) continue;
     for (const cursor of node.moves ? instants : instants.slice(0, 1)) {
       if (solid) bounds.add(boxOfSolid(solid, matrixAt(recording, node, cursor, matrix)));
       else { const {position} = placeAt(recording, node, cursor); bounds.add([...position, ...position]); }

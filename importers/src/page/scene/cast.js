@@ -19,6 +19,13 @@ function dressedNodes() {
   return dressed;
 }
 
+// Nodes that stand for themselves, as dots: what moves or is linked to others, and without any such all. What only stands
+// there, as cameras and lights do, is not what one looks at.
+function bareNodes() {
+  const bare = nodes.filter(node => !node.hasBody && node.shown), linked = bare.filter(node => node.moves || node.parent >= 0 || node.children.length);
+  return new Set(linked.length ? linked : bare);
+}
+
 // What is seen through casts no shadow, and what is not seen at all is not drawn.
 function fade(mesh, alpha) {
   mesh.visible = alpha > 0;
@@ -37,7 +44,8 @@ class Cast {
     this.wires = null;        // made when first asked for
     this.dressed = dressedNodes();
     this.deformed = recording.instances.map(instance => new DeformedMesh(instance));
-    const bare = !this.deformed.length;
+    this.bones = bareNodes();
+    const bare = this.deformed.length ? nothing : node => node.hasBody || this.bones.has(node);
     this.particles = recording.particles.map(each => new ShownParticles(each));
     const bounds = drawnBounds(this.deformed, this.dressed, {bare});
     for (const each of this.particles) each.addBoxes(bounds);

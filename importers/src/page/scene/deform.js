@@ -80,7 +80,7 @@ class DeformedMesh {
 
   weightsAt(cursor) {
     if (!this.node || !this.node.weights) return this.mesh.restWeights;
-    return valuesAt(recording, this.node, this.node.weights, this.node.weightCount, cursor);
+    return weightsOfNode(this.node, cursor);
   }
 
   update(cursor) {

@@ -29,7 +29,7 @@ function frameChosen() {
   if (!state.chosen) return frameAll();
   const family = new Set([state.chosen]);
   for (const node of nodes) if (node.parent >= 0 && family.has(nodes[node.parent])) family.add(node);
-  const bounds = drawnBounds(cast.deformed, cast.dressed, {only: node => family.has(node), instants: [cursorNow()], bare: true});
+  const bounds = drawnBounds(cast.deformed, cast.dressed, {only: node => family.has(node), instants: [cursorNow()], bare: everything});
   if (!bounds.boxes.length) return;
   orbit.frame(cast.reachOf(bounds), Math.hypot(...bounds.box().slice(0, 3).map((low, i) => bounds.box()[3 + i] - low)) > 0
     ? leastDistance() : 0.8 * cast.radius);
@@ -51,8 +51,7 @@ function follow() {
 function nodeAtPoint(x, y) {
   if (state.skeleton) {
     let best = null, least = 9;
-    for (const node of nodes) {
-      if (node.hasBody || !node.shown) continue;
+    for (const node of cast.bones) {
       const place = toView(placeAt(recording, node, cursorNow()).position);
       const away = place ? Math.hypot(place[0] - x, place[1] - y) : Infinity;
       if (away < least) { least = away; best = node; }

@@ -76,8 +76,7 @@ function drawName(context, node) {
 }
 
 function drawBones(context) {
-  for (const node of nodes) {
-    if (node.hasBody || !node.shown) continue;
+  for (const node of cast.bones) {
     const place = toView(placeAt(recording, node, cursorNow()).position);
     if (!place) continue;
     context.fillStyle = node === state.chosen ? colors.accent : colors.quiet;

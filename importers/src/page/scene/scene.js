@@ -65,7 +65,7 @@ scene.add(skyLight, sun, sun.target);
 const neutral = [0.55, 0.55, 0.55];
 function ownColorAndAlpha(node) {
   for (let n = node; n; n = nodes[n.parent]) {
-    if (n.colors) return valuesAt(recording, n, n.colors, 4, cursorNow());
+    if (n.colors) return colorOfNode(n, cursorNow());
     if (n.color) return n.color;
     if (n.hasBody) break;
   }

@@ -5,7 +5,6 @@ const margin = {left: 46, right: 10, top: 24, bottom: 6};
 const leastPanel = 96;   // px
 const markApart = 9;     // px from key to key, below which curves have no marks
 const easeHigh = 12;     // px of a line of eases below the curves
-const leastEase = 24;    // px of a word, below which none is cut
 
 // The keys of a lane in the stretch that is shown, and whether each has room for a mark. `x`: from time to px.
 function marksOf(lane, x) {
@@ -160,21 +159,23 @@ class Curves {
     }
   }
 
-  // The ease's word between two keys, as much of it as there is room for.
+  // The ease's word between two keys, where there is room for it; once for all keys in a row that it is said of.
   drawEases(context, panel, {lane, seen}, x, y) {
     const only = seriesOf(panel, lane);
+    const wordOf = k => (lane.keys[lane.keyOf[seen[k]]] || {}).ease;
     context.font = font(9.5);
     context.textAlign = "center";
     context.textBaseline = "middle";
-    seen.forEach((i, k) => {
-      const key = lane.keys[lane.keyOf[i]], from = x(lane.times[i]);
-      if (k + 1 >= seen.length || !key || !key.ease) return;
-      const to = x(lane.times[seen[k + 1]]), room = to - from - 5, word = fitted(context, key.ease, room);
+    for (let k = 0, end; k + 1 < seen.length; k = end) {
+      const word = wordOf(k);
+      for (end = k + 1; end + 1 < seen.length && wordOf(end) === word;) ++end;
+      if (!word) continue;
+      const from = x(lane.times[seen[k]]), to = x(lane.times[seen[end]]);
       line(context, from, y - 3, from, y + 3, colors.line);
       line(context, to, y - 3, to, y + 3, colors.line);
       context.fillStyle = only < 0 ? colors.quiet : colorOfSeries(panel, only);
-      if (word === key.ease || room > leastEase) context.fillText(word, (from + to) / 2, y);
-    });
+      if (context.measureText(word).width <= to - from - 5) context.fillText(word, (from + to) / 2, y);
+    }
   }
 
   drawAxis() {

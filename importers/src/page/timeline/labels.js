@@ -23,7 +23,22 @@ const longestNow = row => (row.part ? row.part.states ? ["", ...row.part.states]
 const labelWidth = row => besideName(row) +
   nameWidth(rowLabel(row) + (row.part ? ": " + longestNow(row) : ""), !!row.lane || (row.part && !row.part.states));
 
+// A row's name in the column: where it is too long, without its middle, for names differ at their ends.
+function shownName(row, text) {
+  const small = !!row.lane || (row.part && !row.part.states), room = columnWidth - besideName(row);
+  if (nameWidth(text, small) <= room) return text;
+  measuring.font = small ? font(11) : font(13, 650);
+  const cut = count => text.slice(0, Math.ceil(count / 3)) + "\u2026" + text.slice(text.length - Math.floor(2 * count / 3));
+  let low = 0, high = Math.min(text.length - 1, 400);
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (measuring.measureText(cut(middle)).width <= room) low = middle; else high = middle - 1;
+  }
+  return cut(low);
+}
+
 // Makes the column as wide as it shall be; returns whether it was not.
+let columnWidth = 200;  // px
 function fitLabels(rows) {
   const box = document.getElementById("timeline"), most = Math.max(leastLabels, box.clientWidth - leastStrip);
   let wide = state.labels;
@@ -33,7 +48,8 @@ function fitLabels(rows) {
   } else if (wide === Infinity) {
     wide = rows.reduce((widest, row) => Math.max(widest, labelWidth(row)), leastLabels);
   }
-  const text = Math.round(Math.min(most, Math.max(60, wide))) + "px";
+  columnWidth = Math.ceil(Math.min(most, Math.max(60, wide)));
+  const text = columnWidth + "px";
   if (box.style.getPropertyValue("--label") === text) return false;
   box.style.setProperty("--label", text);
   return true;

@@ -28,8 +28,8 @@ function numbersAt(node, cursor, local, last) {
     scale: [0, 3, 6].map(at => Math.hypot(linear[at], linear[at + 1], linear[at + 2])),
     color: [], weights: []};
   if (shape && shape.stretch[8] < 0) numbers.scale[2] *= -1;
-  if (node.colors) numbers.color = valuesAt(recording, node, node.colors, 4, cursor);
-  if (node.weights) numbers.weights = valuesAt(recording, node, node.weights, node.weightCount, cursor);
+  if (node.colors) numbers.color = colorOfNode(node, cursor);
+  if (node.weights) numbers.weights = weightsOfNode(node, cursor);
   return numbers;
 }
 
@@ -101,7 +101,9 @@ function alongStretch(gathered, count) {
   for (let i = 0; i <= count; ++i) instants.push(state.from + stretch() * i / count);
   const first = Math.max(0, recording.frameBefore(state.from)), last = recording.frameBefore(state.until);
   if (last - first < 2 * count) for (let frame = first; frame <= last; ++frame) instants.push(times[frame]);
-  for (const {time} of gathered.node.breaks.values())
+  const {breaks, jumps} = gathered.node, corners = Array.from(breaks.values(), ({time}) => time);
+  for (const times of Object.values(jumps)) corners.push(...times.values());
+  for (const time of corners)
     if (time > state.from && time < state.until && instants.length < 4 * count) instants.push(time - 1e-9, time + 1e-9);
   instants.sort((a, b) => a - b);
   gathered.key = key;

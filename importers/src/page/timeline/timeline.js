@@ -60,7 +60,7 @@ class Timeline {
     fold.textContent = row.folds ? row.folded ? "\u25b8" : "\u25be" : "";
     dot.hidden = !!row.lane;
     dot.style.background = row.node.hasBody ? colors[recording.shownOwner(row.node, state.time)] : "";
-    name.textContent = rowLabel(row);
+    name.textContent = shownName(row, rowLabel(row));
     drawStrip(canvas, row);
   }
 
@@ -77,7 +77,7 @@ class Timeline {
   }
 
   nameGraph({name, row}) {
-    name.textContent = row.part ? `${row.part.name}: ${graphNow(row)}` : row.graph.name;
+    name.textContent = shownName(row, row.part ? `${row.part.name}: ${graphNow(row)}` : row.graph.name);
   }
 
   // The rows anew: after folding, searching.
