@@ -43,7 +43,9 @@ function updateReadout() {
     cell("span", `, frame ${recording.frameNear(state.time)}`, "frame"));
   const head = document.createElement("h2");
   if (!node) { head.append(cell("span", "nothing chosen")); box.replaceChildren(head); return; }
-  const owner = node.fixed ? "fixed" : recording.ownerAt(node, state.time), name = cell("span", node.name || "(no name)");
+  const owner = node.fixed ? "fixed" : recording.ownerAt(node, state.time), name = cell("span", "");
+  measuring.font = font(14, 650);
+  name.textContent = fittedName(measuring, node.name || "(no name)", box.clientWidth - 26 - (node.hasBody ? 80 : 0));
   name.title = node.name;
   head.append(name);
   if (node.hasBody) {

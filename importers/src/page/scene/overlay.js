@@ -60,7 +60,7 @@ function drawName(context, node) {
   const place = toView(centerOf(node, cursorNow()));
   if (!place) return;
   context.font = font(12, 600);
-  const name = fitted(context, node.name, Math.min(260, context.width - 30)), width = context.measureText(name).width + 16;
+  const name = fittedName(context, node.name, Math.min(260, context.width - 30)), width = context.measureText(name).width + 16;
   const x = Math.max(4, Math.min(context.width - width - 4, place[0] + 18));
   const y = Math.max(4, Math.min(context.height - 26, place[1] - 34));
   context.globalAlpha = 0.9;

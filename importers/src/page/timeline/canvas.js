@@ -62,3 +62,17 @@ function fitted(context, text, width) {
   }
   return text.slice(0, low) + "\u2026";
 }
+
+// A name at most `width` px wide: names differ at their ends, so it loses its middle, and where there is little room its
+// beginning.
+function fittedName(context, name, width) {
+  if (name.length <= 400 && context.measureText(name).width <= width) return name;
+  const cut = count => name.slice(0, count < 16 ? 0 : Math.ceil(count / 3)) + "\u2026" +
+    name.slice(name.length - (count < 16 ? count : Math.floor(2 * count / 3)));
+  let low = 0, high = Math.min(name.length - 1, 400);
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (context.measureText(cut(middle)).width <= width) low = middle; else high = middle - 1;
+  }
+  return cut(low);
+}

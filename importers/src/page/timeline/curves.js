@@ -169,7 +169,7 @@ class Curves {
     for (let k = 0, end; k + 1 < seen.length; k = end) {
       const word = wordOf(k);
       for (end = k + 1; end + 1 < seen.length && wordOf(end) === word;) ++end;
-      if (!word) continue;
+      if (!word || word === "end") continue;
       const from = x(lane.times[seen[k]]), to = x(lane.times[seen[end]]);
       line(context, from, y - 3, from, y + 3, colors.line);
       line(context, to, y - 3, to, y + 3, colors.line);

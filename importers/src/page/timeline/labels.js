@@ -23,18 +23,12 @@ const longestNow = row => (row.part ? row.part.states ? ["", ...row.part.states]
 const labelWidth = row => besideName(row) +
   nameWidth(rowLabel(row) + (row.part ? ": " + longestNow(row) : ""), !!row.lane || (row.part && !row.part.states));
 
-// A row's name in the column: where it is too long, without its middle, for names differ at their ends.
+// A row's name as the column has room for it.
 function shownName(row, text) {
   const small = !!row.lane || (row.part && !row.part.states), room = columnWidth - besideName(row);
   if (nameWidth(text, small) <= room) return text;
   measuring.font = small ? font(11) : font(13, 650);
-  const cut = count => text.slice(0, Math.ceil(count / 3)) + "\u2026" + text.slice(text.length - Math.floor(2 * count / 3));
-  let low = 0, high = Math.min(text.length - 1, 400);
-  while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (measuring.measureText(cut(middle)).width <= room) low = middle; else high = middle - 1;
-  }
-  return cut(low);
+  return fittedName(measuring, text, room);
 }
 
 // Makes the column as wide as it shall be; returns whether it was not.

@@ -9,7 +9,8 @@ const rowHeight = row => (row.lane || (row.part && !row.part.states) ? 18 : 23);
 const rowLabel = row => (row.graph ? (row.part ? row.part.name : row.graph.name)
   : row.lane ? row.lane.property : row.node.name) || "(no name)";
 const rowName = row => (row.graph ? graphRowName(row) : row.lane ? `${row.node.name}.${row.lane.property}` : row.node.name);
-const indentOf = row => 4 + 11 * Math.min(6, row.depth + (row.lane ? 1 : 0));  // px
+// px; where the page is narrow, names need the room
+const indentOf = row => 4 + (innerWidth > 520 ? 11 : 4) * Math.min(6, row.depth + (row.lane ? 1 : 0));
 
 function visibleRows() {
   const rows = [], wanted = state.find.trim().toLowerCase();
