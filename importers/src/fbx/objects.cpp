@@ -14,11 +14,24 @@ std::string shown_name(std::string_view given, bool text) {
   return utf8_or_latin1(given);
 }
 
+/// Of a property that is listed twice the last: each line sets it.
 const Record* named_property(const Record* properties, std::string_view name) {
+  const Record* found = nullptr;
   if (properties)
     for (const Record& each : properties->children)
-      if (each.text(0) == name) return &each;
-  return nullptr;
+      if (each.text(0) == name) found = &each;
+  return found;
+}
+
+/// A property that is listed twice with other values; empty for none.
+std::string_view twice_told(const Record* properties) {
+  if (!properties) return {};
+  std::unordered_map<std::string_view, const Record*> told;
+  for (const Record& each : properties->children)
+    if (const auto [before, is_new] = told.emplace(each.text(0), &each);
+        !is_new && before->second->values != each.values)
+      return each.text(0);
+  return {};
 }
 
 /// The clock's ticks in a second: 46186158000, or 141120000 from version 8 on and where the file asks for it.
@@ -62,6 +75,10 @@ void Objects::read_objects(const File& file, models::ModelProblems& problems) {
       if (object.id == 0) continue;
       const auto defaults = templates.find(object.kind);
       if (defaults != templates.end()) object.defaults = defaults->second;
+      if (const std::string_view twice = twice_told(object.properties); !twice.empty())
+        problems.repair(source_.place(record.at), "the " + std::string(object.kind) + " \"" + object.name +
+                                                      "\" lists \"" + utf8_or_latin1(twice) +
+                                                      "\" more than once; the last holds");
       if (by_id_.emplace(object.id, objects_.size()).second)
         objects_.push_back(std::move(object));
       else

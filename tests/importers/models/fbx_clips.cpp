@@ -201,6 +201,71 @@ TEST_CASE("FBX layers add, replace and mix, by weights that move, angle by angle
   }
 }
 
+TEST_CASE("an FBX layer that is muted, or beside one in solo, moves nothing, and is told of") {
+  const ScratchFolder folder("fbx-muted");
+  const auto model_of = [&](const std::string& first, const std::string& second) {
+    FbxText file;
+    const int node = file.model("n", FbxText::vector("Lcl Translation", Vec3(7, 0, 0)));
+    const int stack = file.stack(1);
+    file.curve(file.layer(stack, first), node, "Lcl Translation", "d|X", {{0, 1}, {1, 3}}, 0x4);
+    file.curve(file.layer(stack, second), node, "Lcl Translation", "d|X", {{0, 100}, {1, 100}}, 0x4);
+    return load_model(folder.file("muted.fbx", file.text()));
+  };
+  const std::string mute = FbxText::whole("Mute", 1), solo = FbxText::whole("Solo", 1);
+  const auto half = [](const Model& model) { return position_of(model, "n").value(0.5)[0]; };
+  CHECK(near(half(model_of("", "")), 102, 1e-12));
+  CHECK(model_of("", "").repairs.empty());
+  const Model upper = model_of("", mute);
+  CHECK(near(half(upper), 2, 1e-12));
+  REQUIRE(upper.repairs.size() == 1);
+  CHECK(upper.repairs[0] == "clip \"move\": its layer \"layer\" is muted; it was left out");
+  // Over the node's own value, without the lowest.
+  CHECK(near(half(model_of(mute, "")), 107, 1e-12));
+  CHECK(near(half(model_of(solo, mute)), 2, 1e-12));
+  CHECK(near(half(model_of("", solo + mute)), 107, 1e-12));
+}
+
+TEST_CASE("an FBX property that is listed or driven twice is as the file's other readers have it, and told of") {
+  const ScratchFolder folder("fbx-twice");
+  FbxText file;
+  const int node = file.model("n", FbxText::vector("Lcl Translation", Vec3(1, 2, 3)) +
+                                       FbxText::vector("Lcl Translation", Vec3(4, 5, 6)) + FbxText::whole("Show", 1) +
+                                       FbxText::whole("Show", 1));
+  CHECK(near(load_model(folder.file("twice.fbx", file.text())).nodes.at(0).rest.position, Vec3(4, 5, 6), 0));
+  const int layer = file.layer(file.stack(1));
+  for (const double from : {1.0, 8.0})
+    file.curve(layer, node, "Lcl Translation", "d|X", {{0, from}, {1, from + 1}}, 0x4);
+  const Model model = load_model(folder.file("twice.fbx", file.text()));
+  CHECK(near(position_of(model, "n").value(0.5), Vec3(1.5, 5, 6), 1e-12));
+  REQUIRE(model.repairs.size() == 2);
+  CHECK(model.repairs[0].ends_with("the Model \"n\" lists \"Lcl Translation\" more than once; the last holds"));
+  CHECK(model.repairs[1] ==
+        "clip \"move\": \"Lcl Translation\" of \"n\" is driven twice in one layer; the first holds");
+}
+
+TEST_CASE("what an FBX clip has before 0 s is told of, by its own times or else by its keys") {
+  const ScratchFolder folder("fbx-before");
+  const auto repairs_of = [&](const std::string& times) {
+    FbxText file;
+    const int node = file.model("n", "");
+    const int stack = file.object("AnimationStack", "AnimStack::move", "", "Properties70: { " + times + " }");
+    file.curve(file.layer(stack), node, "Lcl Translation", "d|X", {{-1, 10}, {2, 40}}, 0x4);
+    const Model model = load_model(folder.file("before.fbx", file.text()));
+    CHECK(near(position_of(model, "n").value(0.5)[0], 25, 1e-12));
+    CHECK(model.clips[0].duration == 2);
+    return model.repairs;
+  };
+  const auto time = [](const std::string& name, double seconds) {
+    return "P: \"" + name + "\", \"KTime\", \"Time\", \"\"," + FbxText::ticks(seconds) + "\n";
+  };
+  const std::vector<std::string> told{"clip \"move\": begins at -1 s; what lies before 0 s is not played"};
+  CHECK(repairs_of(time("LocalStart", -1) + time("LocalStop", 2)) == told);
+  CHECK(repairs_of(time("ReferenceStart", -1) + time("ReferenceStop", 2)) == told);
+  CHECK(repairs_of("") == told);
+  CHECK(repairs_of(time("LocalStop", 2)) == told);
+  CHECK(repairs_of(time("LocalStart", 0) + time("LocalStop", 2)).empty());
+}
+
 TEST_CASE("FBX children take over their parent's scale as their kind says, moving or not") {
   const ScratchFolder folder("fbx-inherit");
   const Vec3 parent_scale(2, 1, 3), child_scale(1, 4, 1), t(1, 2, 3);

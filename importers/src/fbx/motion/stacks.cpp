@@ -4,10 +4,14 @@
 #include "model/model_names.h"
 
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/importers/shown_text.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <set>
+#include <utility>
 
 namespace tweenfall::fbx {
 
@@ -40,19 +44,42 @@ class StackReader {
     const Object& object = objects_[index];
     Stack stack;
     stack.name = name;
-    const auto start = time(object, "LocalStart"), stop = time(object, "LocalStop");
-    stack.end = stop ? stop : time(object, "ReferenceStop");
-    if (start < 0)
-      problems_.repair("clip \"" + name + "\"",
-                       "begins at " + number_text(start) + " s; what lies before 0 s is not played");
+    clip_ = "clip \"" + name + "\"";
+    const bool local = time(object, "LocalStart") != 0 || time(object, "LocalStop") != 0;
+    const char* const begins = local ? "LocalStart" : "ReferenceStart";
+    stack.end = time(object, local ? "LocalStop" : "ReferenceStop");
     const std::vector<std::size_t> layers = objects_.below(index, "AnimationLayer");
-    for (std::size_t i = 0; i < layers.size(); ++i) read_layer(layers[i], i, stack);
+    const auto says = [&](std::size_t layer, const char* what) {
+      return objects_.whole(objects_[layer], what, 0) != 0;
+    };
+    const bool alone = std::ranges::any_of(layers, [&](std::size_t layer) { return says(layer, "Solo"); });
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+      const bool left_out = alone ? !says(layers[i], "Solo") : says(layers[i], "Mute");
+      if (!left_out) read_layer(layers[i], i, stack);
+      stack.layers.resize(i + 1);
+      if (left_out)
+        problems_.repair(clip_, "its layer \"" + objects_[layers[i]].name + "\" is " +
+                                    (alone ? "not the one in solo" : "muted") + "; it was left out");
+    }
+    // Where the stack does not say, it begins as its keys do.
+    const double start = objects_.property(object, begins) ? time(object, begins) : first_key(stack);
+    if (start < 0)
+      problems_.repair(clip_, "begins at " + number_text(start) + " s; what lies before 0 s is not played");
     return stack;
   }
 
  private:
   double time(const Object& object, const char* property) const {
     return static_cast<double>(objects_.whole(object, property, 0)) / objects_.ticks();
+  }
+
+  static double first_key(const Stack& stack) {
+    double first = std::numeric_limits<double>::infinity();
+    for (const auto& [driven, drivers] : stack.drivers)
+      for (const Driver& driver : drivers)
+        for (const Curve<double>& part : driver.parts)
+          if (!part.knots().empty()) first = std::min(first, part.start());
+    return first;
   }
 
   void read_layer(std::size_t index, std::size_t place, Stack& stack) {
@@ -78,9 +105,11 @@ class StackReader {
     Driver driver{place, {}};
     for (std::size_t part = 0; part < (number ? 1u : 3u); ++part)
       driver.parts.push_back(Curve<double>(resting(node, part, number, target)));
+    std::array<bool, 3> given{};
     for (const Connection& curve : objects_.to(node)) {
       if (objects_[curve.from].kind != "AnimationCurve") continue;
       const std::size_t part = number ? 0 : part_of(curve.property);
+      if (std::exchange(given[part], true)) tell_of_two(target, "has two curves for one number; the last holds");
       if (auto read = key_curve(objects_[curve.from], objects_, 1, problems_)) driver.parts[part] = *read;
     }
     if (target.property == "Weight") {
@@ -90,9 +119,14 @@ class StackReader {
       return;
     }
     std::vector<Driver>& drivers = stack.drivers[{target.to, std::string(target.property)}];
-    // A property that one layer drives twice goes by the last.
-    std::erase_if(drivers, [&](const Driver& each) { return each.layer == place; });
+    if (!drivers.empty() && drivers.back().layer == place)
+      return tell_of_two(target, "is driven twice in one layer; the first holds");
     drivers.push_back(std::move(driver));
+  }
+
+  void tell_of_two(const Connection& target, const std::string& what) {
+    problems_.repair(clip_,
+                     "\"" + utf8_or_latin1(target.property) + "\" of \"" + objects_[target.to].name + "\" " + what);
   }
 
   /// What a part without keys is: the value that the curve node states, else that of the driven object.
@@ -114,6 +148,7 @@ class StackReader {
 
   const Objects& objects_;
   models::ModelProblems& problems_;
+  std::string clip_;  ///< as problems name it
 };
 
 }  // namespace
