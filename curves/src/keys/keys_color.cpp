@@ -9,17 +9,20 @@ namespace {
 constexpr double full_turn = 0x1.921fb54442d18p+2;
 
 // The turn from one hue to another, both from 0 to a full turn.
-// Source: W3C, "CSS Color Module Level 4", 12.4: between equal hues the longer way is all the way around, upward.
+// Source: W3C, "CSS Color Module Level 4", 12.4: between equal hues the longer way is all the way around, upward;
+// between opposite ones both ways are as the numbers go.
 double hue_step(double from, double to, HueRule rule) noexcept {
-  constexpr double same = 1e-9;  // hues that are equal but for the rounding of their colors
+  constexpr double same = 1e-9;  // hues that are equal, or opposite, but for the rounding of their colors
   double step = to - from;       // the shorter way
-  if (step > full_turn / 2) step -= full_turn;
-  if (step < -full_turn / 2) step += full_turn;
+  const bool opposite = std::abs(std::abs(step) - full_turn / 2) <= same;
+  if (step > full_turn / 2 && !opposite) step -= full_turn;
+  if (step < -full_turn / 2 && !opposite) step += full_turn;
   const bool equal = std::abs(step) <= same;
   switch (rule) {
     case HueRule::shorter:
       return step;
     case HueRule::longer:
+      if (opposite) return step;
       return step > 0 && !equal ? step - full_turn : step + full_turn;
     case HueRule::increasing:
       return step < 0 && !equal ? step + full_turn : step;

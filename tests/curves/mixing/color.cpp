@@ -298,3 +298,20 @@ TEST_CASE("the longer way between equal hues is all the way around, upward, as C
   const Curve<Color> around = keyed_curve<Color>(many, {.space = ColorSpace::hsl, .hue = HueRule::longer});
   for (int i = 0; i < 199; ++i) CHECK(test::near(around.value(i + 0.5).rgba, Vec4(0, 1, 1, 1), 1e-9));
 }
+
+TEST_CASE("between opposite hues the shorter and the longer way are as the numbers go, as CSS has it") {
+  const Color red = from_srgb(1, 0, 0), cyan = from_srgb(0, 1, 1), blue = from_srgb(0, 0, 1),
+              yellow = from_srgb(1, 1, 0);
+  const auto hue_between = [](const Color& from, const Color& to, HueRule rule) {
+    const std::vector<Key<Color>> keys = {{0, from, Ease::linear()}, {1, to}};
+    const Curve<Color> curve = keyed_curve<Color>(keys, {.space = ColorSpace::hsl, .hue = rule});
+    const double hue = to_space(curve.value(0.5), ColorSpace::hsl)[hue_index(ColorSpace::hsl)] * 180 / pi;
+    return hue < 0 ? hue + 360 : hue;
+  };
+  for (const HueRule rule : {HueRule::shorter, HueRule::longer}) {
+    CHECK(hue_between(red, cyan, rule) == doctest::Approx(90));
+    CHECK(hue_between(cyan, red, rule) == doctest::Approx(90));
+    CHECK(hue_between(yellow, blue, rule) == doctest::Approx(150));
+    CHECK(hue_between(blue, yellow, rule) == doctest::Approx(150));
+  }
+}
