@@ -240,3 +240,19 @@ TEST_CASE("the first play's morph weights and color fade from what the node show
   CHECK(animation.look(0, 3).weights[1].value == 0);
   CHECK(animation.look(1, 1).weights[0].value == 0.5);
 }
+
+TEST_CASE("an animation, a player and a step curve that were moved from can still be asked") {
+  Animation animation(arm(), {waving("a", 1)}, {{.clip = 0}});
+  const Motion before = animation.sample_node(2, 0.4);
+  Animation taken = std::move(animation);
+  CHECK(animation.sample_node(2, 0.4).pose.position == before.pose.position);
+  CHECK(taken.sample_node(2, 0.4).pose.position == before.pose.position);
+  Player player({.clip = 0, .at = 0.25}, waving("a", 1));
+  const Player taken_player = std::move(player);
+  CHECK(player.at() == 0.25);
+  CHECK(taken_player.at() == 0.25);
+  StepCurve<std::string> steps({{0, "left"}, {1, "right"}});
+  const StepCurve<std::string> taken_steps = std::move(steps);
+  CHECK(taken_steps.value(2) == "right");
+  CHECK(steps.value(2).size() <= 5);
+}

@@ -219,14 +219,14 @@ void World::Implementation::settle_in() {
 
 std::uint64_t World::state_hash() const {
   saving::ByteWriter saved;
-  inner::walk_world(saved, static_cast<const Implementation&>(*implementation_));
+  inner::walk_world(saved, inside());
   return saving::checksum(saved.bytes);
 }
 
 std::vector<std::byte> World::save() const {
-  inner::demand(!implementation_->failed, "a plane of which a body is not finite cannot be saved");
+  inner::demand(!inside().failed, "a plane of which a body is not finite cannot be saved");
   saving::ByteWriter saved;
-  inner::walk_world(saved, static_cast<const Implementation&>(*implementation_));
+  inner::walk_world(saved, inside());
   return saving::sealed(inner::envelope, saved.bytes);
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "planar/checks.h"
 #include "planar/world_data.h"
@@ -124,15 +125,25 @@ World::World(const WorldSettings& settings) : implementation_(std::make_unique<I
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
-World::World(const World& other) : implementation_(std::make_unique<Implementation>(*other.implementation_)) {}
+World::World(const World& other)
+    : implementation_(other.implementation_ ? std::make_unique<Implementation>(*other.implementation_) : nullptr) {}
 World& World::operator=(const World& other) {
-  if (this != &other) implementation_ = std::make_unique<Implementation>(*other.implementation_);
+  if (this != &other) *this = World(other);
   return *this;
+}
+
+const World::Implementation& World::inside() const {
+  if (!implementation_) throw std::logic_error("this world was moved from: it holds nothing");
+  return *implementation_;
+}
+World::Implementation& World::inside() {
+  static_cast<void>(std::as_const(*this).inside());
+  return *implementation_;
 }
 
 BodyId World::add(const BodySettings& settings) {
   inner::demand_body(settings);
-  Implementation& world = *implementation_;
+  Implementation& world = inside();
   Makeup makeup;
   makeup.mass = inner::mass_of(settings);
   makeup.shape = settings.shape;
@@ -174,7 +185,7 @@ BodyId World::add(const BodySettings& settings) {
 }
 
 void World::remove(BodyId id) {
-  Implementation& world = *implementation_;
+  Implementation& world = inside();
   static_cast<void>(world.at(id));
   world.wake_neighbors(id.index);
   world.wake(id.index);
@@ -194,6 +205,7 @@ void World::remove(BodyId id) {
 }
 
 bool World::contains(BodyId id) const noexcept {
+  if (!implementation_) return false;
   const Implementation& world = *implementation_;
   return id.index < world.bodies.size() && world.bodies[id.index].alive &&
          world.makeups[id.index].generation == id.generation;
@@ -201,87 +213,87 @@ bool World::contains(BodyId id) const noexcept {
 
 std::vector<BodyId> World::bodies() const {
   std::vector<BodyId> all;
-  for (std::uint32_t i = 0; i < implementation_->bodies.size(); ++i)
-    if (implementation_->bodies[i].alive) all.push_back(implementation_->handle(i));
+  for (std::uint32_t i = 0; i < inside().bodies.size(); ++i)
+    if (inside().bodies[i].alive) all.push_back(inside().handle(i));
   return all;
 }
 
 Motion World::motion(BodyId body) const {
-  static_cast<void>(implementation_->at(body));
-  return implementation_->motion_of(body.index);
+  static_cast<void>(inside().at(body));
+  return inside().motion_of(body.index);
 }
 Vec2 World::center_velocity(BodyId body) const {
-  return implementation_->at(body).velocity;
+  return inside().at(body).velocity;
 }
 const MassProperties& World::mass(BodyId body) const {
-  static_cast<void>(implementation_->at(body));
-  return implementation_->makeups[body.index].mass;
+  static_cast<void>(inside().at(body));
+  return inside().makeups[body.index].mass;
 }
 const Shape& World::shape(BodyId body) const {
-  static_cast<void>(implementation_->at(body));
-  return implementation_->makeups[body.index].shape;
+  static_cast<void>(inside().at(body));
+  return inside().makeups[body.index].shape;
 }
 Owner World::owner(BodyId body) const {
-  static_cast<void>(implementation_->at(body));
-  return implementation_->makeups[body.index].drive.owner();
+  static_cast<void>(inside().at(body));
+  return inside().makeups[body.index].drive.owner();
 }
 Drive World::drive(BodyId body) const {
-  static_cast<void>(implementation_->at(body));
-  return implementation_->makeups[body.index].drive;
+  static_cast<void>(inside().at(body));
+  return inside().makeups[body.index].drive;
 }
 bool World::is_fixed(BodyId body) const {
-  static_cast<void>(implementation_->at(body));
-  return implementation_->makeups[body.index].fixed;
+  static_cast<void>(inside().at(body));
+  return inside().makeups[body.index].fixed;
 }
 bool World::is_sensor(BodyId body) const {
-  static_cast<void>(implementation_->at(body));
-  return implementation_->makeups[body.index].sensor;
+  static_cast<void>(inside().at(body));
+  return inside().makeups[body.index].sensor;
 }
 double World::still_for(BodyId body) const {
-  return implementation_->at(body).still_for;
+  return inside().at(body).still_for;
 }
 bool World::asleep(BodyId body) const {
-  return implementation_->at(body).asleep;
+  return inside().at(body).asleep;
 }
 bool World::saturated(BodyId body) const {
-  static_cast<void>(implementation_->at(body));
-  return implementation_->makeups[body.index].saturated;
+  static_cast<void>(inside().at(body));
+  return inside().makeups[body.index].saturated;
 }
 Vec2 World::reaction(BodyId body) const {
-  static_cast<void>(implementation_->at(body));
-  return implementation_->makeups[body.index].reaction;
+  static_cast<void>(inside().at(body));
+  return inside().makeups[body.index].reaction;
 }
 double World::kinetic_energy() const {
   double energy = 0;
-  for (std::size_t i = 0; i < implementation_->bodies.size(); ++i) {
-    const Body& body = implementation_->bodies[i];
+  for (std::size_t i = 0; i < inside().bodies.size(); ++i) {
+    const Body& body = inside().bodies[i];
     if (!body.alive || !body.movable) continue;
-    const MassProperties& mass = implementation_->makeups[i].mass;
+    const MassProperties& mass = inside().makeups[i].mass;
     energy += 0.5 * (mass.mass * body.velocity.squaredNorm() + mass.moment * body.spin * body.spin);
   }
   return energy;
 }
 double World::time() const noexcept {
-  return implementation_->time;
+  return implementation_ ? implementation_->time : 0;
 }
 
 void World::set_motion(BodyId id, const Motion& motion) {
-  static_cast<void>(implementation_->at(id));
+  static_cast<void>(inside().at(id));
   inner::demand_motion(motion);
-  implementation_->wake_neighbors(id.index);
-  implementation_->wake(id.index);
+  inside().wake_neighbors(id.index);
+  inside().wake(id.index);
   Motion its = motion;
-  if (implementation_->makeups[id.index].fixed) {
+  if (inside().makeups[id.index].fixed) {
     its.velocity = Vec2(0, 0);
     its.spin = 0;
   }
-  implementation_->place(id.index, its);
-  implementation_->look_again(id.index);
-  implementation_->failed = false;
+  inside().place(id.index, its);
+  inside().look_again(id.index);
+  inside().failed = false;
 }
 
 void World::set_drive(BodyId id, const Drive& drive) {
-  Implementation& world = *implementation_;
+  Implementation& world = inside();
   static_cast<void>(world.at(id));
   state::validate(drive);
   Makeup& makeup = world.makeups[id.index];
@@ -313,16 +325,16 @@ void World::set_drive(BodyId id, const Drive& drive) {
 }
 
 void World::set_target(BodyId id, const Motion& end_of_step) {
-  static_cast<void>(implementation_->at(id));
+  static_cast<void>(inside().at(id));
   inner::demand_motion(end_of_step);
-  Makeup& makeup = implementation_->makeups[id.index];
+  Makeup& makeup = inside().makeups[id.index];
   makeup.target = end_of_step;
-  implementation_->bodies[id.index].has_target = true;
-  if (makeup.drive.owner() == Owner::driven) implementation_->wake(id.index);
+  inside().bodies[id.index].has_target = true;
+  if (makeup.drive.owner() == Owner::driven) inside().wake(id.index);
 }
 
 void World::apply_force(BodyId id, const Vec2& force, const Vec2& point) {
-  Body& body = implementation_->at(id);
+  Body& body = inside().at(id);
   inner::demand_numbers(force, "force");
   inner::demand_numbers(point, "point of a force");
   body.force += force;
@@ -330,37 +342,37 @@ void World::apply_force(BodyId id, const Vec2& force, const Vec2& point) {
 }
 
 void World::apply_torque(BodyId id, double torque) {
-  Body& body = implementation_->at(id);
+  Body& body = inside().at(id);
   inner::demand_number(torque, "torque");
   body.torque += torque;
 }
 
 void World::apply_impulse(BodyId id, const Vec2& impulse, const Vec2& point) {
-  Body& body = implementation_->at(id);
+  Body& body = inside().at(id);
   inner::demand_numbers(impulse, "impulse");
   inner::demand_numbers(point, "point of an impulse");
   body.velocity += body.inverse_mass * impulse;
   body.spin += body.inverse_moment * inner::cross(point - body.center, impulse);
-  implementation_->wake(id.index);
+  inside().wake(id.index);
 }
 
 void World::wake(BodyId id) {
-  static_cast<void>(implementation_->at(id));
-  implementation_->wake(id.index);
+  static_cast<void>(inside().at(id));
+  inside().wake(id.index);
 }
 
 void World::set_groups(BodyId id, std::uint64_t groups, std::uint64_t collides_with) {
-  static_cast<void>(implementation_->at(id));
-  Makeup& makeup = implementation_->makeups[id.index];
+  static_cast<void>(inside().at(id));
+  Makeup& makeup = inside().makeups[id.index];
   makeup.groups = groups;
   makeup.collides_with = collides_with;
-  implementation_->wake_neighbors(id.index);
-  implementation_->wake(id.index);
-  implementation_->look_again(id.index);
+  inside().wake_neighbors(id.index);
+  inside().wake(id.index);
+  inside().look_again(id.index);
 }
 
 void World::ignore(BodyId a, BodyId b) {
-  Implementation& world = *implementation_;
+  Implementation& world = inside();
   static_cast<void>(world.at(a));
   static_cast<void>(world.at(b));
   inner::demand(a != b, "a body cannot ignore itself");
@@ -372,7 +384,7 @@ void World::ignore(BodyId a, BodyId b) {
 }
 
 void World::collide(BodyId a, BodyId b) {
-  Implementation& world = *implementation_;
+  Implementation& world = inside();
   static_cast<void>(world.at(a));
   static_cast<void>(world.at(b));
   const inner::Pair pair = std::minmax(a.index, b.index);
@@ -380,23 +392,26 @@ void World::collide(BodyId a, BodyId b) {
 }
 
 std::span<const Contact> World::contacts() const noexcept {
+  if (!implementation_) return {};
   return implementation_->contacts;
 }
 std::span<const EndedContact> World::ended_contacts() const noexcept {
+  if (!implementation_) return {};
   return implementation_->ended;
 }
 std::span<const SensorOverlap> World::sensor_overlaps() const noexcept {
+  if (!implementation_) return {};
   return implementation_->overlaps;
 }
 
 void World::step(double dt) {
-  implementation_->step(dt, 1);
+  inside().step(dt, 1);
 }
 
 void World::step(double dt, double whole) {
   if (!std::isfinite(whole))
     throw std::invalid_argument("the step of which this is a part must be finite, but is " + number_text(whole) + " s");
-  implementation_->step(dt, std::max(1.0, whole / dt));
+  inside().step(dt, std::max(1.0, whole / dt));
 }
 
 }  // namespace tweenfall::planar

@@ -87,7 +87,7 @@ inner::JointEnd World::Implementation::end_of(BodyId body, const Vec2& anchor) c
 }
 
 JointId World::add_joint(const JointSettings& settings) {
-  Implementation& world = *implementation_;
+  Implementation& world = inside();
   inner::validate_joint(settings);
   for (const BodyId& end : {settings.a, settings.b})
     if (end != BodyId{}) static_cast<void>(world.at(end));
@@ -123,7 +123,7 @@ JointId World::add_joint(const JointSettings& settings) {
 }
 
 void World::remove_joint(JointId id) {
-  Implementation& world = *implementation_;
+  Implementation& world = inside();
   Joint& joint = world.at(id);
   for (const BodyId& end : {joint.settings.a, joint.settings.b}) {
     if (end == BodyId{} || !contains(end)) continue;
@@ -138,16 +138,16 @@ void World::remove_joint(JointId id) {
 }
 
 bool World::contains(JointId id) const noexcept {
-  return id.index < implementation_->joints.size() && implementation_->joints[id.index].alive &&
+  return implementation_ && id.index < implementation_->joints.size() && implementation_->joints[id.index].alive &&
          implementation_->joints[id.index].generation == id.generation;
 }
 
 const JointSettings& World::joint(JointId id) const {
-  return implementation_->at(id).settings;
+  return inside().at(id).settings;
 }
 
 JointReading World::reading(JointId id) const {
-  const Implementation& world = *implementation_;
+  const Implementation& world = inside();
   const Joint& joint = world.at(id);
   const inner::JointEnd a = world.end_of(joint.settings.a, joint.settings.anchor_a),
                         b = world.end_of(joint.settings.b, joint.settings.anchor_b);

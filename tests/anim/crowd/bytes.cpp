@@ -169,3 +169,12 @@ TEST_CASE("what is wrong with bytes is said") {
   other.back() ^= std::byte{1};
   says(other, "damaged");
 }
+
+TEST_CASE("a compiled clip that was moved from is what it was") {
+  Clip clip;
+  clip.duration = 3;
+  CrowdClip compiled = compile(clip, Hierarchy({{"bone"}}));
+  const CrowdClip taken = std::move(compiled);
+  CHECK(compiled.duration() == 3);
+  CHECK(taken.to_bytes() == compiled.to_bytes());
+}

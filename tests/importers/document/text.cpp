@@ -223,3 +223,11 @@ TEST_CASE("a document of a model moves as the model does") {
   }
   CHECK(Document::parse(document.text(), "again.json", {}).text() == document.text());
 }
+
+TEST_CASE("a document that was moved from is what it was") {
+  Document document =
+      Document::parse(R"({"tweenfall": 1, "clips": {"a": {"tracks": {"x.y": [[0, 1], [1, 2]]}}}})", "a", "");
+  const Document taken = std::move(document);
+  CHECK(document.text() == taken.text());
+  CHECK(document.stage().clips.size() == 1);
+}

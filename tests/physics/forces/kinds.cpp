@@ -301,3 +301,10 @@ TEST_CASE("forces that cannot be are refused in words") {
   world.step(0.01);
   CHECK(world.twist(body).linear.x() == 0);
 }
+
+TEST_CASE("a formula of a force that was moved from is what it was") {
+  ForceFormula formula({"2*x", "0", "mass"});
+  const ForceFormula taken = std::move(formula);
+  CHECK(formula.force(3, Vec3(4, 0, 0), Vec3(0, 0, 0), 0) == Vec3(8, 0, 3));
+  CHECK(taken.force(3, Vec3(4, 0, 0), Vec3(0, 0, 0), 0) == Vec3(8, 0, 3));
+}

@@ -364,3 +364,21 @@ TEST_CASE("in a plane nothing that is dropped gains energy, and a fast ball does
   CHECK(near(range.motion(bullet).velocity.x(), -900, 1e-6));
   CHECK(range.motion(bullet).position.x() < -0.02);
 }
+
+TEST_CASE("a plane that was moved from answers as empty or throws, and takes another") {
+  planar::World world;
+  const BodyId body = add_ground(world);
+  planar::World other = std::move(world);
+  CHECK(!world.contains(body));
+  CHECK(world.time() == 0);
+  CHECK(world.contacts().empty());
+  CHECK_THROWS_AS(world.step(0.1), std::logic_error);
+  CHECK_THROWS_AS(world.add({}), std::logic_error);
+  CHECK_THROWS_AS((void)world.motion(body), std::logic_error);
+  CHECK_THROWS_AS((void)world.save(), std::logic_error);
+  planar::World copy = world;
+  CHECK_THROWS_AS(copy.step(0.1), std::logic_error);
+  world = other;
+  world.step(0.1);
+  CHECK(world.contains(body));
+}

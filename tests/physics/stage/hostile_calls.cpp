@@ -245,3 +245,10 @@ TEST_CASE("a recording of more than a million events is refused, with how many t
   Stage shorter(description);
   CHECK(record(shorter, 0.1, 30).events.size() == doctest::Approx(1e5).epsilon(0.01));
 }
+
+TEST_CASE("a path that was moved from is what it was") {
+  const Stage stage(falling_ball());
+  Path path = stage.path(0);
+  const Path taken = std::move(path);
+  CHECK(path.at(0.3).pose.position == taken.at(0.3).pose.position);
+}

@@ -36,6 +36,10 @@ class GraphStack;
 
 class Animation {
  public:
+  // Moving copies: what was moved from stays what it was.
+  Animation(const Animation&) noexcept = default;
+  Animation& operator=(const Animation&) noexcept = default;
+
   /// Binds every track of every clip. A track of a property that is not ours is bound to nothing.
   /// @throws std::invalid_argument naming all tracks whose node does not exist or whose curve has the wrong type.
   Animation(std::shared_ptr<const Hierarchy> nodes, std::vector<Clip> clips, std::vector<Play> plays);

@@ -34,6 +34,10 @@ struct CompiledClip;
 
 class CrowdClip {
  public:
+  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  CrowdClip(const CrowdClip&) noexcept = default;
+  CrowdClip& operator=(const CrowdClip&) noexcept = default;
+
   [[nodiscard]] std::size_t joints() const noexcept;
   [[nodiscard]] std::size_t groups() const noexcept { return crowd_groups(joints()); }
   [[nodiscard]] double duration() const noexcept;  ///< s

@@ -114,6 +114,10 @@ struct PlayVoices {
 
 class Player {
  public:
+  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  Player(const Player&) noexcept = default;
+  Player& operator=(const Player&) noexcept = default;
+
   /// @throws std::invalid_argument listing what is wrong with the play
   Player(const Play& play, const Clip& clip);
 

@@ -60,6 +60,10 @@ struct ReadOptions {
 
 class Document {
  public:
+  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  Document(const Document&) noexcept = default;
+  Document& operator=(const Document&) noexcept = default;
+
   /// @throws DocumentError with all problems.
   [[nodiscard]] static Document read(const std::filesystem::path& file, const ReadOptions& options = {});
   /// @param name    stands for the file in problems

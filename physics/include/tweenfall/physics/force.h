@@ -101,6 +101,9 @@ class ForceFormula {
  public:
   using Parameter = Expression::Parameter;
   ForceFormula() : ForceFormula({"0", "0", "0"}) {}
+  // Moving copies: what was moved from stays what it was.
+  ForceFormula(const ForceFormula&) = default;
+  ForceFormula& operator=(const ForceFormula&) = default;
   /// @param force  its three components, N
   /// @throws ExpressionError
   explicit ForceFormula(std::array<std::string, 3> force, std::vector<Parameter> parameters = {});

@@ -88,7 +88,8 @@ struct JointReading {
 
 /// Bodies in a plane and what acts on them. A copy steps to the same bits as the original. Every call that takes a
 /// handle throws std::invalid_argument for a stale one, and every call that takes numbers for those that are not finite
-/// or beyond 1e30. A world that was moved from may be destroyed or assigned to, and nothing else.
+/// or beyond 1e30. A world that was moved from holds nothing: its `noexcept` members answer as for an
+/// empty world, all others throw std::logic_error, until another world is assigned to it.
 class World {
  public:
   explicit World(const WorldSettings& settings = {});
@@ -174,6 +175,9 @@ class World {
  private:
   friend struct Questions;  // of planar_query.h
   struct Implementation;
+  [[nodiscard]] Implementation& inside();              ///< @throws std::logic_error when moved from
+  [[nodiscard]] const Implementation& inside() const;  ///< the same
+
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -11,7 +11,7 @@ namespace tweenfall::planar {
 
 /// What questions see of a world.
 struct Questions {
-  [[nodiscard]] static const World::Implementation& inside(const World& world) { return *world.implementation_; }
+  [[nodiscard]] static const World::Implementation& inside(const World& world) { return world.inside(); }
 
   [[nodiscard]] static inner::Figure figure(const World::Implementation& world, std::uint32_t index) {
     const inner::Body& body = world.bodies[index];

@@ -23,6 +23,10 @@ struct PathFields;
 
 class Path {
  public:
+  // Moving copies: what was moved from stays what it was.
+  Path(const Path&) = default;
+  Path& operator=(const Path&) = default;
+
   /// @param since  when the body came to this path, s: nothing of it was shown before, so there even `Side::in` is what
   /// leaves
   Path(std::shared_ptr<const Animation> animation, std::size_t node, double since = 0);
