@@ -246,6 +246,19 @@ TEST_CASE("a recording of more than a million events is refused, with how many t
   CHECK(record(shorter, 0.1, 30).events.size() == doctest::Approx(1e5).epsilon(0.01));
 }
 
+TEST_CASE("a node's color must be finite, at the start and later") {
+  StageDescription description = falling_ball();
+  description.nodes[0].color = Color{};
+  Stage stage(description);
+  for (const double number : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    description.nodes[0].color->rgba[1] = number;
+    CHECK_THROWS_WITH_AS(Stage{description}, doctest::Contains("color of \"ball\""), std::invalid_argument);
+    NodeDescription late{.name = "late", .color = description.nodes[0].color};
+    CHECK_THROWS_AS(stage.add(late), std::invalid_argument);
+  }
+  CHECK(stage.nodes().size() == 1);
+}
+
 TEST_CASE("a path that was moved from is what it was") {
   const Stage stage(falling_ball());
   Path path = stage.path(0);

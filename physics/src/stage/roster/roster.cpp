@@ -169,6 +169,8 @@ Node checked_node(const NodeDescription& node) {
   if (!rest.position.allFinite() || !rest.scale.allFinite() || !std::isfinite(turn) || !(turn > 0))
     throw std::invalid_argument("the rest pose of \"" + node.name +
                                 "\" needs finite numbers and a rotation that can be normalized");
+  if (node.color && !node.color->rgba.allFinite())
+    throw std::invalid_argument("the color of \"" + node.name + "\" needs finite numbers");
   // A unit quaternion stays as it was given, to the bit.
   if (std::abs(turn - 1) > 1e-12) rest.rotation.normalize();
   return {node.name, node.parent, rest, node.color, {}};
