@@ -16,6 +16,8 @@ constexpr double hardly = 1e-6;
 constexpr int refinements = 4;
 /// Part of the angular momentum that is rounding.
 constexpr double rounding = 1e-15;
+/// Part of the energy that is.
+constexpr double rounding_of_energy = 1e-14;
 /// Part of the energy by which it may be raised.
 constexpr double little = 0.01;
 
@@ -50,11 +52,13 @@ bool between_bodies(const joints::JointLink& link) {
          !std::holds_alternative<PulleyJoint>(kind);
 }
 
-/// Angular momentum about the common center of mass, but for spins that nothing changed.
+/// Angular momentum about the common center of mass and energy besides that of the center, but for spins that nothing
+/// changed.
 struct Whole {
   double mass = 0;
   Vec3 center{0, 0, 0}, velocity{0, 0, 0}, momentum{0, 0, 0};
   double size = 0;  ///< of the parts of the momentum
+  double energy = 0;
 };
 
 }  // namespace
@@ -95,7 +99,10 @@ bool FreeIslands::gather(const IslandContents& island, const std::vector<Body>& 
       clear();
       return false;
     }
-    for (const std::uint32_t index : {link->a, link->b}) members_[slot_of(index)].gripped = true;
+    for (const std::uint32_t index : {link->a, link->b}) {
+      Member& member = members_[slot_of(index)];
+      member.gripped = member.jointed = true;
+    }
   }
   for (const contacts::ContactConstraint* contact : island.contacts) {
     if (!joins(*contact)) continue;
@@ -145,13 +152,16 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
     for (const Member& member : group) {
       const Body& body = bodies[member.index];
       const FreeStart& at = state_of(member);
-      const Vec3 orbit = body.mass().mass * (at.center - whole.center).cross(at.twist.linear - whole.velocity);
+      const Vec3 velocity = at.twist.linear - whole.velocity;
+      const Vec3 orbit = body.mass().mass * (at.center - whole.center).cross(velocity);
       whole.momentum += orbit;
       whole.size += orbit.norm();
+      whole.energy += 0.5 * body.mass().mass * velocity.squaredNorm();
       if (!member.gripped) continue;
       const Vec3 spin = body.world_inertia(at.rotation) * at.twist.angular;
       whole.momentum += spin;
       whole.size += spin.norm();
+      whole.energy += 0.5 * spin.dot(at.twist.angular);
     }
     return whole;
   };
@@ -172,7 +182,11 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
       body.center += astray;
       body.follow_center(body.motion.pose.rotation);
     }
-  if ((after.momentum - before.momentum).norm() <= rounding * std::max(before.size, after.size)) return;
+  // A blow is worth the energy that it had where the solver left the center, which may be lower than here.
+  const bool jointed = std::any_of(group.begin(), group.end(), [](const Member& member) { return member.jointed; });
+  const double gained =
+      jointed || after.energy <= (1 + rounding_of_energy) * before.energy ? 0 : after.energy - before.energy;
+  if (gained == 0 && (after.momentum - before.momentum).norm() <= rounding * std::max(before.size, after.size)) return;
   const auto arm_of = [center = Vec3(after.center + moved_by)](const Body& body) -> Vec3 {
     return body.center - center;
   };
@@ -204,7 +218,7 @@ void FreeIslands::keep_group(std::span<const Member> group, std::vector<Body>& b
     if (member.gripped)
       energy += 0.5 * twist.angular.dot(body.world_inertia(body.motion.pose.rotation) * twist.angular);
   }
-  const double needed = 0.5 * (wanted.dot(before.momentum) - turned.dot(after.momentum));
+  const double needed = 0.5 * (wanted.dot(before.momentum) - turned.dot(after.momentum)) + gained;
   // Where little goes on besides it is not worth as much.
   const double share =
       needed > 0 || -needed < little * energy ? std::sqrt(std::max(0.0, 1 - needed / std::max(energy, needed))) : 1;

@@ -20,7 +20,7 @@ struct FreeStart {
 /// where the bodies lay when the contact was found, joints hold but to what is left of their gaps, and the bodies go on
 /// from there while the impulses are being found: what that leaves open is given back to all of them together as a turn
 /// about their common center of mass, which no contact feels, and the energy for it is taken from what they do besides.
-/// And that center goes where their momentum takes it.
+/// And that center goes where their momentum takes it; contacts alone give them no energy besides that of the center.
 class FreeIslands {
  public:
   /// Before the bodies of a step.
@@ -41,6 +41,7 @@ class FreeIslands {
   struct Member {
     std::uint32_t index = 0;
     bool gripped = false;  ///< its spin changes with that of the others
+    bool jointed = false;  ///< motors and springs may give it energy
     FreeStart start;
   };
 
