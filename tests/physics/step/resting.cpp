@@ -131,3 +131,23 @@ TEST_CASE("overlap is taken apart slowly and gives no speed") {
     CHECK(most < 1e-6);
   }
 }
+
+TEST_CASE("crates that are pushed out of the floor, and of each other, go straight up") {
+  for (const double rate : {240.0, 60.0})
+    for (const double depth : {0.5, 0.2, 0.05})
+      for (const int count : {1, 2}) {
+        World world;
+        world.add({.shape = {Plane{}}, .fixed = true});
+        std::vector<BodyId> crates;
+        for (int i = 0; i < count; ++i) crates.push_back(world.add(unit_box(0.5 - depth + (1 - depth) * i)));
+        CAPTURE(rate);
+        CAPTURE(depth);
+        CAPTURE(count);
+        for (int i = 0; i < static_cast<int>(4 * rate); ++i) world.step(1 / rate);
+        for (int i = 0; i < count; ++i) {
+          const Pose pose = world.motion(crates[static_cast<std::size_t>(i)]).pose;
+          CHECK((pose.position - Vec3(0, 0.5 + i, 0)).norm() < 5e-4);
+          CHECK(2 * pose.rotation.vec().norm() < 5e-4);
+        }
+      }
+}

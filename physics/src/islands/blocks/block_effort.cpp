@@ -199,7 +199,7 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
   effort.rebound_passes = settings.iterations;
   effort.turned_enough = turned_enough_of_small;
   const double h = dt / effort.sub_steps;
-  bool meets = false;
+  bool meets = false, is_pushed_out = false;
   double fastest = 0;
   for (ContactConstraint* contact : island.contacts) {
     if (contact->rolling_friction > 0) return std::nullopt;
@@ -215,16 +215,21 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     const contacts::Closing closing =
         contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt * parts_);
     contacts::foresee(*contact, a.twist, b.twist, closing, dt);
+    // Deeper than what falls for a step or two: no rest is like that.
+    for (int i = 0; i < contact->count; ++i)
+      is_pushed_out =
+          is_pushed_out || contact->points[static_cast<std::size_t>(i)].start_gap < -closing.tremble * dt * parts_;
     if (!contact->impact) continue;
     // The blow of two bodies, and what comes back from it, is solved to the end.
     if (island.contacts.size() == 1 || contact->restitution > dull) return std::nullopt;
     meets = true;
   }
-  // What turns lets go of what it touches, and what then is left of an uneven push stays with it.
-  if (effort.single && fastest * dt > turns) {
-    effort.softening = effort.relaxing = 3 * settings.iterations;
-    if (fastest * dt <= followable_of_small * sub_steps_of_turning) effort.sub_steps = sub_steps_of_turning;
-  }
+  // What is left of an uneven push stays with what turns, for that lets go of what it touches, and moves what is pushed
+  // out aside.
+  const bool is_turning = effort.single && fastest * dt > turns;
+  if (is_turning || is_pushed_out) effort.softening = effort.relaxing = 3 * settings.iterations;
+  if (is_turning && !is_pushed_out && fastest * dt <= followable_of_small * sub_steps_of_turning)
+    effort.sub_steps = sub_steps_of_turning;
   // What meets has no rest yet that many passes would find.
   if (meets) effort.softening = effort.relaxing = passes_of_meeting;
   return effort;
