@@ -55,9 +55,9 @@ std::vector<FiredEvent> news_of_graphs(const Animation& before, const Animation&
 
 /// From an instant on, which has been handled, the animation is another.
 /// @param news  what it tells at that very time: rules wait for it, too
-void change_animation(StageState& state, Animation animation, double instant, std::vector<FiredEvent> news, double step,
-                      std::vector<Happening>& happenings) {
-  const auto next = std::make_shared<const Animation>(std::move(animation));
+void change_animation(StageState& state, const Animation& animation, double instant, std::vector<FiredEvent> news,
+                      double step, std::vector<Happening>& happenings) {
+  const auto next = std::make_shared<const Animation>(animation);
   for (FiredEvent& event : news_of_graphs(*state.animation, *next, instant)) news.push_back(std::move(event));
   state.animation = next;
   for (StagedBody& body : state.bodies) body.path = body.path.rebound(next);
@@ -71,10 +71,10 @@ void change_animation(StageState& state, Animation animation, double instant, st
 }  // namespace
 
 void change_play(StageState& state, const PlayChange& change, double step, std::vector<Happening>& happenings) {
-  Animation changed = state.animation->with_change(change);
+  const Animation changed = state.animation->with_change(change);
   const Player& player = changed.players()[changed.player_named(change.play)];
   std::vector<FiredEvent> news = player.events_of_change(changed.clips()[player.play().clip]);
-  change_animation(state, std::move(changed), change.time, std::move(news), step, happenings);
+  change_animation(state, changed, change.time, std::move(news), step, happenings);
 }
 
 void tell_graph(StageState& state, const std::string& graph, const GraphInput& input, double step,

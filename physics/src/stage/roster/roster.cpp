@@ -70,7 +70,7 @@ void add_body(StageState& state, NodeId node, const BodyDescription& body, const
   if (!body.fixed && settings.drive.owner() == Owner::free)
     state.world.set_motion(id, about_origin(settings.motion, body.twist, state.world.mass(id).center));
 
-  StagedBody staged{.node = node, .id = id, .path = std::move(path), .shown = start};
+  StagedBody staged{.node = node, .id = id, .path = path, .shown = start};
   staged.released_at = state.time;
   staged.drive = settings.drive;
   staged.surface = settings.surface_velocity.linear;
