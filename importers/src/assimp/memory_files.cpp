@@ -44,7 +44,8 @@ class MemoryStream : public Assimp::IOStream {
 
 class MemoryFiles : public Assimp::IOSystem {
  public:
-  MemoryFiles(const std::string& bytes, const std::filesystem::path& file) : bytes_(bytes), file_(file) {}
+  MemoryFiles(const std::string& bytes, const std::filesystem::path& file, std::vector<std::string>& missing)
+      : bytes_(bytes), file_(file), missing_(missing) {}
 
   bool Exists(const char* path) const override {
     std::error_code failed;
@@ -56,10 +57,12 @@ class MemoryFiles : public Assimp::IOSystem {
   Assimp::IOStream* Open(const char* path, const char* mode) override {
     if (std::strchr(mode, 'w') || std::strchr(mode, 'a')) return nullptr;
     if (path == file_.string()) return new MemoryStream(std::string_view(bytes_));
-    if (!is_beside(path)) return nullptr;
     std::string reason;
-    auto bytes = models::model_bytes(path, reason);
-    return bytes ? new MemoryStream(std::move(*bytes)) : nullptr;
+    auto bytes = is_beside(path) ? models::model_bytes(path, reason) : std::nullopt;
+    if (bytes) return new MemoryStream(std::move(*bytes));
+    const std::string_view given = path, folder = folder_;
+    missing_.emplace_back(given.substr(given.starts_with(folder) ? folder.size() : 0));
+    return nullptr;
   }
 
   void Close(Assimp::IOStream* stream) override { delete stream; }
@@ -73,12 +76,15 @@ class MemoryFiles : public Assimp::IOSystem {
 
   const std::string& bytes_;
   std::filesystem::path file_;
+  std::string folder_ = (file_.parent_path() / "").string();
+  std::vector<std::string>& missing_;
 };
 
 }  // namespace
 
-std::unique_ptr<Assimp::IOSystem> memory_files(const std::string& bytes, const std::filesystem::path& file) {
-  return std::make_unique<MemoryFiles>(bytes, file);
+std::unique_ptr<Assimp::IOSystem> memory_files(const std::string& bytes, const std::filesystem::path& file,
+                                               std::vector<std::string>& missing) {
+  return std::make_unique<MemoryFiles>(bytes, file, missing);
 }
 
 }  // namespace tweenfall::assimp

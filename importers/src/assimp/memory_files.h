@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace Assimp {
 class IOSystem;
@@ -13,7 +14,9 @@ class IOSystem;
 namespace tweenfall::assimp {
 
 /// @param bytes  the content of `file`; must outlive what is returned
+/// @param missing  gets the names of files that assimp asks for and does not get, in that order; must outlive it, too
 [[nodiscard]] std::unique_ptr<Assimp::IOSystem> memory_files(const std::string& bytes,
-                                                             const std::filesystem::path& file);
+                                                             const std::filesystem::path& file,
+                                                             std::vector<std::string>& missing);
 
 }  // namespace tweenfall::assimp

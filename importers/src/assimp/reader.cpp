@@ -8,6 +8,7 @@
 #include "model/model_names.h"
 
 #include <tweenfall/curves/number_text.h>
+#include <tweenfall/importers/shown_text.h>
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -17,6 +18,7 @@
 
 #include <charconv>
 #include <map>
+#include <set>
 
 namespace tweenfall::assimp {
 
@@ -63,8 +65,9 @@ enum class ColladaNames { names, ids };
 
 /// The scene, owned by `importer`. @throws ModelError
 const aiScene& import_scene(Assimp::Importer& importer, const std::string& bytes, const std::filesystem::path& file,
-                            ColladaNames names) {
-  importer.SetIOHandler(memory_files(bytes, file).release());
+                            ColladaNames names, std::vector<std::string>& missing) {
+  missing.clear();
+  importer.SetIOHandler(memory_files(bytes, file, missing).release());
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, names == ColladaNames::names);
   const unsigned steps =
       aiProcess_Triangulate | aiProcess_JoinIdenticalVertices | aiProcess_FlipUVs | aiProcess_ValidateDataStructure;
@@ -103,14 +106,23 @@ Model read(const std::string& given, const std::filesystem::path& file, models::
   const std::string bytes = collada ? without_leading_space(given) : given;
   if (bytes.empty()) throw ModelError(file.string() + ": error: is empty");
   if (collada) check_counts(given, file);
+  std::vector<std::string> missing;
   Assimp::Importer importer;
-  const aiScene* scene = &import_scene(importer, bytes, file, ColladaNames::names);
+  const aiScene* scene = &import_scene(importer, bytes, file, ColladaNames::names, missing);
   std::vector<Waiting> waiting = flattened(*scene->mRootNode);
   if (collada && has_double_names(waiting)) {
-    scene = &import_scene(importer, bytes, file, ColladaNames::ids);
+    scene = &import_scene(importer, bytes, file, ColladaNames::ids, missing);
     waiting = flattened(*scene->mRootNode);
     problems.repair("", "several nodes have one name; all are called by their ids instead");
   }
+
+  // In place of materials that it does not find assimp looks for those by the model's own name, which nobody asked for.
+  std::erase(missing, std::filesystem::path(file).filename().replace_extension("mtl").string());
+  std::set<std::filesystem::path> told;
+  for (const std::string& name : missing)
+    if (told.insert(std::filesystem::path(name).relative_path()).second)
+      problems.repair("", "the file \"" + utf8_or_latin1(name) +
+                              "\" that it names is not in its folder; what that says of materials is not read");
 
   Model model;
   models::UniqueNames names;

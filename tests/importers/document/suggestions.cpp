@@ -153,6 +153,9 @@ TEST_CASE(
   CHECK(says(said("\"import\": {\"fox\": {\"file\": \"Fox.glb\"}}"), "expected the path of a file"));
 
   const std::filesystem::path folder = data_folder() / "documents/good";
+  const std::string inside = faults_of("{\"tweenfall\": 1, \"import\": {\"parts\": \"parts\"}}", "n.json", folder);
+  CHECK(says(inside, "\"parts\" is not a plain file"));
+  CHECK_FALSE(says(inside, "did you mean"));
   const auto beside = [&](const std::string& rest) {
     return faults_of("{\"tweenfall\": 1, \"import\": {\"start\": \"pendulum.json\"}, " + rest + "}", "n.json", folder);
   };

@@ -94,6 +94,21 @@ TEST_CASE("a helper that is missing, says nothing, or says what is no model is a
   }
 }
 
+TEST_CASE("an OBJ whose materials are not there, or not beside it, is read and says so") {
+  const ScratchFolder folder("materials");
+  const auto repairs_of = [&](const std::string& materials) {
+    return load_model(folder.file("a.obj", "mtllib " + materials + "\nusemtl red\n" + triangle)).repairs;
+  };
+  static_cast<void>(folder.file("own.mtl", "newmtl red\nKd 1 0 0\n"));
+  CHECK(repairs_of("own.mtl").empty());
+  for (const std::string elsewhere : {"none.mtl", "../own.mtl", "/etc/passwd"}) {
+    const std::vector<std::string> told = repairs_of(elsewhere);
+    REQUIRE(told.size() == 1);
+    CHECK_MESSAGE(told[0].find("\"" + elsewhere + "\" that it names is not in its folder") != std::string::npos,
+                  told[0]);
+  }
+}
+
 TEST_CASE("a Collada file whose count is huge is refused at its line, at once") {
   const ScratchFolder folder("counts");
   const auto begin = std::chrono::steady_clock::now();

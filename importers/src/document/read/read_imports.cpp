@@ -111,6 +111,8 @@ class Importer {
     if (fault) return tell(place, json::in_quotes(place.text()) + " is no path of a file: " + fault.message());
     if (!building_.reading.options.allow_outside && !is_below(file, base))
       return tell(place, json::in_quotes(place.text()) + " lies outside the document's folder; move the file into it");
+    if (fs::exists(file, fault) && !fs::is_regular_file(file, fault))
+      return tell(place, json::in_quotes(place.text()) + " is not a plain file");
     if (!fs::is_regular_file(file, fault))
       return tell(place,
                   "there is no file " + json::in_quotes(place.text()) + in_folder(file, std::string(place.text())));

@@ -134,7 +134,7 @@ std::optional<std::string> buffer_bytes(const Fields& buffer, const std::filesys
   }
   std::string reason;
   auto bytes = models::model_bytes(file.parent_path() / path, reason);
-  if (!bytes) problems.add(buffer.place_of("uri"), "file \"" + path.string() + "\" " + reason);
+  if (!bytes) problems.add(buffer.place_of("uri"), "file \"" + path.string() + "\": " + reason);
   return bytes;
 }
 
