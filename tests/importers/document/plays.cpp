@@ -1,6 +1,7 @@
 // Plays in documents: sections, loops, fades, keys of weight and speed; and files of timed inputs.
 
 #include "importers/document/document_files.h"
+#include "processor_time.h"
 
 #include <tweenfall/anim/graph_player.h>
 #include <tweenfall/importers/inputs.h>
@@ -241,4 +242,14 @@ TEST_CASE("names in inputs of graphs that mean nothing are told with the nearest
   says(R"({"at": 1, "send": {"event": "go"}})", "i.json:2:19: error: the stage has no graph", "");
   says(R"({"at": 1, "send": {"event": "go"}})", "the stage has several graphs, \"a\", \"b\"; say which \"graph\"",
        R"("a": {"poses": {"stand": {"rest": true}}}, "b": {"poses": {"stand": {"rest": true}}})");
+}
+
+TEST_CASE("a document with many plays is judged in a time that grows with their number alone") {
+  std::string plays;
+  for (int i = 0; i < 32000; ++i)
+    plays += (i > 0 ? ",\n" : "") + std::string(R"({"name": "p)") + std::to_string(i) + R"(", "clip": "walk", "at": )" +
+             std::to_string(i) + "e-3}";
+  const double begin = processor_seconds();
+  CHECK(parsed(with_play(plays)).stage().plays.size() == 32000);
+  CHECK(processor_seconds() - begin < 5);
 }

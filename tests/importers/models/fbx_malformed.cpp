@@ -143,3 +143,22 @@ TEST_CASE(
   CHECK(model.repairs[0].find("1 camera is read as a plain node") != std::string::npos);
   CHECK(model.repairs[1].find("2 views of the program that wrote it") != std::string::npos);
 }
+
+TEST_CASE("an FBX text in which much is told of takes a time that grows with it alone") {
+  const ScratchFolder folder("fbx-much-told");
+  FbxText file;
+  const int node = file.model("n", "");
+  const int layer = file.layer(file.stack(1));
+  for (int i = 0; i < 10000; ++i) file.curve(layer, node, "Lcl Translation", "d|X", {{1, 1}, {0, 2}}, 0x4);
+  const auto path = folder.file("told.fbx", file.text());
+  const double begin = test::processor_seconds();
+  const Model model = load_model(path);
+  CHECK(test::processor_seconds() - begin < 10);
+  REQUIRE(model.repairs.size() == 41);
+  // The line is the one where the curve begins.
+  const std::string text = file.text();
+  const auto lines =
+      std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("AnimationCurve: ")), '\n');
+  CHECK(
+      model.repairs[0].starts_with("line " + std::to_string(lines + 1) + ": an animation curve has keys out of order"));
+}

@@ -83,9 +83,9 @@ void judge_loop(Building& building, std::size_t clip, double speed) {
 }
 
 // A recording of the usual length would have more events than one holds.
-void note_recorded_events(Building& building, const json::Value& place, const Play& play) {
+/// @param usual  that length, s
+void note_recorded_events(Building& building, const json::Value& place, const Play& play, double usual) {
   const StageDescription& stage = building.stage;
-  const double usual = natural_length(stage);
   // Half of it, for the question allows for twice as many.
   if (!too_many_events(play, stage.clips[play.clip], usual / 2).empty())
     building.problems.note(place, "has more than a million events within " + brief_text(usual) +
@@ -113,6 +113,7 @@ void judge_pace(Building& building) {
   const bool usual = judge_step(building);
   if (usual) judge_spins(building);
   const std::vector<double> fastest = fastest_plays(stage);
+  const double length = natural_length(stage);
   const json::Value list = usable(building.root, "play");
   for (std::size_t i = 0; list && i < std::min(stage.plays.size(), list.items().size()); ++i) {
     const Play& play = stage.plays[i];
@@ -120,10 +121,10 @@ void judge_pace(Building& building) {
     if (!fault.empty())
       building.problems.add(list.items()[i], fault);
     else
-      note_recorded_events(building, list.items()[i], play);
+      note_recorded_events(building, list.items()[i], play, length);
   }
   if (!list && stage.clips.size() == 1)
-    note_recorded_events(building, place_of_clip(building, stage.clips[0].name), {});
+    note_recorded_events(building, place_of_clip(building, stage.clips[0].name), {}, length);
   for (std::size_t i = 0; i < stage.clips.size(); ++i) {
     const Clip& clip = stage.clips[i];
     if (usual) judge_turns(building, clip, fastest[i]);
