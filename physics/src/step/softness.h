@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 namespace tweenfall::step {
@@ -11,6 +12,9 @@ struct Softness {
   double speed = 0;   ///< at most, m/s
   double firm = 1;    ///< share of the speed error met by a pass
   double giving = 0;  ///< share of the impulse let go by a pass
+
+  /// Overlap from which on it is taken apart no faster, m.
+  [[nodiscard]] double deep() const { return rate > 0 ? speed / rate : std::numeric_limits<double>::infinity(); }
 };
 
 /// Of the contacts of a step of `dt` seconds.

@@ -9,6 +9,7 @@
 
 #include "contacts/meeting.h"
 #include "forces/drive_law.h"
+#include "islands/pinched.h"
 #include "step/contact_rows.h"
 
 namespace tweenfall::step {
@@ -443,7 +444,6 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
   }
   const Contacts contacts = contacts_;
   rows_.resize(4 * contacts.size());
-  extrapolating_ = extrapolates(bodies, springs);
   const double h = dt / sub_steps_;
   const bool thorough = contacts.size() <= to_the_end;
   const int share = thorough ? settings.iterations : settings.iterations / sub_steps_;
@@ -451,6 +451,8 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
   const int passes = std::max(1, share - relaxing);
   const Softness hard;
   const Softness soft = soft_contacts(settings.push_out_speed, dt, sub_steps_, parts_);
+  // Out of two at a time no push is enough.
+  extrapolating_ = extrapolates(bodies, springs) && !islands::is_wedged(found, bodies, soft.deep());
   for (int sub_step = 0; sub_step < sub_steps_; ++sub_step) {
     begin_sub_step(bodies, loads, settings, h, sub_step);
     for (SolvedContact& contact : contacts) {
@@ -475,7 +477,6 @@ void Solver::solve(std::vector<Body>& bodies, const std::vector<Load>& loads,
     rebound(bodies, loads, contacts, thorough ? settings.iterations : std::max(1, settings.iterations / 4));
     bound_spins(bodies, h);
     add_totals(contacts, h);
-    tame_pinched();
   }
 
   for (const SolvedContact& contact : contacts) contact.store();

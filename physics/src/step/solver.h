@@ -86,7 +86,6 @@ class Solver {
   void add_totals(Contacts contacts, double h);
   void end_sub_step(double h);
   void bound_spins(const std::vector<state::Body>& bodies, double h);
-  void tame_pinched();
 
   // Rebound
   void rebound(const std::vector<state::Body>& bodies, const std::vector<forces::Load>& loads, Contacts contacts,

@@ -8,6 +8,7 @@
 #include "collision/impact_time.h"
 #include "contacts/found_manifold.h"
 #include "forces/drive_law.h"
+#include "islands/pinched.h"
 #include "state/world_data.h"
 #include "step/keyed_step.h"
 
@@ -186,6 +187,12 @@ void World::Implementation::solve_islands(double dt) {
   if (work.threads() > 1)
     std::stable_sort(islands_by_size.begin(), islands_by_size.end(),
                      [&](std::uint32_t a, std::uint32_t b) { return size_of(a) > size_of(b); });
+  const bool led =
+      std::any_of(lingering.begin(), lingering.end(), [this](std::uint32_t i) { return bodies[i].displaces(); });
+  const auto tame = [&](const islands::IslandContents& contents) {
+    islands::tame_pinched(contents, bodies, loads, settings, dt,
+                          [this](std::uint32_t i) -> const Twist& { return starts[i].twist; });
+  };
   const auto solve = [&](std::size_t island, step::Solvers& by, const threads::Workers& within) {
     const islands::IslandContents& contents = all[islands_by_size[island]];
     if (goes_by_strategies(contents)) {
@@ -202,12 +209,15 @@ void World::Implementation::solve_islands(double dt) {
     }
     const std::optional<blocks::BlockSolver::Effort> effort =
         by.many.effort_for(contents, bodies, loads, settings, dt, within);
-    if (!effort)
+    if (!effort) {
       by.few.solve(bodies, loads, contents.contacts, contents.springs, settings, dt, moved);
-    else if (effort->alone)
+      tame(contents);
+    } else if (effort->alone) {
       by.many.solve(bodies, loads, std::span(&contents, 1), *effort, settings, dt, moved, within);
-    else if (step::Batch& batch = by.put_by(contents, *effort); batch.size >= step::worth_a_batch)
+      if (led) tame(contents);
+    } else if (step::Batch& batch = by.put_by(contents, *effort); batch.size >= step::worth_a_batch) {
       by.solve(batch, bodies, loads, settings, dt, moved);
+    }
   };
   std::size_t divided = 0;
   if (work.threads() > 1)

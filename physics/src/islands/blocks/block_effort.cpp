@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "islands/blocks/block_solver.h"
+#include "islands/pinched.h"
+#include "step/softness.h"
 #include "step/solver.h"
 
 /// Which islands are solved in blocks, and how thoroughly.
@@ -224,6 +226,9 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     if (island.contacts.size() == 1 || contact->restitution > dull) return std::nullopt;
     meets = true;
   }
+  if (islands::is_wedged(island.contacts, bodies,
+                         step::soft_contacts(settings.push_out_speed, dt, effort.sub_steps, parts_).deep()))
+    return std::nullopt;
   // What is left of an uneven push stays with what turns, for that lets go of what it touches, and moves what is pushed
   // out aside.
   const bool is_turning = effort.single && fastest * dt > turns;
