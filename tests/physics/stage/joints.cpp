@@ -297,4 +297,30 @@ TEST_CASE("what starts apart, turned or beyond its limits is found, and what sta
   CHECK(found.passed_limits[2].length);
 }
 
+TEST_CASE("joints that turn each other out of what they allow are told, whatever their kind") {
+  const auto strained = [](const JointKind& one, const JointKind& other, const Quat& turn) {
+    StageDescription stage;
+    stage.world.gravity.setZero();
+    stage.nodes = {ball_at("a", Vec3(0, 0, 0))};
+    for (const JointKind& kind : {one, other}) {
+      JointDescription joint{.name = stage.joints.empty() ? "one" : "other", .b = 0, .kind = kind};
+      if (!stage.joints.empty()) joint.frame_a.rotation = turn;
+      stage.joints.push_back(joint);
+    }
+    Stage running(stage);
+    running.advance_to(0.5);
+    return std::ranges::count(running.events(), "joint_strained", &StageEvent::name);
+  };
+  const Quat about_y(std::cos(0.4), 0, std::sin(0.4), 0), none = Quat::Identity();
+  const SwingTwistJoint limb{.swing_y = 0.1, .swing_z = 0.1, .twist = {-1, 1}};
+  CHECK(strained(FixedJoint{}, FixedJoint{}, about_y) > 0);
+  CHECK(strained(HingeJoint{}, HingeJoint{}, about_y) > 0);
+  CHECK(strained(SliderJoint{}, SliderJoint{}, about_y) > 0);
+  CHECK(strained(limb, limb, about_y) > 0);
+  CHECK(strained(FixedJoint{}, FixedJoint{}, none) == 0);
+  CHECK(strained(HingeJoint{}, FixedJoint{}, none) == 0);
+  CHECK(strained(UniversalJoint{}, HingeJoint{}, none) == 0);
+  CHECK(strained(limb, limb, Quat(std::cos(0.05), 0, std::sin(0.05), 0)) == 0);
+}
+
 }  // namespace tweenfall::jointed_stage

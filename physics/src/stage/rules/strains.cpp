@@ -83,28 +83,54 @@ struct JointStrain {
 
 class StrainOfKind {
  public:
-  StrainOfKind(const JointReading& reading, double size, JointStrain& strain)
-      : reading_(reading), size_(size), strain_(strain) {}
+  /// @param turn  of b's frame against a's
+  StrainOfKind(const JointReading& reading, const Quat& turn, double size, JointStrain& strain)
+      : reading_(reading), turn_(turn), size_(size), strain_(strain) {}
 
   void operator()(const BallJoint&) const {}
-  void operator()(const FixedJoint&) const {}
-  void operator()(const GearJoint&) const {}
+  void operator()(const FixedJoint&) const { turned_by(angle_of(turn_)); }
+  void operator()(const GearJoint& gear) const { turned_by(gear.ratio * reading_.position[0] + reading_.position[1]); }
   void operator()(const SpringJoint&) const {}
   void operator()(const PulleyJoint&) const {}    // its length is its gap
   void operator()(const DistanceJoint&) const {}  // as is this one's
-  void operator()(const HingeJoint& hinge) const { coordinate(0, hinge.limits, hinge.motor, 1); }
-  void operator()(const SliderJoint& slider) const { coordinate(0, slider.limits, slider.motor, size_); }
+  void operator()(const HingeJoint& hinge) const {
+    turned_by(off_axis());
+    coordinate(0, hinge.limits, hinge.motor, 1);
+  }
+  void operator()(const SliderJoint& slider) const {
+    turned_by(angle_of(turn_));
+    coordinate(0, slider.limits, slider.motor, size_);
+  }
   void operator()(const UniversalJoint& universal) const {
+    turned_by(std::asin(std::clamp((turn_ * Vec3::UnitY()).x(), -1.0, 1.0)));
     coordinate(0, universal.first_limits, universal.first_motor, 1);
     coordinate(1, universal.second_limits, universal.second_motor, 1);
   }
   void operator()(const WheelJoint& wheel) const {
+    turned_by(off_axis());
     coordinate(0, {}, wheel.motor, 1);
     coordinate(1, wheel.suspension, {}, size_);
   }
-  void operator()(const SwingTwistJoint& limb) const { coordinate(0, limb.twist, {}, 1); }
+  void operator()(const SwingTwistJoint& limb) const {
+    coordinate(0, limb.twist, {}, 1);
+    constexpr double narrowest = 1e-3;
+    const Vec2 width(std::max(limb.swing_y, narrowest), std::max(limb.swing_z, narrowest));
+    const Vec2 scaled(reading_.position[1] / width.x(), reading_.position[2] / width.y());
+    // To first order, the way back to the cone's edge.
+    const double share = scaled.norm();
+    if (share > 1) turned_by((share - 1) * share / scaled.cwiseQuotient(width).norm());
+  }
 
  private:
+  static double angle_of(const Quat& turn) { return 2 * std::atan2(turn.vec().norm(), std::abs(turn.w())); }
+  /// Between the frames' x axes.
+  [[nodiscard]] double off_axis() const {
+    const Vec3 x = turn_ * Vec3::UnitX();
+    return std::atan2(std::hypot(x.y(), x.z()), x.x());
+  }
+  /// Farther than the joint lets it, rad.
+  void turned_by(double angle) const { strain_.take("beyond_limit", std::abs(angle), too_much); }
+
   /// @param unit  of the coordinate: a radian, or the size of a body
   void coordinate(int index, const std::optional<Limits>& limits, const std::optional<Motor>& motor,
                   double unit) const {
@@ -120,6 +146,7 @@ class StrainOfKind {
   }
 
   const JointReading& reading_;
+  Quat turn_;
   double size_;
   JointStrain& strain_;
 };
@@ -137,7 +164,11 @@ JointStrain strain_of(const StageState& state, const StagedJoint& joint) {
   const JointReading reading = state.world.reading(joint.id);
   JointStrain strain;
   if (reading.gap > least) strain.take("gap", reading.gap, too_much * size);
-  std::visit(StrainOfKind(reading, size, strain), state.world.joint(joint.id).kind);
+  const JointSettings& its = state.world.joint(joint.id);
+  const Quat axes_b = state.world.motion(b).pose.rotation * its.frame_b.rotation;
+  const Quat axes_a =
+      joint.a == no_node ? its.frame_a.rotation : Quat(state.world.motion(a).pose.rotation * its.frame_a.rotation);
+  std::visit(StrainOfKind(reading, axes_a.conjugate() * axes_b, size, strain), its.kind);
   return strain;
 }
 
