@@ -102,6 +102,32 @@ std::vector<BodyDetail> body_details(const World& asked) {
   return details;
 }
 
+std::vector<Vec3> contact_places(const World& asked) {
+  const auto& world = queries::Inside::of(asked);
+  const auto body_of = [&](const BodyId& id) -> const state::Body* {
+    if (world.flat.has_value() || id.index >= world.stands.size()) return nullptr;
+    return forces::find_body(world.bodies, id);
+  };
+  const auto carried = [&](const state::Body& body, const BodyId& id, const Vec3& place, const Vec3& outward) -> Vec3 {
+    const state::Stand& then = world.stands[id.index];
+    const Quat turn = body.motion.pose.rotation * then.rotation.conjugate();
+    return body.center + state::carried(turn, place - then.center, body.makeup->roundness * outward);
+  };
+  std::vector<Vec3> places;
+  for (const Contact& contact : asked.contacts()) {
+    const state::Body *a = body_of(contact.a), *b = body_of(contact.b);
+    const Manifold& manifold = contact.manifold;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(manifold.count); ++i) {
+      const Vec3& place = manifold.points[i].position;
+      const Vec3 on_a = a ? carried(*a, contact.a, place, manifold.normal) : place;
+      const Vec3 on_b = b ? carried(*b, contact.b, place, -manifold.normal) : place;
+      const double share_of_b = !a || !b || a->immovable() == b->immovable() ? 0.5 : a->immovable() ? 1 : 0;
+      places.push_back(on_a + share_of_b * (on_b - on_a));
+    }
+  }
+  return places;
+}
+
 double complementarity_residual(const World& asked) {
   return queries::Inside::of(asked).complementarity;
 }

@@ -91,11 +91,12 @@ StageDetail detail_of(const Stage& stage) {
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i].island != BodyId{}) detail.nodes[i].island = first[bodies[i].island.index];
   std::ranges::sort(detail.nodes, {}, &NodeDetail::node);
+  const std::vector<Vec3> places = contact_places(state.world);
   for (const Contact& contact : state.world.contacts())
     for (int i = 0; i < contact.manifold.count; ++i)
       detail.contacts.push_back({.a = node_of(contact.a),
                                  .b = node_of(contact.b),
-                                 .point = contact.manifold.points[static_cast<std::size_t>(i)].position,
+                                 .point = places[detail.contacts.size()],
                                  .normal = contact.manifold.normal,
                                  .impulse = contact.impulse});
   return detail;

@@ -229,3 +229,27 @@ TEST_CASE("an even speed, one that only rises and one that only falls have no pe
   CHECK(handoffs(expression_curve(Expression("4*t - t^2"))) == 0);
   CHECK(handoffs(expression_curve(Expression("t^2*(1.2 - t/3)"))) == 1);
 }
+
+TEST_CASE("the contacts of what goes fast are told where it is after the step, and not where it was") {
+  StageDescription description;
+  description.step = 1.0 / 60;
+  description.nodes = {
+      {.name = "floor", .body = BodyDescription{.shape = {Box{{500, 0.5, 500}}}, .friction = 0, .fixed = true}},
+      {.name = "sled",
+       .rest = {.position = {0, 0.8, 0}},
+       .body = BodyDescription{.shape = {Box{{0.4, 0.3, 0.5}}}, .friction = 0, .twist = {.linear = {30, 0, 0}}}},
+      {.name = "rider",
+       .rest = {.position = {0, 1.2, 0}},
+       .body = BodyDescription{.shape = {Box{{0.2, 0.1, 0.2}}}, .friction = 0, .twist = {.linear = {30, 0, 0}}}}};
+  Stage stage(description);
+  stage.advance_to(1);
+  const double x = stage.world(1).motion.pose.position.x();
+  CHECK(x > 29);
+  int on_rider = 0;
+  for (const ContactDetail& contact : detail_of(stage).contacts) {
+    const bool rides = contact.a == 2 || contact.b == 2;
+    on_rider += rides ? 1 : 0;
+    CHECK(std::abs(std::abs(contact.point.x() - x) - (rides ? 0.2 : 0.4)) < 1e-6);
+  }
+  CHECK(on_rider == 4);
+}

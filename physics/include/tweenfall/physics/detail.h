@@ -23,6 +23,11 @@ struct BodyDetail {
 /// Of all bodies, by index. Nothing is kept for it between calls.
 [[nodiscard]] std::vector<BodyDetail> body_details(const World& world);
 
+/// Where the points of `World::contacts` are after the step, one contact after the other. They were found where the
+/// bodies were before it, and have gone along since: with the one that moves by itself, or midway between two of those.
+/// In a plane they are told as they were found.
+[[nodiscard]] std::vector<Vec3> contact_places(const World& world);
+
 /// How far the impulses of the last step are from solving the linear complementarity problem of its contacts, in m/s:
 /// the most by which an impulse pulls or surfaces close, or the lesser of the two where surfaces part and yet press.
 /// 0 unless the world's solver is `ContactSolver::lcp`.
