@@ -207,7 +207,7 @@ void Flat::step(double dt, double parts) {
 void Flat::tell_contacts(state::WorldState& world) const {
   const Axes axes = Axes::of(plane_);
   std::vector<Contact> before;
-  before.swap(world.contacts);
+  before.swap(world.planar_contacts);
   const auto handle = [&](const BodyId& id) {
     const std::uint32_t index = index_of(id);
     return BodyId{index, entries_[index].generation};
@@ -234,13 +234,13 @@ void Flat::tell_contacts(state::WorldState& world) const {
     contact.total_impulse = sign * axes.space(from.total_impulse);
     contact.approach_speed = from.approach_speed;
     contact.began = from.began;
-    world.contacts.push_back(contact);
+    world.planar_contacts.push_back(contact);
   }
   const auto key = [](const Contact& contact) {
     return std::tuple(contact.a.index, contact.b.index, contact.a.generation, contact.b.generation);
   };
   const auto order = [&](const Contact& a, const Contact& b) { return key(a) < key(b); };
-  std::sort(world.contacts.begin(), world.contacts.end(), [&](const Contact& a, const Contact& b) {
+  std::sort(world.planar_contacts.begin(), world.planar_contacts.end(), [&](const Contact& a, const Contact& b) {
     return std::tuple(key(a), a.part_a, a.part_b) < std::tuple(key(b), b.part_a, b.part_b);
   });
   world.ended.clear();
@@ -248,7 +248,7 @@ void Flat::tell_contacts(state::WorldState& world) const {
   for (std::size_t i = 0; i < before.size(); ++i) {
     // Of several parts that touched, all have let go.
     if (i > 0 && key(before[i - 1]) == key(before[i])) continue;
-    if (!std::binary_search(world.contacts.begin(), world.contacts.end(), before[i], order))
+    if (!std::binary_search(world.planar_contacts.begin(), world.planar_contacts.end(), before[i], order))
       world.ended.push_back({before[i].a, before[i].b});
   }
   std::vector<SensorOverlap> overlaps;

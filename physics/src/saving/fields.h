@@ -388,9 +388,10 @@ void each_field(T& settings, const Visit& visit) {
 template <Is<WorldState> T, class Visit>
 void each_field(T& world, const Visit& visit) {
   auto& [settings, bodies, unused, forces, next_force, time, failed, memories, stands, ignored, joints, unused_joints,
-         broken, contacts, ended, gone_contacts, sensors, overlaps, left_sensors, softs, unused_softs, flat] = world;
+         broken, planar_contacts, ended, gone_contacts, sensors, overlaps, left_sensors, softs, unused_softs, flat] =
+      world;
   visit(settings, bodies, unused, forces, next_force, time, memories, stands, ignored, joints, unused_joints, broken,
-        contacts, ended, gone_contacts, overlaps, left_sensors);
+        planar_contacts, ended, gone_contacts, overlaps, left_sensors);
   bool has_softs = !softs.empty();
   visit.rarely(has_softs);
   if (has_softs) visit(softs, unused_softs);

@@ -197,9 +197,9 @@ void check_pairs(const WorldState& world) {
     before = pair;
     first = false;
   };
-  for (std::size_t i = 0; i < world.contacts.size(); ++i)
+  for (std::size_t i = 0; i < world.planar_contacts.size(); ++i)
     at("contact " + std::to_string(i), [&] {
-      const Contact& contact = world.contacts[i];
+      const Contact& contact = world.planar_contacts[i];
       require_pair({contact.a.index, contact.b.index, contact.part_a, contact.part_b});
       state::require(world.bodies[contact.a.index].generation == contact.a.generation &&
                          world.bodies[contact.b.index].generation == contact.b.generation,

@@ -54,7 +54,7 @@ void World::Implementation::drop_contacts(std::uint32_t index) {
       gone_contacts.push_back({{memory.a, bodies[memory.a].generation}, {memory.b, bodies[memory.b].generation}});
     memories.part(place);
   }
-  std::erase_if(contacts, [&](const Contact& contact) {
+  std::erase_if(planar_contacts, [&](const Contact& contact) {
     const bool goes = contact.a.index == index || contact.b.index == index;
     if (goes) gone_contacts.push_back({contact.a, contact.b});
     return goes;
@@ -467,7 +467,7 @@ std::span<const SensorOverlap> World::ended_sensor_overlaps() const noexcept {
 
 std::span<const Contact> World::contacts() const noexcept {
   if (!implementation_) return {};
-  if (implementation_->flat.has_value()) return implementation_->contacts;
+  if (implementation_->flat.has_value()) return implementation_->planar_contacts;
   return implementation_->told.get([this](std::vector<Contact>& all) { implementation_->tell_contacts(all); });
 }
 

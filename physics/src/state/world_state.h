@@ -31,7 +31,7 @@ struct WorldState {
   std::vector<Joint> joints;
   std::vector<std::uint32_t> unused_joints;  ///< indices of removed joints
   std::vector<JointId> broken;               ///< in the last step
-  std::vector<Contact> contacts;             ///< what the caller is told, where there is a plane
+  std::vector<Contact> planar_contacts;      ///< what the caller is told of a plane's; else it is told from `memories`
   std::vector<EndedContact> ended;           ///< in the last step
   std::vector<EndedContact> gone_contacts;   ///< with bodies that were removed since then
   std::vector<std::uint32_t> sensors;        ///< indices of bodies, sorted
