@@ -7,7 +7,7 @@
 
 #include "contacts/meeting.h"
 #include "step/keyed_step.h"
-#include "strategies/solvers.h"
+#include "strategies/solvers/solvers.h"
 #include "strategies/touching.h"
 
 namespace tweenfall::strategies {

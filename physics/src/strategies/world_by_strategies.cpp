@@ -9,7 +9,7 @@
 #include "contacts/meeting.h"
 #include "state/world_data.h"
 #include "step/keyed_step.h"
-#include "strategies/separations.h"
+#include "strategies/separations/separations.h"
 #include "strategies/touching.h"
 
 /// How a world's bodies go through a step where it asks for other strategies than the usual ones.

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "physics/strategies/ground.h"
-#include "strategies/lemke.h"
+#include "strategies/solvers/lemke.h"
 
 using namespace tweenfall;
 using test::near;

@@ -1,4 +1,4 @@
-#include "strategies/lemke.h"
+#include "strategies/solvers/lemke.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include <tweenfall/curves/rotation.h>
 
-#include "strategies/separations.h"
+#include "strategies/separations/separations.h"
 
 namespace tweenfall::strategies {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "strategies/block_pivots.h"
-#include "strategies/lemke.h"
-#include "strategies/solvers.h"
+#include "strategies/solvers/block_pivots.h"
+#include "strategies/solvers/lemke.h"
+#include "strategies/solvers/solvers.h"
 
 namespace tweenfall::strategies {
 

@@ -1,4 +1,4 @@
-#include "strategies/separations.h"
+#include "strategies/separations/separations.h"
 
 namespace tweenfall::strategies {
 

@@ -1,4 +1,4 @@
-#include "strategies/block_pivots.h"
+#include "strategies/solvers/block_pivots.h"
 
 #include <algorithm>
 #include <cmath>

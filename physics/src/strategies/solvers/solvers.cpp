@@ -1,4 +1,4 @@
-#include "strategies/solvers.h"
+#include "strategies/solvers/solvers.h"
 
 namespace tweenfall::strategies {
 

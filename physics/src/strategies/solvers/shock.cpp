@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "strategies/solvers.h"
+#include "strategies/solvers/solvers.h"
 
 namespace tweenfall::strategies {
 
