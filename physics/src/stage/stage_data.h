@@ -316,7 +316,7 @@ void report_broken_joints(const StageState& state, std::vector<Happening>& happe
 void find_joint_starts(const StageState& state, const StageDescription& description, StageInspection& out);
 // inspection/extremes.cpp
 /// What is beyond numbers or steps.
-void find_extremes(const StageState& state, const StageDescription& description, StageInspection& out);
+void find_extremes(const StageState& state, const StageDescription& description, bool try_steps, StageInspection& out);
 /// @throws std::invalid_argument with the nearest name
 [[nodiscard]] std::optional<JointReading> joint_reading(const StageState& state, std::string_view name);
 

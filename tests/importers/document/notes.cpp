@@ -314,3 +314,11 @@ TEST_CASE("what numbers or steps cannot follow is noted where it stands") {
   CHECK(rope("10").empty());
   CHECK(has(rope("1e12"), "(at /world/soft/r)"));
 }
+
+TEST_CASE("steps are not tried for who does not ask for them") {
+  const std::string pushed =
+      R"({"tweenfall": 1, "nodes": {"b": {"body": {"shape": {"sphere": {"radius": 0.5}}, "mass": 1}}},
+          "world": {"forces": [{"push": {"body": "b", "force": [1e12, 0, 0]}}]}})";
+  CHECK(Document::parse(pushed, "pushed.json", "").notes().size() == 1);
+  CHECK(Document::parse(pushed, "pushed.json", "", {.try_steps = false}).notes().empty());
+}

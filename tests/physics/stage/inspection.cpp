@@ -150,6 +150,7 @@ TEST_CASE("what throws a body in the first steps is told: a pull beyond reason, 
   REQUIRE(inspect(stage).extremes.size() == 1);
   CHECK(inspect(stage).extremes[0].part == StageFault::Part::node);
   CHECK(inspect(stage).extremes[0].index == 1);
+  CHECK(inspect(stage, false).extremes.empty());  // nobody has tried
   stage.forces = {ForceDescription{.force = Vortex{.acceleration = 0.4, .power = -1.3}}};
   REQUIRE(inspect(stage).extremes.size() == 1);
   CHECK(inspect(stage).extremes[0].part == StageFault::Part::force);

@@ -56,6 +56,7 @@ inline constexpr std::size_t largest_document = std::size_t{1} << 28;  // bytes
 
 struct ReadOptions {
   bool allow_outside = false;  ///< imports may leave the document's folder
+  bool try_steps = true;       ///< a copy takes up to 256 steps on trial, for notes of what will not last
 };
 
 class Document {

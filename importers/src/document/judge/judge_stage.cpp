@@ -80,7 +80,7 @@ void note_joint_starts(Building& building, const StageInspection& found) {
 }  // namespace
 
 void judge_stage(Building& building) {
-  const StageInspection found = inspect(building.stage);
+  const StageInspection found = inspect(building.stage, building.reading.options.try_steps);
   for (const StageFault& fault : found.faults)
     building.problems.add(place_of_part(building, fault.part, fault.index), fault.message);
   const std::vector<NodeDescription>& nodes = building.stage.nodes;

@@ -35,14 +35,14 @@ class Finder {
   Finder(const StageState& state, const StageDescription& description, StageInspection& out)
       : state_(state), description_(description), out_(out) {}
 
-  void find() {
+  void find(bool try_steps) {
     if (const double gain = state_.gravity.norm() * description_.step; gain > fastest)
       tell(Part::world, 0,
            "gravity makes bodies faster by " + brief_text(gain) + " m/s in each step; up to 1e6 m/s goes well");
     for (const StagedBody& body : state_.bodies) look_at(body);
     for (std::size_t i = 0; i < description_.softs.size(); ++i) look_at(i);
     for (std::size_t i = 0; i < description_.forces.size(); ++i) follow(i);
-    try_steps();
+    if (try_steps) try_first_steps();
   }
 
  private:
@@ -150,7 +150,7 @@ class Finder {
 
   // What none of that tells: the first steps of a copy, without clips and rules
 
-  void try_steps() {
+  void try_first_steps() {
     constexpr std::size_t worth = 20'000, most_steps = 256;
     const auto asks_caller = [](const ForceDescription& force) { return std::holds_alternative<Field>(force.force); };
     if (!out_.extremes.empty() || std::ranges::any_of(description_.forces, asks_caller)) return;
@@ -194,8 +194,8 @@ class Finder {
 
 }  // namespace
 
-void find_extremes(const StageState& state, const StageDescription& description, StageInspection& out) {
-  Finder(state, description, out).find();
+void find_extremes(const StageState& state, const StageDescription& description, bool try_steps, StageInspection& out) {
+  Finder(state, description, out).find(try_steps);
 }
 
 }  // namespace tweenfall::staging

@@ -93,14 +93,14 @@ std::vector<StiffSpring> stiff_springs_in(const StageState& state, const StageDe
 
 }  // namespace staging
 
-StageInspection inspect(const StageDescription& description) {
+StageInspection inspect(const StageDescription& description, bool try_steps) {
   StageInspection out;
   const staging::StageState state = staging::described_state(description, out.faults);
   if (!out.faults.empty()) return out;
   out.overlaps = staging::overlaps_in(state);
   out.stiff_springs = staging::stiff_springs_in(state, description);
   staging::find_joint_starts(state, description, out);
-  staging::find_extremes(state, description, out);
+  staging::find_extremes(state, description, try_steps, out);
   return out;
 }
 

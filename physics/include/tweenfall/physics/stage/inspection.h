@@ -64,6 +64,7 @@ struct StageInspection {
 };
 
 /// Holds a description against everything that `Stage` asks of it.
-[[nodiscard]] StageInspection inspect(const StageDescription& description);
+/// @param try_steps  whether a copy takes its first steps, up to 256, for what nothing else tells of `extremes`
+[[nodiscard]] StageInspection inspect(const StageDescription& description, bool try_steps = true);
 
 }  // namespace tweenfall
