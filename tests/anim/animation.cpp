@@ -184,6 +184,19 @@ TEST_CASE("a whole pose and its nodes one by one are the same bits") {
       }
 }
 
+TEST_CASE("where nodes came later, the pose of those before is written and nothing beside it") {
+  Hierarchy nodes = *arm();
+  nodes.add({.name = "late", .parent = 0, .rest = {.position = {0, 0, 1}}});
+  const Animation animation = busy().with_more_nodes(std::make_shared<const Hierarchy>(nodes));
+  std::vector<Motion> pose(5);
+  pose[4].pose.position = Vec3(7, 8, 9);
+  animation.sample(0.4, std::span(pose).first(4));
+  for (std::size_t node = 0; node < 4; ++node) CHECK(same(pose[node], animation.sample_node(node, 0.4)));
+  CHECK(pose[4].pose.position == Vec3(7, 8, 9));
+  animation.sample(0.4, pose);
+  CHECK(pose[4].pose.position == Vec3(0, 0, 1));
+}
+
 TEST_CASE("by another clock plays and their weights are where they were to be at its time") {
   const Animation animation = busy();
   const ClockOverride held{.stage = 3, .timeline = 1.125};

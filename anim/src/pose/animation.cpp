@@ -283,7 +283,9 @@ void Animation::for_each_running(double stage_time, Side side, const ClockOverri
 void Animation::sample(double stage_time, std::span<Motion> local, Side side,
                        const ClockOverride& own_clock) const noexcept {
   const bool by_graphs = graphs_ && own_clock.clip == ClockOverride::every_clip;
-  for (std::size_t node = by_graphs ? graphs_->nodes() : 0; node < nodes_->size(); ++node)
+  // Graphs know of no nodes that came after them, and ask what they lie on for their own alone.
+  const std::size_t asked = std::min(nodes_->size(), local.size());
+  for (std::size_t node = by_graphs ? graphs_->nodes() : 0; node < asked; ++node)
     local[node] = pose::at_rest_on((*nodes_)[node]);
   if (by_graphs) {
     graphs_->sample(own_clock.timeline_at(stage_time), side, local.first(graphs_->nodes()));

@@ -12,6 +12,8 @@
 #include <string>
 #include <utility>
 
+#include "state/countable.h"
+
 namespace tweenfall {
 
 namespace vehicles {
@@ -183,8 +185,10 @@ Vec3 Vehicle::grip(const Stand& stand, double share, double borne, std::size_t w
     // Gravity pulls at all of the mass; a push so far below its middle tilts it, and moves less.
     const double turns = locked ? 0 : its.radius * its.radius / its.moment;
     const auto mass = [turns](double give) { return 1 / (give + turns); };
-    double along = -(mass(stand.give_along / share) * own_slip + mass(1 / borne) * fall) / dt;
-    double across = -(share / stand.give_across * stand.drift + borne * side_fall) / dt;
+    // What is led by scripts, over ground that is led too, gives nothing; where it does not slip it needs no force.
+    const auto ending = [](double slip_of_it, double by_mass) { return slip_of_it == 0 ? 0 : by_mass * slip_of_it; };
+    double along = -(ending(own_slip, mass(stand.give_along / share)) + mass(1 / borne) * fall) / dt;
+    double across = -(ending(stand.drift, share / stand.give_across) + borne * side_fall) / dt;
     // Within the ellipse of what it can grip.
     const double most_along = its.grip * stand.load * part, most_across = its.side_grip * stand.load * part;
     const double beyond =
@@ -232,6 +236,9 @@ void Vehicle::act(World& world, double dt) {
     reading.load = stand.load;
     reading.point = stand.point;
     reading.force = stand.load * stand.normal + tyre;
+    if (!state::countable(reading.force))
+      throw NotFinite(settings_.chassis, world.time() + dt,
+                      "a wheel of it is pressed with " + number_text(stand.load) + " N; a body bears 1e30 N");
     world.apply_force(settings_.chassis, reading.force, stand.point);
     if (!world.is_fixed(stand.ground)) world.apply_force(stand.ground, -reading.force, stand.point);
   }

@@ -3,6 +3,8 @@
 #include <stdexcept>
 
 #include "stage/actors/vehicles.h"
+#include "stage/rules/played_tracks.h"
+#include "stage/rules/ramps.h"
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
@@ -68,7 +70,11 @@ std::size_t body_index(const StageState& state, NodeId node) {
 }
 
 void make_change(StageState& state, const Command& command, double step, std::vector<Happening>& happenings) {
+  if (std::holds_alternative<change::None>(command.change)) return;
   std::visit(Maker{state, command.time, step, happenings}, command.change);
+  // At once, so that whoever makes it finds what whoever comes back to it does.
+  follow_played_tracks(state, step, happenings);
+  follow_ramps(state);
 }
 
 bool is_of_cast(const Change& change) {

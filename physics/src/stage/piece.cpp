@@ -34,14 +34,32 @@ void handle_instant(StageState& state, double step, std::span<const Command> com
   fire_rules(state, from, step, happenings);
   end_joints(state, from, happenings);
   end_pins(state, from, happenings);
+  follow_played_tracks(state, step, happenings);
+  follow_ramps(state);
   for (const Command& command : commands_after(commands, from)) {
     if (command.time > state.handled) break;
     if (!arrived) arrived = state;
     make_change(state, command, step, happenings);
   }
-  follow_played_tracks(state, step, happenings);
-  follow_ramps(state);
   state.jumped = true;
+}
+
+/// Moves the world to `end`, or to a caller's change before that. Blows are sought in the whole piece, so that they are
+/// where they were when nobody knew of the change yet.
+void move_to_change(StageState& state, double end, double change, double step, std::vector<Happening>& happenings) {
+  if (!(change < end)) {
+    move_world(state, end, step, happenings);
+    return;
+  }
+  StageState whole = state;
+  std::vector<Happening> moved;
+  move_world(whole, end, step, moved);
+  if (whole.time > change) {
+    move_world(state, change, step, happenings);
+    return;
+  }
+  state = std::move(whole);
+  happenings.insert(happenings.end(), std::make_move_iterator(moved.begin()), std::make_move_iterator(moved.end()));
 }
 
 void report_cap(const StageState& state, std::vector<Happening>& happenings) {
@@ -118,10 +136,10 @@ void take_piece(StageState& state, double step, std::span<const Command> command
     double to = next_instant(state, last);
     const bool own = to < last, capped = own && state.splits >= most_splits;
     if (capped) to = infinity;
-    if (const auto coming = commands_after(commands, state.handled); !coming.empty())
-      to = std::min(to, coming.front().time);
     if (!(to < last)) to = end;
-    move_world(state, to, step, happenings);
+    const auto coming = commands_after(commands, state.handled);
+    move_to_change(state, to, coming.empty() || !(coming.front().time < last) ? infinity : coming.front().time, step,
+                   happenings);
     if (own && !capped) ++state.splits;
     if (state.time == end) {
       if (capped) report_cap(state, happenings);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage/rules/played_tracks.h"
 #include "stage/stage_data.h"
 
 namespace tweenfall::staging {
@@ -65,7 +64,6 @@ void change_animation(StageState& state, const Animation& animation, double inst
   state.jumped = true;
   tell(std::move(news), happenings);
   fire_rules(state, std::nextafter(instant, -infinity), step, happenings);
-  follow_played_tracks(state, step, happenings);
 }
 
 }  // namespace

@@ -176,3 +176,24 @@ TEST_CASE("what comes and goes at random is found again, bit by bit, when the st
     for (const NodeId node : here) CHECK(stage.contains(node));
   }
 }
+
+TEST_CASE("what came below a body rides along when that is handed back to a clip of its own clock") {
+  StageDescription description = cart();
+  description.nodes[0].body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 1.0};
+  Stage stage(description);
+  stage.advance(0.1);
+  std::vector<NodeId> riders;
+  for (int i = 0; i < 50; ++i)
+    riders.push_back(
+        stage.add({.name = "rider" + std::to_string(i), .parent = 0, .rest = {.position = {0, 0.1 * i, 0}}}));
+  stage.release(0);
+  stage.advance(0.1);
+  stage.recover(0, {.clip = "ride", .clock = HandBack::Clock::restart});
+  for (int frame = 0; frame < 40; ++frame) {
+    stage.advance(0.01);
+    const Motion cart = stage.world(0).motion;
+    for (std::size_t i = 0; i < riders.size(); ++i)
+      CHECK(near(stage.world(riders[i]).motion.pose.position,
+                 Vec3(cart.pose.position + cart.pose.rotation * Vec3(0, 0.1 * static_cast<double>(i), 0)), 1e-12));
+  }
+}

@@ -204,3 +204,24 @@ TEST_CASE("a body that a graph leads over the seam of a loop is not thrown by it
   pushed.advance_to(0.2);
   CHECK(pushed.twist(1).linear.x() < 4.1);
 }
+
+TEST_CASE("nodes that come while a graph plays stay where they are put, whatever it is told, and are found again") {
+  Stage stage(led());
+  stage.advance(0.2);
+  std::vector<NodeId> late;
+  for (int i = 0; i < 40; ++i)
+    late.push_back(stage.add({.name = "late" + std::to_string(i), .rest = {.position = {0, 1.0 + i, 3}}}));
+  for (int i = 0; i < 10; ++i) {
+    stage.set("figure", "speed", 0.1 * i);
+    stage.ask("beat", playing::SetSpeed{.speed = {{0, 1 + 0.1 * i}}});
+    stage.advance(0.05);
+    for (std::size_t k = 0; k < late.size(); ++k)
+      CHECK(stage.world(late[k]).motion.pose.position == Vec3(0, 1.0 + static_cast<double>(k), 3));
+  }
+  const std::uint64_t hash = stage.state_hash();
+  const double time = stage.time();
+  stage.seek(0.1);
+  stage.seek(time);
+  CHECK(stage.state_hash() == hash);
+  CHECK(stage.world(late[39]).motion.pose.position == Vec3(0, 40, 3));
+}

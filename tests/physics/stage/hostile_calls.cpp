@@ -83,6 +83,43 @@ TEST_CASE("poses that are none, and times that are none, are refused") {
   CHECK_THROWS_AS(Stage{description}, std::invalid_argument);
 }
 
+TEST_CASE("a rule to a drive or a velocity that cannot be is refused when it is armed, and not when it fires") {
+  Stage stage(falling_ball());
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto refuse = [&](const OwnerChange& change, const char* words) {
+    Rule rule = release_at(0.1, "ball");
+    rule.to = change.to;
+    rule.take_over = change.take_over;
+    CHECK_THROWS_WITH_AS(stage.arm(rule), doctest::Contains(words), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(stage.hand_over(0, change), doctest::Contains(words), std::invalid_argument);
+    Rule later = release_at(0.1, "ball");
+    later.then = {{0.1, change}};
+    CHECK_THROWS_WITH_AS(stage.arm(later), doctest::Contains(words), std::invalid_argument);
+  };
+  refuse({.to = {.hz = 5, .zeta = -1}}, "damping ratio of a drive");
+  refuse({.to = {.hz = -5}}, "frequency of a drive");
+  refuse({.to = {.hz = 5, .max_force = none}}, "greatest force of a drive");
+  refuse({.to = {.hz = 5, .gravity_compensation = 2}}, "of the weight a drive bears 0 to 1");
+  refuse({.take_over = {.scale = none}}, "what scales a velocity");
+  refuse({.take_over = {.add = {.linear = Vec3(0, none, 0)}}}, "what scales a velocity");
+  stage.advance(0.3);
+}
+
+TEST_CASE("a body that lies in another is rewound by no time at all, too") {
+  StageDescription description = falling_ball();
+  description.nodes[0].body->drive = Drive::keyed();
+  description.nodes.push_back({.name = "wall",
+                               .rest = {.position = {0, 1, 0}},
+                               .body = BodyDescription{.shape = {Box{{1, 1, 1}}}, .fixed = true}});
+  for (const double within : {0.0, 5e-324, 1e-17, 1e300}) {
+    Stage stage(description);
+    stage.advance(0.2);
+    stage.release(0, {.overlap = TakeOver::Overlap::rewind, .rewind_within = within});
+    CHECK(stage.owner(0) == Owner::free);
+    stage.advance(0.1);
+  }
+}
+
 TEST_CASE("a play of no clip does not count for the natural length, nor a clip that lasts for ages") {
   StageDescription description = falling_ball();
   description.plays = {{.clip = 7}};

@@ -317,3 +317,20 @@ TEST_CASE("changes that cannot be are refused with what is wrong") {
   plane.rules = {ramp_at(0.1, Drive::keyed(), 0.5)};
   CHECK_THROWS_WITH_AS(Stage{plane}, doctest::Contains("no mass"), std::invalid_argument);
 }
+
+TEST_CASE("a ramp that begins at the caller's word between two steps is found again, bit by bit") {
+  // On a step's end, a moment beside it, and between.
+  for (const double time : {0.3, 0.3 + 4e-10, 0.3 - 4e-10, 0.3 + 1.0 / 700, 0.3 + 1.0 / 300})
+    for (const Drive& to : {Drive{.hz = 5, .max_force = 30}, Drive::free()}) {
+      CAPTURE(time);
+      Stage stage(swinging(Drive::keyed()));
+      stage.advance_to(time);
+      stage.hand_over(0, {.to = to, .ramp = 0.2});
+      const std::uint64_t hash = stage.state_hash();
+      const Drive drive = stage.drive(0);
+      stage.seek(0);
+      stage.seek(time);
+      CHECK(stage.state_hash() == hash);
+      CHECK(stage.drive(0) == drive);
+    }
+}

@@ -257,3 +257,42 @@ TEST_CASE("more jumps in a step than it is split at are told, and none of its ru
   CHECK(stage.handoffs()[0].time == 0.0900001);
   CHECK(std::ranges::count(stage.events(), std::string("split limit"), &StageEvent::name) == 1);
 }
+
+TEST_CASE("a blow falls when it fell, bit by bit, whoever asks for something else later in its step") {
+  StageDescription description;
+  description.step = 1.0 / 60;
+  description.nodes = {
+      {.name = "hammer", .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 2.0}},
+      {.name = "nail",
+       .rest = {.position = {0.013, 0.7, 0.02}},
+       .body = BodyDescription{.shape = {Sphere{0.1}}, .mass = 1.0, .restitution = 0.3}},
+      {.name = "far", .rest = {.position = {9, 0, 0}}, .body = BodyDescription{.shape = {Sphere{0.1}}}}};
+  Clip clip{.name = "strike", .duration = 1};
+  clip.tracks = {{"hammer", "position",
+                  keyed_curve<Vec3>({{.time = 0, .value = {0, 0, 0}},
+                                     {.time = 0.3, .value = {0.01, 0.3, 0.03}},
+                                     {.time = 1, .value = {0, 1.5, 0}}})}};
+  description.clips = {clip};
+  description.plays = {{.clip = 0}};
+  Rule rule{.bodies = {"hammer"}, .to = Drive::free()};
+  rule.when.triggers = {when::ContactHit{.impulse = 0.01}};
+  description.rules = {rule};
+  Stage alone(description);
+  alone.advance_to(1);
+  REQUIRE(alone.handoffs().size() == 1);
+  const double blow = alone.handoffs()[0].time, end = std::ceil(60 * blow) / 60;
+  REQUIRE(end - blow > 1e-3);
+  for (const double share : {0.02, 0.3, 0.7, 0.99}) {
+    CAPTURE(share);
+    Stage stage(description);
+    const double time = blow + share * (end - blow);
+    stage.advance_to(time);
+    stage.apply_impulse(stage.node("far"), Vec3(0, 0, 1), Vec3(9, 0, 0));
+    const std::uint64_t hash = stage.state_hash();
+    stage.seek(0);
+    stage.seek(time);
+    CHECK(stage.state_hash() == hash);
+    REQUIRE(stage.handoffs().size() == 1);
+    CHECK(stage.handoffs()[0].time == blow);
+  }
+}

@@ -179,6 +179,31 @@ TEST_CASE(
   CHECK(near(climbing.motion().twist.linear.x() - from, expected, 5e-2));
 }
 
+TEST_CASE("the wheels of a car that a script leads bear and grip as its own do: locked ones drag by mu m g") {
+  for (const double brake : {0.0, 1e4}) {
+    Car car = car_on(0);
+    car.control({.brake = brake});
+    Motion led = car.motion();
+    led.twist = {Vec3(2, 0, 0), Vec3(0, 0, 0)};
+    car.world.set_motion(car.chassis, led);
+    car.world.set_drive(car.chassis, Drive::keyed());
+    for (int i = 0; i < 60; ++i) {
+      led.pose.position.x() += 2 * dt;
+      car.world.set_target(car.chassis, led);
+      car.run(dt);
+      for (std::size_t wheel = 0; wheel < 4; ++wheel) {
+        const WheelReading& reading = car.vehicle.reading(wheel);
+        CHECK(near(reading.load, 1000 * g / 4, 1e-3));
+        if (brake > 0) CHECK(near(reading.force.x(), -0.8 * reading.load, 1e-3));
+        CHECK(std::abs(reading.force.z()) < 1e-9 * reading.load);
+      }
+    }
+    car.world.set_drive(car.chassis, Drive::free());
+    car.run(1);
+    CHECK(near(car.motion().pose.position.y(), led.pose.position.y(), 1e-2));
+  }
+}
+
 TEST_CASE("a wheel in the air turns by its torque alone, and bad numbers are refused in words") {
   using doctest::Contains;
   World world({.gravity = {0, 0, 0}});

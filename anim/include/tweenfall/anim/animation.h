@@ -71,7 +71,7 @@ class Animation {
   [[nodiscard]] std::size_t player_named(std::string_view name) const;
 
   // Whole poses
-  /// Local motion of every node at a stage time. @param local  written, one per node, in order
+  /// Local motion of every node at a stage time, or of the first so many. @param local  written, in their order
   void sample(double stage_time, std::span<Motion> local, Side side = Side::out,
               const ClockOverride& clock = {}) const noexcept;
 

@@ -77,6 +77,7 @@ class Vehicle {
   /// Sources: Pacejka, Tire and Vehicle Dynamics, 2012, 3.2 (slip of the tread, friction circle) and 4.3 (the magic
   /// formula, here with C = 1, so that a locked wheel slides by Coulomb's law).
   /// @throws std::invalid_argument for a chassis that is not there, or a dt that is not positive and finite
+  /// @throws NotFinite when a wheel is pressed beyond 1e30 N
   void act(World& world, double dt);
 
  private:

@@ -13,6 +13,8 @@
 #include "stage/stage_data.h"
 #include "stage/time/leaps.h"
 #include "stage/whole_pose.h"
+#include "state/checks.h"
+#include "state/countable.h"
 
 namespace tweenfall::staging {
 
@@ -110,11 +112,14 @@ void arm_on(StageState& state, std::size_t rule, const std::vector<std::size_t>&
 }
 
 void validate(const OwnerChange& change) {
-  if (change.to.hz < 0 || std::isnan(change.to.hz)) throw std::invalid_argument("a drive's hz must be 0 or more");
+  state::validate(change.to);
   if (!(change.hand_back.settle.seconds > 0) || !std::isfinite(change.hand_back.settle.seconds))
     throw std::invalid_argument("a settle needs a time above 0 s");
   if (!(change.take_over.average_over > 0) || !std::isfinite(change.take_over.average_over))
     throw std::invalid_argument("a velocity is averaged over a time above 0 s");
+  const Twist& added = change.take_over.add;
+  if (!state::countable(change.take_over.scale) || !state::countable(added.linear) || !state::countable(added.angular))
+    throw std::invalid_argument("what scales a velocity and what is added to it must be finite, at most 1e30");
   if (!(change.take_over.rewind_within >= 0)) throw std::invalid_argument("a rewind needs a time of 0 s or more");
   if (!(change.ramp >= 0) || !std::isfinite(change.ramp))
     throw std::invalid_argument("a ramp takes a time of 0 s or more");

@@ -50,9 +50,10 @@ std::vector<BodyId> bodies_in(const StageState& state, const StagedBody& body, c
 std::optional<double> last_clear(const StageState& state, const StagedBody& body, double instant, double within,
                                  double step) {
   constexpr double exact = 1e-10;  // s
+  const double first = std::max(0.0, instant - within);
   double late = instant;
-  for (double early = instant; early > 0 && instant - early < within;) {
-    early = std::max({0.0, instant - within, early - step / 4});
+  for (double early = instant; early > first;) {
+    early = std::max(first, early - step / 4);
     // Of what was before the body came to this path nothing was shown.
     if (body.path.side_at(early, Side::in) == Side::out && early > 0) return std::nullopt;
     if (!is_clear(state, body, early)) {
@@ -61,6 +62,7 @@ std::optional<double> last_clear(const StageState& state, const StagedBody& body
     }
     while (late - early > exact) {
       const double middle = early + 0.5 * (late - early);
+      if (middle == early || middle == late) break;  // so late that there are no times between
       (is_clear(state, body, middle) ? early : late) = middle;
     }
     return early;

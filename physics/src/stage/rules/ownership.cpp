@@ -72,7 +72,7 @@ std::shared_ptr<const std::vector<SettlingNode>> settling_below(const StageState
   below->reserve(carried.size());
   for (const NodeId node : carried) {
     const Motion shown = local_motion(state, &body, node, time, Side::in);
-    const Motion led = next.animation().sample_node(node, time, Side::out, next.clock());
+    const Motion led = state.animation->sample_node(node, time, Side::out, next.clock());  // paths know of none since
     below->push_back({node, SettleOffset(settle, time, led, shown), size_offset(settle, time, led, shown)});
   }
   return below;

@@ -53,8 +53,12 @@ Drive drive_on(const Ramp& ramp, double time) {
 }
 
 void follow_ramps(StageState& state) {
-  for (const StagedBody& body : state.bodies)
-    if (body.present && body.ramp) state.world.set_drive(body.id, drive_on(*body.ramp, state.time));
+  for (const StagedBody& body : state.bodies) {
+    if (!body.present || !body.ramp) continue;
+    // To be told what it knows is a change to a body, too.
+    const Drive drive = drive_on(*body.ramp, state.time);
+    if (drive != state.world.drive(body.id)) state.world.set_drive(body.id, drive);
+  }
 }
 
 void wait_for_next(const StageState& state, StagedBody& body, std::size_t rule, std::size_t place, double began) {

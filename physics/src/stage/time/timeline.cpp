@@ -144,7 +144,8 @@ void Timeline::command(Change change) {
     if (place - happenings_.begin() < static_cast<std::ptrdiff_t>(of_piece_)) ++of_piece_;
     happenings_.insert(place, std::move(happening));
   }
-  if (!telling_) tell(true, now_);
+  // A moment after the instant on which it acted, what is shown lies in the piece that begins there.
+  if (!telling_) run_to(now_, true);
 }
 
 std::vector<TimedInput> Timeline::inputs() const {
