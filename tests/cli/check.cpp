@@ -157,7 +157,9 @@ TEST_CASE("hostile models end with 1 and a message, repaired ones with 0, and th
     return;
   }
   const Folder folder;
+  std::size_t tried = 0;
   for (const auto& entry : std::filesystem::directory_iterator(models)) {
+    ++tried;
     const std::string name = entry.path().string();
     CAPTURE(name);
     const Ran ran = folder.run("check '" + name + "'");
@@ -165,6 +167,7 @@ TEST_CASE("hostile models end with 1 and a message, repaired ones with 0, and th
     if (name.find("_VALID") != std::string::npos) CHECK(ran.code == 0);
     if (ran.code == 1) CHECK(ran.err.find(name) != std::string::npos);
   }
+  CHECK(tried > 0);
 }
 
 TEST_CASE("of very many problems the first are listed and all are counted") {

@@ -20,8 +20,10 @@ fs::path shared_faults() {
 std::vector<fs::path> fault_documents() {
   std::vector<fs::path> files;
   const auto add = [&](const fs::path& folder) {
+    const std::size_t before = files.size();
     for (const auto& entry : fs::directory_iterator(folder))
       if (entry.path().extension() == ".json") files.push_back(fs::canonical(entry.path()));
+    CHECK_MESSAGE(files.size() > before, "no document in " << folder.string());
   };
   add(data_folder() / "documents/faults");
   if (fs::is_directory(shared_faults()))

@@ -59,7 +59,7 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
         Clip clip{.name = "clip", .duration = duration, .loop = {LoopMode::repeat, 0}};
         Play play;
         double seek = 0;
-        bool warped = false;
+        bool warped = false, above_one = false;
         std::vector<double> at{0};
         for (const double dt : input.at("dt")) at.push_back(at.back() + dt);
         struct Late {
@@ -80,7 +80,11 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
             continue;
           }
           if (who != action) continue;
-          if (what == "weight") play.weight = Curve<double>(std::min(1.0, op[3].get<double>()));
+          if (what == "weight") {
+            const double weight = op[3];
+            above_one = weight > 1;
+            play.weight = Curve<double>(std::min(1.0, weight));
+          }
           if (what == "timeScale") play.speed = op[3].get<double>();
           if (what == "time") seek = op[3];
           if (what == "halt") warped = true;
@@ -101,7 +105,6 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
         } else {
           play.offset = seek;
         }
-        if (play.weight.value(0) == 1 && input.dump().find("1.0364") != std::string::npos) continue;  // above 1
         Player player(play, clip);
         for (const Late& change : late) player = player.changed(clip, change.time, change.action);
         for (std::size_t i = 0; i < each.at("value").size(); ++i) {
@@ -121,7 +124,8 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
             CHECK(std::min(apart, std::abs(duration - apart)) < 2e-5 * std::max(1.0, now));
             ++times;
           }
-          if (!over && frame.contains("weight")) {
+          // Theirs goes beyond 1, a play's weight does not.
+          if (!over && !above_one && frame.contains("weight")) {
             CHECK(near(player.weight(now, Side::in).value, frame.at("weight")[action].get<double>(), 2e-5));
             ++weights;
           }

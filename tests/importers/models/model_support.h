@@ -99,7 +99,7 @@ inline Vec3 point_of(const nlohmann::json& list) {
   return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
 }
 
-/// All files of a folder whose names end so, in order.
+/// All files of a folder whose names end so, in order: some, or none where that is absent, which is said loudly.
 inline std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder,
                                                    const std::vector<std::string>& endings) {
   std::vector<std::filesystem::path> all;
@@ -114,6 +114,7 @@ inline std::vector<std::filesystem::path> files_in(const std::filesystem::path& 
       all.push_back(entry.path());
   }
   std::sort(all.begin(), all.end());
+  CHECK_MESSAGE(!all.empty(), "no file of these endings in " << folder.string());
   return all;
 }
 

@@ -3,7 +3,6 @@
 #include "importers/models/model_support.h"
 
 #include <map>
-#include <optional>
 
 using namespace tweenfall;
 using namespace tweenfall::test;
@@ -143,10 +142,10 @@ class Comparison {
   bool below_root_;
 };
 
-/// The truth beside a model file; nothing when there is none.
-std::optional<nlohmann::json> truth_of(const std::filesystem::path& file) {
+/// What another program says of a model; each that is there has one.
+nlohmann::json truth_of(const std::filesystem::path& file) {
   const auto path = models_folder() / "truth" / (file.filename().string() + ".json");
-  if (!std::filesystem::exists(path)) return std::nullopt;
+  REQUIRE_MESSAGE(std::filesystem::exists(path), "a model without a truth: " << file.string());
   return read_json(path);
 }
 
@@ -158,72 +157,68 @@ double tolerance_of(const nlohmann::json& truth, const char* name) {
 
 TEST_CASE("every glTF model stands, bends and molds where three.js says it does") {
   for (const auto& file : files_in(models_folder() / "gltf", {".gltf", ".glb"})) {
-    const auto truth = truth_of(file);
-    if (!truth) continue;
+    const nlohmann::json truth = truth_of(file);
     CAPTURE(file.filename().string());
     const Model model = load_model(file);
-    Comparison comparison(model, *truth, true);
+    Comparison comparison(model, truth, true);
     CHECK(comparison.missing().empty());
     const Errors errors = comparison.run(true);
     CAPTURE(errors.where);
-    CHECK(errors.rest <= tolerance_of(*truth, "world"));
-    CHECK(errors.world <= tolerance_of(*truth, "world"));
-    CHECK(errors.vertices <= tolerance_of(*truth, "verticesRelBbox"));
+    CHECK(errors.rest <= tolerance_of(truth, "world"));
+    CHECK(errors.world <= tolerance_of(truth, "world"));
+    CHECK(errors.vertices <= tolerance_of(truth, "verticesRelBbox"));
     CHECK(errors.skinned <= 1e-12);
-    CHECK(errors.outside <= tolerance_of(*truth, "verticesRelBbox"));
-    CHECK(errors.weights <= tolerance_of(*truth, "world"));
+    CHECK(errors.outside <= tolerance_of(truth, "verticesRelBbox"));
+    CHECK(errors.weights <= tolerance_of(truth, "world"));
   }
 }
 
 TEST_CASE("every BVH skeleton stands on its frames where an independent evaluator says it does") {
   for (const auto& file : files_in(models_folder() / "bvh", {".bvh"})) {
-    const auto truth = truth_of(file);
-    if (!truth) continue;
+    const nlohmann::json truth = truth_of(file);
     CAPTURE(file.filename().string());
     const Model model = load_model(file);
-    Comparison comparison(model, *truth, false);
+    Comparison comparison(model, truth, false);
     CHECK(comparison.missing().empty());
     const Errors errors = comparison.run(false);
     CAPTURE(errors.where);
-    CHECK(errors.rest <= tolerance_of(*truth, "world"));
-    CHECK(errors.world <= tolerance_of(*truth, "world"));
+    CHECK(errors.rest <= tolerance_of(truth, "world"));
+    CHECK(errors.world <= tolerance_of(truth, "world"));
   }
 }
 
 TEST_CASE("every FBX model stands, bends and molds where ufbx says it does") {
   for (const auto& file : files_in(models_folder() / "fbx", {".fbx"})) {
-    const auto truth = truth_of(file);
-    if (!truth) continue;
+    const nlohmann::json truth = truth_of(file);
     const std::string name = file.filename().string();
     CAPTURE(name);
     const Model model = load_model(file);
-    CHECK(model.clips.size() == (*truth)["animations"].size());
-    Comparison comparison(model, *truth, false);
+    CHECK(model.clips.size() == truth["animations"].size());
+    Comparison comparison(model, truth, false);
     // The authoring program's own cameras are no part of the scene.
     for (const std::string& node : comparison.missing())
       CHECK_MESSAGE((node.starts_with("Producer ") || node == "Camera Switcher"), "not found: " << node);
     const Errors errors = comparison.run(true);
     CAPTURE(errors.where);
-    CHECK(errors.rest <= tolerance_of(*truth, "world"));
-    CHECK(errors.world <= tolerance_of(*truth, "world"));
-    CHECK(errors.vertices <= tolerance_of(*truth, "world"));
+    CHECK(errors.rest <= tolerance_of(truth, "world"));
+    CHECK(errors.world <= tolerance_of(truth, "world"));
+    CHECK(errors.vertices <= tolerance_of(truth, "world"));
     CHECK(errors.skinned <= 1e-12);
-    CHECK(errors.outside <= tolerance_of(*truth, "world"));
-    CHECK(errors.weights <= tolerance_of(*truth, "world"));
+    CHECK(errors.outside <= tolerance_of(truth, "world"));
+    CHECK(errors.weights <= tolerance_of(truth, "world"));
   }
 }
 
 TEST_CASE("Collada models stand, seen from their scene's root, where three.js says they do") {
   for (const auto& file : files_in(models_folder() / "dae", {".dae"})) {
-    const auto truth = truth_of(file);
-    if (!truth) continue;
+    const nlohmann::json truth = truth_of(file);
     CAPTURE(file.filename().string());
     const Model model = load_model(file);
-    Comparison comparison(model, *truth, false, true);
+    Comparison comparison(model, truth, false, true);
     CHECK(comparison.missing().empty());
     const Errors errors = comparison.run(false);
     CAPTURE(errors.where);
-    CHECK(errors.rest <= tolerance_of(*truth, "world"));
-    CHECK(errors.world <= tolerance_of(*truth, "world"));
+    CHECK(errors.rest <= tolerance_of(truth, "world"));
+    CHECK(errors.world <= tolerance_of(truth, "world"));
   }
 }
