@@ -3,7 +3,7 @@
 
 #include "attack/stage/calls.h"
 
-#include <cmath>
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
