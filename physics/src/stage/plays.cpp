@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "stage/stage_data.h"
 
@@ -71,6 +72,9 @@ void change_animation(StageState& state, const Animation& animation, double inst
 void change_play(StageState& state, const PlayChange& change, double step, std::vector<Happening>& happenings) {
   const Animation changed = state.animation->with_change(change);
   const Player& player = changed.players()[changed.player_named(change.play)];
+  if (const std::string fault = too_many_events(player.play(), changed.clips()[player.play().clip], step + sliver);
+      !fault.empty())
+    throw std::invalid_argument(fault);
   std::vector<FiredEvent> news = player.events_of_change(changed.clips()[player.play().clip]);
   change_animation(state, changed, change.time, std::move(news), step, happenings);
 }

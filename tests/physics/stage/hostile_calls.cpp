@@ -83,6 +83,20 @@ TEST_CASE("poses that are none, and times that are none, are refused") {
   CHECK_THROWS_AS(Stage{description}, std::invalid_argument);
 }
 
+TEST_CASE("a play asked for a loop of too many events is refused at once, and goes on as it was") {
+  StageDescription description = falling_ball();
+  Clip clip{.name = "beat", .duration = 1, .loop = {LoopMode::repeat, 0}};
+  clip.events = {{.from = 0, .to = 0, .name = "tick"}};
+  description.clips = {clip};
+  description.plays = {{.clip = 0}};
+  Stage stage(description);
+  stage.advance(0.3);
+  CHECK_THROWS_WITH_AS(stage.ask("beat", playing::Start{.clip = "beat", .to = 1e-300}),
+                       doctest::Contains("more than a million events"), std::invalid_argument);
+  stage.advance(1);
+  CHECK(stage.events().size() == 2);
+}
+
 TEST_CASE("a rule to a drive or a velocity that cannot be is refused when it is armed, and not when it fires") {
   Stage stage(falling_ball());
   const double none = std::numeric_limits<double>::quiet_NaN();
