@@ -150,9 +150,10 @@ struct OpenInterval {
 };
 [[nodiscard]] std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip, double phase);
 
-/// The moments that a clock passes from one phase to another at once.
+/// The moments that a clock passes from one phase to another at once; where it moves for the `first` time, those on
+/// which it stands too.
 [[nodiscard]] std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, std::size_t index,
-                                                     double from, double to, double time);
+                                                     double from, double to, bool first, double time);
 
 }  // namespace clips
 }  // namespace tweenfall

@@ -47,6 +47,18 @@ Span rounds_between(const Rounds& rounds, double low, double high) {
   return span;
 }
 
+/// The round into which a clock moves from a phase; at a seam there are two.
+double round_ahead(const Rounds& rounds, double phase, double direction) {
+  const double place = phase / rounds.length;
+  return direction > 0 ? std::floor(place) : std::ceil(place) - 1;
+}
+
+/// Whether a phase is the turn of a ping-pong, told with the round before: the clip is in one place once, not twice.
+bool is_turn_again(const Rounds& rounds, double round, double phase) {
+  const bool first = std::isfinite(rounds.total) && round == -rounds.left_out;
+  return rounds.loops() && rounds.mode == LoopMode::pingpong && phase == round * rounds.length && !first;
+}
+
 /// The events of one stretch of one play, as its clock meets them.
 class StretchWalk {
  public:
@@ -84,15 +96,8 @@ class StretchWalk {
   }
   [[nodiscard]] bool meets(double round, double phase) const {
     const bool begins_here = stretch_.first && phase == stretch_.phase_from;
-    if (rounds_.loops() && begins_here) {
-      // At a seam, that of the round into which it moves.
-      const double place = phase / rounds_.length;
-      return round == (stretch_.direction > 0 ? std::floor(place) : std::ceil(place) - 1);
-    }
-    // At the turn of a ping-pong the clip is in one place once, not twice.
-    const bool turn = rounds_.loops() && rounds_.mode == LoopMode::pingpong && phase == round * rounds_.length;
-    if (turn && !(std::isfinite(rounds_.total) && round == -rounds_.left_out)) return false;
-    return begins_here || is_between(phase, false);
+    if (rounds_.loops() && begins_here) return round == round_ahead(rounds_, phase, stretch_.direction);
+    return !is_turn_again(rounds_, round, phase) && (begins_here || is_between(phase, false));
   }
 
   const Rounds& rounds_;
@@ -128,7 +133,7 @@ std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip,
 }
 
 std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, std::size_t index, double from,
-                                       double to, double time) {
+                                       double to, bool first, double time) {
   std::vector<std::pair<double, FiredEvent>> passed;
   const double direction = to < from ? -1 : 1;
   const Span span = rounds_between(rounds, std::min(from, to), std::max(from, to));
@@ -137,7 +142,10 @@ std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, s
       const std::optional<double> place = event.is_interval() ? std::nullopt : place_of(rounds, event);
       if (!place) continue;
       const double phase = rounds.phase_of(round, *place);
-      if (direction * phase > direction * from && direction * phase <= direction * to)
+      const bool stands = first && phase == from && (!rounds.loops() || round == round_ahead(rounds, from, direction));
+      const bool passes = direction * phase > direction * from && direction * phase <= direction * to &&
+                          !is_turn_again(rounds, round, phase);
+      if (stands || passes)
         passed.push_back({direction * phase, {time, event.name, event.data, index, FiredEvent::Kind::moment}});
     }
   std::ranges::stable_sort(passed, {}, &std::pair<double, FiredEvent>::first);
@@ -183,7 +191,8 @@ void Player::visit_events(const Clip& clip, double from, double to, bool from_st
       }
     };
     life.visit_stretches(from, to, std::min(last, life.stopped), [&](const clips::Stretch& stretch) {
-      if (stretch.first && stretch.from >= last) return true;  // changed at that instant: the next one begins to move
+      // Changed or stopped at that instant: it is the next one that begins to move, or none.
+      if (stretch.first && stretch.from >= std::min(last, life.stopped)) return true;
       if (stretch.first && life.over() > stretch.from)
         tell_open(stretch.phase_from, stretch.from, FiredEvent::Kind::begin);
       const clips::StretchWalk walk(rounds, clip, index, stretch);

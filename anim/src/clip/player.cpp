@@ -269,10 +269,12 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                        std::clamp(rounds.phase_of(round, seek.time - rounds.from), rounds.low, rounds.total);
                    next->set_origin(now, wanted);
                    next->find_end();
+                   const bool tells = seek.events && wanted != phase && time < old.stopped, first = !next->moved;
+                   next->moved = next->moved || tells;
                    const auto enter = tell_leap(old.play.clip);
-                   if (seek.events) {
-                     for (FiredEvent& event : clips::passed_moments(rounds, clip, old.play.clip, phase, wanted, time))
-                       next->told.push_back(std::move(event));
+                   if (tells) {
+                     auto passed = clips::passed_moments(rounds, clip, old.play.clip, phase, wanted, first, time);
+                     next->told.insert(next->told.end(), passed.begin(), passed.end());
                    }
                    enter();
                  }},

@@ -133,3 +133,28 @@ TEST_CASE("at speed 0 nothing fires, and what a clock stands on fires when it be
   const PlayKeys waits{{0, 0, Ease::hold()}, {3, 1}};
   CHECK(all_told(events_between({.speed = PlaySpeed(curve_of(waits))}, clip, 0, 3.2, true)) == "3:start\n");
 }
+
+TEST_CASE("a seek that is asked for events tells each that lies between once, with what the play stands on") {
+  Clip clip{.name = "walk", .duration = 1};
+  clip.events = {{.from = 0, .to = 0, .name = "start", .data = {}}, {.from = 1, .to = 1, .name = "end", .data = {}}};
+  const auto sought = [&](const Play& play, double time, double to) {
+    const Player player = Player(play, clip).changed(clip, time, playing::Seek{.time = to, .events = true});
+    return all_told(player.events_between(clip, 0, time + 0.1, true));
+  };
+  const Play there_and_back{.loop = Loop{LoopMode::pingpong, 0}};
+  CHECK(sought(there_and_back, 0.5, 1) == "0:start\n0.5:end\n");
+  CHECK(sought(there_and_back, 1.5, 1) == "0:start\n1:end\n1.5:end\n");
+  CHECK(sought(there_and_back, 1.5, 0) == "0:start\n1:end\n1.5:start\n");
+  // Before it has moved: what it starts on belongs to its way, and what it comes to does not fire again.
+  CHECK(sought({}, 0, 1) == "0:start\n0:end\n");
+  CHECK(sought({.speed = -1}, 0, 0) == "0:end\n0:start\n");
+  CHECK(sought({.at = 2}, 0.5, 1) == "0.5:start\n0.5:end\n");
+}
+
+TEST_CASE("a play that is stopped fires nothing, neither by a seek nor where it would begin to move") {
+  const Clip clip = clip_with_events(2);
+  const Player resting = Player({.speed = 0}, clip).changed(clip, 1, playing::Stop{});
+  CHECK(resting.changed(clip, 1, playing::SetSpeed{}).events_between(clip, 0, 9, true).empty());
+  CHECK(resting.changed(clip, 3, playing::Seek{.time = 2, .events = true}).events_between(clip, 0, 9, true).empty());
+  CHECK(Player({.at = 1}, clip).changed(clip, 1, playing::Stop{}).events_between(clip, 0, 9, true).empty());
+}
