@@ -79,6 +79,10 @@ class Fitter {
       align(to, from);
       piece(knots[i], from, knots[i + 1], to);
     }
+    // Steps have their last key at the very end.
+    Look last = look(knots.back(), Side::out);
+    align(last, before_);
+    if (!given_up_ && !joined(last, 0)) add(knots.back(), last);
     if (given_up_) fit_.knots.clear();
     return std::move(fit_);
   }

@@ -68,6 +68,7 @@ double largest_error(const ExactPose& exact, const CompiledClip& clip, double ar
   double largest = 0;
   for (const double time : times)
     for (const Side side : {Side::in, Side::out}) {
+      if (time <= 0 && side == Side::in) continue;  // what comes before its start is not of the clip
       exact.sample(time, side, wanted);
       nodes.world_frames(wanted, wanted_world);
       sample_with(fastest_sample_kernels(), clip, time, side == Side::in, 1, pose.data(), nullptr);

@@ -51,7 +51,7 @@ Timeline::Place Timeline::at(double time, bool arriving) const noexcept {
   if (place.length > 0)
     place.u = std::clamp((time - from) / place.length, 0.0, 1.0);
   else
-    place.u = arriving ? 0 : 1;
+    place.u = (arriving ? time > from : time >= from) ? 1 : 0;
   return place;
 }
 

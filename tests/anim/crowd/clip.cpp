@@ -68,6 +68,35 @@ TEST_CASE("steps stay steps: on either side of a jump stands what the curve has 
   CHECK(x_at(-7, Side::out) == doctest::Approx(0));
 }
 
+TEST_CASE("a jump at the very end of a clip is kept, and what is said of the time before it is none of its own") {
+  const auto nodes = random_figure(3, 2);
+  Clip clip{.name = "steps", .duration = 1};
+  std::vector<Key<Vec3>> places;
+  std::vector<Key<Quat>> turns;
+  for (int i = 0; i <= 4; ++i) {
+    places.push_back({.time = 0.25 * i, .value = Vec3(i * i, 0, 0), .ease = Ease::hold()});
+    turns.push_back({.time = 0.25 * i, .value = exp_map(Vec3(0, 0.7 * i, 0)), .ease = Ease::hold()});
+  }
+  clip.tracks.push_back({"joint1", "position", keyed_curve<Vec3>(places).with_outside(Outside::repeat, Outside::hold)});
+  clip.tracks.push_back({"joint0", "rotation", keyed_curve<Quat>(turns)});
+  const CrowdClip compiled = CrowdClip::from_bytes(compile(clip, *nodes).to_bytes());
+  std::vector<CrowdGroup> pose(compiled.groups());
+  const auto seen = [&](double time, Side side) {
+    compiled.sample(ClipClock{.time = time, .side = side}, pose);
+    const double turn = 2 * std::atan2(pose[0].rotation[1][0], pose[0].rotation[3][0]);
+    return std::pair(static_cast<double>(pose[0].translation[0][1]), turn);
+  };
+  const auto is = [](const std::pair<double, double>& shown, double step) {
+    return std::abs(shown.first - step * step) < 1e-4 && std::abs(shown.second - 0.7 * step) < 1e-3;
+  };
+  CHECK(is(seen(0, Side::out), 0));
+  CHECK(is(seen(0.99, Side::out), 3));
+  CHECK(is(seen(1, Side::in), 3));
+  CHECK(is(seen(1, Side::out), 4));
+  CHECK(is(seen(7, Side::in), 4));
+  CHECK(is(seen(7, Side::out), 4));
+}
+
 TEST_CASE("the wide kernels give the bits of the plain ones, values and rates") {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     const auto nodes = random_figure(seed, 13);
