@@ -121,6 +121,7 @@ void Binder::bind_inputs() {
 }
 
 void Binder::bind_reactions() {
+  const std::vector<std::string> awaited = events_awaited(description_);
   for (std::size_t i = 0; i < description_.reactions.size(); ++i) {
     const GraphReaction& reaction = description_.reactions[i];
     const Place place = {"on", std::to_string(i)};
@@ -128,10 +129,13 @@ void Binder::bind_reactions() {
     const std::size_t found = number_of(description_.parameters, reaction.name);
     const bool known = found < description_.parameters.size();
     compiled_->reacting.push_back(reaction.value && known ? std::optional(found) : std::nullopt);
-    if (!reaction.value && known)
-      fault(place, "the parameter " + quoted(reaction.name) + " is set to a value; give one");
-    if (!reaction.value && reaction.name.empty()) fault(place, "an event that is sent has a name");
-    if (!reaction.value) continue;
+    if (!reaction.value) {
+      if (known)
+        fault(place, "the parameter " + quoted(reaction.name) + " is set to a value; give one");
+      else if (std::ranges::find(awaited, reaction.name) == awaited.end())
+        fault(place, "no machine waits for an event " + quoted(reaction.name) + nearest_of(reaction.name, awaited));
+      continue;
+    }
     if (!(std::abs(*reaction.value) <= largest_parameter)) fault(place, "a parameter is set to a number up to 1e15");
     if (!known)
       fault(place, "there is no parameter " + quoted(reaction.name) +

@@ -105,11 +105,13 @@ TEST_CASE("an event that happens twice at one instant has the graph react once, 
 
 TEST_CASE("faults of reactions are told by place") {
   GraphDescription described = reacting();
-  described.reactions = {{"landed", "amr", 1}, {"", "x"}, {"landed", "arm"}, {"landed", "arm", std::nan("")}};
+  described.reactions = {
+      {"landed", "amr", 1}, {"", "arm", 1}, {"landed", "arm"}, {"landed", "arm", std::nan("")}, {"landed", "dwon"}};
   const std::vector<GraphFault> faults = inspect(described, *limb(), *three_clips());
-  REQUIRE(faults.size() == 4);
+  REQUIRE(faults.size() == 5);
   CHECK(faults[0].place == std::vector<std::string>{"on", "0"});
   CHECK(faults[0].message == "there is no parameter \"amr\"; did you mean \"arm\"?");
+  CHECK(faults[4].message == "no machine waits for an event \"dwon\"; did you mean \"down\"?");
 }
 
 TEST_CASE("a graph reacts to events of plays and graphs that it lies on") {

@@ -135,6 +135,20 @@ TEST_CASE("faults of graphs are told with their places") {
           .find("there is no state \"t\"") != std::string::npos);
   CHECK(graph_faults("\"a\": {\"rest\": true}", ", \"inputs\": [[1, \"v\", 2]]")
             .find("there is no parameter \"v\" (at /graphs/g/inputs/0)") != std::string::npos);
+  const std::string reacting =
+      R"({"tweenfall": 1, "nodes": {"hip": {}}, "clips": {
+    "walk": {"tracks": {"hip.position": [[0, [0, 0, 0]], [1, [1, 0, 0]]]}, "events": [[0.5, "step"]]}},
+  "graphs": {"g": {"parameters": {"v": 0}, "poses": {"a": {"clip": "walk"}},
+    "on": [["stpe", "v", 1], ["step", "v", 2], ["step", "halt"]]}}})";
+  std::string told;
+  try {
+    (void)parsed(reacting).stage();
+  } catch (const DocumentError& error) {
+    told = error.what();
+  }
+  CHECK(told.find("4:13: error: no clip has an event \"stpe\"; did you mean \"step\"?") != std::string::npos);
+  CHECK(told.find("error: no machine waits for an event \"halt\" (at /graphs/g/on/2)") != std::string::npos);
+  CHECK(count(told, "error:") == 2);
 }
 
 TEST_CASE("faults of shape in graphs are told as everywhere") {

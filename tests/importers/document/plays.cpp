@@ -188,7 +188,7 @@ StageDescription with_graphs(const std::string& graphs) {
 const char* const figure_graph = R"("figure": {"parameters": {"speed": 0, "armed": false, "wind": [[0, 0], [1, 1]]},
     "poses": {"stand": {"rest": true}, "all": {"machine": {"start": "stand", "states": {"stand": "stand", "walk": "walk"},
       "transitions": [{"to": "walk", "when": {"event": "go"}}]}}},
-    "on": [["step", "speed", 2], ["step", "halt"]]})";
+    "on": [["step", "speed", 2], ["step", "go"]]})";
 
 std::string graph_input_faults(const std::string& rows, const std::string& graphs) {
   try {
@@ -203,7 +203,7 @@ std::string graph_input_faults(const std::string& rows, const std::string& graph
 
 TEST_CASE("inputs set parameters of graphs and send them events, and are written so that the same are read") {
   const StageDescription stage = with_graphs(figure_graph);
-  CHECK(stage.graphs[0].reactions == std::vector<GraphReaction>{{"step", "speed", 2}, {"step", "halt"}});
+  CHECK(stage.graphs[0].reactions == std::vector<GraphReaction>{{"step", "speed", 2}, {"step", "go"}});
   const std::vector<TimedInput> inputs = parse_inputs(R"({"tweenfall": 1, "inputs": [
     {"at": 0.1, "set": {"parameter": "speed", "value": 0.3}},
     {"at": 0.2, "set": {"graph": "figure", "parameter": "armed", "value": true}},

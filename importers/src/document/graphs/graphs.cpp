@@ -2,6 +2,7 @@
 
 #include "document/graphs/parts.h"
 #include "document/read/clip_times.h"
+#include "document/report/suggestion.h"
 #include "document/tracks/read_track.h"
 
 #include <algorithm>
@@ -168,6 +169,9 @@ class Told {
  public:
   Told(const json::Value& graph, const Problems& problems) : graph_(graph), places_(problems.places()) {}
 
+  // Whether anything was.
+  [[nodiscard]] bool is_any() const { return holds_any(graph_); }
+
   // Whether what is missed at a place may be so by a fault that was told.
   [[nodiscard]] bool leads_to(const GraphFault& fault) const {
     if (places_.empty()) return false;
@@ -221,6 +225,23 @@ void tell_faults(const json::Value& value, const GraphDescription& graph, Buildi
       building.problems.add(place, std::move(fault.message));
 }
 
+// Only clips have events, so that what none has never happens.
+void tell_events_of_no_clip(const json::Value& value, Building& building) {
+  if (!building.failed_imports.empty() || Told(usable(building.root, "clips"), building.problems).is_any()) return;
+  std::vector<std::string> names;
+  for (const Clip& clip : building.stage.clips)
+    for (const ClipEvent& event : clip.events) names.push_back(event.name);
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  for (const json::Value& reaction : usable(value, "on").items()) {
+    if (reaction.items().empty() || !reaction.items()[0].is(Kind::text)) continue;
+    const json::Value event = reaction.items()[0];
+    if (!std::ranges::binary_search(names, event.text()))
+      building.problems.add(event,
+                            "no clip has an event " + json::in_quotes(event.text()) + suggestion(event.text(), names));
+  }
+}
+
 }  // namespace
 
 const Form* form(FormStore& store, const ValueForms& values) {
@@ -237,6 +258,7 @@ void read(const json::Value& value, Building& building) {
     graph.name = member.name;
     graph_table().read(member.value, graph, building);
     tell_faults(member.value, graph, building);
+    tell_events_of_no_clip(member.value, building);
     building.stage.graphs.push_back(std::move(graph));
   }
 }
