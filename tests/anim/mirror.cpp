@@ -91,14 +91,17 @@ TEST_CASE(
   for (const bool random_axes : {false, true})
     for (const double uneven : {0.0, 0.2}) {
       const Hierarchy nodes = mirrored_figure(random_axes, uneven);
-      const Mirror mirror(nodes, sides);
-      const std::vector<Motion> pose = moved_figure(nodes, 6, 0.2);
-      std::vector<Motion> out = pose;
-      mirror.apply(out, out);
-      for (std::size_t i = 0; i < nodes.size(); ++i) CHECK_FALSE(near(out[i], pose[i], 1e-3));
-      mirror.apply(out, out);
-      for (std::size_t i = 0; i < nodes.size(); ++i)
-        CHECK((!random_axes && uneven == 0 ? same_bits(out[i], pose[i]) : near(out[i], pose[i], 1e-13)));
+      const std::vector<Motion> pose = moving_pose(6, nodes.size(), 0.2);
+      for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(0.3, 0.1, -1), Vec3(1, 1, 1)}) {
+        const Mirror mirror(nodes, sides, normal);
+        const bool even = !random_axes && uneven == 0 && normal.y() == 0;
+        std::vector<Motion> out = pose;
+        mirror.apply(out, out);
+        for (std::size_t i = 0; i < nodes.size(); ++i) CHECK_FALSE(near(out[i], pose[i], 1e-3));
+        mirror.apply(out, out);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          CHECK((even ? same_bits(out[i], pose[i]) : near(out[i], pose[i], 1e-13)));
+      }
     }
 }
 
@@ -137,6 +140,10 @@ TEST_CASE("scales go to the axes that are each other's images") {
   CHECK(out[2].pose.scale == Vec3(10, 3, 7));
   CHECK(out[2].scale_rate == Vec3(0.5, 0.5, 0));
   CHECK(out[1].pose.scale == Vec3(1, 1, 1));
+  // Leaning by 30 degrees, its x is still nearest to the other's y.
+  nodes[2].rest.rotation = exp_map({0.1, 0.2, pi / 3});
+  Mirror(Hierarchy(nodes), arms).apply(pose, out);
+  CHECK(out[2].pose.scale == Vec3(10, 3, 7));
 }
 
 TEST_CASE("the usual ways of naming sides are found, and only those that the figure uses") {

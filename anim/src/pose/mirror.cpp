@@ -61,6 +61,31 @@ std::vector<std::size_t> partners_of(const Hierarchy& nodes, std::span<const Mir
   return partners;
 }
 
+using AxisOrder = std::array<int, 3>;
+
+// Along which of its partner's axes each axis of a joint lies the nearest, no two along one.
+// @param seen  row by row the axes of the joint in the mirrored axes of its partner
+// @param own_partner  whether that is the joint itself: then two axes may only change places
+AxisOrder nearest_axes(const Mat3& seen, bool own_partner) noexcept {
+  constexpr std::array<AxisOrder, 6> orders{{{0, 1, 2}, {1, 0, 2}, {2, 1, 0}, {0, 2, 1}, {1, 2, 0}, {2, 0, 1}}};
+  AxisOrder nearest = orders[0];
+  double most = -1;
+  for (std::size_t i = 0; i < (own_partner ? 4 : orders.size()); ++i) {
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) sum += tidied(std::pow(seen(axis, orders[i][axis]), 2));
+    if (!(sum > most)) continue;
+    most = sum;
+    nearest = orders[i];
+  }
+  return nearest;
+}
+
+AxisOrder inverse(const AxisOrder& order) noexcept {
+  AxisOrder result{};
+  for (int axis = 0; axis < 3; ++axis) result[order[axis]] = axis;
+  return result;
+}
+
 }  // namespace
 }  // namespace pose
 
@@ -137,28 +162,32 @@ Mirror::Mirror(const Hierarchy& nodes, std::span<const MirrorPair> pairs, const 
     for (int k = 0; k < 3; ++k)
       if (std::abs(joint.offset[k]) <= 1e-12 * size) joint.offset[k] = 0;
 
-    // A scale S of the partner's axes is one of m(S) in mirrored axes, of which these axes see the diagonal.
+    if (joint.partner < i) {
+      joint.axes = pose::inverse(joints_[joint.partner].axes);
+    } else {
+      Mat3 seen;
+      for (int axis = 0; axis < 3; ++axis)
+        seen.row(axis) = pose::reflected(Vec3(joint.after * Vec3(Mat3::Identity().col(axis))), normal_);
+      joint.axes = pose::nearest_axes(seen, joint.partner == i);
+    }
     for (int axis = 0; axis < 3; ++axis) {
-      const Vec3 seen = pose::reflected(Vec3(joint.after * Vec3(Mat3::Identity().col(axis))), normal_);
-      double at_rest = 0;
-      for (int k = 0; k < 3; ++k) {
-        joint.scales(axis, k) = pose::tidied(seen[k] * seen[k]);
-        at_rest += joint.scales(axis, k) * theirs.scale[k];
-      }
-      const double ratio = at_rest == 0 ? 1 : pose::tidied(own.scale[axis] / at_rest);
-      if (ratio != 0) joint.scales.row(axis) *= ratio;
+      const double at_rest = theirs.scale[joint.axes[axis]], ratio = at_rest == 0 ? 1 : own.scale[axis] / at_rest;
+      if (ratio != 0) joint.sizes[axis] = pose::tidied(ratio);
     }
   }
 }
 
 Motion Mirror::mirrored(const Joint& joint, const Motion& partner) const noexcept {
+  const auto along_axes = [&](const Vec3& scale) -> Vec3 {
+    return joint.sizes.cwiseProduct(Vec3(scale[joint.axes[0]], scale[joint.axes[1]], scale[joint.axes[2]]));
+  };
   Motion result;
   result.pose.position = joint.before * pose::reflected(partner.pose.position, normal_) + joint.offset;
   result.pose.rotation = joint.before * pose::reflected(partner.pose.rotation, normal_) * joint.after;
-  result.pose.scale = joint.scales * partner.pose.scale;
+  result.pose.scale = along_axes(partner.pose.scale);
   result.twist.linear = joint.before * pose::reflected(partner.twist.linear, normal_);
   result.twist.angular = joint.before * pose::reflected_turn(partner.twist.angular, normal_);
-  result.scale_rate = joint.scales * partner.scale_rate;
+  result.scale_rate = along_axes(partner.scale_rate);
   return result;
 }
 

@@ -6,13 +6,14 @@
 /// figure: turned by the mirror image of the turn its partner made from rest, moved by the mirror image of its way. So
 /// the joints' own axes may lie in any way, on each side another; where the rest pose is symmetrical in the figure's
 /// space the mirrored pose is the mirror image, and where it is not each side keeps its own rest pose and proportions.
-/// Scales are taken over along the axes that are each other's images; a scale along axes that are not is spread over
-/// those nearest. A figure whose rest pose is bent is given a stance, a pose in which it stands evenly, to measure
+/// Scales are taken over along the axes that are each other's images; where no axes are, each along the one nearest to
+/// its image. A figure whose rest pose is bent is given a stance, a pose in which it stands evenly, to measure
 /// from. Rates are mirrored with the poses, exactly. The mirror of a mirrored pose is the pose: bit for bit where the
 /// rest pose is symmetrical in the joints' own axes, to rounding else.
 
 #include <tweenfall/anim/hierarchy.h>
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,7 +50,8 @@ class Mirror {
     std::size_t partner = 0;
     Quat before{1, 0, 0, 0}, after{1, 0, 0, 0};  ///< its rotation is before m(R) after, of the partner's mirrored R
     Vec3 offset{0, 0, 0};                        ///< how its place at rest differs from the mirrored one
-    Mat3 scales = Mat3::Identity();              ///< from the partner's scale to its own
+    std::array<int, 3> axes{0, 1, 2};            ///< of the partner, nearest to the images of its own
+    Vec3 sizes{1, 1, 1};                         ///< by which its scale is the partner's along these
   };
   [[nodiscard]] Motion mirrored(const Joint& joint, const Motion& partner) const noexcept;
 
