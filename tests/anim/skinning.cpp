@@ -290,10 +290,28 @@ TEST_CASE("weights that sum to less than one, as files round them, stay within t
   mesh.influences.add({{0, 0.999}});
   mesh.influences.add({{0, 1.001}});
   mesh.influences.add(std::initializer_list<Influence>{});
-  std::vector<SkinJoint> joints(1);
+  std::vector<SkinJoint> joints(2);
   joints[0].moved.origin = {5, -5, 0};
   std::vector<Vec3> positions(3);
   deform(mesh, joints, {}, {.positions = positions});
-  const MeshBounds bounds = SkinBounds(mesh, 1).world(joints);
+  const MeshBounds bounds = SkinBounds(mesh, 2).world(joints);
   for (const Vec3& position : positions) CHECK(bounds.contains(position));
+}
+
+TEST_CASE("a mesh with influences that hangs on a node without skin goes as its node does") {
+  Random random(9);
+  const Limb limb(random);
+  std::vector<WorldMotion> world = limb.world(scaled_swing(random, limb.nodes).at(1));
+  const std::vector<SkinJoint> joints{skin_joint(world[3])};
+  std::vector<Vec3> expected(limb.mesh.positions.size());
+  deform(limb.mesh, {}, nullptr, 3, world, expected);
+  const MeshBounds bounds = SkinBounds(limb.mesh, 1).world(joints);
+  for (const SkinBlend blend : {SkinBlend::linear, SkinBlend::dual_quaternion}) {
+    Lists lists(expected.size());
+    deform(limb.mesh, joints, {.blend = blend}, lists.all());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      CHECK(near(lists.positions[i], expected[i], 1e-14));
+      CHECK(bounds.contains(expected[i]));
+    }
+  }
 }

@@ -57,7 +57,7 @@ SkinBounds::SkinBounds(const Mesh& mesh, std::size_t joints) : rest_weights_(mes
       widen(offsets_[box * targets + target], mesh.morphs[target].position_offsets[vertex]);
   };
   for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
-    if (mesh.influences.empty()) {
+    if (mesh.influences.empty() || joints == 1) {
       if (joints == 0) throw std::invalid_argument("skin bounds: there must be a joint that carries the mesh");
       put(0, vertex);
       continue;

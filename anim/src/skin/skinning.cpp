@@ -190,9 +190,10 @@ void deform(const Mesh& mesh, std::span<const SkinJoint> joints, const Deformati
   const bool normals = !mesh.normals.empty() && (!out.normals.empty() || !out.normal_rates.empty());
   const bool tangents = !mesh.tangents.empty() && (!out.tangents.empty() || !out.tangent_rates.empty());
   const Influence whole{0, 1};
+  const bool alone = mesh.influences.empty() || joints.size() == 1;
   for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
     const std::span<const Influence> influences =
-        mesh.influences.empty() ? std::span<const Influence>(&whole, 1) : mesh.influences[vertex];
+        alone ? std::span<const Influence>(&whole, 1) : mesh.influences[vertex];
     const Affine carried =
         how.blend == SkinBlend::linear ? linear_blend(influences, joints) : dual_quaternion_blend(influences, joints);
     if (places) write(out.positions, out.velocities, vertex, carried.point(molding.position(vertex)));

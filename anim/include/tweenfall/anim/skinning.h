@@ -25,7 +25,7 @@ struct SkinJoint {
 /// @param joints  written, one per joint of the skin
 void skin_joints(const Skin& skin, std::span<const WorldMotion> world, std::span<SkinJoint> joints) noexcept;
 
-/// The same of a mesh without skin, which its node alone carries.
+/// The same of a mesh without skin, which its node alone carries, even where it has influences for a skin elsewhere.
 [[nodiscard]] SkinJoint skin_joint(const WorldMotion& node) noexcept;
 
 enum class SkinBlend {
@@ -52,7 +52,8 @@ struct DeformedMesh {
 /// Morphs first, then the joints. Normals stand across the surface however it is stretched: they go by the inverse
 /// transpose of the blended matrix. What no direction is left of is zero.
 ///
-/// @param joints  those of the skin; of a mesh without influences the first carries all
+/// @param joints  those of the skin; of a mesh without influences the first carries all, and one alone carries all of
+///                any mesh
 /// Source of the dual quaternions: Kavan, Collins, Zara, O'Sullivan, "Geometric skinning with approximate dual
 /// quaternion blending", 2008; stretch is blended linearly and applied before.
 void deform(const Mesh& mesh, std::span<const SkinJoint> joints, const Deformation& how,
