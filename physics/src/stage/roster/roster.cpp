@@ -27,8 +27,9 @@ Motion about_origin(Motion motion, const Twist& at_center, const Vec3& center) {
 }
 
 /// What the world is told of the description's body.
-BodySettings settings_of(const StageState& state, NodeId node, const BodyDescription& body, const WorldMotion& start) {
-  BodySettings settings{.shape = scaled(body.shape, rest_scale(*state.nodes, node)),
+BodySettings settings_of(const StageState& state, NodeId node, const BodyDescription& body, const WorldMotion& start,
+                         const Vec3& scale) {
+  BodySettings settings{.shape = scaled(body.shape, scale),
                         .mass = body.mass,
                         .density = body.density,
                         .mass_properties = body.mass_properties,
@@ -45,7 +46,7 @@ BodySettings settings_of(const StageState& state, NodeId node, const BodyDescrip
                         .fixed = body.fixed,
                         .groups = body.groups,
                         .collides_with = body.collides_with};
-  if (const Vec3 scale = rest_scale(*state.nodes, node); body.mass_properties && scale != Vec3(1, 1, 1))
+  if (body.mass_properties && scale != Vec3(1, 1, 1))
     throw std::invalid_argument(
         "a density that varies and mass properties are told for a node of scale 1; this one is "
         "scaled, so give its shape its size instead");
@@ -62,12 +63,18 @@ void forget_gone_rules(StageState& state) {
   state.gone_rules = 0;
 }
 
+/// What is known of a node from its parents: a long chain of them is not climbed again.
+struct PlacedNode {
+  const WorldMotion& authored;  ///< where the animation has it
+  const RestAxes& axes;
+};
+
 /// Puts the description's body on its node. When it throws, nothing has changed.
-/// @param authored  where the animation has the node, when that is known: a long chain of parents is not climbed again
-void add_body(StageState& state, NodeId node, const BodyDescription& body, const WorldMotion* authored = nullptr) {
+void add_body(StageState& state, NodeId node, const BodyDescription& body, const PlacedNode* placed = nullptr) {
   Path path(state.animation, node, state.time);
-  const WorldMotion start = authored ? path.world(state.time, *authored) : path.world(state.time);
-  const BodySettings settings = settings_of(state, node, body, start);
+  const WorldMotion start = placed ? path.world(state.time, placed->authored) : path.world(state.time);
+  const Vec3 scale = rest_scale(placed ? placed->axes : rest_axes(*state.nodes, node));
+  const BodySettings settings = settings_of(state, node, body, start, scale);
   const BodyId id = state.world.add(settings);
   if (!body.fixed && settings.drive.owner() == Owner::free)
     state.world.set_motion(id, about_origin(settings.motion, body.twist, state.world.mass(id).center));
@@ -266,6 +273,11 @@ StageState described_state(const StageDescription& description, std::vector<Stag
   state.body_of.assign(state.nodes->size(), no_body);
   for (NodeId node = 0; node < state.nodes->size(); ++node) link(state, node, (*state.nodes)[node].parent);
   WholePose pose(state, state.time, Side::out);
+  std::vector<RestAxes> axes;
+  for (std::size_t node = 0; node < state.nodes->size(); ++node) {
+    const Node& its = (*state.nodes)[node];
+    axes.push_back(rest_axes_below(its.parent == no_node ? RestAxes() : axes[its.parent], its.rest));
+  }
   for (NodeId node = 0; node < description.nodes.size(); ++node) {
     const NodeDescription& described = description.nodes[node];
     state.colors.push_back(described.color);
@@ -277,7 +289,8 @@ StageState described_state(const StageDescription& description, std::vector<Stag
       continue;
     }
     attempt(faults, Part::node, node, "the body of \"" + described.name + "\": ", [&] {
-      add_body(state, node, *described.body, &pose.authored(node));
+      const PlacedNode placed{pose.authored(node), axes[node]};
+      add_body(state, node, *described.body, &placed);
     });
   }
   // Forces and rules of bodies that could not be made would only be more of the same.

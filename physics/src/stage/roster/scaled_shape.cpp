@@ -65,19 +65,26 @@ Solid scaled_surface(const Solid& solid, const Mat3& own) {
 
 }  // namespace
 
-Vec3 rest_scale(const Hierarchy& nodes, std::size_t node) {
-  bool scaled = false;
-  for (std::size_t i = node; i != no_node && !scaled; i = nodes[i].parent)
-    scaled = nodes[i].rest.scale != Vec3(1, 1, 1);
-  if (!scaled) return {1, 1, 1};
-  Mat3 linear = Mat3::Identity(), turn = Mat3::Identity();
-  for (std::size_t i = node; i != no_node; i = nodes[i].parent) {
-    const Pose& rest = nodes[i].rest;
-    const Mat3 rotation = rest.rotation.toRotationMatrix();
-    linear = (rotation * Mat3(rest.scale.asDiagonal()) * linear).eval();
-    turn = (rotation * turn).eval();
+RestAxes rest_axes_below(const RestAxes& parent, const Pose& rest) {
+  const Mat3 rotation = rest.rotation.toRotationMatrix();
+  return {parent.linear * rotation * rest.scale.asDiagonal(), parent.turn * rotation,
+          parent.scaled || rest.scale != Vec3(1, 1, 1)};
+}
+
+RestAxes rest_axes(const Hierarchy& nodes, std::size_t node) {
+  std::vector<std::size_t> chain;
+  for (std::size_t i = node; i != no_node; i = nodes[i].parent) chain.push_back(i);
+  RestAxes axes;
+  while (!chain.empty()) {
+    axes = rest_axes_below(axes, nodes[chain.back()].rest);
+    chain.pop_back();
   }
-  const Mat3 own = turn.transpose() * linear;
+  return axes;
+}
+
+Vec3 rest_scale(const RestAxes& axes) {
+  if (!axes.scaled) return {1, 1, 1};
+  const Mat3 own = axes.turn.transpose() * axes.linear;
   if (!is_diagonal(own))
     throw std::invalid_argument(
         "a scaled parent shears its node, and a body keeps its angles; scale that parent evenly");

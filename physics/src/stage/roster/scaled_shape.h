@@ -5,9 +5,19 @@
 
 namespace tweenfall::staging {
 
-/// The scale that the rest poses of a node and its ancestors give to what hangs on it, along its own axes.
-/// @throws std::invalid_argument when they shear it: a body keeps its angles
-[[nodiscard]] Vec3 rest_scale(const Hierarchy& nodes, std::size_t node);
+/// What the rest poses of a node and its ancestors make of it.
+struct RestAxes {
+  Mat3 linear = Mat3::Identity(), turn = Mat3::Identity();
+  bool scaled = false;
+};
+
+/// Of a node. @param parent  its parent's; those of no parent are the default
+[[nodiscard]] RestAxes rest_axes_below(const RestAxes& parent, const Pose& rest);
+[[nodiscard]] RestAxes rest_axes(const Hierarchy& nodes, std::size_t node);
+
+/// The scale of what hangs on a node, along its own axes.
+/// @throws std::invalid_argument when the node is sheared: a body keeps its angles
+[[nodiscard]] Vec3 rest_scale(const RestAxes& axes);
 
 /// The shape as large as it is drawn on a node of this scale.
 /// @throws std::invalid_argument where no solid of its kind has the scaled shape
