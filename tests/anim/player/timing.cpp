@@ -48,7 +48,7 @@ TEST_CASE("progress and iteration are those of CSS timing") {
 }
 
 TEST_CASE("times and weights are those of three.js's mixer, fades, loops and time scales") {
-  std::size_t times = 0, weights = 0;
+  std::size_t times = 0, weights = 0, steps = 0;
   for (const nlohmann::json& family : vector_family("three_mixer"))
     for (const nlohmann::json& each : family.at("cases")) {
       const nlohmann::json& input = each.at("input");
@@ -74,9 +74,15 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
           if (what == "crossFadeTo") {
             const double seconds = op[4];
             const std::size_t other = op[3];
-            if (op[5].get<bool>()) warped = true;
             if (who == action) late.push_back({now, playing::FadeTo{0, seconds, Ease::linear()}});
             if (other == action) late.push_back({now, playing::Weigh{{{0, 0, Ease::linear()}, {seconds, 1}}}});
+            if (!op[5].get<bool>()) continue;
+            // Their speeds meet: at first both clips last as the one that goes, in the end as the one that comes.
+            const double ratio = clips[who].at("duration").get<double>() / clips[other].at("duration").get<double>();
+            warped = warped || who == action || other == action;
+            if (who == action) late.push_back({now, playing::SetSpeed{{{0, 1, Ease::linear()}, {seconds, ratio}}}});
+            if (other == action)
+              late.push_back({now, playing::SetSpeed{{{0, 1 / ratio, Ease::linear()}, {seconds, 1}}}});
             continue;
           }
           if (who != action) continue;
@@ -87,7 +93,10 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
           }
           if (what == "timeScale") play.speed = op[3].get<double>();
           if (what == "time") seek = op[3];
-          if (what == "halt") warped = true;
+          if (what == "halt") {
+            warped = true;
+            late.push_back({now, playing::SetSpeed{{{0, 0}}, op[3].get<double>()}});
+          }
           if (what == "fadeIn") play.fade_in = {op[3].get<double>()};
           if (what == "fadeOut") late.push_back({now, playing::FadeTo{0, op[3].get<double>(), Ease::linear()}});
           if (what == "loop") {
@@ -114,15 +123,23 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
           CAPTURE(now);
           CAPTURE(action);
           // What has faded out stands still there.
-          if (!warped && !over && frame.at("weight")[action] != 0) {
+          if (!over && frame.at("weight")[action] != 0) {
             const double said = frame.at("time")[action];
-            ClipClock clock = player.clock(now);
-            double mine = clock.time;
-            // Theirs runs forward on each way of a ping-pong.
-            if (play.loop && play.loop->mode == LoopMode::pingpong && clock.cycle % 2 == 1) mine = duration - mine;
-            const double apart = std::abs(mine - said);
-            CHECK(std::min(apart, std::abs(duration - apart)) < 2e-5 * std::max(1.0, now));
-            ++times;
+            if (warped) {
+              // A speed that changes acts step by step there, by what it is at the step's end.
+              const double before = i == 0 ? seek : each.at("value")[i - 1].at("time")[action].get<double>(),
+                           step = player.clock(now, Side::in).rate * (now - at[i]);
+              CHECK(std::abs(std::remainder(said - before - step, duration)) < 2e-5 * std::max(1.0, now));
+              ++steps;
+            } else {
+              const ClipClock clock = player.clock(now);
+              double mine = clock.time;
+              // Theirs runs forward on each way of a ping-pong.
+              if (play.loop && play.loop->mode == LoopMode::pingpong && clock.cycle % 2 == 1) mine = duration - mine;
+              const double apart = std::abs(mine - said);
+              CHECK(std::min(apart, std::abs(duration - apart)) < 2e-5 * std::max(1.0, now));
+              ++times;
+            }
           }
           // Theirs goes beyond 1, a play's weight does not.
           if (!over && !above_one && frame.contains("weight")) {
@@ -134,6 +151,7 @@ TEST_CASE("times and weights are those of three.js's mixer, fades, loops and tim
     }
   CHECK(times > 0);
   CHECK(weights > 0);
+  CHECK(steps > 0);
 }
 
 TEST_CASE("clip time is the integral of the speed's keys, and its rate the speed itself") {
