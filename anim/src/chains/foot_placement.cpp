@@ -81,7 +81,7 @@ FootPlacement::FootPlacement(const Hierarchy& nodes, const FootPlacementSettings
   problems.require_in(lowest_, 0, chains::largest, "lowest");
   problems.require_in(highest_, 0, chains::largest, "highest");
   problems.require_in(evenness_, 0, chains::largest, "evenness");
-  problems.require_in(tilt_, 0, 1.5, "tilt");
+  problems.require_in(tilt_, 0, 0.5 * std::numbers::pi, "tilt");
   problems.require_in(softness_, 0, 0.5, "softness");
   up_ = up_ / std::sqrt(up_.squaredNorm());
   std::vector<Motion> rest(nodes.size());

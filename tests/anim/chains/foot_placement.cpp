@@ -193,7 +193,7 @@ TEST_CASE("what is wrong with a foot placement is told all at once") {
   CHECK_THROWS_WITH_AS(FootPlacement(nodes, {.pelvis = "pelvs", .feet = {}, .tilt = 2}),
                        "foot placement: pelvis is \"pelvs\", and there is no such node; did you mean \"pelvis\"?\n"
                        "foot placement: it has 0 feet; it needs from 1 to 8\n"
-                       "foot placement: tilt is 2; it must be from 0 to 1.5",
+                       "foot placement: tilt is 2; it must be from 0 to 1.5707963267948966",
                        std::invalid_argument);
   CHECK_THROWS_WITH_AS(FootPlacement(nodes, {.pelvis = "thigh.L",
                                              .feet = {{.leg = {"thigh.R", "shin.R", "foot.R"}},

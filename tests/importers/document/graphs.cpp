@@ -165,6 +165,33 @@ TEST_CASE("faults of shape in graphs are told as everywhere") {
   CHECK(graph_faults("\"a\": {\"rest\": true}", ", \"inputs\": [[-1, \"jump\"]]") != "");
 }
 
+TEST_CASE("keys of a graph's numbers count frames by the document's fps, and keep to what the number may be") {
+  const auto shown = [](const std::string& head) {
+    const std::string text = R"({"tweenfall": 1, )" + head + R"("nodes": {"hip": {}},
+      "clips": {"far": {"tracks": {"hip.position": [[0, [8, 0, 0]]]}}},
+      "graphs": {"g": {"parameters": {"p": [[0, 0, "linear"], ["24f", 1]]}, "poses": {
+        "q": {"rest": true},
+        "r": {"base": "q", "layers": [{"over": "far", "weight": [[0, 0, "linear"], ["12f", 1, "linear"], ["24f", 0.5]]}]},
+        "s": {"base": "r", "layers": [{"over": "far", "weight": {"parameter": "p"}}]}}}}})";
+    return parsed(text).stage();
+  };
+  Stage stage(shown(R"("fps": 24, )"));
+  for (const auto& [time, below] : {std::pair(0.25, 4.0), std::pair(0.75, 6.0)}) {
+    stage.seek(time);
+    CHECK(near(stage.world(0).motion.pose.position.x(), below + time * (8 - below), 1e-12));
+  }
+  const auto weighed = [](const std::string& keys) {
+    return graph_faults("\"a\": {\"base\": \"walk\", \"layers\": [{\"over\": \"walk\", \"weight\": " + keys + "}]}");
+  };
+  CHECK(weighed("[[0, 0], [1, 3]]")
+            .find("error: expected a weight from 0 to 1, found 3 (at /graphs/g/poses/a/layers/0/weight/1/1)") !=
+        std::string::npos);
+  CHECK(graph_faults("\"a\": {\"blend\": [[\"walk\", [[0, 1], [1, -1]]]]}")
+            .find("error: expected a weight of 0 or more, found -1 (at /graphs/g/poses/a/blend/0/1/1/1)") !=
+        std::string::npos);
+  CHECK(weighed("[[0, 0], [\"50%\", 1]]").find("these keys run on a clock that has none") != std::string::npos);
+}
+
 TEST_CASE("a clip with faults is told of once, not again by the graphs that play it") {
   const std::string text =
       R"({"tweenfall": 1, "nodes": {"hip": {}}, "clips": {"walk": {"tracks": {"hipp.position": [[0, [0, 0, 0]]]}}},

@@ -161,16 +161,38 @@ TEST_CASE("faults of operations are told with their places") {
   CHECK(tells("{\"look_at\": {\"joints\": [\"a\"], \"target\": \"c\"}}", "carried by what turns toward it"));
   CHECK(tells("{\"reach\": {\"joints\": [\"a\"], \"target\": \"d\"}}",
               "it has 1 joint; it needs at least one that turns and the end that it carries"));
-  CHECK(
-      tells("{\"reach\": {\"joints\": [\"a\", {\"node\": \"b\", \"hinge\": {\"limits\": [30, -30]}}, \"c\"], "
-            "\"target\": \"d\"}}",
-            "/graphs/g/poses/p/reach"));
+  const auto reaching = [](const std::string& limit) {
+    return "{\"reach\": {\"joints\": [\"a\", {\"node\": \"b\", " + limit + "}, \"c\"], \"target\": \"d\"}}";
+  };
+  CHECK(reach_faults(reaching("\"hinge\": {\"limits\": [-30, 30]}")).empty());
+  CHECK(tells(reaching("\"hinge\": {\"limits\": [30, -30]}"),
+              "the low one first; 30 is above -30 (at /graphs/g/poses/p/reach/joints/1/hinge/limits)"));
+  CHECK(tells(reaching("\"socket\": {\"twist\": [10, -10]}"),
+              "the low one first; 10 is above -10 (at /graphs/g/poses/p/reach/joints/1/socket/twist)"));
+  CHECK(tells(reaching("\"hinge\": {}, \"socket\": {}"), "give one of them (at /graphs/g/poses/p/reach/joints/1"));
   CHECK(tells("{\"reach\": {\"joints\": [\"a\", \"b\", \"cc\"], \"target\": \"d\"}}",
               "(at /graphs/g/poses/p/reach/joints/2)"));
   CHECK(tells("{\"feet\": {\"pelvis\": \"a\", \"legs\": [{" + bones + "}], \"ground\": \"d\"}}",
               "feet are placed on a node whose body is a \"height_field\""));
   CHECK(tells("{\"feet\": {\"pelvis\": \"a\", \"legs\": [{" + bones + "}], \"ground\": \"dd\"}}",
               "there is no node \"dd\""));
+  const auto standing = [](const std::string& hill, const std::string& more) {
+    return faults_of(
+        R"({"tweenfall": 1, "nodes": {"p": {}, "a": {"parent": "p", "position": [0, 2, 0]}, "b": {"parent": "a", "position": [0, -1, 0.1]},
+      "c": {"parent": "b", "position": [0, -1, 0]}, "hill": {"body": {)" +
+            hill +
+            R"("shape": {"height_field": {"spacing": 1, "heights": [[0, 0], [0, 1]]}}}}},
+      "clips": {"rise": {"tracks": {"hill.position.y": [[0, 0], [1, 1]]}}}, "play": [{"clip": "rise", "at": 5}],
+      "graphs": {"g": {"poses": {"p": {"feet": {"pelvis": "p", )" +
+            more + R"("ground": "hill",
+        "legs": [{"start": "a", "middle": "b", "end": "c"}]}}}}}})",
+        "g.json", {});
+  };
+  CHECK(standing("", "").find("\"hill\" does, where its body is \"static\" (at /graphs/g/poses/p/feet/ground)") !=
+        std::string::npos);
+  const std::string told = standing("\"static\": true, ", "\"tilt\": 90, ");
+  CHECK(told.find("\"hill\" is static, but a playing clip moves it") != std::string::npos);
+  CHECK(told.find("tilt") == std::string::npos);
   CHECK(tells("{\"mirror\": {\"pairs\": [[\"*.L\", \"*.R\"]]}}", "/graphs/g/poses/p/mirror"));
   CHECK(tells("{\"retarget\": {\"source\": \"a\", \"target\": \"d\", \"pairs\": [[\"x\", \"d\"]]}}",
               "no joint is named \"x\""));

@@ -22,7 +22,7 @@ fields::FormOf share_form(double most = 1) {
 // A number, keys or an expression over the stage's time.
 std::optional<Curve<double>> curve_of(const json::Value& value, Building& building) {
   if (value.is(Kind::number)) return Curve<double>(value.number());
-  if (value.is(Kind::list)) return read_play_keys(value, building.fps, false, 0, building.problems);
+  if (value.is(Kind::list)) return read_play_keys(value, building.fps, {}, 0, building.problems);
   const json::Value text = value.is(Kind::object) ? usable(value, "expression") : json::Value();
   if (!text) return {};
   try {

@@ -21,8 +21,11 @@ const Form* timed_form(FormStore& store, const ValueForms& values, const std::st
                          {"keys", keys, "in order of time", true}});
   return store.add(choice_of(what + ": a number, or keys over the play's own time", {number, keys, store.add(told)}));
 }
+Form weight_form() {
+  return bounded("a weight from 0 to 1", 0, false, 1);
+}
 const Form* play_weight_form(FormStore& store, const ValueForms& values) {
-  return timed_form(store, values, "a weight from 0 to 1", store.add(bounded("a weight from 0 to 1", 0, false, 1)));
+  return timed_form(store, values, weight_form().what, store.add(weight_form()));
 }
 const Form* play_speed_form(FormStore& store, const ValueForms& values) {
   return timed_form(store, values, "a speed", values.number);
@@ -69,21 +72,22 @@ void read_play_clip(const json::Value& value, Play& play, Building& building) {
 }
 
 /// The curve of keys; those on the stage's clock are told on the play's.
-std::optional<Curve<double>> read_timed(const json::Value& value, const Play& play, bool weight, Building& building) {
+std::optional<Curve<double>> read_timed(const json::Value& value, const Play& play, const Form& number,
+                                        Building& building) {
   const json::Value keys = value.is(json::Value::Kind::list) ? value : usable(value, "keys");
   if (!keys) return {};
   const double from = text_in(value, "clock") == "stage" ? play.at : 0;
-  return read_play_keys(keys, building.fps, weight, from, building.problems);
+  return read_play_keys(keys, building.fps, number, from, building.problems);
 }
 
 void read_play_speed(const json::Value& value, Play& play, Building& building) {
   if (value.is(json::Value::Kind::number)) play.speed = value.number();
-  if (const auto curve = read_timed(value, play, false, building)) play.speed = PlaySpeed(*curve);
+  if (const auto curve = read_timed(value, play, {}, building)) play.speed = PlaySpeed(*curve);
 }
 
 void read_play_weight(const json::Value& value, Play& play, Building& building) {
   if (value.is(json::Value::Kind::number)) play.weight = Curve<double>(value.number());
-  if (const auto curve = read_timed(value, play, true, building)) play.weight = *curve;
+  if (const auto curve = read_timed(value, play, weight_form(), building)) play.weight = *curve;
 }
 
 /// Seconds of a time of the played clip.

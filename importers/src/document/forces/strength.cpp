@@ -37,7 +37,7 @@ void read_strength(const json::Value& value, ForceDescription& force, Building& 
       add_fault_of_expression(text, fault, building.problems);
     }
   } else if (value.is(json::Value::Kind::list)) {
-    const std::optional<Curve<double>> keys = read_play_keys(value, building.fps, false, 0, building.problems);
+    const std::optional<Curve<double>> keys = read_play_keys(value, building.fps, {}, 0, building.problems);
     if (!keys) return;
     try {
       force.strength = Strength(*keys);

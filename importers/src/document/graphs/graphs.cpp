@@ -62,7 +62,7 @@ void read_parameters(const json::Value& value, GraphDescription& graph, Building
       parameter_table().read(member.value, parameter, building);
       parameter.curve = followed_track(member.value, building);
     } else if (member.value.is(Kind::list)) {
-      parameter.curve = read_plain_keys(member.value, building.problems);
+      parameter.curve = read_play_keys(member.value, building.fps, {}, 0, building.problems);
     } else {
       parameter.start = read_setting(member.value);
     }

@@ -1,6 +1,8 @@
 #include "document/graphs/parts.h"
 #include "document/report/suggestion.h"
 
+#include <tweenfall/curves/number_text.h>
+
 #include <algorithm>
 
 namespace tweenfall::document::graphs {
@@ -54,8 +56,10 @@ const Table<LookAtPose::Joint>& looking_joint_table() {
 }
 
 template <class Joint>
-const Form* joints_form(const Table<Joint>& table, const char* what, FormStore& store, const ValueForms& values) {
+const Form* joints_form(const Table<Joint>& table, const char* what, FormStore& store, const ValueForms& values,
+                        std::vector<Together> together = {}) {
   Form full = table.listing_form(store, values);
+  full.together = std::move(together);
   full.on_one_line = true;
   const std::string either = "a node's name, or " + full.what;
   // How many it takes, the chain says itself.
@@ -110,10 +114,16 @@ const Form* angles_form(FormStore& store, const ValueForms&) {
 
 template <class Limit>
 Row<Limit> angles_row(const char* name, const char* help, double Limit::*low, double Limit::*high) {
-  const auto read = [low, high](const json::Value& value, Limit& limit, Building&) {
+  const auto read = [low, high](const json::Value& value, Limit& limit, Building& building) {
     if (value.items().size() != 2) return;
-    limit.*low = radians(value.items()[0].number());
-    limit.*high = radians(value.items()[1].number());
+    const double least = value.items()[0].number(), most = value.items()[1].number();
+    if (least > most) {
+      building.problems.add(
+          value, "limits stand in order, the low one first; " + number_text(least) + " is above " + number_text(most));
+      return;
+    }
+    limit.*low = radians(least);
+    limit.*high = radians(most);
   };
   return {name, angles_form, help, {read, "[-180,180]"}};
 }
@@ -152,7 +162,8 @@ const Table<ReachPose::Joint>& reaching_joint_table() {
 const Table<ReachPose>& reach_table() {
   using Pose = ReachPose;
   const fields::FormOf joints = fields::FormOf::Make([](FormStore& store, const ValueForms& values) {
-    return joints_form(reaching_joint_table(), "a list of joints, the last of which reaches", store, values);
+    return joints_form(reaching_joint_table(), "a list of joints, the last of which reaches", store, values,
+                       {at_most_one({"hinge", "socket"})});
   });
   const auto read = [](const json::Value& value, Pose& pose, Building& building) {
     read_joints(value, reaching_joint_table(), pose.joints, building);
@@ -210,6 +221,11 @@ void read_ground(const json::Value& value, FeetPose& pose, Building& building) {
   if (!field) {
     building.problems.add(value, "feet are placed on a node whose body is a \"height_field\"; " +
                                      json::in_quotes(value.text()) + " is none");
+    return;
+  }
+  if (!node.body->fixed) {
+    building.problems.add(value, "feet are placed on a ground that stays where it is; " +
+                                     json::in_quotes(value.text()) + " does, where its body is \"static\"");
     return;
   }
   const auto stands_straight = [](const Pose& each) {

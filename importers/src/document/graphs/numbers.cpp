@@ -12,10 +12,10 @@ fields::FormOf number_form(Form plain) {
   });
 }
 
-GraphNumber read_number(const json::Value& value, Building& building) {
+GraphNumber read_number(const json::Value& value, const Form& plain, Building& building) {
   if (value.is(json::Value::Kind::number)) return value.number();
   if (value.is(json::Value::Kind::object)) return ByParameter{text_in(value, "parameter", "")};
-  if (auto curve = read_plain_keys(value, building.problems)) return *curve;
+  if (auto curve = read_play_keys(value, building.fps, plain, 0, building.problems)) return *curve;
   return 1.0;
 }
 
@@ -46,7 +46,7 @@ GraphPlace read_place(const json::Value& value, Building& building) {
   const json::Value numbers = at_node ? usable(value, "at") : value;
   if (!numbers || numbers.items().size() != 3) return place;
   for (std::size_t i = 0; i < 3; ++i)
-    if (!numbers.items()[i].is(json::Value::Kind::faulty)) place.at[i] = read_number(numbers.items()[i], building);
+    if (!numbers.items()[i].is(json::Value::Kind::faulty)) place.at[i] = read_number(numbers.items()[i], {}, building);
   return place;
 }
 

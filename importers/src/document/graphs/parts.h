@@ -14,7 +14,7 @@ namespace tweenfall::document::graphs {
 
 // A number, keys over the graph's time, or {"parameter": name}.
 [[nodiscard]] fields::FormOf number_form(Form plain);
-[[nodiscard]] GraphNumber read_number(const json::Value& value, Building& building);
+[[nodiscard]] GraphNumber read_number(const json::Value& value, const Form& plain, Building& building);
 // A node's name, three numbers, or {"node", "at"}.
 const Form* place_form(FormStore& store, const ValueForms& values);
 [[nodiscard]] GraphPlace read_place(const json::Value& value, Building& building);
@@ -64,8 +64,8 @@ template <class Operation>
 template <class Thing, class Access>
 [[nodiscard]] fields::Row<Thing> number_row(std::string name, Form plain, std::string help, std::string standard,
                                             Access access) {
-  const auto read = [access](const json::Value& value, Thing& thing, Building& building) {
-    std::invoke(access, thing) = read_number(value, building);
+  const auto read = [access, plain](const json::Value& value, Thing& thing, Building& building) {
+    std::invoke(access, thing) = read_number(value, plain, building);
   };
   return {std::move(name), number_form(std::move(plain)), std::move(help), {read, std::move(standard)}};
 }

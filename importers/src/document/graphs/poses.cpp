@@ -45,11 +45,15 @@ const Form* layers_form(FormStore& store, const ValueForms& values) {
   return store.add(std::move(list));
 }
 
+Form share_of_a_blend() {
+  return bounded("a weight of 0 or more", 0, false);
+}
+
 const Form* blend_form(FormStore& store, const ValueForms& values) {
   Form part;
   part.kind = Form::Kind::tuple;
   part.what = "a pose and its weight: [pose, weight]";
-  part.parts = {values.name, number_form(bounded("a weight of 0 or more", 0, false)).in(store, values)};
+  part.parts = {values.name, number_form(share_of_a_blend()).in(store, values)};
   part.fewest = 2;
   part.on_one_line = true;
   return store.add(list_of(store.add(std::move(part)), "a list of [pose, weight]", 1, most_blended));
@@ -59,7 +63,8 @@ void read_blend(const json::Value& value, GraphPose& pose, Building& building) {
   BlendPose& blend = pose.operation.emplace<BlendPose>();
   for (const json::Value& part : value.items()) {
     if (part.items().size() != 2) continue;
-    blend.parts.push_back({std::string(part.items()[0].text()), read_number(part.items()[1], building)});
+    blend.parts.push_back(
+        {std::string(part.items()[0].text()), read_number(part.items()[1], share_of_a_blend(), building)});
   }
 }
 

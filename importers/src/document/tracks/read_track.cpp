@@ -324,17 +324,16 @@ std::optional<Curve<double>> read_plain_keys(const json::Value& keys, Problems& 
   return read_keys<double>(keys, times, reader_of<double>(number_of), {}, problems);
 }
 
-std::optional<Curve<double>> read_play_keys(const json::Value& keys, std::optional<double> fps, bool weight,
+std::optional<Curve<double>> read_play_keys(const json::Value& keys, std::optional<double> fps, const Form& number,
                                             double from, Problems& problems) {
-  const ClipTimes times(fps, {}, "the keys of a play run on a clock that has none");
+  const ClipTimes times(fps, {}, "these keys run on a clock that has none");
   KeyReader<double> reader = reader_of<double>(number_of);
-  if (weight)
-    reader.value = [&](const json::Value& value) -> std::optional<double> {
-      const std::optional<double> number = number_of(value);
-      if (!number || (*number >= 0 && *number <= 1)) return number;
-      problems.add(value, "expected a weight from 0 to 1, found " + number_text(*number));
-      return {};
-    };
+  reader.value = [&](const json::Value& value) -> std::optional<double> {
+    const std::optional<double> found = number_of(value);
+    if (!found || (*found >= number.low && *found <= number.high)) return found;
+    problems.add(value, "expected " + number.what + ", found " + number_text(*found));
+    return {};
+  };
   const std::optional<Curve<double>> curve = read_keys<double>(keys, times, reader, {}, problems);
   return curve && from != 0 ? std::optional(shifted(*curve, -from)) : curve;
 }

@@ -5,6 +5,7 @@
 #include <tweenfall/anim/clip.h>
 #include <tweenfall/curves/keys.h>
 
+#include "document/form.h"
 #include "document/read/clip_times.h"
 #include "document/report/problems.h"
 
@@ -20,10 +21,10 @@ namespace tweenfall::document {
 // Keys of one number in seconds of their own.
 [[nodiscard]] std::optional<Curve<double>> read_plain_keys(const json::Value& keys, Problems& problems);
 
-// Keys of one number for plays.
-// @param weight  whether they are from 0 to 1
+// Keys of one number on the clock of a play or of the stage, which has no end.
+// @param number  what each of them may be
 // @param from    time that is 0 for the play, s
 [[nodiscard]] std::optional<Curve<double>> read_play_keys(const json::Value& keys, std::optional<double> fps,
-                                                          bool weight, double from, Problems& problems);
+                                                          const Form& number, double from, Problems& problems);
 
 }  // namespace tweenfall::document
