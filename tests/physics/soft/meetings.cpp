@@ -109,6 +109,57 @@ TEST_CASE("a box hangs from a rope that is pinned to it") {
   }
 }
 
+TEST_CASE("what hangs at rest weighs on its rope as much as it weighs, whatever drag would hold it back") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs})
+    for (const double dt : {1.0 / 60, 1.0 / 240}) {
+      CAPTURE(static_cast<int>(solver));
+      CAPTURE(dt);
+      World world;
+      BodySettings settings{.shape = {Box{Vec3(0.1, 0.1, 0.1)}}, .mass = 2, .linear_damping = 20};
+      settings.motion.pose.position = Vec3(0, -1.1, 0);
+      const BodyId box = world.add(settings);
+      world.add_force(Drag{.linear = 30});
+      SoftSettings line = rope({.to = {0, -1, 0}, .links = 12, .mass = 0.012, .stiffness = 1e6});
+      line.pins = {{.node = 0, .in_place = true}, {.node = 12, .body = box, .point = {0, 0.1, 0}}};
+      line.solver = solver;
+      line.collide = false;
+      const SoftId id = add_soft(world, line);
+      step(world, 3, dt);
+      const auto pins = soft_pins(world, id);
+      CHECK(near(pins[0].force, Vec3(0, -2.012 * 9.81, 0), 1e-3));
+      CHECK(near(pins[1].force, Vec3(0, 2 * 9.81, 0), 1e-3));
+    }
+}
+
+// Of a bar on two ropes each bears half; it hangs lower by its weight over both their stiffnesses, and not by how far
+// it would fall in a sub-step.
+TEST_CASE("soft bodies that hold one body bear it together") {
+  for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs})
+    for (const double part : {1, 4}) {
+      const double sub_step = (solver == SoftSolver::positions ? 1.0 / 960 : 1.0 / 60) / part;
+      CAPTURE(static_cast<int>(solver));
+      CAPTURE(sub_step);
+      World world;
+      const BodyId bar = world.add(
+          {.shape = {Box{Vec3(0.4, 0.03, 0.02)}}, .mass = 3, .motion = {.pose = {.position = Vec3(0, -1, 0)}}});
+      std::vector<SoftId> ropes;
+      for (const double x : {-0.4, 0.4}) {
+        SoftSettings line = rope({.from = {x, 0, 0}, .to = {x, -1, 0}, .links = 8, .mass = 0.02, .stiffness = 1e6});
+        line.pins = {{.node = 0, .in_place = true}, {.node = 8, .body = bar, .point = {x, 0, 0}}};
+        line.solver = solver;
+        line.sub_step = sub_step;
+        line.collide = false;
+        ropes.push_back(add_soft(world, line));
+      }
+      step(world, 3, 1.0 / 60);
+      const Motion rests = world.motion(bar);
+      CAPTURE(rests.pose.position.transpose());
+      CHECK(near(rests.pose.position, Vec3(0, -1 - (1.5 + 0.01) * 9.81 / 1e6, 0), 2e-6));
+      CHECK(std::abs(rests.pose.rotation.z()) < 2e-6);
+      for (const SoftId id : ropes) CHECK(near(soft_pins(world, id)[1].force, Vec3(0, 1.5 * 9.81, 0), 1e-3));
+    }
+}
+
 TEST_CASE("no node of a rope passes a thin wall, and none of a cloth a moving one") {
   for (const SoftSolver solver : {SoftSolver::positions, SoftSolver::springs}) {
     CAPTURE(static_cast<int>(solver));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "actors/soft/blowing.h"
 #include "actors/soft/meetings/apart.h"
@@ -18,6 +19,10 @@ namespace soft {
 namespace {
 
 constexpr double most_sub_steps = 1000;
+/// How often soft bodies that hold the same one are asked anew, and which part of the energy of what they give may
+/// change when they are no more.
+constexpr int most_rounds = 12;
+constexpr double agreed = 1e-10;
 
 Vec3 mean_velocity(const SoftBody& body) {
   Vec3 momentum(0, 0, 0);
@@ -80,6 +85,37 @@ class Course {
     if (thick()) keep_apart(as_thick(), partners_, h, backward, settings_.push_out_speed);
   }
 
+  /// The same, so that it can be done over.
+  void go_first(double time, double h, bool backward) {
+    first_places_ = body_.positions;
+    first_velocities_ = body_.velocities;
+    give(time, h, backward);
+    for (std::uint32_t p = 0; p < gifts_.size(); ++p)
+      if (gives_to(p)) ++partners_[p].givers;
+  }
+  /// Over again, beside what others have given meanwhile. @return how much of what it gives has changed, and is, J s^2
+  std::pair<double, double> go_again(double time, double h, bool backward) {
+    body_.positions = first_places_;
+    body_.velocities = first_velocities_;
+    partners_.take_back(gifts_);
+    const std::vector<Gift> before = std::move(gifts_);
+    give(time, h, backward);
+    double changed = 0, all = 0;
+    for (std::uint32_t p = 0; p < gifts_.size(); ++p) {
+      const auto weigh = [&partner = partners_[p]](const Vec3& moved, const Vec3& turned) {
+        return partner.mass * moved.squaredNorm() + turned.dot(partner.inertia * turned);
+      };
+      changed += weigh(gifts_[p].moved - before[p].moved, gifts_[p].turned - before[p].turned);
+      all += weigh(gifts_[p].moved, gifts_[p].turned);
+    }
+    return {changed, all};
+  }
+  [[nodiscard]] bool shares() const {
+    for (std::uint32_t p = 0; p < gifts_.size(); ++p)
+      if (partners_[p].givers > 1 && gives_to(p)) return true;
+    return false;
+  }
+
   [[nodiscard]] bool thick() const { return body_.made->thickness > 0; }
   [[nodiscard]] Thick as_thick() { return {&body_, &places_, held_}; }
 
@@ -117,6 +153,21 @@ class Course {
   }
 
  private:
+  void give(double time, double h, bool backward) {
+    gifts_ = partners_.given();
+    go(time, h, backward);
+    std::vector<Gift> all = partners_.given();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i].moved -= gifts_[i].moved;
+      all[i].turned -= gifts_[i].turned;
+      all[i].taken -= gifts_[i].taken;
+    }
+    gifts_ = std::move(all);
+  }
+  [[nodiscard]] bool gives_to(std::uint32_t partner) const {
+    return gifts_[partner].moved != Vec3::Zero() || gifts_[partner].turned != Vec3::Zero();
+  }
+
   /// What points out of a plane it bears.
   void stay_in_plane() {
     if (settings_.plane == WorldPlane::none) return;
@@ -160,9 +211,28 @@ class Course {
   std::vector<Vec3> places_;                ///< of all nodes, before a sub-step
   std::vector<Held> held_;
   std::vector<NodeContact> contacts_;
-  Vec3 was_{0, 0, 0};    ///< mean velocity before the sub-step, of what nothing holds
-  bool pushed_ = false;  ///< between its nodes, in the sub-step
+  std::vector<Vec3> first_places_, first_velocities_;  ///< before a sub-step that may be done over
+  std::vector<Gift> gifts_;                            ///< in it, by partner
+  Vec3 was_{0, 0, 0};                                  ///< mean velocity before the sub-step, of what nothing holds
+  bool pushed_ = false;                                ///< between its nodes, in the sub-step
 };
+
+/// A sub-step of all. Those that hold or bear the same body are asked in turn until they agree on where it goes: what
+/// the first gives it knows nothing of what the last will bear.
+void go_together(std::vector<Course>& courses, double time, double h, bool backward) {
+  if (courses.size() == 1) return courses.front().go(time, h, backward);
+  for (Course& course : courses) course.go_first(time, h, backward);
+  for (int round = 1; round < most_rounds; ++round) {
+    double changed = 0, all = 0;
+    for (Course& course : courses) {
+      if (!course.shares()) continue;
+      const auto [change, whole] = course.go_again(time, h, backward);
+      changed += change;
+      all += whole;
+    }
+    if (!(changed > agreed * all)) return;
+  }
+}
 
 /// Soft bodies of which any two may meet, by their numbers.
 std::vector<std::size_t> meeting_each_other(const std::vector<const SoftBody*>& bodies) {
@@ -191,7 +261,7 @@ void World::Implementation::advance_softs(double dt) {
     if (body.alive) longest = longest > 0 ? std::min(longest, *body.made->sub_step) : *body.made->sub_step;
   if (!(longest > 0)) return;
   const double count = std::clamp(std::ceil(dt / longest - 1e-9), 1.0, soft::most_sub_steps), h = dt / count;
-  soft::Partners partners(bodies, soft_starts, settings.plane, dt);
+  soft::Partners partners(bodies, soft_starts, loads, settings.plane, dt);
   const std::vector<soft::Blowing> winds = soft::winds_at(forces, time);
   std::vector<soft::Course> courses;
   std::vector<const soft::SoftBody*> there;
@@ -207,7 +277,7 @@ void World::Implementation::advance_softs(double dt) {
     const double since = i < count ? i * h : dt;
     partners.go_to(since, h);
     const bool backward = static_cast<int>(i) % 2 == 0;
-    for (soft::Course& course : courses) course.go(since, h, backward);
+    soft::go_together(courses, since, h, backward);
     thick.clear();
     for (const std::size_t member : among) thick.push_back(courses[member].as_thick());
     if (!thick.empty()) soft::keep_apart_from_each_other(thick, partners, h, backward, settings.push_out_speed);

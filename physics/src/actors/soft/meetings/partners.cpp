@@ -3,6 +3,8 @@
 #include <tweenfall/curves/hermite.h>
 #include <tweenfall/curves/rotation.h>
 
+#include <Eigen/LU>
+
 #include "flat/axes.h"
 
 namespace tweenfall::soft {
@@ -41,6 +43,20 @@ Place on_course(const Partner& partner, double time, double h, double dt) {
   return place;
 }
 
+/// Drag that a step takes as it is at its end has kept a part of what made the body faster. Of what it is given it
+/// keeps as much: a body with so much more mass would.
+void resist(const forces::Load& load, double dt, Partner& partner) {
+  if (load.drag > 0) {
+    partner.mass *= 1 + dt * load.drag;
+    partner.inverse_mass = 1 / partner.mass;
+  }
+  if (load.angular_drag > 0 || load.angular_damping > 0) {
+    partner.inertia =
+        (1 + dt * load.angular_damping) * partner.inertia + Mat3(Vec3::Constant(dt * load.angular_drag).asDiagonal());
+    partner.inverse_inertia = partner.inertia.inverse();
+  }
+}
+
 }  // namespace
 
 std::uint32_t Partners::number_of(std::uint32_t index) {
@@ -62,6 +78,8 @@ std::uint32_t Partners::number_of(std::uint32_t index) {
       const double moment = body.mass().inertia(normal, normal);
       partner.inertia = moment * Mat3::Identity();
       partner.inverse_inertia = (1 / moment) * Mat3::Identity();
+    } else {
+      resist(loads_[index], dt_, partner);
     }
     const Vec3 mean = 0.5 * (partner.start.twist.linear + partner.end.twist.linear);
     const Vec3 off = partner.end.center - partner.start.center - dt_ * mean;
@@ -79,9 +97,24 @@ void Partners::go_to(double time, double h) {
     partner.before = partner.now;
     partner.now = on_course(partner, time, h, dt_);
     partner.moved = partner.turned = Vec3(0, 0, 0);
+    partner.givers = 0;
     if (!partner.moves()) continue;
     partner.now.center += partner.shift + h * partner.push;
     partner.now.rotation = exp_map(partner.turn + h * partner.spin) * partner.now.rotation;
+  }
+}
+
+std::vector<Gift> Partners::given() const {
+  std::vector<Gift> gifts;
+  for (const Partner& partner : all_) gifts.push_back({partner.moved, partner.turned, partner.taken});
+  return gifts;
+}
+
+void Partners::take_back(const std::vector<Gift>& gifts) {
+  for (std::size_t i = 0; i < gifts.size(); ++i) {
+    all_[i].moved -= gifts[i].moved;
+    all_[i].turned -= gifts[i].turned;
+    all_[i].taken -= gifts[i].taken;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "forces/free_flight.h"
 #include "state/body.h"
 
 namespace tweenfall::soft {
@@ -18,6 +19,7 @@ struct Place {
 /// off it by what they give it.
 struct Partner {
   std::uint32_t body = 0;
+  // With what resists it through the step, which is as if it had that much more of both
   double mass = 0, inverse_mass = 0;                            ///< kg; inverse 0 for one that nothing moves
   Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  ///< world axes
   Place start, end;                                             ///< of the step
@@ -29,6 +31,7 @@ struct Partner {
   Place before, now;                     ///< at its start, and at its end if nothing more is given
   Vec3 moved{0, 0, 0}, turned{0, 0, 0};  ///< by what has been given in it, m and rad
   Vec3 taken{0, 0, 0};                   ///< impulse of the whole step, N s
+  int givers = 0;                        ///< soft bodies that give it something in the sub-step
 
   [[nodiscard]] bool moves() const { return inverse_mass > 0; }
   /// A point of the body at the end of the sub-step, as far as it is known. @param arm  from its center, then
@@ -46,12 +49,19 @@ struct Partner {
   }
 };
 
+/// What one soft body gives a partner in a sub-step.
+struct Gift {
+  Vec3 moved{0, 0, 0}, turned{0, 0, 0}, taken{0, 0, 0};
+};
+
 /// All that soft bodies meet in a step.
 class Partners {
  public:
   /// @param starts  by body, as they were before the step
-  Partners(std::vector<state::Body>& bodies, const std::vector<Place>& starts, WorldPlane plane, double dt)
-      : bodies_(bodies), starts_(starts), plane_(plane), dt_(dt) {}
+  /// @param loads  of the step, by body; those of a plane do not tell what resists
+  Partners(std::vector<state::Body>& bodies, const std::vector<Place>& starts, const std::vector<forces::Load>& loads,
+           WorldPlane plane, double dt)
+      : bodies_(bodies), starts_(starts), loads_(loads), plane_(plane), dt_(dt) {}
 
   [[nodiscard]] std::uint32_t number_of(std::uint32_t body);
   [[nodiscard]] Partner& operator[](std::uint32_t number) { return all_[number]; }
@@ -62,6 +72,9 @@ class Partners {
 
   /// On to a time since the start of the step, by a sub-step of length h.
   void go_to(double time, double h);
+  /// What all have been given in it so far, by number; and without what one has given.
+  [[nodiscard]] std::vector<Gift> given() const;
+  void take_back(const std::vector<Gift>& gifts);
   /// Takes what the bodies were given in the sub-step.
   void accept(double h);
   /// Tells the bodies, and wakes them. @param h  of a sub-step
@@ -70,6 +83,7 @@ class Partners {
  private:
   std::vector<state::Body>& bodies_;
   const std::vector<Place>& starts_;
+  const std::vector<forces::Load>& loads_;
   WorldPlane plane_;
   double dt_;
   std::vector<Partner> all_;
