@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "strategies/solvers/block_pivots.h"
 #include "strategies/solvers/lemke.h"
@@ -12,7 +13,7 @@ namespace {
 /// Up to so many touches the problem is solved by Lemke's pivots, beyond by projected Gauss-Seidel; but up to so many
 /// by blocks of pivots, where a few passes of that do not end it, as where what is heavy lies on what is light.
 constexpr std::size_t few_touches = 96, most_pivoted = 1024;
-/// How far off projected Gauss-Seidel may end, m/s, and passes that it may take.
+/// How far off it may end, m/s, where rounding allows it, and passes that projected Gauss-Seidel may take.
 constexpr double near_enough_to_end = 2e-10;
 constexpr int few_sweeps = 400, most_sweeps = 20000;
 /// Where a body stands on more points than it needs, what each bears is not told by the problem. With this part of its
@@ -34,6 +35,15 @@ double residual(const Gathering& island) {
     most = std::max(most, std::abs(std::min(touch.impulse * give, island.parting(touch) - touch.wanted)));
   }
   return most;
+}
+
+/// How far off an island may end, m/s: what lies on what is light gives it speeds that cancel but for their rounding.
+double near_enough(const Gathering& island) {
+  double momentum = 0, ease = 0;
+  for (const Party& party : island.parties)
+    if (party.inverse_mass > 0) momentum += party.linear.norm() / party.inverse_mass;
+  for (const Touch& touch : island.touches) ease = std::max(ease, island.ease(touch, touch.normal));
+  return near_enough_to_end + 8 * std::numeric_limits<double>::epsilon() * momentum * ease;
 }
 
 /// The problem of an island, in units in which an impulse of one adds a speed of one by itself.
@@ -74,7 +84,7 @@ bool state_problem(Gathering& island, Pivoting& problem) {
 }
 
 /// @return whether that leaves nothing; else all is as it was
-bool accept(Gathering& island, const Pivoting& problem) {
+bool accept(Gathering& island, const Pivoting& problem, double enough) {
   const Gathering before = island;
   for (std::size_t i = 0; i < island.touches.size(); ++i) {
     Touch& touch = island.touches[i];
@@ -82,7 +92,7 @@ bool accept(Gathering& island, const Pivoting& problem) {
     island.push(touch, (pressed - touch.impulse) * touch.normal);
     touch.impulse = pressed;
   }
-  if (residual(island) < near_enough_to_end) return true;
+  if (residual(island) < enough) return true;
   island = before;
   return false;
 }
@@ -90,7 +100,7 @@ bool accept(Gathering& island, const Pivoting& problem) {
 /// @param solve  for the matrix with a softness on its diagonal: of offsets, whether it solved them, and impulses
 /// @return whether impulses stay the same at last
 template <class Solve>
-bool hardened(Pivoting& problem, double soft, const Solve& solve) {
+bool hardened(Pivoting& problem, double soft, double enough, const Solve& solve) {
   const std::size_t count = problem.units.size();
   std::vector<double> softened(count);
   for (int k = 0; k < most_hardenings; ++k) {
@@ -100,7 +110,7 @@ bool hardened(Pivoting& problem, double soft, const Solve& solve) {
     double change = 0;
     for (std::size_t i = 0; i < count; ++i)
       change = std::max(change, std::abs(problem.impulses[i] - last[i]) / problem.units[i]);
-    if (soft * change < 0.01 * near_enough_to_end) return true;
+    if (soft * change < 0.01 * enough) return true;
   }
   return true;
 }
@@ -111,23 +121,23 @@ void soften(Pivoting& problem, double by) {
 }
 
 /// By Lemke's pivots. @return whether that solved it; else all is as it was.
-bool pivoted(Gathering& island) {
+bool pivoted(Gathering& island, double enough) {
   Pivoting problem;
   if (!state_problem(island, problem)) return false;
   soften(problem, softness);
   const auto by_lemke = [&](const std::vector<double>& offsets, std::vector<double>& impulses) {
     return solve_by_lemke(problem.matrix, offsets, impulses);
   };
-  return hardened(problem, softness, by_lemke) && accept(island, problem);
+  return hardened(problem, softness, enough, by_lemke) && accept(island, problem, enough);
 }
 
 /// The same by whole blocks of pivots, which hold where what is light bears what is ten thousand times as heavy: there
 /// a softness of one part in a million is still much, and less of it is tried.
-bool pivoted_by_blocks(Gathering& island) {
+bool pivoted_by_blocks(Gathering& island, double enough) {
   Pivoting problem;
   if (!state_problem(island, problem)) return false;
   std::vector<double> slack(problem.units);
-  for (double& each : slack) each *= 0.05 * near_enough_to_end;
+  for (double& each : slack) each *= 0.05 * enough;
   double soft = 0;
   for (const double next : less_and_less) {
     soften(problem, next - soft);
@@ -136,29 +146,30 @@ bool pivoted_by_blocks(Gathering& island) {
     const auto by_blocks = [&](const std::vector<double>& offsets, std::vector<double>& impulses) {
       return pivots.solve(offsets, impulses);
     };
-    if (hardened(problem, soft, by_blocks) && accept(island, problem)) return true;
+    if (hardened(problem, soft, enough, by_blocks) && accept(island, problem, enough)) return true;
   }
   return false;
 }
 
 /// @param left  passes that may still be made: fewer afterwards
 /// @return whether that solved it
-bool swept(Gathering& island, int most, int& left) {
+bool swept(Gathering& island, double enough, int most, int& left) {
   for (int sweep = 0; sweep < most && left > 0; ++sweep, --left) {
     // There and back, so that what is carried goes up as fast as down.
     if (sweep % 2 == 0)
       for (Touch& touch : island.touches) island.press(touch);
     else
       for (std::size_t i = island.touches.size(); i-- > 0;) island.press(island.touches[i]);
-    if (sweep % 8 == 7 && residual(island) < near_enough_to_end) return true;
+    if (sweep % 8 == 7 && residual(island) < enough) return true;
   }
   return false;
 }
 
-void solve_normals(Gathering& island, int& left) {
+void solve_normals(Gathering& island, double enough, int& left) {
   const std::size_t count = island.touches.size();
-  if (count == 0 || (count <= few_touches && pivoted(island)) || swept(island, few_sweeps, left)) return;
-  if (count > most_pivoted || !pivoted_by_blocks(island)) swept(island, most_sweeps, left);
+  if (count == 0 || (count <= few_touches && pivoted(island, enough)) || swept(island, enough, few_sweeps, left))
+    return;
+  if (count > most_pivoted || !pivoted_by_blocks(island, enough)) swept(island, enough, most_sweeps, left);
 }
 
 }  // namespace
@@ -170,8 +181,9 @@ void solve_normals(Gathering& island, int& left) {
 /// Staggered Projections for Frictional Contact in Multibody Systems, SIGGRAPH Asia 2008.
 void lcp(Gathering& island) {
   int left = most_sweeps;
+  const double enough = near_enough(island);
   island.begin_where_it_ended();
-  solve_normals(island, left);
+  solve_normals(island, enough, left);
   const bool rubs =
       std::any_of(island.touches.begin(), island.touches.end(), [](const Touch& touch) { return touch.friction > 0; });
   for (int round = 0; rubs && round < most_rounds; ++round) {
@@ -182,8 +194,8 @@ void lcp(Gathering& island) {
         island.rub(touch);
         if (pass == 0) change = std::max(change, (touch.rubbing - before).norm() * island.ease(touch, touch.normal));
       }
-    solve_normals(island, left);
-    if (change < near_enough_to_end) break;
+    solve_normals(island, enough, left);
+    if (change < enough) break;
   }
   island.complementarity = residual(island);
 }
