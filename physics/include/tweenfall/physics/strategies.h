@@ -18,7 +18,7 @@ enum class ContactSolver : std::uint8_t {
   shock,       ///< over and over, then from the ground up with all below held firm
   /// All at once, as a linear complementarity problem: islands of up to 96 touching points by Lemke's pivots, larger
   /// ones by projected Gauss-Seidel in 20,000 passes at most, or by pivots, too, where that takes many and there are up
-  /// to 512 points. `complementarity_residual` (detail.h) tells how far off.
+  /// to 1024 points. `complementarity_residual` (detail.h) tells how far off.
   lcp,
 };
 
