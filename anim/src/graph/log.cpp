@@ -133,6 +133,13 @@ void send(Log& log, double time, std::string_view event, Origin origin) {
 
 void forget_course(Log& log, const GraphDescription& description, double time) {
   forget(log, description, time, [&](const auto& each) { return each.time >= time && each.origin == Origin::event; });
+  // Springs may have followed what is another from then on, on a clock that began before.
+  for (SwingMemory& memory : log.swings)
+    for (SwingCourse& course : memory.courses) {
+      for (SwingMark& mark : course.latest)
+        if (mark.time >= time) mark.time = mark.instant = -1;
+      while (course.marked > 0 && course.markers[course.marked - 1].time >= time) --course.marked;
+    }
 }
 
 void forget_after(Log& log, const GraphDescription& description, double time) {

@@ -162,6 +162,34 @@ TEST_CASE("what came in to a graph survives a change of the plays below it, and 
   CHECK(same_bits(wide, pose_of(told, 2.4)));
 }
 
+TEST_CASE("springs follow what is changed below them the same, however far they were asked for before") {
+  const GraphDescription below{
+      .name = "below",
+      .parameters = {{.name = "much"}},
+      .poses = {{"plays", RestPose{}}, {"mix", BlendPose{{{"plays", 1.0}, {"walk", ByParameter{"much"}}}}}}};
+  const GraphDescription above{
+      .name = "above",
+      .poses = {{"base", RestPose{}},
+                {"head", SpringPose{.base = "base", .node = "lower", .position = SpringSettings{}}}}};
+  const double at = 0.5031;  // between two points of the springs' grid
+  const auto sought = [&](const Animation& animation) {
+    return animation.with_change({.time = at, .play = "idle", .action = playing::Seek{1.4}});
+  };
+  const auto set = [&](const Animation& animation) {
+    return animation.with_input("below", {.time = at, .name = "much", .value = 1});
+  };
+  const Animation fresh = animated({below, above}, {Play{.clip = 0}});
+  const Animation sought_fresh = sought(fresh), set_fresh = set(fresh);
+  const Animation asked = animated({below, above}, {Play{.clip = 0}});
+  for (const double time : {0.1, at, 0.6, 1.0, 3.0}) static_cast<void>(pose_of(asked, time));
+  const Animation sought_asked = sought(asked), set_asked = set(asked);
+  for (const double time : {at, 0.51, 0.7, 1.1, 2.0, 3.5}) {
+    CHECK(same_bits(pose_of(sought_asked, time), pose_of(sought_fresh, time)));
+    CHECK(same_bits(pose_of(set_asked, time), pose_of(set_fresh, time)));
+    CHECK_FALSE(same_bits(pose_of(sought_fresh, time), pose_of(set_fresh, time)));
+  }
+}
+
 TEST_CASE("tens of thousands of inputs to a graph do not copy each other, and are all kept") {
   const auto run = [](int count) {
     Animation told = animated({reacting()});
