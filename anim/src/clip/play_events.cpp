@@ -250,6 +250,16 @@ std::optional<FiredEvent> Player::first_event(const Clip& clip, double from, dou
   std::optional<FiredEvent> first;
   const bool told = latest_->before || !latest_->told.empty();
   if (name && !told && std::ranges::find(clip.events, *name, &ClipEvent::name) == clip.events.end()) return first;
+  // All rounds of a section in which there is none of them would be gone through for nothing.
+  const auto tells = [&](const Life& life) {
+    return std::ranges::any_of(clip.events, [&](const ClipEvent& event) {
+      if (name && event.name != *name) return false;
+      return event.is_interval() ? clips::clipped(life.rounds, event).has_value()
+                                 : clips::place_of(life.rounds, event).has_value();
+    });
+  };
+  for (const Life* life = latest_.get(); life && !tells(*life); life = life->before.get())
+    to = std::min(to, life->since);
   visit_events(clip, from, to, from_start, [&](FiredEvent&& event) {
     if (event.kind == FiredEvent::Kind::end || (name && event.name != *name)) return true;
     first = std::move(event);

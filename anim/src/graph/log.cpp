@@ -59,6 +59,7 @@ void forget(Log& log, const GraphDescription& description, double time, const La
     passages.truncate(
         static_cast<std::size_t>(std::ranges::lower_bound(passages, time, {}, &Passage::time) - passages.begin()));
   std::erase_if(log.stops, [&](const GraphStop& stop) { return stop.time >= time; });
+  log.instants.truncate(static_cast<std::size_t>(std::ranges::lower_bound(log.instants, time) - log.instants.begin()));
   log.known = time > 0 ? std::nextafter(time, -1.0) : -1;
 }
 

@@ -108,6 +108,7 @@ struct Log {
   Record<Sending> sent;                   // in order of time
   std::vector<Record<Passage>> passages;  // by machine, in order of time
   std::vector<GraphStop> stops;
+  Record<double> instants;  // s, at which something may have happened of itself, in order
   /// By phase of the graph: where to go on from, so that not all its way is gone again. Says nothing new.
   mutable std::vector<PhaseTrails> phases;
   /// By operation with springs: where to go on from. Says nothing new.

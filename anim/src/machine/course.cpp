@@ -17,19 +17,22 @@ class Course {
       happen(0);
     }
     while (log_.known < until) {
-      const std::optional<double> next = next_instant(until);
-      if (!next) {
+      const std::optional<double> told = next_told(until), own = next_own(told.value_or(until));
+      if (!told && !own) {
         log_.known = until;
         return;
       }
-      happen(*next);
+      const double next = own.value_or(told.value_or(until));
+      if (next != told) log_.instants.push_back(next);
+      happen(next);
     }
   }
 
  private:
   static const Machine& as_machine(const Operation& operation) { return static_cast<const Machine&>(operation); }
 
-  [[nodiscard]] std::optional<double> next_instant(double until) const {
+  /// The first time up to `until` at which something came in.
+  [[nodiscard]] std::optional<double> next_told(double until) const {
     std::optional<double> first;
     const auto meet = [&](double time) {
       if (time > log_.known && time <= first.value_or(until)) first = time;
@@ -39,6 +42,16 @@ class Course {
         meet(next->time);
     if (const auto next = std::ranges::upper_bound(log_.sent, log_.known, {}, &Sending::time); next != log_.sent.end())
       meet(next->time);
+    return first;
+  }
+
+  /// The first one at which something may happen of itself.
+  [[nodiscard]] std::optional<double> next_own(double until) const {
+    std::optional<double> first;
+    if (log_.instants.size() >= most_own_instants) return first;
+    const auto meet = [&](double time) {
+      if (time > log_.known && time <= first.value_or(until)) first = time;
+    };
     for (const Operation* machine : graph_.compiled().machines)
       if (const auto next = as_machine(*machine).next_instant(log_, log_.known, first.value_or(until))) meet(*next);
     for (const GraphReaction& reaction : graph_.description().reactions)

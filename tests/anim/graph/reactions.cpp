@@ -190,6 +190,36 @@ TEST_CASE("springs follow what is changed below them the same, however far they 
   }
 }
 
+TEST_CASE("no time is too far away for a graph that waits for events of loops") {
+  const GraphDescription waiting{
+      .name = "figure",
+      .parameters = {{.name = "ready"}},
+      .poses = {{"body", MachinePose{.start = "walk",
+                                     .states = {{"walk", "walk"}, {"jump", "jump"}},
+                                     .transitions = {{.from = {"walk"},
+                                                      .to = "jump",
+                                                      .when = {{Kind::event, "right"}, {Kind::above, "ready", 0.5}},
+                                                      .change = {.seconds = 0.1}}}}}}};
+  const Animation animation = animated({waiting});
+  const std::vector<Motion> near = pose_of(animation, 10.3);
+  for (const Motion& motion : pose_of(animation, 1e17)) CHECK(motion.pose.position.allFinite());
+  CHECK(same_bits(pose_of(animation, 10.3), near));
+  // What comes in from outside still counts, there and before.
+  const Animation told = animation.with_input("figure", {.time = 10.5, .name = "ready", .value = 1});
+  CHECK(told.graph("figure", 10.9).passages(0).size() == 1);
+  CHECK(told.graph("figure", 11).passages(0).size() == 2);
+}
+
+TEST_CASE("a first event that lies outside of what is played is not looked for round by round") {
+  const Clip clip = (*three_clips())[0];  // tells one at 0.5 s
+  const Player outside({.clip = 0, .from = 0.6}, clip), inside({.clip = 0, .from = 0.4, .to = 1.4}, clip);
+  CHECK_FALSE(outside.first_event(clip, 0, 1e17, false, "breath"));
+  CHECK(inside.first_event(clip, 10, 1e17, false, "breath")->time == doctest::Approx(10.1));
+  // Asked to be elsewhere, it told what it met before that.
+  const Player moved = inside.changed(clip, 5, playing::SetSpeed{{{0, 0}}});
+  CHECK(moved.first_event(clip, 4, 1e17, false, "breath")->time == doctest::Approx(4.1));
+}
+
 TEST_CASE("tens of thousands of inputs to a graph do not copy each other, and are all kept") {
   const auto run = [](int count) {
     Animation told = animated({reacting()});

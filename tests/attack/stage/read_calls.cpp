@@ -32,7 +32,7 @@ void read_any_node(Caller& caller) {
 void read_path(Caller& caller) {
   const Path path = caller.stage.path(caller.any_node());
   const double time = caller.arguments.number(0, 2);
-  // A graph that events of loops lead has to pass all of them.
+  // A graph that waits for events of loops goes through a million of them, which takes seconds.
   if (std::abs(time) < 100) (void)path.at(time);
 }
 
