@@ -18,8 +18,10 @@ namespace tweenfall {
 namespace contacts {
 namespace {
 
-/// Two bodies that both have so many contacts already get none with each other.
-constexpr std::uint32_t most_contacts = 32;
+/// What moves by itself and may meet so many that do is in a crowd; of such bodies, two that both touch so many others
+/// in the crowd get no contact with each other. What is large and bears many small ones is in none: each of those meets
+/// few.
+constexpr std::uint32_t crowding = 64, most_contacts = 16;
 /// Pairs, or bodies, that are worth a part of their own.
 constexpr std::size_t worth_a_part = 64;
 
@@ -108,20 +110,35 @@ bool World::Implementation::recall(std::span<const pairs::Pair> pairs) {
   ++look;
   looked_at.resize(bodies.size(), 0);
   looked_for.clear();
-  contact_counts.assign(bodies.size(), 0);
-  bool crowded = false;
+  neighbor_counts.assign(bodies.size(), 0);
   for (const pairs::Pair& pair : pairs) {
     for (const std::uint32_t index : {pair.first, pair.second}) {
       if (looked_at[index] == look) continue;
       looked_at[index] = look;
       looked_for.push_back(index);
     }
-    crowded = crowded || (contact_counts[pair.first] >= contacts::most_contacts &&
-                          contact_counts[pair.second] >= contacts::most_contacts);
+    if (bodies[pair.first].immovable() || bodies[pair.second].immovable()) continue;
+    ++neighbor_counts[pair.first];
+    ++neighbor_counts[pair.second];
+  }
+  if (std::none_of(looked_for.begin(), looked_for.end(),
+                   [this](std::uint32_t index) { return neighbor_counts[index] >= contacts::crowding; }))
+    return false;
+  contact_counts.assign(bodies.size(), 0);
+  for (const pairs::Pair& pair : pairs) {
+    if (!in_crowd(pair)) continue;
     ++contact_counts[pair.first];
     ++contact_counts[pair.second];
   }
-  return crowded;
+  return std::any_of(pairs.begin(), pairs.end(), [this](const pairs::Pair& pair) {
+    return contact_counts[pair.first] > contacts::most_contacts &&
+           contact_counts[pair.second] > contacts::most_contacts;
+  });
+}
+
+bool World::Implementation::in_crowd(const pairs::Pair& pair) const {
+  return neighbor_counts[pair.first] >= contacts::crowding && neighbor_counts[pair.second] >= contacts::crowding &&
+         !bodies[pair.first].immovable() && !bodies[pair.second].immovable();
 }
 
 /// Fills in `pair_memories`. Of memories of no pair, those that are near nothing that stirs are retained.
@@ -280,8 +297,9 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
     const auto [index_a, index_b] = pairs[i];
     const collision::Passage& way_a = passages[index_a];
     const collision::Passage& way_b = passages[index_b];
-    if (crowded && contact_counts[index_a] >= contacts::most_contacts &&
-        contact_counts[index_b] >= contacts::most_contacts && !way_a.body->immovable() && !way_b.body->immovable())
+    const bool counts = crowded && in_crowd(pairs[i]);
+    if (counts && contact_counts[index_a] >= contacts::most_contacts &&
+        contact_counts[index_b] >= contacts::most_contacts)
       continue;
     contacts::PairInContact pair;
     pair.a = index_a;
@@ -314,7 +332,7 @@ void World::Implementation::find_part(std::span<const pairs::Pair> pairs,
     if (contacts::may_strike(way_a, way_b, dt))
       for (const contacts::ContactConstraint& contact : part.contacts.all().subspan(before))
         contacts::note_blow(contact, way_a, way_b, dt, part.blows);
-    if (!crowded) continue;
+    if (!counts) continue;
     ++contact_counts[index_a];
     ++contact_counts[index_b];
   }
@@ -356,7 +374,7 @@ void World::Implementation::find_constraints(double dt) {
     aparts.insert(aparts.end(), found[i].aparts.begin(), found[i].aparts.end());
     for (contacts::ContactConstraint& contact : found[i].contacts.all()) active.push_back(&contact);
   }
-  if (!crowded) find_followers(parts, dt);
+  find_followers(parts, dt);
 }
 
 }  // namespace tweenfall

@@ -44,6 +44,12 @@ class BoundsTree {
     walk(within, see, [](std::uint32_t) { return true; });
   }
 
+  /// The same, as long as `goes_on()`.
+  template <class GoesOn, class See>
+  void visit_while(const Bounds& within, const GoesOn& goes_on, const See& see) const {
+    walk(within, see, [&](std::uint32_t) { return goes_on(); });
+  }
+
   /// Calls `see(item)` for every item in boxes for which `enters(box)`, which may become false for boxes that were
   /// entered before; of two branches first for the one that lies before the other along a direction.
   template <class Enters, class See>

@@ -87,7 +87,7 @@ BroadPhase::Look BroadPhase::look_at(const Body& body, std::uint32_t index, cons
   look.kind = std::isinf(body.radius()) ? Kind::plane : body.immovable() ? Kind::immovable : Kind::movable;
   entry.stirs = body.stirs();
   entry.displaces = body.displaces();
-  pair_counts_[index] = 0;
+  pair_counts_[index] = neighbor_counts_[index] = 0;
   if (look.kind == Kind::plane) return look;
   entry.swept = in_space(swept_bounds(body, load, 0.5 * margin, dt));
   look.still = look.kind == Kind::immovable && !body.has_target;
@@ -196,9 +196,13 @@ bool BroadPhase::may_meet(std::uint32_t a, std::uint32_t b) const {
   return (first.stirs || second.stirs) && overlap(first.swept, second.swept);
 }
 
-/// Of two that may meet: whether they do not have enough pairs already.
-bool BroadPhase::counts(std::uint32_t a, std::uint32_t b, bool both_move) {
-  if (!both_move) return true;
+bool BroadPhase::both_move(std::uint32_t a, std::uint32_t b) const {
+  return entries_[a].kind == Kind::movable && entries_[b].kind == Kind::movable;
+}
+
+/// Of two that may meet and both have many neighbors: whether they do not have enough such pairs already.
+bool BroadPhase::counts(std::uint32_t a, std::uint32_t b) {
+  if (neighbor_counts_[a] < most_pairs || neighbor_counts_[b] < most_pairs || !both_move(a, b)) return true;
   std::uint32_t &first = pair_counts_[a], &second = pair_counts_[b];
   if (first >= most_pairs && second >= most_pairs) return false;
   ++first;
@@ -206,23 +210,25 @@ bool BroadPhase::counts(std::uint32_t a, std::uint32_t b, bool both_move) {
   return true;
 }
 
-bool BroadPhase::takes(std::uint32_t a, std::uint32_t b) {
-  return may_meet(a, b) && counts(a, b, entries_[a].kind == Kind::movable && entries_[b].kind == Kind::movable);
+/// Leaves out of `pairs_` what is too many.
+void BroadPhase::count_out() {
+  bool many = false;
+  for (const auto& [a, b] : pairs_) {
+    if (!both_move(a, b)) continue;
+    many = ++neighbor_counts_[a] >= most_pairs || many;
+    many = ++neighbor_counts_[b] >= most_pairs || many;
+  }
+  if (many) std::erase_if(pairs_, [this](const Pair& pair) { return !counts(pair.first, pair.second); });
 }
 
 void BroadPhase::choose_among_kept(const threads::Workers& work) {
-  enum : char { apart, meet, both_move };
   marks_.resize(kept_.size());
   work.ranges(kept_.size(), worth_merging, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto [a, b] = kept_[i];
-      const bool move = entries_[a].kind == Kind::movable && entries_[b].kind == Kind::movable;
-      marks_[i] = !may_meet(a, b) ? apart : move ? both_move : meet;
-    }
+    for (std::size_t i = begin; i < end; ++i) marks_[i] = may_meet(kept_[i].first, kept_[i].second) ? 1 : 0;
   });
   for (std::size_t i = 0; i < kept_.size(); ++i)
-    if (marks_[i] != apart && counts(kept_[i].first, kept_[i].second, marks_[i] == both_move))
-      pairs_.push_back(kept_[i]);
+    if (marks_[i] != 0) pairs_.push_back(kept_[i]);
+  count_out();
 }
 
 bool BroadPhase::choose_by(PairSearch search, const PairFilter& filter) {
@@ -239,18 +245,32 @@ bool BroadPhase::choose_by(PairSearch search, const PairFilter& filter) {
   if (found.crowded()) return false;
   found.sort();
   for (const Pair& pair : found.found)
-    if (filter.lets(pair.first, pair.second) && takes(pair.first, pair.second)) pairs_.push_back(pair);
+    if (filter.lets(pair.first, pair.second) && may_meet(pair.first, pair.second)) pairs_.push_back(pair);
+  count_out();
   return true;
+}
+
+/// How many that move it may meet, counted as far as it matters.
+std::uint32_t BroadPhase::count_neighbors(std::uint32_t index, const PairFilter& filter) const {
+  std::uint32_t count = 0;
+  movable_.visit_while(
+      entries_[index].swept, [&] { return count < most_pairs; },
+      [&](std::uint32_t other) {
+        if (other != index && filter.lets(index, other) && may_meet(index, other)) ++count;
+      });
+  return count;
 }
 
 /// The same pairs without any that are kept. Of those that have enough, only such are looked for that have not.
 void BroadPhase::choose_in_crowd(std::span<const std::uint32_t> changed, const PairFilter& filter) {
+  for (const std::uint32_t index : changed)
+    if (entries_[index].kind == Kind::movable) neighbor_counts_[index] = count_neighbors(index, filter);
   movable_.open_all();
   for (const std::uint32_t index : changed) {
     if (entries_[index].kind != Kind::movable) continue;
     const Bounds& swept = entries_[index].swept;
     immovable_.visit(swept, [&](std::uint32_t other) {
-      if (filter.lets(index, other) && takes(index, other))
+      if (filter.lets(index, other) && may_meet(index, other))
         pairs_.emplace_back(std::min(index, other), std::max(index, other));
     });
     near_.clear();
@@ -263,7 +283,7 @@ void BroadPhase::choose_in_crowd(std::span<const std::uint32_t> changed, const P
       movable_.visit(swept, see);
     std::sort(near_.begin(), near_.end());
     for (const std::uint32_t other : near_) {
-      if (!takes(index, other)) continue;
+      if (!may_meet(index, other) || !counts(index, other)) continue;
       pairs_.emplace_back(index, other);
       if (pair_counts_[other] == most_pairs) movable_.close(other);
     }
@@ -304,6 +324,7 @@ const std::vector<Pair>& BroadPhase::find(const std::vector<Body>& bodies, std::
                                           double margin, double dt, const threads::Workers& work, PairSearch search) {
   entries_.resize(std::max(entries_.size(), bodies.size()));
   pair_counts_.resize(entries_.size());
+  neighbor_counts_.resize(entries_.size());
   looks_.resize(changed.size());
   work.ranges(changed.size(), worth_a_part, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

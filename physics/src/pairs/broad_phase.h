@@ -18,8 +18,9 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;  ///< indices, smaller fir
 /// are kept from step to step, and looked for again only around what has left its box.
 class BroadPhase {
  public:
-  /// Two bodies that move by themselves and both have so many pairs with such bodies already are no pair: thousands at
-  /// one place part all the same.
+  /// Of bodies that move by themselves and may meet so many such bodies, two that both have so many pairs among
+  /// themselves already are no pair: thousands at one place part all the same. What is large and bears many small ones
+  /// is no crowd: each of those meets few.
   static constexpr std::uint32_t most_pairs = 128;
 
   /// Pairs, sorted, that may meet and whose swept bounds overlap, of which at least one moves by itself and at least
@@ -66,8 +67,10 @@ class BroadPhase {
   bool look_around(std::uint32_t index, const PairFilter& filter, std::size_t most, std::vector<Pair>& fresh);
   void merge_fresh(std::size_t count, const threads::Workers& work);
   [[nodiscard]] bool may_meet(std::uint32_t a, std::uint32_t b) const;
-  bool counts(std::uint32_t a, std::uint32_t b, bool both_move);
-  bool takes(std::uint32_t a, std::uint32_t b);
+  [[nodiscard]] bool both_move(std::uint32_t a, std::uint32_t b) const;
+  bool counts(std::uint32_t a, std::uint32_t b);
+  void count_out();
+  [[nodiscard]] std::uint32_t count_neighbors(std::uint32_t index, const PairFilter& filter) const;
   void choose_among_kept(const threads::Workers& work);
   /// @return false in a crowd
   bool choose_by(PairSearch search, const PairFilter& filter);
@@ -75,9 +78,10 @@ class BroadPhase {
   void add_planes(const std::vector<state::Body>& bodies, std::span<const std::uint32_t> changed,
                   const PairFilter& filter, double margin);
 
-  std::vector<Entry> entries_;              ///< by body
-  std::vector<std::uint32_t> pair_counts_;  ///< by body: found so far
-  std::vector<Look> looks_;                 ///< at those that have changed
+  std::vector<Entry> entries_;                  ///< by body
+  std::vector<std::uint32_t> pair_counts_;      ///< by body: found so far among those with many neighbors
+  std::vector<std::uint32_t> neighbor_counts_;  ///< by body that moves: of those that move
+  std::vector<Look> looks_;                     ///< at those that have changed
   BoundsTree movable_, immovable_;
   std::vector<std::uint32_t> planes_;
   std::vector<std::uint32_t> renewed_;

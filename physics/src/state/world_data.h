@@ -51,8 +51,9 @@ struct World::Implementation : state::WorldState, step::Workspace {
                      const collision::Passage& way_a, const collision::Passage& way_b, double dt,
                      contacts::FoundPart* told_apart) const;
   /// Which memories the pairs of the broad phase have, and which of the others are kept; @return whether two bodies of
-  /// a pair may each have as many contacts as a body can
+  /// a pair may each have more contacts in a crowd than a body gets there
   bool recall(std::span<const pairs::Pair> pairs);
+  [[nodiscard]] bool in_crowd(const pairs::Pair& pair) const;
   void find_memories(std::span<const pairs::Pair> pairs);
   void fetch_ahead(std::span<const pairs::Pair> pairs, std::span<const contacts::PairMemories> memories_of,
                    std::size_t i) const;

@@ -103,8 +103,9 @@ struct Workspace {
   std::vector<contacts::PairMemories> pair_memories;  ///< by pair of the broad phase
   std::vector<contacts::KnownApart> aparts;           ///< of pairs that do not touch, sorted
   std::vector<char> flags;
-  std::vector<char> carried;  ///< by island: something keyed moves it
-  std::vector<std::uint32_t> contact_counts;
+  std::vector<char> carried;                   ///< by island: something keyed moves it
+  std::vector<std::uint32_t> neighbor_counts;  ///< by body: pairs of what moves by itself
+  std::vector<std::uint32_t> contact_counts;   ///< by body, in a crowd: with others in it
   std::vector<double> stillness;
   islands::Islands islands;
   islands::IslandSorter island_sorter;

@@ -157,8 +157,11 @@ struct Crowd {
   }
 
   [[nodiscard]] std::vector<pairs::Pair> counted_out() const {
-    std::vector<pairs::Pair> result;
-    std::map<std::uint32_t, std::uint32_t> counts;
+    std::vector<pairs::Pair> all, result;
+    std::map<std::uint32_t, std::uint32_t> neighbors, counts;
+    const auto both_move = [this](const pairs::Pair& pair) {
+      return !bodies[pair.first].immovable() && !bodies[pair.second].immovable();
+    };
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
       for (std::uint32_t k = i + 1; k < bodies.size(); ++k) {
         const state::Body &a = bodies[i], &b = bodies[k];
@@ -166,13 +169,21 @@ struct Crowd {
         if (!near(a, loads[i], b, loads[k])) continue;
         if ((a.groups() & b.collides_with()) == 0 || (b.groups() & a.collides_with()) == 0 || ignored.contains(k, i))
           continue;
-        if (!a.immovable() && !b.immovable()) {
-          if (counts[i] >= pairs::BroadPhase::most_pairs && counts[k] >= pairs::BroadPhase::most_pairs) continue;
-          ++counts[i];
-          ++counts[k];
-        }
-        result.emplace_back(i, k);
+        all.emplace_back(i, k);
+        if (!both_move(all.back())) continue;
+        ++neighbors[i];
+        ++neighbors[k];
       }
+    constexpr std::uint32_t most = pairs::BroadPhase::most_pairs;
+    for (const pairs::Pair& pair : all) {
+      const auto [i, k] = pair;
+      if (both_move(pair) && neighbors[i] >= most && neighbors[k] >= most) {
+        if (counts[i] >= most && counts[k] >= most) continue;
+        ++counts[i];
+        ++counts[k];
+      }
+      result.push_back(pair);
+    }
     return result;
   }
 };

@@ -146,3 +146,23 @@ TEST_CASE("in a plane thousands at one point part without end of time or NaN, an
   CHECK(near(far.motion(box).position.y(), 0.5, 1e-3));
   CHECK(near(far.motion(box).position.x(), 1e8, 1e-13));
 }
+
+TEST_CASE("in a plane a beam that bears many lies on a beam that bears many, whoever came first") {
+  for (const bool beams_first : {true, false}) {
+    CAPTURE(beams_first);
+    planar::World world;
+    world.add({.shape = {planar::HalfPlane{}}, .fixed = true});
+    BodyId top;
+    const auto add_beams = [&] {
+      world.add({.shape = {planar::Box{Vec2(11, 0.1)}}, .mass = 50, .motion = {.position = Vec2(5, 0.1)}});
+      top = world.add({.shape = {planar::Box{Vec2(5, 0.1)}}, .mass = 50, .motion = {.position = Vec2(0, 0.3)}});
+    };
+    if (beams_first) add_beams();
+    for (int i = 0; i < 70; ++i)
+      for (const Vec2& on : {Vec2(-4.9, 0.45), Vec2(5.2, 0.25)})
+        world.add({.shape = {planar::Circle{0.05}}, .mass = 0.1, .motion = {.position = on + Vec2(0.14 * i, 0)}});
+    if (!beams_first) add_beams();
+    for (int i = 0; i < 30; ++i) world.step(1.0 / 60);
+    CHECK((world.motion(top).position - Vec2(0, 0.3)).norm() < 5e-3);
+  }
+}

@@ -151,3 +151,41 @@ TEST_CASE("crates that are pushed out of the floor, and of each other, go straig
         }
       }
 }
+
+TEST_CASE("a plate that bears many lies on a plate that bears many, whoever came first") {
+  for (const bool plates_first : {true, false})
+    for (const int rows : {7, 12}) {
+      CAPTURE(plates_first);
+      CAPTURE(rows);
+      World world;
+      world.add({.shape = {Plane{}}, .fixed = true});
+      BodyId top;
+      const auto add_plates = [&] {
+        world.add({.shape = {Box{Vec3(2.2, 0.1, 1.1)}}, .mass = 50, .motion = {{.position = Vec3(1, 0.1, 0)}}});
+        top = world.add({.shape = {Box{Vec3(1, 0.1, 1)}}, .mass = 50, .motion = {{.position = Vec3(0, 0.3, 0)}}});
+      };
+      if (plates_first) add_plates();
+      for (int i = 0; i < rows; ++i)
+        for (int k = 0; k < rows; ++k)
+          for (const Vec3& on : {Vec3(-0.9, 0.45, -0.9), Vec3(1.2, 0.25, -0.9)})
+            world.add({.shape = {Sphere{0.05}},
+                       .mass = 0.1,
+                       .motion = {{.position = on + 1.8 / (rows - 1) * Vec3(i, 0, k)}}});
+      if (!plates_first) add_plates();
+      for (int i = 0; i < 30; ++i) world.step(1.0 / 60);
+      CHECK((world.motion(top).pose.position - Vec3(0, 0.3, 0)).norm() < 5e-3);
+    }
+}
+
+TEST_CASE("of many at one point each touches no more others than push it away") {
+  constexpr int count = 1000;
+  constexpr std::size_t each = 16;
+  const std::vector<Shape> shapes{{Sphere{0.1}}, {Box{Vec3(0.1, 0.1, 0.1)}}, {Capsule{0.08, 0.07}}};
+  World world({.gravity = Vec3::Zero()});
+  for (int i = 0; i < count; ++i) world.add({.shape = shapes[static_cast<std::size_t>(i) % shapes.size()]});
+  for (int i = 0; i < 3; ++i) {
+    world.step(1.0 / 60);
+    CHECK(world.contacts().size() > count);
+    CHECK(world.contacts().size() <= each * count);
+  }
+}

@@ -83,6 +83,31 @@ void NearPairs::restore(const std::vector<Body>& bodies, const std::vector<Makeu
   tree_.settle();
 }
 
+/// How many that move by themselves it is near, counted as far as it matters.
+/// @param all  or only those that have as many neighbors as matter
+std::uint32_t NearPairs::neighbors(std::uint32_t index, const std::vector<Body>& bodies,
+                                   const std::vector<Makeup>& makeups, bool all) {
+  std::uint32_t count = 0;
+  tree_.visit_while(
+      tree_.of(index), [&] { return count < crowding; },
+      [&](std::uint32_t other) {
+        if (other == index || !bodies[other].movable) return;
+        if (!may_meet(bodies[index], makeups[index], bodies[other], makeups[other])) return;
+        if (!all) {
+          if (neighbors_[other] == unknown) neighbors_[other] = neighbors(other, bodies, makeups, true);
+          if (neighbors_[other] < crowding) return;
+        }
+        ++count;
+      });
+  return count;
+}
+
+bool NearPairs::is_full(std::uint32_t index, const std::vector<Body>& bodies, const std::vector<Makeup>& makeups) {
+  if (counts_[index] < most || !bodies[index].movable) return false;
+  if (crowds_[index] == unknown) crowds_[index] = neighbors(index, bodies, makeups, false);
+  return crowds_[index] >= crowding;
+}
+
 void NearPairs::look_around(std::uint32_t index, const std::vector<Body>& bodies, const std::vector<Makeup>& makeups,
                             const std::vector<Pair>& apart) {
   const Makeup& makeup = makeups[index];
@@ -95,7 +120,7 @@ void NearPairs::look_around(std::uint32_t index, const std::vector<Body>& bodies
   if (makeup.endless()) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
       if (bodies[i].alive && !makeups[i].endless()) see(i);
-  } else if (counts_[index] >= most) {
+  } else if (is_full(index, bodies, makeups)) {
     tree_.visit_open(tree_.of(index), see);
   } else {
     tree_.visit(tree_.of(index), see);
@@ -107,12 +132,13 @@ void NearPairs::look_around(std::uint32_t index, const std::vector<Body>& bodies
     const Pair pair = std::minmax(index, other);
     if (!apart.empty() && std::binary_search(apart.begin(), apart.end(), pair)) continue;
     if (bodies[index].movable && bodies[other].movable) {
-      if (counts_[index] >= most && counts_[other] >= most) continue;
-      for (const std::uint32_t one : {index, other})
-        if (++counts_[one] >= most && !closed_[one]) {
-          closed_[one] = 1;
-          tree_.close(one);
-        }
+      if (is_full(index, bodies, makeups) && is_full(other, bodies, makeups)) continue;
+      for (const std::uint32_t one : {index, other}) {
+        ++counts_[one];
+        if (closed_[one] || !is_full(one, bodies, makeups)) continue;
+        closed_[one] = 1;
+        tree_.close(one);
+      }
     }
     meet_parts(pair, makeups);
   }
@@ -190,6 +216,8 @@ void NearPairs::update(std::vector<Body>& bodies, const std::vector<Makeup>& mak
   is_renewed_.assign(bodies.size(), 0);
   for (const std::uint32_t i : renewed_) is_renewed_[i] = 1;
   counts_.assign(bodies.size(), 0);
+  neighbors_.assign(bodies.size(), unknown);
+  crowds_.assign(bodies.size(), unknown);
   closed_.assign(bodies.size(), 0);
   Pair counted(0, 0);
   for (const Meeting& meeting : meetings) {
@@ -203,7 +231,7 @@ void NearPairs::update(std::vector<Body>& bodies, const std::vector<Makeup>& mak
   }
   tree_.open_all();
   for (std::uint32_t i = 0; i < bodies.size(); ++i)
-    if (counts_[i] >= most && bodies[i].alive) {
+    if (bodies[i].alive && is_full(i, bodies, makeups)) {
       closed_[i] = 1;
       tree_.close(i);
     }

@@ -29,9 +29,10 @@ struct Encounter {
 /// when it may have left it.
 class NearPairs {
  public:
-  /// Two bodies that both are near so many that move by themselves already are no pair: thousands at one place part all
-  /// the same.
-  static constexpr std::uint32_t most = 48;
+  /// What moves by itself and is near so many that are near so many is in a crowd; there two bodies that both have so
+  /// many pairs already are no pair: thousands at one place part all the same. What is large and bears many small ones
+  /// is in none.
+  static constexpr std::uint32_t crowding = 96, most = 24;
 
   /// Brings the meetings up to date, sorted; those that stay keep what they know.
   /// @param apart  sorted pairs that joints keep from touching
@@ -42,6 +43,12 @@ class NearPairs {
   void restore(const std::vector<Body>& bodies, const std::vector<Makeup>& makeups);
 
  private:
+  static constexpr std::uint32_t unknown = 0xffffffff;
+
+  [[nodiscard]] std::uint32_t neighbors(std::uint32_t index, const std::vector<Body>& bodies,
+                                        const std::vector<Makeup>& makeups, bool all);
+  /// Whether it has as many pairs as it gets in a crowd, and is in one.
+  [[nodiscard]] bool is_full(std::uint32_t index, const std::vector<Body>& bodies, const std::vector<Makeup>& makeups);
   void box(const Body& body, const Makeup& makeup, std::uint32_t index);
   void look_around(std::uint32_t index, const std::vector<Body>& bodies, const std::vector<Makeup>& makeups,
                    const std::vector<Pair>& apart);
@@ -54,7 +61,8 @@ class NearPairs {
   std::vector<std::vector<Bounds>> part_boxes_;  ///< by body; of compounds, each with the room that their box has
   std::vector<std::uint32_t> renewed_, seen_;
   std::vector<char> is_renewed_;
-  std::vector<std::uint32_t> counts_;  ///< of pairs of two that move by themselves
+  std::vector<std::uint32_t> counts_;              ///< of pairs of two that move by themselves
+  std::vector<std::uint32_t> neighbors_, crowds_;  ///< counted so far: near it, and of those in a crowd
   std::vector<char> closed_;
   std::vector<Encounter> fresh_;
   std::vector<Meeting> merged_;
