@@ -35,7 +35,7 @@ std::optional<double> place_of(const Rounds& rounds, const ClipEvent& event) {
 struct Span {
   double first = 0, last = -1;
 };
-/// The rounds that may hold phases from `low` to `high`.
+/// The rounds that may hold phases from `low` to `high`. They are passed by their count: far away one more is the same.
 Span rounds_between(const Rounds& rounds, double low, double high) {
   if (!rounds.loops()) return {0, 0};
   Span span{std::floor(low / rounds.length) - 1, std::floor(high / rounds.length) + 1};
@@ -121,7 +121,8 @@ std::string refusal(const Play& play, const Clip& clip, const std::string& stret
 std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip, double phase) {
   std::vector<OpenInterval> open;
   const Span span = rounds_between(rounds, phase, phase);
-  for (double round = span.first; round <= span.last; ++round)
+  for (double passed = 0; passed <= span.last - span.first; ++passed) {
+    const double round = span.first + passed;
     for (std::size_t i = 0; i < clip.events.size(); ++i) {
       if (!clip.events[i].is_interval()) continue;
       const std::optional<Inside> inside = clipped(rounds, clip.events[i]);
@@ -129,6 +130,7 @@ std::vector<OpenInterval> open_intervals(const Rounds& rounds, const Clip& clip,
       const auto [low, high] = phases_of(rounds, round, *inside);
       if (low < phase && phase < high) open.push_back({i, round});
     }
+  }
   return open;
 }
 
@@ -137,7 +139,8 @@ std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, s
   std::vector<std::pair<double, FiredEvent>> passed;
   const double direction = to < from ? -1 : 1;
   const Span span = rounds_between(rounds, std::min(from, to), std::max(from, to));
-  for (double round = span.first; round <= span.last; ++round)
+  for (double count = 0; count <= span.last - span.first; ++count) {
+    const double round = span.first + count;
     for (const ClipEvent& event : clip.events) {
       const std::optional<double> place = event.is_interval() ? std::nullopt : place_of(rounds, event);
       if (!place) continue;
@@ -148,6 +151,7 @@ std::vector<FiredEvent> passed_moments(const Rounds& rounds, const Clip& clip, s
       if (stands || passes)
         passed.push_back({direction * phase, {time, event.name, event.data, index, FiredEvent::Kind::moment}});
     }
+  }
   std::ranges::stable_sort(passed, {}, &std::pair<double, FiredEvent>::first);
   std::vector<FiredEvent> events;
   events.reserve(passed.size());

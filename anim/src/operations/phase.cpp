@@ -231,8 +231,11 @@ void Phase::each_event(const Log& log, std::size_t clip, const Clip& described, 
     const Step step(*this, log, start, stop);
     const double next = next_stop(log, start, stop.time), end = std::max(begin, std::min(next, to));
     const double low = way(clip, duration, step.at(begin)), high = way(clip, duration, step.at(end));
-    for (double turn = std::floor(low / duration) - 1; turn * duration <= high; ++turn)
+    // By their count: far away a turn more is the same.
+    const double first = std::floor(low / duration) - 1;
+    for (double count = 0; count <= high / duration - first + 1; ++count)
       for (const Meeting& meeting : round) {
+        const double turn = first + count;
         const double met = meeting.way + turn * duration;
         if (met > high || met < low || (met == low && !closed)) continue;
         double before = begin, time = end;  // the way is short of it at the one, and not at the other

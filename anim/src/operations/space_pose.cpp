@@ -119,13 +119,16 @@ class SyncedSpace : public Operation {
   [[nodiscard]] std::optional<double> next_event(const Log& log, std::string_view name, double start, double after,
                                                  double until) const override {
     std::optional<double> first;
-    for (std::size_t i = 0; i < clips_.size(); ++i)
+    for (std::size_t i = 0; i < clips_.size(); ++i) {
+      const std::vector<ClipEvent>& events = clips_[i]->clip.events;
+      if (std::ranges::find(events, name, &ClipEvent::name) == events.end()) continue;
       phase_.each_event(log, i, clips_[i]->clip, start, after, first.value_or(until),
                         [&](double time, const ClipEvent& event, GraphEvent::Kind kind) {
                           if (event.name != name || kind == GraphEvent::Kind::end) return true;
                           first = time;
                           return false;
                         });
+    }
     return first;
   }
 

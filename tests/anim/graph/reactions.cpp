@@ -204,6 +204,12 @@ TEST_CASE("no time is too far away for a graph that waits for events of loops") 
   const std::vector<Motion> near = pose_of(animation, 10.3);
   for (const Motion& motion : pose_of(animation, 1e17)) CHECK(motion.pose.position.allFinite());
   CHECK(same_bits(pose_of(animation, 10.3), near));
+  const GraphDescription spaced{
+      .name = "figure",
+      .parameters = {{.name = "pace"}},
+      .poses = {{"gait", SpacePose{.by = {ByParameter{"pace"}}, .entries = {{"walk", {0, 0}}, {"idle", {1, 0}}}}}},
+      .reactions = {{"landed", "pace", 1}}};  // which is told by neither
+  for (const Motion& motion : pose_of(animated({spaced}), 1e17)) CHECK(motion.pose.position.allFinite());
   // What comes in from outside still counts, there and before.
   const Animation told = animation.with_input("figure", {.time = 10.5, .name = "ready", .value = 1});
   CHECK(told.graph("figure", 10.9).passages(0).size() == 1);

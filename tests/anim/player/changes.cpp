@@ -141,6 +141,20 @@ TEST_CASE("ten thousand changes are found again at any time, and leave no stack 
   player = Player(Play{}, clip);
 }
 
+TEST_CASE("a play is changed after more rounds than can be told apart") {
+  Clip clip{.name = "clip", .duration = 2, .loop = {LoopMode::repeat, 0}};
+  clip.events = {{.from = 0.5, .to = 1.5, .name = "span"}, {.from = 1, .to = 1, .name = "mark"}};
+  for (const double time : {1e15, 1e17, 3.5e38, 1e300}) {
+    const Player player(Play{}, clip);
+    const Player stopped = player.changed(clip, time, playing::Stop{.seconds = 0.5});
+    CHECK(stopped.is_gone(2 * time));
+    const Player sought = player.changed(clip, time, playing::Seek{.time = 1.2, .events = true});
+    CHECK(sought.clock(time).time >= 0);
+    CHECK(sought.clock(time).time <= 2);
+    CHECK(sought.events_of_change(clip).size() < 8);
+  }
+}
+
 TEST_CASE("a play by name is changed in an animation, unknown names are told with the nearest") {
   auto nodes = std::make_shared<const Hierarchy>(std::vector<Node>{{"box"}});
   Clip low{.name = "low", .duration = 1}, high{.name = "high", .duration = 1};
