@@ -39,11 +39,11 @@ void for_each_moving(const Clip& clip, const TrackFilter& counts, const Visit& v
   }
 }
 
-/// Times inside (0, duration) at which a curve jumps.
+/// Times inside (0, duration] at which a curve jumps.
 template <class T>
 void collect(const Curve<T>& curve, double duration, std::vector<double>& jumps) {
   for (const double knot : curve.knots())
-    if (knot > 0 && knot < duration && differ(curve.value(knot, Side::in), curve.value(knot, Side::out)))
+    if (knot > 0 && knot <= duration && differ(curve.value(knot, Side::in), curve.value(knot, Side::out)))
       jumps.push_back(knot);
   // A track that repeats within its clip jumps at each of its own seams.
   const double length = curve.duration();

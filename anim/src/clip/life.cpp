@@ -1,5 +1,7 @@
 #include "clip/life.h"
 
+#include "clip/landing.h"
+
 #include <tweenfall/curves/keys.h>
 
 #include <utility>
@@ -41,13 +43,14 @@ Rounds rounds_of(const Play& play, const Clip& clip) noexcept {
   Rounds rounds{.from = play.from,
                 .length = play.to.value_or(clip.duration) - play.from,
                 .mode = loop.mode,
-                .reverse = play.reverse};
+                .reverse = play.reverse,
+                .lands = play.to.value_or(clip.duration) == clip.duration && lands_on_last_key(clip)};
   count_rounds(rounds, loop.count, play.speed.first_direction() < 0);
   return rounds;
 }
 
-Rounds rounds_of(double duration, const Loop& loop, bool backwards) noexcept {
-  Rounds rounds{.length = duration, .mode = loop.mode};
+Rounds rounds_of(double duration, const Loop& loop, bool backwards, bool lands) noexcept {
+  Rounds rounds{.length = duration, .mode = loop.mode, .lands = lands};
   count_rounds(rounds, loop.count, backwards);
   return rounds;
 }
@@ -170,7 +173,8 @@ ClipClock clock_of(const Rounds& rounds, const Running& at, Side side, const Pac
     clock.rate = flip ? -pace : pace;
     clock.side = from_below != flip ? Side::in : Side::out;
   } else {
-    clock.side = at.ended && at.backwards == flip ? Side::in : Side::out;
+    const bool landed = rounds.lands && clock.time == clock.to;
+    clock.side = at.ended && at.backwards == flip && !landed ? Side::in : Side::out;
   }
   return clock;
 }

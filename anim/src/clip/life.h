@@ -23,6 +23,7 @@ struct Rounds {
   double left_out = 0;  ///< rounds before phase 0: an even number of very many, so that no digits are lost to them
   double counted = 0;   ///< rounds from phase 0 on, where they are counted
   double low = 0, total = 0;
+  bool lands = false;  ///< its end is that of the clip, which there jumps onto its last keys
 
   [[nodiscard]] bool loops() const noexcept { return mode != LoopMode::once && length > 0 && std::isfinite(length); }
   [[nodiscard]] bool is_flipped(double round) const noexcept {
@@ -37,8 +38,8 @@ struct Rounds {
 };
 
 [[nodiscard]] Rounds rounds_of(const Play& play, const Clip& clip) noexcept;
-/// Of a clip that is played whole.
-[[nodiscard]] Rounds rounds_of(double duration, const Loop& loop, bool backwards) noexcept;
+/// Of a clip that is played whole. @param lands  as `lands_on_last_key` says
+[[nodiscard]] Rounds rounds_of(double duration, const Loop& loop, bool backwards, bool lands) noexcept;
 /// The clock of a play at one speed that starts at `at`: what `Course` gives, without finding when it ends.
 [[nodiscard]] ClipClock steady_clock(const Rounds& rounds, double at, double speed, double time, Side side) noexcept;
 

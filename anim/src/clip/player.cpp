@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "clip/landing.h"
 #include "clip/life.h"
 
 namespace tweenfall {
@@ -317,11 +318,12 @@ ClipClock clock_at(const Play& play, const Clip& clip, double stage_time, Side s
 }
 
 ClipClock clock_at(double at, double speed, const Clip& clip, double stage_time, Side side) noexcept {
-  return clips::steady_clock(clips::rounds_of(clip.duration, clip.loop, speed < 0), at, speed, stage_time, side);
+  return clips::steady_clock(clips::rounds_of(clip.duration, clip.loop, speed < 0, clips::lands_on_last_key(clip)), at,
+                             speed, stage_time, side);
 }
 
 double end_time(double at, double speed, const Clip& clip) noexcept {
-  return clips::Course(clips::rounds_of(clip.duration, clip.loop, speed < 0), speed, at, 0).end;
+  return clips::Course(clips::rounds_of(clip.duration, clip.loop, speed < 0, false), speed, at, 0).end;
 }
 
 double end_time(const Play& play, const Clip& clip) noexcept {

@@ -1,6 +1,7 @@
 #include <tweenfall/anim/play.h>
 #include <tweenfall/curves/number_text.h>
 
+#include "clip/life.h"
 #include "graph/binder.h"
 #include "operations/account.h"
 
@@ -23,7 +24,7 @@ class PlayedClip : public Operation {
 
   void pose(const Log&, const Moment& moment, const Scratch& scratch, std::span<Motion> out) const noexcept override {
     std::ranges::copy(scratch.below, out.begin());
-    clip_.sample(nodes_, clock_at(moment.start + at_, speed_, clip_.clip(), moment.time, moment.side), out);
+    clip_.sample(nodes_, clock(moment), out);
   }
 
   void events(const Log&, const Stretch& stretch, std::vector<GraphEvent>& out) const override {
@@ -57,10 +58,15 @@ class PlayedClip : public Operation {
   }
   [[nodiscard]] std::vector<const pose::BoundClip*> own_clips() const override { return {&clip_}; }
   [[nodiscard]] ClipClock clock_of(const Log&, std::size_t, const Moment& moment) const noexcept override {
-    return clock_at(moment.start + at_, speed_, clip_.clip(), moment.time, moment.side);
+    return clock(moment);
   }
 
  private:
+  [[nodiscard]] ClipClock clock(const Moment& moment) const noexcept {
+    const Clip& clip = clip_.clip();
+    return clips::steady_clock(clips::rounds_of(clip.duration, clip.loop, speed_ < 0, clip_.lands()),
+                               moment.start + at_, speed_, moment.time, moment.side);
+  }
   [[nodiscard]] Play play(double start) const { return {.clip = number_, .at = start + at_, .speed = speed_}; }
   static GraphEvent::Kind kind_of(FiredEvent::Kind kind) {
     if (kind == FiredEvent::Kind::begin) return GraphEvent::Kind::begin;

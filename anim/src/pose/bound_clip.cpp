@@ -1,5 +1,7 @@
 #include "pose/bound_clip.h"
 
+#include "clip/landing.h"
+
 #include <tweenfall/anim/component.h>
 #include <tweenfall/curves/rotation.h>
 
@@ -106,7 +108,8 @@ class BoundClip::Binding {
   std::optional<Curve<Quat>> turned_;
 };
 
-BoundClip::BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& problems) : clip_(&clip) {
+BoundClip::BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& problems)
+    : clip_(&clip), lands_(clips::lands_on_last_key(clip)) {
   entry_of_.assign(nodes.size(), no_entry);
   std::deque<Binding> driven;
   for (const Track& track : clip.tracks) {

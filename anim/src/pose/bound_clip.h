@@ -42,6 +42,7 @@ class BoundClip {
   BoundClip(const Clip& clip, const Hierarchy& nodes, std::string& problems);
 
   [[nodiscard]] const Clip& clip() const noexcept { return *clip_; }
+  [[nodiscard]] bool lands() const noexcept { return lands_; }  ///< as `lands_on_last_key` says
   [[nodiscard]] const std::vector<Entry>& entries() const noexcept { return entries_; }
   /// Index of a node's entry; `no_entry` where the clip leaves the node alone.
   [[nodiscard]] std::uint32_t entry_of(std::size_t node) const noexcept {
@@ -74,6 +75,7 @@ class BoundClip {
   MotionCurves curves_;                  // one thing for each entry
   std::vector<Number> numbers_;          // by entry
   bool finished_ = true;                 // no entry is relative or has numbers
+  bool lands_;
 };
 
 }  // namespace tweenfall::pose

@@ -134,6 +134,25 @@ TEST_CASE("a weight that jumps throws nothing") {
   CHECK(stage.twist(1).linear.norm() < 1);
 }
 
+TEST_CASE("a clip that jumps onto its last key throws nothing that stands in between") {
+  StageDescription description;
+  description.world.gravity = {0, 0, 0};
+  description.nodes.push_back({.name = "lamp", .body = ball(5)});
+  description.nodes.push_back({.name = "ball", .rest = {.position = {2.5, 0, 0}}, .body = ball(1)});
+  Clip clip{.name = "held", .duration = 0.505};
+  clip.tracks.push_back({"lamp", "position",
+                         keyed_curve<Vec3>({{.time = 0, .value = Vec3(2, 0, 0), .ease = Ease::hold()},
+                                            {.time = 0.505, .value = Vec3(3, 0, 0)}})});
+  description.clips = {clip};
+  description.plays = {{}};
+  Stage stage(description);
+  stage.advance_to(1);
+  CHECK(stage.world(stage.node("lamp")).motion.pose.position == Vec3(3, 0, 0));
+  CHECK(stage.twist(stage.node("lamp")).linear == Vec3(0, 0, 0));
+  CHECK(stage.world(stage.node("ball")).motion.pose.position == Vec3(2.5, 0, 0));
+  CHECK(stage.twist(stage.node("ball")).linear == Vec3(0, 0, 0));
+}
+
 TEST_CASE("what is read before a caller's change does not know of it") {
   StageDescription description;
   description.step = 0.1;

@@ -15,7 +15,7 @@ using TrackFilter = std::function<bool(const Track&)>;
 /// Whether the track moves its node: its position, rotation or scale, or a number of them.
 [[nodiscard]] bool moves_its_node(const Track& track);
 
-/// Clip times inside the clip at which what moves a node jumps, in order.
+/// Clip times inside the clip, or at its end, at which what moves a node jumps, in order.
 [[nodiscard]] std::vector<double> jumps_of(const Clip& clip, const TrackFilter& counts = {});
 
 /// Whether something that moves a node is elsewhere where a loop begins anew.
