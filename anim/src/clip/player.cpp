@@ -48,6 +48,15 @@ Curve<double> faded(const Sample<double>& from, double to, double seconds, const
   return keyed_curve<double>({{.time = 0, .value = from.value, .ease = *ease}, {.time = seconds, .value = to}});
 }
 
+void require_weight(double weight) {
+  if (!(weight >= 0 && weight <= 1)) throw std::invalid_argument("a weight is from 0 to 1, not " + number_text(weight));
+}
+
+Curve<double> weight_of(const PlayKeys& keys) {
+  for (const PlayKey& key : keys) require_weight(key.value);
+  return curve_of(keys);
+}
+
 void require_seconds(double seconds) {
   if (!(seconds >= 0) || !std::isfinite(seconds))
     throw std::invalid_argument("a play fades in 0 s or more, not " + number_text(seconds));
@@ -106,7 +115,7 @@ Curve<double> curve_of(const PlayKeys& keys) {
 Play play_of(const playing::Start& start, std::size_t clip) {
   return {.clip = clip,
           .speed = PlaySpeed(curve_of(start.speed)),
-          .weight = curve_of(start.weight),
+          .weight = clips::weight_of(start.weight),
           .mask = start.mask,
           .from = start.from,
           .to = start.to,
@@ -225,12 +234,11 @@ Player Player::changed(const Clip& clip, double time, const PlayAction& action) 
                    tell_leap(old.play.clip);
                  },
                  [&](const playing::FadeTo& fade) {
-                   if (!(fade.weight >= 0 && fade.weight <= 1))
-                     throw std::invalid_argument("a weight is from 0 to 1, not " + number_text(fade.weight));
+                   clips::require_weight(fade.weight);
                    fade_to(fade.weight, fade.seconds, fade.ease);
                  },
                  [&](const playing::Weigh& weigh) {
-                   next->play.weight = curve_of(weigh.weight);
+                   next->play.weight = clips::weight_of(weigh.weight);
                    next->weight_from = time;
                    next->fades_in = false;
                  },

@@ -3,6 +3,8 @@
 
 #include <tweenfall/anim/animation.h>
 
+#include <stdexcept>
+
 using namespace tweenfall;
 using namespace tweenfall::test;
 
@@ -23,6 +25,16 @@ TEST_CASE("asked for another speed, a clock goes on from where it is; the time b
     CHECK(ramp.clock(time).rate == slow.clock(time).rate);
   }
   for (const double time : {1.3, 2.0, 3.9}) CHECK(ramp.clock(time).time == fast.clock(time).time);
+}
+
+TEST_CASE("a weight that a play is asked to take is from 0 to 1, at each of its keys") {
+  const Clip clip{.name = "clip", .duration = 2};
+  for (const double weight : {1e308, 1.01, -0.01}) {
+    CHECK_THROWS_AS((void)Player(Play{}, clip).changed(clip, 1, playing::Weigh{{{0, 1}, {1, weight}}}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS((void)play_of(playing::Start{.weight = {{0, weight}}}, 0), std::invalid_argument);
+  }
+  CHECK(Player(Play{}, clip).changed(clip, 1, playing::Weigh{{{0, 0.5}}}).weight(1).value == 0.5);
 }
 
 TEST_CASE("a fade that says no ease keeps the weight's rate, stays within 0 and 1 and comes to rest") {
