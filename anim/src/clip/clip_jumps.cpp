@@ -1,6 +1,7 @@
 #include <tweenfall/anim/clip_jumps.h>
 #include <tweenfall/anim/component.h>
-#include <tweenfall/curves/rotation.h>
+
+#include "clip/differ.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,16 +11,6 @@ namespace tweenfall {
 
 namespace clips {
 namespace {
-
-bool differ(double a, double b) {
-  return (a - b) * (a - b) > 1e-18 * (1 + a * a);
-}
-bool differ(const Vec3& a, const Vec3& b) {
-  return (a - b).squaredNorm() > 1e-18 * (1 + a.squaredNorm());
-}
-bool differ(const Quat& a, const Quat& b) {
-  return (hemisphere_aligned(a, b).coeffs() - b.coeffs()).squaredNorm() > 1e-18;
-}
 
 Property property_of(const Track& track) {
   const auto component = component_named(track.property);

@@ -32,6 +32,8 @@ class ExactPose {
   void sample(double time, Side side, std::span<Motion> local) const;
 
  private:
+  [[nodiscard]] ClipClock clock(double time, Side side) const;
+
   const Clip& clip_;
   const Hierarchy& nodes_;
   std::string problems_;

@@ -72,3 +72,15 @@ TEST_CASE("a crowd rests on the last key as the clip itself does") {
     CHECK(static_cast<double>(pose[0].translation[0][0]) == doctest::Approx(x));
   }
 }
+
+TEST_CASE("a crowd does not show what begins anew where its clip ends") {
+  const auto nodes = std::make_shared<const Hierarchy>(Hierarchy({Node{.name = "lamp"}}));
+  Clip source{.name = "saw", .duration = 2};
+  const Curve<Vec3> saw = keyed_curve<Vec3>(
+      {{.time = 0, .value = Vec3(0, 0, 0), .ease = Ease::linear()}, {.time = 1, .value = Vec3(5, 0, 0)}});
+  source.tracks.push_back({"lamp", "position", saw.with_outside(Outside::hold, Outside::repeat)});
+  const CrowdClip clip = compile(source, *nodes);
+  std::vector<CrowdGroup> pose(clip.groups());
+  clip.sample(clip.clock(0, 1, 50), pose);
+  CHECK(static_cast<double>(pose[0].translation[0][0]) == doctest::Approx(5));
+}
