@@ -12,7 +12,7 @@ import {easesCoverNoCurve, fitsAllWidths, isNeverEmpty, namesFit} from "./layout
 import {showsTwoBesideEachOther} from "./beside_tests.mjs";
 import {showsJoints, showsSteps} from "./overlay_tests.mjs";
 import {pressesEveryKey} from "./help_tests.mjs";
-import {framesTheLinked, holdsUntilTheEnd, saysEasesOnce, tellsNamesApart} from "./shown_tests.mjs";
+import {framesTheLinked, holdsUntilTheEnd, leapsWhereTheScriptDoes, saysEasesOnce, tellsNamesApart} from "./shown_tests.mjs";
 import {drivesTheTimeline} from "./timeline_tests.mjs";
 
 const browser = findBrowser();
@@ -255,7 +255,7 @@ await run("without WebGL", {flags: ["--disable-3d-apis", "--disable-gpu"]}, asyn
   await drivesTheTimeline(page);
   await pressesEveryKey(page);
   for (const test of [fitsAllWidths, namesFit, easesCoverNoCurve]) await test(page);
-  for (const test of [holdsUntilTheEnd, saysEasesOnce, framesTheLinked, tellsNamesApart]) await test(page, folder);
+  for (const test of [holdsUntilTheEnd, leapsWhereTheScriptDoes, saysEasesOnce, framesTheLinked, tellsNamesApart]) await test(page, folder);
   await frameModels(page, join(folder, "models"));
   await showLarge(page, join(folder, "hostile"));
   await page.visit(address);

@@ -24,6 +24,25 @@ export async function holdsUntilTheEnd(page, folder) {
   near(await at(0.51), [1, 0, 2, 1, 2, 2, 1], "a key has its own value", 1e-5);
 }
 
+// At its own instant, between two frames: in the steps of an ease, at a value that arrives, at the seam of a loop and
+// where the weight of a play leaps.
+export async function leapsWhereTheScriptDoes(page, folder) {
+  await opens(page, folder, "leaps");
+  const nodes = ["stairs", "round", "given", "fading"], thirds = [1.37 / 3, 2.74 / 3];
+  const step = time => time < thirds[0] ? 0 : time < thirds[1] ? 1 : time < 1.37 ? 2 : 3;
+  const wanted = time => [step(time), time % 0.77, time < 0.51 ? time : 5 + (time - 0.51), time < 0.51 ? 0.25 : 1];
+  for (const leap of [0.51, thirds[0], thirds[1], 0.77, 1.37, 1.54])
+    for (const time of [leap - 0.02, leap - 1e-3, leap + 1e-3, leap + 0.02]) {
+      await page.evaluate(`tweenfall.seek(${time})`);
+      const shown = await page.evaluate(`${JSON.stringify(nodes)}.map(name => tweenfall.worldMatrixOf(name)[12])`);
+      near(shown, wanted(time), `places at ${time} s`, 1e-5);
+      if (time < 1.37 || time > 1.38) {
+        const [red] = await page.evaluate(`tweenfall.valuesOf("stairs", "color")`);
+        check((step(time) === 0) === (red < 0.01) && (step(time) === 3) === (red > 0.99), `the color at ${time} s is not between two: ${red}`);
+      }
+    }
+}
+
 // One word for a row of keys that leave alike; none where there is no room for it.
 export async function saysEasesOnce(page, folder) {
   await opens(page, folder, "held");

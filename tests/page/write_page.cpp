@@ -164,6 +164,17 @@ void write_documents(const fs::path& folder) {
       "lamp.position": [[0, [0, 0, 0], "hold"], [0.51, [1, 0, 0], "hold"], [1.19, [3, 0, 0], "linear"], [2, [3, 0, 0]]],
       "lamp.scale": [[0, 1, "hold"], [0.51, 2, "hold"], [1.19, 4, "hold"], [2, 4]],
       "lamp.color": [[0, "#000", "step-next"], [0.51, "#fff", "hold"], [1.19, "#000", "hold"], [2, "#fff"]]}}}})");
+  write("leaps",
+        R"document({"tweenfall": 1, "nodes": {"stairs": {}, "round": {}, "given": {}, "fading": {}},
+    "clips": {"c": {"tracks": {
+        "stairs.position": [[0, [0, 0, 0], "steps(3,jump-end)"], [1.37, [3, 0, 0]]],
+        "stairs.color": [[0, "#000", "steps(3,jump-end)"], [1.37, "#fff"], [2, "#fff"]],
+        "given.position": [[0, [0, 0, 0], "linear"],
+          {"t": 0.51, "v": [5, 0, 0], "v_in": [0.51, 0, 0], "ease": "linear"}, [2, [6.49, 0, 0]]]}},
+      "turns": {"loop": "repeat", "tracks": {"round.position": [[0, [0, 0, 0], "linear"], [0.77, [0.77, 0, 0]]]}},
+      "whole": {"tracks": {"fading.position": [[0, [1, 0, 0]]]}}},
+    "play": [{"clip": "c"}, {"clip": "turns"}, {"clip": "whole",
+      "weight": {"keys": [[0, 0.25, "hold"], [0.51, 1, "hold"], [2, 1]], "clock": "stage"}}]})document");
   write("lone", R"({"tweenfall": 1, "nodes": {"eye": {"position": [5, 3, 0]}, "hip": {}, "knee": {"parent": "hip",
     "position": [0, -1, 0]}}, "clips": {"c": {"tracks": {"hip.rotation": {"axis": "z", "keys": [[0, 0], [2, 60]]}}}}})");
   std::string nodes;

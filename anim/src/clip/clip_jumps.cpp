@@ -17,16 +17,29 @@ Property property_of(const Track& track) {
   return component ? component->property : property_named(track.property);
 }
 
-/// Calls `visit(curve, accumulates)` with each curve that moves its node: whether a loop with offset adds to it.
+/// Calls `visit(curve, accumulates)` with each curve of a track: whether a loop with offset adds to it.
 template <class Visit>
-void for_each_moving(const Clip& clip, const TrackFilter& counts, const Visit& visit) {
+struct EachCurve {
+  const Visit& visit;
+  bool accumulates;
+  template <class T>
+  void operator()(const Curve<T>& curve) const {
+    visit(curve, accumulates);
+  }
+  void operator()(const WeightCurves& curves) const {
+    for (const Curve<double>& curve : curves) visit(curve, accumulates);
+  }
+  template <class T>
+  void operator()(const StepCurve<T>&) const {}
+};
+
+template <class Visit>
+void for_each_curve(const Clip& clip, const TrackFilter& counts, const Visit& visit) {
   for (const Track& track : clip.tracks) {
-    if (!moves_its_node(track) || (counts && !counts(track))) continue;
-    // A parent's scale moves its children.
-    const bool accumulates = property_of(track) != Property::scale;
-    if (const auto* number = std::get_if<Curve<double>>(&track.curve)) visit(*number, accumulates);
-    if (const auto* vector = std::get_if<Curve<Vec3>>(&track.curve)) visit(*vector, accumulates);
-    if (const auto* rotation = std::get_if<Curve<Quat>>(&track.curve)) visit(*rotation, accumulates);
+    if (counts && !counts(track)) continue;
+    const Property property = property_of(track);
+    const bool accumulates = property == Property::position || property == Property::rotation;
+    std::visit(EachCurve<Visit>{visit, accumulates}, track.curve);
   }
 }
 
@@ -60,7 +73,7 @@ bool moves_its_node(const Track& track) {
 
 std::vector<double> jumps_of(const Clip& clip, const TrackFilter& counts) {
   std::vector<double> jumps;
-  clips::for_each_moving(clip, counts, [&](const auto& curve, bool) { clips::collect(curve, clip.duration, jumps); });
+  clips::for_each_curve(clip, counts, [&](const auto& curve, bool) { clips::collect(curve, clip.duration, jumps); });
   std::ranges::sort(jumps);
   jumps.erase(std::unique(jumps.begin(), jumps.end()), jumps.end());
   return jumps;
@@ -69,7 +82,7 @@ std::vector<double> jumps_of(const Clip& clip, const TrackFilter& counts) {
 bool jumps_at_seam(const Clip& clip, LoopMode mode, double from, double to, const TrackFilter& counts) {
   if ((mode != LoopMode::repeat && mode != LoopMode::repeat_offset) || !std::isfinite(to)) return false;
   bool any = false;
-  clips::for_each_moving(clip, counts, [&](const auto& curve, bool accumulates) {
+  clips::for_each_curve(clip, counts, [&](const auto& curve, bool accumulates) {
     if (mode == LoopMode::repeat || !accumulates)
       any = any || clips::differ(curve.value(to, Side::in), curve.value(from, Side::out));
   });

@@ -253,8 +253,9 @@ const LoopedClip* Binder::clip(const std::string& name, const std::optional<Loop
   }
   made.jumps.duration = made.clip.duration;
   made.jumps.loop = made.clip.loop;
-  std::vector<double> jumps = jumps_of(made.clip);
-  if (jumps_at_seam(made.clip, made.clip.loop.mode, 0, made.clip.duration)) jumps.insert(jumps.begin(), 0);
+  std::vector<double> jumps = jumps_of(made.clip, moves_its_node);
+  if (jumps_at_seam(made.clip, made.clip.loop.mode, 0, made.clip.duration, moves_its_node))
+    jumps.insert(jumps.begin(), 0);
   for (const double time : jumps) made.jumps.events.push_back({.from = time, .to = time, .name = {}, .data = {}});
   return &made;
 }

@@ -2,6 +2,7 @@
 
 // Everything that changes while a stage runs, in one copyable value: a stage goes back by assigning an older one.
 
+#include <tweenfall/anim/jump_search.h>
 #include <tweenfall/physics/stage/inspection.h>
 #include <tweenfall/physics/stage/stage.h>
 
@@ -130,9 +131,7 @@ struct Tear {
 /// Where the plays make bodies jump.
 struct Jumps {
   std::vector<char> carriers;  ///< by node, of those there were: whether it or one below it has a body that can move
-  std::vector<Clip> clips;     ///< for each clip one without tracks, whose events are its jumps
-  std::vector<Clip> seams;     ///< by player: the same of its loop, where that jumps
-  std::vector<char> carries_body;  ///< by clip: whether it moves a body at all
+  JumpSearch search;           ///< of the tracks that carry them
 };
 
 /// A track that animates something of a body's physics.

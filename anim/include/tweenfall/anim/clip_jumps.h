@@ -15,10 +15,11 @@ using TrackFilter = std::function<bool(const Track&)>;
 /// Whether the track moves its node: its position, rotation or scale, or a number of them.
 [[nodiscard]] bool moves_its_node(const Track& track);
 
-/// Clip times inside the clip, or at its end, at which what moves a node jumps, in order.
+/// Clip times inside the clip, or at its end, at which the number, vector, color or rotation of a track jumps, in
+/// order.
 [[nodiscard]] std::vector<double> jumps_of(const Clip& clip, const TrackFilter& counts = {});
 
-/// Whether something that moves a node is elsewhere where a loop begins anew.
+/// Whether a track has another value where a loop begins anew.
 /// @param from, to  the section that is played, clip seconds
 [[nodiscard]] bool jumps_at_seam(const Clip& clip, LoopMode mode, double from, double to,
                                  const TrackFilter& counts = {});

@@ -309,6 +309,24 @@ std::string joint_json(const Recording& recording, const JointDescription& joint
   return out + "}";
 }
 
+/// [{node, kind, times}, ...]
+void append_jumps(std::string& out, const Recording& recording) {
+  constexpr const char* words[] = {"place", "color", "weights"};
+  std::map<std::pair<NodeId, std::size_t>, std::vector<double>> times_of;
+  for (const JumpRecord& jump : recording.jumps)
+    times_of[{jump.node, static_cast<std::size_t>(jump.kind)}].push_back(jump.time);
+  out += ",\n\"jumps\":[";
+  bool first = true;
+  for (const auto& [of, times] : times_of) {
+    out += (first ? "{\"node\":" : ",\n{\"node\":") + std::to_string(of.first);
+    append_quoted(out, "kind", words[of.second]);
+    append_quoted(out, "times", recordings::base64(std::span<const double>(times)));
+    out += '}';
+    first = false;
+  }
+  out += ']';
+}
+
 template <class List, class ToJson>
 void append_items(std::string& out, const char* name, const List& list, ToJson to_json) {
   ((out += ",\n\"") += name) += "\":[";
@@ -357,6 +375,7 @@ std::string page_data(const Recording& recording, const StageDescription& stage)
   append_page_particles(out, recording, stage, frames);
   append_items(out, "handoffs", recording.handoffs, handoff_json);
   append_items(out, "events", recording.events, event_json);
+  append_jumps(out, recording);
   append_page_meshes(out, stage, node_of);
   return out + "}";
 }

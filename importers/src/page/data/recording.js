@@ -85,7 +85,7 @@ class Recording {
     this.handoffs = raw.handoffs.filter(handoff => handoff.cause !== "start");
     this.events = raw.events;
     this.findBreaks();
-    for (const lane of this.lanes) this.findJumps(lane);
+    for (const jumps of raw.jumps || []) this.findJumps(jumps);
     for (const node of this.nodes) node.owners = this.ownersOf(node);
   }
 
@@ -109,16 +109,13 @@ class Recording {
     for (const handoff of this.handoffs) add(this.nodes[handoff.node], handoff.time, handoff);
   }
 
-  // Where held values give way to others between two frames, and when.
-  findJumps({node, property, times, keyOf, keys}) {
-    const what = property.split(".")[0], kind = what === "color" || what === "weights" ? what : "place";
-    for (let i = 0; i + 1 < times.length; ++i) {
-      const back = keyOf[i + 1] < keyOf[i], ease = (keys[keyOf[back ? i + 1 : i]] || {}).ease;
-      const early = ease === "step-next" || ease === "step-start", late = ease === "hold" || ease === "step-end";
-      if (!early && !late) continue;
-      const time = times[early === back ? i + 1 : i], frame = this.frameBefore(time);
+  // Where what is scripted jumps between two frames, and when.
+  findJumps({node, kind, times}) {
+    for (const time of doubles(times)) {
+      // What jumps on a frame stays as it is until there.
+      const at = this.frameBefore(time), frame = at > 0 && this.times[at] === time ? at - 1 : at;
       if (frame < 0 || frame + 1 >= this.frameCount || time === this.times[frame]) continue;
-      const waiting = [node];
+      const waiting = [this.nodes[node]];
       while (waiting.length) {
         const each = waiting.pop();
         if (!each.jumps[kind].has(frame)) each.jumps[kind].set(frame, time);

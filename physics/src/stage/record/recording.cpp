@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "stage/record/graph_record.h"
+#include "stage/record/jump_record.h"
 
 namespace tweenfall {
 
@@ -195,6 +196,7 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     staging::take_particles(stage, recording, particle_room);
     if (details) details = staging::take_details(stage, recording, room);
   };
+  staging::JumpRecorder jumps;
   inputs = advance_with(stage, inputs, stage.time());
   take();
   for (double frame = 1;; ++frame) {
@@ -203,9 +205,12 @@ Recording record(Stage& stage, double until, double fps, double most_bytes, bool
     const bool last = time >= until - 1e-9;
     if (last) time = std::max(until, stage.time());
     if (last && time <= stage.time()) break;
-    inputs = advance_with(stage, inputs, time);
+    const double before = stage.time();
+    const std::span<const TimedInput> to_come = advance_with(stage, inputs, time);
     staging::require_tellable(stage);
     take();
+    jumps.take(stage, before, inputs.first(inputs.size() - to_come.size()), recording);
+    inputs = to_come;
     if (last) break;
   }
   for (NodeRecord& node : recording.nodes) {

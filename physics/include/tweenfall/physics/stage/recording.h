@@ -75,6 +75,15 @@ struct ParticlesRecord {
   std::vector<StageParticles> frame;  ///< one per frame
 };
 
+/// Where a script jumps from one value to another, so that nobody draws a movement there. Of a body only while it
+/// follows the stage's own clock.
+struct JumpRecord {
+  enum class Kind { motion, color, weights };
+  double time;  ///< s
+  NodeId node;
+  Kind kind;
+};
+
 struct Recording {
   std::string name;
   std::vector<double> times;  ///< s
@@ -87,6 +96,7 @@ struct Recording {
   std::vector<StageEnergy> energy;         ///< one per frame, or empty
   std::vector<HandOff> handoffs;
   std::vector<StageEvent> events;
+  std::vector<JumpRecord> jumps;     ///< in order of time, of each node the first of a kind in each frame
   std::vector<UnfiredRule> unfired;  ///< rules that waited to the end in vain
   std::vector<StageDetail> details;  ///< one per frame where they were asked for and there is room, or empty
 };
