@@ -27,7 +27,7 @@ std::string shortened(const std::string& text, double width) {
   return out + "\xe2\x80\xa6";
 }
 
-LabelRows::Place LabelRows::place(double x, const std::string& text, const IsTaken& is_taken) {
+std::optional<LabelRows::Place> LabelRows::place(double x, const std::string& text, const IsTaken& is_taken) {
   constexpr double gap = 4;
   const double width = text_width(text);
   double from = x + gap;
@@ -45,9 +45,9 @@ LabelRows::Place LabelRows::place(double x, const std::string& text, const IsTak
     chosen = row;
     break;
   }
-  chosen = std::min(chosen, rows_.size() - 1);
+  if (chosen == rows_.size()) return std::nullopt;
   rows_[chosen].emplace_back(from, from + width);
-  return {from, chosen};
+  return Place{from, chosen};
 }
 
 }  // namespace tweenfall::plotting

@@ -3,6 +3,7 @@
 // Labels along a line of time, each in the first row where it lies over no other.
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,8 +27,8 @@ class LabelRows {
   /// Whether something else lies where a text of this width would stand in a row.
   using IsTaken = std::function<bool(double from, double to, std::size_t row)>;
   /// Beside `x`, right of it where there is room, else left; in the first row where it lies over nothing, else in the
-  /// first where it lies over no other label. The last row takes all that finds no place.
-  [[nodiscard]] Place place(double x, const std::string& text, const IsTaken& is_taken = {});
+  /// first where it lies over no other label; nothing where it would in every row.
+  [[nodiscard]] std::optional<Place> place(double x, const std::string& text, const IsTaken& is_taken = {});
 
  private:
   double left_, right_;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 namespace tweenfall::plotting {
 
@@ -174,18 +176,57 @@ bool passes_through(const Arm& arm, double from, double to, double top, double b
   return enters <= leaves;
 }
 
+/// Moments of one name so close to each other that their names would lie on each other: told once.
+struct NamedMoments {
+  std::string name;
+  double first, last;  ///< px
+  int count = 1;
+  int others = 0;  ///< of other names at the first of them
+
+  [[nodiscard]] std::string text() const {
+    std::string out = name;
+    if (count > 1) out += " \xc3\x97" + std::to_string(count);  // a multiplication sign
+    if (others > 0) out += " +" + std::to_string(others);
+    return out;
+  }
+};
+
+std::vector<NamedMoments> named_moments(const Panel& panel, const PlottedTrack& plotted, bool handoff) {
+  constexpr std::size_t most_at_once = 3;
+  std::vector<std::pair<double, const PlottedMoment*>> moments;
+  for (const PlottedMoment& moment : plotted.moments)
+    if (moment.handoff == handoff) moments.emplace_back(panel.time.place(moment.time), &moment);
+  std::ranges::stable_sort(moments, {}, [](const auto& each) { return each.first; });
+  std::vector<NamedMoments> groups;
+  std::map<std::string, std::size_t> latest;
+  for (const auto& [x, moment] : moments) {
+    const auto [found, is_new] = latest.try_emplace(moment->name, groups.size());
+    if (!is_new && x - groups[found->second].last < text_width(moment->name)) {
+      groups[found->second].last = x;
+      ++groups[found->second].count;
+      continue;
+    }
+    if (groups.size() >= most_at_once && x - groups[groups.size() - most_at_once].first < 0.5) {
+      latest.erase(found);
+      ++groups.back().others;
+      continue;
+    }
+    found->second = groups.size();
+    groups.push_back({moment->name, x, x});
+  }
+  return groups;
+}
+
 }  // namespace
 
 void draw_moment_names(SvgWriter& svg, const Panel& panel, const PlottedTrack& plotted) {
-  constexpr std::size_t most = 300;  // nobody reads more of them on top of each other
   const auto rows = static_cast<std::size_t>((panel.value.from - panel.value.to) / 2 / row_height);
   const std::vector<Arm> arms = arms_of(panel, plotted);
-  LabelRows above(panel.time.from, panel.time.to, rows), below(panel.time.from, panel.time.to, rows);
-  for (std::size_t i = 0; i < std::min(plotted.moments.size(), most); ++i) {
-    const PlottedMoment& moment = plotted.moments[i];
+  for (const bool handoff : {true, false}) {
+    LabelRows labels(panel.time.from, panel.time.to, rows);
     const auto baseline = [&](std::size_t row) {
       const double down = row_height * static_cast<double>(row);
-      return moment.handoff ? panel.value.to + 12 + down : panel.value.from - 5 - down;
+      return handoff ? panel.value.to + 12 + down : panel.value.from - 5 - down;
     };
     const auto is_taken = [&](double from, double to, std::size_t row) {
       const double bottom = baseline(row) + 2, top = bottom - row_height;
@@ -195,16 +236,26 @@ void draw_moment_names(SvgWriter& svg, const Panel& panel, const PlottedTrack& p
              std::any_of(arms.begin(), arms.end(),
                          [&](const Arm& arm) { return passes_through(arm, from, to, top, bottom); });
     };
-    const std::string name = shortened(moment.name, panel.time.to - panel.time.from - 8);
-    const LabelRows::Place place =
-        (moment.handoff ? above : below).place(panel.time.place(moment.time), name, is_taken);
-    svg.text("text",
-             {{"class", "moment"},
-              {"x", px(place.x)},
-              {"y", px(baseline(place.row))},
-              {"font-size", "10"},
-              {"fill", moment.handoff ? "#a85f00" : "#6d7178"}},
-             name);
+    const auto draw = [&](double x, const std::string& text) {
+      const std::optional<LabelRows::Place> place = labels.place(x, text, is_taken);
+      if (!place) return false;
+      svg.text("text",
+               {{"class", "moment"},
+                {"x", px(place->x)},
+                {"y", px(baseline(place->row))},
+                {"font-size", "10"},
+                {"fill", handoff ? "#a85f00" : "#6d7178"}},
+               text);
+      return true;
+    };
+    int unnamed = 0;
+    double last = panel.time.from;
+    for (const NamedMoments& moments : named_moments(panel, plotted, handoff)) {
+      if (draw(moments.first, shortened(moments.text(), panel.time.to - panel.time.from - 8))) continue;
+      unnamed += moments.count;
+      last = moments.first;
+    }
+    if (unnamed > 0) draw(last, "+" + std::to_string(unnamed));
   }
 }
 
@@ -218,10 +269,11 @@ void draw_texts(SvgWriter& svg, const Panel& panel, const StepCurve<std::string>
                       {"d", "M" + px(x) + " " + px(panel.value.from) + "V" + px(panel.value.to)},
                       {"stroke", "#dddcd8"}});
     const std::string shown = shortened(text, (panel.time.to - panel.time.from) / 2);
-    const LabelRows::Place place = rows.place(x, shown);
+    const std::optional<LabelRows::Place> place = rows.place(x, shown);
+    if (!place) continue;
     svg.text("text",
-             {{"x", px(place.x)},
-              {"y", px(panel.value.to + 16 + row_height * static_cast<double>(place.row))},
+             {{"x", px(place->x)},
+              {"y", px(panel.value.to + 16 + row_height * static_cast<double>(place->row))},
               {"font-size", "10"},
               {"fill", "#23262b"}},
              shown);

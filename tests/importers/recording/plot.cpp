@@ -260,3 +260,48 @@ TEST_CASE("labels stand beside the handles of keys") {
   // Neither curve comes near, but the handle runs through where the label would stand.
   CHECK(baseline_of(R"(, "out": {"rate": 0, "weight": 0.3333})") <= baseline_of(R"(, "ease": "linear")") - 11);
 }
+
+TEST_CASE("no label lies over another, however close events are: equal ones are counted, further ones too") {
+  // A ball that bounces ever more often, and twenty things that begin at once.
+  std::string events;
+  for (int i = 0; i < 20; ++i) events += "[0.5, \"light " + std::to_string(i) + "\"], ";
+  double time = 1;
+  for (double gap = 0.6; gap > 1e-3; gap *= 0.7) {
+    events += "[" + std::to_string(time) + ", \"bounce\"], ";
+    time += gap;
+  }
+  for (int i = 0; i < 40; ++i)
+    events +=
+        "[" + std::to_string(3 + 0.01 * i) + ", \"step number " + std::to_string(i) + "\"]" + (i < 39 ? ", " : "");
+  const Document document = Document::parse(
+      R"({"tweenfall": 1, "clips": {"c": {"tracks": {"a.position": [[0, [0, 0, 0]], [4, [1, 2, 3]]]}, "events": [)" +
+          events + "]}}}",
+      "labels.json", {});
+  const std::string svg = plot_svg(document.stage(), nullptr, {.rates = false});
+  struct Label {
+    double from, to, y;
+    std::string text;
+  };
+  std::vector<Label> labels;
+  for (std::size_t at = svg.find("class=\"moment\""); at != std::string::npos;
+       at = svg.find("class=\"moment\"", at + 1)) {
+    const auto number = [&](const char* name) { return std::stod(svg.substr(svg.find(name, at) + 4, 8)); };
+    const std::size_t begin = svg.find('>', at) + 1;
+    const std::string text = svg.substr(begin, svg.find('<', begin) - begin);
+    labels.push_back(
+        {number(" x=\""), number(" x=\"") + 5.5 * static_cast<double>(text.size()), number(" y=\""), text});
+  }
+  CHECK(labels.size() > 8);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const bool apart =
+          std::abs(labels[i].y - labels[k].y) > 9 || labels[i].from > labels[k].to || labels[k].from > labels[i].to;
+      CHECK_MESSAGE(apart, labels[i].text << " lies over " << labels[k].text);
+    }
+  const auto says = [&](const std::string& text) {
+    return std::any_of(labels.begin(), labels.end(),
+                       [&](const Label& label) { return label.text.find(text) != std::string::npos; });
+  };
+  CHECK(says("light 2 +17"));
+  CHECK(says("bounce \xc3\x97"));
+}
