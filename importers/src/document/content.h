@@ -59,6 +59,8 @@ struct Building {
   [[nodiscard]] std::vector<std::string> clip_names() const;
   // Whether a name that is not there may be in an import that failed.
   [[nodiscard]] bool excused(std::string_view name) const;
+  // The same of a name without that import's: "; ..." with how it would be called, or nothing.
+  [[nodiscard]] std::string said_of_failed_import(std::string_view name) const;
   // Nodes of a name, or of a pattern with '*'.
   [[nodiscard]] std::vector<std::size_t> nodes_named(std::string_view name_or_pattern) const;
 };

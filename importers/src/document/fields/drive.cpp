@@ -25,9 +25,16 @@ const Table<Drive>& drive_table() {
 }  // namespace
 
 const Form* owner_form(FormStore& store, const ValueForms& values) {
-  Form form = choice_of("an owner: \"free\", \"keyed\" or a drive {\"hz\", ...}",
-                        {store.add(words_of("an owner: \"free\" or \"keyed\"", {"free", "keyed"})),
-                         store.add(drive_table().listing_form(store, values))});
+  Form drive = drive_table().listing_form(store, values);
+  drive.foremost_fault = [](const json::Value& value) {
+    for (const std::string word : {"free", "keyed"})
+      if (value.find(word) && value.members().size() == 1)
+        return "expected an owner: \"free\", \"keyed\" or a drive {\"hz\", ...}; say " + json::in_quotes(word);
+    return std::string();
+  };
+  Form form = choice_of(
+      "an owner: \"free\", \"keyed\" or a drive {\"hz\", ...}",
+      {store.add(words_of("an owner: \"free\" or \"keyed\"", {"free", "keyed"})), store.add(std::move(drive))});
   form.definition = "owner";
   return store.add(std::move(form));
 }

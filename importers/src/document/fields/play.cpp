@@ -67,8 +67,9 @@ void read_play_clip(const json::Value& value, Play& play, Building& building) {
   // A clip with faults of its own is there all the same.
   const json::Value clips = usable(building.root, "clips");
   if (clips && usable(clips, value.text())) return;
-  building.problems.add(value, "there is no clip " + json::in_quotes(value.text()) +
-                                   suggestion_or_import(value.text(), building.clip_names()));
+  std::string meant = suggestion_or_import(value.text(), building.clip_names());
+  if (meant.empty()) meant = building.said_of_failed_import(value.text());
+  building.problems.add(value, "there is no clip " + json::in_quotes(value.text()) + meant);
 }
 
 /// The curve of keys; those on the stage's clock are told on the play's.

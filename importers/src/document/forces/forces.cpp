@@ -3,6 +3,7 @@
 #include "document/fields/table.h"
 #include "document/fields/things.h"
 #include "document/forces/force.h"
+#include "document/report/spellings.h"
 
 #include <algorithm>
 
@@ -59,6 +60,10 @@ const Form* form(FormStore& store, const ValueForms& values) {
     form.what += (names.empty() ? "" : ", ") + json::in_quotes(row.name);
     names.push_back(row.name);
   }
+  form.foremost_fault = [names](const json::Value& value) {
+    const std::string meant = kind_meant(value, names, {"bodies", "strength"});
+    return meant.empty() ? meant : "a force says its kind by the name of a field" + meant;
+  };
   form.together = {exactly_one(std::move(names))};
   form.definition = "force";
   return store.add(std::move(form));

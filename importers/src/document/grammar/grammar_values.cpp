@@ -148,7 +148,12 @@ ValueForms::ValueForms(FormStore& store) {
   boolean = store.add(truth);
   any = store.add({});
 
-  name = store.add(text_of("a name", "^[\\s\\S]+$", [](std::string_view text) { return !text.empty(); }));
+  Form any_name = text_of("a name", "^[\\s\\S]+$", [](std::string_view text) { return !text.empty(); });
+  any_name.instead = [](const json::Value& value) {
+    return value.is(json::Value::Kind::number) ? std::string("; things are called by their names, in quotes")
+                                               : std::string();
+  };
+  name = store.add(std::move(any_name));
   number = store.add(bounded("a number", -Form::infinite, false));
   positive = store.add(bounded("a number above 0", 0, true));
   not_negative = store.add(bounded("a number of at least 0", 0, false));

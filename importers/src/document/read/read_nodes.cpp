@@ -88,6 +88,13 @@ bool Building::excused(std::string_view name) const {
   return failed_imports.count(name.substr(0, name.find('/'))) > 0;
 }
 
+std::string Building::said_of_failed_import(std::string_view name) const {
+  if (failed_imports.empty() || name.find('/') != std::string_view::npos) return {};
+  const std::string import(*failed_imports.begin());
+  return "; what comes with " + json::in_quotes(import) + " is called " +
+         json::in_quotes(import + "/" + std::string(name));
+}
+
 std::vector<std::size_t> Building::nodes_named(std::string_view name) const {
   std::vector<std::size_t> out;
   if (name.find('*') == std::string::npos) {

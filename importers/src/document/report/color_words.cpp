@@ -1,5 +1,7 @@
 #include "document/report/color_words.h"
 
+#include <tweenfall/curves/color.h>
+
 #include "document/report/foreign_words.h"
 
 #include <algorithm>
@@ -60,9 +62,14 @@ bool is_hex(std::string_view digits) {
          digits.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-// The numbers of "rgb(255, 0, 0)", "rgba(100% 0% 0% / 50%)"
-std::vector<double> numbers_in(std::string_view text) {
-  std::vector<double> numbers;
+struct Numeral {
+  double number;
+  bool percent;
+};
+
+// The numbers of "rgb(255, 0, 0)", "hsl(120deg 100% 50% / 50%)"
+std::vector<Numeral> numbers_in(std::string_view text) {
+  std::vector<Numeral> numbers;
   for (std::size_t at = 0; at < text.size();) {
     double number = 0;
     const auto [end, fault] = std::from_chars(text.data() + at, text.data() + text.size(), number);
@@ -71,10 +78,30 @@ std::vector<double> numbers_in(std::string_view text) {
       continue;
     }
     at = static_cast<std::size_t>(end - text.data());
-    const bool percent = at < text.size() && text[at] == '%';
-    numbers.push_back(percent ? number * (numbers.size() < 3 ? 2.55 : 0.01) : number);
+    numbers.push_back({number, at < text.size() && text[at] == '%'});
   }
   return numbers;
+}
+
+// Red, green and blue to 255, how opaque to 1.
+std::vector<double> parts_of_rgb(const std::vector<Numeral>& numbers) {
+  std::vector<double> parts;
+  for (const auto& [number, percent] : numbers)
+    parts.push_back(percent ? number * (parts.size() < 3 ? 2.55 : 0.01) : number);
+  // What is 1 there is a 255th.
+  if (parts.size() >= 3 && std::all_of(parts.begin(), parts.begin() + 3, [](double part) { return part <= 1; }))
+    for (std::size_t i = 0; i < 3; ++i) parts[i] /= 255;
+  return parts;
+}
+
+// All parts to 1, of an angle in degrees and two shares in hundredths.
+std::vector<double> parts_of_hue(const std::vector<Numeral>& numbers, ColorSpace space) {
+  if (numbers.size() != 3 && numbers.size() != 4) return {};
+  constexpr double degree = 0.017453292519943295;
+  const double opaque = numbers.size() < 4 ? 1 : numbers[3].number * (numbers[3].percent ? 0.01 : 1);
+  const Vec4 hue(numbers[0].number * degree, numbers[1].number / 100, numbers[2].number / 100, opaque);
+  const Vec4 rgb = to_space(from_space({hue, Vec4::Zero(), Vec4::Zero()}, space).value, ColorSpace::srgb);
+  return {rgb.data(), rgb.data() + numbers.size()};
 }
 
 }  // namespace
@@ -87,13 +114,9 @@ std::string color_meant(std::string_view text) {
     if (small == name) return hex_of(number);
   const std::string_view digits = std::string_view(small).substr(small.rfind("0x", 0) == 0 ? 2 : 0);
   if (is_hex(digits)) return say_hex(std::string(digits));
-  if (small.rfind("rgb", 0) == 0) {
-    std::vector<double> parts = numbers_in(small);
-    // What is 1 there is a 255th.
-    if (parts.size() >= 3 && std::all_of(parts.begin(), parts.begin() + 3, [](double part) { return part <= 1; }))
-      for (std::size_t i = 0; i < 3; ++i) parts[i] /= 255;
-    return hex_of(std::move(parts));
-  }
+  if (small.rfind("rgb", 0) == 0) return hex_of(parts_of_rgb(numbers_in(small)));
+  if (small.rfind("hsl", 0) == 0) return hex_of(parts_of_hue(numbers_in(small), ColorSpace::hsl));
+  if (small.rfind("hwb", 0) == 0) return hex_of(parts_of_hue(numbers_in(small), ColorSpace::hwb));
   return {};
 }
 

@@ -167,16 +167,23 @@ std::string member_meant(const json::Value& value) {
               ": ...}, each by its name");
 }
 
-std::string kind_meant(const json::Value& value, const std::vector<std::string>& kinds) {
+std::string kind_meant(const json::Value& value, const std::vector<std::string>& kinds,
+                       const std::vector<std::string>& beside) {
   const json::Value word = value.is(Kind::text) ? value : first_of(value, {"type", "kind"});
   if (!word || !word.is(Kind::text)) return {};
   const std::string kind = small_letters(word.text());
   if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) return {};
-  std::string rest;
-  for (const json::Member& member : value.members())
-    if (!(member.value == word))
-      rest += (rest.empty() ? "" : ", ") + json::in_quotes(member.name) + ": " + json::on_one_line(member.value);
-  return said("{" + json::in_quotes(kind) + ": {" + (value.is(Kind::text) ? "..." : rest) + "}}");
+  std::string rest, others;
+  for (const json::Member& member : value.members()) {
+    if (member.value == word) continue;
+    const bool is_beside = std::find(beside.begin(), beside.end(), member.name) != beside.end();
+    const std::string written = json::in_quotes(member.name) + ": " + json::on_one_line(member.value);
+    if (is_beside)
+      others += ", " + written;
+    else
+      rest += (rest.empty() ? "" : ", ") + written;
+  }
+  return said("{" + json::in_quotes(kind) + ": {" + (value.is(Kind::text) ? "..." : rest) + "}" + others + "}");
 }
 
 }  // namespace tweenfall::document

@@ -25,7 +25,8 @@ namespace tweenfall::document {
 [[nodiscard]] std::string event_meant(const json::Value& value);   // {"time": 1, "name": "bang"}
 [[nodiscard]] std::string member_meant(const json::Value& value);  // [{"name": "ball", ...}], of what has names
 // Of what says its kind by one of these fields: "sphere", {"type": "sphere", "radius": 1}
-[[nodiscard]] std::string kind_meant(const json::Value& value, const std::vector<std::string>& kinds);
+[[nodiscard]] std::string kind_meant(const json::Value& value, const std::vector<std::string>& kinds,
+                                     const std::vector<std::string>& beside = {});
 [[nodiscard]] std::string comparison_meant(const json::Value& value);  // "speed > 0.1"
 // Of a rotation {"x": 0, "y": 90, "z": 0}: the whole fault, or nothing
 [[nodiscard]] std::string angles_meant(const json::Value& value);

@@ -65,8 +65,8 @@ const fields::Table<ClothSettings>& cloth_table() {
   static const fields::Table<Cloth> table(
       "a cloth",
       {{"corner", &ValueForms::vector, "m, world", member<Cloth>(&Cloth::corner), true},
-       {"along", &ValueForms::vector, "one side from there, m", member<Cloth>(&Cloth::along), true},
-       {"across", &ValueForms::vector, "the other, m", member<Cloth>(&Cloth::across), true},
+       {"along", &ValueForms::vector, "one side from there, m", member<Cloth>(&Cloth::along), true, {}, {"width"}},
+       {"across", &ValueForms::vector, "the other, m", member<Cloth>(&Cloth::across), true, {}, {"height", "length"}},
        {"cells", cells, "along and across", read_cells, false, {}, {"nodes", "segments", "resolution"}},
        {"density", &ValueForms::positive, "kg/m^2", of_material(&ClothMaterial::density)},
        {"stretching", &ValueForms::positive, "force over width at a strain of 1, N/m",

@@ -2,6 +2,7 @@
 
 #include "document/fields/things.h"
 #include "document/read/clip_times.h"
+#include "document/report/spellings.h"
 #include "document/report/suggestion.h"
 
 #include <algorithm>
@@ -198,6 +199,12 @@ const Form* form(FormStore& store, const ValueForms& values) {
   Form soft = soft_table().form(store, values);
   std::vector<std::string> names;
   for (const fields::Row<Read>& row : kinds()) names.push_back(row.name);
+  std::vector<std::string> beside;
+  for (const fields::Row<Read>& row : own_rows()) beside.push_back(row.name);
+  soft.foremost_fault = [names, beside](const json::Value& value) {
+    const std::string meant = kind_meant(value, names, beside);
+    return meant.empty() ? meant : "a soft body says its kind by the name of a field" + meant;
+  };
   soft.together = {exactly_one(std::move(names))};
   soft.definition = "soft";
   return store.add(map_of(store.add(std::move(soft)), "an object with soft bodies by name"));
