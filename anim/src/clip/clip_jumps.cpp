@@ -92,19 +92,34 @@ bool jumps_at_seam(const Clip& clip, LoopMode mode, double from, double to, cons
 double first_jump(const Curve<double>& curve, double from, double to) {
   double first = std::numeric_limits<double>::infinity();
   const auto meet = [&](double time) {
-    if (time > from && time <= to && time < first && clips::differ(curve.value(time, Side::in), curve.value(time)))
-      first = time;
+    if (time > from && time <= to) first = std::min(first, time);
   };
-  const double length = curve.duration();
-  const bool around = std::isfinite(length) && length > 0;
-  const auto rounds_to = [&](double time) { return std::floor((time - curve.start()) / length); };
+  const auto jumps_at = [&](double time) {
+    return clips::differ(curve.value(time, Side::in), curve.value(time, Side::out));
+  };
+  const double start = curve.start(), end = curve.end(), length = curve.duration();
+  const Outside after = curve.after();
+  const double plays = curve.rule_after().plays;
+  const bool around = std::isfinite(length) && length > 0 && after != Outside::hold && after != Outside::linear;
+  // Where a curve comes around, so do its jumps, the next of each within two rounds: told of the first one, for sums of
+  // lengths are not exact.
+  const double round = around ? std::max(1.0, std::floor((from - start) / length) - 1) : 1;
+  const auto meet_later = [&](double passed) {
+    for (double more = 0; around && more < 4; ++more) {
+      const double its = round + more;
+      const bool is_backwards = after == Outside::pingpong && std::fmod(its, 2) != 0;
+      const double since = its * length + (is_backwards ? length - passed : passed);
+      if (plays == 0 || since < (1 + plays) * length) meet(start + since);
+    }
+  };
   for (const double knot : curve.knots()) {
+    if (!jumps_at(knot)) continue;
     meet(knot);
-    // Where a curve repeats, so do its jumps.
-    if (around && curve.after() != Outside::hold && to > curve.end())
-      for (double round = std::max(0.0, rounds_to(from) - 1), last = rounds_to(to);
-           round <= last && round * length + knot < first; ++round)
-        meet(knot + round * length);
+    if (knot > start && knot < end) meet_later(knot - start);
+  }
+  if (around && after == Outside::repeat && clips::differ(curve.value(end, Side::in), curve.value(start))) {
+    meet(end);
+    meet_later(0);
   }
   return first;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace tweenfall::graphs {
 
@@ -27,33 +28,73 @@ double first_between(const Curve<double>& curve, Kind kind, double level, double
   }
 }
 
-// Times at which a curve may come from one side of a level to the other, in order, in a stretch that is not long.
-std::vector<double> crossings(const Curve<double>& curve, double level, double from, double to) {
-  std::vector<double> times = solve(curve, level, from, to);
-  const std::span<const double> knots = curve.knots();
-  const double duration = curve.duration();
-  const bool around = duration > 0 && std::isfinite(duration) &&
-                      (curve.after() == Outside::repeat || curve.after() == Outside::repeat_offset);
-  const double rounds = around ? std::floor((from - curve.start()) / duration) : 0;
-  for (double round = std::max(0.0, rounds); round <= rounds + 1 + (to - from) / duration; ++round) {
-    for (const double knot : knots)
-      if (const double time = knot + round * duration; time > from && time < to) times.push_back(time);
-    if (!around) break;
+/// How a curve goes on beyond one end of its keys, where that comes around.
+struct Around {
+  double duration = 0;  // of a round, s; 0: it does not come around
+  double gain = 0;      // what each round adds to the one before
+  bool turns = false;   // every other one is played backwards
+
+  Around(const Curve<double>& curve, Outside rule) {
+    if (rule == Outside::hold || rule == Outside::linear) return;
+    if (!(curve.duration() > 0) || !std::isfinite(curve.duration())) return;
+    duration = curve.duration();
+    turns = rule == Outside::pingpong;
+    if (rule == Outside::repeat_offset) gain = curve.value(curve.end(), Side::in) - curve.value(curve.start());
   }
-  std::ranges::sort(times);
-  times.push_back(to);
-  return times;
+};
+
+// Times in (from, to) at which a curve may come from one side of a level to the other, in a stretch of few rounds
+// beyond one end: told of the keys' own round, for far away sums of lengths are not exact.
+void add_of_rounds(const Curve<double>& curve, const Around& around, double level, double from, double to,
+                   std::vector<double>& times) {
+  const double start = curve.start(), first = std::floor((from - start) / around.duration) - 1;
+  const double last = std::floor((to - start) / around.duration) + 1;
+  // By their count: where numbers are great, one more is the same number.
+  for (double count = 0; count <= last - first; ++count) {
+    const double round = first + count;
+    std::vector<double> own = solve(curve, level - round * around.gain, start, curve.end());
+    own.insert(own.end(), curve.knots().begin(), curve.knots().end());
+    const bool is_backwards = around.turns && std::fmod(round, 2) != 0;
+    for (const double time : own) {
+      const double passed = is_backwards ? around.duration - (time - start) : time - start;
+      if (const double met = start + round * around.duration + passed; met > from && met < to) times.push_back(met);
+    }
+  }
 }
 
-// The first time in (after, until] at which a curve compares that did not just before.
-std::optional<double> first_compared(const Curve<double>& curve, Kind kind, double level, double after, double until) {
-  constexpr double stretch = 16;  // s, looked at at once
-  bool before = compares(kind, curve.value(after), level);
-  double at = after;
+// The first time in (at, until] at which a curve compares that did not just before; both on one side of each end of the
+// keys.
+std::optional<double> first_within(const Curve<double>& curve, const Around& around, Kind kind, double level, double at,
+                                   double until) {
+  constexpr double longest = 16, most_rounds = 64;  // s and rounds, looked at at once
+  const bool comes_around = around.duration > 0;
+  if (comes_around && around.gain == 0) {
+    // Once there and back shows all that ever comes.
+    until = std::min(until, at + 3 * around.duration);
+  } else if (comes_around) {
+    // The level is within reach of few rounds.
+    const Range reach = range(curve, curve.start(), curve.end());
+    const double one = (level - reach.low) / around.gain, other = (level - reach.high) / around.gain;
+    at = std::max(at, curve.start() + (std::floor(std::min(one, other)) - 1) * around.duration);
+    until = std::min(until, curve.start() + (std::ceil(std::max(one, other)) + 2) * around.duration);
+  }
+  const double stretch = comes_around ? std::min(longest, most_rounds * around.duration) : longest;
+  bool before = compares(kind, curve.value(at), level);
+  std::vector<double> times;
   while (at < until) {
     const double end = std::min(until, at + stretch);
     if (!(end > at)) return std::nullopt;
-    for (const double next : crossings(curve, level, at, end)) {
+    times.clear();
+    if (comes_around) {
+      add_of_rounds(curve, around, level, at, end, times);
+    } else {
+      times = solve(curve, level, at, end);
+      for (const double knot : curve.knots())
+        if (knot > at && knot < end) times.push_back(knot);
+    }
+    std::ranges::sort(times);
+    times.push_back(end);
+    for (const double next : times) {
       if (!(next > at)) continue;
       // Between two of them a curve stays on one side.
       const double middle = at + (next - at) / 2;
@@ -67,6 +108,19 @@ std::optional<double> first_compared(const Curve<double>& curve, Kind kind, doub
     }
     at = end;
     if (curve.knots().empty() && std::isfinite(curve.end()) && at > curve.end()) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+// The same across the ends of the keys.
+std::optional<double> first_compared(const Curve<double>& curve, Kind kind, double level, double after, double until) {
+  const Around earlier(curve, curve.before()), later(curve, curve.after()), keyed(curve, Outside::hold);
+  const double start = earlier.duration > 0 ? curve.start() : after, end = later.duration > 0 ? curve.end() : until;
+  for (const auto& [around, limit] : {std::pair{&earlier, start}, std::pair{&keyed, end}, std::pair{&later, until}}) {
+    const double to = std::min(until, limit);
+    if (!(after < to)) continue;
+    if (const auto found = first_within(curve, *around, kind, level, after, to)) return found;
+    after = to;
   }
   return std::nullopt;
 }

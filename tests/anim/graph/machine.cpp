@@ -1,3 +1,7 @@
+#include <tweenfall/anim/clip_jumps.h>
+
+#include <limits>
+
 #include "graph_support.h"
 
 using namespace tweenfall;
@@ -261,6 +265,44 @@ TEST_CASE("a parameter that is held between keys leads on where it jumps, around
   GraphPlayer player(graph_of(described));
   player.seek(3.9);
   CHECK(times_of(player.passages(0)) == std::vector<double>{0, 0.75, 1, 1.75, 2, 2.75, 3, 3.75});
+}
+
+TEST_CASE("a parameter that comes around ten million times a second is looked at where it may compare") {
+  const auto machine_of = [](const Curve<double>& curve, double level) {
+    return graph_of(
+        {.parameters = {{.name = "number", .curve = curve}},
+         .poses = {{"body", MachinePose{.start = "a",
+                                        .states = {{"a", "idle"}, {"b", "walk"}},
+                                        .transitions = {{{"a"}, "b", {{Kind::above, "number", level}}}}}}}});
+  };
+  const auto up = keyed_curve<double>({{.time = 0, .value = 0, .ease = Ease::linear()}, {.time = 1e-7, .value = 1e-7}});
+  GraphPlayer never(machine_of(up.with_outside(Outside::hold, Outside::repeat), 1));
+  never.seek(1e5);
+  CHECK(never.passages(0).size() == 1);
+  GraphPlayer back(machine_of(up.with_outside(Outside::hold, Outside::pingpong), 1));
+  back.seek(1e5);
+  CHECK(back.passages(0).size() == 1);
+  // It gains as much as it lasts: at each time it is that time.
+  const Curve<double> climbing = up.with_outside(Outside::hold, Outside::repeat_offset);
+  GraphPlayer later(machine_of(climbing, 1000));
+  later.seek(1e5);
+  REQUIRE(later.passages(0).size() == 2);
+  const double time = later.passages(0)[1].time;
+  CHECK(time == doctest::Approx(1000).epsilon(1e-9));
+  CHECK(climbing.value(time) > 1000);
+  CHECK_FALSE(climbing.value(std::nextafter(time, 0.0)) > 1000);
+}
+
+TEST_CASE("the next jump of a number that comes around is found however many rounds are behind and before it") {
+  const auto saw = keyed_curve<double>({{.time = 0, .value = 0, .ease = Ease::linear()}, {.time = 1e-7, .value = 1}})
+                       .with_outside(Outside::hold, Outside::repeat);
+  CHECK(first_jump(saw, 1, 1e6) == doctest::Approx(1 + 1e-7).epsilon(1e-9));
+  CHECK_FALSE(std::isnan(first_jump(saw, 1e17, 1e18)));
+  const auto even = keyed_curve<double>({{.time = 0, .value = 0, .ease = Ease::linear()},
+                                         {.time = 5e-8, .value = 1, .ease = Ease::linear()},
+                                         {.time = 1e-7, .value = 0}})
+                        .with_outside(Outside::hold, Outside::repeat);
+  CHECK(first_jump(even, 0, 1e6) == std::numeric_limits<double>::infinity());
 }
 
 TEST_CASE("of several transitions that may be taken the first is") {
