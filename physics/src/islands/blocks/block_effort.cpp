@@ -217,10 +217,12 @@ std::optional<BlockSolver::Effort> BlockSolver::effort_of_small(const islands::I
     const contacts::Closing closing =
         contacts::closing_of(contact->manifold.normal, loads[contact->a], loads[contact->b], dt * parts_);
     contacts::foresee(*contact, a.twist, b.twist, closing, dt);
-    // Deeper than what falls for a step or two: no rest is like that.
+    // Deeper than what falls for a step or two, whatever its direction: no rest is like that.
+    const double whole = dt * parts_;
+    const double pull = std::max(loads[contact->a].acceleration.norm(), loads[contact->b].acceleration.norm());
+    const double fallen = 2 * pull * whole * whole;
     for (int i = 0; i < contact->count; ++i)
-      is_pushed_out =
-          is_pushed_out || contact->points[static_cast<std::size_t>(i)].start_gap < -closing.tremble * dt * parts_;
+      is_pushed_out = is_pushed_out || contact->points[static_cast<std::size_t>(i)].start_gap < -fallen;
     if (!contact->impact) continue;
     // The blow of two bodies, and what comes back from it, is solved to the end.
     if (island.contacts.size() == 1 || contact->restitution > dull) return std::nullopt;
