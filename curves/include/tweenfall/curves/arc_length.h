@@ -1,10 +1,10 @@
 #pragma once
 
-/// How long a path is, where it is after a given length, and the same path at even speed.
+/// How long a path is, which point is reached after a given length, and the same path at even speed.
 ///
-/// Lengths are measured along the path, whatever the timing: Gauss and Legendre's rule with 16 points, on stretches cut
-/// where the speed is least and then until two halves agree with their whole within 1e-13 of the path's length.
-/// A jump has no length.
+/// Lengths are measured along the path, whatever the timing: by Gauss-Legendre quadrature with 16 points, on stretches
+/// cut where the speed is least and then halved until the two halves agree with the whole within 1e-13 of the path's
+/// length. A jump has no length.
 
 #include <tweenfall/curves/curve.h>
 
@@ -12,8 +12,8 @@
 
 namespace tweenfall {
 
-/// Length of the way from `from` to `to`, U; negative when to < from. For double (the way up and down), Vec2, Vec3,
-/// Vec4.
+/// Length of the path from time `from` to time `to`, U; negative when to < from. For double (the way up and down),
+/// Vec2, Vec3, Vec4.
 /// @throws std::invalid_argument for a time that is not finite, and where loops would play more than a million times.
 template <class T>
 [[nodiscard]] double arc_length(const Curve<T>& curve, double from, double to);
@@ -22,7 +22,7 @@ template <class T>
 template <class T>
 class MeasuredPath {
  public:
-  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  // A move is a copy: that is just as cheap, and the object moved from stays valid.
   MeasuredPath(const MeasuredPath&) noexcept = default;
   MeasuredPath& operator=(const MeasuredPath&) noexcept = default;
 

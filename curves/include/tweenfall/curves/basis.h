@@ -1,7 +1,8 @@
 #pragma once
 
-/// The functions that weigh control points, for plotting and for one's own sums; `hermite.h` has those of Hermite's
-/// cubic. The weights of one degree are never negative and sum to 1, whence a curve stays in the hull of its points.
+/// The functions that weight control points, for plotting and for computing such sums; `hermite.h` has those of
+/// Hermite's cubic. The weights of one degree are never negative and sum to 1, so a curve stays in the convex hull of
+/// its points.
 
 #include <tweenfall/curves/values.h>
 

@@ -15,31 +15,31 @@ namespace tweenfall {
 
 class CurveBatch {
  public:
-  /// Fast are curves of spans up to cubic without easing shapes or weighted handles that hold outside their knots;
-  /// all others are asked one by one.
+  /// Curves are fast if their spans are at most cubic, without easing shapes or weighted handles, and if they hold
+  /// outside their knots; all others are sampled one by one.
   explicit CurveBatch(std::span<const Curve<double>> curves);
 
   [[nodiscard]] std::size_t size() const noexcept { return tracks_.size(); }
 
   /// The curves' values (U) and rates (U/s) at any finite `time`, in the order in which they were given.
-  /// Not to be called by two threads at once: what is remembered changes.
+  /// Not to be called by two threads at once: it changes what the batch remembers.
   /// @param values, rates  `size()` numbers each; `rates` may be left empty
   /// @throws std::invalid_argument for another size.
   void sample(double time, std::span<double> values, std::span<double> rates = {});
 
  private:
-  // One stretch of a curve with its cubic; constant before the first knot, which is from minus infinity on, and from
-  // the last one to infinity.
+  // One stretch of a curve with its cubic. The stretch from minus infinity to the first knot is constant, and so is the
+  // one from the last knot to infinity.
   struct Stretch {
     double start, end;
     double c0, c1, c2, c3;
   };
-  // What tells roughly which stretch of a curve holds a time.
+  // For a first guess at the stretch of a curve that holds a time.
   struct Track {
-    std::uint32_t last;  // of its stretches
+    std::uint32_t last;  // number of its last stretch
     double start, end, spans_per_second;
   };
-  // A curve that is asked by itself.
+  // A curve that is sampled by itself.
   struct Apart {
     std::size_t index;
     Curve<double> curve;
@@ -57,17 +57,17 @@ class CurveBatch {
   void play(double time, double* values, double* rates) noexcept;
   void jump(double time, double* values, double* rates) noexcept;
 
-  // The first stretches of all curves, then the second of all, and so on: curves that are alike are at one time in
-  // stretches that lie side by side. Curves of more stretches come first, so that those that have one are the first.
+  // The first stretches of all curves, then the second ones of all, and so on: at any time, similar curves are in
+  // stretches that lie side by side. Curves with more stretches come first, so each row holds the first so many curves.
   std::vector<Stretch> stretches_;
-  std::vector<std::size_t> rows_;     // where the first of each number is
-  std::vector<Track> tracks_;         // in that order
-  std::vector<std::uint32_t> order_;  // of the curves as given; empty where that is the same
-  std::vector<double> found_;         // values and rates, where it is not
+  std::vector<std::size_t> rows_;     // where the row of each stretch number starts in `stretches_`
+  std::vector<Track> tracks_;         // in that same order of curves
+  std::vector<std::uint32_t> order_;  // index of each curve as given; empty where the order is the same
+  std::vector<double> found_;         // values and rates, where the order differs
   std::vector<Apart> apart_;
-  double time_ = 0, stride_ = 0;  // last asked for; up to which step the next stretch is the likely one
+  double time_ = 0, stride_ = 0;  // last time sampled; longest step after which the next stretch is the likely one
 
-  // The stretch that each curve was last in: which, and while a batch plays its numbers.
+  // The stretch that each curve was last in: its number and, while the batch is played forwards, its cubic.
   bool remembered_ = true;
   std::vector<std::uint32_t> place_, stale_;
   std::vector<double> start_, end_, inverse_, c0_, c1_, c2_, c3_;

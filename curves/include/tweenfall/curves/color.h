@@ -26,10 +26,11 @@ enum class ColorSpace {
 /// Which way around the hue goes between two colors. Source: W3C, "CSS Color Module Level 4", 12.4.
 enum class HueRule { shorter, longer, increasing, decreasing };
 
-/// Index of the coordinate that is a hue, or -1. It is an angle: not premultiplied, and free where a color is gray.
+/// Index of the coordinate that is a hue, or -1. It is an angle: not premultiplied, and arbitrary where a color is
+/// gray.
 [[nodiscard]] int hue_index(ColorSpace space) noexcept;
 
-/// Whether coordinates in `space` have a hue: a gray has none, nor has a space without a hue.
+/// Whether coordinates in `space` have a hue: a gray has none, and in a space without a hue no color has one.
 [[nodiscard]] bool has_hue(const Vec4& coordinates, ColorSpace space) noexcept;
 
 /// Coordinates of a color in `space`, alpha last, not premultiplied.
@@ -48,9 +49,9 @@ enum class HueRule { shorter, longer, increasing, decreasing };
 /// Every part, alpha too, brought to the nearer end of 0 to 1. Cheap; shifts hue and lightness.
 [[nodiscard]] Color clipped(const Color& color) noexcept;
 
-/// The color with so much less chroma that clipping it is just not noticed: lightness and hue are kept, but for that.
-/// In gamut; a color that was so already is returned as it is.
-/// Source: W3C, "CSS Color Module Level 4", 13.2.
+/// The color with its chroma reduced until clipping it makes no difference that is noticed; lightness and hue are kept
+/// up to that. The result is in gamut; a color that is in gamut already is returned unchanged. Source: W3C, "CSS Color
+/// Module Level 4", 13.2.
 [[nodiscard]] Color reduced_chroma(const Color& color) noexcept;
 
 }  // namespace tweenfall

@@ -31,15 +31,15 @@ enum class Outside {
   pingpong,       ///< the curve backwards, then forwards, ...
 };
 
-/// The same in full, for one end of a curve of values `T`.
+/// The rule in full, for one end of a curve of values `T`.
 template <class T>
 struct OutsideRule {
   Outside rule = Outside::hold;
-  /// For `linear`: the rate to go on at, U/s. Without it that of the end, or of the handle that the end's key has on
-  /// its outer side.
+  /// For `linear`: the rate to go on at, U/s. If absent, the rate at the end, or that of the handle which the end's key
+  /// has on its outer side.
   std::optional<Rate<T>> slope{};
-  /// For `repeat`, `repeat_offset` and `pingpong`: how often the curve plays beyond this end, and then rests where it
-  /// got to; 0 is for ever. Need not be a whole number.
+  /// For `repeat`, `repeat_offset` and `pingpong`: how many times the curve plays beyond this end before it rests where
+  /// it got to; 0 is for ever. Need not be a whole number.
   double plays = 0;
 };
 
@@ -50,7 +50,7 @@ class Curve {
  public:
   using Formula = std::function<Sample<T>(double time, Side side)>;
 
-  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  // A move is a copy: that is just as cheap, and the object moved from stays valid.
   Curve(const Curve&) noexcept = default;
   Curve& operator=(const Curve&) noexcept = default;
 
@@ -61,11 +61,11 @@ class Curve {
   /// @throws std::invalid_argument naming the span: empty list, gap, duration not > 0, non-finite number.
   explicit Curve(std::span<const typename SpanOf<T>::type> spans);
 
-  /// A formula that is its own derivative-giver; `start` and `end` may be infinite. Must not throw.
+  /// A formula that returns its own derivatives; `start` and `end` may be infinite. Must not throw.
   Curve(Formula formula, double start, double end);
 
-  /// A formula that answers at every time by itself, beyond its ends too, and has `knots`, s: where it begins, changes
-  /// and ends. Other rules outside take its place there.
+  /// A formula that can be evaluated at every time, beyond its ends too, and has `knots`, s: where it begins, changes
+  /// and ends. Beyond its ends, a rule set by `with_outside` takes its place.
   /// @throws std::invalid_argument for no formula, no knots, or knots that do not strictly increase.
   Curve(Formula formula, std::vector<double> knots);
 
@@ -86,8 +86,8 @@ class Curve {
   /// another space, a logarithmic scale, angles as a rotation) has the knots of the curve it is made of.
   [[nodiscard]] std::span<const double> knots() const noexcept;
 
-  /// The knots that are keys, in order, s: those less the ones within an ease of several pieces, which nobody wrote,
-  /// such as half way through quad-in-out.
+  /// The knots that are keys, in order, s: all but those inside an ease of several pieces, which nobody wrote, such as
+  /// the one half way through quad-in-out.
   [[nodiscard]] std::span<const double> key_times() const noexcept;
 
   /// Value, rate and acceleration at any finite time.

@@ -2,9 +2,9 @@
 
 /// Cutting, joining and moving curves, and getting keys back out of them.
 ///
-/// What is given back is the same motion, to rounding, with no key more than asked for: spans keep their polynomials
-/// and their eases, cut to the part that is left. Formulas and converted curves (colors mixed in a space, logarithms)
-/// stay formulas. For double, Vec2, Vec3, Vec4, Color and Quat unless said otherwise.
+/// The result is the same motion, to rounding, with no more keys than asked for: spans keep their polynomials and their
+/// eases, cut to the part that is left. Formulas and converted curves (colors mixed in a space, logarithms) stay
+/// formulas. For double, Vec2, Vec3, Vec4, Color and Quat unless said otherwise.
 ///
 /// To edit keys, edit them as a curve and take `keys_of` the result, or `fit` (fitting.h) where they cannot be exact.
 ///
@@ -20,23 +20,23 @@
 
 namespace tweenfall {
 
-/// The part from `from` to `to`. Outside the knots this writes down what the curve does there: loops, straight
+/// The part from `from` to `to`. Outside the knots, what the curve does there is written down: loops, straight
 /// continuations and rests become spans ("baked"). Outside the part the result holds.
 /// @throws std::invalid_argument unless from < to.
 template <class T>
 [[nodiscard]] Curve<T> trimmed(const Curve<T>& curve, double from, double to);
 
-/// What is before `time` and what is after, from the first knot to the last; outside both hold.
+/// The part before `time` and the part after, between the first knot and the last; outside, both hold.
 /// @throws std::invalid_argument unless start() < time < end().
 template <class T>
 [[nodiscard]] std::pair<Curve<T>, Curve<T>> split(const Curve<T>& curve, double time);
 
-/// One curve after the other; outside it does as `first` does before and `second` after.
+/// One curve after the other; outside its knots it continues as `first` does before and as `second` does after.
 /// @throws std::invalid_argument unless second.start() is first.end(), to rounding (see `shifted`).
 template <class T>
 [[nodiscard]] Curve<T> joined(const Curve<T>& first, const Curve<T>& second);
 
-/// The same curve with one knot more; with none where there is one already.
+/// The same curve with one more knot, or unchanged where there is a knot already.
 /// @throws std::invalid_argument for a curve without spans, and unless start() <= time <= end().
 template <class T>
 [[nodiscard]] Curve<T> with_knot(const Curve<T>& curve, double time);
@@ -45,7 +45,7 @@ template <class T>
 template <class T>
 [[nodiscard]] Curve<T> without_redundant_knots(const Curve<T>& curve, double tolerance = 0);
 
-/// The curve `seconds` later, with its rules outside.
+/// The curve moved to `seconds` later; its rules outside move with it.
 template <class T>
 [[nodiscard]] Curve<T> shifted(const Curve<T>& curve, double seconds);
 
@@ -68,31 +68,32 @@ template <class T>
 template <class T>
 [[nodiscard]] std::vector<Key<T>> keys_of(const Curve<T>& curve);
 
-/// A span by its Bezier points: the ends and what the curve heads for in between, each a time in s and a value.
+/// A span as its Bezier points: the ends and, between them, the two points that the curve heads for; each a time in s
+/// and a value.
 template <class T>
 struct BezierPoints {
   std::array<double, 4> times;
   std::array<T, 4> values;
 };
 
-/// The spans of a curve by their Bezier points. For double, Vec2, Vec3, Vec4 and Color.
-/// @throws std::invalid_argument as `keys_of`, but that handles may lie outside their spans.
+/// The spans of a curve as Bezier points. For double, Vec2, Vec3, Vec4 and Color.
+/// @throws std::invalid_argument as `keys_of` does, except that handles may lie outside their spans.
 template <class T>
 [[nodiscard]] std::vector<BezierPoints<T>> bezier_points(const Curve<T>& curve);
 
 /// Keys for spans given by Bezier points, each beginning where the one before ends. For double, Vec2, Vec3 and Vec4.
-/// @throws std::invalid_argument naming the span: none, a gap, a handle outside its span or at its own end.
+/// @throws std::invalid_argument naming the span: no spans, a gap, a handle outside its span or at its own key.
 template <class T>
 [[nodiscard]] std::vector<Key<T>> keys_of(std::span<const BezierPoints<T>> spans);
 
-/// The same keys with every slope stated that a rule would have chosen, so that they can be changed one by one.
+/// The same keys, with every slope stated that a rule would choose, so that slopes can be changed one by one.
 template <class T>
 [[nodiscard]] std::vector<Key<T>> with_given_slopes(std::span<const Key<T>> keys, const KeyOptions& options = {});
 
 /// The keys with one more at `time`, which leaves the curve as it is; slopes are stated as by `with_given_slopes`.
-/// @throws std::invalid_argument naming the key before where its span cannot be cut into such: an ease other than
-///         a Bezier or a power up to 3, and for rotations anything but holds and turns at constant speed; and unless
-///         `time` lies between the first and the last key.
+/// @throws std::invalid_argument naming the key before `time` where two keys cannot describe its span: an ease other
+///         than a Bezier or a power up to 3, and for rotations anything but holds and turns at constant speed; and
+///         unless `time` lies between the first and the last key.
 template <class T>
 [[nodiscard]] std::vector<Key<T>> with_key(std::span<const Key<T>> keys, double time, const KeyOptions& options = {});
 

@@ -40,28 +40,28 @@ class Expression {
     double value = 0;
   };
 
-  // Moving copies: it is as cheap, and what was moved from stays what it was.
+  // A move is a copy: that is just as cheap, and the object moved from stays valid.
   Expression(const Expression&) noexcept = default;
   Expression& operator=(const Expression&) noexcept = default;
 
   /// @param text       up to 4000 characters, nested up to 60 deep
   /// @param variables  names in the order in which `sample` takes their values
-  /// @throws ExpressionError with the column and, for a name that is none, the nearest that is one.
+  /// @throws ExpressionError with the column and, for an unknown name, the nearest known one.
   explicit Expression(std::string_view text, std::span<const Parameter> parameters = {});
   Expression(std::string_view text, std::span<const std::string> variables, std::span<const Parameter> parameters);
 
-  /// Of the one variable t, at rate 1. Infinite or not a number where the formula is.
+  /// For the one variable t, at rate 1. Infinite or not a number where the formula is.
   ///
   /// Where the formula jumps or kinks (floor, abs, min, step, ...), `side` says which limit is meant.
   [[nodiscard]] Sample<double> sample(double t, Side side = Side::out) const noexcept;
 
-  /// Of several variables, each with its own first and second derivative. With those of a motion the result has the
-  /// rate and acceleration along it; with a rate of 1 in one variable and 0 elsewhere, the partial derivatives in that
-  /// one.
+  /// For several variables, each with its own first and second derivative. With the derivatives of a motion the result
+  /// has the rate and acceleration along it; with a rate of 1 in one variable and 0 elsewhere, the partial derivatives
+  /// in that one.
   /// @param variables  as many as were named
   [[nodiscard]] Sample<double> sample(std::span<const Sample<double>> variables, Side side = Side::out) const noexcept;
 
-  /// Names and what they take, "clamp(x, low, high)", in the order the documentation lists them.
+  /// Names and arguments, "clamp(x, low, high)", in the order the documentation lists them.
   [[nodiscard]] static std::vector<std::string> functions();
 
   struct Program;  ///< private to the library

@@ -3,9 +3,9 @@
 /// Handles: keys of a number in the form that animation editors store, each with two points in time and value that
 /// the curve heads for.
 ///
-/// Between two keys lies the Bezier cubic of key, handle, handle, key, read as value over time. A handle stays where
-/// it is put (`given`), or is placed by a rule from the neighboring keys. Handles may reach beyond the next key; where
-/// time would run backwards, `Overlong` says what gives way.
+/// Between two keys lies the Bezier cubic of key, handle, handle, key, read as value over time. A handle stays where it
+/// is put (`given`), or is placed by a rule from the neighboring keys. Handles may reach beyond the next key; where
+/// time would run backwards, `Overlong` says which handle is shortened.
 
 #include <tweenfall/curves/keys.h>
 
@@ -24,13 +24,13 @@ struct HandleWidths {
 /// Source: the discriminant of x'(s) for x(s) = 3 start s (1-s)^2 + 3 (1 - end) s^2 (1-s) + s^3.
 [[nodiscard]] bool runs_backwards(const HandleWidths& widths) noexcept;
 
-/// Widths for which time does not run backwards: those given, where they are so and the rule leaves them.
+/// Widths for which time does not run backwards: the given ones, where they already fit and the rule keeps them.
 /// @throws std::invalid_argument for a negative or non-finite width.
 [[nodiscard]] HandleWidths resolved(const HandleWidths& widths, Overlong rule);
 
 struct Handle {
   TangentKind kind = TangentKind::given;
-  double time = 0, value = 0;  ///< s, U; read where given, and for the length of an aligned one
+  double time = 0, value = 0;  ///< s, U; read if `kind` is given, and for the length of an aligned handle
 };
 
 struct HandleKey {
@@ -42,28 +42,29 @@ struct HandleKey {
 struct HandleOptions {
   Ends ends = Ends::secant;                  ///< what `automatic` and `auto_clamped` assume beyond the ends
   Overlong overlong = Overlong::keep_ratio;  ///< Blender's rule is contain
-  /// Automatic and auto-clamped keys get the slopes for which the acceleration is continuous, as far as the clamping
-  /// allows ("continuous acceleration" in Blender).
+  /// Automatic and auto-clamped keys get slopes that make the acceleration continuous, as far as the clamping allows
+  /// ("continuous acceleration" in Blender).
   bool even_acceleration = false;
 };
 
-/// The same keys with every handle put where its kind wants it, and `given` there.
+/// The same keys with every handle placed as its kind requires, and marked `given`.
 ///
 /// Lengths in time: `vector`, `flat`, `plateau` and Maya's kinds a third of the span; `automatic` and `auto_clamped`
-/// 0.39 of it, at most five times that of the other side, or a third with even_acceleration; `aligned` keeps the
-/// length, measured in the plane of time and value, that its place has, and stays as it is beside a given one.
-/// Source: Blender 3.4, blenkernel/intern/curve.cc; Autodesk, AnimX.
+/// 0.39 of it, at most five times the length on the other side, or a third with even_acceleration; `aligned` keeps its
+/// present length, measured in the plane of time and value, and stays as it is beside a given handle. Source: Blender
+/// 3.4, blenkernel/intern/curve.cc; Autodesk, AnimX.
 /// @throws std::invalid_argument naming the key: no keys, times out of order, non-finite numbers, a given handle on
 ///         the wrong side of its key.
 [[nodiscard]] std::vector<HandleKey> placed_handles(std::span<const HandleKey> keys, const HandleOptions& options = {});
 
-/// The curve through `keys`. Continued linearly, it follows the outer handles of its ends, where they have length.
+/// The curve through `keys`. Continued linearly, it follows the outer handles of its end keys, where these have a
+/// length.
 /// @throws as placed_handles.
 [[nodiscard]] Curve<double> handle_curve(std::span<const HandleKey> keys, const HandleOptions& options = {});
 
-/// `keys`, placed and with overlong handles as the rule leaves them, and one more at `time` that does not change the
-/// curve. At the time of a key nothing is added. What comes back may reach beyond its spans without time running
-/// backwards: it is the same curve by any rule but `contain`.
+/// `keys`, placed and with overlong handles shortened by the rule, and one more at `time` that does not change the
+/// curve. At the time of a key nothing is added. The resulting handles may reach beyond their spans without time
+/// running backwards: it is the same curve under any rule but `contain`.
 /// @throws as placed_handles; std::invalid_argument when `time` lies outside the keys, or in a span with an ease other
 ///         than `hold` and `linear`.
 [[nodiscard]] std::vector<HandleKey> insert_key(std::span<const HandleKey> keys, double time,

@@ -4,10 +4,11 @@
 /// where it differs from another, and straight lines that stay near it.
 ///
 /// Answers come from polynomials and their Bezier control points, which bound them between the keys too; nothing is
-/// judged from samples, but that eases and formulas are taken as the quintics of `calculus.h`. Distances of vectors
-/// are Euclidean, of colors those of their linear red, green, blue and alpha. For double, Vec2, Vec3, Vec4 and Color.
+/// judged from samples, except that eases and formulas are replaced by the quintics of `calculus.h`. Distances of
+/// vectors are Euclidean, of colors those of their linear red, green, blue and alpha. For double, Vec2, Vec3, Vec4 and
+/// Color.
 ///
-/// All throw std::invalid_argument for an endless curve where they ask about the whole of it.
+/// All that look at the whole curve throw std::invalid_argument for an endless one.
 
 #include <tweenfall/curves/curve.h>
 
@@ -15,11 +16,11 @@
 
 namespace tweenfall {
 
-/// The highest derivative that is the same on both sides, and all below it.
+/// The highest derivative up to which all are the same on both sides.
 enum class Continuity { jump = -1, value = 0, rate = 1, acceleration = 2, smooth = 3 };
 
-/// How smooth a curve is at each of its knots; at the first and the last together with what lies outside.
-/// Spans that know no third derivative are never `smooth`.
+/// How smooth a curve is at each of its knots; at the first and the last, against its continuation outside.
+/// Spans without a known third derivative are never `smooth`.
 /// @param tolerance  relative: derivatives within this share of the larger are the same
 template <class T>
 [[nodiscard]] std::vector<Continuity> continuity(const Curve<T>& curve, double tolerance = 1e-9);
@@ -45,7 +46,8 @@ struct Interval {
 };
 
 /// The times from `from` to `to` at which two curves are more than `tolerance`, U, apart, in order; single times do not
-/// count. With tolerance 0, what differs by more than rounding (1e-14 of the size; 4e-12 for eases and formulas).
+/// count. With tolerance 0, the times at which they differ by more than rounding (1e-14 of the size; 4e-12 for eases
+/// and formulas).
 template <class T>
 [[nodiscard]] std::vector<Interval> differences(const Curve<T>& a, const Curve<T>& b, double from, double to,
                                                 double tolerance = 0);
@@ -56,8 +58,8 @@ struct PolylinePoint {
   T value;
 };
 
-/// Points on the curve whose straight connection is nowhere more than `error`, U, from the curve at the same time:
-/// proved by control points. A jump is two points at one time.
+/// Points on the curve such that the straight lines between them are never more than `error`, U, from the curve at the
+/// same time, as proved by control points. A jump is two points at one time.
 /// @throws std::invalid_argument unless error > 0.
 template <class T>
 [[nodiscard]] std::vector<PolylinePoint<T>> polyline(const Curve<T>& curve, double from, double to, double error);

@@ -5,7 +5,7 @@
 /// A key has a time, a value and a word for how the curve *leaves* it: `hold`, `linear`, a
 /// tangent rule (`smooth`, `smooth_clamped`, ...) or an easing shape. A key may instead
 /// state its slopes; then the span is a Hermite cubic, or a Bezier with weighted handles.
-/// Kinds mix key by key on one curve.
+/// Each key of a curve may use another kind.
 
 #include <tweenfall/curves/color.h>
 #include <tweenfall/curves/curve.h>
@@ -16,19 +16,19 @@
 
 namespace tweenfall {
 
-/// How the slope at one side of a key comes about. The kinds from `plateau` on look at both neighboring keys, per
+/// How the slope at one side of a key is chosen. The kinds from `plateau` on look at both neighboring keys, per
 /// component; at the first and last key, which have one neighbor, they are flat unless the ends wrap.
 enum class TangentKind {
   automatic,     ///< as the rule `smooth` would choose
   flat,          ///< zero
   given,         ///< as stated
-  vector,        ///< straight at the next (previous) key
+  vector,        ///< straight towards the next (previous) key
   aligned,       ///< that of the key's other side
   mirrored,      ///< that of the key's other side, with a handle as long in time
   plateau,       ///< the neighbors' chord, but flat at a local extreme and beside an equal value
   auto_clamped,  ///< as automatic, but flat at a local extreme, and no handle leaves the values of its span (Blender)
   auto_chord,    ///< the neighbors' chord, flat at a local extreme and limited to keep within the values (Maya's auto)
-  auto_mix,      ///< as auto_chord, of the two secants mixed by the spans' durations (Maya)
+  auto_mix,      ///< as auto_chord, but with the two secants mixed by the spans' durations (Maya)
   auto_ease,     ///< as auto_mix, drawn more to the nearer neighbor (Maya)
 };
 
@@ -41,12 +41,12 @@ struct Tangent {
   double weight = 1.0 / 3.0;       ///< the handle's share of the span, > 0; 1/3 is the plain Hermite cubic
 };
 
-/// Rotations: which of the ways to the next key is taken, and how often around.
+/// Rotations: which way round to the next key, and with how many whole turns.
 struct Turn {
-  /// `along` is the way that turns positively about `axis`: counterclockwise for who looks against the axis.
+  /// `along` is the way that turns positively about `axis`: counterclockwise seen from the tip of the axis.
   enum class Way { shorter, longer, along };
   Way way = Way::shorter;
-  int whole_turns = 0;  ///< added in the direction of the way; negative: taken off it
+  int whole_turns = 0;  ///< added in the direction of the way; if negative, subtracted
   Vec3 axis{0, 0, 0};   ///< outer axes; read for `along`, and for whole turns between equal rotations
 
   bool operator==(const Turn&) const = default;
@@ -57,8 +57,8 @@ struct Key {
   double time;                         ///< s; strictly increasing along a curve
   T value;                             ///< rotations need not be normalized
   Ease ease = Ease::smooth_clamped();  ///< how the curve leaves this key
-  /// Slopes; a span is Hermite when the key it leaves has `out` or the one it reaches has `in`. Outside::linear goes on
-  /// at a given or flat slope of the first key's `in` and the last key's `out`.
+  /// Slopes; a span is Hermite when the key it leaves has `out` or the one it reaches has `in`. Outside::linear
+  /// continues at the slope of the first key's `in` and the last key's `out`, if given or flat.
   std::optional<Tangent<T>> in{}, out{};
   std::optional<T> value_in{};  ///< the value arriving, where the curve jumps
   Turn turn{};                  ///< rotations only: the way to the next key
@@ -68,10 +68,10 @@ struct Key {
 enum class Ends {
   secant,  ///< the slope of the end's own span ("zero curvature")
   flat,    ///< zero
-  wrap,    ///< the curve is one period of a loop: neighbors are taken around it
+  wrap,    ///< the curve is one period of a loop: neighbors are taken from its other end
 };
 
-/// What becomes of two handles so long that time would run backwards between their keys. Slopes are kept.
+/// What happens to two handles so long that time would run backwards between their keys. Slopes are kept.
 enum class Overlong {
   keep_ratio,  ///< both shortened by one factor, until time just no longer runs backwards
   keep_start,  ///< the first kept, up to 4/3 of the span; the second as near to its length as time allows
@@ -87,7 +87,7 @@ struct KeyOptions {
   HueRule hue = HueRule::shorter;
   /// Scales and ratios: interpolate the logarithm, so that 1 to 4 passes 2 half way. Values must be > 0.
   bool logarithmic = false;
-  /// Rotations: keys that say nothing else take the long way around instead of the short one.
+  /// Rotations: keys that state no way of their own take the long way around instead of the short one.
   bool long_way = false;
 };
 

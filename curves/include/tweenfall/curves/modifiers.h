@@ -2,9 +2,9 @@
 
 /// Modifiers: changes laid over a curve of numbers, one on the other, without touching its keys.
 ///
-/// Some change the time at which the curve is looked at (cycles, steps, a warp), some its value (a function added,
-/// limits, noise). Each may be confined to a stretch of time, faded in and out there, and taken in part. Value, rate
-/// and acceleration pass through all of them exactly.
+/// Some change the time at which the curve is sampled (cycles, steps, a warp), some its value (a function added,
+/// limits, noise). Each may be confined to a stretch of time, faded in and out there, and applied only in part. Value,
+/// rate and acceleration pass through all of them exactly.
 
 #include <tweenfall/curves/curve.h>
 
@@ -20,11 +20,11 @@ namespace tweenfall::modifiers {
 struct Cycles {
   enum class Mode { none, repeat, repeat_offset, mirror };
   Mode before = Mode::repeat, after = Mode::repeat;
-  /// How often at most; 0 is for ever. Beyond that the curve goes on as it would without.
+  /// How many times at most; 0 is for ever. Beyond that the curve continues as it would without the modifier.
   int plays_before = 0, plays_after = 0;
 };
 
-/// Smooth noise, the same for the same seed: values within -strength to strength, in continuous acceleration.
+/// Smooth noise, the same for the same seed: values within -strength to strength, with continuous acceleration.
 struct Noise {
   enum class Mix { replace, add, multiply };
   Mix mix = Mix::add;
@@ -55,7 +55,7 @@ struct BuiltIn {
   bool additive = false;  ///< added to the curve, else in its place
 };
 
-/// Time moves in steps, each from offset + n step on; outside `start` to `end` it runs.
+/// Time moves in steps, which begin at offset + n step; outside `start` to `end` it runs as usual.
 struct Stepped {
   double step = 1;    ///< s; > 0
   double offset = 0;  ///< s
@@ -63,13 +63,13 @@ struct Stepped {
   bool toward_offset = false;  ///< before the offset the later edge of each step is shown, not the earlier (Blender)
 };
 
-/// Bounds on the value, and on the time at which the curve is looked at.
+/// Bounds on the value, and on the time at which the curve is sampled.
 struct Limits {
   std::optional<double> low{}, high{};   ///< U
   std::optional<double> start{}, end{};  ///< s
 };
 
-/// The band from reference + low to reference + high is stretched to another one, whose bounds move in straight lines.
+/// The band from reference + low to reference + high is stretched to another band, whose bounds move in straight lines.
 struct Envelope {
   struct Point {
     double time, low, high;  ///< s, strictly increasing; U, the band there
@@ -78,7 +78,7 @@ struct Envelope {
   std::vector<Point> points;
 };
 
-/// The curve at the time that another curve tells.
+/// The curve at the time that another curve gives.
 struct TimeWarp {
   Curve<double> clock;  ///< s over s
 };
@@ -106,18 +106,20 @@ struct ModifierRange {
 struct Modifier {
   modifiers::Kind kind;
   std::optional<ModifierRange> range{};  ///< default: always
-  double influence = 1;                  ///< 0 leaves time and value as they are, 1 takes the modifier's
+  double influence = 1;                  ///< 0 leaves time and value as they are, 1 takes those of the modifier
 };
 
 /// The curve with the modifiers laid over it, the first innermost: time passes through them from the last to the first,
-/// the value from the first to the last. Those that change the value see the time at which the curve itself is looked
-/// at, so that what is added before cycles or steps cycles and steps with it. Source: Blender's order of F-modifiers.
+/// the value from the first to the last. Those that change the value see the time at which the curve itself is sampled,
+/// so that something added before cycles or steps is cycled and stepped with it. Source: Blender's order of
+/// F-modifiers.
 /// @throws std::invalid_argument naming the modifier: non-finite numbers, a step or scale not > 0, bounds or points out
 ///         of order, nothing to generate from.
 [[nodiscard]] Curve<double> modified(const Curve<double>& curve, std::span<const Modifier> modifiers);
 
-/// The same for Vec2, Vec3 and Vec4: `modifiers[i]` are laid over component i; an empty list leaves it as it is.
-/// @throws as above, naming the component; std::invalid_argument unless there is one list a component.
+/// The same for Vec2, Vec3 and Vec4: `modifiers[i]` are laid over component i; an empty list leaves the component as it
+/// is.
+/// @throws as above, naming the component; std::invalid_argument unless there is one list per component.
 template <class T>
 [[nodiscard]] Curve<T> modified(const Curve<T>& curve, std::span<const std::vector<Modifier>> modifiers);
 

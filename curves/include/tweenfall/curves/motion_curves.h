@@ -2,8 +2,8 @@
 
 /// The curves that move many things, sampled together: positions, rotations and scales, each with its rate.
 ///
-/// Curves are shared and not copied. Those with the same knots are searched for a time once, and accelerations are not
-/// computed. The numbers are those of `Curve::sample`, to the bit.
+/// Curves are shared and not copied. Curves with the same knots are searched for a time only once, and accelerations
+/// are not computed. The numbers are those of `Curve::sample`, to the bit.
 
 #include <tweenfall/curves/curve.h>
 #include <tweenfall/curves/pose.h>
@@ -25,7 +25,7 @@ class MotionCurves {
     const Curve<Vec3>* scale = nullptr;
   };
 
-  /// @param target  the place of the thing's motion among those that are written
+  /// @param target  index of the thing's motion among those that `sample` writes
   void add(std::size_t target, const Parts& parts);
 
   [[nodiscard]] std::size_t size() const noexcept { return things_.size(); }
@@ -33,13 +33,13 @@ class MotionCurves {
   /// All things at any finite `time`; `motions[target]` is written. Rates are multiplied by `rate`.
   void sample(double time, Side side, double rate, std::span<Motion> motions) const noexcept;
 
-  /// One of them, in the order in which they were added.
+  /// One of the things, by its number in the order in which they were added.
   void sample_one(std::size_t thing, double time, Side side, double rate, Motion& motion) const noexcept;
 
  private:
-  // A curve as it is stored, where its spans are alike and plain.
+  // A curve in the form stored here, if its spans are all of one degree and without a warp.
   struct Channel {
-    const SpanTimes* times = nullptr;  // null: the curve is asked itself
+    const SpanTimes* times = nullptr;  // null: the curve itself is sampled
     const Vec3* rows = nullptr;
     const Quat* starts = nullptr;  // rotations only
     std::int32_t curve = -1;       // -1: there is none

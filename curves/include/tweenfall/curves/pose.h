@@ -47,7 +47,7 @@ struct Motion {
 /// v + w x r, rigid part only.
 [[nodiscard]] Vec3 velocity_at(const Twist& twist, const Vec3& arm) noexcept;
 
-/// The same rigid movement told about the point `arm` away: linear v + w x r, angular unchanged.
+/// The same rigid movement, expressed about the point `arm` away: linear v + w x r, angular unchanged.
 [[nodiscard]] Twist shifted(const Twist& twist, const Vec3& arm) noexcept;
 
 /// Mixes two motions: weight 0 gives `a`, 1 gives `b`, bit for bit; between, position and

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Rotation curves made from other things than keys with eases: from the tangents of quaternions as glTF's
-/// CUBICSPLINE has them, from control rotations as a Bezier curve has control points, and from rotations alone, passed
-/// with continuous angular acceleration. Rates are exact in each.
+/// Rotation curves made from something other than keys with eases: from quaternion tangents as in glTF's CUBICSPLINE,
+/// from control rotations in place of a Bezier curve's control points, and from rotations alone, passed with continuous
+/// angular acceleration. Rates are exact in each.
 
 #include <tweenfall/curves/curve.h>
 
@@ -24,8 +24,8 @@ namespace tweenfall {
                                               std::span<const Vec4> values, std::span<const Vec4> out_tangents);
 
 /// De Casteljau's algorithm with slerps: from control 0 to control 3 in the first span, 3 to 6 in the second, ...
-/// It leaves control 0 with three times the turn to control 1 per duration. The way from one control to the next is
-/// the short one.
+/// It leaves control 0 at three times the rotation from there to control 1, per duration. Each control is reached from
+/// the one before by the shorter way.
 ///
 /// @param times     s, strictly increasing, n of them
 /// @param controls  3 n - 2 rotations; need not be normalized
@@ -33,8 +33,8 @@ namespace tweenfall {
 /// Source: Shoemake, "Animating rotation with quaternion curves", 1985.
 [[nodiscard]] Curve<Quat> bezier_rotation(std::span<const double> times, std::span<const Quat> controls);
 
-/// Through the rotations the short way with continuous angular velocity and acceleration: what keys with the ease
-/// `natural` give, with the angular velocities at both ends stated.
+/// Passes through the rotations by the shorter ways with continuous angular velocity and acceleration: as keys with the
+/// ease `natural` do, but with the angular velocities at both ends given.
 ///
 /// @param times       s, strictly increasing
 /// @param rotations   one per time; need not be normalized

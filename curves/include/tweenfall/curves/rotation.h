@@ -12,7 +12,7 @@ namespace tweenfall {
 /// Rotation by |v| radians about v. Series near zero; exact identity at 0.
 [[nodiscard]] Quat exp_map(const Vec3& rotation_vector) noexcept;
 
-/// Rotation vector of `q`, the short one: length 0 to pi. Inverse of `exp_map` there.
+/// Rotation vector of `q`, the shortest: length 0 to pi. Inverse of `exp_map` there.
 [[nodiscard]] Vec3 log_map(const Quat& q) noexcept;
 
 /// Right Jacobian of the exponential: with q(t) = exp(r(t)), the angular velocity in the
@@ -31,7 +31,7 @@ namespace tweenfall {
 [[nodiscard]] Quat normalized(const Quat& q);
 
 /// The mean of rotations that does not depend on their order or signs: the unit quaternion q with the largest
-/// sum of weight (q . q_i)^2. The nearest to the first rotation's sign is returned.
+/// sum of weight (q . q_i)^2. Of q and -q, the one nearer to the first rotation is returned.
 ///
 /// @param rotations  unit quaternions
 /// @param weights    one per rotation, >= 0, not all zero; only their ratios matter
@@ -55,8 +55,8 @@ struct EulerOrder {
 /// Angles in the order's sequence; at gimbal lock the third is 0.
 [[nodiscard]] Vec3 to_euler(const Quat& q, const EulerOrder& order = {}) noexcept;
 
-/// The same with their rates: moving angles as a turning rotation, and back. Where the axes of the first and third
-/// angle fall together, the third angle is 0 and its rates too.
+/// The same with rates: moving angles as a moving rotation, and back. Where the axes of the first and third angle
+/// coincide (gimbal lock), the third angle is 0, and so are its rates.
 [[nodiscard]] Sample<Quat> from_euler(const Sample<Vec3>& angles, const EulerOrder& order = {}) noexcept;
 [[nodiscard]] Sample<Vec3> to_euler(const Sample<Quat>& rotation, const EulerOrder& order = {}) noexcept;
 

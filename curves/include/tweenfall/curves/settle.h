@@ -1,10 +1,10 @@
 #pragma once
 
-/// How an offset dies away: the bridge from where a body is to where its curve wants it.
+/// How an offset decays: the transition from where a body is to where its curve wants it.
 ///
-/// After a hand-back, or at a cut between two clips, the difference in place and velocity is
-/// kept as an offset that starts with exactly that value and rate and decays. Added to the
-/// curve, the result is continuous in both.
+/// After physics hands a body back, or at a cut between two clips, the difference in position and velocity is kept as
+/// an offset that starts with exactly that value and rate and decays. Added to the curve, the result is continuous in
+/// both.
 
 #include <tweenfall/curves/values.h>
 
@@ -20,10 +20,8 @@ struct QuinticDecay {
   /// @param offset, rate  any unit U, U/s, either sign
   /// @param blend_time    s; > 0
   /// @param floor         least duration, s (default: 0.02); shortening never goes below it
-  /// @param acceleration  shortening never goes so far that the start acceleration, at most 8 |rate| / duration,
-  /// exceeds
-  ///                      this, U/s^2 (default: 4000): an offset of next to nothing would otherwise be met with any
-  ///                      force
+  /// @param acceleration  U/s^2 (default: 4000); the duration is not shortened where the start acceleration, at most
+  ///                      8 |rate| / duration, would exceed it: a tiny offset would otherwise be met with any force
   QuinticDecay() = default;
   QuinticDecay(double offset, double rate, double blend_time, double floor = 0.02, double acceleration = 4000);
 

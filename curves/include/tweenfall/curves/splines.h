@@ -1,12 +1,12 @@
 #pragma once
 
-/// Splines from data: curves through values at given times, or drawn by control points, where `keys.h` is for curves
-/// that people ease. All are piecewise polynomials, so that rates are exact; every builder takes time and memory in
-/// proportion to its input.
+/// Splines from data: curves through values at given times, or defined by control points; `keys.h` is for curves that
+/// people shape with eases. All are piecewise polynomials, so that rates are exact; every builder takes time and memory
+/// in proportion to its input.
 ///
-/// `T` is double, Vec2, Vec3 or Vec4. Times are in seconds, strictly increasing. What is wrong is refused with
-/// std::invalid_argument that names the index and the value: too few or unordered times, lists of other lengths than
-/// they should have, non-finite numbers.
+/// `T` is double, Vec2, Vec3 or Vec4. Times are in seconds, strictly increasing. Wrong input throws
+/// std::invalid_argument, which names the index and the value: too few or unordered times, lists of the wrong length,
+/// non-finite numbers.
 
 #include <tweenfall/curves/curve.h>
 #include <tweenfall/curves/ease.h>
@@ -26,11 +26,11 @@ template <class T>
 [[nodiscard]] Curve<T> quintic_spline(std::span<const double> times, std::span<const T> values,
                                       std::span<const T> rates, std::span<const T> accelerations);
 
-/// What a spline is held to at one of its ends.
+/// The condition that a spline meets at one of its ends.
 template <class T>
 struct SplineEnd {
   enum class Kind {
-    automatic,     ///< as the rule has it
+    automatic,     ///< as the spline's rule chooses
     rate,          ///< `given`, U/s ("clamped")
     acceleration,  ///< `given`, U/s^2; zero is "natural"
     not_a_knot,    ///< the two spans next to the end are one cubic; C2 splines only
@@ -46,7 +46,7 @@ struct SplineEnd {
 template <class T>
 struct SplineEnds {
   SplineEnd<T> start{}, end{};
-  /// The spline returns to its first value at one more time than there are values, and joins there as at any other.
+  /// The spline returns to its first value at an additional last time, and is as smooth there as at any other value.
   bool closed = false;
 };
 
@@ -57,7 +57,8 @@ template <class T>
 
 /// The cubic spline through `values` whose slopes a rule chooses, as Ease::makima() or Ease::tcb(...) do.
 /// @param rules  one for all values, or one for each
-/// @throws std::invalid_argument also for an ease without slopes, and for ends given to one of continuous acceleration.
+/// @throws std::invalid_argument also for an ease without slopes, and for ends given with one of continuous
+///         acceleration.
 template <class T>
 [[nodiscard]] Curve<T> cubic_spline(std::span<const double> times, std::span<const T> values,
                                     std::span<const Ease> rules, const SplineEnds<T>& ends = {});
@@ -67,21 +68,22 @@ template <class T>
   return cubic_spline<T>(times, values, std::span<const Ease>(&rule, 1), ends);
 }
 
-/// How far a path's own parameter advances from point to point.
+/// How far a path's own parameter advances from one point to the next.
 enum class Parametrization {
   uniform,      ///< 1
   centripetal,  ///< the square root of the distance: no cusps or loops
   chordal,      ///< the distance
 };
 
-/// Times for a spline through `points`, from 0 on; for a closed one, the time of return to the first too.
-/// @throws std::invalid_argument where points that follow each other coincide, unless uniform.
+/// Times for a spline through `points`, starting at 0; for a closed one, also the time of the return to the first.
+/// @throws std::invalid_argument where consecutive points coincide, unless uniform.
 template <class T>
 [[nodiscard]] std::vector<double> spline_times(std::span<const T> points, Parametrization parametrization,
                                                bool closed = false);
 
 /// Bezier segments, one from each time to the next.
-/// @param control  degree + 1 control values a segment, in order; degree 1 to 5, the same for all. A segment that does
+/// @param control  degree + 1 control values per segment, in order; degree 1 to 5, the same for all. A segment that
+/// does
 ///                 not start where the one before ended makes a jump.
 template <class T>
 [[nodiscard]] Curve<T> bezier_spline(std::span<const double> times, std::span<const T> control);
@@ -89,7 +91,8 @@ template <class T>
 /// The B-spline of a full knot vector, on the stretch where its basis functions sum to 1: from knot number `degree` to
 /// knot number `control.size()`.
 /// @param degree   1 to 5
-/// @param knots    not decreasing, s; degree + 1 more than there are control points; none more than degree + 1 times
+/// @param knots    not decreasing, s; degree + 1 more than there are control points; none repeated more than degree + 1
+///                 times
 template <class T>
 [[nodiscard]] Curve<T> b_spline(int degree, std::span<const double> knots, std::span<const T> control);
 

@@ -4,7 +4,7 @@
 
 namespace tweenfall {
 
-/// x'' + 2 z x' + x = 0 at some time: the motion from 1 at rest, and the one from 0 at speed 1.
+/// Solutions of x'' + 2 z x' + x = 0 at one time: the motion that starts from 1 at rest, and the one from 0 at speed 1.
 /// The derivative of `displaced` is -struck, that of `struck` is displaced - 2 z struck.
 struct SpringResponse {
   double displaced, struck;
